@@ -168,7 +168,7 @@ fn analyse_or_draw(
     };
 
     let robot = robot.context("a figure needs a robot")?;
-    let mut watch = TerminalProgress::default();
+    let mut watch = TerminalProgress::new();
     let waiting = WaitingSpinner::for_("the figure");
     let made = figures::of_request(request, robot, &figures::Choice { mode }, &mut watch)?;
     drop((watch, waiting));
@@ -184,7 +184,7 @@ fn analyse(request: &Request, output: &OutputArgs, mut guard: Guard) -> Result<(
 }
 
 fn print_results(request: &Request, robot: Option<Robot>, sink: &Sink) -> Result<()> {
-    let mut watch = TerminalProgress::default();
+    let mut watch = TerminalProgress::new();
     let waiting = matches!(request, Request::Statics(_)).then(|| WaitingSpinner::for_("the equilibrium"));
     let results = run_on(request, robot, &mut watch)?;
     drop((watch, waiting));
@@ -216,9 +216,9 @@ fn reduce(request: &Request, args: &ReduceArgs) -> Result<()> {
     let sink = Sink::open(&args.sink, false, &mut guard)?;
     let file = args.matrices.as_deref().map(|path| ModelFile::open(path, &mut guard)).transpose()?;
 
-    let waiting = WaitingSpinner::for_("the model and its errors");
-    let mut found = analyses::reduce::run(robot, of)?;
-    drop(waiting);
+    let mut watch = TerminalProgress::new();
+    let mut found = analyses::reduce::run(robot, of, &mut watch)?;
+    drop(watch);
     found.set_matrices_file(args.matrices.as_ref().map(|path| path.display().to_string()));
     if let Some(file) = file {
         file.write(&found)?;

@@ -1,5 +1,6 @@
 //! Output of a run without a result: one message on stderr, and the exit code.
 
+use crate::interrupt;
 use funicular_study::robot_file::Refused;
 use funicular_study::wording::{Words, message, worded};
 use funicular_study::{Error, ErrorKind};
@@ -11,9 +12,6 @@ use thiserror::Error;
 const NO_SOLUTION: u8 = 1;
 /// Exit code of an input that has to change.
 const BAD_INPUT: u8 = 2;
-
-/// Exit code of a run that the user or the system has stopped, as a shell reports SIGINT.
-const INTERRUPTED: u8 = 130;
 
 /// Error of work that was stopped from outside, with the results that remain.
 #[derive(Debug, Error)]
@@ -70,11 +68,11 @@ fn refused(error: &anyhow::Error) -> Option<&Refused> {
 
 fn code(error: &anyhow::Error) -> u8 {
     if error.is::<Interrupted>() {
-        return INTERRUPTED;
+        return interrupt::EXIT_CODE;
     }
     match error.downcast_ref::<Error>().map_or_else(|| ErrorKind::of(error), Error::kind) {
         ErrorKind::Input => BAD_INPUT,
         ErrorKind::NoSolution => NO_SOLUTION,
-        ErrorKind::Cancelled => INTERRUPTED,
+        ErrorKind::Cancelled => interrupt::EXIT_CODE,
     }
 }

@@ -3,6 +3,7 @@
 mod args;
 mod commands;
 mod errors;
+mod interrupt;
 mod output;
 mod pose_csv;
 mod progress;

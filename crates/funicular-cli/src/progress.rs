@@ -1,7 +1,9 @@
 //! Progress bar or spinner for work that takes more than a second, on a terminal only.
 
+use crate::interrupt::{self, Computes};
 use funicular_study::Watch;
 use indicatif::{ProgressBar, ProgressStyle};
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
@@ -62,13 +64,23 @@ impl Drop for Progress {
     }
 }
 
-/// Progress bar of an analysis, drawn if stderr is a terminal.
-#[derive(Default)]
+/// Progress bar of an analysis, drawn if stderr is a terminal. Ctrl-C stops the analysis while it exists.
 pub(crate) struct TerminalProgress {
     bar: Option<Progress>,
+    _computes: Computes,
+}
+
+impl TerminalProgress {
+    pub(crate) fn new() -> Self {
+        Self { bar: None, _computes: interrupt::stop_analysis() }
+    }
 }
 
 impl Watch for TerminalProgress {
+    fn is_cancelled(&self) -> bool {
+        interrupt::STOPPED.load(Ordering::Relaxed)
+    }
+
     fn progress(&mut self, done: usize, total: usize, what: &'static str) {
         let bar = self.bar.get_or_insert_with(|| Progress::with_rate(total, what));
         bar.advance(done - bar.done);

@@ -4,36 +4,23 @@ mod summary;
 
 use crate::args::{Format, OutputArgs, RunArgs};
 use crate::errors::{self, Interrupted};
+use crate::interrupt::{STOPPED, stop_at_next_row};
 use crate::output::{self, Sink};
 use crate::progress::Progress;
 use crate::table::counted;
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use funicular_files::{Begin, CsvRows, Guard, Opened, Outcome, SweepFile, threads};
 use funicular_study::Request;
 use funicular_study::sweep::{Plan, PreparedSweep, Record};
 use std::io::{self, BufWriter};
 use std::num::NonZeroUsize;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
 use summary::Summary;
 
 /// Sweep to run.
 struct Job<'a> {
     sweep: &'a PreparedSweep,
     run: &'a RunArgs,
-}
-
-/// Flag that Ctrl-C or the end of a job sets.
-static STOPPED: AtomicBool = AtomicBool::new(false);
-
-/// Handles Ctrl-C: the first one stops at the next point, the second one at once.
-fn listen() -> Result<()> {
-    ctrlc::set_handler(|| {
-        if STOPPED.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    })
-    .context("cannot listen for Ctrl-C")
 }
 
 /// Computes all rows. The guard knows the files that are read, so that the rows do not overwrite them.
@@ -58,7 +45,7 @@ pub(crate) fn run(request: &Request, guard: &mut Guard, run: &RunArgs) -> Result
 
 /// Computes the rows for the summary alone.
 fn to_summary(job: &Job, plan: &Plan, threads: NonZeroUsize) -> Result<()> {
-    listen()?;
+    stop_at_next_row()?;
     let mut summary = Summary::new(job, plan.columns());
     let mut progress = Progress::with_rate(plan.rows(), "rows");
     let outcome = threads::run(plan, 0..plan.chunks(), threads, &STOPPED, |chunk| {
@@ -87,7 +74,7 @@ fn refuse_stopped(plan: &Plan, outcome: Outcome) -> Result<()> {
 
 /// Writes the rows as CSV as they are computed.
 fn to_stdout(plan: &Plan, threads: NonZeroUsize) -> Result<()> {
-    listen()?;
+    stop_at_next_row()?;
     let write = || {
         let mut out = CsvRows::new(BufWriter::new(io::stdout().lock()), plan.columns())?;
         let outcome = threads::run(plan, 0..plan.chunks(), threads, &STOPPED, |chunk| out.add(&chunk))?;
@@ -107,7 +94,12 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
     let range = record.range();
     let rows = record.rows_of(range.clone());
 
-    let mut work = match funicular_files::Job::open(path, record, begin)? {
+    let opened = funicular_files::Job::open(path, record, begin)?;
+    // Before the rows, so that a slip can be corrected before hours of work.
+    if run.format.is_none() {
+        warn(job);
+    }
+    let mut work = match opened {
         Opened::Done => {
             errors::note(&format!("{} already contains all of {}", path.display(), counted(rows, "row")));
             if run.format.is_none() {
@@ -119,7 +111,7 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
         }
         Opened::Work(work) => work,
     };
-    listen()?;
+    stop_at_next_row()?;
     let mut summary = Summary::new(job, plan.columns());
 
     if work.done() > 0 {
@@ -143,14 +135,10 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
 
     work.finish()?;
     errors::note(&format!("{} in {}", counted(rows, "row"), path.display()));
-    if run.format.is_some() {
-        return summary.print(run.format);
-    }
-    warn(job);
-    Ok(())
+    if run.format.is_some() { summary.print(run.format) } else { Ok(()) }
 }
 
-/// Prints the warnings about the robot where no summary has them.
+/// Prints the warnings about the robot, once per run. A summary has them in its own place.
 fn warn(job: &Job) {
     job.sweep.warnings().iter().for_each(|warning| errors::warn(warning));
 }

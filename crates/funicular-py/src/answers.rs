@@ -2,7 +2,7 @@
 
 use crate::arrays::TextKeyed;
 use crate::errors;
-use crate::interrupt::{check_signals, interruptible};
+use crate::interrupt::{check_signals, interruptible, interruptible_in_steps};
 use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::{SweepFile, merge};
 use funicular_study::analyses::Found;
@@ -84,9 +84,8 @@ pub(crate) fn complete_request(request: &str) -> PyResult<String> {
 #[pyfunction]
 pub(crate) fn answer(py: Python<'_>, request: &str) -> PyResult<String> {
     let request = self::request(request)?;
-    let bytes = interruptible(py, move || {
-        let mut watch = CtrlC::new();
-        let results = run(&request, &mut watch).map_err(|error| watch.or(&error.into()))?;
+    let bytes = interruptible_in_steps(py, move |watch| {
+        let results = run(&request, watch).map_err(|error| errors::study(&error.into()))?;
         results.to_json(Words::Python).map_err(|error| errors::study(&error.into()))
     })??;
     String::from_utf8(bytes).map_err(|error| errors::input(error.to_string()))

@@ -10,7 +10,8 @@ use funicular_study::robot_file::Refused;
 use funicular_study::set_values::EditError;
 use funicular_study::wording::{Words, message, worded};
 use funicular_study::{Error, NoSolution};
-use pyo3::PyErr;
+use pyo3::prelude::*;
+use std::ffi::CString;
 
 /// Exceptions, which are written in Python: they have types, pickle, and can have several bases.
 mod python {
@@ -86,4 +87,12 @@ pub(crate) fn dynamics(error: &DynamicsError) -> PyErr {
 
 pub(crate) fn response(error: &ResponseError) -> PyErr {
     python::ResponseError::new_err(error.to_string())
+}
+
+/// Shows a warning of the class `class` at a line of the user: that of the Python function that called Rust for
+/// `level` 1, that of its caller for 2.
+pub(crate) fn warn(py: Python<'_>, class: &str, text: &str, level: i32) -> PyResult<()> {
+    let class = py.import("funicular._errors")?.getattr(class)?;
+    let text = CString::new(worded(text, Words::Python)).map_err(|error| input(error.to_string()))?;
+    PyErr::warn(py, &class, &text, level)
 }

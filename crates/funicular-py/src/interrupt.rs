@@ -1,9 +1,11 @@
 //! Long work without Python's lock, which ends at Ctrl-C.
 
 use funicular_files::threads::in_order;
+use funicular_study::Watch;
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel, sync_channel};
 use std::thread;
@@ -18,24 +20,49 @@ pub(crate) fn check_signals() -> PyResult<()> {
     Python::attach(|py| py.check_signals())
 }
 
-/// Runs work on a new thread while the calling thread checks for signals.
+/// Watch of work on a new thread, which stops at its next step after Ctrl-C.
+#[derive(Clone, Default)]
+struct Stop(Arc<AtomicBool>);
+
+impl Watch for Stop {
+    fn is_cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// Runs work without steps on a new thread while the calling thread checks for signals.
 ///
 /// At Ctrl-C the caller gets the exception at once; the thread ends when its work is done, and its result is dropped.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> PyResult<T> {
+    interruptible_in_steps(py, |_| work())
+}
+
+/// Runs work on a new thread while the calling thread checks for signals.
+///
+/// At Ctrl-C the caller gets the exception at once; the thread ends at the next step of its work, and its result is
+/// dropped.
+pub(crate) fn interruptible_in_steps<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce(&mut dyn Watch) -> T + Send + 'static,
+) -> PyResult<T> {
     py.detach(|| {
         let (sender, receiver) = channel();
+        let stop = Stop::default();
+        let mut watch = stop.clone();
         let worker = thread::Builder::new().spawn(move || {
             // The receiver is gone after Ctrl-C.
-            let _ = sender.send(work());
+            let _ = sender.send(work(&mut watch));
         })?;
 
         loop {
             match receiver.recv_timeout(INTERVAL) {
                 Ok(result) => return Ok(result),
-                Err(RecvTimeoutError::Timeout) => check_signals()?,
+                Err(RecvTimeoutError::Timeout) => {
+                    check_signals().inspect_err(|_| stop.0.store(true, Ordering::Relaxed))?
+                }
                 Err(RecvTimeoutError::Disconnected) => match worker.join() {
                     Err(panic) => std::panic::resume_unwind(panic),
                     Ok(()) => unreachable!("a worker that ends has sent its result"),

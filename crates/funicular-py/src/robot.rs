@@ -401,6 +401,11 @@ impl PyRobot {
     ///     The file cannot be written, or belongs to another sweep.
     /// ExecutorError
     ///     The executor's workers died; `resume` of the exception continues.
+    ///
+    /// Warns
+    /// -----
+    /// RobotWarning
+    ///     The robot has a value that no usual robot has; once per call, before the rows are computed.
     #[pyo3(signature = (
         grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
         assembly="consistent", in_plane_only=false, winches="as-given", up_to_hz=None, platform_share=None, payload_center_m=None,

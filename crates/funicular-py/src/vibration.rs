@@ -12,13 +12,11 @@ use funicular::response;
 use funicular_study::analyses::{self, cable, frf};
 use funicular_study::at_rest;
 use funicular_study::request;
-use funicular_study::wording::{Words, worded};
 use numpy::Complex64;
 use numpy::ndarray::{ArrayD, IxDyn};
 use pyo3::inspect::{PyStaticExpr, PyStaticOperator};
 use pyo3::prelude::*;
 use std::convert::Infallible;
-use std::ffi::CString;
 use std::sync::Arc;
 
 /// Number of frequencies between two checks for Ctrl-C: some 10 ms. It is a multiple of every number of lanes, so that
@@ -296,7 +294,7 @@ pub(crate) fn frf(py: Python<'_>, of: &PyEquilibrium, hz: Numbers, keywords: Pai
         frf::response(&of.at_rest, &pairs, frequencies, adaptive, &mut watch).map_err(|error| watch.or(&error))
     })?;
     if let Some(caveat) = &found.caveat {
-        warn(py, caveat)?;
+        errors::warn(py, "ResponseWarning", caveat, 1)?;
     }
 
     let frf::Response { frequencies_hz, mut values, .. } = found;
@@ -312,13 +310,6 @@ pub(crate) fn frf(py: Python<'_>, of: &PyEquilibrium, hz: Numbers, keywords: Pai
     } else {
         Responses::Given(values)
     })
-}
-
-/// Shows a warning at the line of the caller.
-fn warn(py: Python<'_>, caveat: &str) -> PyResult<()> {
-    let category = py.import("funicular._errors")?.getattr("ResponseWarning")?;
-    let text = CString::new(worded(caveat, Words::Python)).map_err(|error| errors::input(error.to_string()))?;
-    PyErr::warn(py, &category, &text, 1)
 }
 
 /// Computes values at all frequencies, with checks for Ctrl-C.

@@ -4,7 +4,7 @@ use crate::answers::{self, in_words};
 use crate::arrays::{Count, Matrix, Number, Numbers};
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
-use crate::interrupt::interruptible;
+use crate::interrupt::{interruptible, interruptible_in_steps};
 use crate::request::{model, named, points, share};
 use funicular::math::DMat;
 use funicular_files::mat::{self, Value, Variable};
@@ -78,7 +78,7 @@ pub(crate) fn reduce(py: Python<'_>, of: &PyEquilibrium, keywords: ReduceKeyword
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
     };
     let at_rest = Arc::clone(&of.at_rest);
-    let found = interruptible(py, move || analyses::reduce::about(&at_rest, &request))?;
+    let found = interruptible_in_steps(py, move |watch| analyses::reduce::about(&at_rest, &request, watch))?;
     let found = found.map_err(|error| errors::study(&error))?;
 
     let matrices = PyDict::new(py);
@@ -138,7 +138,7 @@ pub(crate) fn state_space(
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
     };
     let at_rest = Arc::clone(&of.at_rest);
-    let found = interruptible(py, move || analyses::control_model::about(&at_rest, &request))?;
+    let found = interruptible_in_steps(py, move |watch| analyses::control_model::about(&at_rest, &request, watch))?;
     let found = found.map_err(|error| errors::study(&error))?;
 
     let matrices = PyDict::new(py);

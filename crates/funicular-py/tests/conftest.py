@@ -18,6 +18,9 @@ ROBOT_FILES = sorted(path.name for path in ROBOTS.glob("*.toml") if path.name !=
 
 Program = Callable[..., dict[str, Any]]
 
+# Mark of tests that compare responses at given frequencies, which may lie beside the peaks.
+plain_grid = pytest.mark.filterwarnings("ignore::funicular.ResponseWarning")
+
 # Ctrl-C is tested, but a shell that runs the tests in the background makes them and their children ignore it.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 

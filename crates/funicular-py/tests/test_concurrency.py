@@ -11,6 +11,7 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 import funicular
 import numpy as np
 import pytest
+from conftest import plain_grid
 
 POSES = np.c_[np.random.default_rng(0).uniform(-0.5, 0.5, (20_000, 2)), np.full(20_000, 0.6)]
 
@@ -28,6 +29,7 @@ def test_other_threads_run_while_states_are_computed(robot: funicular.Robot) -> 
     assert longest < 0.5 * (last - began)
 
 
+@plain_grid
 def test_threads_share_robots_and_results(robot: funicular.Robot, rest: funicular.Equilibrium) -> None:
     hz = np.linspace(0.1, 10, 500)
     expected = (rest.frf(hz, "fz", "az"), robot.modes(5), robot.equilibria(poses=POSES[:300]))
@@ -58,6 +60,9 @@ def test_processes_get_robots_and_give_results(method: str, robot: funicular.Rob
         "robot.equilibria(poses=numpy.full((1_000_000, 3), [0, 0, 0.5]), threads=1)",
         "robot.modes(260)",
         "robot.frf(numpy.linspace(0.1, 20, 30_000_000), 'fz', 'az')",
+        "robot.state_space(below_hz=50, tolerance=1e-4)",
+        "robot.reduce(below_hz=50, tolerance=1e-9)",
+        "funicular.run(robot.request('reduce', below_hz=50, tolerance=1e-4))",
     ],
 )
 def test_ctrl_c_ends_long_work(long: str) -> None:
@@ -70,3 +75,27 @@ def test_ctrl_c_ends_long_work(long: str) -> None:
         sent = time.perf_counter()
         rest, error = child.stdout.read(), child.stderr.read()
         assert time.perf_counter() - sent < 5 and "done" not in rest and "KeyboardInterrupt" in error
+
+
+def test_a_reduction_does_not_go_on_after_ctrl_c() -> None:
+    script = """
+import funicular, time
+robot = funicular.Robot.example()
+print("go", flush=True)
+try:
+    robot.state_space(below_hz=50, tolerance=1e-4)
+except KeyboardInterrupt:
+    print("stopped", flush=True)
+time.sleep(3)
+before = time.process_time()
+time.sleep(1)
+print(time.process_time() - before)
+"""
+    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as child:
+        assert child.stdout is not None
+        assert child.stdout.readline() == "go\n"
+        time.sleep(2.0)
+        child.send_signal(signal.SIGINT)
+        assert child.stdout.readline() == "stopped\n"
+        # The thread of the work has ended; before, it took a whole second per second.
+        assert float(child.stdout.read()) < 0.2

@@ -7,7 +7,7 @@ from pathlib import Path
 import funicular
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, plain_grid
 
 DOCUMENT = ROOT / "docs/control.md"
 
@@ -31,6 +31,7 @@ def frequencies(rest: funicular.Equilibrium) -> np.ndarray:
     return hz[(hz > 0) & (hz <= 5)]
 
 
+@plain_grid
 def test_the_responses_in_control_have_the_stated_error(
     rest: funicular.Equilibrium, model: funicular.StateSpaceModel
 ) -> None:
@@ -47,6 +48,7 @@ def test_the_responses_in_control_have_the_stated_error(
     assert np.isclose(model.errors.max(), model.error)
 
 
+@plain_grid
 def test_scipy_bode_runs_on_one_input_and_one_output(rest: funicular.Equilibrium) -> None:
     # SciPy goes through polynomials, which is accurate for few states only.
     signal = pytest.importorskip("scipy.signal")
@@ -128,6 +130,7 @@ def test_wrong_arguments_are_refused(rest: funicular.Equilibrium) -> None:
         rest.state_space(["fz"], ["z"], below_hz=20, cable_model="spring")
 
 
+@plain_grid
 def test_the_code_of_the_document_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("control")
     pytest.importorskip("scipy")

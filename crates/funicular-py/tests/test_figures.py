@@ -9,6 +9,7 @@ import funicular
 import funicular.plot
 import numpy as np
 import pytest
+from conftest import plain_grid
 
 pytest.importorskip("matplotlib").use("Agg")
 
@@ -35,6 +36,7 @@ def rows(cogiro: funicular.Robot) -> funicular.Sweep:
     return cogiro.map(grid, quantities=["tension-max", "first-kind"])
 
 
+@plain_grid
 @pytest.mark.parametrize("width", ["ieee-single", "springer-single", 181])
 def test_a_bode_figure_has_magnitude_phase_and_modes(
     rest: funicular.Equilibrium, modes: funicular.Modes, width: Any
@@ -55,6 +57,7 @@ def test_a_bode_figure_has_magnitude_phase_and_modes(
     check_inside(figure)
 
 
+@plain_grid
 def test_a_bode_figure_of_an_equilibrium_has_every_peak(rest: funicular.Equilibrium) -> None:
     figure = funicular.plot.bode([0.5, 4], rest, "fz", "az", cable_model="shallow-dynamic")
     hz, magnitude = figure.axes[0].lines[0].get_data()
@@ -109,6 +112,7 @@ def test_a_mode_shape_moves_cables_and_platform(rest: funicular.Equilibrium, mod
     check_inside(funicular.plot.shape(rest, modes, 0, width="elsevier-double", font_size_pt=10))
 
 
+@plain_grid
 def test_files_have_embedded_fonts_and_texts_and_do_not_depend_on_the_time(
     rest: funicular.Equilibrium, tmp_path: Path
 ) -> None:

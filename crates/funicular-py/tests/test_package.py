@@ -11,7 +11,7 @@ import funicular
 import funicular.plot
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, plain_grid
 
 HERE = Path(__file__).parent
 
@@ -82,6 +82,7 @@ def test_every_public_item_says_what_it_is() -> None:
                 assert member.__doc__, f"{name}.{key}"
 
 
+@plain_grid
 def test_figures_show_the_numbers(rest: funicular.Equilibrium) -> None:
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")
@@ -100,6 +101,7 @@ def test_figures_show_the_numbers(rest: funicular.Equilibrium) -> None:
         drawn.figure.canvas.draw()
 
 
+@plain_grid
 def test_interactive_figures_show_them_too(rest: funicular.Equilibrium) -> None:
     pytest.importorskip("plotly")
     modes, hz = rest.modes(20), np.linspace(0.1, 10, 100)

@@ -7,7 +7,7 @@ from typing import Any
 import funicular
 import numpy as np
 import pytest
-from conftest import ROBOT_FILES, ROBOTS, ROOT, Program
+from conftest import ROBOT_FILES, ROBOTS, ROOT, Program, plain_grid
 
 ALL = ROBOT_FILES
 
@@ -136,6 +136,7 @@ def test_so_is_it_in_maps_and_sweeps(name: str, quantities: str | None, executab
         assert (tmp_path / "ours.parquet").read_bytes() == file.read_bytes()
 
 
+@plain_grid
 @pytest.mark.parametrize(
     ("options", "keywords"),
     [
@@ -159,6 +160,7 @@ def test_responses_and_their_peaks_are_those_of_the_program(
     assert [peak["magnitude"] for peak in theirs["peaks"]] == magnitude.tolist()
 
 
+@plain_grid
 def test_a_receptance_holds_every_response(rest: funicular.Equilibrium) -> None:
     hz = np.linspace(0.2, 9, 50)
     receptance = rest.receptance(hz)

@@ -5,6 +5,7 @@ import os
 import pickle
 import subprocess
 import sys
+import warnings
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -168,6 +169,31 @@ def test_a_sweep_in_memory_goes_to_any_format(rows: funicular.Sweep, tmp_path: P
         rows.to_parquet(tmp_path / "rows.csv")
     with pytest.raises(funicular.FileError, match="no directory"):
         rows.to_parquet(tmp_path / "nowhere" / "rows.parquet")
+
+
+def test_a_slip_warns_once_per_call_and_before_the_rows(robot: funicular.Robot, tmp_path: Path) -> None:
+    slip = robot.with_({"materials.rope-4mm.youngs_modulus_pa": 20.0})
+    grid: dict[str, Any] = {"x": (0, 0.1, 40), "y": 0, "z": 1}
+    request = slip.request("map", grid=grid)
+    with ThreadPoolExecutor(2) as executor:
+        for call in (
+            lambda: slip.map(grid),
+            lambda: slip.map(grid, executor=executor, chunks_per_task=1),
+            lambda: slip.map(grid, file=tmp_path / "map.parquet", resume=True),
+            lambda: slip.map(grid, file=tmp_path / "map.parquet", resume=True),
+            lambda: slip.sweep({"platform.mass_kg": [10, 11]}, pose=[0, 0, 1]),
+            lambda: funicular.run(request),
+        ):
+            with pytest.warns(funicular.RobotWarning, match="Young's modulus is 20 Pa, .* GPa given as Pa") as caught:
+                call()
+            assert [warning.filename for warning in caught] == [__file__]
+
+    # An exception in place of the warning leaves no file.
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", funicular.RobotWarning)
+        with pytest.raises(funicular.RobotWarning, match="GPa given as Pa"):
+            slip.map(grid, file=tmp_path / "none.parquet")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["map.parquet"]
 
 
 def test_a_damaged_file_is_refused(robot: funicular.Robot, tmp_path: Path) -> None:

@@ -93,7 +93,7 @@ pub fn run_on(request: &Request, robot: Option<Robot>, watch: &mut dyn Watch) ->
         Request::Payload(of) => Results::Payload(payload::run(robot()?, of)?),
         Request::PoseError(of) => Results::PoseError(pose_error::run(&robot()?, of, watch)?),
         Request::Cable(of) => Results::Cable(cable::run(robot()?, of)?),
-        Request::Reduce(of) => Results::Reduce(reduce::run(robot()?, of)?),
+        Request::Reduce(of) => Results::Reduce(reduce::run(robot()?, of, watch)?),
         Request::Validate(_) => Results::Validate(validate::run()?),
         other => return Err(anyhow!("`{}` writes a file: run it with the program or in Python", other.command())),
     })

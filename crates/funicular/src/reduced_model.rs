@@ -10,7 +10,10 @@ mod candidates;
 mod control_model;
 mod reference;
 mod selection;
+mod steps;
 mod terms;
+
+pub use steps::STEPS;
 
 pub use control_model::{
     ControlModel, ModalStates, PointwiseError, RequestedStateSpace, ResponseOfPair, control_model,
@@ -26,6 +29,8 @@ use crate::response::{self, Port, Quantity, ResponseError, Signal};
 use crate::robot::{Damping, Robot};
 use crate::statics::Equilibrium;
 use std::f64::consts::TAU;
+use std::ops::Range;
+use steps::Steps;
 use thiserror::Error;
 
 /// Viscous replacement of constant damping ratios, which no matrix C can represent at every frequency.
@@ -163,6 +168,9 @@ pub enum ReductionError {
     /// Too few states for any mode.
     #[error("{0} states hold no mode: a mode needs two")]
     Order(usize),
+    /// The observer has stopped the work.
+    #[error("stopped before the end")]
+    Stopped,
     /// No choice of modes keeps the tolerance.
     #[error(
         "no state space has an error of at most {requested:e} of the peaks: {order} states reach {reached:.2e}, because a \
@@ -210,7 +218,14 @@ const KEPT: [f64; 7] = [1.1, 1.5, 2.0, 3.0, 5.0, 8.0, f64::INFINITY];
 /// Number of frequencies at which the error of modes left out is measured, in addition to the natural frequencies.
 const GRID: usize = 1000;
 
+/// Steps for the responses of the full model, and for the tried numbers of clamped modes; the rest are for the error of
+/// damping.
+const FULL: Range<usize> = 0..10;
+const TRIED: Range<usize> = 10..60;
+
 /// Reduced model of a robot linearised about an equilibrium.
+///
+/// `report` gets the number of finished steps of [`STEPS`] during the work, and stops it by returning `false`.
 ///
 /// # Errors
 /// [`ReductionError`].
@@ -224,7 +239,9 @@ pub fn reduce(
     inputs: &[Signal],
     outputs: &[(Signal, Quantity)],
     requested: RequestedModel,
+    report: &mut dyn FnMut(usize) -> bool,
 ) -> Result<SecondOrder, ReductionError> {
+    let mut steps = Steps::new(report);
     check_cables(robot, dynamics)?;
     check_signals(inputs.iter().chain(outputs.iter().map(|(signal, _)| signal)))?;
 
@@ -234,6 +251,7 @@ pub fn reduce(
 
     // Natural frequencies and responses of the full model, for comparison.
     let listed = modes::below(dynamics, requested.below_hz);
+    steps.reached(&FULL, 1, 2)?;
     let natural: Vec<f64> = listed.modes.iter().map(|mode| mode.frequency_hz).collect();
     let mut frequencies: Vec<f64> =
         (1..=GRID).map(|i| requested.below_hz * i as f64 / GRID as f64).chain(natural.iter().copied()).collect();
@@ -241,7 +259,8 @@ pub fn reduce(
     let reference = full.responses(dynamics, &frequencies).ok();
 
     // As few clamped modes as the tolerance allows.
-    for ratio in KEPT {
+    for (tried, ratio) in KEPT.into_iter().enumerate() {
+        steps.reached(&TRIED, tried, KEPT.len())?;
         let cut = dynamics.with_poles_below(ratio * requested.below_hz * TAU);
         let truncation_error = reference.as_ref().and_then(|reference| {
             let of_cut = Channels::new(robot, equilibrium, &cut, inputs, outputs, false).ok()?;
@@ -254,10 +273,11 @@ pub fn reduce(
         if truncation_error.unwrap_or(frequency_error) <= requested.tolerance || ratio.is_infinite() {
             let channels = Channels::new(robot, equilibrium, &cut, inputs, outputs, false)?;
             let mut model = assembled(&cut, &channels, outputs, requested)?;
+            steps.reached(&TRIED, KEPT.len(), KEPT.len())?;
             (model.frequency_error, model.truncation_error) = (frequency_error, truncation_error);
             model.damping_error = match requested.damping_at {
                 _ if !cut.has_damping_ratios() => Some(0.0),
-                _ => damping_error(&model, &cut, &channels, &natural),
+                _ => damping_error(&model, &cut, &channels, &natural, &mut steps)?,
             };
             return Ok(model);
         }
@@ -509,7 +529,13 @@ fn at_natural_frequencies(mass: &DMat, stiffness: &DMat, ratio: &DMat) -> Result
 }
 
 /// Maximum relative error of the responses by the viscous replacement of constant ratios, at natural frequencies.
-fn damping_error(model: &SecondOrder, dynamics: &Dynamics, channels: &Channels, natural: &[f64]) -> Option<f64> {
+fn damping_error(
+    model: &SecondOrder,
+    dynamics: &Dynamics,
+    channels: &Channels,
+    natural: &[f64],
+    steps: &mut Steps<'_>,
+) -> Result<Option<f64>, ReductionError> {
     // Maximum number of frequencies, spread over all natural frequencies, where the effect of damping is largest. Each
     // needs a full elimination.
     const MAX_FREQUENCIES: f64 = 48.0;
@@ -518,18 +544,19 @@ fn damping_error(model: &SecondOrder, dynamics: &Dynamics, channels: &Channels, 
     let max = (MAX_OPERATIONS / (model.mass.nrows() as f64).powi(3)).clamp(4.0, MAX_FREQUENCIES) as usize;
     let every = natural.len().div_ceil(max).max(1);
     let frequencies: Vec<f64> = natural.iter().copied().step_by(every).collect();
-    let reference = channels.responses(dynamics, &frequencies).ok()?;
+    let Ok(reference) = channels.responses(dynamics, &frequencies) else { return Ok(None) };
 
     // Responses of the reduced model at these frequencies.
     let mut of_model = vec![Vec::new(); reference.len()];
-    for frequency_hz in &frequencies {
-        let receptance = model.receptance(frequency_hz * TAU)?;
+    for (done, frequency_hz) in frequencies.iter().enumerate() {
+        steps.reached(&(TRIED.end..STEPS), done, frequencies.len())?;
+        let Some(receptance) = model.receptance(frequency_hz * TAU) else { return Ok(None) };
         let entries = (0..receptance.nrows()).flat_map(|i| (0..receptance.ncols()).map(move |j| (i, j)));
         for (list, at) in of_model.iter_mut().zip(entries) {
             list.push(receptance[at]);
         }
     }
-    Some(largest_difference(&reference, &of_model))
+    Ok(Some(largest_difference(&reference, &of_model)))
 }
 
 impl SecondOrder {

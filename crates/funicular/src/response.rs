@@ -2,10 +2,13 @@
 //!
 //! `X(ω) = (K(ω) − ω²M)⁻¹ F`, convention e^{+iωt}. Frequencies are computed side by side in vector registers (the
 //! kernel). The plain version, [`receptance`], is the oracle of the kernel and replaces it where the kernel is not
-//! accurate. [`adaptive`] chooses frequencies such that no peak is missed.
+//! accurate. [`adaptive`] chooses frequencies such that no peak is missed; [`missed_peaks`] counts those that other
+//! frequencies miss.
 
 pub mod adaptive;
 mod kernel;
+mod maxima;
+pub mod missed_peaks;
 mod peaks;
 mod signals;
 
@@ -31,6 +34,15 @@ pub enum Quantity {
     Velocity,
     /// Acceleration [m/s²] or angular acceleration [rad/s²].
     Acceleration,
+}
+
+/// Value of one response at one frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// Response.
+    pub value: Complex,
+    /// Magnitude below which rounding hides the response. It is not resolved there.
+    pub floor: f64,
 }
 
 /// Reason for which there is no response.
@@ -214,7 +226,7 @@ pub fn measured(
     frequencies_hz: &[f64],
     inputs: &[Port],
     outputs: &[(Port, Quantity)],
-) -> Result<Vec<Vec<adaptive::Measured>>, ResponseError> {
+) -> Result<Vec<Vec<Measured>>, ResponseError> {
     let values = matrix(dynamics, frequencies_hz, inputs, outputs)?;
     let sizes = kernel::all_entries(dynamics, frequencies_hz);
 
@@ -232,7 +244,7 @@ pub fn measured(
             };
             from.iter().map(move |from| LOST * by_time * to.dot(from)).collect::<Vec<f64>>()
         });
-        sums.enumerate().map(|(i, floor)| adaptive::Measured { value: values[i][k], floor }).collect()
+        sums.enumerate().map(|(i, floor)| Measured { value: values[i][k], floor }).collect()
     };
     Ok(sizes.iter().zip(frequencies_hz).enumerate().map(row).collect())
 }

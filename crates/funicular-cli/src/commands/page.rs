@@ -58,10 +58,9 @@ pub(crate) fn plot(args: &PlotArgs) -> Result<()> {
     refuse_without_figure(args.plane.is_some(), "plane")?;
     refuse_without_figure(!args.at.is_empty(), "at")?;
     let target = Target::open(Some(&to), Content::PAGE, &mut guard)?;
-    let waiting = WaitingSpinner::for_("the figures");
-    let page =
-        pages::plot::plot(&file, args.file.display().to_string(), command_line()?, &mut TerminalProgress::default())?;
-    drop(waiting);
+    let (mut watch, waiting) = (TerminalProgress::new(), WaitingSpinner::for_("the figures"));
+    let page = pages::plot::plot(&file, args.file.display().to_string(), command_line()?, &mut watch)?;
+    drop((watch, waiting));
     write(&target, &to, &page.html)?;
     page.notes.iter().for_each(|note| errors::warn(note));
     Ok(())

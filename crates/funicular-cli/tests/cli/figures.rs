@@ -142,6 +142,9 @@ fn a_map_is_drawn_as_a_slice_and_a_sweep_as_curves() {
         ["--grid", "x=-2:2:3", "--grid", "y=-2:2:3", "--grid", "z=1", "--quantity", "payload-max", "-o", &rows];
     succeed(&[&["map", &cogiro][..], &payload].concat());
     assert_eq!(plot(&["--quantity", "payload-max"]).status.code(), Some(0));
+    // The limits accompany the payload, and nobody requests a figure of them.
+    let page = run(&["plot", &rows, "-o", &at("page.html")]);
+    assert!(page.status.success() && !stderr(&page).contains("no figure"), "{}", stderr(&page));
     assert!(svg(Path::new(&file)).contains(">payload max [kg]</text>"));
 
     let masses = ["--vary", "platform.mass_kg=20:60:9", "--quantity", "tensions", "-o", &rows];

@@ -1,7 +1,9 @@
 //! `reduce`: state space and second-order form, and their files.
 
-use super::{json, number, numbers, run, stderr, succeed};
+use super::{json, number, numbers, robot, run, stderr, succeed};
 use serde_json::Value;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
 
 /// Arguments of a state space with one input and two outputs.
 const SMALL: [&str; 10] =
@@ -60,6 +62,27 @@ fn a_state_space_is_written_for_numpy_matlab_and_as_a_folder() {
     let text = std::fs::read_to_string(place("folder/D.csv")).unwrap();
     assert_eq!(text.lines().count(), 2);
     assert!(folder.path().join("folder/description.json").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_stops_it_with_the_exit_code_of_maps_and_leaves_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (result, matrices) = (place("model.json"), place("model.npz"));
+    let mut long = std::process::Command::new(env!("CARGO_BIN_EXE_funicular"));
+    long.args(["reduce", &robot("cogiro.toml"), "--pose", "1,1,1.5", "--below-hz", "80", "--tolerance", "1e-4"]);
+    let child = long.args(["-o", &result, "--matrices", &matrices]).stderr(Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(Duration::from_secs(2));
+
+    let interrupted = Instant::now();
+    assert!(std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    // A second, and what a busy machine adds.
+    assert!(interrupted.elapsed() < Duration::from_secs(5), "{:?}", interrupted.elapsed());
+    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    assert_eq!(stderr(&output), "error: stopped before the end\n");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
 #[test]

@@ -69,6 +69,9 @@ fn an_implausible_value_is_warned_of_once_by_every_command() {
         "stiffness ROBOT --pose 0,0,1",
         "cable ROBOT --name 1 --pose 0,0,1 --from-hz 0 --to-hz 3 --points 5",
         "map ROBOT --pose 0,0,1 --grid x=0:0.1:2",
+        "map ROBOT --pose 0,0,1 --grid x=0:0.1:2 --format json",
+        "map ROBOT --pose 0,0,1 --grid x=0:0.1:2 --format csv",
+        "sweep ROBOT --pose 0,0,1 --vary platform.mass_kg=10,11",
         "report ROBOT --pose 0,0,1 --below-hz 2 -o -",
     ] {
         let arguments: Vec<&str> = line.split(' ').chain(slip).collect();

@@ -192,6 +192,23 @@ fn interrupted_a_map_keeps_its_rows_and_says_how_to_go_on() {
 }
 
 #[test]
+fn a_slip_is_warned_of_once_per_run_and_before_the_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.parquet");
+    let line = "map ROBOT --pose 0,0,1 --grid x=0:0.1:3 --set materials.rope-4mm.youngs_modulus_pa=20 -o";
+    let arguments: Vec<&str> = line.split(' ').chain([path.to_str().unwrap(), "--resume"]).collect();
+
+    // The rows are computed, then found complete.
+    for end in ["3 rows in ", " already contains all of 3 rows"] {
+        let output = run(&arguments);
+        let said = stderr(&output);
+        let lines: Vec<&str> = said.lines().collect();
+        let warned: Vec<usize> = (0..lines.len()).filter(|i| lines[*i].contains("GPa given as Pa?")).collect();
+        assert!(output.status.success() && warned == [0] && lines[lines.len() - 1].contains(end), "{said}");
+    }
+}
+
+#[test]
 fn parts_of_a_map_are_merged_into_the_same_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();

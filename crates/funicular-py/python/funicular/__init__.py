@@ -25,6 +25,7 @@ from funicular._errors import (
     ResponseError,
     ResponseWarning,
     RobotFileError,
+    RobotWarning,
     StaticsError,
 )
 from funicular._executors import ExecutorError
@@ -56,6 +57,7 @@ __all__ = [
     "ResponseWarning",
     "Robot",
     "RobotFileError",
+    "RobotWarning",
     "StateSpaceModel",
     "StaticsError",
     "Sweep",

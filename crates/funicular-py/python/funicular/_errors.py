@@ -68,6 +68,12 @@ class ResponseWarning(UserWarning):
     __module__ = "funicular"
 
 
+class RobotWarning(UserWarning):
+    """The robot of a map or sweep has a value that no usual robot has, which is likely a slip."""
+
+    __module__ = "funicular"
+
+
 class NoSolutionError(Error):
     """The request is correct, but it has no result."""
 

@@ -714,6 +714,11 @@ class Robot(Analyses):
             The file cannot be written, or belongs to another sweep.
         ExecutorError
             The executor's workers died; `resume` of the exception continues.
+
+        Warns
+        -----
+        RobotWarning
+            The robot has a value that no usual robot has; once per call, before the rows are computed.
         """
     @property
     def mass_kg(self, /) -> float:
@@ -852,7 +857,8 @@ class SweepPlan:
     def __reduce__(self, /) -> tuple[Any, tuple[str, str | None]]: ...
     def begin(self, /, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False) -> SweepWork | None:
         """
-        Begins to collect rows in memory or in a file; None if the file has all rows.
+        Begins to collect rows in memory or in a file; None if the file has all rows. Warns of values of the robot that
+        no usual robot has.
         """
     @property
     def chunk_rows(self, /) -> int:

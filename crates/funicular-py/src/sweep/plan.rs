@@ -86,7 +86,8 @@ impl PyPlan {
         Ok(PyBytes::new(py, &bytes))
     }
 
-    /// Begins to collect rows in memory or in a file; None if the file has all rows.
+    /// Begins to collect rows in memory or in a file; None if the file has all rows. Warns of values of the robot that
+    /// no usual robot has.
     #[pyo3(signature = (file=None, resume=false, discard=false))]
     fn begin(&self, py: Python<'_>, file: Option<PathBuf>, resume: bool, discard: bool) -> PyResult<Option<PyWork>> {
         let begin = match (resume, discard) {
@@ -97,16 +98,17 @@ impl PyPlan {
         };
 
         let data = Arc::clone(&self.data);
-        let Some(path) = file else {
-            if resume || discard {
-                return Err(errors::input("`resume` and `discard` go with `file`".to_owned()));
-            }
-            if data.record.part.is_some() {
-                return Err(errors::input("`part` goes with `file`: parts are joined as files".to_owned()));
-            }
-            return Ok(Some(PyWork::in_memory(data)));
-        };
+        if file.is_none() && (resume || discard) {
+            return Err(errors::input("`resume` and `discard` go with `file`".to_owned()));
+        }
+        if file.is_none() && data.record.part.is_some() {
+            return Err(errors::input("`part` goes with `file`: parts are joined as files".to_owned()));
+        }
 
+        // Before any work, so that a slip can be corrected at once. Python's `run` lies between the user and this call.
+        data.warn(py, 2)?;
+
+        let Some(path) = file else { return Ok(Some(PyWork::in_memory(data))) };
         let opened =
             py.detach(|| Job::open(&path, data.record.clone(), begin)).map_err(|error| errors::files(&error))?;
         Ok(match opened {

@@ -31,6 +31,11 @@ impl PlanData {
         self.record.rows_of(self.record.range().start..next)
     }
 
+    /// Shows the warnings about the robot; `level` is that of [`errors::warn`].
+    pub(crate) fn warn(&self, py: Python<'_>, level: i32) -> PyResult<()> {
+        self.sweep.warnings().iter().try_for_each(|warning| errors::warn(py, "RobotWarning", warning, level))
+    }
+
     /// Computes chunks on new threads and passes them in order to `take` on the calling thread; `check` looks for
     /// Ctrl-C.
     pub(crate) fn run(

@@ -4,7 +4,9 @@ pub mod control_model;
 
 use super::shared::Models;
 use super::{Found, found};
+use crate::Watch;
 use crate::at_rest::{self, AtRest};
+use crate::error::Cancelled;
 use crate::names::{ModelForm, Named};
 use crate::request;
 use crate::signals::{Input, Output};
@@ -14,7 +16,7 @@ use control_model::ControlStateSpace;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes;
-use funicular::reduced_model::{Coordinate, DampingAt, RequestedModel, SecondOrder, reduce};
+use funicular::reduced_model::{Coordinate, DampingAt, ReductionError, RequestedModel, STEPS, SecondOrder, reduce};
 use funicular::response::{Quantity, Signal};
 use funicular::robot::Robot;
 use serde::Serialize;
@@ -114,13 +116,14 @@ pub struct CoordinateRow {
 /// Makes a model of the robot for control design, in the requested form.
 ///
 /// # Errors
-/// A signal that the robot does not have, a robot without such an equilibrium or model, or too many modes.
-pub fn run(robot: Robot, request: &request::ReduceRequest) -> Result<ReducedForm> {
+/// A signal that the robot does not have, a robot without such an equilibrium or model, too many modes, or work that was
+/// stopped.
+pub fn run(robot: Robot, request: &request::ReduceRequest, watch: &mut dyn Watch) -> Result<ReducedForm> {
     check(&robot, request)?;
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     Ok(match request.form {
-        ModelForm::StateSpace => ReducedForm::StateSpace(Box::new(control_model::about(&at_rest, request)?)),
-        ModelForm::SecondOrder => ReducedForm::SecondOrder(Box::new(about(&at_rest, request)?)),
+        ModelForm::StateSpace => ReducedForm::StateSpace(Box::new(control_model::about(&at_rest, request, watch)?)),
+        ModelForm::SecondOrder => ReducedForm::SecondOrder(Box::new(about(&at_rest, request, watch)?)),
     })
 }
 
@@ -177,6 +180,17 @@ fn linearised(at_rest: &AtRest, request: &request::ReduceRequest, (inputs, outpu
     })
 }
 
+/// Reports the number of finished steps of a reduction; `false` if it shall stop.
+pub(super) fn goes_on(watch: &mut dyn Watch, done: usize) -> bool {
+    watch.progress(done, STEPS, "steps");
+    !watch.is_cancelled()
+}
+
+/// Error of a reduction; that of stopped work has its own type.
+pub(super) fn stopped_or_error(error: ReductionError) -> anyhow::Error {
+    if error == ReductionError::Stopped { Cancelled.into() } else { error.into() }
+}
+
 /// Sentence about the treatment of damping.
 fn damping_in_words(is_exact: bool, damping_at: DampingAt) -> String {
     match (is_exact, damping_at) {
@@ -192,14 +206,16 @@ fn damping_in_words(is_exact: bool, damping_at: DampingAt) -> String {
 ///
 /// # Errors
 /// The errors of [`run`].
-pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Reduced> {
+pub fn about(at_rest: &AtRest, request: &request::ReduceRequest, watch: &mut dyn Watch) -> Result<Reduced> {
     let signals = check(&at_rest.robot, request)?;
     let Linearised { dynamics, linearisation, warnings, damping_at, from, to } =
         linearised(at_rest, request, &signals)?;
 
     let tolerance = request.tolerance.unwrap_or(DEFAULT_SECOND_ORDER_TOLERANCE);
     let requested = RequestedModel { below_hz: request.below_hz, tolerance, damping_at };
-    let model = reduce(&at_rest.robot, &at_rest.equilibrium, &dynamics, &from, &to, requested)?;
+    let report = &mut |done| goes_on(watch, done);
+    let model = reduce(&at_rest.robot, &at_rest.equilibrium, &dynamics, &from, &to, requested, report)
+        .map_err(stopped_or_error)?;
 
     let mut reduced = Reduced {
         robot: at_rest.robot.name.clone(),

@@ -12,6 +12,7 @@ use super::Shell;
 use super::figure::Figure;
 use super::table::{PageTable, significant};
 use crate::Watch;
+use crate::error::Cancelled;
 use crate::sweep::{CODES, SweepRows};
 use crate::text::{counted, short};
 use anyhow::{Context as _, bail};
@@ -72,10 +73,13 @@ struct PlotPage<'a> {
 /// the page again.
 ///
 /// # Errors
-/// A damaged file, or a file without rows.
+/// A damaged file, a file without rows, or work that was stopped.
 pub fn plot(rows: &dyn SweepRows, label: String, command_line: String, watch: &mut dyn Watch) -> anyhow::Result<Page> {
     refuse_no_rows(rows, &label)?;
     let tracking = tracking::tracking(rows, watch);
+    if watch.is_cancelled() {
+        return Err(Cancelled.into());
+    }
     page(&PlotInput { file: rows, label, command_line, tracking })
 }
 
@@ -167,8 +171,8 @@ fn notes(input: &PlotInput, rows: &Rows) -> Vec<String> {
             rows.rows
         ));
     }
-    if !rows.words.is_empty() {
-        notes.push(format!("no figure for {}: the values are words, not numbers", rows.words.join(", ")));
+    if !rows.requested_words.is_empty() {
+        notes.push(format!("no figure for {}: the values are words, not numbers", rows.requested_words.join(", ")));
     }
     notes
 }

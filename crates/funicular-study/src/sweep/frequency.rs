@@ -6,7 +6,7 @@ use super::status::Status;
 use funicular::cable_motion::WeightedMotions;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes::tracking::Tracked;
-use funicular::modes::{self, Kind, LowestError, Mode};
+use funicular::modes::{self, Kind, LowestError, Mode, PlatformModeError, TooMany};
 use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, Stability};
 
@@ -76,10 +76,24 @@ pub(super) fn first_platform(
 ) -> Result<(f64, bool), Status> {
     refuse_unstable(rest)?;
     let found = modes::lowest_with_platform(robot, rest, linearisation, share, highest_hz);
-    let (_, found) = found.map_err(|error| Status::new("no-frequency", &error))?;
+    let (_, found) = found.map_err(|error| Status::new("no-frequency", &no_platform_mode(&error, share)))?;
     let first = found.first_platform(share).map(|first| found.modes[first].frequency_hz);
     let first = first.ok_or_else(|| Status::new("no-frequency", "no mode of the platform was found"))?;
     Ok((first, found.certified))
+}
+
+/// Reason for which no mode of the platform was found. Nobody has chosen the limit that a search reaches by itself.
+fn no_platform_mode(error: &PlatformModeError, share: f64) -> String {
+    let PlatformModeError::TooMany(TooMany { count, below_hz, max }) = error else { return error.to_string() };
+    format!(
+        "no mode of the platform was found: of the natural frequencies below {} Hz, none has at least {} % of its kinetic \
+         energy in the platform, and below {below_hz:.4} Hz there are {count}, more than the {max} that are computed. The \
+         cables vibrate far below the platform here, as they do with low tensions; require a smaller share, or use a cable \
+         model without vibrations of the cables, as `spring`",
+        // The limit is doubled from search to search.
+        format_args!("{:.4}", 0.5 * below_hz),
+        100.0 * share,
+    )
 }
 
 /// Lowest `count` modes, the linearised robot, and true if the modes are certified.
@@ -110,7 +124,21 @@ fn refuse_unstable(rest: &Equilibrium) -> Result<(), Status> {
 mod tests {
     use super::*;
     use funicular::modes::tracking::track;
+    use funicular::robot::State;
+    use funicular::statics::{self, StaticModel};
     use std::borrow::Cow;
+
+    #[test]
+    fn a_search_that_finds_cable_modes_alone_says_so() {
+        let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
+        let State::Lengths(lengths) = &robot.state else { unreachable!() };
+        let rest = statics::forward(&robot, lengths, StaticModel::Catenary, None).unwrap();
+        // No mode has all of its energy in the platform.
+        let status = first_platform(&robot, &rest, Linearisation::default(), 1.0, 1000.0).unwrap_err();
+        assert_eq!(status.code, "no-frequency");
+        assert!(status.reason.starts_with("no mode of the platform was found: of the natural"), "{}", status.reason);
+        assert!(status.reason.contains("more than the 400 that are computed. The cables vibrate"), "{}", status.reason);
+    }
 
     #[test]
     fn modes_of_a_growing_payload_veer_in_fine_steps_and_cross_in_coarse_ones() {

@@ -32,7 +32,11 @@ pub const CODES: [(&str, &str); 17] = [
     ("invalid-state", "infeasible: the state does not fit the robot"),
     ("unstable", "the equilibrium is unstable: the platform leaves it by itself"),
     ("slack", "a cable carries no force"),
-    ("no-frequency", "there is no natural frequency: the model does not exist here, or none is below the limit"),
+    (
+        "no-frequency",
+        "there is no natural frequency: the model does not exist here, or no such mode is below the limit or among the \
+         modes that are computed",
+    ),
     ("not-certified", "the frequencies are not certified"),
     ("no-comparison", "another model that was requested has no result here"),
     ("unlimited", "no maximum tension limits the payload"),

@@ -5,8 +5,8 @@
 //! `D(s) = Ω² + s C + s²` is symmetric, so that the left eigenvectors are the right ones, for any damping. The eigenvalues
 //! with viscous damping are the starts of those with constant damping ratios (docs/theory.md, section 13).
 
-use super::SecondOrder;
 use super::reference::Reference;
+use super::{ReductionError, SecondOrder};
 use crate::math::eigenvectors::upper_eigen;
 use crate::math::{CDMat, Complex, DMat};
 
@@ -185,16 +185,23 @@ impl ModalModel {
         span * eigen.eigenvectors
     }
 
-    /// Damped modes, each with its residues. Equal eigenvalues are one of them. `None` if the eigenvalue problem cannot
-    /// be solved.
-    pub(super) fn damped(&self) -> Option<Vec<DampedPair>> {
+    /// Damped modes, each with its residues. Equal eigenvalues are one of them. `parts` gets the numbers of finished and
+    /// of all eigenvalues; its error ends the work.
+    ///
+    /// # Errors
+    /// [`ReductionError::Eigenvalues`] if the eigenvalue problem cannot be solved.
+    pub(super) fn damped(
+        &self,
+        parts: &mut dyn FnMut(usize, usize) -> Result<(), ReductionError>,
+    ) -> Result<Vec<DampedPair>, ReductionError> {
+        parts(0, 1)?;
         let p = self.omega.len();
         let mut state = DMat::zeros(2 * p, 2 * p);
         for k in 0..p {
             (state[(k, p + k)], state[(p + k, k)]) = (self.omega[k], -self.omega[k]);
         }
         state.view_mut((p, p), (p, p)).copy_from(&(-&self.damping));
-        let eigen = upper_eigen(&state)?;
+        let eigen = upper_eigen(&state).ok_or(ReductionError::Eigenvalues)?;
 
         // Groups of equal eigenvalues, in the order of their imaginary and then their real parts.
         let mut order: Vec<usize> = (0..eigen.values.len()).collect();
@@ -207,7 +214,14 @@ impl ModalModel {
             let (a, b) = (eigen.values[*a], eigen.values[*b]);
             (a - b).norm() <= MULTIPLE * a.re.abs() && (a.im > 0.0) == (b.im > 0.0)
         });
-        groups.map(|group| self.pair(&eigen.values, &eigen.vectors, group)).collect()
+        let mut done = 0;
+        groups
+            .map(|group| {
+                parts(done, order.len())?;
+                done += group.len();
+                self.pair(&eigen.values, &eigen.vectors, group).ok_or(ReductionError::Eigenvalues)
+            })
+            .collect()
     }
 
     /// Residues of the eigenvalues of one group, `R = L X (Xᵀ D'(λ) X)⁻¹ Xᵀ B` with the motions X.

@@ -8,6 +8,7 @@
 use super::candidates::{DampedPair, MULTIPLE, ModalModel, joined};
 use super::reference::{Maximum, Reference};
 use super::selection::{RemainingDifference, Size, chosen};
+use super::steps::{STEPS, Steps};
 use super::terms::{RealBlock, Term, terms};
 use super::{
     Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, check_cables, check_signals,
@@ -21,6 +22,7 @@ use crate::response::Signal;
 use crate::robot::Robot;
 use crate::statics::Equilibrium;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Requirements for a state space.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,7 +127,16 @@ const MAX_TOLERANCE: f64 = 1e-3;
 /// Rounds in which frequencies of large errors are added to those at which modes are chosen.
 const MAX_ROUNDS: usize = 6;
 
+/// Steps for the responses of the full model, the number of clamped modes, the modes of the second-order model and the
+/// sets of damped modes; the rest are for the choice.
+const FULL: Range<usize> = 0..10;
+const TRIED: Range<usize> = 10..20;
+const MODES: Range<usize> = 20..30;
+const SETS: Range<usize> = 30..70;
+
 /// State space of a robot linearised about an equilibrium, of as few states as the requirements allow.
+///
+/// `report` gets the number of finished steps of [`STEPS`] during the work, and stops it by returning `false`.
 ///
 /// # Example
 /// ```
@@ -137,7 +148,7 @@ const MAX_ROUNDS: usize = 6;
 /// let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0)?;
 /// let fz = Signal::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() };
 /// let requested = RequestedStateSpace { below_hz: 5.0, size: Size::Tolerance(0.05), damping_at: DampingAt::NaturalFrequencies };
-/// let model = control_model(&robot, &rest, &dynamics, &[fz], &[(fz, Quantity::Acceleration)], requested)?;
+/// let model = control_model(&robot, &rest, &dynamics, &[fz], &[(fz, Quantity::Acceleration)], requested, &mut |_| true)?;
 /// assert!(model.error <= 0.05 && model.space.a.nrows() < 20);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -156,7 +167,9 @@ pub fn control_model(
     inputs: &[Signal],
     outputs: &[(Signal, Quantity)],
     requested: RequestedStateSpace,
+    report: &mut dyn FnMut(usize) -> bool,
 ) -> Result<ControlModel, ReductionError> {
+    let mut steps = Steps::new(report);
     check_cables(robot, dynamics)?;
     check_signals(inputs.iter().chain(outputs.iter().map(|(signal, _)| signal)))?;
     let RequestedStateSpace { below_hz, size, damping_at } = requested;
@@ -167,6 +180,7 @@ pub fn control_model(
 
     // The full model and its peaks.
     let listed = modes::below(dynamics, below_hz);
+    steps.reached(&FULL, 1, 2)?;
     if let Some(mode) = listed.modes.iter().find(|mode| mode.damping_ratio < MIN_DAMPING) {
         return Err(ReductionError::Undamped { frequency_hz: mode.frequency_hz });
     }
@@ -179,10 +193,11 @@ pub fn control_model(
     }
 
     // The second-order model and its modes.
-    let cut = cut(robot, equilibrium, dynamics, inputs, outputs, &reference, tolerance)?;
+    let cut = cut(robot, equilibrium, inputs, outputs, &reference, tolerance, &mut steps)?;
     let channels = Channels::new(robot, equilibrium, &cut, inputs, outputs, false)?;
     let of_second_order = RequestedModel { below_hz, tolerance, damping_at };
     let second_order = assembled(&cut, &channels, outputs, of_second_order)?;
+    steps.reached(&MODES, 1, 2)?;
     let complete_order = 2 * second_order.mass.nrows();
     let (viscous, ratios) = match damping_at {
         DampingAt::NaturalFrequencies => viscous_damping_and_ratios(&cut),
@@ -193,9 +208,9 @@ pub fn control_model(
     let modal = modal.ok_or(ReductionError::Unstable)?;
 
     // Sets of modes to choose from, and the error with all modes that matter.
-    let sets_from = |ratio: f64, reference: &Reference| -> Result<Vec<Vec<Term>>, ReductionError> {
-        let pairs = modal.candidates(ratio * below_hz * TAU, reference, tolerance).damped();
-        let pairs = pairs.ok_or(ReductionError::Eigenvalues)?;
+    type Parts<'a> = &'a mut dyn FnMut(usize, usize) -> Result<(), ReductionError>;
+    let sets_from = |ratio: f64, reference: &Reference, parts: Parts<'_>| -> Result<Vec<Vec<Term>>, ReductionError> {
+        let pairs = modal.candidates(ratio * below_hz * TAU, reference, tolerance).damped(parts)?;
         let apart = JOINED.map(|width| joined(&pairs, width)).into_iter();
         let different = apart.enumerate().filter(|(i, joined)| *i == 0 || joined.len() < pairs.len());
         let of_all = |joined: Vec<DampedPair>| joined.iter().flat_map(|pair| terms(pair, reference)).collect();
@@ -203,8 +218,9 @@ pub fn control_model(
     };
     let mut sets: Vec<Vec<Term>> = Vec::new();
     let mut damping_error = 0.0;
-    for ratio in REPLACED_FROM {
-        let added = sets_from(ratio, &reference)?;
+    for (i, ratio) in REPLACED_FROM.into_iter().enumerate() {
+        let phase = part(&SETS, i, REPLACED_FROM.len());
+        let added = sets_from(ratio, &reference, &mut |done, all| steps.reached(&phase, done, all))?;
         if cut.has_damping_ratios() {
             damping_error = RemainingDifference::of_all(&reference, &added[0]).largest();
         }
@@ -213,12 +229,17 @@ pub fn control_model(
 
     // Choose, search for the largest errors, and choose again with these frequencies.
     let mut has_all_modes = false;
+    let mut left = SETS.end..STEPS;
     for round in 0..MAX_ROUNDS {
-        let mut found = chosen(&sets, &reference, size);
+        // One round is usually enough: each takes half of the steps that are left.
+        let phase = part(&left, 0, 2);
+        left.start = phase.end;
+        let mut found = chosen(&sets, &reference, size, &mut |done, all| steps.reached(&phase, done, all));
         if matches!(found, Err(ReductionError::Tolerance { .. })) && !has_all_modes {
             has_all_modes = true;
-            sets.extend(sets_from(f64::INFINITY, &reference)?);
-            found = chosen(&sets, &reference, size);
+            let reached = &mut |_, _| steps.reached(&left, 0, 1);
+            sets.extend(sets_from(f64::INFINITY, &reference, reached)?);
+            found = chosen(&sets, &reference, size, reached);
         }
         let chosen = Chosen { terms: found? };
         let static_part = chosen.static_part(&reference);
@@ -244,6 +265,12 @@ pub fn control_model(
     unreachable!("the last round returns")
 }
 
+/// Steps of part `i` of `parts` equal parts of a phase.
+fn part(phase: &Range<usize>, i: usize, parts: usize) -> Range<usize> {
+    let step = |i: usize| phase.start + phase.len() * i / parts;
+    step(i)..step(i + 1)
+}
+
 /// Damping ratio below which a peak is not finite in practice.
 const MIN_DAMPING: f64 = 1e-9;
 
@@ -251,15 +278,16 @@ const MIN_DAMPING: f64 = 1e-9;
 fn cut(
     robot: &Robot,
     equilibrium: &Equilibrium,
-    dynamics: &Dynamics,
     inputs: &[Signal],
     outputs: &[(Signal, Quantity)],
     reference: &Reference,
     tolerance: f64,
+    steps: &mut Steps<'_>,
 ) -> Result<Dynamics, ReductionError> {
     let below_hz = reference.frequencies_hz.last().expect("there are frequencies");
-    for ratio in KEPT {
-        let cut = dynamics.with_poles_below(ratio * below_hz * TAU);
+    for (tried, ratio) in KEPT.into_iter().enumerate() {
+        steps.reached(&TRIED, tried, KEPT.len())?;
+        let cut = reference.dynamics.with_poles_below(ratio * below_hz * TAU);
         if ratio.is_infinite() {
             return Ok(cut);
         }

@@ -36,7 +36,8 @@ pub(super) struct Maximum {
 /// Responses of the full model, in the quantities of the outputs, and their peaks. Pairs of output and input are
 /// numbered by columns: `input * outputs + output`.
 pub(super) struct Reference<'a> {
-    dynamics: &'a Dynamics,
+    /// Full model.
+    pub(super) dynamics: &'a Dynamics,
     channels: &'a Channels,
     quantities: &'a [Quantity],
     /// Frequencies [Hz], ascending.

@@ -56,24 +56,38 @@ impl<'a> RemainingDifference<'a> {
     }
 }
 
-/// Terms for a size, from the set that needs the fewest states or leaves the smallest error.
-pub(super) fn chosen(sets: &[Vec<Term>], reference: &Reference, size: Size) -> Result<Vec<Term>, ReductionError> {
+/// Terms for a size, from the set that needs the fewest states or leaves the smallest error. `parts` gets the numbers of
+/// finished and of all terms; its error ends the work.
+pub(super) fn chosen(
+    sets: &[Vec<Term>],
+    reference: &Reference,
+    size: Size,
+    parts: &mut dyn FnMut(usize, usize) -> Result<(), ReductionError>,
+) -> Result<Vec<Term>, ReductionError> {
     let mut best: Option<(Vec<Term>, f64)> = None;
     let mut smallest = (f64::INFINITY, 0);
     let order = |terms: &[Term]| terms.iter().map(Term::states).sum::<usize>();
+
+    // Each term is added once, and perhaps taken out again.
+    let all: usize = sets.iter().map(Vec::len).sum();
+    let mut done = 0;
+    let mut term_done = || {
+        done += 1;
+        parts(done, 2 * all)
+    };
 
     for set in sets {
         let mut ranked: Vec<&Term> = set.iter().collect();
         ranked.sort_by(|a, b| b.size.total_cmp(&a.size));
         match size {
             Size::Order(states) => {
-                let (terms, error) = of_order(&ranked, reference, states);
+                let (terms, error) = of_order(&ranked, reference, states, &mut term_done)?;
                 if !terms.is_empty() && best.as_ref().is_none_or(|(_, other)| error < *other) {
                     best = Some((terms, error));
                 }
             }
             Size::Tolerance(tolerance) => {
-                let (terms, error) = within(&ranked, reference, USED * tolerance);
+                let (terms, error) = within(&ranked, reference, USED * tolerance, &mut term_done)?;
                 if error < smallest.0 {
                     smallest = (error, order(&terms));
                 }
@@ -98,28 +112,40 @@ pub(super) fn chosen(sets: &[Vec<Term>], reference: &Reference, size: Size) -> R
 }
 
 /// The first terms in the order of their size that have at most so many states, and their error.
-fn of_order(ranked: &[&Term], reference: &Reference, states: usize) -> (Vec<Term>, f64) {
+fn of_order(
+    ranked: &[&Term],
+    reference: &Reference,
+    states: usize,
+    term_done: &mut dyn FnMut() -> Result<(), ReductionError>,
+) -> Result<(Vec<Term>, f64), ReductionError> {
     let mut terms: Vec<Term> = Vec::new();
     let mut left = states;
     let mut sum = RemainingDifference::of_none(reference);
     for term in ranked {
         if term.states() <= left {
+            term_done()?;
             left -= term.states();
             sum.add(term, -1.0);
             terms.push((*term).clone());
         }
     }
     let error = sum.largest();
-    (terms, error)
+    Ok((terms, error))
 }
 
 /// The first terms in the order of their size that keep the tolerance, without those that turn out not to be needed; or
 /// all terms if these do not keep it. With their error.
-fn within(ranked: &[&Term], reference: &Reference, tolerance: f64) -> (Vec<Term>, f64) {
+fn within(
+    ranked: &[&Term],
+    reference: &Reference,
+    tolerance: f64,
+    term_done: &mut dyn FnMut() -> Result<(), ReductionError>,
+) -> Result<(Vec<Term>, f64), ReductionError> {
     let mut sum = RemainingDifference::of_none(reference);
     let mut count = 0;
     let mut error = f64::INFINITY;
     for term in ranked {
+        term_done()?;
         sum.add(term, -1.0);
         count += 1;
         error = sum.largest();
@@ -129,7 +155,7 @@ fn within(ranked: &[&Term], reference: &Reference, tolerance: f64) -> (Vec<Term>
     }
     let mut kept: Vec<&Term> = ranked[..count].to_vec();
     if error > tolerance {
-        return (kept.into_iter().cloned().collect(), error);
+        return Ok((kept.into_iter().cloned().collect(), error));
     }
 
     // Take out one after the other, the smallest first, what the tolerance allows.
@@ -137,6 +163,7 @@ fn within(ranked: &[&Term], reference: &Reference, tolerance: f64) -> (Vec<Term>
         if kept.len() == 1 {
             break;
         }
+        term_done()?;
         sum.add(kept[at], 1.0);
         let without = sum.largest();
         if without <= tolerance {
@@ -146,5 +173,5 @@ fn within(ranked: &[&Term], reference: &Reference, tolerance: f64) -> (Vec<Term>
             sum.add(kept[at], -1.0);
         }
     }
-    (kept.into_iter().cloned().collect(), error)
+    Ok((kept.into_iter().cloned().collect(), error))
 }

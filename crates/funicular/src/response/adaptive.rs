@@ -1,4 +1,4 @@
-//! Frequencies at which a response is drawn with the true height of every peak, and the peaks that a given grid misses.
+//! Frequencies at which a response is drawn with the true height of every peak.
 //!
 //! Between two frequencies a drawn curve is a straight line over the logarithm of the magnitude. The search starts from
 //! a grid, from the natural frequencies and from points around these at multiples of their half widths. Then it halves
@@ -6,20 +6,11 @@
 //! than the intervals in which the halving begins. An antiresonance has no known place or width. It bends the curve far
 //! beside it, so that the halving finds it, and it is resolved until rounding hides the response.
 
-use super::{Peak, peaks};
+use super::maxima::{BracketedMaximum, Resonance, approach};
+use super::{Measured, Peak, peaks};
 use crate::math::Complex;
 use crate::modes::Mode;
 use std::f64::consts::TAU;
-use std::iter::once;
-
-/// Value of one response at one frequency.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Measured {
-    /// Response.
-    pub value: Complex,
-    /// Magnitude below which rounding hides the response. It is not resolved there.
-    pub floor: f64,
-}
 
 /// Accuracy of a resolved curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,10 +78,6 @@ impl Resolved {
     }
 }
 
-/// Damping ratio up to which a mode counts as undamped. Rounding of its frequency would change a higher peak.
-const UNDAMPED: f64 = 1e-9;
-/// Relative half width of the gap at an undamped natural frequency. The curve is 80 dB above its level there.
-const GAP: f64 = 5e-5;
 /// Ratio between the distances of neighbouring starts from a natural frequency: √10.
 const STEP_OUT: f64 = 3.162_277_660_168_379_5;
 /// Maximum number of starts on one side of a natural frequency; they reach 1e6 half widths.
@@ -115,27 +102,6 @@ const NARROWEST: f64 = 1e-13;
 /// to the length of the line, for the slope of an antiresonance. Beside a resonance the distance is 0.3 % at the widths
 /// in question; rounding has the size of the line.
 const STRAIGHT: f64 = 0.05;
-/// Maximum number of parabolas through which a maximum is approached. Three reach 1e-6 of the height of a resonance; the
-/// top of a flat ripple between two resonances is not a parabola, and six leave 1e-7 there.
-const MAX_PARABOLAS: usize = 12;
-
-/// Resonance of the response: a natural frequency with its half width.
-#[derive(Debug, Clone, Copy)]
-struct Resonance {
-    hz: f64,
-    /// Half width [Hz]; that of a gap for an undamped mode.
-    half_width: f64,
-    damped: bool,
-}
-
-impl Resonance {
-    fn of(mode: &Mode) -> Self {
-        let damped = mode.damping_ratio > UNDAMPED;
-        let ratio = if damped { mode.damping_ratio } else { GAP };
-        Self { hz: mode.frequency_hz, half_width: ratio * mode.frequency_hz, damped }
-    }
-}
-
 /// Computed frequency, with a value per response.
 #[derive(Debug, Clone)]
 struct Sample {
@@ -402,71 +368,6 @@ fn shape(low: &Sample, middle: &Sample, high: &Sample, tolerance: f64) -> Shape 
     }
 }
 
-/// Maximum of one response that is being approached: three neighbouring frequencies and the magnitudes there. The
-/// middle one is the highest.
-#[derive(Debug, Clone, Copy)]
-struct Maximum {
-    channel: usize,
-    hz: [f64; 3],
-    magnitude: [f64; 3],
-}
-
-impl Maximum {
-    /// Vertex of the parabola through 1/|H|², which is one at a single resonance.
-    fn vertex(&self) -> Option<f64> {
-        let [x0, x1, x2] = self.hz;
-        let [y0, y1, y2] = self.magnitude.map(|m| (self.magnitude[1] / m).powi(2));
-        let (left, right) = (x1 - x0, x2 - x1);
-        let (fall, rise) = ((y1 - y0) / left, (y2 - y1) / right);
-        let curvature = (rise - fall) / (left + right);
-        let vertex = x1 - (fall * right + rise * left) / (left + right) / (2.0 * curvature);
-        // A step below rounding changes nothing.
-        let moves = (vertex - x1).abs() > 1e-6 * (x2 - x0) && (vertex - x1).abs() > 1e-13 * x1;
-        (vertex > x0 && vertex < x2 && moves).then_some(vertex)
-    }
-
-    /// Narrows the interval by the magnitude at a frequency inside it.
-    fn narrow(&mut self, hz: f64, magnitude: f64) {
-        let above = hz > self.hz[1];
-        if magnitude > self.magnitude[1] {
-            let end = if above { 0 } else { 2 };
-            (self.hz[end], self.magnitude[end]) = (self.hz[1], self.magnitude[1]);
-            (self.hz[1], self.magnitude[1]) = (hz, magnitude);
-        } else {
-            let end = if above { 2 } else { 0 };
-            (self.hz[end], self.magnitude[end]) = (hz, magnitude);
-        }
-    }
-}
-
-/// Approaches maxima by parabolas, all of them side by side; returns the row of all responses at each maximum that has
-/// moved.
-fn approach<E>(
-    maxima: &mut [Maximum],
-    evaluate: &mut impl FnMut(&[f64]) -> Result<Vec<Vec<Measured>>, E>,
-) -> Result<Vec<Option<Vec<Measured>>>, E> {
-    let mut rows: Vec<Option<Vec<Measured>>> = vec![None; maxima.len()];
-    let mut moving: Vec<usize> = (0..maxima.len()).collect();
-    for _ in 0..MAX_PARABOLAS {
-        let vertices: Vec<(usize, f64)> =
-            moving.iter().filter_map(|k| maxima[*k].vertex().map(|hz| (*k, hz))).collect();
-        if vertices.is_empty() {
-            break;
-        }
-
-        let hz: Vec<f64> = vertices.iter().map(|vertex| vertex.1).collect();
-        for ((k, hz), row) in vertices.iter().zip(evaluate(&hz)?) {
-            let magnitude = row[maxima[*k].channel].value.norm();
-            if magnitude > maxima[*k].magnitude[1] {
-                rows[*k] = Some(row);
-            }
-            maxima[*k].narrow(*hz, magnitude);
-        }
-        moving = vertices.into_iter().map(|vertex| vertex.0).collect();
-    }
-    Ok(rows)
-}
-
 /// Samples with one on every maximum of every response; those at maxima are kept.
 fn with_maxima<E>(
     mut samples: Vec<Sample>,
@@ -485,17 +386,18 @@ fn with_maxima<E>(
             let levels = three.map(|sample| sample.levels[channel]);
             let above = three.iter().all(|sample| sample.above[channel]);
             if above && levels[1] >= levels[0] && levels[1] > levels[2] {
-                maxima.push(Maximum { channel, hz, magnitude: three.map(|sample| sample.values[channel].norm()) });
+                let magnitude = three.map(|sample| sample.values[channel].norm());
+                maxima.push(BracketedMaximum::between(channel, hz, magnitude));
                 tops.push(at);
             }
         }
     }
 
-    let rows = approach(&mut maxima, evaluate)?;
+    let rows = approach(&mut maxima, |_, maximum| maximum.is_known(), evaluate)?;
     for ((maximum, at), row) in maxima.iter().zip(tops).zip(rows) {
         match row {
             None => samples[at].kept = true,
-            Some(row) => samples.push(Sample::new(maximum.hz[1], &row, 0, true)),
+            Some(row) => samples.push(Sample::new(maximum.hz(), &row, 0, true)),
         }
     }
     samples.sort_by(|a, b| a.hz.total_cmp(&b.hz).then(b.kept.cmp(&a.kept)));
@@ -539,242 +441,4 @@ fn thinned(samples: Vec<Sample>, tolerance: f64) -> Vec<Sample> {
         from = to;
     }
     samples.into_iter().zip(keep).filter(|(_, keep)| *keep).map(|(sample, _)| sample).collect()
-}
-
-/// Peak that a grid reads too low.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MissedPeak {
-    /// Index of the response.
-    pub response: usize,
-    /// Frequency of the grid with the higher magnitude beside the peak [Hz].
-    pub read_hz: f64,
-    /// Magnitude there.
-    pub read: f64,
-    /// Frequency of the maximum [Hz].
-    pub frequency_hz: f64,
-    /// Magnitude at the maximum.
-    pub height: f64,
-}
-
-/// Peaks that a grid reads too low.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MissedPeaks {
-    /// Number of these peaks.
-    pub count: usize,
-    /// Peak of which the grid reads the smallest fraction.
-    pub worst: MissedPeak,
-}
-
-/// Relative height of a peak above what a grid reads beside it, above which the peak is missed.
-pub const MISSED: f64 = 0.05;
-/// Places in half widths around a natural frequency at which the response is compared with its grid. A resonance in
-/// front of a background has its maximum at one of them or between, within a few per cent of the height.
-const PLACES: [f64; 5] = [-2.5, -1.0, 0.0, 1.0, 2.5];
-/// Distance between the three places from which a peak is predicted again, in predicted half widths.
-const AGAIN: f64 = 0.5;
-/// Maximum distance of a predicted peak, in steps of the places that predict it. Farther away the prediction is a guess.
-const MAX_PREDICTED: f64 = 30.0;
-/// Relative height of a predicted peak above the computed values, above which the response is computed there too.
-const PREDICTED: f64 = 0.01;
-/// Maximum number of predictions of a peak, each from the places of the one before.
-const MAX_PREDICTIONS: usize = 4;
-
-/// Response near one pole: `b + r/(x − p)` with the background b, the residue r and the pole p.
-#[derive(Debug, Clone, Copy)]
-struct OnePole {
-    background: Complex,
-    residue: Complex,
-    pole: Complex,
-}
-
-impl OnePole {
-    /// Response with the given values at x = −1, 0 and 1; `None` if they are on a straight line.
-    fn through([left, middle, right]: [Complex; 3]) -> Option<Self> {
-        let pole = (right - left) / (left + right - middle * 2.0);
-        let background = right + pole * (middle - right);
-        let residue = pole * (background - middle);
-        let finite = |z: Complex| z.re.is_finite() && z.im.is_finite();
-        (finite(pole) && finite(background) && finite(residue) && pole.im.abs() > 0.0 && residue.norm() > 0.0)
-            .then_some(Self { background, residue, pole })
-    }
-
-    /// Place x and height of the maximum over real x.
-    fn top(&self) -> (f64, f64) {
-        // 1/(x − p) moves on a circle through zero, and so does the response.
-        let center = Complex::new(0.0, 0.5 / self.pole.im);
-        let response = self.background + self.residue * center;
-        let radius = self.residue.norm() * center.norm();
-        let outwards = if response.norm() > 0.0 { response / response.norm() } else { Complex::new(1.0, 0.0) };
-        let at = center + outwards * radius / self.residue;
-        ((self.pole + at.inv()).re, response.norm() + radius)
-    }
-}
-
-/// Frequency between those of a grid, with all responses there.
-struct Between {
-    hz: f64,
-    /// Index of the next higher frequency of the grid.
-    above: usize,
-    row: Vec<Measured>,
-}
-
-/// Values of one response at three places, from which its peak is predicted.
-#[derive(Debug, Clone, Copy)]
-struct Prediction {
-    response: usize,
-    /// Frequency in the middle [Hz], and the distance to the others.
-    hz: f64,
-    step: f64,
-    values: [Complex; 3],
-}
-
-impl Prediction {
-    /// Frequency [Hz] and height of the predicted peak, with the next step; `None` if it is too far away.
-    fn peak(&self) -> Option<(f64, f64, f64)> {
-        let model = OnePole::through(self.values)?;
-        let (x, height) = model.top();
-        let step = AGAIN * self.step * model.pole.im.abs();
-        (x.abs() <= MAX_PREDICTED && height.is_finite() && step > 0.0).then_some((
-            self.hz + x * self.step,
-            height,
-            step,
-        ))
-    }
-}
-
-/// Responses between the frequencies of a grid, ascending: around every natural frequency, and at each peak beside it that
-/// is predicted higher than those values.
-fn around_resonances<E>(
-    grid_hz: &[f64],
-    values: &[Vec<Complex>],
-    modes: &[Mode],
-    evaluate: &mut impl FnMut(&[f64]) -> Result<Vec<Vec<Measured>>, E>,
-) -> Result<Vec<Between>, E> {
-    let (first, last) = (grid_hz[0], grid_hz[grid_hz.len() - 1]);
-    let is_inside = |hz: f64| first < hz && hz < last;
-    let between = |hz: f64, row: Vec<Measured>| Between { hz, above: grid_hz.partition_point(|at| *at < hz), row };
-
-    // Values around every natural frequency.
-    let resonances: Vec<Resonance> = modes.iter().map(Resonance::of).filter(|resonance| resonance.damped).collect();
-    let places = |r: &Resonance| PLACES.map(|k| r.hz + k * r.half_width);
-    let hz: Vec<f64> = resonances.iter().flat_map(places).filter(|hz| is_inside(*hz)).collect();
-    if hz.is_empty() {
-        return Ok(Vec::new());
-    }
-    let mut rows = evaluate(&hz)?.into_iter();
-    let mut all: Vec<Between> = Vec::with_capacity(hz.len());
-    let mut predictions: Vec<Prediction> = Vec::new();
-    for resonance in &resonances {
-        let begin = all.len();
-        all.extend(
-            places(resonance).into_iter().filter(|hz| is_inside(*hz)).zip(&mut rows).map(|(hz, row)| between(hz, row)),
-        );
-        if let [_, left, middle, right, _] = &all[begin..] {
-            let of = |response: usize| [left, middle, right].map(|place| place.row[response].value);
-            let prediction =
-                |response| Prediction { response, hz: resonance.hz, step: resonance.half_width, values: of(response) };
-            predictions.extend((0..values.len()).map(prediction));
-        }
-    }
-
-    // Values at predicted peaks that are higher than the values so far.
-    for _ in 0..MAX_PREDICTIONS {
-        all.sort_by(|a, b| a.hz.total_cmp(&b.hz));
-        let is_new = |response: usize, hz: f64, height: f64| {
-            let above = grid_hz.partition_point(|at| *at < hz);
-            let read = values[response][above - 1].norm().max(values[response][above].norm());
-            let inside = &all[all.partition_point(|place| place.above < above)..];
-            let inside = inside.iter().take_while(|place| place.above == above);
-            let highest = inside.map(|place| place.row[response].value.norm()).fold(0.0, f64::max);
-            height > (1.0 + MISSED) * read && height > (1.0 + PREDICTED) * highest
-        };
-        let new: Vec<(usize, [f64; 3], f64)> = predictions
-            .iter()
-            .filter_map(|prediction| {
-                let (hz, height, step) = prediction.peak()?;
-                let three = [hz - step, hz, hz + step];
-                let is_inside = three.iter().all(|hz| is_inside(*hz));
-                (is_inside && is_new(prediction.response, hz, height)).then_some((prediction.response, three, step))
-            })
-            .collect();
-        if new.is_empty() {
-            break;
-        }
-
-        let hz: Vec<f64> = new.iter().flat_map(|(_, three, _)| *three).collect();
-        let rows = evaluate(&hz)?;
-        predictions.clear();
-        for ((response, three, step), rows) in new.into_iter().zip(rows.chunks_exact(3)) {
-            let values = [0, 1, 2].map(|k: usize| rows[k][response].value);
-            predictions.push(Prediction { response, hz: three[1], step, values });
-            all.extend(three.into_iter().zip(rows).map(|(hz, row)| between(hz, row.clone())));
-        }
-    }
-    all.sort_by(|a, b| a.hz.total_cmp(&b.hz));
-    all.dedup_by(|b, a| b.hz - a.hz <= 0.0);
-    all.retain(|place| grid_hz[place.above] > place.hz);
-    Ok(all)
-}
-
-/// Peaks between the frequencies of a grid (ascending) that are more than 5 % ([`MISSED`]) higher than the values of the
-/// grid on both sides; `None` if there are none. `values` has a row per response; `modes` are the natural modes between
-/// the ends of the grid; `evaluate` computes all responses at frequencies, one row per frequency.
-///
-/// A value between two frequencies that is higher than those at both proves a maximum there. The responses are computed
-/// around every natural frequency. Three values give the pole there and so the place of the peak, which damping and the
-/// other modes move away from the natural frequency. So nearly every resonance is counted that is at least 6 % higher than
-/// the grid shows; one of several overlapping modes may be left out. A rise between two antiresonances, without a natural
-/// frequency, may be missed. Undamped modes are not compared, because their peaks have no finite height.
-///
-/// # Errors
-/// The errors of `evaluate`.
-pub fn missed_peaks<E>(
-    grid_hz: &[f64],
-    values: &[Vec<Complex>],
-    modes: &[Mode],
-    mut evaluate: impl FnMut(&[f64]) -> Result<Vec<Vec<Measured>>, E>,
-) -> Result<Option<MissedPeaks>, E> {
-    if grid_hz.len() < 2 {
-        return Ok(None);
-    }
-    let between = around_resonances(grid_hz, values, modes, &mut evaluate)?;
-
-    // Maxima among the places of each interval of the grid.
-    let mut count = 0;
-    let mut worst: Option<(f64, MissedPeak, Maximum)> = None;
-    for group in between.chunk_by(|a, b| a.above == b.above) {
-        let above = group[0].above;
-        for (response, values) in values.iter().enumerate() {
-            let ends = [above - 1, above].map(|i| (grid_hz[i], values[i].norm()));
-            let (read_hz, read) = if ends[0].1 >= ends[1].1 { ends[0] } else { ends[1] };
-            let inside = group.iter().map(|place| (place.hz, place.row[response].value.norm()));
-            let curve: Vec<(f64, f64)> = once(ends[0]).chain(inside).chain(once(ends[1])).collect();
-            let floor = group.iter().map(|place| place.row[response].floor).fold(0.0, f64::max);
-
-            for three in curve.windows(3) {
-                let [left, top, right] = [three[0], three[1], three[2]];
-                let missed = top.1 > left.1 && top.1 >= right.1 && top.1 > (1.0 + MISSED) * read && top.1 > floor;
-                if !missed {
-                    continue;
-                }
-                count += 1;
-                let fraction = read / top.1;
-                if worst.as_ref().is_none_or(|(least, ..)| fraction < *least) {
-                    let peak = MissedPeak { response, read_hz, read, frequency_hz: top.0, height: top.1 };
-                    let maximum = Maximum {
-                        channel: response,
-                        hz: [left.0, top.0, right.0],
-                        magnitude: [left.1, top.1, right.1],
-                    };
-                    worst = Some((fraction, peak, maximum));
-                }
-            }
-        }
-    }
-
-    let Some((_, mut worst, maximum)) = worst else { return Ok(None) };
-    let mut maxima = [maximum];
-    approach(&mut maxima, &mut evaluate)?;
-    (worst.frequency_hz, worst.height) = (maxima[0].hz[1], maxima[0].magnitude[1]);
-    Ok(Some(MissedPeaks { count, worst }))
 }

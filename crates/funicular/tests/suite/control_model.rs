@@ -7,8 +7,8 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{CDMat, Complex, DMat, Vec3};
 use funicular::modes::{self, Kind};
 use funicular::reduced_model::{
-    ControlModel, DampingAt, ReductionError, RequestedModel, RequestedStateSpace, Size, StateSpace, control_model,
-    reduce,
+    ControlModel, DampingAt, ReductionError, RequestedModel, RequestedStateSpace, STEPS, Size, StateSpace,
+    control_model, reduce,
 };
 use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::{Damping, Robot};
@@ -50,7 +50,7 @@ impl Case {
     ) -> Result<ControlModel, ReductionError> {
         let requested =
             RequestedStateSpace { below_hz: self.below_hz, size, damping_at: DampingAt::NaturalFrequencies };
-        control_model(&self.robot, &self.rest, &self.dynamics, inputs, outputs, requested)
+        control_model(&self.robot, &self.rest, &self.dynamics, inputs, outputs, requested, &mut |_| true)
     }
 
     /// Frequencies that share no rule with those of the library: random ones, and several on each peak.
@@ -440,6 +440,47 @@ fn what_cannot_be_is_refused_with_its_reason() {
     assert!(refused.to_string().contains("give the ropes or the platform damping"), "{refused}");
 }
 
+/// Reports of work that runs to its end, and a check that it stops at any of them. `work` returns true if it was stopped.
+fn check_reports(mut work: impl FnMut(&mut dyn FnMut(usize) -> bool) -> bool) {
+    let mut reports = Vec::new();
+    let stopped = work(&mut |done| {
+        reports.push(done);
+        true
+    });
+    assert!(!stopped && reports.len() > 10, "{reports:?}");
+    assert!(reports.windows(2).all(|pair| pair[0] <= pair[1]) && reports[reports.len() - 1] < STEPS, "{reports:?}");
+
+    for last in (0..reports.len()).step_by(reports.len().div_ceil(12)) {
+        let mut calls = 0;
+        let stopped = work(&mut |_| {
+            calls += 1;
+            calls <= last
+        });
+        assert!(stopped && calls == last + 1, "{calls} {last}");
+    }
+}
+
+#[test]
+fn a_reduction_reports_its_steps_and_stops_at_any_of_them() {
+    let case = example(Damping::Ratio(0.01));
+    let z = along(Vec3::z());
+    let outputs = [(z, Quantity::Displacement)];
+    let damping_at = DampingAt::NaturalFrequencies;
+    for size in [Size::Tolerance(0.02), Size::Order(8)] {
+        let requested = RequestedStateSpace { below_hz: case.below_hz, size, damping_at };
+        check_reports(|report| {
+            let model = control_model(&case.robot, &case.rest, &case.dynamics, &[z], &outputs, requested, report);
+            model.is_err_and(|error| error == ReductionError::Stopped)
+        });
+    }
+
+    let requested = RequestedModel { below_hz: case.below_hz, tolerance: 1e-3, damping_at };
+    check_reports(|report| {
+        let model = reduce(&case.robot, &case.rest, &case.dynamics, &[z], &outputs, requested, report);
+        model.is_err_and(|error| error == ReductionError::Stopped)
+    });
+}
+
 #[test]
 fn the_complete_second_order_model_has_the_responses_of_a_state_space_with_a_small_error() {
     let case = example(Damping::Viscous(0.02));
@@ -447,7 +488,8 @@ fn the_complete_second_order_model_has_the_responses_of_a_state_space_with_a_sma
     let outputs = [(z, Quantity::Displacement), (z, Quantity::Acceleration)];
     let model = case.model(&[z], &outputs, Size::Tolerance(1e-4)).unwrap();
     let requested = RequestedModel { below_hz: 5.0, tolerance: 1e-6, damping_at: DampingAt::NaturalFrequencies };
-    let complete = reduce(&case.robot, &case.rest, &case.dynamics, &[z], &outputs, requested).unwrap().state_space();
+    let complete = reduce(&case.robot, &case.rest, &case.dynamics, &[z], &outputs, requested, &mut |_| true);
+    let complete = complete.unwrap().state_space();
     println!("{} states of {}", model.space.a.nrows(), complete.a.nrows());
     assert!(model.space.a.nrows() * 2 < complete.a.nrows());
     for frequency_hz in [0.3, 1.1, 2.7, 4.4] {

@@ -380,6 +380,11 @@ fn slips_of_single_values_are_named() {
         changed(&hall, &[("[0.0, 0.0, -100.0]", "[0.0, 0.0, -588.4]")]),
         &["weight of the platform: weight counted twice"],
     );
+    slip(
+        "weight twice, with three digits",
+        changed(&hall, &[("[0.0, 0.0, -100.0]", "[0.0, 0.0, -588.0]")]),
+        &["weight of the platform: weight counted twice"],
+    );
     slip("moment in N mm", scaled(&hall, "moment_n_m", 5e3), &["moment in N mm"]);
 
     assert!(misses.is_empty(), "{}", misses.join("\n"));

@@ -36,7 +36,7 @@ fn model(damping: Damping, requested: RequestedModel) -> (SecondOrder, Equilibri
         (on_platform(Vec3::z()), Quantity::Acceleration),
         (on_cable, Quantity::Velocity),
     ];
-    (reduce(&robot, &rest, &dynamics, &inputs, &outputs, requested).unwrap(), rest, dynamics)
+    (reduce(&robot, &rest, &dynamics, &inputs, &outputs, requested, &mut |_| true).unwrap(), rest, dynamics)
 }
 
 #[test]
@@ -132,7 +132,7 @@ fn the_closed_form_has_no_reduced_model_and_springs_have_the_platform_alone() {
         let linearisation = Linearisation { cable_model, ..Linearisation::default() };
         let dynamics = Dynamics::about(&robot, &rest, linearisation, 6.0).unwrap();
         let outputs = [(on_platform(Vec3::z()), Quantity::Displacement)];
-        reduce(&robot, &rest, &dynamics, &[on_platform(Vec3::z())], &outputs, REQUESTED)
+        reduce(&robot, &rest, &dynamics, &[on_platform(Vec3::z())], &outputs, REQUESTED, &mut |_| true)
     };
     assert_eq!(with(CableModel::ShallowDynamic).unwrap_err(), ReductionError::Model);
     let spring = with(CableModel::CatenaryStatic).unwrap();

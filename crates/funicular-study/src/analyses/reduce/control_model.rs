@@ -1,6 +1,10 @@
 //! `reduce` as a state space: A, B, C, D of the modes that inputs and outputs see, with their errors.
 
-use super::{ChannelRow, DEFAULT_TOLERANCE, Linearised, check, damping_in_words, input_rows, linearised, output_rows};
+use super::{
+    ChannelRow, DEFAULT_TOLERANCE, Linearised, check, damping_in_words, goes_on, input_rows, linearised, output_rows,
+    stopped_or_error,
+};
+use crate::Watch;
 use crate::analyses::shared::Models;
 use crate::analyses::{found, frf};
 use crate::at_rest::AtRest;
@@ -88,8 +92,8 @@ pub const RESIDUAL: &str = "residual";
 /// Makes the state space for a robot at equilibrium. The state of the request is not used.
 ///
 /// # Errors
-/// A signal that the robot does not have, too many modes, or a robot without such a model.
-pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<ControlStateSpace> {
+/// A signal that the robot does not have, too many modes, a robot without such a model, or work that was stopped.
+pub fn about(at_rest: &AtRest, request: &request::ReduceRequest, watch: &mut dyn Watch) -> Result<ControlStateSpace> {
     let signals = check(&at_rest.robot, request)?;
     let Linearised { dynamics, linearisation, warnings, damping_at, from, to } =
         linearised(at_rest, request, &signals)?;
@@ -97,7 +101,9 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest) -> Result<Contr
     let tolerance = Size::Tolerance(request.tolerance.unwrap_or(DEFAULT_TOLERANCE));
     let size = request.order.map_or(tolerance, Size::Order);
     let requested = RequestedStateSpace { below_hz: request.below_hz, size, damping_at };
-    let model = control_model(&at_rest.robot, &at_rest.equilibrium, &dynamics, &from, &to, requested)?;
+    let report = &mut |done| goes_on(watch, done);
+    let model = control_model(&at_rest.robot, &at_rest.equilibrium, &dynamics, &from, &to, requested, report)
+        .map_err(stopped_or_error)?;
 
     let (inputs, outputs) = (input_rows(&signals.0), output_rows(&signals.1));
     let response = |row: &ResponseOfPair| ResponseRow {

@@ -4,8 +4,8 @@ use super::{Figure, axis, colour, kind_colour, line, rounded, with};
 use funicular::dynamics::Dynamics;
 use funicular::math::{Complex, Vec6};
 use funicular::modes::{Kind, Mode, Modes};
-use funicular::response::adaptive::{Measured, Resolution, Resolved, resolve};
-use funicular::response::{Peak, Port, Quantity, ResponseError, measured};
+use funicular::response::adaptive::{Resolution, Resolved, resolve};
+use funicular::response::{Measured, Peak, Port, Quantity, ResponseError, measured};
 use serde_json::{Value, json};
 
 /// Number of evenly spaced points from which a response is resolved.

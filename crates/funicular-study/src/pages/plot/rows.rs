@@ -97,6 +97,8 @@ pub(super) struct Rows {
     pub(super) series: Vec<Series>,
     /// Columns of words, which have no figure.
     pub(super) words: Vec<String>,
+    /// Requested quantities among them; the others accompany numbers, as the limits of a payload.
+    pub(super) requested_words: Vec<String>,
     /// Number of rows of the complete plan, and of the rows in the file.
     pub(super) planned: usize,
     #[expect(clippy::struct_field_names, reason = "the number of rows in the file")]
@@ -175,6 +177,14 @@ impl Rows {
             bins: [0; BINS],
             values: vec![f64::NAN; kept],
         });
+        // The column of a quantity of words has its name.
+        let quantities = record.plan.get("quantities").and_then(|list| list.as_array());
+        let is_requested = |name: &String| {
+            quantities.into_iter().flatten().any(|of| of.as_str().is_some_and(|of| of.replace('-', "_") == *name))
+        };
+        let words: Vec<String> = words.iter().map(|column| column.name.clone()).collect();
+        let requested_words = words.iter().filter(|name| is_requested(name)).cloned().collect();
+
         let coordinate = |column: &Column| (column.name.clone(), column.unit.to_string(), Vec::new());
         Ok(Self {
             axes,
@@ -187,7 +197,8 @@ impl Rows {
             counts: Vec::new(),
             status: vec![NOT_COMPUTED; kept],
             series: series.collect(),
-            words: words.iter().map(|column| column.name.clone()).collect(),
+            words,
+            requested_words,
             planned: record.rows,
             rows: file.rows(),
             first_row: file.first_row(),

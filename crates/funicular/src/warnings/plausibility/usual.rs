@@ -67,9 +67,9 @@ pub const DRAG_COEFFICIENT: [f64; 2] = [0.2, 3.0];
 /// Diameter that the wind meets [m]; ice makes it larger than that of the rope.
 pub const DRAG_DIAMETER: [f64; 2] = [2e-4, 0.3];
 
-/// Relative difference from a weight up to which a load counts as that weight: g is 9.80665 or 9.81 m/s² (3.4e-4), and
-/// the user rounds.
-pub const WEIGHT_DIGITS: f64 = 5e-4;
+/// Relative difference from a weight up to which a load counts as that weight: g is 9.80665, 9.81 (3.4e-4) or 9.8 m/s²
+/// (1.0e-3 from 9.81), and a weight with three digits, as 588 N, is rounded by 8e-4 in the middle of its decade.
+pub const WEIGHT_DIGITS: f64 = 2e-3;
 
 /// Upward load per length over the buoyancy of the rope's volume in sea water. Sheaths and hollow ropes displace up to
 /// twice the volume. Outside: ice and other weights with a wrong sign, on ropes that do not float.

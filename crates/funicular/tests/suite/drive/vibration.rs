@@ -275,7 +275,15 @@ fn reduced_models_refuse_drives_with_inertia() {
         damping_at: funicular::reduced_model::DampingAt::NaturalFrequencies,
     };
     let outputs = [(along(Vec3::z()), funicular::response::Quantity::Displacement)];
-    let error = funicular::reduced_model::reduce(&robot, &rest, &dynamics, &[along(Vec3::z())], &outputs, requested);
+    let error = funicular::reduced_model::reduce(
+        &robot,
+        &rest,
+        &dynamics,
+        &[along(Vec3::z())],
+        &outputs,
+        requested,
+        &mut |_| true,
+    );
     assert!(error.unwrap_err().to_string().contains("runs to a drive with inertia"));
 }
 

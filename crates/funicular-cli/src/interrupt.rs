@@ -1,0 +1,59 @@
+//! Ctrl-C, and the SIGTERM by which a cluster ends a job: work stops at its next step, with the exit code of SIGINT.
+
+use crate::errors::{self, Interrupted};
+use anyhow::{Context, Result};
+use std::process;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+/// Exit code of a run that the user or the system has stopped, as a shell reports SIGINT.
+pub(crate) const EXIT_CODE: u8 = 130;
+
+/// Time that an analysis has for its next step. One eigenvalue problem of a large model takes longer.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Flag that Ctrl-C or the end of a job sets.
+pub(crate) static STOPPED: AtomicBool = AtomicBool::new(false);
+
+/// Flag that is set while an analysis computes and nothing is written.
+static COMPUTES: AtomicBool = AtomicBool::new(false);
+
+/// Handles Ctrl-C for rows that are stored: the first one stops at the next row, the second one at once.
+pub(crate) fn stop_at_next_row() -> Result<()> {
+    ctrlc::set_handler(|| {
+        if STOPPED.swap(true, Ordering::Relaxed) {
+            process::exit(EXIT_CODE.into());
+        }
+    })
+    .context("cannot listen for Ctrl-C")
+}
+
+/// Handles Ctrl-C for an analysis while the returned value exists: it stops at the next step, or after a second, because
+/// nothing has to be stored. Otherwise, Ctrl-C ends the program at once.
+pub(crate) fn stop_analysis() -> Computes {
+    COMPUTES.store(true, Ordering::Relaxed);
+    // Without a handler Ctrl-C ends the program at once, which is no error of the analysis.
+    let _ = ctrlc::set_handler(|| {
+        if STOPPED.swap(true, Ordering::Relaxed) || !COMPUTES.load(Ordering::Relaxed) {
+            process::exit(EXIT_CODE.into());
+        }
+        thread::spawn(|| {
+            thread::sleep(PATIENCE);
+            if COMPUTES.load(Ordering::Relaxed) {
+                errors::report(&Interrupted("stopped before the end".to_owned()).into());
+                process::exit(EXIT_CODE.into());
+            }
+        });
+    });
+    Computes
+}
+
+/// Part of a run in which Ctrl-C stops an analysis.
+pub(crate) struct Computes;
+
+impl Drop for Computes {
+    fn drop(&mut self) {
+        COMPUTES.store(false, Ordering::Relaxed);
+    }
+}
