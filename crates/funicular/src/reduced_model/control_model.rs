@@ -165,6 +165,7 @@ pub fn control_model(
         Size::Order(_) => MAX_TOLERANCE,
         Size::Tolerance(tolerance) => tolerance.min(MAX_TOLERANCE),
     };
+    let task = Task { robot, equilibrium, inputs, outputs, below_hz, size, damping_at, tolerance };
 
     // The full model and its peaks.
     let listed = modes::below(dynamics, below_hz);
@@ -172,7 +173,7 @@ pub fn control_model(
         return Err(ReductionError::Undamped { frequency_hz: mode.frequency_hz });
     }
     let loaded = inputs.iter().any(|signal| matches!(signal, Signal::OnCable { .. }));
-    let full = Channels::new(robot, equilibrium, dynamics, inputs, outputs, loaded)?;
+    let full = task.channels(dynamics, loaded)?;
     let quantities: Vec<Quantity> = outputs.iter().map(|(_, quantity)| *quantity).collect();
     let mut reference = Reference::new(dynamics, &full, &quantities, &listed.modes, below_hz)?;
     if reference.peaks.iter().all(|peak| peak.value == 0.0) {
@@ -180,115 +181,147 @@ pub fn control_model(
     }
 
     // The second-order model and its modes.
-    let cut = cut(robot, equilibrium, dynamics, inputs, outputs, &reference, tolerance)?;
-    let channels = Channels::new(robot, equilibrium, &cut, inputs, outputs, false)?;
-    let of_second_order = RequestedModel { below_hz, tolerance, damping_at };
-    let second_order = assembled(&cut, &channels, outputs, of_second_order)?;
-    let complete_order = 2 * second_order.mass.nrows();
-    let (viscous, ratios) = match damping_at {
-        DampingAt::NaturalFrequencies => viscous_damping_and_ratios(&cut),
-        // Viscous damping as it was requested.
-        DampingAt::Hz(_) => (second_order.damping.clone(), &second_order.damping * 0.0),
-    };
-    let modal = ModalModel::new(&second_order, &viscous, &ratios, &cut.platform_blocks().mass);
-    let modal = modal.ok_or(ReductionError::Unstable)?;
+    let cut = task.cut(dynamics, &reference)?;
+    let (modal, complete_order) = task.second_order_modes(&cut)?;
 
     // Sets of modes to choose from, and the error with all modes that matter.
-    let sets_from = |ratio: f64, reference: &Reference| -> Result<Vec<Vec<Term>>, ReductionError> {
-        let pairs = modal.candidates(ratio * below_hz * TAU, reference, tolerance).damped();
-        let pairs = pairs.ok_or(ReductionError::Eigenvalues)?;
-        let apart = JOINED.map(|width| joined(&pairs, width)).into_iter();
-        let different = apart.enumerate().filter(|(i, joined)| *i == 0 || joined.len() < pairs.len());
-        let of_all = |joined: Vec<DampedPair>| joined.iter().flat_map(|pair| terms(pair, reference)).collect();
-        Ok(different.map(|(_, joined)| of_all(joined)).collect())
-    };
     let mut sets: Vec<Vec<Term>> = Vec::new();
     let mut damping_error = 0.0;
     for ratio in REPLACED_FROM {
-        let added = sets_from(ratio, &reference)?;
+        let added = task.sets(&modal, ratio, &reference)?;
         if cut.has_damping_ratios() {
             damping_error = RemainingDifference::of_all(&reference, &added[0]).largest();
         }
         sets.extend(added);
     }
 
-    // Choose, search for the largest errors, and choose again with these frequencies.
-    let mut has_all_modes = false;
-    for round in 0..MAX_ROUNDS {
-        let mut found = chosen(&sets, &reference, size);
-        if matches!(found, Err(ReductionError::Tolerance { .. })) && !has_all_modes {
-            has_all_modes = true;
-            sets.extend(sets_from(f64::INFINITY, &reference)?);
-            found = chosen(&sets, &reference, size);
-        }
-        let chosen = Chosen { terms: found? };
-        let static_part = chosen.static_part(&reference);
-        let errors = reference.maxima(&mut |frequency_hz, values| {
-            let model = chosen.response(frequency_hz, &static_part);
-            values.iter().zip(model).map(|(full, reduced)| (full - reduced).norm()).collect()
-        })?;
-        let error = largest(&errors, &reference.sizes);
+    let (chosen, errors) = task.choose(sets, &modal, &mut reference)?;
+    let error = largest(&errors, &reference.sizes);
+    let made = Made { error, damping_error, complete_order, modes_below: listed.modes.len(), below_hz };
+    Ok(chosen.model(&reference, &errors, made))
+}
 
-        let kept = match size {
-            Size::Order(_) => true,
-            Size::Tolerance(tolerance) => error <= tolerance,
-        };
-        if kept || round + 1 == MAX_ROUNDS {
-            if let (false, Size::Tolerance(requested)) = (kept, size) {
-                return Err(ReductionError::Tolerance { requested, reached: error, order: chosen.order() });
-            }
-            let modes_below = listed.modes.len();
-            let made = Made { error, damping_error, complete_order, modes_below, below_hz };
-            return Ok(chosen.model(&reference, &errors, made));
-        }
+/// Robot, signals and requirements of a state space.
+struct Task<'a> {
+    robot: &'a Robot,
+    equilibrium: &'a Equilibrium,
+    inputs: &'a [Signal],
+    outputs: &'a [(Signal, Quantity)],
+    below_hz: f64,
+    size: Size,
+    damping_at: DampingAt,
+    /// Error of the second-order model from which modes are chosen.
+    tolerance: f64,
+}
+
+impl Task<'_> {
+    /// Inputs and outputs on a linearised robot; `loaded` includes the motion of a cable beside a force on itself.
+    fn channels(&self, dynamics: &Dynamics, loaded: bool) -> Result<Channels, ReductionError> {
+        Channels::new(self.robot, self.equilibrium, dynamics, self.inputs, self.outputs, loaded)
     }
-    unreachable!("the last round returns")
+
+    /// Copy of the robot with as few clamped modes of the cables as the tolerance allows.
+    fn cut(&self, dynamics: &Dynamics, reference: &Reference) -> Result<Dynamics, ReductionError> {
+        let below_hz = reference.frequencies_hz.last().expect("there are frequencies");
+        for ratio in KEPT {
+            let cut = dynamics.with_poles_below(ratio * below_hz * TAU);
+            if ratio.is_infinite() {
+                return Ok(cut);
+            }
+
+            // A constant difference of displacements becomes feedthrough.
+            let Ok(values) = reference.of_other(&cut, &self.channels(&cut, false)?) else { continue };
+            let differences: Vec<Complex> = values.iter().zip(&reference.values).map(|(a, b)| a - b).collect();
+            let pairs = reference.pairs();
+            let error = differences
+                .iter()
+                .enumerate()
+                .map(|(at, difference)| {
+                    let pair = at % pairs;
+                    let constant = if reference.quantity(pair) == Quantity::Displacement {
+                        Complex::from(differences[pair].re)
+                    } else {
+                        0.0.into()
+                    };
+                    (difference - constant).norm() / reference.sizes[pair]
+                })
+                .fold(0.0, f64::max);
+            if error <= OMITTED * self.tolerance {
+                return Ok(cut);
+            }
+        }
+        unreachable!("the last ratio keeps all modes")
+    }
+
+    /// Undamped modes of the second-order model with their damping, and the number of its states.
+    fn second_order_modes(&self, cut: &Dynamics) -> Result<(ModalModel, usize), ReductionError> {
+        let channels = self.channels(cut, false)?;
+        let requested =
+            RequestedModel { below_hz: self.below_hz, tolerance: self.tolerance, damping_at: self.damping_at };
+        let second_order = assembled(cut, &channels, self.outputs, requested)?;
+
+        let (viscous, ratios) = match self.damping_at {
+            DampingAt::NaturalFrequencies => viscous_damping_and_ratios(cut),
+            // Viscous damping as it was requested.
+            DampingAt::Hz(_) => (second_order.damping.clone(), &second_order.damping * 0.0),
+        };
+        let modal = ModalModel::new(&second_order, &viscous, &ratios, &cut.platform_blocks().mass);
+        Ok((modal.ok_or(ReductionError::Unstable)?, 2 * second_order.mass.nrows()))
+    }
+
+    /// Sets of terms to choose from, in which a few motions replace the modes above a ratio to the limit. The first set
+    /// has all modes apart; the others, close modes joined, are given where this makes a difference.
+    fn sets(&self, modal: &ModalModel, ratio: f64, reference: &Reference) -> Result<Vec<Vec<Term>>, ReductionError> {
+        let pairs = modal.candidates(ratio * self.below_hz * TAU, reference, self.tolerance).damped();
+        let pairs = pairs.ok_or(ReductionError::Eigenvalues)?;
+        let apart = JOINED.map(|width| joined(&pairs, width)).into_iter();
+        let different = apart.enumerate().filter(|(i, joined)| *i == 0 || joined.len() < pairs.len());
+        let of_all = |joined: Vec<DampedPair>| joined.iter().flat_map(|pair| terms(pair, reference)).collect();
+        Ok(different.map(|(_, joined)| of_all(joined)).collect())
+    }
+
+    /// Chooses terms from the sets, with their largest errors per pair of output and input. Chooses again with the
+    /// frequencies of these errors until the tolerance is kept.
+    fn choose(
+        &self,
+        mut sets: Vec<Vec<Term>>,
+        modal: &ModalModel,
+        reference: &mut Reference,
+    ) -> Result<(Chosen, Vec<Maximum>), ReductionError> {
+        let requested = match self.size {
+            Size::Order(_) => f64::INFINITY,
+            Size::Tolerance(tolerance) => tolerance,
+        };
+        let (mut reached, mut order, mut has_all_modes) = (f64::INFINITY, 0, false);
+
+        for _ in 0..MAX_ROUNDS {
+            // Choose; all modes are tried once, if no set keeps the tolerance.
+            let mut found = chosen(&sets, reference, self.size);
+            if matches!(found, Err(ReductionError::Tolerance { .. })) && !has_all_modes {
+                has_all_modes = true;
+                sets.extend(self.sets(modal, f64::INFINITY, reference)?);
+                found = chosen(&sets, reference, self.size);
+            }
+            let chosen = Chosen { terms: found? };
+
+            // Largest errors, whose frequencies count from now on.
+            let static_part = chosen.static_part(reference);
+            let errors = reference.maxima(&mut |frequency_hz, values| {
+                let model = chosen.response(frequency_hz, &static_part);
+                values.iter().zip(model).map(|(full, reduced)| (full - reduced).norm()).collect()
+            })?;
+
+            (reached, order) = (largest(&errors, &reference.sizes), chosen.order());
+            if reached <= requested {
+                return Ok((chosen, errors));
+            }
+        }
+        Err(ReductionError::Tolerance { requested, reached, order })
+    }
 }
 
 /// Damping ratio below which a peak is not finite in practice.
 const MIN_DAMPING: f64 = 1e-9;
-
-/// Copy of the robot with as few clamped modes of the cables as the tolerance allows.
-fn cut(
-    robot: &Robot,
-    equilibrium: &Equilibrium,
-    dynamics: &Dynamics,
-    inputs: &[Signal],
-    outputs: &[(Signal, Quantity)],
-    reference: &Reference,
-    tolerance: f64,
-) -> Result<Dynamics, ReductionError> {
-    let below_hz = reference.frequencies_hz.last().expect("there are frequencies");
-    for ratio in KEPT {
-        let cut = dynamics.with_poles_below(ratio * below_hz * TAU);
-        if ratio.is_infinite() {
-            return Ok(cut);
-        }
-
-        // A constant difference of displacements becomes feedthrough.
-        let channels = Channels::new(robot, equilibrium, &cut, inputs, outputs, false)?;
-        let Ok(values) = reference.of_other(&cut, &channels) else { continue };
-        let differences: Vec<Complex> = values.iter().zip(&reference.values).map(|(a, b)| a - b).collect();
-        let pairs = reference.pairs();
-        let error = differences
-            .iter()
-            .enumerate()
-            .map(|(at, difference)| {
-                let pair = at % pairs;
-                let constant = if reference.quantity(pair) == Quantity::Displacement {
-                    Complex::from(differences[pair].re)
-                } else {
-                    0.0.into()
-                };
-                (difference - constant).norm() / reference.sizes[pair]
-            })
-            .fold(0.0, f64::max);
-        if error <= OMITTED * tolerance {
-            return Ok(cut);
-        }
-    }
-    unreachable!("the last ratio keeps all modes")
-}
 
 fn largest(errors: &[Maximum], sizes: &[f64]) -> f64 {
     errors.iter().zip(sizes).map(|(error, size)| error.value / size).fold(0.0, f64::max)
