@@ -5,6 +5,7 @@ mod margin;
 mod proximal_step;
 mod violation;
 
+pub(super) use margin::HOLDS;
 pub(super) use proximal_step::{ProximalStep, ProximalStepControl};
 
 use super::cable_at_pose::{CableAtPose, TensionByTau};

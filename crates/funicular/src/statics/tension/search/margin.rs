@@ -9,7 +9,7 @@ use crate::statics::limits::Limit;
 use crate::statics::tension::feasible_set::{FeasiblePoint, FeasibleSet};
 
 /// Multiplier of a limit, over the largest one, above which the limit holds an optimum; rounding leaves 1e-12.
-pub(super) const HOLDS: f64 = 1e-9;
+pub(in crate::statics::tension) const HOLDS: f64 = 1e-9;
 
 /// Tensions with the maximum of the smallest distance from the limits.
 pub(super) struct MarginOptimum {

@@ -1,8 +1,8 @@
 //! Tensions with the minimum violation of the limits, with a proof that no others exist or further starts.
 
-use super::margin::{HOLDS, MarginOptimum};
+use super::margin::MarginOptimum;
 use super::proximal_step::ProximalStepControl;
-use super::{MAX_ITERATIONS, TensionSearch, VIOLATION};
+use super::{HOLDS, MAX_ITERATIONS, TensionSearch, VIOLATION};
 use crate::platform::{Coordinates, load_wrench};
 use crate::statics::error::StaticsError;
 use crate::statics::limits::{Limit, LimitViolation};
