@@ -197,13 +197,7 @@ pub fn reduce(
     outputs: &[(Signal, Quantity)],
     requested: RequestedModel,
 ) -> Result<SecondOrder, ReductionError> {
-    if dynamics.terms().iter().any(|term| !matches!(term.form(), DynamicCable::CatenaryDynamic(_))) {
-        return Err(ReductionError::Model);
-    }
-
-    // The response of a cable to a force on itself has a kink, which the kept modes cannot represent.
-    let loaded = inputs.iter().any(|signal| matches!(signal, Signal::OnCable { .. }));
-    let full = Channels::new(robot, equilibrium, dynamics, inputs, outputs, loaded)?;
+    let full = Channels::of_full_model(robot, equilibrium, dynamics, inputs, outputs)?;
 
     // Natural frequencies and responses of the full model, for comparison.
     let listed = modes::below(dynamics, requested.below_hz);
@@ -266,6 +260,23 @@ struct Channels {
 }
 
 impl Channels {
+    /// Ports on the full model, whose cables have to be catenary-dynamic. The response of a cable to a force on itself
+    /// has a kink, which the kept modes cannot represent.
+    fn of_full_model(
+        robot: &Robot,
+        equilibrium: &Equilibrium,
+        dynamics: &Dynamics,
+        inputs: &[Signal],
+        outputs: &[(Signal, Quantity)],
+    ) -> Result<Self, ReductionError> {
+        if dynamics.terms().iter().any(|term| !matches!(term.form(), DynamicCable::CatenaryDynamic(_))) {
+            return Err(ReductionError::Model);
+        }
+        let loaded = inputs.iter().any(|signal| matches!(signal, Signal::OnCable { .. }));
+        Self::new(robot, equilibrium, dynamics, inputs, outputs, loaded)
+    }
+
+    /// Ports; `loaded` includes the motion of a cable beside a force on itself.
     fn new(
         robot: &Robot,
         equilibrium: &Equilibrium,

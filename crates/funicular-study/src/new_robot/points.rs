@@ -93,7 +93,8 @@ struct Columns {
 }
 
 impl Columns {
-    /// Cable of a line; `position`, counted from 1, is its name if the lines have none. An error begins with the column, if one is wrong.
+    /// Cable of a line; `position`, counted from 1, is its name if the lines have none. If a column is wrong, the error
+    /// begins with it.
     fn cable(&self, cells: &[&str], position: usize) -> Result<CablePoints, String> {
         let mut coordinates = [0.0; 6];
         for ((value, place), column) in coordinates.iter_mut().zip(self.places).zip(COLUMNS) {

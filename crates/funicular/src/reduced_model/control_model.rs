@@ -12,7 +12,6 @@ use super::terms::{RealBlock, Term, terms};
 use super::{
     Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, viscous_damping_and_ratios,
 };
-use crate::cable::DynamicCable;
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, DMat};
 use crate::modes::{self, Kind};
@@ -157,9 +156,7 @@ pub fn control_model(
     outputs: &[(Signal, Quantity)],
     requested: RequestedStateSpace,
 ) -> Result<ControlModel, ReductionError> {
-    if dynamics.terms().iter().any(|term| !matches!(term.form(), DynamicCable::CatenaryDynamic(_))) {
-        return Err(ReductionError::Model);
-    }
+    let full = Channels::of_full_model(robot, equilibrium, dynamics, inputs, outputs)?;
     let RequestedStateSpace { below_hz, size, damping_at } = requested;
     let tolerance = match size {
         Size::Order(_) => MAX_TOLERANCE,
@@ -172,8 +169,6 @@ pub fn control_model(
     if let Some(mode) = listed.modes.iter().find(|mode| mode.damping_ratio < MIN_DAMPING) {
         return Err(ReductionError::Undamped { frequency_hz: mode.frequency_hz });
     }
-    let loaded = inputs.iter().any(|signal| matches!(signal, Signal::OnCable { .. }));
-    let full = task.channels(dynamics, loaded)?;
     let quantities: Vec<Quantity> = outputs.iter().map(|(_, quantity)| *quantity).collect();
     let mut reference = Reference::new(dynamics, &full, &quantities, &listed.modes, below_hz)?;
     if reference.peaks.iter().all(|peak| peak.value == 0.0) {
@@ -215,9 +210,9 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// Inputs and outputs on a linearised robot; `loaded` includes the motion of a cable beside a force on itself.
-    fn channels(&self, dynamics: &Dynamics, loaded: bool) -> Result<Channels, ReductionError> {
-        Channels::new(self.robot, self.equilibrium, dynamics, self.inputs, self.outputs, loaded)
+    /// Inputs and outputs on a robot whose cables have fewer modes.
+    fn channels(&self, cut: &Dynamics) -> Result<Channels, ReductionError> {
+        Channels::new(self.robot, self.equilibrium, cut, self.inputs, self.outputs, false)
     }
 
     /// Copy of the robot with as few clamped modes of the cables as the tolerance allows.
@@ -230,7 +225,7 @@ impl Task<'_> {
             }
 
             // A constant difference of displacements becomes feedthrough.
-            let Ok(values) = reference.of_other(&cut, &self.channels(&cut, false)?) else { continue };
+            let Ok(values) = reference.of_other(&cut, &self.channels(&cut)?) else { continue };
             let differences: Vec<Complex> = values.iter().zip(&reference.values).map(|(a, b)| a - b).collect();
             let pairs = reference.pairs();
             let error = differences
@@ -255,7 +250,7 @@ impl Task<'_> {
 
     /// Undamped modes of the second-order model with their damping, and the number of its states.
     fn second_order_modes(&self, cut: &Dynamics) -> Result<(ModalModel, usize), ReductionError> {
-        let channels = self.channels(cut, false)?;
+        let channels = self.channels(cut)?;
         let requested =
             RequestedModel { below_hz: self.below_hz, tolerance: self.tolerance, damping_at: self.damping_at };
         let second_order = assembled(cut, &channels, self.outputs, requested)?;
