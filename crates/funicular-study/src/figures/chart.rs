@@ -123,7 +123,7 @@ impl Chart {
         drawing
     }
 
-    /// Draws labels and title of the common axis below the last panel, which ends at `bottom`, and returns the base line of
+    /// Draws labels and title of the common axis below the last panel, which ends at `bottom`. Returns the base line of
     /// the labels.
     fn draw_x_labels(
         &self,

@@ -273,8 +273,7 @@ fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Re
     ))
 }
 
-/// Axis of a magnitude between two values, with room above the curves and, if there are any, for the `numbers` above the
-/// peaks.
+/// Axis of a magnitude between two values, with room above the curves, and more if there are `numbers` above the peaks.
 fn magnitude_axis(unit: &str, low: f64, high: f64, numbers: bool) -> Axis {
     let low = low.max(high / 10_f64.powf(MAX_DECADES));
     let (low, high) = if high > 0.0 { (low, high) } else { (0.1, 1.0) };
@@ -283,7 +282,7 @@ fn magnitude_axis(unit: &str, low: f64, high: f64, numbers: bool) -> Axis {
     Axis::logarithmic(format!("magnitude [{unit}]"), low * 10_f64.powf(-0.05 * room), high * 10_f64.powf(above * room))
 }
 
-/// Natural frequencies as stems, by kind, with their entries of the legend; a kind without any in the range is left out.
+/// Stems of the natural frequencies, by kind, and the legend's entries. A kind without any in the range is left out.
 fn stems(marks: &[Mode], first: f64, last: f64) -> (Vec<Layer>, Vec<Entry>) {
     let (mut stems, mut legend) = (Vec::new(), Vec::new());
     for (kind, _, stroke, height) in kinds() {

@@ -376,7 +376,7 @@ pub(super) fn robot_name(plan: &serde_json::Map<String, Value>) -> String {
     plan.get("robot").and_then(Value::as_str).unwrap_or("a robot").to_owned()
 }
 
-/// Number of rows per kept row, for curves of a file with `rows` rows of `numbers` numbers; of a grid with several axes,
+/// Number of rows per kept row, for curves of a file with `rows` rows of `numbers` numbers. In a grid with several axes,
 /// values of the longest axes are left out instead.
 fn thin(axes: &mut [PlotAxis], numbers: usize, rows: usize) -> usize {
     if axes.len() < 2 {
