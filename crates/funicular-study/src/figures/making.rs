@@ -215,15 +215,8 @@ fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Re
     // A curve has every peak at its height, whatever the requested frequencies.
     let found = frf::run(robot.clone(), &request::FrfRequest { adaptive: true, ..of.clone() }, watch)?;
     let mut warnings = found.warnings.clone();
+    refuse_several_units(&found)?;
     let first_pair = &found.responses[0];
-    if let Some(other) = found.responses.iter().find(|pair| pair.unit != first_pair.unit) {
-        bail!(
-            "a figure shows responses with one unit, and these have {} and {}: choose ⟪input⟫ and ⟪output⟫ with one \
-             unit, or write .csv or .json",
-            first_pair.unit,
-            other.unit
-        );
-    }
     let (marks, caveat) = marks(robot, of)?;
     warnings.extend(caveat);
     let hz = &found.frequency_hz;
@@ -271,6 +264,18 @@ fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Re
         Chart { title: format!("{}: frequency response", found.robot), x: x_axis(), panels, legend, colour_bar: None },
         warnings,
     ))
+}
+
+fn refuse_several_units(found: &frf::Frf) -> Result<()> {
+    let unit = &found.responses[0].unit;
+    if let Some(other) = found.responses.iter().find(|pair| pair.unit != *unit) {
+        bail!(
+            "a figure shows responses with one unit, and these have {unit} and {}: choose ⟪input⟫ and ⟪output⟫ with one \
+             unit, or write .csv or .json",
+            other.unit
+        );
+    }
+    Ok(())
 }
 
 /// Axis of a magnitude between two values, with room above the curves, and more if there are `numbers` above the peaks.

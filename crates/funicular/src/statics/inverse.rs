@@ -206,8 +206,8 @@ fn sagging_cables(
     Err(negative_tension(robot, pose, (i, straight[i]), is_straight, starts, &found))
 }
 
-/// Error of a pose at which a straight cable `i` would have a negative tension, and sagging cables that hold it were not
-/// found. If no cable can sag, `is_straight` is true: the straight solution is then the only one.
+/// Error of a pose at which a straight cable `i` would have a negative tension, and sagging cables that hold it were
+/// not found. If no cable can sag, `is_straight` is true: the straight solution is then the only one.
 fn negative_tension(
     robot: &Robot,
     pose: &Pose,

@@ -376,8 +376,8 @@ pub(super) fn robot_name(plan: &serde_json::Map<String, Value>) -> String {
     plan.get("robot").and_then(Value::as_str).unwrap_or("a robot").to_owned()
 }
 
-/// Number of rows per kept row, for curves of a file with `rows` rows of `numbers` numbers. In a grid with several axes,
-/// values of the longest axes are left out instead.
+/// Number of rows per kept row, for curves of a file with `rows` rows of `numbers` numbers. In a grid with several
+/// axes, values of the longest axes are left out instead.
 fn thin(axes: &mut [PlotAxis], numbers: usize, rows: usize) -> usize {
     if axes.len() < 2 {
         return (rows.max(1) * numbers).div_ceil(MAX_NUMBERS_OF_CURVES).max(1);
