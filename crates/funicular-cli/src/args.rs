@@ -20,7 +20,7 @@ pub(crate) use groups::{
     TermArgs,
 };
 pub(crate) use import::ImportArgs;
-pub(crate) use names::{AssemblyName, CableModelName, ModelFormName, TensionRuleName};
+pub(crate) use names::{AssemblyName, CableModelName, ModelFormName, TensionRuleName, WinchModeName};
 pub(crate) use new_robot::{LengthUnitName, MotionName, NewArgs, SchemaArgs, WireRopeName};
 use std::path::PathBuf;
 pub(crate) use sweep::{EachArgs, MapArgs, MergeArgs, PlotArgs, RunArgs, SweepArgs};
@@ -514,6 +514,10 @@ pub(crate) struct CableArgs {
     /// Leave out the out-of-plane stiffness of the cable, as in Yuan et al. 2014
     #[arg(long)]
     pub(crate) in_plane_only: bool,
+
+    /// Winch in vibration, for a cable that runs to a winch
+    #[arg(long, value_name = "MODE", value_enum, default_value_t)]
+    pub(crate) winches: WinchModeName,
 
     #[command(flatten)]
     pub(crate) output: OutputArgs,

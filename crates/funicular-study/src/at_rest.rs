@@ -253,8 +253,8 @@ pub fn cable_model(requested: Option<CableModel>, static_model: StaticModel) -> 
 
 /// Linearisation of a request.
 pub fn linearisation(model: &Model, static_model: StaticModel) -> Linearisation {
-    let Terms { assembly, in_plane_only } = model.terms;
-    Linearisation { cable_model: cable_model(model.cable_model, static_model), assembly, in_plane_only }
+    let Terms { assembly, in_plane_only, winches } = model.terms;
+    Linearisation { cable_model: cable_model(model.cable_model, static_model), assembly, in_plane_only, winches }
 }
 
 /// Input and output of a response, checked for this robot.

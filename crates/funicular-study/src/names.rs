@@ -2,6 +2,7 @@
 
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
+use funicular::robot::WinchMode;
 use funicular::statics::{StaticModel, TensionRule};
 use funicular::suggest::nearest;
 use serde::{Deserialize, Deserializer, Serializer};
@@ -51,6 +52,15 @@ pub(crate) fn listed(names: &[String]) -> String {
         shown.join(", "),
         if names.len() > SHOWN { ", …" } else { "" }
     )
+}
+
+impl Named for WinchMode {
+    const WHAT: &'static str = "mode of winches";
+    const ALL: &'static [Self] = &WinchMode::ALL;
+
+    fn name(self) -> &'static str {
+        self.name()
+    }
 }
 
 impl Named for StaticModel {

@@ -285,6 +285,9 @@ pub struct CableRequest {
     /// Leave out the out-of-plane stiffness of the cable.
     #[serde(default)]
     pub in_plane_only: bool,
+    /// Winches in vibration.
+    #[serde(default, with = "crate::names")]
+    pub winches: funicular::robot::WinchMode,
 }
 
 /// Request of `reduce`.

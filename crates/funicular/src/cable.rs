@@ -12,7 +12,8 @@ pub mod shallow_static;
 pub mod spring;
 
 use crate::math::{Complex, Mat3, Vec3, any_normal};
-use crate::robot::Robot;
+use crate::drive::{AnchorEnd, DriveChain};
+use crate::robot::{Robot, WinchMode};
 use crate::statics::CableState;
 use catenary_dynamic::CatenaryDynamicEnd;
 use shallow_dynamic::ShallowDynamic;
@@ -284,8 +285,8 @@ impl DynamicCable {
 
 impl EndStiffness {
     /// End stiffness of cable `i` of a robot at an equilibrium, valid up to the frequency `up_to_hz` [Hz]. Only the
-    /// catenary-dynamic model uses that frequency. `in_plane_only` leaves out all stiffness out of the cable's plane,
-    /// as the paper does.
+    /// catenary-dynamic model uses that frequency and the `winches`. `in_plane_only` leaves out all stiffness out of the
+    /// cable's plane, as the paper does.
     ///
     /// # Errors
     /// [`NoStiffness`]: an ideal cable has no stiffness in the catenary models, a cable without tension none in the
@@ -296,6 +297,7 @@ impl EndStiffness {
         state: &CableState,
         model: CableModel,
         in_plane_only: bool,
+        winches: WinchMode,
         up_to_hz: f64,
     ) -> Result<Self, NoStiffness> {
         let axes = LocalAxes::of_cable(robot, i, state);
@@ -327,12 +329,20 @@ impl EndStiffness {
             }
             CableModel::CatenaryDynamic => {
                 let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
-                if material.mass_per_length == 0.0 {
+                let (m, damping, limit) = (material.mass_per_length, material.damping, up_to_hz * TAU);
+                let anchor = &robot.cables[i].anchor;
+                let end = drive.map(|drive| {
+                    let chain = DriveChain::of(anchor, drive, (material.axial_stiffness, m), winches, limit);
+                    (&drive.end, chain, drive.swivel_mass(anchor))
+                });
+                // Without any mass the cable and its drive are springs.
+                let moves = |(_, chain, swivel): &(&AnchorEnd, Option<DriveChain>, f64)| {
+                    *swivel > 0.0 || chain.as_ref().is_some_and(DriveChain::has_dynamics)
+                };
+                if m == 0.0 && !end.as_ref().is_some_and(moves) {
                     return Ok(Self::Constant(without_b(in_series(hanging.tangent_w()))));
                 }
-                let (m, damping, limit) = (material.mass_per_length, material.damping, up_to_hz * TAU);
-                let cable =
-                    CatenaryDynamicEnd::new(hanging, drive.map(|drive| &drive.end), m, damping, in_plane_only, limit)?;
+                let cable = CatenaryDynamicEnd::new(hanging, end, m, damping, in_plane_only, limit)?;
                 Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable)))
             }
         })

@@ -89,7 +89,7 @@ impl CableStations {
                 let (m, limit) = (end.mass_per_length, end.cable.limit);
                 let (mut cable, mut stations) = CatenaryDynamic::with_stations(
                     &hanging.catenary,
-                    end.cable.end,
+                    end.cable.end.clone(),
                     m,
                     limit,
                     arc_lengths.clone(),

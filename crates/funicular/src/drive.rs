@@ -12,8 +12,10 @@
 mod anchor_end;
 mod arc;
 mod balance;
+mod chain;
 
 pub use anchor_end::AnchorEnd;
+pub use chain::{DriveChain, Motor, Place};
 
 use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;
@@ -163,6 +165,18 @@ impl DriveAtRest {
             winch_yield: beyond.winch_yield,
             energy: beyond.energy + reference,
             end,
+        }
+    }
+}
+
+impl DriveAtRest {
+    /// Mass that the swivel of the anchor's pulley adds to the sideways motion of the exit point [kg]; zero without a
+    /// swivel.
+    pub(crate) fn swivel_mass(&self, anchor: &Anchor) -> f64 {
+        let distance = self.contact.as_ref().map_or(0.0, PulleyContact::distance_from_axis);
+        match &anchor.pulley {
+            Some(pulley) if distance > 0.0 => pulley.swivel_inertia / (distance * distance),
+            _ => 0.0,
         }
     }
 }

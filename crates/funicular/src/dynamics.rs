@@ -14,7 +14,7 @@ use crate::cable::catenary_dynamic::CatenaryDynamicError;
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness};
 use crate::math::{CMat6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
-use crate::robot::{Damping, PlatformMotion, Robot};
+use crate::robot::{Damping, PlatformMotion, Robot, WinchMode};
 use crate::statics::{CableState, Equilibrium};
 use thiserror::Error;
 
@@ -55,6 +55,8 @@ pub struct Linearisation {
     pub assembly: Assembly,
     /// Leave out the stiffness of each cable out of its plane, as the paper does.
     pub in_plane_only: bool,
+    /// Winches in vibration.
+    pub winches: WinchMode,
 }
 
 /// Reason for which a robot cannot be linearised.
@@ -194,14 +196,14 @@ impl Dynamics {
         linearisation: Linearisation,
         up_to_hz: f64,
     ) -> Result<Self, DynamicsError> {
-        let Linearisation { cable_model, assembly, in_plane_only } = linearisation;
+        let Linearisation { cable_model, assembly, in_plane_only, winches } = linearisation;
         let coordinates = Coordinates::of(robot);
 
         // Cables: a constant stiffness is added to the matrix, the others become terms.
         let mut constant = Mat6::zeros();
         let mut terms = Vec::new();
         for (i, state) in equilibrium.cables.iter().enumerate() {
-            let stiffness = EndStiffness::new(robot, i, state, cable_model, in_plane_only, up_to_hz)
+            let stiffness = EndStiffness::new(robot, i, state, cable_model, in_plane_only, winches, up_to_hz)
                 .map_err(|reason| DynamicsError::of_cable(&robot.cables[i].name, cable_model, reason))?;
             match stiffness {
                 EndStiffness::Constant(k) => add_congruent(&mut constant, &k, &state.lever_w),
@@ -384,6 +386,13 @@ impl Dynamics {
     pub(crate) fn cable_zero(&self, i: usize, undamped: f64, losses: f64) -> Complex {
         let (damping, mass_per_length) = self.damping[i];
         damping.times(losses).zero(undamped, mass_per_length)
+    }
+
+    /// True if a drive adds mass or losses to cable `i` that do not share the damping of the cable.
+    pub(crate) fn has_drive_losses(&self, i: usize) -> bool {
+        self.terms.iter().any(|term| {
+            matches!(&term.form, DynamicCable::CatenaryDynamic(form) if term.cable == i && form.has_drive_losses())
+        })
     }
 
     /// Mass per length of cable `i` in its model [kg/m]: zero if its stiffness does not depend on frequency.

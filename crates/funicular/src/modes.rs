@@ -22,14 +22,16 @@ use crate::dynamics::{Dynamics, NullVector};
 use crate::math::{Vec6, roots};
 use std::f64::consts::TAU;
 
-/// Kind of a mode by kinetic energy: vibration of the platform, of the cables, or of both.
+/// Kind of a mode by kinetic energy: vibration of the platform, of the cables, of their drives, or of several.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// The platform has at least three quarters of the energy.
     Platform,
     /// The cables have at least three quarters of the energy.
     Cable,
-    /// Neither the platform nor the cables have three quarters of the energy.
+    /// The drives of the cables have at least three quarters of the energy: wheels, drums and motors.
+    Drive,
+    /// Neither the platform nor the cables nor the drives have three quarters of the energy.
     Mixed,
 }
 
@@ -37,10 +39,12 @@ impl Kind {
     /// Minimum fraction of the kinetic energy for which a mode belongs to the platform or to the cables.
     pub const SHARE: f64 = 0.75;
 
-    pub(crate) fn of(platform_fraction: f64) -> Self {
+    pub(crate) fn of(platform_fraction: f64, drive_fraction: f64) -> Self {
         if platform_fraction >= Self::SHARE {
             Self::Platform
-        } else if platform_fraction <= 1.0 - Self::SHARE {
+        } else if drive_fraction >= Self::SHARE {
+            Self::Drive
+        } else if platform_fraction + drive_fraction <= 1.0 - Self::SHARE {
             Self::Cable
         } else {
             Self::Mixed
@@ -52,6 +56,7 @@ impl Kind {
         match self {
             Self::Platform => "platform",
             Self::Cable => "cable",
+            Self::Drive => "drive",
             Self::Mixed => "mixed",
         }
     }
@@ -68,14 +73,17 @@ pub struct Mode {
     pub frequency_hz: f64,
     /// Number of modes at this frequency.
     pub multiplicity: usize,
-    /// Damping ratio to first order in the cables' damping.
+    /// Damping ratio to first order in the damping of cables, drives and platform.
     pub damping_ratio: f64,
-    /// Kind of the mode: vibration of the platform, of the cables, or of both.
+    /// Kind of the mode: vibration of the platform, of the cables, of their drives, or of several.
     pub kind: Kind,
     /// Fraction of the kinetic energy that the platform has.
     pub platform_energy_fraction: f64,
-    /// Fraction of the kinetic energy that each cable has, in the order of the file.
+    /// Fraction of the kinetic energy that each cable has, in the order of the file, without its drive.
     pub cable_energy_fractions: Vec<f64>,
+    /// Fraction of the kinetic energy that the drive of each cable has: wheel, swivel, drum and motor. Empty if no drive
+    /// has inertia.
+    pub drive_energy_fractions: Vec<f64>,
     /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1. Zero
     /// if the platform is at rest.
     pub shape: [f64; 6],
@@ -299,7 +307,7 @@ impl List<'_> {
 
     /// Adds one mode from its `motion` with unit modal mass. `shape` is the platform's motion with `modal_mass`.
     fn add(&mut self, omega: f64, several: usize, motion: NullVector, shape: [f64; 6], modal_mass: f64) {
-        let NullVector { platform_energy, ref cable_energies, residual, .. } = motion;
+        let NullVector { platform_energy, ref cable_energies, ref drive_energies, residual, .. } = motion;
         let by_cables: f64 = (cable_energies.iter().enumerate())
             .map(|(i, fraction)| fraction * self.dynamics.cable_damping_ratio(i, omega))
             .sum();
@@ -307,10 +315,11 @@ impl List<'_> {
         self.modes.push(Mode {
             frequency_hz: omega / TAU,
             multiplicity: several,
-            damping_ratio: by_cables + by_platform,
-            kind: Kind::of(platform_energy),
+            damping_ratio: by_cables + by_platform + motion.drive_damping,
+            kind: Kind::of(platform_energy, drive_energies.iter().sum()),
             platform_energy_fraction: platform_energy,
             cable_energy_fractions: cable_energies.clone(),
+            drive_energy_fractions: drive_energies.clone(),
             shape,
             modal_mass,
             residual,
@@ -342,6 +351,8 @@ impl List<'_> {
                 near: Vec::new(),
                 platform_energy: 0.0,
                 cable_energies,
+                drive_energies: Vec::new(),
+                drive_damping: 0.0,
                 residual: 0.0,
             };
             motions = vec![still; several];

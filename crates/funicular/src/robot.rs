@@ -17,7 +17,7 @@ pub use anchor::Anchor;
 pub use change::{CableChange, RobotChange};
 pub use motion::{OutOfPlane, Plane, PlatformMotion};
 pub use pulley::{Pulley, PulleyContact};
-pub use winch::Winch;
+pub use winch::{Control, DrumSide, Servo, Winch, WinchMode};
 pub use wind::{LineLoad, Wind};
 
 use crate::math::{Mat3, Rotation, Vec3, rotation};

@@ -1,7 +1,7 @@
 //! Groups of arguments that several commands share.
 
 use super::Format;
-use super::names::{AssemblyName, CableModelName, StaticModelName, TensionRuleName};
+use super::names::{AssemblyName, CableModelName, StaticModelName, TensionRuleName, WinchModeName};
 use super::values::{self, Lengths, PoseNumbers, Tensions};
 use clap::Args;
 use funicular::math::Vec3;
@@ -104,6 +104,10 @@ pub(crate) struct TermArgs {
     /// Leave out the out-of-plane stiffness of the cables, as in Yuan et al. 2014
     #[arg(long)]
     pub(crate) in_plane_only: bool,
+
+    /// Winches in vibration, for cables that run to a winch
+    #[arg(long, value_name = "MODE", value_enum, default_value_t)]
+    pub(crate) winches: WinchModeName,
 }
 
 /// Format and destination of the result.

@@ -3,6 +3,7 @@
 use clap::ValueEnum;
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
+use funicular::robot::WinchMode;
 use funicular::statics::StaticModel;
 use funicular_study::names::ModelForm;
 
@@ -83,6 +84,31 @@ impl From<ModelFormName> for ModelForm {
         match name {
             ModelFormName::StateSpace => Self::StateSpace,
             ModelFormName::SecondOrder => Self::SecondOrder,
+        }
+    }
+}
+
+/// Winches in vibration by name; see [`WinchMode`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum WinchModeName {
+    /// As the robot file describes them
+    #[default]
+    AsGiven,
+    /// Motors held at their angle
+    Clamped,
+    /// Motors with constant torque
+    Torque,
+    /// Cables that stick to their pulleys
+    Stuck,
+}
+
+impl From<WinchModeName> for WinchMode {
+    fn from(name: WinchModeName) -> Self {
+        match name {
+            WinchModeName::AsGiven => Self::AsGiven,
+            WinchModeName::Clamped => Self::Clamped,
+            WinchModeName::Torque => Self::Torque,
+            WinchModeName::Stuck => Self::Stuck,
         }
     }
 }

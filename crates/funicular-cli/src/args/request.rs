@@ -4,7 +4,7 @@ use super::{
     AssemblyName, CableArgs, CableModelName, ChangeArgs, CompareArgs, EachArgs, ExportArgs, ExportFormat, FrfArgs,
     ImportArgs, LengthUnitName, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, MotionName, NewArgs, PayloadArgs,
     PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs, ReportArgs, StateArgs, StaticsArgs, StiffnessArgs,
-    SweepArgs, TensionArgs, TensionRuleName, TermArgs, WireRopeName,
+    SweepArgs, TensionArgs, TensionRuleName, TermArgs, WinchModeName, WireRopeName,
 };
 use funicular_study::import::SourceFile;
 use funicular_study::names::TensionRuleName as Rule;
@@ -78,7 +78,11 @@ impl ModelArgs {
 
 impl TermArgs {
     fn request(&self) -> Terms {
-        Terms { assembly: AssemblyName::into(self.assembly), in_plane_only: self.in_plane_only }
+        Terms {
+            assembly: AssemblyName::into(self.assembly),
+            in_plane_only: self.in_plane_only,
+            winches: WinchModeName::into(self.winches),
+        }
     }
 }
 
@@ -205,6 +209,7 @@ impl CableArgs {
             tensions: self.tensions.request(),
             cable_model: self.cable_model.map(CableModelName::into),
             in_plane_only: self.in_plane_only,
+            winches: WinchModeName::into(self.winches),
         }
     }
 }

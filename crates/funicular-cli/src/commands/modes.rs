@@ -62,7 +62,9 @@ impl Printed for Modes {
             "peak",
         ];
         let cables = self.cable_names.iter().map(|name| format!("energy_fraction_cable_{name}"));
-        out.write_record(fixed.into_iter().map(str::to_owned).chain(cables))?;
+        let drives_move = self.modes.iter().any(|mode| !mode.drive_energy_fractions.is_empty());
+        let drives = self.cable_names.iter().filter(|_| drives_move).map(|name| format!("energy_fraction_drive_{name}"));
+        out.write_record(fixed.into_iter().map(str::to_owned).chain(cables).chain(drives))?;
 
         for mode in &self.modes {
             out.serialize((
@@ -70,6 +72,7 @@ impl Printed for Modes {
                 mode.shape,
                 (mode.residual, mode.modal_mass_kg, mode.residue_per_kg, mode.peak),
                 &mode.cable_energy_fractions,
+                &mode.drive_energy_fractions,
             ))?;
         }
 
@@ -118,8 +121,7 @@ fn first_platform(found: &Modes) -> String {
 
 /// Cables with the most energy, with their fractions of it.
 fn strongest_cables(found: &Modes, mode: &ModeRow) -> String {
-    let names = found.cable_names.iter().map(String::as_str);
-    let shown: Vec<String> = strongest(names, &mode.cable_energy_fractions)
+    let shown: Vec<String> = strongest(&found.cable_names, &mode.cable_energy_fractions, &mode.drive_energy_fractions)
         .iter()
         .map(|(name, share)| format!("{name} {}%", decimals(100.0 * share, 0)))
         .collect();

@@ -69,11 +69,13 @@ class Modes(_ArrayFields):
     eigenvalue_per_s: NDArray[np.complex128] | None
     """λ = −ζω + iω√(1 − ζ²) of the damped partner [1/s]; None with `damped=False`."""
     kind: NDArray[np.str_]
-    """Vibration of the `platform`, of a `cable`, or `mixed`, by kinetic energy."""
+    """Vibration of the `platform`, of a `cable`, of a `drive`, or `mixed`, by kinetic energy."""
     platform_energy_fraction: NDArray[np.float64]
     """Kinetic energy of the platform over that of the robot."""
     cable_energy_fractions: NDArray[np.float64]
     """Kinetic energy of each cable over that of the robot, (modes, cables)."""
+    drive_energy_fractions: NDArray[np.float64]
+    """Kinetic energy of the drive of each cable over that of the robot, (modes, cables); zero without inertia."""
     shape: NDArray[np.float64]
     """Motion of the platform, translation and rotation about its origin, world axes, (modes, 6).
 
@@ -150,6 +152,13 @@ class Modes(_ArrayFields):
         return _show.table(self)
 
 
+def _drive_energies(rows: list[dict[str, Any]], cables: int) -> NDArray[np.float64]:
+    """Energy fractions of the drives, zero where no drive has inertia."""
+    none = [0.0] * cables
+    energies = [row.get("drive_energy_fractions", none) for row in rows]
+    return np.array(energies, dtype=float).reshape(len(rows), cables)
+
+
 def modes(found: dict[str, Any]) -> Modes:
     """Makes `Modes` from the results of the program."""
     rows, stations = found["modes"], found.get("stations")
@@ -182,6 +191,7 @@ def modes(found: dict[str, Any]) -> Modes:
         kind=np.array([row["kind"] for row in rows], dtype="U8"),
         platform_energy_fraction=column("platform_energy_fraction"),
         cable_energy_fractions=table("cable_energy_fractions", len(cables)),
+        drive_energy_fractions=_drive_energies(rows, len(cables)),
         shape=table("shape", 6),
         modal_mass_kg=column("modal_mass_kg"),
         residual=column("residual"),

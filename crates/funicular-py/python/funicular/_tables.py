@@ -56,6 +56,10 @@ def _modes(of: Modes) -> Any:
     columns |= {
         f"energy_fraction_cable_{name}": of.cable_energy_fractions[:, i] for i, name in enumerate(of.cable_names)
     }
+    if of.drive_energy_fractions.any():
+        columns |= {
+            f"energy_fraction_drive_{name}": of.drive_energy_fractions[:, i] for i, name in enumerate(of.cable_names)
+        }
     return _pandas().DataFrame(columns)
 
 

@@ -64,10 +64,10 @@ _CURVES = (
     ("#56b4e9", (0, (3, 1.4))),
 )
 # Colour, width and height of the ticks of the modes of a kind below a response.
-_TICKS = {"cable": ("#8a8a8a", 0.5, 0.45), "mixed": ("#009e73", 0.8, 0.75), "platform": ("#d55e00", 1.1, 1.0)}
+_TICKS = {"cable": ("#8a8a8a", 0.5, 0.45), "drive": ("#0072b2", 0.65, 0.6), "mixed": ("#009e73", 0.8, 0.75), "platform": ("#d55e00", 1.1, 1.0)}
 
-_KINDS = {"platform": "C0", "mixed": "C1", "cable": "C2"}
-_COLOURS = {"platform": "#1f77b4", "mixed": "#ff7f0e", "cable": "#2ca02c"}
+_KINDS = {"platform": "C0", "mixed": "C1", "cable": "C2", "drive": "C3"}
+_COLOURS = {"platform": "#1f77b4", "mixed": "#ff7f0e", "cable": "#2ca02c", "drive": "#d62728"}
 _ENERGY = "platform's fraction of the energy"
 
 

@@ -10,7 +10,7 @@ use anyhow::{Result, bail};
 use funicular::cable::{CableModel, EndStiffness, LocalAxes, LocalStiffness, Sag};
 use funicular::dynamics::DynamicsError;
 use funicular::math::{Complex, Mat3};
-use funicular::robot::Robot;
+use funicular::robot::{Robot, WinchMode};
 use funicular::warnings;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -95,6 +95,7 @@ pub fn run(robot: Robot, request: &request::CableRequest) -> Result<CableResult>
         frequency_hz,
         cable_model: request.cable_model,
         in_plane_only: request.in_plane_only,
+        winches: request.winches,
     };
     about(&at_rest, requested)
 }
@@ -110,6 +111,8 @@ pub struct RequestedCable<'a> {
     pub cable_model: Option<CableModel>,
     /// Leave out the out-of-plane stiffness of the cable.
     pub in_plane_only: bool,
+    /// Winches in vibration.
+    pub winches: WinchMode,
 }
 
 /// Index of a cable in the robot.
@@ -126,14 +129,14 @@ fn place(robot: &Robot, name: &str) -> Result<usize> {
 /// # Errors
 /// The errors of [`run`].
 pub fn about(at_rest: &AtRest, requested: RequestedCable<'_>) -> Result<CableResult> {
-    let RequestedCable { name, frequency_hz, cable_model, in_plane_only } = requested;
+    let RequestedCable { name, frequency_hz, cable_model, in_plane_only, winches } = requested;
     let i = place(&at_rest.robot, name)?;
     let (from_hz, to_hz) =
         frequency_hz.iter().fold((f64::INFINITY, 0.0_f64), |(from, to), hz| (from.min(*hz), to.max(*hz)));
     let (robot, state) = (&at_rest.robot, &at_rest.equilibrium.cables[i]);
     let model: CableModel = at_rest::cable_model(cable_model, at_rest.equilibrium.model);
 
-    let stiffness = EndStiffness::new(robot, i, state, model, in_plane_only, to_hz)
+    let stiffness = EndStiffness::new(robot, i, state, model, in_plane_only, winches, to_hz)
         .map_err(|reason| DynamicsError::of_cable(name, model, reason))?;
     let sag = Sag::of(robot, i, state);
     let of_cable = warnings::of_cable(robot, &at_rest.equilibrium, i, model, to_hz);

@@ -180,7 +180,7 @@ impl CheckedPulley {
 
 impl CheckedWinch {
     fn of(winch: &Winch) -> Self {
-        let Winch { name, drum_side_length, stiffness } = winch;
+        let Winch { name, drum_side_length, stiffness, .. } = winch;
         let stiffness_n_per_m = stiffness.is_finite().then_some(*stiffness);
         Self { name: name.clone(), drum_side_length_m: *drum_side_length, stiffness_n_per_m }
     }

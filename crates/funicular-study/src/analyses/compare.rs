@@ -130,6 +130,7 @@ pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Comp
         cable_model: if driven { CableModel::CatenaryDynamic } else { CableModel::ShallowDynamic },
         assembly: request.terms.assembly,
         in_plane_only: request.terms.in_plane_only,
+        winches: request.terms.winches,
     };
     let (reference, mut warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
     modes::check_count(&reference, request.below_hz, modes::MAX_MODES)?;

@@ -92,6 +92,9 @@ pub struct ModeRow {
     pub kind: &'static str,
     pub platform_energy_fraction: f64,
     pub cable_energy_fractions: Vec<f64>,
+    /// Kinetic energy of the drive of each cable; absent if no drive has inertia.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub drive_energy_fractions: Vec<f64>,
     pub shape: [f64; 6],
     pub modal_mass_kg: f64,
     pub residual: f64,
@@ -115,6 +118,7 @@ impl From<modes::Mode> for ModeRow {
             kind: mode.kind.name(),
             platform_energy_fraction: mode.platform_energy_fraction,
             cable_energy_fractions: mode.cable_energy_fractions,
+            drive_energy_fractions: mode.drive_energy_fractions,
             // `+ 0.0` makes a negative zero positive.
             shape: mode.shape.map(|x| x + 0.0),
             modal_mass_kg: mode.modal_mass,
@@ -256,11 +260,13 @@ impl StationsRow {
 }
 
 /// Names of the few cables with the most energy in a mode, with their fractions of the energy.
-pub fn strongest<'a>(names: impl Iterator<Item = &'a str>, shares: &[f64]) -> Vec<(&'a str, f64)> {
+pub fn strongest(names: &[String], cables: &[f64], drives: &[f64]) -> Vec<(String, f64)> {
     const SHOWN: usize = 3;
     // A smaller fraction is rounded to zero in the table.
     const MIN_SHARE: f64 = 0.05;
-    let mut all: Vec<(&str, f64)> = names.zip(shares.iter().copied()).collect();
+    let of_cables = names.iter().cloned().zip(cables.iter().copied());
+    let of_drives = names.iter().map(|name| format!("drive of {name}")).zip(drives.iter().copied());
+    let mut all: Vec<(String, f64)> = of_cables.chain(of_drives).collect();
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
     all.retain(|(_, share)| *share >= MIN_SHARE);
     all.truncate(SHOWN);

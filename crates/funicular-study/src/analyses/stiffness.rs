@@ -8,7 +8,7 @@ use anyhow::Result;
 use funicular::cable::CableModel;
 use funicular::dynamics::{Assembly, Dynamics, DynamicsError, Linearisation};
 use funicular::math::{CMat6, Complex, Mat6};
-use funicular::robot::Robot;
+use funicular::robot::{Robot, WinchMode};
 use funicular::statics::{self, StaticModel};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -94,7 +94,7 @@ pub fn matrices(at_rest: &AtRest, model: Model, frequencies: &[f64]) -> Result<V
 
 /// Linearisation with all terms of the static tangent.
 const FULL_TANGENT: Linearisation =
-    Linearisation { cable_model: CableModel::CatenaryStatic, assembly: Assembly::Consistent, in_plane_only: false };
+    Linearisation { cable_model: CableModel::CatenaryStatic, assembly: Assembly::Consistent, in_plane_only: false, winches: WinchMode::AsGiven };
 
 /// Stiffness over frequency.
 enum Form {

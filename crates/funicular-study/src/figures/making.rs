@@ -105,10 +105,11 @@ fn natural_frequencies(robot: Robot, of: &request::ModesRequest, choice: &Choice
 }
 
 /// Kinds of modes with symbol, stroke and height of their ticks below a response. They differ in grey, too.
-fn kinds() -> [(modes::Kind, Symbol, Stroke, f64); 3] {
+fn kinds() -> [(modes::Kind, Symbol, Stroke, f64); 4] {
     let symbol = |shape, colour| Symbol { shape, colour };
     [
         (modes::Kind::Cable, symbol(style::Shape::Circle, GREY), Stroke::solid(GREY, 0.5), 0.45),
+        (modes::Kind::Drive, symbol(style::Shape::Triangle, style::BLUE), Stroke::solid(style::BLUE, 0.65), 0.6),
         (modes::Kind::Mixed, symbol(style::Shape::Diamond, GREEN), Stroke::solid(GREEN, 0.8), 0.75),
         (modes::Kind::Platform, symbol(style::Shape::Square, VERMILION), Stroke::solid(VERMILION, 1.1), 1.0),
     ]

@@ -142,5 +142,6 @@ pub(crate) fn kind_colour(kind: Kind) -> &'static str {
         Kind::Platform => colour::VERMILION,
         Kind::Mixed => colour::PURPLE,
         Kind::Cable => colour::SKY,
+        Kind::Drive => colour::ORANGE,
     }
 }

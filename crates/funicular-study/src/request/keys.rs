@@ -29,6 +29,7 @@ pub const KEYS: &[(&str, &str)] = &[
     ("cable_model", "cable model: how cables respond to motion of the platform"),
     ("assembly", "terms of the stiffness"),
     ("in_plane_only", "leave out the out-of-plane stiffness of the cables"),
+    ("winches", "winches in vibration: as in the robot file, motors clamped, at constant torque, or cables stuck"),
     ("at_hz", "frequency of the stiffness [Hz]"),
     ("below_hz", "upper limit of the frequencies [Hz]"),
     ("from_hz", "first frequency [Hz]"),

@@ -6,6 +6,7 @@ use crate::values::{finite, not_negative, positive};
 use anyhow::{Result, anyhow, bail};
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
+use funicular::robot::WinchMode;
 use funicular::math::{Quaternion, Rotation, rotation};
 use funicular::statics::StaticModel;
 use serde::{Deserialize, Serialize};
@@ -195,6 +196,9 @@ pub struct Terms {
     /// Leave out the out-of-plane stiffness of the cables.
     #[serde(default)]
     pub in_plane_only: bool,
+    /// Winches in vibration.
+    #[serde(default, with = "crate::names")]
+    pub winches: WinchMode,
 }
 
 /// Points of the platform for the input and the output of a response, platform frame [m].

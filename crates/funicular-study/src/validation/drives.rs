@@ -42,11 +42,7 @@ const SOLVED: f64 = 1e-10;
 
 fn straight(row: &StraightOverPulley, source: &str) -> Vec<Comparison> {
     let anchor = Anchor {
-        pulley: Some(Pulley {
-            name: "wheel".to_owned(),
-            radius: row.radius_m,
-            entry_direction_w: Vec3::from(row.entry_direction).normalize(),
-        }),
+        pulley: Some(Pulley::new("wheel", row.radius_m, Vec3::from(row.entry_direction).normalize())),
         ..Anchor::from(Vec3::from(row.entry_point_m))
     };
     let end_w = Vec3::from(row.platform_point_m);

@@ -10,6 +10,7 @@ use funicular::catenary::{Catenary, Rope};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{Complex, Mat3, Vec3};
 use funicular::modes;
+use funicular::robot::WinchMode;
 use funicular::response::{self, Quantity};
 use funicular::statics::{self, StaticModel};
 use std::f64::consts::TAU;
@@ -165,6 +166,7 @@ fn in_robot(source: &str, of: &ExactRobot, toml: &str) -> Result<Vec<Comparison>
         cable_model: CableModel::CatenaryDynamic,
         assembly: Assembly::Consistent,
         in_plane_only: false,
+        winches: WinchMode::AsGiven,
     };
     let dynamics = Dynamics::about(&robot, &rest, linearisation, of.below_hz)?;
     let found = modes::below(&dynamics, of.below_hz);

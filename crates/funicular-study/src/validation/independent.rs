@@ -10,7 +10,7 @@ use funicular::dynamics::{Assembly, Dynamics, DynamicsError, Linearisation};
 use funicular::math::{Complex, Mat6, Vec3, Vec6, rotation};
 use funicular::modes;
 use funicular::response::{self, Quantity};
-use funicular::robot::{Damping, Robot};
+use funicular::robot::{Damping, Robot, WinchMode};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
 
@@ -128,6 +128,7 @@ impl RobotComparison<'_> {
             cable_model: CableModel::CatenaryStatic,
             assembly: Assembly::WithoutGeometricStiffness,
             in_plane_only: false,
+            winches: WinchMode::AsGiven,
         };
         let end_stiffness = Dynamics::about(&self.robot, &self.rest, linearisation, 0.0)?.stiffness(0.0).map(|k| k.re);
         rows.push(self.matrix(
@@ -144,7 +145,7 @@ impl RobotComparison<'_> {
         assembly: Assembly,
         in_plane_only: bool,
     ) -> Result<Dynamics, DynamicsError> {
-        let linearisation = Linearisation { cable_model: CableModel::ShallowDynamic, assembly, in_plane_only };
+        let linearisation = Linearisation { cable_model: CableModel::ShallowDynamic, assembly, in_plane_only, winches: WinchMode::AsGiven };
         Dynamics::about(robot, &self.rest, linearisation, self.given.modes.below_hz)
     }
 

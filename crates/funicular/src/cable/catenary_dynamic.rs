@@ -15,22 +15,26 @@
 
 mod internal_motion;
 mod mesh;
+mod moving_end;
 mod partition;
 mod poles;
 
 pub(crate) use internal_motion::InternalMotion;
 pub use internal_motion::{Displacements, Stations};
 pub(crate) use mesh::{ellipse, has_tension};
+use moving_end::DriveAt;
+pub(crate) use moving_end::{DriveLosses, DriveMotions};
+pub use moving_end::{DriveMotion, EndAlong, MovingEnd};
 pub use poles::PoleResidue;
 
 use super::{LocalAxes, LocalStiffness};
 use crate::catenary::Catenary;
 use crate::catenary::space::HangingCable;
-use crate::drive::AnchorEnd;
-use crate::math::Complex;
+use crate::drive::{AnchorEnd, DriveChain};
+use crate::math::{Complex, DMat};
 use crate::robot::Damping;
 use mesh::Mesh;
-use partition::Condensed;
+use partition::{Condensed, Guide};
 use std::ops::Range;
 use thiserror::Error;
 
@@ -50,62 +54,8 @@ pub struct CatenaryDynamic {
     /// Motion that the end has; `None` for an end that is held. The components of a moving end are zero in the
     /// stiffness, the mass and the participations: it belongs to the inside of the cable.
     pub end: Option<MovingEnd>,
-}
-
-/// End of a cable that can move: along the cable, as on a pulley with an elastic cable behind it, and out of plane, as
-/// on a pulley that swivels.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MovingEnd {
-    /// Direction along the cable: its components (horizontal, up).
-    pub along: [f64; 2],
-    /// Stiffness against motion in this direction [N/m].
-    pub stiffness: f64,
-    /// Stiffness against motion out of plane [N/m]; `None` if the end is held out of plane.
-    pub out_of_plane: Option<f64>,
-}
-
-/// Maximum component out of plane of the direction in which an end moves along the cable, and maximum coupling between
-/// its motions over their stiffness: rounding is 1e-15, and the frequencies change by the square of both.
-const IN_PLANE: f64 = 1e-8;
-
-impl MovingEnd {
-    /// Motion of the end of a hanging cable at its pulley and winch; `None` if it is held.
-    ///
-    /// # Errors
-    /// [`CatenaryDynamicError::Skew`]: the end moves in and out of plane at the same time.
-    fn of(hanging: &HangingCable, end: &AnchorEnd) -> Result<Option<Self>, CatenaryDynamicError> {
-        let Some(along_w) = end.along_w else { return Ok(None) };
-        let (horizontal_w, up_w) = hanging.axes_w();
-        let out_w = horizontal_w.cross(&up_w);
-
-        // The motions have to be in plane and out of plane.
-        let [[stiffness, coupling], [_, sideways]] = end.stiffness;
-        let skew = end.sideways_w.map_or(0.0, |sideways_w| {
-            let turned = (sideways_w - out_w * out_w.dot(&sideways_w)).norm();
-            turned.max(coupling.abs() / (stiffness * sideways).abs().sqrt())
-        });
-        if skew.max(out_w.dot(&along_w).abs()) > IN_PLANE {
-            return Err(CatenaryDynamicError::Skew);
-        }
-        let along = [horizontal_w.dot(&along_w), up_w.dot(&along_w)];
-        Ok(Some(Self { along, stiffness, out_of_plane: end.sideways_w.map(|_| sideways) }))
-    }
-
-    /// Static stiffness of the start in plane and out of plane, from those with the end held; zero for the end.
-    fn still(&self, [[hh, hv], [_, vv]]: [[f64; 2]; 2], o: f64) -> ([[f64; 4]; 4], [[f64; 2]; 2]) {
-        let [h, v] = self.along;
-        let pulled = [hh * h + hv * v, hv * h + vv * v];
-        let total = self.stiffness + h * pulled[0] + v * pulled[1];
-        let left = |held: f64, i: usize, j: usize| held - pulled[i] * pulled[j] / total;
-
-        let mut in_plane = [[0.0; 4]; 4];
-        (in_plane[0][0], in_plane[1][1]) = (left(hh, 0, 0), left(vv, 1, 1));
-        (in_plane[0][1], in_plane[1][0]) = (left(hv, 0, 1), left(hv, 0, 1));
-        match self.out_of_plane {
-            Some(sideways) => (in_plane, [[o - o * o / (o + sideways), 0.0], [0.0, 0.0]]),
-            None => (in_plane, [[o, -o], [-o, o]]),
-        }
-    }
+    /// Motions of the drive at that end.
+    pub drive: Option<DriveMotion>,
 }
 
 /// Reason for which a cable has no catenary-dynamic stiffness.
@@ -120,6 +70,12 @@ pub enum CatenaryDynamicError {
          swivel axis is vertical, and without wind; choose the model `catenary-static`"
     )]
     Skew,
+    /// Nothing holds the drum: the cable would run over its pulley.
+    #[error(
+        "with its motor at constant torque, the weight of the cable would pull it over its pulley: it has no linear \
+         vibration; choose a state with more tension, or another control of the motor"
+    )]
+    RunsOut,
     /// The requested frequency needs too fine a discretisation.
     #[error(
         "the requested frequency limit needs at least {unknowns} unknowns for one cable, the maximum is {limit}: lower \
@@ -151,20 +107,23 @@ pub struct CatenaryDynamicEnd {
 }
 
 impl CatenaryDynamicEnd {
-    /// Platform end of a hanging cable, valid up to ω = `limit` [rad/s]. `end` is its end at the pulley or the winch;
-    /// `None` for a fixed anchor.
+    /// Platform end of a hanging cable, valid up to ω = `limit` [rad/s]. `end` is its end at the pulley or the winch,
+    /// with the drive behind it and the mass of the swivel at the cable [kg]; `None` for a fixed anchor.
     ///
     /// # Errors
     /// [`CatenaryDynamicError`].
     pub fn new(
         hanging: &HangingCable,
-        end: Option<&AnchorEnd>,
+        end: Option<(&AnchorEnd, Option<DriveChain>, f64)>,
         mass_per_length: f64,
         damping: Damping,
         in_plane_only: bool,
         limit: f64,
     ) -> Result<Self, CatenaryDynamicError> {
-        let end = end.map(|end| MovingEnd::of(hanging, end)).transpose()?.flatten();
+        let end = end
+            .map(|(end, chain, swivel_mass)| MovingEnd::of(hanging, end, chain, swivel_mass))
+            .transpose()?
+            .flatten();
         let cable =
             CatenaryDynamic::with_stations(&hanging.catenary, end, mass_per_length, limit, Vec::new(), false)?.0;
         let (e, n) = hanging.axes_w();
@@ -211,7 +170,110 @@ impl CatenaryDynamicEnd {
     pub fn damped(&self, omega: f64) -> LocalStiffness<Complex> {
         let (re, im) = self.damping.square(omega, self.mass_per_length);
         let square = Complex::new(re, im);
-        self.with_out_of_plane(self.in_plane().damped(square), |family| family.damped(square))
+        let mut stiffness = self.with_out_of_plane(self.in_plane().damped(square), |family| family.damped(square));
+        if let Some(added) = self.drive_stiffness(omega) {
+            stiffness.axial += added.axial;
+            stiffness.coupling += added.coupling;
+            stiffness.normal += added.normal;
+            stiffness.out_of_plane += added.out_of_plane;
+        }
+        stiffness
+    }
+
+    /// Stiffness at ω [rad/s] that comes from what the undamped model of the drive leaves out [N/m]; `None` without it.
+    pub(crate) fn drive_stiffness(&self, omega: f64) -> Option<LocalStiffness<Complex>> {
+        let (re, im) = self.damping.square(omega, self.mass_per_length);
+        let drive = self.drive_at(Complex::new(re, im), &(0..0, 0..0)).filter(|_| self.has_drive_losses())?;
+        let (in_plane, out_of_plane) = drive.added_stiffness(&self.beyond_undamped(omega.into(), 1.0));
+        Some(local(in_plane, out_of_plane))
+    }
+
+    /// True if the undamped model does not describe its drive completely: masses of the drive that do not share the
+    /// damping of the cable, or losses of its control.
+    pub(crate) fn has_drive_losses(&self) -> bool {
+        let Some(end) = &self.cable.end else { return false };
+        let chain = end.along.as_ref().map(|along| &along.chain);
+        let heavy = chain.is_some_and(|chain| chain.mass.amax() > 0.0) || end.out_of_plane.is_some_and(|(_, m)| m > 0.0);
+        let damped_cable = self.damping.ratio_at(1.0, self.mass_per_length) > 0.0;
+        (heavy && damped_cable) || chain.is_some_and(DriveChain::has_losses)
+    }
+
+    /// Motions of the drive at x = ω_c², without the poles `left_out` in plane and out of plane; `None` without a drive.
+    pub(crate) fn drive_at(&self, x: Complex, left_out: &(Range<usize>, Range<usize>)) -> Option<DriveMotions> {
+        let motion = self.cable.drive.as_ref()?;
+        Some(DriveMotions {
+            along: DriveAt::at(&self.cable.in_plane, &motion.along, &motion.flexibility, x, &left_out.0),
+            sideways: (self.out_of_plane().filter(|_| motion.flexibility_out_of_plane > 0.0)).map(|family| {
+                let flexibility = DMat::from_element(1, 1, motion.flexibility_out_of_plane);
+                DriveAt::at(family, &motion.out_of_plane, &flexibility, x, &left_out.1)
+            }),
+        })
+    }
+
+    /// True if wheel, swivel, drum or motor has mass.
+    pub(crate) fn has_drive_mass(&self) -> bool {
+        self.cable.end.as_ref().is_some_and(|end| {
+            end.along.as_ref().is_some_and(|along| along.chain.mass.amax() > 0.0)
+                || end.out_of_plane.is_some_and(|(_, mass)| mass > 0.0)
+        })
+    }
+
+    /// Kinetic energy of the drive over ω²/2 [kg m²], and the work of its losses, by which its damping grows [N m], in
+    /// a motion of the platform end (e, n, b) at the undamped ω [rad/s]. `near` has the amplitudes of the clamped modes
+    /// that are unknowns of their own.
+    pub(crate) fn drive_share(&self, omega: f64, end: [f64; 3], near: &[(usize, bool, f64)]) -> (f64, f64) {
+        let x = omega * omega;
+        let left_out = |out_of_plane: bool| {
+            let mut indices = near.iter().filter(|near| near.1 == out_of_plane).map(|near| near.0);
+            indices.next().map_or(0..0, |first| first..indices.last().unwrap_or(first) + 1)
+        };
+        let Some(motions) = self.drive_at(x.into(), &(left_out(false), left_out(true))) else { return (0.0, 0.0) };
+        let Some(moving) = &self.cable.end else { return (0.0, 0.0) };
+
+        // Motions by the platform end, and in the near modes.
+        let mut along: Vec<f64> = motions.along.transfer.iter().map(|[e, n]| e.re * end[0] + n.re * end[1]).collect();
+        let mut sideways = motions.sideways.as_ref().map_or(0.0, |sideways| sideways.transfer[0][0].re * end[2]);
+        for (index, out_of_plane, amplitude) in near {
+            let motion = self.drive_in_mode(*index, *out_of_plane);
+            if *out_of_plane {
+                sideways += motion.iter().map(|phi| phi * amplitude).sum::<f64>();
+            } else {
+                along.iter_mut().zip(&motion).for_each(|(sum, phi)| *sum += phi * amplitude);
+            }
+        }
+
+        // Masses, and the imaginary part of what the drive has besides the undamped model, without the cable's damping.
+        let (mut mass, mut loss) = (moving.out_of_plane.map_or(0.0, |(_, mass)| mass) * sideways * sideways, 0.0);
+        if let Some(EndAlong { chain, .. }) = &moving.along {
+            let undamped = (Complex::from(x), Complex::from(2.0 * omega));
+            let losses = chain.beyond_undamped(omega.into(), undamped, 1.0);
+            for (j, z) in along.iter().enumerate() {
+                mass += chain.mass[(j, j)] * z * z;
+                loss += losses[j].0.im * z * z;
+            }
+        }
+        (mass, loss)
+    }
+
+    /// Motions of the drive in the clamped mode with this index, along the cable or sideways [1/√kg].
+    pub(crate) fn drive_in_mode(&self, index: usize, out_of_plane: bool) -> Vec<f64> {
+        let Some(motion) = &self.cable.drive else { return Vec::new() };
+        if out_of_plane {
+            motion.out_of_plane.modes[index].iter().map(|[motion]| *motion).collect()
+        } else {
+            motion.along.modes[index].iter().map(|[motion, _]| *motion).collect()
+        }
+    }
+
+    /// Dynamic stiffness that the drive has besides that of the undamped model, over its motions along the cable and
+    /// sideways, at the complex ω [N/m], with its derivative by ω. `losses` is the fraction of the damping that acts.
+    pub(crate) fn beyond_undamped(&self, omega: Complex, losses: f64) -> DriveLosses {
+        let square = self.damping.times(losses).square_with_slope(omega, self.mass_per_length);
+        let end = self.cable.end.as_ref();
+        let along = end.and_then(|end| end.along.as_ref()).map(|along| along.chain.beyond_undamped(omega, square, losses));
+        let mass = end.and_then(|end| end.out_of_plane).map_or(0.0, |(_, mass)| mass);
+        let sideways = (mass * (square.0 - omega * omega), mass * (square.1 - 2.0 * omega));
+        DriveLosses { along: along.unwrap_or_default(), sideways }
     }
 
     /// Minus the derivative of the undamped stiffness by ω² [kg].
@@ -277,7 +339,7 @@ impl CatenaryDynamicEnd {
     }
 
     /// Indices of the poles in the relative distance `width` of x, in plane and out of plane.
-    fn near(&self, x: f64, width: f64) -> (Range<usize>, Range<usize>) {
+    pub(crate) fn near(&self, x: f64, width: f64) -> (Range<usize>, Range<usize>) {
         (self.in_plane().near(x, width), self.out_of_plane().map_or(0..0, |family| family.near(x, width)))
     }
 
@@ -361,29 +423,37 @@ impl CatenaryDynamic {
             // Static stiffness of both ends.
             let [[hh, hv], [_, vv]] = catenary.tangent();
             let o = catenary.out_of_plane_stiffness();
-            let (still, still_out_of_plane) = match &end {
-                None => {
-                    let both = [[hh, hv, -hh, -hv], [hv, vv, -hv, -vv], [-hh, -hv, hh, hv], [-hv, -vv, hv, vv]];
-                    (both, [[o, -o], [-o, o]])
-                }
-                Some(end) => end.still([[hh, hv], [hv, vv]], o),
-            };
+            let held = MovingEnd { along: None, out_of_plane: None };
+            let still = end.as_ref().unwrap_or(&held).still([[hh, hv], [hv, vv]], o)?;
 
-            // Poles and residues of both families.
+            // Poles and residues of both families, with the drive among the stations.
             let tables = mesh.tables();
-            let along = end.as_ref().map(|end| (&end.along, end.stiffness));
-            let in_plane: Condensed<2, 4, 3> = mesh.condense(&tables, still, along, limit, &arc_lengths)?;
-            let sideways = end.and_then(|end| end.out_of_plane).map(|stiffness| (&[1.0], stiffness));
-            let out_of_plane: Condensed<1, 2, 1> =
-                mesh.condense(&tables, still_out_of_plane, sideways, limit, &arc_lengths)?;
+            let along = end.as_ref().and_then(|end| end.along.as_ref()).map(|along| {
+                let mass = &along.chain.mass + &along.chain.cable_mass;
+                Guide { direction: along.direction, stiffness: along.chain.stiffness.clone(), mass }
+            });
+            let sideways = end.as_ref().and_then(|end| end.out_of_plane).map(|(stiffness, mass)| {
+                let [stiffness, mass] = [stiffness, mass].map(|entry| DMat::from_element(1, 1, entry));
+                Guide { direction: [1.0], stiffness, mass }
+            });
+            let mut in_plane: Condensed<2, 4, 3> =
+                mesh.condense(&tables, still.in_plane, along.as_ref(), limit, &arc_lengths)?;
+            let mut out_of_plane: Condensed<1, 2, 1> =
+                mesh.condense(&tables, still.out_of_plane, sideways.as_ref(), limit, &arc_lengths)?;
             let error = in_plane.error.max(out_of_plane.error);
 
             // Accept the discretisation if it is fine enough, otherwise refine it.
             if error <= WANTED_ERROR || mesh.refined == MAX_REFINEMENTS {
+                let drive = end.is_some().then(|| DriveMotion {
+                    along: in_plane.stations.split_off(arc_lengths.len()),
+                    out_of_plane: out_of_plane.stations.split_off(arc_lengths.len()),
+                    flexibility: still.flexibility,
+                    flexibility_out_of_plane: still.flexibility_out_of_plane,
+                });
                 let stations =
                     Stations { arc_lengths, in_plane: in_plane.stations, out_of_plane: out_of_plane.stations };
                 let (in_plane, out_of_plane) = (in_plane.ends, out_of_plane.ends);
-                let cable = Self { in_plane, out_of_plane, limit, error, degrees: mesh.degrees(), end };
+                let cable = Self { in_plane, out_of_plane, limit, error, degrees: mesh.degrees(), end, drive };
                 return Ok((cable, stations));
             }
             mesh.refine();

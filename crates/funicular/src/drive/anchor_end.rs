@@ -24,6 +24,15 @@ pub struct AnchorEnd {
     pub stiffness: [[f64; 2]; 2],
     /// Force along the cable per unstrained length that is paid out, λ k_s [N/m].
     pub force_by_length: f64,
+    /// Compliance Γ_r of arc and drum side: minus the derivative of their unstrained length by ψ [m/N].
+    pub(crate) rope_compliance: f64,
+    /// Stretch λ at the exit point, and λ_E between entry point and drum.
+    pub(crate) stretch: f64,
+    pub(crate) stretch_drum: f64,
+    /// Stiffness along the cable by its weight, −q·t/λ [N/m]: slip lifts or lowers it.
+    pub(crate) weight: f64,
+    /// Direction of the cable at the exit point towards the platform, unit vector, world axes; that of σ.
+    pub(crate) travel_w: Vec3,
 }
 
 impl AnchorEnd {
@@ -32,20 +41,28 @@ impl AnchorEnd {
     /// # References
     /// docs/theory.md, equations (68) and (69).
     pub(super) fn of(span: &HangingCable, contact: Option<&PulleyContact>, beyond: &Beyond) -> Self {
+        let (load_w, stretch) = (span.load_w(), beyond.stretch);
+        let travel_w = contact.map_or_else(|| towards_platform(span, beyond), PulleyContact::exit_direction_w);
+        let mut end = Self {
+            along_w: None,
+            sideways_w: None,
+            stiffness: [[0.0; 2]; 2],
+            force_by_length: 0.0,
+            rope_compliance: beyond.rope_compliance,
+            stretch,
+            stretch_drum: beyond.stretch_entry,
+            weight: -load_w.dot(&travel_w) / stretch,
+            travel_w,
+        };
+
         // A rigid drum at the exit point holds the cable.
         if beyond.compliance <= 0.0 {
-            return Self { along_w: None, sideways_w: None, stiffness: [[0.0; 2]; 2], force_by_length: 0.0 };
+            return end;
         }
-
-        let (load_w, stretch) = (span.load_w(), beyond.stretch);
         let spring = 1.0 / (stretch * stretch * beyond.compliance);
-        let along_w = contact.map_or_else(|| towards_platform(span, beyond), PulleyContact::exit_direction_w);
-        let mut end = Self {
-            along_w: Some(along_w),
-            sideways_w: None,
-            stiffness: [[spring - load_w.dot(&along_w) / stretch, 0.0], [0.0; 2]],
-            force_by_length: stretch * spring,
-        };
+        end.along_w = Some(travel_w);
+        end.stiffness[0][0] = spring + end.weight;
+        end.force_by_length = stretch * spring;
 
         // A cable without tension does not hold the swivel.
         if let Some(contact) = contact.filter(|contact| contact.wrap > MIN_WRAP && beyond.tension > 0.0) {

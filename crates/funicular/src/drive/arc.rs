@@ -34,8 +34,12 @@ pub(super) struct Beyond {
     pub(super) drum_side_length: f64,
     /// Length that the winch yields [m].
     pub(super) winch_yield: f64,
-    /// Compliance Γ: minus the derivative of the unstrained length beyond the exit point by ψ [m/N].
+    /// Stretch λ_E between entry point and drum.
+    pub(super) stretch_entry: f64,
+    /// Compliance Γ: minus the derivative of the unstrained length beyond the exit point by ψ [m/N], and its part Γ_r of
+    /// arc and drum side.
     pub(super) compliance: f64,
+    pub(super) rope_compliance: f64,
     /// Moment of the length on the wheel about the swivel axis, `M_a = ∫ r (1 − cos θ) ds` [m²].
     pub(super) moment: f64,
     /// Sideways kink κ [rad] of a balanced swivel.
@@ -65,7 +69,9 @@ impl Beyond {
             arc_length: 0.0,
             drum_side_length: 0.0,
             winch_yield: 0.0,
+            stretch_entry: stretch,
             compliance: 0.0,
+            rope_compliance: 0.0,
             moment: 0.0,
             kink: 0.0,
             energy: 0.0,
@@ -84,7 +90,7 @@ impl Beyond {
                 // Unstrained length of the piece that belongs to the node.
                 let length = weight * half * contact.radius / stretch;
                 beyond.arc_length += length;
-                beyond.compliance += length / (ea * stretch * stretch);
+                beyond.rope_compliance += length / (ea * stretch * stretch);
                 beyond.moment += length * offset.dot(&contact.center_w);
                 beyond.energy += length * (0.5 * tension * tension / ea - load_w.dot(&offset));
             }
@@ -98,14 +104,17 @@ impl Beyond {
         }
 
         // Drum side and winch.
+        beyond.stretch_entry = stretch_entry;
         if let Some(winch) = &anchor.winch {
             let (tension, by_tension) = (beyond.tension_entry, winch.compliance());
             beyond.winch_yield = tension * by_tension;
             beyond.drum_side_length = (winch.drum_side_length - beyond.winch_yield) / stretch_entry;
             let squared = stretch_entry * stretch_entry;
-            beyond.compliance += beyond.drum_side_length / (ea * squared) + by_tension / squared;
+            beyond.rope_compliance += beyond.drum_side_length / (ea * squared);
+            beyond.compliance += by_tension / squared;
             beyond.energy += 0.5 * tension * tension * (beyond.drum_side_length / ea + by_tension);
         }
+        beyond.compliance += beyond.rope_compliance;
 
         beyond
     }

@@ -51,7 +51,7 @@ fn cable(anchor: Anchor, axial_stiffness: f64) -> Cable {
 }
 
 fn pulley(radius: f64, entry_direction_w: Vec3) -> Pulley {
-    Pulley { name: "wheel".to_owned(), radius, entry_direction_w }
+    Pulley::new("wheel", radius, entry_direction_w)
 }
 
 /// Case with tilted axes, pulleys up to half a metre, winches from soft to rigid, cables from slack to stretched by
@@ -69,7 +69,7 @@ fn cases(tilt: f64) -> impl Strategy<Value = Case> {
         let anchor = Anchor {
             point_w: Vec3::new(0.0, 0.0, 3.0),
             pulley: Some(pulley(10f64.powf(radius), axis)),
-            winch: Some(Winch { name: "winch".to_owned(), drum_side_length, stiffness }),
+            winch: Some(Winch { stiffness, ..Winch::rigid("winch", drum_side_length) }),
         };
         let reach_w = start_w - anchor.point_w;
         let across = (reach_w - axis * reach_w.dot(&axis)).norm();
@@ -178,7 +178,7 @@ fn a_vanishing_pulley_is_a_fixed_point() {
 #[test]
 fn a_winch_without_weight_is_a_spring_in_series() {
     let load = LineLoad { up_w: Vec3::z(), size: 0.0 };
-    let winch = Winch { name: "winch".to_owned(), drum_side_length: 3.0, stiffness: 5e4 };
+    let winch = Winch { stiffness: 5e4, ..Winch::rigid("winch", 3.0) };
     let anchor = Anchor { winch: Some(winch), ..Anchor::from(Vec3::new(0.0, 0.0, 5.0)) };
     let found = CableAtRest::hang(Vec3::zeros(), &cable(anchor, 2e5), &load, 7.99);
     // (5 + 3 − T/k)/(1 + T/EA) = 7.99.

@@ -7,8 +7,12 @@
 //! B(ω) = [ D_regular   −s g_k  ]
 //!        [ −s g_kᵀ     ω_k² − s ]      s = ω_c²(ω)
 //! ```
+//!
+//! The motions z of a drive with losses are unknowns, too: the forces Δ z of its losses act on platform and clamped modes
+//! by T and φ_k, and `z = T x + φ_k q_k − R Δ z` (docs/theory.md, equation (82)).
 
 use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
+use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveLosses, DriveMotions, NearPole};
 use crate::cable::{DynamicCable, LocalStiffness};
 use crate::math::{CDMat, CMat6, Complex};
 
@@ -59,7 +63,7 @@ impl Dynamics {
 
         // The cables, without the poles near ω.
         let (mut pole_slope, mut pole_phase) = (Complex::new(0.0, 0.0), 0.0);
-        let mut borders = Vec::new();
+        let (mut borders, mut drives) = (Vec::new(), Vec::new());
         for (term, poles) in self.terms.iter().zip(poles) {
             let (damping, mass_per_length) = self.damping[term.cable];
             let (square, square_slope) = damping.times(losses).square_with_slope(omega, mass_per_length);
@@ -80,11 +84,20 @@ impl Dynamics {
                 pole_slope -= square_slope / gap;
                 pole_phase += gap.arg();
             }
+            if let DynamicCable::CatenaryDynamic(form) = &term.form {
+                let left_out = form.near(square.re, NEAR_POLE_FRACTION);
+                if let Some(motions) = form.drive_at(square, &left_out).filter(|_| form.has_drive_losses()) {
+                    let losses = form.beyond_undamped(omega, losses);
+                    let first_border = borders.len();
+                    drives.push(DriveRows::new(term, form, &motions, &losses, (&near, first_border), square_slope));
+                }
+            }
             borders.extend(near.iter().map(|near| (term.vector(near.direction), near.pole, square, square_slope)));
         }
 
         // The border: each near pole is a separate unknown.
-        let (f, n) = (self.dof(), self.dof() + borders.len());
+        let (f, mut first) = (self.dof(), self.dof() + borders.len());
+        let n = first + drives.iter().map(|drive| drive.loss.len()).sum::<usize>();
         let (mut all, mut all_slope) = (CDMat::zeros(n, n), CDMat::zeros(n, n));
         all.view_mut((0, 0), (f, f)).copy_from(&value.view((0, 0), (f, f)));
         all_slope.view_mut((0, 0), (f, f)).copy_from(&slope.view((0, 0), (f, f)));
@@ -98,7 +111,99 @@ impl Dynamics {
                 }
             }
         }
+        for drive in drives {
+            drive.add(&mut all, &mut all_slope, f, first);
+            first += drive.loss.len();
+        }
         Bordered { value: all, slope: all_slope, pole_slope, pole_phase }
+    }
+}
+
+/// Rows and columns of the motions z of a drive with losses; every entry with its derivative by ω.
+struct DriveRows {
+    /// T in the platform's coordinates, per motion.
+    transfer: Vec<[(Complex, Complex); 6]>,
+    /// R between the motions.
+    receptance: Vec<Vec<(Complex, Complex)>>,
+    /// Δ per motion.
+    loss: Vec<(Complex, Complex)>,
+    /// Near poles of the cable: their numbers in the border, and φ_k per motion.
+    near: Vec<(usize, Vec<f64>)>,
+}
+
+impl DriveRows {
+    fn new(
+        term: &DynamicCableAt,
+        form: &CatenaryDynamicEnd,
+        motions: &DriveMotions,
+        losses: &DriveLosses,
+        (near, first_border): (&[NearPole], usize),
+        square_slope: Complex,
+    ) -> Self {
+        let along = losses.along.len();
+        let count = along + usize::from(motions.sideways.is_some());
+        let zero = (Complex::new(0.0, 0.0), Complex::new(0.0, 0.0));
+        let [e, n, b] = term.axes();
+
+        // T and R along the cable, then sideways.
+        let mut transfer: Vec<[(Complex, Complex); 6]> = (0..along)
+            .map(|j| {
+                let ([te, tn], [se, sn]) = (motions.along.transfer[j], motions.along.transfer_slope[j]);
+                std::array::from_fn(|i| (te * e[i] + tn * n[i], (se * e[i] + sn * n[i]) * square_slope))
+            })
+            .collect();
+        let mut receptance = vec![vec![zero; count]; count];
+        for i in 0..along {
+            for j in 0..along {
+                let at = (i, j);
+                receptance[i][j] =
+                    (motions.along.receptance[at], motions.along.receptance_slope[at] * square_slope);
+            }
+        }
+        let mut loss = losses.along.clone();
+        if let Some(sideways) = &motions.sideways {
+            let ([t], [s]) = (sideways.transfer[0], sideways.transfer_slope[0]);
+            transfer.push(std::array::from_fn(|i| (t * b[i], s * b[i] * square_slope)));
+            receptance[along][along] = (sideways.receptance[(0, 0)], sideways.receptance_slope[(0, 0)] * square_slope);
+            loss.push(losses.sideways);
+        }
+
+        // Near poles move either family.
+        let near = (near.iter().enumerate())
+            .map(|(k, near)| {
+                let motions = form.drive_in_mode(near.index, near.out_of_plane);
+                let first = if near.out_of_plane { along } else { 0 };
+                let mut all = vec![0.0; count];
+                motions.iter().zip(all.iter_mut().skip(first)).for_each(|(phi, entry)| *entry = *phi);
+                (first_border + k, all)
+            })
+            .collect();
+        Self { transfer, receptance, loss, near }
+    }
+
+    /// Adds the rows and columns to a matrix and its derivative: `f` coordinates of the platform, then the border, and
+    /// these motions from the row `first` on.
+    fn add(&self, value: &mut CDMat, slope: &mut CDMat, f: usize, first: usize) {
+        for (j, (delta, delta_slope)) in self.loss.iter().enumerate() {
+            let column = first + j;
+            for r in 0..f {
+                let (t, t_slope) = self.transfer[j][r];
+                value[(r, column)] = t * delta;
+                slope[(r, column)] = t_slope * delta + t * delta_slope;
+                value[(column, r)] = -t;
+                slope[(column, r)] = -t_slope;
+            }
+            for (border, phi) in &self.near {
+                value[(f + border, column)] = phi[j] * delta;
+                slope[(f + border, column)] = phi[j] * delta_slope;
+                value[(column, f + border)] = (-phi[j]).into();
+            }
+            for (i, row) in self.receptance.iter().enumerate() {
+                let (r, r_slope) = row[j];
+                value[(first + i, column)] = r * delta + if i == j { 1.0 } else { 0.0 };
+                slope[(first + i, column)] = r_slope * delta + r * delta_slope;
+            }
+        }
     }
 }
 

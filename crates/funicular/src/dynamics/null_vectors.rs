@@ -37,8 +37,12 @@ pub(crate) struct NullVector {
     pub(crate) near: Vec<NearMotion>,
     /// Kinetic energy of the platform as a fraction of the total.
     pub(crate) platform_energy: f64,
-    /// Kinetic energy of each cable as a fraction of the total.
+    /// Kinetic energy of each cable as a fraction of the total, without its drive.
     pub(crate) cable_energies: Vec<f64>,
+    /// Kinetic energy of the drive of each cable as a fraction of the total; empty if no drive has mass.
+    pub(crate) drive_energies: Vec<f64>,
+    /// Damping ratio of the drives to first order.
+    pub(crate) drive_damping: f64,
     /// Residual |vᵀ A v|/x: twice the relative change of the frequency by another Newton step.
     pub(crate) residual: f64,
 }
@@ -66,6 +70,8 @@ impl Dynamics {
                     near: Vec::new(),
                     platform_energy: platform / total,
                     cable_energies: cables.iter().map(|mass| mass / total).collect(),
+                    drive_energies: Vec::new(),
+                    drive_damping: 0.0,
                     residual: values[k].abs() / (omega * omega * total),
                 }
             })
@@ -88,7 +94,7 @@ impl Dynamics {
         nearest_zero(all.eigenvalues.as_slice(), several)
             .map(|k| {
                 let v = l.tr_solve_lower_triangular(&all.eigenvectors.column(k)).expect("the factor is regular");
-                pencil.null_vector(self, v.as_slice(), all.eigenvalues[k].abs() / x)
+                pencil.null_vector(self, omega, v.as_slice(), all.eigenvalues[k].abs() / x)
             })
             .collect()
     }
@@ -162,7 +168,7 @@ impl BorderedPencil {
     }
 
     /// Natural motion from a null vector `v` of A with unit modal mass.
-    fn null_vector(&self, dynamics: &Dynamics, v: &[f64], residual: f64) -> NullVector {
+    fn null_vector(&self, dynamics: &Dynamics, omega: f64, v: &[f64], residual: f64) -> NullVector {
         let dof = dynamics.dof();
         let platform = Vec6::from_fn(|i, _| if i < dof { v[i] } else { 0.0 });
 
@@ -184,7 +190,25 @@ impl BorderedPencil {
         for energy in &mut cable_energies {
             *energy /= total;
         }
-        NullVector { platform, near, platform_energy: platform_energy / total, cable_energies, residual }
+
+        // Energies and losses of the drives, which the cables contain so far.
+        let (mut drive_energies, mut drive_damping) = (Vec::new(), 0.0);
+        for (t, term) in dynamics.terms.iter().enumerate() {
+            let DynamicCable::CatenaryDynamic(form) = &term.form else { continue };
+            if !(form.has_drive_mass() || form.has_drive_losses()) {
+                continue;
+            }
+            drive_energies.resize(dynamics.cable_count(), 0.0);
+            let of_cable: Vec<(usize, bool, f64)> = (near.iter().filter(|near| near.term == t))
+                .map(|near| (near.pole, near.out_of_plane, near.amplitude))
+                .collect();
+            let (mass, loss) = form.drive_share(omega, term.displacement(&platform), &of_cable);
+            drive_energies[term.cable] = mass / total;
+            cable_energies[term.cable] -= mass / total;
+            drive_damping += loss / (2.0 * omega * omega * total);
+        }
+        let platform_energy = platform_energy / total;
+        NullVector { platform, near, platform_energy, cable_energies, drive_energies, drive_damping, residual }
     }
 }
 

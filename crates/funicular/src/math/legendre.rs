@@ -1,5 +1,7 @@
 //! Gauss-Legendre quadrature and orthonormal Legendre polynomials.
 
+use super::DMat;
+
 /// Nodes and weights of the n-point Gauss rule on [−1, 1], exact to degree 2n − 1; in ascending order.
 ///
 /// Newton's method on P_n from Tricomi's estimate of the nodes; full precision for the few hundred points used here.
@@ -54,6 +56,43 @@ pub fn orthonormal(xi: f64, degree: usize) -> Vec<f64> {
         *value *= (k as f64 + 0.5).sqrt();
     }
     values
+}
+
+/// Mass integrals ∫ N_a N_b dξ over [−1, 1] of the functions of an element: the two hats and the bubbles
+/// `N_j = ∫ p_{j−1} = (P_j − P_{j−2})/√(2(2j − 1))`, j = 2 … `degree`; (`degree` + 1)×(`degree` + 1). The slopes of the
+/// bubbles are orthonormal, and their products with those of the hats are zero.
+pub fn element_mass(degree: usize) -> DMat {
+    let mut m = DMat::zeros(degree + 1, degree + 1);
+    let mut set = |a: usize, b: usize, value: f64| {
+        m[(a, b)] = value;
+        m[(b, a)] = value;
+    };
+
+    // The hats, and the first two bubbles, the only ones whose product with a hat has an integral.
+    set(0, 0, 2.0 / 3.0);
+    set(1, 1, 2.0 / 3.0);
+    set(0, 1, 1.0 / 3.0);
+    // The index j of N_j is also its row, because the hats take rows 0 and 1.
+    if degree >= 2 {
+        let value = -1.0 / 6f64.sqrt();
+        set(0, 2, value);
+        set(1, 2, value);
+    }
+    if degree >= 3 {
+        let value = 1.0 / (3.0 * 10f64.sqrt());
+        set(0, 3, value);
+        set(1, 3, -value);
+    }
+
+    // Products of two bubbles.
+    for j in 2..=degree {
+        let n = j as f64;
+        set(j, j, 2.0 / ((2.0 * n + 1.0) * (2.0 * n - 3.0)));
+        if j + 2 <= degree {
+            set(j, j + 2, -1.0 / ((2.0 * n + 1.0) * ((2.0 * n - 1.0) * (2.0 * n + 3.0)).sqrt()));
+        }
+    }
+    m
 }
 
 #[cfg(test)]

@@ -65,8 +65,14 @@ const ONE_ZERO: f64 = 1e-8;
 const STEP_OF_DAMPING: f64 = 0.1;
 /// Maximum number of these steps.
 const MAX_STEPS: f64 = 20.0;
-/// Maximum number of times that lost zeros are sought again.
-const MAX_ROUNDS: usize = 5;
+/// Maximum number of times that lost zeros are sought again, and of those among them that start near a mode. The others
+/// start anywhere in the region: strong damping, as of a servo, moves zeros far from their undamped frequencies.
+const MAX_ROUNDS: usize = 60;
+const ROUNDS_AT_MODES: usize = 5;
+/// Maximum damping ratio of starts anywhere in the region, and the steps of their sequence, which fills the region evenly
+/// (R. L. Roberts' sequence in two dimensions).
+const MAX_START_RATIO: f64 = 0.9;
+const SPREAD: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 /// Relative step below which the search of a zero has converged.
 const SETTLED: f64 = 4e-15;
 /// Maximum number of rounds of Newton steps. Four are usual; the maximum is a guard for clusters, where convergence is
@@ -112,7 +118,7 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     let limit = undamped.below_hz * TAU;
     let strongest = undamped.modes.iter().map(|mode| mode.damping_ratio).fold(0.0, f64::max);
     let steps = (strongest / STEP_OF_DAMPING).ceil().clamp(1.0, MAX_STEPS);
-    let mut search = ZeroSearch { dynamics, losses: 1.0 / steps, poles: dynamics.poles_below(POLES_BEYOND * limit) };
+    let mut search = ZeroSearch { dynamics, losses: 1.0 / steps, poles: dynamics.poles_below(POLES_BEYOND * limit), foreign: Vec::new() };
 
     // All zeros at once; the damping is added in steps.
     let mut zeros = search.starts(&undamped.modes);
@@ -123,8 +129,9 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     }
 
     // Separate zeros that a multiple mode shares, and search again for lost zeros.
+    let right = search.free_of_modes(limit);
     search.separate(&mut zeros, &undamped.modes);
-    search.bring_back(&mut zeros, &undamped.modes);
+    search.bring_back(&mut zeros, &undamped.modes, right);
 
     let mut modes = vec![DampedMode { omega: Complex::new(0.0, 0.0), error: 0.0 }; undamped.modes.len()];
     for zero in &zeros {
@@ -137,8 +144,8 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     let overdamped = modes.iter().filter(|mode| mode.omega.re.abs() <= IMAGINARY * mode.omega.norm()).count();
     let certified = undamped.certified
         && overdamped == 0
-        && modes.iter().all(|mode| mode.error <= WANTED_ERROR && mode.omega.re > 0.0)
-        && search.as_many_as_undamped(&modes, limit);
+        && modes.iter().all(|mode| mode.error <= WANTED_ERROR && mode.omega.re > 0.0 && mode.omega.re < right)
+        && search.as_many_as_undamped(&modes, limit, right);
     DampedModes { modes, overdamped, certified }
 }
 
@@ -149,6 +156,8 @@ struct ZeroSearch<'a> {
     losses: f64,
     /// Poles of each cable whose stiffness depends on frequency.
     poles: Vec<Vec<f64>>,
+    /// Zeros outside the region at which a search has ended; they are divided out, too.
+    foreign: Vec<Complex>,
 }
 
 /// Zero with the undamped modes that share it.
@@ -179,12 +188,16 @@ impl ZeroSearch<'_> {
         zeros
     }
 
-    /// Complex frequency of a mode with the platform at rest whose cables have the same damping.
+    /// Complex frequency of a mode with the platform at rest whose cables have the same damping and no drive with
+    /// losses.
     fn of_cables_alone(&self, mode: &Mode) -> Option<Complex> {
         if mode.platform_energy_fraction > 0.0 {
             return None;
         }
         let moving = mode.cable_energy_fractions.iter().enumerate().filter(|(_, fraction)| **fraction > 0.0);
+        if moving.clone().any(|(i, _)| self.dynamics.has_drive_losses(i)) {
+            return None;
+        }
         let mut damped = moving.map(|(i, _)| self.dynamics.cable_zero(i, mode.frequency_hz * TAU, self.losses));
         let first = damped.next()?;
         damped.all(|omega| omega == first).then_some(first)
@@ -217,7 +230,8 @@ impl ZeroSearch<'_> {
                     .filter(|other| other.omega != omega)
                     .map(|other| other.members.len() as f64 / (omega - other.omega))
                     .sum();
-                let slope = self.dynamics.logarithmic_slope(omega, self.losses, &self.poles) - others;
+                let foreign: Complex = self.foreign.iter().map(|zero| 1.0 / (omega - zero)).sum();
+                let slope = self.dynamics.logarithmic_slope(omega, self.losses, &self.poles) - others - foreign;
                 let step = zeros[i].members.len() as f64 / slope;
 
                 if !(step.re.is_finite() && step.im.is_finite()) {
@@ -263,15 +277,17 @@ impl ZeroSearch<'_> {
     }
 
     /// Searches again for zeros that have left their region: from their own start, and from the starts of the zeros
-    /// that have moved farthest, because one of these may have taken the zero of another. All others stay divided out.
-    fn bring_back(&self, zeros: &mut [DampedZero], modes: &[Mode]) {
+    /// that have moved farthest, because one of these may have taken the zero of another, then from anywhere in the
+    /// region. All others stay divided out.
+    fn bring_back(&mut self, zeros: &mut [DampedZero], modes: &[Mode], right: f64) {
         let start = |zero: &DampedZero| {
             let mode = &modes[zero.members[0]];
             mode.frequency_hz * TAU * Complex::new(1.0, mode.damping_ratio)
         };
         // Zeros without damping lie on the real axis, except for rounding.
         let minimum = |zero: &DampedZero| -WANTED_ERROR * zero.omega.norm();
-        let is_lost = |zero: &DampedZero| zero.error > WANTED_ERROR || zero.omega.re.min(zero.omega.im) < minimum(zero);
+        let is_outside = |zero: &DampedZero| zero.omega.re.min(zero.omega.im) < minimum(zero) || zero.omega.re > right;
+        let is_lost = |zero: &DampedZero| zero.error > WANTED_ERROR || is_outside(zero);
 
         for round in 0..MAX_ROUNDS {
             let lost: Vec<usize> = (0..zeros.len()).filter(|i| is_lost(&zeros[*i])).collect();
@@ -285,10 +301,19 @@ impl ZeroSearch<'_> {
             places.sort_by(|i, j| gone(&zeros[*j]).total_cmp(&gone(&zeros[*i])));
 
             for (k, i) in lost.into_iter().enumerate() {
-                let at = if round == 0 { i } else { places.get(round - 1 + k).copied().unwrap_or(i) };
-                // Start beside that place, because the zero there may belong to another mode.
-                let beside = Complex::from_polar(BESIDE, BESIDE_ANGLE + k as f64);
-                zeros[i].omega = start(&zeros[at]) * (1.0 + beside);
+                if zeros[i].error <= WANTED_ERROR {
+                    self.foreign.push(zeros[i].omega);
+                }
+                zeros[i].omega = if round < ROUNDS_AT_MODES {
+                    let at = if round == 0 { i } else { places.get(round - 1 + k).copied().unwrap_or(i) };
+                    // Start beside that place, because the zero there may belong to another mode.
+                    let beside = Complex::from_polar(BESIDE, BESIDE_ANGLE + k as f64);
+                    start(&zeros[at]) * (1.0 + beside)
+                } else {
+                    let number = (1 + round * (1 + k)) as f64;
+                    let [along, damped] = SPREAD.map(|step| (number * step).fract());
+                    right * along * Complex::new(1.0, MAX_START_RATIO * damped)
+                };
                 zeros[i].error = f64::INFINITY;
             }
             self.converge(zeros);
@@ -343,13 +368,12 @@ impl ZeroSearch<'_> {
 
     /// True if the region of the list has as many damped zeros as undamped ones: the phase of the quotient of both
     /// determinants has no total change along the boundary.
-    fn as_many_as_undamped(&self, modes: &[DampedMode], limit: f64) -> bool {
+    fn as_many_as_undamped(&self, modes: &[DampedMode], limit: f64, right: f64) -> bool {
         let Some(min_re) = modes.iter().map(|mode| mode.omega.re).reduce(f64::min) else { return true };
         let max_im = modes.iter().map(|mode| mode.omega.im).fold(0.0, f64::max);
 
         // Corners of the region, so far from all zeros that the phase changes slowly.
         let margin = (MARGIN * max_im).max(MIN_MARGIN * limit);
-        let right = self.free_of_modes(limit);
         let corner = |re, im| Complex::new(re, im);
         let corners = [
             corner(0.5 * min_re, -margin),

@@ -105,7 +105,7 @@ fn in_pieces(
     by: &EquilibriumDerivative,
     pieces: usize,
 ) -> Result<f64, FrequencyDerivativeError> {
-    let Linearisation { cable_model, assembly, in_plane_only } = dynamics.linearisation;
+    let Linearisation { cable_model, assembly, in_plane_only, .. } = dynamics.linearisation;
     if !matches!(cable_model, CableModel::CatenaryStatic | CableModel::CatenaryDynamic) {
         return Err(FrequencyDerivativeError::Model(cable_model));
     }

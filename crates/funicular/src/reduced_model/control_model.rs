@@ -391,7 +391,7 @@ impl Chosen {
                 states: size,
                 frequency_hz: term.value.norm() / TAU,
                 damping_ratio: -term.value.re / term.value.norm(),
-                kind: (!term.is_residual).then(|| Kind::of(term.platform)),
+                kind: (!term.is_residual).then(|| Kind::of(term.platform, 0.0)),
                 platform_energy_fraction: term.platform,
                 contribution: term.size,
             });

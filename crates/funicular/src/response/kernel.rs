@@ -90,7 +90,13 @@ impl<'a> Prepared<'a> {
                 DynamicCable::ShallowDynamic(form) => {
                     (shallow_dynamic::stiffness(entire(form, omega), &form.sag), form.in_plane_only)
                 }
-                DynamicCable::CatenaryDynamic(form) => (catenary_dynamic(form, omega), form.in_plane_only),
+                DynamicCable::CatenaryDynamic(form) => {
+                    let mut k = catenary_dynamic(form, omega);
+                    if form.has_drive_losses() {
+                        add_drive(&mut k, form, omega);
+                    }
+                    (k, form.in_plane_only)
+                }
             };
             for (entry, d) in d.iter_mut().enumerate() {
                 d.add_scaled(&k.axial, products.axial[entry]);
@@ -119,6 +125,25 @@ fn catenary_dynamic(form: &CatenaryDynamicEnd, omega: &Lane) -> LocalStiffness<C
         None => Complexes::ZERO,
     };
     LocalStiffness { axial, coupling, normal, out_of_plane }
+}
+
+/// Adds what comes from the losses of a drive, lane by lane.
+#[cold]
+#[inline(never)]
+fn add_drive(k: &mut LocalStiffness<Complexes>, form: &CatenaryDynamicEnd, omega: &Lane) {
+    for i in 0..LANES {
+        let Some(added) = form.drive_stiffness(omega[i]) else { continue };
+        let entries = [
+            (&mut k.axial, added.axial),
+            (&mut k.coupling, added.coupling),
+            (&mut k.normal, added.normal),
+            (&mut k.out_of_plane, added.out_of_plane),
+        ];
+        for (sum, added) in entries {
+            sum.re[i] += added.re;
+            sum.im[i] += added.im;
+        }
+    }
 }
 
 /// Entries of `K_s − x M_s − x² Σ g gᵀ/(ω_k² − x)` at each lane.

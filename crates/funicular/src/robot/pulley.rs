@@ -21,6 +21,10 @@ pub struct Pulley {
     pub radius: f64,
     /// Unit vector a along which the cable travels at the entry point, towards the platform; the swivel axis, world axes.
     pub entry_direction_w: Vec3,
+    /// Moment of inertia of the wheel about its axle [kg m²].
+    pub inertia: f64,
+    /// Moment of inertia of all that swivels, wheel included, about the swivel axis [kg m²].
+    pub swivel_inertia: f64,
 }
 
 /// Place of a cable on a pulley: swivel angle and wrap angle.
@@ -39,6 +43,11 @@ pub struct PulleyContact {
 }
 
 impl Pulley {
+    /// Pulley without inertia.
+    pub fn new(name: &str, radius: f64, entry_direction_w: Vec3) -> Self {
+        Self { name: name.to_owned(), radius, entry_direction_w, inertia: 0.0, swivel_inertia: 0.0 }
+    }
+
     /// Distance of a point from the wheel's centre [m]; the wheel swivels towards the point. `reach_w` is the point from
     /// the entry point.
     pub fn distance_from_center(&self, reach_w: &Vec3) -> f64 {
@@ -56,11 +65,7 @@ impl Pulley {
     /// ```
     /// use funicular::{math::Vec3, robot::Pulley};
     ///
-    /// let pulley = Pulley {
-    ///     name: "wheel".to_owned(),
-    ///     radius: 0.5,
-    ///     entry_direction_w: Vec3::z(), // the cable comes up the post
-    /// };
+    /// let pulley = Pulley::new("wheel", 0.5, Vec3::z()); // the cable comes up the post
     /// // The cable goes over the wheel and straight down at twice the radius.
     /// let contact = pulley.contact(&Vec3::new(1.0, 0.0, -4.0));
     /// assert!((contact.wrap - std::f64::consts::PI).abs() < 1e-15);

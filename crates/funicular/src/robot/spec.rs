@@ -10,6 +10,7 @@
 
 mod cables;
 mod drives;
+mod winches;
 mod issue;
 pub mod key;
 mod limits;
@@ -150,7 +151,7 @@ pub const TABLES: &[Table] = &[
     Table { header: "[platform]", keys: platform::KEYS },
     Table { header: "[materials.NAME]", keys: materials::KEYS },
     Table { header: "[pulleys.NAME]", keys: drives::PULLEY },
-    Table { header: "[winches.NAME]", keys: drives::WINCH },
+    Table { header: "[winches.NAME]", keys: winches::WINCH },
     Table { header: "[[cables]]", keys: cables::KEYS },
     Table { header: "[loads]", keys: LOADS },
     Table { header: "[wind]", keys: WIND },

@@ -1,22 +1,131 @@
-//! Winch of a cable: drum and shaft, and the cable between drum and entry point.
+//! Winch of a cable: drum, shaft and motor with its control, and the cable between drum and entry point.
 //!
-//! All numbers refer to motion of the rope at the drum: a torsional stiffness k counts as k/R², R being the radius of the
-//! drum.
+//! All numbers refer to motion of the cable at the drum: an inertia J about the drum's axis counts as the mass J/R², a
+//! torsional stiffness k as k/R², R being the radius of the drum. A motor behind a gear of the ratio i turns i times as
+//! fast as the drum, so that its inertia counts i² times.
+
+use std::f64::consts::TAU;
 
 /// Winch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Winch {
     /// Name in the robot file.
     pub name: String,
-    /// Length of the rope from the drum to the entry point [m], guide wheels included.
+    /// Length of the cable from the drum to the entry point [m], guide wheels included.
     pub drum_side_length: f64,
-    /// Mechanical stiffness of shaft, gear and drum at the rope [N/m]; infinite for a rigid winch.
+    /// Vibration of the cable between drum and exit point.
+    pub drum_side: DrumSide,
+    /// Mechanical stiffness of shaft, gear and drum at the cable [N/m]; infinite for a rigid winch.
     pub stiffness: f64,
+    /// Mass that the drum adds at the cable [kg].
+    pub drum_mass: f64,
+    /// Mass that the motor adds at the cable, behind the gear [kg].
+    pub motor_mass: f64,
+    /// Viscous damping of motor and bearings at the cable [N s/m].
+    pub damping: f64,
+    /// Control of the motor.
+    pub control: Control,
+}
+
+/// Model of the cable between drum and exit point in vibration. At rest there is no difference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DrumSide {
+    /// Spring without mass.
+    #[default]
+    Massless,
+    /// Elastic rod: the mass of the cable moves along the cable, with its axial waves.
+    Rod,
+}
+
+/// Control of the motor of a winch.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Control {
+    /// The motor holds its angle exactly.
+    #[default]
+    Ideal,
+    /// A controller holds the angle.
+    Position(Servo),
+    /// The torque of the motor is constant.
+    Torque,
+}
+
+/// Position control of a motor: the force `(K_p + iω K_d) e^{−iωτ}` at the cable per error of the drum's position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Servo {
+    /// Gain K_p at the cable [N/m].
+    pub position_gain: f64,
+    /// Gain K_d at the cable [N s/m].
+    pub speed_gain: f64,
+    /// Slow integral action, which leaves no error at rest. Without it the winch yields at rest by the tension over K_p.
+    pub integral: bool,
+    /// Delay τ of the loop [s].
+    pub delay: f64,
+}
+
+impl Servo {
+    /// Servo that moves a mass [kg] with a bandwidth [Hz] and a damping ratio: `K_p = M ω_b²`, `K_d = 2 ζ M ω_b`.
+    pub fn of_bandwidth(mass: f64, bandwidth_hz: f64, damping_ratio: f64, integral: bool, delay: f64) -> Self {
+        let omega = bandwidth_hz * TAU;
+        Self {
+            position_gain: mass * omega * omega,
+            speed_gain: 2.0 * damping_ratio * mass * omega,
+            integral,
+            delay,
+        }
+    }
+}
+
+/// Winches in vibration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum WinchMode {
+    /// Winches as the robot file describes them.
+    #[default]
+    AsGiven,
+    /// Motors held at their angle, as with an infinitely fast control.
+    Clamped,
+    /// Motors with constant torque.
+    Torque,
+    /// Cables that stick to their pulleys: what lies behind does not move.
+    Stuck,
+}
+
+impl WinchMode {
+    /// All modes.
+    pub const ALL: [Self; 4] = [Self::AsGiven, Self::Clamped, Self::Torque, Self::Stuck];
+
+    /// Name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::AsGiven => "as-given",
+            Self::Clamped => "clamped",
+            Self::Torque => "torque",
+            Self::Stuck => "stuck",
+        }
+    }
 }
 
 impl Winch {
-    /// Length by which the drum pays out rope per tension at rest [m/N].
+    /// Rigid winch without inertia, whose motor holds its angle.
+    pub fn rigid(name: &str, drum_side_length: f64) -> Self {
+        Self {
+            name: name.to_owned(),
+            drum_side_length,
+            drum_side: DrumSide::Massless,
+            stiffness: f64::INFINITY,
+            drum_mass: 0.0,
+            motor_mass: 0.0,
+            damping: 0.0,
+            control: Control::Ideal,
+        }
+    }
+
+    /// Length by which the winch pays out cable per tension at rest [m/N]: that of its mechanical stiffness, and that of
+    /// a control without integral action.
     pub fn compliance(&self) -> f64 {
-        1.0 / self.stiffness
+        let by_control = match self.control {
+            Control::Position(servo) if !servo.integral => 1.0 / servo.position_gain,
+            Control::Position(_) | Control::Ideal | Control::Torque => 0.0,
+        };
+        1.0 / self.stiffness + by_control
     }
 }

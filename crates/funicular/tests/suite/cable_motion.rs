@@ -10,7 +10,7 @@ use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::Damping;
 
 const EXACT: Linearisation =
-    Linearisation { cable_model: CableModel::CatenaryDynamic, assembly: Assembly::Consistent, in_plane_only: false };
+    Linearisation { cable_model: CableModel::CatenaryDynamic, assembly: Assembly::Consistent, in_plane_only: false, winches: WinchMode::AsGiven };
 
 #[test]
 fn a_force_on_a_cable_that_the_model_does_not_know_is_refused() {

@@ -112,6 +112,7 @@ fn a_free_direction_without_stiffness_is_an_error_not_infinity() {
         cable_model: CableModel::Spring,
         assembly: funicular::dynamics::Assembly::WithoutGeometricStiffness,
         in_plane_only: false,
+        winches: WinchMode::AsGiven,
     };
     let mut dynamics = Dynamics::about(&robot, &rest, linearisation, 20.0).unwrap();
     let u = Vec6::new(0.0, 0.0, 1.0, 0.0, 0.0, 0.0);

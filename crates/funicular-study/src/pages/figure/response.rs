@@ -202,7 +202,7 @@ fn spaced(peaks: &[Peak], distance: f64) -> Vec<Peak> {
 }
 
 /// Kinds of modes in the order in which they are drawn and listed.
-pub(crate) const KINDS: [Kind; 3] = [Kind::Cable, Kind::Mixed, Kind::Platform];
+pub(crate) const KINDS: [Kind; 4] = [Kind::Cable, Kind::Mixed, Kind::Platform, Kind::Drive];
 
 /// Ticks of the modes on the strip below a response, one trace per kind.
 fn ticks(modes: &[Mode]) -> Vec<Value> {
@@ -243,6 +243,7 @@ pub(crate) fn strip(modes: &Modes) -> Figure {
             Kind::Platform => "circle",
             Kind::Mixed => "diamond",
             Kind::Cable => "line-ns-open",
+            Kind::Drive => "triangle-up",
         };
         let x: Vec<f64> = found.iter().map(|m| m.frequency_hz).collect();
         let y: Vec<f64> = found.iter().map(|m| 100.0 * m.platform_energy_fraction).collect();

@@ -13,7 +13,7 @@ use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{Mat3, Vec3};
 use funicular::modes::{self, Modes};
 use funicular::response::{self, Peak, Quantity};
-use funicular::robot::{Damping, Robot};
+use funicular::robot::{Damping, Robot, WinchMode};
 use funicular::statics::{self, StaticModel};
 
 /// Upper limit of the paper's lists [Hz].
@@ -105,7 +105,7 @@ fn outcome(robot: &Robot, set: &'static Identified) -> anyhow::Result<Outcome> {
     let outputs = [Vec3::x(), Vec3::y(), Vec3::z()].map(along);
     let with = |cable_model| -> anyhow::Result<(Modes, ResponseCurve)> {
         let linearisation =
-            Linearisation { cable_model, assembly: Assembly::WithoutGeometricStiffness, in_plane_only: true };
+            Linearisation { cable_model, assembly: Assembly::WithoutGeometricStiffness, in_plane_only: true, winches: WinchMode::AsGiven };
         let dynamics = Dynamics::about(&robot, &rest, linearisation, BELOW_HZ)?;
         let found = modes::below(&dynamics, BELOW_HZ);
         let at = (&dynamics, BELOW_HZ, &found.modes[..]);

@@ -197,15 +197,15 @@ pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> PageTable {
 fn class_of(kind: Kind) -> &'static str {
     match kind {
         Kind::Platform => "platform",
-        Kind::Mixed => "mixed",
+        Kind::Mixed | Kind::Drive => "mixed",
         Kind::Cable => "",
     }
 }
 
 /// Names of the cables with the largest shares of a mode's energy.
 fn strongest(robot: &Robot, mode: &Mode) -> String {
-    let names = robot.cables.iter().map(|cable| cable.name.as_str());
-    let named: Vec<String> = modes::strongest(names, &mode.cable_energy_fractions)
+    let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
+    let named: Vec<String> = modes::strongest(&names, &mode.cable_energy_fractions, &mode.drive_energy_fractions)
         .iter()
         .map(|(name, share)| format!("{name} ({} %)", fixed(100.0 * share, 0)))
         .collect();

@@ -40,6 +40,12 @@ impl<const D: usize, const N: usize> Displacements<D, N> {
         }
     }
 
+    /// Takes the stations from this number on away; the result has them.
+    pub(super) fn split_off(&mut self, first: usize) -> Self {
+        let modes = self.modes.iter_mut().map(|mode| mode.split_off(first)).collect();
+        Self { still: self.still.split_off(first), modes }
+    }
+
     /// Displacements by the hat functions of the two ends alone, without clamped modes.
     pub(super) fn of_ends(values_at_ends: &[[f64; 2]]) -> Self {
         let hats = |values: &[f64; 2]| {
@@ -50,6 +56,13 @@ impl<const D: usize, const N: usize> Displacements<D, N> {
 
     /// Adds a clamped mode: its values at the stations and its products `K_ibᵀ φ` with the ends, φᵀKφ = 1, μ = 1/ω².
     pub(super) fn add_mode(&mut self, values: &[f64], stiff: &[f64], mu: f64) {
+        self.add_still(values, stiff);
+        let root = mu.sqrt();
+        self.modes.push(values.chunks_exact(D).map(|value| std::array::from_fn(|d| value[d] / root)).collect());
+    }
+
+    /// Adds the static response of a clamped mode without mass; it has no frequency.
+    pub(super) fn add_still(&mut self, values: &[f64], stiff: &[f64]) {
         for (still, value) in self.still.iter_mut().zip(values.chunks_exact(D)) {
             for (row, value) in still.iter_mut().zip(value) {
                 for (entry, stiff) in row.iter_mut().zip(stiff) {
@@ -57,8 +70,6 @@ impl<const D: usize, const N: usize> Displacements<D, N> {
                 }
             }
         }
-        let root = mu.sqrt();
-        self.modes.push(values.chunks_exact(D).map(|value| std::array::from_fn(|d| value[d] / root)).collect());
     }
 
     /// Displacement of station `at` for motions `ends` of the ends and amplitudes of the clamped modes.

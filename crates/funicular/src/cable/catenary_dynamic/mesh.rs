@@ -1,7 +1,7 @@
 //! Cable as a few elements of high polynomial degree, condensed onto its ends.
 
 use super::CatenaryDynamicError;
-use super::partition::{Condensed, Functions, Partition};
+use super::partition::{Condensed, Functions, Guide, Partition};
 use crate::catenary::Catenary;
 use crate::math::{Complex, DMat, legendre};
 
@@ -165,32 +165,35 @@ impl<'a> Mesh<'a> {
     }
 
     /// Condenses D components per point onto the two ends (N = 2D), whose static stiffness is `still`, and finds the
-    /// displacements of the points at the arc lengths `stations`. An `end` that can move is part of the inside: it
-    /// moves along a direction, against a stiffness [N/m].
+    /// displacements of the points at the arc lengths `stations`. An `end` that can move is part of the inside, with the
+    /// motions behind it; their displacements follow those of the stations.
     pub(super) fn condense<const D: usize, const N: usize, const E: usize>(
         &self,
         tables: &[ElementTable],
         still: [[f64; N]; N],
-        end: Option<(&[f64; D], f64)>,
+        end: Option<&Guide<D>>,
         limit: f64,
         stations: &[f64],
     ) -> Result<Condensed<D, N, E>, CatenaryDynamicError> {
-        let mut partition = self.assemble::<D, N>(tables, stations, end.is_some());
-        if let Some((direction, stiffness)) = end {
-            partition.guide(self.elements.len() - 1, direction, stiffness);
+        let behind = end.map_or(0, |end| end.stiffness.nrows());
+        let mut partition = self.assemble::<D, N>(tables, stations, end.is_some(), behind);
+        if let Some(end) = end {
+            partition.guide(self.elements.len() - 1, end, stations.len());
         }
         partition.reduce(still, limit)
     }
 
-    /// Stiffness and mass of all functions, assembled element by element in the blocks of a [`Partition`].
+    /// Stiffness and mass of all functions, assembled element by element in the blocks of a [`Partition`]. There is room
+    /// for `behind` further stations.
     fn assemble<const D: usize, const N: usize>(
         &self,
         tables: &[ElementTable],
         stations: &[f64],
         moves: bool,
+        behind: usize,
     ) -> Partition<D, N> {
         let inner = self.inner_functions(moves);
-        let mut partition = Partition::new(inner, BEYOND * self.elements.len(), stations.len());
+        let mut partition = Partition::new(inner, BEYOND * self.elements.len(), stations.len() + behind);
 
         for (e, (element, table)) in self.elements.iter().zip(tables).enumerate() {
             let functions = self.functions_of(e, moves);
@@ -274,7 +277,7 @@ impl<'a> Mesh<'a> {
             })
             .collect();
 
-        (stiffness, bubble_mass(element.degree + BEYOND) * (half * self.mass_per_length))
+        (stiffness, legendre::element_mass(element.degree + BEYOND) * (half * self.mass_per_length))
     }
 }
 
@@ -318,40 +321,4 @@ pub(crate) fn ellipse(catenary: &Catenary, center: f64, half: f64) -> f64 {
     let z = Complex::new((lowest - center) / half, depth / half);
     let root = (z * z - 1.0).sqrt();
     (z + root).norm().max((z - root).norm())
-}
-
-/// Mass integrals ∫ N_a N_b dξ over [−1, 1] of the two hats and the bubbles
-/// `N_j = ∫ p_{j−1} = (P_j − P_{j−2})/√(2(2j − 1))`.
-fn bubble_mass(degree: usize) -> DMat {
-    let mut m = DMat::zeros(degree + 1, degree + 1);
-    let mut set = |a: usize, b: usize, value: f64| {
-        m[(a, b)] = value;
-        m[(b, a)] = value;
-    };
-
-    // The hats, and the first two bubbles, the only ones whose product with a hat has an integral.
-    set(0, 0, 2.0 / 3.0);
-    set(1, 1, 2.0 / 3.0);
-    set(0, 1, 1.0 / 3.0);
-    // The index j of N_j is also its row, because the hats take rows 0 and 1.
-    if degree >= 2 {
-        let value = -1.0 / 6f64.sqrt();
-        set(0, 2, value);
-        set(1, 2, value);
-    }
-    if degree >= 3 {
-        let value = 1.0 / (3.0 * 10f64.sqrt());
-        set(0, 3, value);
-        set(1, 3, -value);
-    }
-
-    // Products of two bubbles.
-    for j in 2..=degree {
-        let n = j as f64;
-        set(j, j, 2.0 / ((2.0 * n + 1.0) * (2.0 * n - 3.0)));
-        if j + 2 <= degree {
-            set(j, j + 2, -1.0 / ((2.0 * n + 1.0) * ((2.0 * n - 1.0) * (2.0 * n + 3.0)).sqrt()));
-        }
-    }
-    m
 }

@@ -46,6 +46,14 @@ pub(super) struct Partition<const D: usize, const N: usize> {
     values_at_ends: Vec<[f64; 2]>,
 }
 
+/// Motions at the end of a cable: the first moves the end along a direction, the others lie behind it.
+pub(super) struct Guide<const D: usize> {
+    pub(super) direction: [f64; D],
+    /// Stiffness [N/m] and mass [kg] over the motions, symmetric.
+    pub(super) stiffness: DMat,
+    pub(super) mass: DMat,
+}
+
 /// All pairs of components (row, column).
 fn components<const D: usize>() -> impl Iterator<Item = (usize, usize)> {
     (0..D).flat_map(|column| (0..D).map(move |row| (row, column)))
@@ -130,50 +138,58 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         }
     }
 
-    /// Restricts the inner function `node` to motion along a direction, and adds a stiffness [N/m] to it: an end on a
-    /// guide. Its D unknowns become one.
-    pub(super) fn guide(&mut self, node: usize, direction: &[f64; D], stiffness: f64) {
+    /// Restricts the inner function `node` to motion along a direction and adds the motions behind it: an end on a guide.
+    /// Its D unknowns become one, and the others of the guide follow all unknowns. Each motion is a station of its own,
+    /// in its first component, from `first_station` on.
+    pub(super) fn guide(&mut self, node: usize, guide: &Guide<D>, first_station: usize) {
+        let Guide { direction, stiffness, mass } = guide;
         let (n, first) = (self.unknowns, D * node);
         let kept: Vec<usize> = (0..n).filter(|i| !(first + 1..first + D).contains(i)).collect();
+        let (inside, all) = (kept.len(), kept.len() + stiffness.nrows() - 1);
 
-        // Rows, then columns of the square matrices.
-        let restrict = |matrix: &[f64]| -> Vec<f64> {
-            let entry = |row: usize, column: usize| -> f64 {
-                let rows = if row == first { D } else { 1 };
-                let columns = if column == first { D } else { 1 };
-                let mut sum = 0.0;
-                for i in 0..rows {
-                    for j in 0..columns {
-                        let factor = if rows == 1 { 1.0 } else { direction[i] };
-                        sum +=
-                            factor * if columns == 1 { 1.0 } else { direction[j] } * matrix[(column + j) * n + row + i];
-                    }
-                }
-                sum
-            };
-            kept.iter()
-                .flat_map(|&column| kept.iter().map(move |&row| (row, column)))
-                .map(|(r, c)| entry(r, c))
-                .collect()
-        };
-        self.stiffness = restrict(&self.stiffness);
-        self.mass = restrict(&self.mass);
-        let length = self.row_length;
-        self.rows = (kept.iter())
-            .flat_map(|&row| {
-                let count = if row == first { D } else { 1 };
-                let rows = &self.rows;
-                (0..length).map(move |k| {
-                    (0..count)
-                        .map(|i| if count == 1 { 1.0 } else { direction[i] } * rows[(row + i) * length + k])
-                        .sum::<f64>()
-                })
-            })
-            .collect();
-
-        self.unknowns = kept.len();
+        // The square matrices: unknowns that stay, the one along the direction, then the others of the guide.
         let at = kept.iter().position(|&row| row == first).unwrap_or(0);
-        self.stiffness[at * self.unknowns + at] += stiffness;
+        let place = |motion: usize| if motion == 0 { at } else { inside + motion - 1 };
+        let restrict = |matrix: &[f64], added: &DMat| -> Vec<f64> {
+            let entry = |row: usize, column: usize| -> f64 {
+                let (rows, columns) = (if row == first { D } else { 1 }, if column == first { D } else { 1 });
+                let factor = |count: usize, i: usize| if count == 1 { 1.0 } else { direction[i] };
+                (0..rows)
+                    .flat_map(|i| (0..columns).map(move |j| (i, j)))
+                    .map(|(i, j)| factor(rows, i) * factor(columns, j) * matrix[(column + j) * n + row + i])
+                    .sum()
+            };
+            let mut restricted = vec![0.0; all * all];
+            for (c, &column) in kept.iter().enumerate() {
+                for (r, &row) in kept.iter().enumerate() {
+                    restricted[c * all + r] = entry(row, column);
+                }
+            }
+            for j in 0..added.ncols() {
+                for i in 0..added.nrows() {
+                    restricted[place(j) * all + place(i)] += added[(i, j)];
+                }
+            }
+            restricted
+        };
+        self.stiffness = restrict(&self.stiffness, stiffness);
+        self.mass = restrict(&self.mass, mass);
+
+        // Rows of the outer unknowns and of the stations.
+        let length = self.row_length;
+        let mut rows = vec![0.0; all * length];
+        for (row, &from) in rows.chunks_exact_mut(length).zip(&kept) {
+            let count = if from == first { D } else { 1 };
+            for i in 0..count {
+                let factor = if count == 1 { 1.0 } else { direction[i] };
+                let old = &self.rows[(from + i) * length..(from + i + 1) * length];
+                row.iter_mut().zip(old).for_each(|(entry, old)| *entry += factor * old);
+            }
+        }
+        for motion in 0..stiffness.nrows() {
+            rows[place(motion) * length + 2 * self.outer + D * (first_station + motion)] = 1.0;
+        }
+        (self.rows, self.unknowns) = (rows, all);
     }
 
     /// Poles and residues of the ends, whose static stiffness is `still`. All poles are found; the error is estimated
@@ -188,13 +204,17 @@ impl<const D: usize, const N: usize> Partition<D, N> {
             generalized_eigen::pencil(stiffness, mass, rows, row_length).ok_or(CatenaryDynamicError::NoTension)?;
 
         // Low frequencies first. Values that are not positive are infinite frequencies with rounding errors.
-        let mut order: Vec<usize> = (0..values.len()).filter(|&k| values[k] > 0.0).collect();
+        let (mut order, infinite): (Vec<usize>, Vec<usize>) = (0..values.len()).partition(|&k| values[k] > 0.0);
         order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
 
         // Poles, participations and displacements, mode by mode; each mode takes its contribution out of the end mass.
         let (mut mass, mut error) = (end_mass, 0.0_f64);
         let (mut poles, mut participation) = (Vec::with_capacity(order.len()), Vec::with_capacity(order.len()));
         let mut stations = Displacements::of_ends(&values_at_ends);
+        for k in infinite {
+            let mode = ModeProducts::new(values[k], &products[k * row_length..(k + 1) * row_length], outer);
+            stations.add_still(mode.at_stations, mode.stiff);
+        }
         for k in order {
             let mode = ModeProducts::new(values[k], &products[k * row_length..(k + 1) * row_length], outer);
             mode.take_from(&mut mass);

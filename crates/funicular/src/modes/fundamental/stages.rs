@@ -100,7 +100,7 @@ fn mode_of(pencil: &RobotPencil, found: &LowestPair) -> First {
 
     First {
         frequency_hz: found.square.sqrt() / TAU,
-        kind: Kind::of(platform_energy_fraction),
+        kind: Kind::of(platform_energy_fraction, 0.0),
         platform_energy_fraction,
         cable_energy_fractions,
         shape,

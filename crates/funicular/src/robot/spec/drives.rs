@@ -1,8 +1,9 @@
-//! `[pulleys.NAME]` and `[winches.NAME]`: pulleys and winches that cables refer to, and the anchor made of them.
+//! `[pulleys.NAME]`: pulleys that cables refer to, and the anchor made of pulley and winch.
 
 use super::key::{Absent, Key, Shape};
 use super::range::Range;
 use super::read::{Named, Reader, Section, is_zero};
+use super::winches::{self, WINCH};
 use crate::math::Vec3;
 use crate::robot::{Anchor, Pulley, Winch};
 
@@ -26,46 +27,24 @@ pub(super) const PULLEY: &[Key] = &[
          any length",
     )
     .without(Absent::Depends("required here, or for every cable over this pulley")),
-];
-
-/// Keys of `[winches.NAME]`.
-pub(super) const WINCH: &[Key] = &[
     Key::numeric(
         Shape::Number,
-        "drum_side_length_m",
-        "drum_side_length_m = 3.0",
-        "m",
+        "inertia_kg_m2",
+        "inertia_kg_m2 = 0.0002",
+        "kg m²",
         Range::NotNegative,
-        "length of the cable from the drum to its anchor, guide wheels included",
+        "moment of inertia of the wheel about its axle",
     )
     .or([0.0; 3]),
     Key::numeric(
         Shape::Number,
-        "stiffness_n_per_m",
-        "stiffness_n_per_m = 200e3",
-        "N/m",
-        Range::Positive,
-        "stiffness of drum, shaft and gear at the cable",
+        "swivel_inertia_kg_m2",
+        "swivel_inertia_kg_m2 = 0.001",
+        "kg m²",
+        Range::NotNegative,
+        "moment of inertia of all that swivels, wheel included, about the swivel axis",
     )
-    .without(Absent::Means("the `shaft_stiffness_n_m_per_rad` if it is given, else a rigid winch")),
-    Key::numeric(
-        Shape::Number,
-        "shaft_stiffness_n_m_per_rad",
-        "shaft_stiffness_n_m_per_rad = 800",
-        "N m/rad",
-        Range::Positive,
-        "torsional stiffness of shaft and gear at the drum",
-    )
-    .without(Absent::Means("the `stiffness_n_per_m` if it is given, else a rigid winch")),
-    Key::numeric(
-        Shape::Number,
-        "drum_radius_m",
-        "drum_radius_m = 0.0675",
-        "m",
-        Range::Positive,
-        "radius of the drum, from its axis to the centre line of the cable; it serves `shaft_stiffness_n_m_per_rad` alone",
-    )
-    .without(Absent::Depends("required with `shaft_stiffness_n_m_per_rad`")),
+    .or([0.0; 3]),
 ];
 
 /// Pulley of a file. Its direction may be left to the cables.
@@ -74,6 +53,8 @@ pub(super) struct PulleyEntry {
     name: String,
     radius: f64,
     entry_direction_w: Option<Vec3>,
+    inertia: f64,
+    swivel_inertia: f64,
 }
 
 /// Pulleys and winches of a file; `None` if the tables as a whole were refused.
@@ -89,7 +70,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section) -> Drives {
         None => Some(Named::new()),
     };
     let winches = match root.get("winches") {
-        Some(value) => reader.named_tables("winches", "winch", value, WINCH, read_winch),
+        Some(value) => reader.named_tables("winches", "winch", value, WINCH, winches::read),
         None => Some(Named::new()),
     };
     Drives { pulleys, winches }
@@ -98,41 +79,15 @@ pub(super) fn read(reader: &mut Reader, root: &Section) -> Drives {
 fn read_pulley(reader: &mut Reader, name: &str, section: &Section) -> Option<PulleyEntry> {
     let radius = reader.required(section, "radius_m").and_then(|value| reader.number_of(section, "radius_m", value));
     let direction = direction(reader, section);
-    Some(PulleyEntry { name: name.to_owned(), radius: radius?, entry_direction_w: direction? })
-}
-
-fn read_winch(reader: &mut Reader, name: &str, section: &Section) -> Option<Winch> {
-    let drum_side_length = reader.number_or_default(section, "drum_side_length_m");
-    let mut number = |key: &str| section.get(key).map(|value| reader.number_of(section, key, value));
-    let [at_cable, at_shaft, radius] =
-        ["stiffness_n_per_m", "shaft_stiffness_n_m_per_rad", "drum_radius_m"].map(&mut number);
-
-    let stiffness = match (at_cable, at_shaft) {
-        (None, None) => f64::INFINITY,
-        (Some(at_cable), None) => at_cable?,
-        (None, Some(at_shaft)) => {
-            let Some(radius) = radius else {
-                reader
-                    .issue(section.span.clone(), format!("{} has `shaft_stiffness_n_m_per_rad`, but no `drum_radius_m`", section.label()))
-                    .help("add it, for example `drum_radius_m = 0.0675`; the stiffness at the cable is that of the shaft over its square");
-                return None;
-            };
-            let radius = radius?;
-            at_shaft? / (radius * radius)
-        }
-        (Some(_), Some(_)) => {
-            let span = section.get("shaft_stiffness_n_m_per_rad").map_or(section.span.clone(), toml::Spanned::span);
-            let issue = reader.issue(span, "`shaft_stiffness_n_m_per_rad` does not go with `stiffness_n_per_m`");
-            if let Some(first) = section.get("stiffness_n_per_m") {
-                issue.context(first.span(), "already given here");
-            }
-            issue.help("give one of the two: the stiffness at the cable, or that of the shaft with `drum_radius_m`");
-            return None;
-        }
-    };
-    // Its number is checked even where no stiffness refers to it.
-    radius.map_or(Some(0.0), |radius| radius)?;
-    Some(Winch { name: name.to_owned(), drum_side_length: drum_side_length?, stiffness })
+    let [inertia, swivel_inertia] =
+        ["inertia_kg_m2", "swivel_inertia_kg_m2"].map(|key| reader.number_or_default(section, key));
+    Some(PulleyEntry {
+        name: name.to_owned(),
+        radius: radius?,
+        entry_direction_w: direction?,
+        inertia: inertia?,
+        swivel_inertia: swivel_inertia?,
+    })
 }
 
 /// Unit vector of `entry_direction`, if the table gives one.
@@ -174,8 +129,8 @@ pub(super) fn anchor(reader: &mut Reader, cable: &Section, drives: &Drives) -> O
                 );
                 return None;
             };
-            let PulleyEntry { name, radius, .. } = pulley;
-            Some(Pulley { name, radius, entry_direction_w })
+            let PulleyEntry { name, radius, inertia, swivel_inertia, .. } = pulley;
+            Some(Pulley { name, radius, entry_direction_w, inertia, swivel_inertia })
         }
     };
     Some(Anchor { point_w: Vec3::from(point?), pulley, winch: winch? })

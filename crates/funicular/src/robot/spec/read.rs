@@ -1,6 +1,6 @@
 //! Reading single values: types, signs and sizes, names, known keys. Every message points at the value.
 
-use super::key::{Key, Numeric};
+use super::key::{Absent, Key, KeyValue, Numeric};
 use super::range::{MAX_NUMBER, MIN_NUMBER, Range as Limits};
 use super::{Issue, TABLES};
 use crate::suggest::nearest;
@@ -339,6 +339,26 @@ impl<'t> Reader<'t> {
             all.insert(name.to_owned(), named.and(read));
         }
         Some(all)
+    }
+
+    /// Word of a key that has words, or its default.
+    pub(super) fn word(&mut self, section: &Section, key: &str) -> Option<&'static str> {
+        let known = known(section.keys, key);
+        let (KeyValue::Word(words), Absent::DefaultWord(default)) = (known.value, known.absent) else {
+            unreachable!("the reader asks for words of keys that have some")
+        };
+        let Some(value) = section.get(key) else { return Some(default) };
+
+        let word = self.text(key, value)?;
+        let words = || words.iter().map(|(word, _)| *word);
+        let found = words().find(|known| *known == word);
+        if found.is_none() {
+            let all = words().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
+            let suggestion = nearest(&word, words()).map(|near| format!("did you mean \"{near}\"? ")).unwrap_or_default();
+            self.issue(value.span(), format!("`{key}` is \"{}\", which is unknown", shortened(&word)))
+                .help(format!("{suggestion}the words are {all}"));
+        }
+        found
     }
 
     /// Value of the named table that a key refers to. The outer `None` is a refused value, the inner one a missing key.

@@ -16,7 +16,7 @@ fn changed(id: &str, change: impl Fn(&mut Robot)) -> (Robot, Equilibrium) {
 }
 
 const CATENARY_DYNAMIC: Linearisation =
-    Linearisation { cable_model: CableModel::CatenaryDynamic, assembly: Assembly::Consistent, in_plane_only: false };
+    Linearisation { cable_model: CableModel::CatenaryDynamic, assembly: Assembly::Consistent, in_plane_only: false, winches: WinchMode::AsGiven };
 
 #[test]
 fn damping_to_first_order_is_off_by_a_few_thousandths() {

@@ -23,6 +23,7 @@ const CATENARY_DYNAMIC: Linearisation = Linearisation {
     cable_model: CableModel::CatenaryDynamic,
     assembly: funicular::dynamics::Assembly::Consistent,
     in_plane_only: false,
+    winches: WinchMode::AsGiven,
 };
 
 /// Bound of the bars' error at the highest frequency, from which their number is chosen.
