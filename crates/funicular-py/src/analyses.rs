@@ -51,11 +51,14 @@ impl PyAnalyses {
     ///     alone, as in Yuan et al. 2014.
     /// in_plane_only
     ///     Leave out the stiffness of cables out of their planes, as in Yuan et al. 2014.
+    /// winches
+    ///     Winches in vibration, for cables that run to one: `as-given`, motors `clamped`, at constant `torque`, or
+    ///     cables `stuck` on their pulleys.
     ///
     /// Returns
     /// -------
     /// (6, 6), real at 0 Hz and complex at another frequency; for a row of frequencies (n, 6, 6), complex.
-    #[pyo3(signature = (at_hz=None, *, cable_model=None, assembly="consistent", in_plane_only=false))]
+    #[pyo3(signature = (at_hz=None, *, cable_model=None, assembly="consistent", in_plane_only=false, winches="as-given"))]
     fn stiffness(
         slf: &Bound<'_, Self>,
         py: Python<'_>,
@@ -63,8 +66,9 @@ impl PyAnalyses {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        winches: &str,
     ) -> PyResult<vibration::Stiffness> {
-        Self::at(slf, |rest| vibration::stiffness(py, rest, at_hz, cable_model, assembly, in_plane_only))
+        Self::at(slf, |rest| vibration::stiffness(py, rest, at_hz, cable_model, assembly, in_plane_only, winches))
     }
 
     /// Searches for all equilibria of the unstrained lengths of the equilibrium.
@@ -91,7 +95,7 @@ impl PyAnalyses {
     ///     Points of the platform, as in `frf`.
     /// stations
     ///     Number of points along every cable, ends included, whose displacements are wanted.
-    /// cable_model, assembly, in_plane_only
+    /// cable_model, assembly, in_plane_only, winches
     ///     Models, as in `stiffness`.
     /// platform_share
     ///     Minimum fraction of the kinetic energy in the platform for `first_platform_index`, the first mode of the
@@ -101,7 +105,7 @@ impl PyAnalyses {
     ///     damping, and there are no eigenvalues.
     #[pyo3(signature = (
         below_hz, *, input=None, output=None, input_point_m=None, output_point_m=None, stations=None, cable_model=None,
-        assembly="consistent", in_plane_only=false, platform_share=None, damped=true
+        assembly="consistent", in_plane_only=false, winches="as-given", platform_share=None, damped=true
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn modes(
@@ -116,6 +120,7 @@ impl PyAnalyses {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        winches: &str,
         platform_share: Option<Number>,
         damped: bool,
     ) -> PyResult<ModesObject> {
@@ -129,6 +134,7 @@ impl PyAnalyses {
             cable_model,
             assembly,
             in_plane_only,
+            winches,
             platform_share,
             damped,
         };
@@ -154,7 +160,7 @@ impl PyAnalyses {
     ///     response has no bound, there is a gap of 5e-5 of the frequency on either side.
     /// input_point_m, output_point_m
     ///     Point where the forces act and point whose motion is measured, platform frame [m]; the origin if not given.
-    /// cable_model, assembly, in_plane_only
+    /// cable_model, assembly, in_plane_only, winches
     ///     Models, as in `stiffness`.
     ///
     /// Returns
@@ -173,7 +179,7 @@ impl PyAnalyses {
     ///     At least ten frequencies ascend, and peaks between them are read more than 5 % too low.
     #[pyo3(signature = (
         hz, input, output, *, adaptive=false, input_point_m=None, output_point_m=None, cable_model=None,
-        assembly="consistent", in_plane_only=false
+        assembly="consistent", in_plane_only=false, winches="as-given"
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn frf(
@@ -188,6 +194,7 @@ impl PyAnalyses {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        winches: &str,
     ) -> PyResult<Responses> {
         let keywords = PairKeywords {
             input,
@@ -198,6 +205,7 @@ impl PyAnalyses {
             cable_model,
             assembly,
             in_plane_only,
+            winches,
         };
         Self::at(slf, |rest| vibration::frf(py, rest, hz, keywords))
     }
@@ -206,7 +214,7 @@ impl PyAnalyses {
     /// world axes.
     ///
     /// The parameters are those of `frf`.
-    #[pyo3(signature = (hz, *, cable_model=None, assembly="consistent", in_plane_only=false))]
+    #[pyo3(signature = (hz, *, cable_model=None, assembly="consistent", in_plane_only=false, winches="as-given"))]
     fn receptance(
         slf: &Bound<'_, Self>,
         py: Python<'_>,
@@ -214,8 +222,9 @@ impl PyAnalyses {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        winches: &str,
     ) -> PyResult<Tensor<Complex64>> {
-        Self::at(slf, |rest| vibration::receptance(py, rest, hz, cable_model, assembly, in_plane_only))
+        Self::at(slf, |rest| vibration::receptance(py, rest, hz, cable_model, assembly, in_plane_only, winches))
     }
 
     /// Compares every cable model with the catenary-dynamic model: frequencies found, missed and wrong, and the
@@ -231,14 +240,14 @@ impl PyAnalyses {
     ///     Minimum fraction of the kinetic energy in the platform for a mode of the platform; 0.5 if not given.
     /// tolerance
     ///     Maximum relative difference of frequency for a model that is good enough; 0.01 if not given.
-    /// assembly, in_plane_only
+    /// assembly, in_plane_only, winches
     ///     Terms of the stiffness, as in `stiffness`.
     ///
     /// Returns
     /// -------
     /// The keys of the program's JSON; lists of numbers are arrays.
     #[pyo3(signature = (
-        below_hz, *, platform=false, platform_share=None, tolerance=None, assembly="consistent", in_plane_only=false
+        below_hz, *, platform=false, platform_share=None, tolerance=None, assembly="consistent", in_plane_only=false, winches="as-given"
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn compare<'py>(
@@ -250,8 +259,10 @@ impl PyAnalyses {
         tolerance: Option<Number>,
         assembly: &str,
         in_plane_only: bool,
+        winches: &str,
     ) -> PyResult<TextKeyed<'py>> {
-        let keywords = CompareKeywords { below_hz, platform, platform_share, tolerance, assembly, in_plane_only };
+        let keywords =
+            CompareKeywords { below_hz, platform, platform_share, tolerance, assembly, in_plane_only, winches };
         Self::at(slf, |rest| vibration::compare(py, rest, keywords))
     }
 
@@ -263,7 +274,7 @@ impl PyAnalyses {
     ///     Name of a cable.
     /// hz
     ///     Frequencies [Hz], a row of n.
-    /// cable_model, in_plane_only
+    /// cable_model, in_plane_only, winches
     ///     Model, as in `stiffness`.
     ///
     /// Returns
@@ -271,7 +282,7 @@ impl PyAnalyses {
     /// The keys of the program's JSON. `local` has `k_a`, `k_b`, `k_c`, `k_o` (n, complex): along the chord, coupling,
     /// normal in plane, out of plane [N/m]. `world` is (n, 3, 3), complex, in world axes. `clamped_frequencies_hz` are
     /// the natural frequencies of the cable with both ends fixed.
-    #[pyo3(signature = (name, hz, *, cable_model=None, in_plane_only=false))]
+    #[pyo3(signature = (name, hz, *, cable_model=None, in_plane_only=false, winches="as-given"))]
     fn cable<'py>(
         slf: &Bound<'py, Self>,
         py: Python<'py>,
@@ -279,8 +290,9 @@ impl PyAnalyses {
         hz: Numbers,
         cable_model: Option<&str>,
         in_plane_only: bool,
+        winches: &str,
     ) -> PyResult<TextKeyed<'py>> {
-        Self::at(slf, |rest| vibration::cable(py, rest, name, hz, cable_model, in_plane_only))
+        Self::at(slf, |rest| vibration::cable(py, rest, name, hz, cable_model, in_plane_only, winches))
     }
 
     /// Computes a state space A, B, C, D for control design: the modes that inputs and outputs see.
@@ -302,7 +314,7 @@ impl PyAnalyses {
     /// damping_at_hz
     ///     Frequency at which constant damping ratios are right when made viscous [Hz]; at every natural frequency if
     ///     not given.
-    /// cable_model, assembly, in_plane_only
+    /// cable_model, assembly, in_plane_only, winches
     ///     Models, as in `stiffness`.
     ///
     /// Raises
@@ -311,7 +323,7 @@ impl PyAnalyses {
     ///     No choice of modes keeps the tolerance, a mode has no damping, or the equilibrium is unstable.
     #[pyo3(signature = (
         input=None, output=None, *, below_hz, order=None, tolerance=None, input_point_m=None, output_point_m=None,
-        damping_at_hz=None, cable_model=None, assembly="consistent", in_plane_only=false
+        damping_at_hz=None, cable_model=None, assembly="consistent", in_plane_only=false, winches="as-given"
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn state_space(
@@ -328,6 +340,7 @@ impl PyAnalyses {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        winches: &str,
     ) -> PyResult<written::StateSpaceObject> {
         let keywords = ReduceKeywords {
             below_hz,
@@ -341,6 +354,7 @@ impl PyAnalyses {
             cable_model,
             assembly,
             in_plane_only,
+            winches,
         };
         Self::at(slf, |rest| written::state_space(py, rest, keywords))
     }
@@ -363,11 +377,11 @@ impl PyAnalyses {
     /// damping_at_hz
     ///     Frequency at which constant damping ratios are right when made viscous [Hz]; at every natural frequency if
     ///     not given.
-    /// cable_model, assembly, in_plane_only
+    /// cable_model, assembly, in_plane_only, winches
     ///     Models, as in `stiffness`.
     #[pyo3(signature = (
         below_hz, input=None, output=None, *, input_point_m=None, output_point_m=None, tolerance=None,
-        damping_at_hz=None, cable_model=None, assembly="consistent", in_plane_only=false
+        damping_at_hz=None, cable_model=None, assembly="consistent", in_plane_only=false, winches="as-given"
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn reduce(
@@ -383,6 +397,7 @@ impl PyAnalyses {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        winches: &str,
     ) -> PyResult<written::ReducedObject> {
         let keywords = ReduceKeywords {
             below_hz,
@@ -396,6 +411,7 @@ impl PyAnalyses {
             cable_model,
             assembly,
             in_plane_only,
+            winches,
         };
         Self::at(slf, |rest| written::reduce(py, rest, keywords))
     }
@@ -440,13 +456,13 @@ impl PyAnalyses {
     /// input, output
     ///     Signals of the response on the page, as in `frf`; `fz` and `az` if not given, or `fx` and `ax` for a
     ///     platform that cannot move along z.
-    /// input_point_m, output_point_m, cable_model, assembly, in_plane_only
+    /// input_point_m, output_point_m, cable_model, assembly, in_plane_only, winches
     ///     Points and models, as in `frf`.
     /// platform_share
     ///     Minimum fraction of the kinetic energy in the platform for the first mode of the platform; 0.5 if not given.
     #[pyo3(signature = (
         path=None, *, below_hz=None, input=None, output=None, input_point_m=None, output_point_m=None,
-        cable_model=None, assembly="consistent", in_plane_only=false, platform_share=None
+        cable_model=None, assembly="consistent", in_plane_only=false, winches="as-given", platform_share=None
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn report(
@@ -461,6 +477,7 @@ impl PyAnalyses {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        winches: &str,
         platform_share: Option<Number>,
     ) -> PyResult<written::PageObject> {
         let keywords = PageKeywords {
@@ -472,6 +489,7 @@ impl PyAnalyses {
             cable_model,
             assembly,
             in_plane_only,
+            winches,
             platform_share,
         };
         Self::at(slf, |rest| written::report(py, rest, path, keywords))

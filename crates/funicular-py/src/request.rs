@@ -75,10 +75,10 @@ impl TensionKeywords<'_> {
 }
 
 /// Models of the linearised robot.
-pub(crate) fn model(cable_model: Option<&str>, assembly: &str, in_plane_only: bool) -> PyResult<Model> {
+pub(crate) fn model(cable_model: Option<&str>, assembly: &str, in_plane_only: bool, winches: &str) -> PyResult<Model> {
     Ok(Model {
         cable_model: cable_model.map(|name| named("cable_model", name)).transpose()?,
-        terms: terms(assembly, in_plane_only)?,
+        terms: terms(assembly, in_plane_only, winches)?,
     })
 }
 
@@ -88,8 +88,8 @@ pub(crate) fn share(platform_share: Option<Number>) -> PyResult<f64> {
 }
 
 /// Terms of the stiffness.
-pub(crate) fn terms(assembly: &str, in_plane_only: bool) -> PyResult<Terms> {
-    Ok(Terms { assembly: named("assembly", assembly)?, in_plane_only })
+pub(crate) fn terms(assembly: &str, in_plane_only: bool, winches: &str) -> PyResult<Terms> {
+    Ok(Terms { assembly: named("assembly", assembly)?, in_plane_only, winches: named("winches", winches)? })
 }
 
 /// Points of the platform where a force acts and where motion is measured.

@@ -360,7 +360,7 @@ impl PyRobot {
     ///     The executor's workers died; `resume` of the exception continues.
     #[pyo3(signature = (
         grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=None, platform_share=None, payload_center_m=None,
+        assembly="consistent", in_plane_only=false, winches="as-given", up_to_hz=None, platform_share=None, payload_center_m=None,
         tension_rule=None,
         target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
@@ -379,6 +379,7 @@ impl PyRobot {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        winches: &str,
         up_to_hz: Option<Number>,
         platform_share: Option<Number>,
         payload_center_m: Option<Numbers>,
@@ -416,7 +417,7 @@ impl PyRobot {
         };
 
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
-        let model = model(cable_model, assembly, in_plane_only)?;
+        let model = model(cable_model, assembly, in_plane_only, winches)?;
         let point = sweep::each_point(quantities, up_to_hz, platform_share, payload_center_m, state, tensions, model)?;
         let grid = grid.map_or_else(Vec::new, |Axes(axes)| axes);
         let poses = poses.map(sweep::poses).transpose()?;
@@ -438,7 +439,7 @@ impl PyRobot {
     /// The other parameters are those of `map`.
     #[pyo3(signature = (
         vary, quantities=None, *, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, up_to_hz=None, platform_share=None, payload_center_m=None,
+        assembly="consistent", in_plane_only=false, winches="as-given", up_to_hz=None, platform_share=None, payload_center_m=None,
         tension_rule=None,
         target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
@@ -456,6 +457,7 @@ impl PyRobot {
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
+        winches: &str,
         up_to_hz: Option<Number>,
         platform_share: Option<Number>,
         payload_center_m: Option<Numbers>,
@@ -493,7 +495,7 @@ impl PyRobot {
         };
 
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
-        let model = model(cable_model, assembly, in_plane_only)?;
+        let model = model(cable_model, assembly, in_plane_only, winches)?;
         let point = sweep::each_point(quantities, up_to_hz, platform_share, payload_center_m, state, tensions, model)?;
         let request = Request::Sweep(SweepRequest { robot: self.source.clone(), vary: vary.0, point });
 

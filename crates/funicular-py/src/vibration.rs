@@ -71,9 +71,10 @@ pub(crate) fn stiffness(
     cable_model: Option<&str>,
     assembly: &str,
     in_plane_only: bool,
+    winches: &str,
 ) -> PyResult<Stiffness> {
     let (frequencies, one) = at_hz.map_or(Ok((vec![0.0], true)), |hz| hz.frequencies_of("at_hz"))?;
-    let model = model(cable_model, assembly, in_plane_only)?;
+    let model = model(cable_model, assembly, in_plane_only, winches)?;
     let matrices = py.detach(|| analyses::stiffness::matrices(&of.at_rest, model, &frequencies));
     let all = flat(&matrices.map_err(|error| errors::dynamics(&error))?);
     Ok(match (one, frequencies[..] == [0.0]) {
@@ -110,6 +111,7 @@ pub(crate) struct ModesKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) winches: &'a str,
     pub(crate) platform_share: Option<Number>,
     pub(crate) damped: bool,
 }
@@ -122,6 +124,7 @@ pub(crate) struct CompareKeywords<'a> {
     pub(crate) tolerance: Option<Number>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) winches: &'a str,
 }
 
 pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<'_>) -> PyResult<ModesObject> {
@@ -140,7 +143,7 @@ pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<
         damped: keywords.damped,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
-        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
     };
 
     let at_rest = Arc::clone(&of.at_rest);
@@ -163,7 +166,7 @@ pub(crate) fn compare<'py>(
         tolerance: keywords.tolerance.map_or(Ok(TOLERANCE), |tolerance| tolerance.value("tolerance"))?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
-        terms: terms(keywords.assembly, keywords.in_plane_only)?,
+        terms: terms(keywords.assembly, keywords.in_plane_only, keywords.winches)?,
     };
     let at_rest = Arc::clone(&of.at_rest);
     let found = interruptible(py, move || analyses::compare::about(&at_rest, &request))?;
@@ -177,14 +180,18 @@ pub(crate) fn cable<'py>(
     hz: Numbers,
     cable_model: Option<&str>,
     in_plane_only: bool,
+    winches: &str,
 ) -> PyResult<TextKeyed<'py>> {
     let (frequency_hz, one) = hz.frequencies()?;
     if one || frequency_hz.is_empty() {
         return Err(errors::input("`hz` is no row of frequencies: give a list with at least one frequency".to_owned()));
     }
     let cable_model = cable_model.map(|name| named("cable_model", name)).transpose()?;
-    let found = py
-        .detach(|| cable::about(&of.at_rest, cable::RequestedCable { name, frequency_hz, cable_model, in_plane_only }));
+    let winches = named("winches", winches)?;
+    let found = py.detach(|| {
+        let requested = cable::RequestedCable { name, frequency_hz, cable_model, in_plane_only, winches };
+        cable::about(&of.at_rest, requested)
+    });
     answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
 }
 
@@ -268,6 +275,7 @@ pub(crate) struct PairKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) winches: &'a str,
 }
 
 pub(crate) fn frf(py: Python<'_>, of: &PyEquilibrium, hz: Numbers, keywords: PairKeywords<'_>) -> PyResult<Responses> {
@@ -278,7 +286,7 @@ pub(crate) fn frf(py: Python<'_>, of: &PyEquilibrium, hz: Numbers, keywords: Pai
         inputs: input.names(),
         outputs: output.names(),
         points: points(keywords.input_point_m, keywords.output_point_m)?,
-        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
     };
 
     let found = py.detach(|| {
@@ -335,9 +343,10 @@ pub(crate) fn receptance(
     cable_model: Option<&str>,
     assembly: &str,
     in_plane_only: bool,
+    winches: &str,
 ) -> PyResult<Tensor<Complex64>> {
     let (frequencies, _) = hz.frequencies()?;
-    let model = model(cable_model, assembly, in_plane_only)?;
+    let model = model(cable_model, assembly, in_plane_only, winches)?;
     let linearisation = at_rest::linearisation(&model, of.at_rest.equilibrium.model);
     let dynamics = py.detach(|| of.at_rest.dynamics(linearisation, highest(&frequencies)));
     let (dynamics, _) = dynamics.map_err(|error| errors::study(&error))?;

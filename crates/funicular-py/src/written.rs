@@ -61,6 +61,7 @@ pub(crate) struct ReduceKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) winches: &'a str,
 }
 
 impl ReduceKeywords<'_> {
@@ -78,7 +79,7 @@ impl ReduceKeywords<'_> {
             damping_at_hz: self.damping_at_hz.map(|hz| hz.value("damping_at_hz")).transpose()?,
             state: of.state.clone(),
             tensions: of.tensions.clone(),
-            model: model(self.cable_model, self.assembly, self.in_plane_only)?,
+            model: model(self.cable_model, self.assembly, self.in_plane_only, self.winches)?,
         })
     }
 }
@@ -186,6 +187,7 @@ pub(crate) struct PageKeywords<'a> {
     pub(crate) cable_model: Option<&'a str>,
     pub(crate) assembly: &'a str,
     pub(crate) in_plane_only: bool,
+    pub(crate) winches: &'a str,
     pub(crate) platform_share: Option<Number>,
 }
 
@@ -204,7 +206,7 @@ pub(crate) fn report(
         platform_share: share(keywords.platform_share)?,
         state: of.state.clone(),
         tensions: of.tensions.clone(),
-        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only)?,
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
     };
 
     let state = joined(&[&serde_json::to_value(&of.state), &serde_json::to_value(&of.tensions)])?;

@@ -11,8 +11,8 @@ pub mod shallow_dynamic;
 pub mod shallow_static;
 pub mod spring;
 
-use crate::math::{Complex, Mat3, Vec3, any_normal};
 use crate::drive::{AnchorEnd, DriveChain};
+use crate::math::{Complex, Mat3, Vec3, any_normal};
 use crate::robot::{Robot, WinchMode};
 use crate::statics::CableState;
 use catenary_dynamic::CatenaryDynamicEnd;

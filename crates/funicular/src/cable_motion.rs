@@ -185,6 +185,7 @@ impl CableStations {
                 std::array::from_fn(|axis| {
                     let start = std::array::from_fn(|k| Complex::from(f64::from(u8::from(k == axis))));
                     let motion_along = internal_motion(dynamics, cable, start, square);
+                    let motion_along = with_drive(dynamics, self.cable, cable, motion_along, omega);
                     let moved = stations.displacement(at, &motion_along);
                     moved.iter().zip(towards).map(|(u, component)| u * component).sum()
                 })
@@ -253,7 +254,9 @@ impl CableStations {
             StationModel::Straight(_) => Complex::new(f64::NAN, 0.0),
             StationModel::CatenaryDynamic { cable, stations, .. } => {
                 let square = dynamics.cable_square(self.cable, omega);
-                stations.receptance(cable, (at, out), (loaded, force), square)
+                let motion_along = InternalMotion::under_force(cable, stations, (loaded, force), square);
+                let motion_along = with_drive(dynamics, self.cable, cable, motion_along, omega);
+                stations.displacement(at, &motion_along).iter().zip(out).map(|(u, component)| u * component).sum()
             }
         }
     }
@@ -267,6 +270,24 @@ impl CableStations {
     fn local(&self, direction_w: &Vec3) -> [f64; 3] {
         let LocalAxes { e, n, b } = self.axes;
         [e, n, b].map(|axis| axis.dot(direction_w))
+    }
+}
+
+/// Motion along cable `i` at ω [rad/s] with the losses of its drive.
+fn with_drive(
+    dynamics: &Dynamics,
+    i: usize,
+    cable: &CatenaryDynamic,
+    motion: InternalMotion,
+    omega: f64,
+) -> InternalMotion {
+    let form = dynamics.terms().iter().find(|term| term.cable() == i).map(|term| term.form());
+    match form {
+        Some(DynamicCable::CatenaryDynamic(form)) if form.has_drive_losses() => {
+            let losses = form.beyond_undamped(omega.into(), 1.0);
+            motion.with_drive(cable, &losses, dynamics.cable_square(i, omega))
+        }
+        _ => motion,
     }
 }
 

@@ -116,6 +116,15 @@ pub enum ReductionError {
          `catenary-dynamic`, or a model without vibration"
     )]
     Model,
+    /// A drive has inertia, or its motor a control.
+    #[error(
+        "cable \"{cable}\" runs to a drive with inertia or control: the reduced model exists for drives that are \
+         springs; use `frf` and `modes`, or hold the motors (winches clamped) and leave inertias out"
+    )]
+    Drive {
+        /// Name of the cable.
+        cable: String,
+    },
     /// The motion of a point on a cable is not known.
     #[error(transparent)]
     CableMotion(#[from] CableMotionError),
@@ -164,6 +173,17 @@ pub enum ReductionError {
         /// Number of states with this error.
         order: usize,
     },
+}
+
+/// Checks that all cables are catenary-dynamic and end at fixed points or at springs.
+fn check_cables(robot: &Robot, dynamics: &Dynamics) -> Result<(), ReductionError> {
+    for term in dynamics.terms() {
+        let DynamicCable::CatenaryDynamic(form) = term.form() else { return Err(ReductionError::Model) };
+        if form.has_drive_mass() || form.has_drive_losses() {
+            return Err(ReductionError::Drive { cable: robot.cables[term.cable()].name.clone() });
+        }
+    }
+    Ok(())
 }
 
 impl ReductionError {
@@ -269,9 +289,7 @@ impl Channels {
         inputs: &[Signal],
         outputs: &[(Signal, Quantity)],
     ) -> Result<Self, ReductionError> {
-        if dynamics.terms().iter().any(|term| !matches!(term.form(), DynamicCable::CatenaryDynamic(_))) {
-            return Err(ReductionError::Model);
-        }
+        check_cables(robot, dynamics)?;
         let loaded = inputs.iter().any(|signal| matches!(signal, Signal::OnCable { .. }));
         Self::new(robot, equilibrium, dynamics, inputs, outputs, loaded)
     }

@@ -63,7 +63,8 @@ impl Printed for Modes {
         ];
         let cables = self.cable_names.iter().map(|name| format!("energy_fraction_cable_{name}"));
         let drives_move = self.modes.iter().any(|mode| !mode.drive_energy_fractions.is_empty());
-        let drives = self.cable_names.iter().filter(|_| drives_move).map(|name| format!("energy_fraction_drive_{name}"));
+        let drives =
+            self.cable_names.iter().filter(|_| drives_move).map(|name| format!("energy_fraction_drive_{name}"));
         out.write_record(fixed.into_iter().map(str::to_owned).chain(cables).chain(drives))?;
 
         for mode in &self.modes {

@@ -216,13 +216,16 @@ fn filled_in() -> Vec<(&'static str, &'static str, Vec<String>)> {
     let cables = |motion: &str| of(motion).matches("[[cables]]").count();
     assert_eq!(cables("planar-xz"), cables("point-mass"));
     all.push(("new", "cables", vec![format!("{}; {} for planar-xz and", cables("rigid"), cables("planar-xz"))]));
-    let diameter = number(&new, "diameter_m");
+    let rope = new.lines().find(|line| line.starts_with("# Wire rope")).unwrap();
+    let diameter_mm: f64 = rope.split(", ").nth(1).unwrap().split(" mm").next().unwrap().parse().unwrap();
+    let diameter = 1e-3 * diameter_mm;
     all.push(("new", "diameter-m", vec![format!("by the mass of the platform, {diameter} for {mass} kg")]));
     let robot = Robot::from_toml(&new).unwrap();
     // Inertia of a box: m (b² + c²)/12 about a.
     let inertia = robot.platform.inertia_p;
     let side = |k: usize| (6.0 / mass * (inertia.trace() - 2.0 * inertia[(k, k)])).sqrt();
-    let sides = [0, 1, 2].map(|k| rounded(side(k)).to_string()).join(",");
+    // The file gives moments with five digits.
+    let sides = [0, 1, 2].map(|k| ((1e3 * side(k)).round() / 1e3).to_string()).join(",");
     all.push(("new", "box-m", vec![format!("{sides}, or the box")]));
     all
 }

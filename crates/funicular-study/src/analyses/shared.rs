@@ -6,6 +6,7 @@ use funicular::dynamics::Linearisation;
 use funicular::math::rotation;
 use funicular::pose_error::PoseDifference;
 use funicular::robot::Pose;
+use funicular::robot::WinchMode;
 use funicular::statics::TensionRule;
 use serde::Serialize;
 
@@ -16,6 +17,9 @@ pub struct Models {
     pub cable_model: &'static str,
     pub assembly: &'static str,
     pub in_plane_only: bool,
+    /// Winches in vibration; absent if they are as in the robot file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub winches: Option<&'static str>,
     #[serde(flatten)]
     pub origin: Origin,
 }
@@ -52,14 +56,19 @@ impl Models {
             cable_model: linearisation.cable_model.name(),
             assembly: linearisation.assembly.name(),
             in_plane_only: linearisation.in_plane_only,
+            winches: Some(linearisation.winches).filter(|mode| *mode != WinchMode::AsGiven).map(WinchMode::name),
         }
     }
 
     /// Description in one line.
     pub fn line(&self) -> String {
         let plane = if self.in_plane_only { ", in plane only" } else { "" };
+        let winches = self.winches.map_or_else(String::new, |mode| format!(", winches {mode}"));
         let origin = self.origin.phrase();
-        format!("{} statics, {} cables, {} assembly{plane}{origin}", self.static_model, self.cable_model, self.assembly)
+        format!(
+            "{} statics, {} cables, {} assembly{plane}{winches}{origin}",
+            self.static_model, self.cable_model, self.assembly
+        )
     }
 }
 

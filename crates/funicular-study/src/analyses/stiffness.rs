@@ -93,8 +93,12 @@ pub fn matrices(at_rest: &AtRest, model: Model, frequencies: &[f64]) -> Result<V
 }
 
 /// Linearisation with all terms of the static tangent.
-const FULL_TANGENT: Linearisation =
-    Linearisation { cable_model: CableModel::CatenaryStatic, assembly: Assembly::Consistent, in_plane_only: false, winches: WinchMode::AsGiven };
+const FULL_TANGENT: Linearisation = Linearisation {
+    cable_model: CableModel::CatenaryStatic,
+    assembly: Assembly::Consistent,
+    in_plane_only: false,
+    winches: WinchMode::AsGiven,
+};
 
 /// Stiffness over frequency.
 enum Form {

@@ -6,8 +6,8 @@ use crate::values::{finite, not_negative, positive};
 use anyhow::{Result, anyhow, bail};
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
-use funicular::robot::WinchMode;
 use funicular::math::{Quaternion, Rotation, rotation};
+use funicular::robot::WinchMode;
 use funicular::statics::StaticModel;
 use serde::{Deserialize, Serialize};
 

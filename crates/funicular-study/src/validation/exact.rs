@@ -10,8 +10,8 @@ use funicular::catenary::{Catenary, Rope};
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::{Complex, Mat3, Vec3};
 use funicular::modes;
-use funicular::robot::WinchMode;
 use funicular::response::{self, Quantity};
+use funicular::robot::WinchMode;
 use funicular::statics::{self, StaticModel};
 use std::f64::consts::TAU;
 

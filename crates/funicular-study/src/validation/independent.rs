@@ -145,7 +145,12 @@ impl RobotComparison<'_> {
         assembly: Assembly,
         in_plane_only: bool,
     ) -> Result<Dynamics, DynamicsError> {
-        let linearisation = Linearisation { cable_model: CableModel::ShallowDynamic, assembly, in_plane_only, winches: WinchMode::AsGiven };
+        let linearisation = Linearisation {
+            cable_model: CableModel::ShallowDynamic,
+            assembly,
+            in_plane_only,
+            winches: WinchMode::AsGiven,
+        };
         Dynamics::about(robot, &self.rest, linearisation, self.given.modes.below_hz)
     }
 

@@ -120,10 +120,8 @@ impl CatenaryDynamicEnd {
         in_plane_only: bool,
         limit: f64,
     ) -> Result<Self, CatenaryDynamicError> {
-        let end = end
-            .map(|(end, chain, swivel_mass)| MovingEnd::of(hanging, end, chain, swivel_mass))
-            .transpose()?
-            .flatten();
+        let end =
+            end.map(|(end, chain, swivel_mass)| MovingEnd::of(hanging, end, chain, swivel_mass)).transpose()?.flatten();
         let cable =
             CatenaryDynamic::with_stations(&hanging.catenary, end, mass_per_length, limit, Vec::new(), false)?.0;
         let (e, n) = hanging.axes_w();
@@ -193,7 +191,8 @@ impl CatenaryDynamicEnd {
     pub(crate) fn has_drive_losses(&self) -> bool {
         let Some(end) = &self.cable.end else { return false };
         let chain = end.along.as_ref().map(|along| &along.chain);
-        let heavy = chain.is_some_and(|chain| chain.mass.amax() > 0.0) || end.out_of_plane.is_some_and(|(_, m)| m > 0.0);
+        let heavy =
+            chain.is_some_and(|chain| chain.mass.amax() > 0.0) || end.out_of_plane.is_some_and(|(_, m)| m > 0.0);
         let damped_cable = self.damping.ratio_at(1.0, self.mass_per_length) > 0.0;
         (heavy && damped_cable) || chain.is_some_and(DriveChain::has_losses)
     }
@@ -270,7 +269,8 @@ impl CatenaryDynamicEnd {
     pub(crate) fn beyond_undamped(&self, omega: Complex, losses: f64) -> DriveLosses {
         let square = self.damping.times(losses).square_with_slope(omega, self.mass_per_length);
         let end = self.cable.end.as_ref();
-        let along = end.and_then(|end| end.along.as_ref()).map(|along| along.chain.beyond_undamped(omega, square, losses));
+        let along =
+            end.and_then(|end| end.along.as_ref()).map(|along| along.chain.beyond_undamped(omega, square, losses));
         let mass = end.and_then(|end| end.out_of_plane).map_or(0.0, |(_, mass)| mass);
         let sideways = (mass * (square.0 - omega * omega), mass * (square.1 - 2.0 * omega));
         DriveLosses { along: along.unwrap_or_default(), sideways }

@@ -156,8 +156,7 @@ impl DriveRows {
         for i in 0..along {
             for j in 0..along {
                 let at = (i, j);
-                receptance[i][j] =
-                    (motions.along.receptance[at], motions.along.receptance_slope[at] * square_slope);
+                receptance[i][j] = (motions.along.receptance[at], motions.along.receptance_slope[at] * square_slope);
             }
         }
         let mut loss = losses.along.clone();

@@ -89,6 +89,16 @@ impl DampedModes {
                  ratios may be wrong"
                     .to_owned(),
             ),
+            0 if !self.others.is_empty() => {
+                let frequencies: Vec<String> =
+                    self.others.iter().map(|mode| format!("{:.4} Hz", mode.ringing_hz())).collect();
+                Some(format!(
+                    "strong damping moves modes from above the limit below it: {} more damped, at {}; raise the limit to \
+                     list them with their undamped modes",
+                    if frequencies.len() == 1 { "one is".to_owned() } else { format!("{} are", frequencies.len()) },
+                    frequencies.join(", ")
+                ))
+            }
             0 => None,
             n => Some(format!(
                 "{} so strongly damped that they do not ring: their damping ratio is 1 and their frequency one of two \

@@ -5,13 +5,14 @@
 //! Each Newton step on det D divides out all the other zeros (Aberth), so that no two searches end at the same zero.
 //!
 //! Afterwards the zeros inside a contour are counted, by the phase of det D with damping over det D without. Its total
-//! change along the contour is zero exactly if the region has as many damped zeros as undamped ones. The number of the
-//! undamped ones is known from the Wittrick–Williams count.
+//! change along the contour is the difference between the numbers of damped and undamped zeros in the region, in full
+//! turns; the number of the undamped ones is known from the Wittrick–Williams count. With weak damping both numbers are
+//! equal. Strong damping, as of a servo, may move a zero out of the region or into it.
 
 use super::{Mode, Modes};
 use crate::dynamics::Dynamics;
 use crate::math::Complex;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// Damped natural frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,6 +53,8 @@ pub struct DampedModes {
     /// Number of modes so strongly damped that they do not vibrate. Their ω is one of their two decay rates, and no
     /// count confirms them.
     pub overdamped: usize,
+    /// Damped modes below the limit whose undamped partners lie above it, which strong damping can make.
+    pub others: Vec<DampedMode>,
     /// True if the undamped list is certified, every search has converged, and the region holds as many zeros as are
     /// listed.
     pub certified: bool,
@@ -116,24 +119,34 @@ const POLES_BEYOND: f64 = 1.3;
 /// section 12.
 pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     let limit = undamped.below_hz * TAU;
-    let strongest = undamped.modes.iter().map(|mode| mode.damping_ratio).fold(0.0, f64::max);
+    // The region of the count ends in a gap between modes; those between limit and gap are sought, too.
+    let right = free_of_modes(dynamics, limit);
+    let mut sought = undamped.modes.clone();
+    if dynamics.modes_below(right) > undamped.count_below {
+        sought.extend(super::within(dynamics, undamped.below_hz, right / TAU));
+    }
+    let strongest = sought.iter().map(|mode| mode.damping_ratio).fold(0.0, f64::max);
     let steps = (strongest / STEP_OF_DAMPING).ceil().clamp(1.0, MAX_STEPS);
-    let mut search = ZeroSearch { dynamics, losses: 1.0 / steps, poles: dynamics.poles_below(POLES_BEYOND * limit), foreign: Vec::new() };
+    let mut search = ZeroSearch {
+        dynamics,
+        losses: 1.0 / steps,
+        poles: dynamics.poles_below(POLES_BEYOND * limit),
+        foreign: Vec::new(),
+    };
 
     // All zeros at once; the damping is added in steps.
-    let mut zeros = search.starts(&undamped.modes);
+    let mut zeros = search.starts(&sought);
     search.converge(&mut zeros);
     while search.losses < 1.0 {
         search.losses = (search.losses + 1.0 / steps).min(1.0);
-        search.follow(&mut zeros, &undamped.modes);
+        search.follow(&mut zeros, &sought);
     }
 
     // Separate zeros that a multiple mode shares, and search again for lost zeros.
-    let right = search.free_of_modes(limit);
-    search.separate(&mut zeros, &undamped.modes);
-    search.bring_back(&mut zeros, &undamped.modes, right);
+    search.separate(&mut zeros, &sought);
+    search.bring_back(&mut zeros, &sought, right);
 
-    let mut modes = vec![DampedMode { omega: Complex::new(0.0, 0.0), error: 0.0 }; undamped.modes.len()];
+    let mut modes = vec![DampedMode { omega: Complex::new(0.0, 0.0), error: 0.0 }; sought.len()];
     for zero in &zeros {
         for member in &zero.members {
             modes[*member] = DampedMode { omega: zero.omega, error: zero.error };
@@ -142,11 +155,17 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
 
     // The ω of a motion without oscillation is imaginary, except for rounding.
     let overdamped = modes.iter().filter(|mode| mode.omega.re.abs() <= IMAGINARY * mode.omega.norm()).count();
-    let certified = undamped.certified
+    let settled = undamped.certified
         && overdamped == 0
-        && modes.iter().all(|mode| mode.error <= WANTED_ERROR && mode.omega.re > 0.0 && mode.omega.re < right)
-        && search.as_many_as_undamped(&modes, limit, right);
-    DampedModes { modes, overdamped, certified }
+        && modes.iter().all(|mode| mode.error <= WANTED_ERROR && mode.omega.re > 0.0);
+    let unlisted = if settled { search.unlisted(&modes, limit, right) } else { None };
+    let others = unlisted.and_then(|count| search.others(&mut zeros, count, right));
+    let certified = others.is_some();
+    let mut others = others.unwrap_or_default();
+    others.extend_from_slice(&modes[undamped.modes.len()..]);
+    others.retain(|mode| mode.omega.re < limit);
+    modes.truncate(undamped.modes.len());
+    DampedModes { modes, overdamped, others, certified }
 }
 
 /// Search for the damped zeros.
@@ -289,6 +308,7 @@ impl ZeroSearch<'_> {
         let is_outside = |zero: &DampedZero| zero.omega.re.min(zero.omega.im) < minimum(zero) || zero.omega.re > right;
         let is_lost = |zero: &DampedZero| zero.error > WANTED_ERROR || is_outside(zero);
 
+        let mut outside: Vec<(usize, Complex)> = Vec::new();
         for round in 0..MAX_ROUNDS {
             let lost: Vec<usize> = (0..zeros.len()).filter(|i| is_lost(&zeros[*i])).collect();
             if lost.is_empty() {
@@ -303,6 +323,7 @@ impl ZeroSearch<'_> {
             for (k, i) in lost.into_iter().enumerate() {
                 if zeros[i].error <= WANTED_ERROR {
                     self.foreign.push(zeros[i].omega);
+                    outside.push((i, zeros[i].omega));
                 }
                 zeros[i].omega = if round < ROUNDS_AT_MODES {
                     let at = if round == 0 { i } else { places.get(round - 1 + k).copied().unwrap_or(i) };
@@ -310,13 +331,19 @@ impl ZeroSearch<'_> {
                     let beside = Complex::from_polar(BESIDE, BESIDE_ANGLE + k as f64);
                     start(&zeros[at]) * (1.0 + beside)
                 } else {
-                    let number = (1 + round * (1 + k)) as f64;
-                    let [along, damped] = SPREAD.map(|step| (number * step).fract());
-                    right * along * Complex::new(1.0, MAX_START_RATIO * damped)
+                    anywhere(round * (1 + k), right)
                 };
                 zeros[i].error = f64::INFINITY;
             }
             self.converge(zeros);
+        }
+
+        // A zero that is nowhere in the region is beyond its right edge: the first place there to which it came.
+        for i in (0..zeros.len()).filter(|i| is_lost(&zeros[*i])).collect::<Vec<_>>() {
+            let beyond = outside.iter().find(|(of, omega)| *of == i && omega.re > right && omega.im > 0.0);
+            if let Some((_, omega)) = beyond {
+                (zeros[i].omega, zeros[i].error) = (*omega, 0.0);
+            }
         }
     }
 
@@ -349,37 +376,56 @@ impl ZeroSearch<'_> {
         (count - many).norm() < WHOLE && variance.norm().sqrt() <= ONE_ZERO * zero.omega.norm()
     }
 
-    /// Frequency at or slightly above the limit [rad/s], in the widest gap between undamped modes. Damping shifts the
-    /// frequencies, and none may cross the edge of the region in which they are counted.
-    fn free_of_modes(&self, limit: f64) -> f64 {
-        let at = |k: usize| limit * (1.0 + BEYOND * k as f64 / LOOKS as f64);
-        let (mut widest, mut first) = (0..0, 0);
-        let mut count = self.dynamics.modes_below(at(0));
-        for k in 1..=LOOKS {
-            let next = self.dynamics.modes_below(at(k));
-            if next != count {
-                (first, count) = (k, next);
-            } else if k - first > widest.len() {
-                widest = first..k;
-            }
-        }
-        0.5 * (at(widest.start) + at(widest.end))
+    /// Number of zeros in the region that are not listed: those of the undamped robot and the turns of the phase of the
+    /// quotient of both determinants along the boundary, less the listed ones. `None` if they are fewer than listed, or
+    /// not countable.
+    fn unlisted(&self, modes: &[DampedMode], limit: f64, right: f64) -> Option<usize> {
+        let Some(min_re) = modes.iter().map(|mode| mode.omega.re).reduce(f64::min) else { return Some(0) };
+        let left = 0.5 * min_re;
+        let undamped = self.dynamics.modes_below(right) as f64 - self.dynamics.modes_below(left) as f64;
+        let listed = modes.iter().filter(|mode| mode.omega.re < right).count() as f64;
+        let unlisted = (undamped + self.turns(modes, (left, right), limit)? / TAU - listed).round();
+        (unlisted >= 0.0).then_some(unlisted as usize)
     }
 
-    /// True if the region of the list has as many damped zeros as undamped ones: the phase of the quotient of both
-    /// determinants has no total change along the boundary.
-    fn as_many_as_undamped(&self, modes: &[DampedMode], limit: f64, right: f64) -> bool {
-        let Some(min_re) = modes.iter().map(|mode| mode.omega.re).reduce(f64::min) else { return true };
+    /// Further zeros in the region, of this number; `None` if they are not all found.
+    fn others(&mut self, zeros: &mut Vec<DampedZero>, count: usize, right: f64) -> Option<Vec<DampedMode>> {
+        let mut found = Vec::with_capacity(count);
+        for number in 0..MAX_ROUNDS {
+            if found.len() == count {
+                break;
+            }
+            let omega = anywhere(number, right);
+            zeros.push(DampedZero { omega, error: f64::INFINITY, members: vec![0] });
+            self.converge(zeros);
+            let last = zeros.last()?;
+            let (omega, error) = (last.omega, last.error);
+            let settled = error <= WANTED_ERROR;
+            if settled && omega.re > 0.0 && omega.re < right && omega.im >= 0.0 {
+                found.push(DampedMode { omega, error });
+                continue;
+            }
+            if settled {
+                self.foreign.push(omega);
+            }
+            zeros.pop();
+        }
+        (found.len() == count).then_some(found)
+    }
+
+    /// Total change of the phase of the quotient of both determinants along the boundary of the region between two real
+    /// parts [rad]; `None` if the boundary passes too near to a zero.
+    fn turns(&self, modes: &[DampedMode], (left, right): (f64, f64), limit: f64) -> Option<f64> {
         let max_im = modes.iter().map(|mode| mode.omega.im).fold(0.0, f64::max);
 
         // Corners of the region, so far from all zeros that the phase changes slowly.
         let margin = (MARGIN * max_im).max(MIN_MARGIN * limit);
         let corner = |re, im| Complex::new(re, im);
         let corners = [
-            corner(0.5 * min_re, -margin),
+            corner(left, -margin),
             corner(right, -margin),
             corner(right, max_im + margin),
-            corner(0.5 * min_re, max_im + margin),
+            corner(left, max_im + margin),
         ];
 
         // Total change of the phase along the boundary.
@@ -395,16 +441,36 @@ impl ZeroSearch<'_> {
             for piece in 1..=pieces {
                 let point = from + (to - from) * (piece as f64 / pieces as f64);
                 let next = (point, phase(point));
-                match turn_between(&phase, last, next, 0) {
-                    Some(turn) => turned += turn,
-                    None => return false,
-                }
+                turned += turn_between(&phase, last, next, 0)?;
                 last = next;
             }
         }
 
-        turned.abs() < PI
+        Some(turned)
     }
+}
+
+/// Start of a search anywhere in the region below a frequency [rad/s]; the starts of all numbers fill it evenly.
+fn anywhere(number: usize, right: f64) -> Complex {
+    let [along, damped] = SPREAD.map(|step| ((number + 1) as f64 * step).fract());
+    right * along * Complex::new(1.0, MAX_START_RATIO * damped)
+}
+
+/// Frequency at or slightly above the limit [rad/s], in the widest gap between undamped modes. Damping shifts the
+/// frequencies, and none may cross the edge of the region in which they are counted.
+fn free_of_modes(dynamics: &Dynamics, limit: f64) -> f64 {
+    let at = |k: usize| limit * (1.0 + BEYOND * k as f64 / LOOKS as f64);
+    let (mut widest, mut first) = (0..0, 0);
+    let mut count = dynamics.modes_below(at(0));
+    for k in 1..=LOOKS {
+        let next = dynamics.modes_below(at(k));
+        if next != count {
+            (first, count) = (k, next);
+        } else if k - first > widest.len() {
+            widest = first..k;
+        }
+    }
+    0.5 * (at(widest.start) + at(widest.end))
 }
 
 /// Width of the range above the limit in which a gap between modes is sought, relative to the limit.

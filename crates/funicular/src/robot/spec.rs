@@ -10,7 +10,6 @@
 
 mod cables;
 mod drives;
-mod winches;
 mod issue;
 pub mod key;
 mod limits;
@@ -18,6 +17,7 @@ mod materials;
 mod platform;
 pub(super) mod range;
 mod read;
+mod winches;
 
 use super::{Cable, Load, PlatformMotion, Pose, Robot, State, Wind};
 use crate::math::Vec3;

@@ -66,12 +66,7 @@ impl Servo {
     /// Servo that moves a mass [kg] with a bandwidth [Hz] and a damping ratio: `K_p = M ω_b²`, `K_d = 2 ζ M ω_b`.
     pub fn of_bandwidth(mass: f64, bandwidth_hz: f64, damping_ratio: f64, integral: bool, delay: f64) -> Self {
         let omega = bandwidth_hz * TAU;
-        Self {
-            position_gain: mass * omega * omega,
-            speed_gain: 2.0 * damping_ratio * mass * omega,
-            integral,
-            delay,
-        }
+        Self { position_gain: mass * omega * omega, speed_gain: 2.0 * damping_ratio * mass * omega, integral, delay }
     }
 }
 

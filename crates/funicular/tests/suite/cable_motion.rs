@@ -7,10 +7,14 @@ use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes;
 use funicular::response::{self, Port, Quantity, Signal};
-use funicular::robot::Damping;
+use funicular::robot::{Damping, WinchMode};
 
-const EXACT: Linearisation =
-    Linearisation { cable_model: CableModel::CatenaryDynamic, assembly: Assembly::Consistent, in_plane_only: false, winches: WinchMode::AsGiven };
+const EXACT: Linearisation = Linearisation {
+    cable_model: CableModel::CatenaryDynamic,
+    assembly: Assembly::Consistent,
+    in_plane_only: false,
+    winches: WinchMode::AsGiven,
+};
 
 #[test]
 fn a_force_on_a_cable_that_the_model_does_not_know_is_refused() {

@@ -1,11 +1,13 @@
 //! Robots with pulleys and winches: equilibria, limits, vibration against closed forms, and the reader's errors. Single
 //! cables at rest have their tests in the source; the comparisons with other programs are in the validation.
 
+mod vibration;
+
 use funicular::cable::{CableModel, EndStiffness};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Mat3, Vec3};
 use funicular::modes;
-use funicular::robot::{Pose, Robot, State, TensionLimits};
+use funicular::robot::{Pose, Robot, State, TensionLimits, WinchMode};
 use funicular::statics::{self, StaticModel, TensionRange, TensionRule};
 use std::f64::consts::TAU;
 
@@ -137,7 +139,7 @@ fn a_weightless_cable_is_a_rod_and_a_string_on_springs() {
     let state = &rest.cables[0];
     let drive = state.drive.as_ref().unwrap();
     let EndStiffness::Dynamic(cable) =
-        EndStiffness::new(&robot, 0, state, CableModel::CatenaryDynamic, false, 120.0).unwrap()
+        EndStiffness::new(&robot, 0, state, CableModel::CatenaryDynamic, false, WinchMode::AsGiven, 120.0).unwrap()
     else {
         panic!("a cable with mass")
     };

@@ -6,7 +6,7 @@ use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Vec3, Vec6};
 use funicular::response::{self, Port, Quantity, ResponseError, Signal};
-use funicular::robot::{Damping, Robot, State};
+use funicular::robot::{Damping, Robot, State, WinchMode};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
 

@@ -3,7 +3,7 @@
 use crate::library::at_rest;
 use funicular::cable::{CableModel, EndStiffness};
 use funicular::math::Vec3;
-use funicular::robot::Robot;
+use funicular::robot::{Robot, WinchMode};
 use funicular::statics::StaticModel;
 use funicular::warnings::{self, Warning};
 use std::f64::consts::TAU;
@@ -19,7 +19,8 @@ fn cables_are_warned_about_outside_the_models_range() {
         // The error measured here: first clamped frequency in plane of both models.
         let i = robot.cables.iter().position(|cable| cable.name == deep.cable).unwrap();
         let first = |cable_model| {
-            let one = EndStiffness::new(&robot, i, &rest.cables[i], cable_model, true, WinchMode::AsGiven, 5.0).unwrap();
+            let one =
+                EndStiffness::new(&robot, i, &rest.cables[i], cable_model, true, WinchMode::AsGiven, 5.0).unwrap();
             let EndStiffness::Dynamic(form) = one else { panic!("it vibrates") };
             form.clamped_frequencies_below(5.0 * TAU)[0]
         };

@@ -104,8 +104,12 @@ fn outcome(robot: &Robot, set: &'static Identified) -> anyhow::Result<Outcome> {
     let input = along(Vec3::z());
     let outputs = [Vec3::x(), Vec3::y(), Vec3::z()].map(along);
     let with = |cable_model| -> anyhow::Result<(Modes, ResponseCurve)> {
-        let linearisation =
-            Linearisation { cable_model, assembly: Assembly::WithoutGeometricStiffness, in_plane_only: true, winches: WinchMode::AsGiven };
+        let linearisation = Linearisation {
+            cable_model,
+            assembly: Assembly::WithoutGeometricStiffness,
+            in_plane_only: true,
+            winches: WinchMode::AsGiven,
+        };
         let dynamics = Dynamics::about(&robot, &rest, linearisation, BELOW_HZ)?;
         let found = modes::below(&dynamics, BELOW_HZ);
         let at = (&dynamics, BELOW_HZ, &found.modes[..]);

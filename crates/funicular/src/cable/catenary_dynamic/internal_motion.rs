@@ -1,6 +1,6 @@
 //! Motion of the points along a cable, from the motion of its ends and the amplitudes of its clamped modes.
 
-use super::{CatenaryDynamic, PoleResidue};
+use super::{CatenaryDynamic, DriveAt, DriveLosses, PoleResidue};
 use crate::math::{Complex, DMat};
 
 /// Displacement of stations along a catenary-dynamic cable (D components per point) by motions of its ends (N = 2D
@@ -118,33 +118,62 @@ impl InternalMotion {
     }
 }
 
+impl InternalMotion {
+    /// Motion with the ends held and a force along (horizontal, up, out of plane) at station `loaded`.
+    pub(crate) fn under_force(
+        cable: &CatenaryDynamic,
+        stations: &Stations,
+        (loaded, force): (usize, [f64; 3]),
+        square: Complex,
+    ) -> Self {
+        let held = Complex::new(0.0, 0.0);
+        let in_plane = cable.in_plane.poles.iter().zip(&stations.in_plane.modes);
+        let out_of_plane = cable.out_of_plane.poles.iter().zip(&stations.out_of_plane.modes);
+        let along = |mode: &[[f64; 2]]| mode[loaded][0] * force[0] + mode[loaded][1] * force[1];
+        Self {
+            in_plane_ends: [held; 4],
+            out_of_plane_ends: [held; 2],
+            in_plane: in_plane.map(|(pole, mode)| along(mode) / (*pole - square)).collect(),
+            out_of_plane: out_of_plane.map(|(pole, mode)| mode[loaded][0] * force[2] / (*pole - square)).collect(),
+        }
+    }
+
+    /// This motion with the losses of the drive at the end of the cable: their forces `Δ z` act on the clamped modes.
+    #[must_use]
+    pub(crate) fn with_drive(mut self, cable: &CatenaryDynamic, losses: &DriveLosses, square: Complex) -> Self {
+        let Some(drive) = &cable.drive else { return self };
+
+        // Along the cable: the motion z without these forces, then with them.
+        let free: Vec<Complex> =
+            (0..losses.along.len()).map(|j| drive.along.at(j, &self.in_plane_ends, &self.in_plane)[0]).collect();
+        let delta: Vec<Complex> = losses.along.iter().map(|(value, _)| *value).collect();
+        let at = DriveAt::<2>::at(&cable.in_plane, &drive.along, &drive.flexibility, square, &(0..0));
+        let forces = at.forces(&delta, &free);
+        for ((amplitude, pole), mode) in self.in_plane.iter_mut().zip(&cable.in_plane.poles).zip(&drive.along.modes) {
+            let force: Complex = mode.iter().zip(&forces).map(|([phi, _], force)| force * *phi).sum();
+            *amplitude -= force / (*pole - square);
+        }
+
+        // Sideways.
+        if drive.flexibility_out_of_plane > 0.0 {
+            let free = drive.out_of_plane.at(0, &self.out_of_plane_ends, &self.out_of_plane)[0];
+            let flexibility = DMat::from_element(1, 1, drive.flexibility_out_of_plane);
+            let at = DriveAt::<1>::at(&cable.out_of_plane, &drive.out_of_plane, &flexibility, square, &(0..0));
+            let force = at.forces(&[losses.sideways.0], &[free])[0];
+            let modes = cable.out_of_plane.poles.iter().zip(&drive.out_of_plane.modes);
+            for (amplitude, (pole, mode)) in self.out_of_plane.iter_mut().zip(modes) {
+                *amplitude -= force * mode[0][0] / (*pole - square);
+            }
+        }
+        self
+    }
+}
+
 impl Stations {
     /// Displacement (horizontal, up, out of plane) of station `at`.
     pub(crate) fn displacement(&self, at: usize, motion: &InternalMotion) -> [Complex; 3] {
         let [horizontal, up] = self.in_plane.at(at, &motion.in_plane_ends, &motion.in_plane);
         let [out_of_plane] = self.out_of_plane.at(at, &motion.out_of_plane_ends, &motion.out_of_plane);
         [horizontal, up, out_of_plane]
-    }
-
-    /// Displacement of station `at` along `out` per force along `force` at station `loaded`, both (horizontal, up, out
-    /// of plane), with both ends held, at the complex square ω_c² [m/N]: `Σ φ φᵀ/(ω_k² − ω_c²)`.
-    pub(crate) fn receptance(
-        &self,
-        cable: &CatenaryDynamic,
-        (at, out): (usize, [f64; 3]),
-        (loaded, force): (usize, [f64; 3]),
-        square: Complex,
-    ) -> Complex {
-        let along = |mode: &[[f64; 2]], k: usize, u: [f64; 3]| mode[k][0] * u[0] + mode[k][1] * u[1];
-
-        let in_plane = cable.in_plane.poles.iter().zip(&self.in_plane.modes);
-        let by_in_plane: Complex =
-            in_plane.map(|(pole, mode)| along(mode, at, out) * along(mode, loaded, force) / (*pole - square)).sum();
-
-        let out_of_plane = cable.out_of_plane.poles.iter().zip(&self.out_of_plane.modes);
-        let by_out_of_plane: Complex =
-            out_of_plane.map(|(pole, mode)| mode[at][0] * out[2] * mode[loaded][0] * force[2] / (*pole - square)).sum();
-
-        by_in_plane + by_out_of_plane
     }
 }

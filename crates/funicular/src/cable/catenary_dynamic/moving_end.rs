@@ -82,11 +82,7 @@ impl MovingEnd {
 
     /// Static stiffness of the start in plane and out of plane, from those with the end held, and the static response of
     /// the motions at the end to forces on them. The stiffness of an end that moves is zero.
-    pub(super) fn still(
-        &self,
-        [[hh, hv], [_, vv]]: [[f64; 2]; 2],
-        o: f64,
-    ) -> Result<Still, CatenaryDynamicError> {
+    pub(super) fn still(&self, [[hh, hv], [_, vv]]: [[f64; 2]; 2], o: f64) -> Result<Still, CatenaryDynamicError> {
         let mut in_plane = [[hh, hv, -hh, -hv], [hv, vv, -hv, -vv], [-hh, -hv, hh, hv], [-hv, -vv, hv, vv]];
         let mut flexibility = DMat::zeros(0, 0);
         if let Some(EndAlong { direction: [h, v], chain }) = &self.along {
@@ -171,17 +167,28 @@ impl<const S: usize> DriveAt<S> {
         at
     }
 
-    /// Motion z per component of the platform end with the additional stiffness `delta` of the drive [N/m]:
-    /// `(1 + R Δ)⁻¹ T`. Not finite at a resonance of the drive without damping.
-    pub(crate) fn moved(&self, delta: &[Complex]) -> Vec<[Complex; S]> {
+    /// `(1 + R Δ)⁻¹`; not finite at a resonance of the drive without damping.
+    fn inverse(&self, delta: &[Complex]) -> CDMat {
         let count = delta.len();
-        let one = CDMat::from_fn(count, count, |i, j| {
-            self.receptance[(i, j)] * delta[j] + if i == j { 1.0 } else { 0.0 }
-        });
-        let infinite = || CDMat::repeat(count, count, Complex::new(f64::INFINITY, 0.0));
-        let inverse = one.try_inverse().unwrap_or_else(infinite);
+        let one =
+            CDMat::from_fn(count, count, |i, j| self.receptance[(i, j)] * delta[j] + if i == j { 1.0 } else { 0.0 });
+        one.try_inverse().unwrap_or_else(|| CDMat::repeat(count, count, Complex::new(f64::INFINITY, 0.0)))
+    }
+
+    /// Motion z per component of the platform end with the additional stiffness `delta` of the drive [N/m]:
+    /// `(1 + R Δ)⁻¹ T`.
+    pub(crate) fn moved(&self, delta: &[Complex]) -> Vec<[Complex; S]> {
+        let (count, inverse) = (delta.len(), self.inverse(delta));
         let moved = |i: usize, s: usize| (0..count).map(|j| inverse[(i, j)] * self.transfer[j][s]).sum();
         (0..count).map(|i| std::array::from_fn(|s| moved(i, s))).collect()
+    }
+
+    /// Forces `Δ (1 + R Δ)⁻¹ z` of the additional stiffness `delta` of the drive [N/m], whose motion without them is
+    /// `free`.
+    pub(super) fn forces(&self, delta: &[Complex], free: &[Complex]) -> Vec<Complex> {
+        let inverse = self.inverse(delta);
+        let moved = |i: usize| -> Complex { (0..delta.len()).map(|j| inverse[(i, j)] * free[j]).sum() };
+        (0..delta.len()).map(|i| delta[i] * moved(i)).collect()
     }
 
     /// Stiffness of the platform end that the additional stiffness `delta` of the drive adds [N/m]:
@@ -211,9 +218,8 @@ impl DriveMotions {
     pub(super) fn added_stiffness(&self, losses: &DriveLosses) -> ([Complex; 3], [Complex; 1]) {
         let delta: Vec<Complex> = losses.along.iter().map(|(value, _)| *value).collect();
         let [[axial, coupling], [_, normal]] = self.along.added(&delta);
-        let out_of_plane = self.sideways.as_ref().map_or_else(Complex::default, |sideways| {
-            sideways.added(&[losses.sideways.0])[0][0]
-        });
+        let out_of_plane =
+            self.sideways.as_ref().map_or_else(Complex::default, |sideways| sideways.added(&[losses.sideways.0])[0][0]);
         ([axial, coupling, normal], [out_of_plane])
     }
 }

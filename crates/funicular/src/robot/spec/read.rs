@@ -354,7 +354,8 @@ impl<'t> Reader<'t> {
         let found = words().find(|known| *known == word);
         if found.is_none() {
             let all = words().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
-            let suggestion = nearest(&word, words()).map(|near| format!("did you mean \"{near}\"? ")).unwrap_or_default();
+            let suggestion =
+                nearest(&word, words()).map(|near| format!("did you mean \"{near}\"? ")).unwrap_or_default();
             self.issue(value.span(), format!("`{key}` is \"{}\", which is unknown", shortened(&word)))
                 .help(format!("{suggestion}the words are {all}"));
         }

@@ -213,6 +213,8 @@ fn radius(reader: &mut Reader, section: &Section) -> Option<Option<f64>> {
         "position_gain_n_m_per_rad",
         "speed_gain_n_m_s_per_rad",
     ];
+    // Two stiffnesses are an error of their own.
+    let about_the_axis = about_the_axis.into_iter().skip(usize::from(section.get("stiffness_n_per_m").is_some()));
     let Some(key) = about_the_axis.into_iter().find(|key| section.get(key).is_some()) else { return Some(None) };
     if !section.mistyped(&["drum_radius_m"]) {
         reader
@@ -242,12 +244,7 @@ fn stiffness(reader: &mut Reader, section: &Section, radius: Option<f64>) -> Opt
 }
 
 /// Control of the motor, which moves this mass at the cable [kg].
-fn control(
-    reader: &mut Reader,
-    section: &Section,
-    mass: f64,
-    by_radius: impl Fn(f64) -> f64,
-) -> Option<Control> {
+fn control(reader: &mut Reader, section: &Section, mass: f64, by_radius: impl Fn(f64) -> f64) -> Option<Control> {
     let word = reader.word(section, "control")?;
     if word != "position" {
         if let Some((key, value)) = OF_POSITION_CONTROL.iter().find_map(|key| Some((key, section.get(key)?))) {
@@ -292,7 +289,10 @@ fn control(
         [None, None] => {
             if !section.mistyped(&["bandwidth_hz", "position_gain_n_m_per_rad"]) {
                 reader
-                    .issue(section.span.clone(), format!("{} has a position control without a bandwidth", section.label()))
+                    .issue(
+                        section.span.clone(),
+                        format!("{} has a position control without a bandwidth", section.label()),
+                    )
                     .help("add `bandwidth_hz = 5`, or `position_gain_n_m_per_rad` and `speed_gain_n_m_s_per_rad`");
             }
             return None;

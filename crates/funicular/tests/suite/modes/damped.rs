@@ -4,7 +4,7 @@ use crate::library::{at_rest, independent_robot};
 use funicular::cable::CableModel;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::modes;
-use funicular::robot::{Damping, Robot};
+use funicular::robot::{Damping, Robot, WinchMode};
 use funicular::statics::Equilibrium;
 
 /// Robot of reference/independent.json with a change of its damping, and its equilibrium.
@@ -15,8 +15,12 @@ fn changed(id: &str, change: impl Fn(&mut Robot)) -> (Robot, Equilibrium) {
     (robot, rest)
 }
 
-const CATENARY_DYNAMIC: Linearisation =
-    Linearisation { cable_model: CableModel::CatenaryDynamic, assembly: Assembly::Consistent, in_plane_only: false, winches: WinchMode::AsGiven };
+const CATENARY_DYNAMIC: Linearisation = Linearisation {
+    cable_model: CableModel::CatenaryDynamic,
+    assembly: Assembly::Consistent,
+    in_plane_only: false,
+    winches: WinchMode::AsGiven,
+};
 
 #[test]
 fn damping_to_first_order_is_off_by_a_few_thousandths() {

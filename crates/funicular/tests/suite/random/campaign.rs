@@ -12,7 +12,7 @@ use funicular::cable::catenary_dynamic::CatenaryDynamicError;
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::math::{DMat, Vec3};
 use funicular::modes::{self, Modes};
-use funicular::robot::{Damping, Pose};
+use funicular::robot::{Damping, Pose, WinchMode};
 use funicular::statics::{self, Equilibrium, StaticModel, StaticsError};
 use robots::{Kind, Sample};
 use std::collections::BTreeMap;

@@ -1,0 +1,278 @@
+//! Vibration of cables with drives: closed forms of a weightless cable, interlacing, energies, modes of winches.
+
+use super::cogiro;
+use funicular::cable::{CableModel, EndStiffness};
+use funicular::cable_motion::CableStations;
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::math::{Complex, Mat3, Vec3};
+use funicular::modes::{self, Kind};
+use funicular::robot::{Control, DrumSide, Pose, Robot, Servo, WinchMode};
+use funicular::statics::{self, Equilibrium, StaticModel};
+use std::f64::consts::TAU;
+
+/// Cable without weight under 100 N, over a pulley of 0.4 m to a winch; `winch` are further keys of the winch.
+fn weightless(damping_ratio: f64, winch: &str) -> (Robot, Equilibrium) {
+    let robot = Robot::from_toml(&format!(
+        "name = \"one\"\ngravity_m_s2 = [0, 0, 0]\n[platform]\nmass_kg = 1.0\nmotion = \"point-mass\"\n\
+         [materials.rope]\naxial_stiffness_n = 2e4\nmass_kg_per_m = 0.1\ndamping_ratio = {damping_ratio}\n\
+         [pulleys.wheel]\nradius_m = 0.4\nentry_direction = [0, 0, 1]\ninertia_kg_m2 = 0.05\n\
+         swivel_inertia_kg_m2 = 0.2\n[winches.drum]\ndrum_side_length_m = 2.0\n{winch}[[cables]]\nname = \"1\"\n\
+         material = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\nanchor_m = [0, 0, 3]\nunstrained_length_m = 8.0\n\
+         [loads]\nforce_n = [80, 0, -60]\n"
+    ))
+    .unwrap();
+    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    (robot, rest)
+}
+
+/// Dynamic stiffness of a rod or string whose far end has the impedance `end` [N/m].
+fn rod(c: f64, kappa: Complex, length: f64, end: Complex) -> Complex {
+    let (sin, cos) = ((kappa * length).sin(), (kappa * length).cos());
+    c * kappa * (end * cos - c * kappa * sin) / (end * sin + c * kappa * cos)
+}
+
+/// Shaft of 1e4 N/m, drum of 3 kg, motor of 0.5·3² kg with a servo, all at the cable: radius 0.1 m.
+const WINCH: &str = "drum_radius_m = 0.1\nstiffness_n_per_m = 1e4\ndrum_inertia_kg_m2 = 0.03\n\
+                     motor_inertia_kg_m2 = 0.005\ngear_ratio = 3\ndamping_n_m_s_per_rad = 0.2\ncontrol = \"position\"\n\
+                     position_gain_n_m_per_rad = 60\nspeed_gain_n_m_s_per_rad = 2.5\ndelay_s = 0.004\n";
+
+/// Impedance at the exit point along the cable and sideways [N/m], from the series of theory (68), (75) and (76).
+fn impedances(rest: &Equilibrium, omega: f64, xi: f64, is_rod: bool) -> (Complex, Complex) {
+    let (ea, tension, i): (f64, f64, Complex) = (2e4, 100.0, Complex::i());
+    let stretch = 1.0 + tension / ea;
+    let drive = rest.cables[0].drive.as_ref().unwrap();
+    let wrap = drive.contact.unwrap().wrap;
+
+    let (drum, motor, shaft, gain, speed) = (3.0, 0.5 * 9.0, 1e4, 60.0 / 0.01, 2.5 / 0.01);
+    let control = (gain + i * omega * speed) * (-i * omega * 0.004).exp();
+    let at_motor = control - omega * omega * motor + i * omega * 0.2 / 0.01;
+    let at_drum = -omega * omega * drum + 1.0 / (1.0 / shaft + 1.0 / at_motor);
+
+    // The drum side: a spring, or a rod of the length at which it has the same static stiffness.
+    let compliance = 0.4 * wrap / (ea * stretch.powi(3)) + drive.drum_side_length / (ea * stretch * stretch);
+    let spring = 1.0 / (stretch * stretch * compliance);
+    let kappa = omega * (0.1 / ea * Complex::new(1.0, -2.0 * xi)).sqrt();
+    let behind = if is_rod { rod(ea, kappa, ea / spring, at_drum) } else { 1.0 / (1.0 / spring + 1.0 / at_drum) };
+
+    let distance = 0.8 * (0.5 * wrap).sin().powi(2);
+    let swivel = tension / 0.4 / (0.5 * wrap).tan() - omega * omega * 0.2 / (distance * distance);
+    (behind - omega * omega * 0.05 / 0.16, swivel.into())
+}
+
+/// Wheel, drum, shaft, motor, servo with delay, damped cable: all in one closed form, which shares no code.
+#[test]
+fn a_weightless_cable_ends_in_the_impedance_of_its_drive() {
+    let (ea, m, tension): (f64, f64, f64) = (2e4, 0.1, 100.0);
+    let stretch = 1.0 + tension / ea;
+    for (xi, drum_side) in [(0.0, "massless"), (0.02, "massless"), (0.02, "rod")] {
+        let (robot, rest) = weightless(xi, &format!("{WINCH}drum_side = \"{drum_side}\"\n"));
+        let state = &rest.cables[0];
+        let model = CableModel::CatenaryDynamic;
+        let found = EndStiffness::new(&robot, 0, state, model, false, WinchMode::AsGiven, 120.0).unwrap();
+        let EndStiffness::Dynamic(cable) = found else { panic!("a cable with mass") };
+
+        let e = state.chord_w().normalize();
+        for hz in [0.5, 1.3, 7.0, 23.0, 61.0, 103.0] {
+            let omega = hz * TAU;
+            let k = cable.damped(omega);
+            let real = |part: fn(&Complex) -> f64| -> Mat3 {
+                let entries = [&k.axial, &k.coupling, &k.normal, &k.out_of_plane].map(part);
+                let [axial, coupling, normal, out_of_plane] = entries;
+                funicular::cable::LocalStiffness { axial, coupling, normal, out_of_plane }.in_world(cable.axes())
+            };
+            let (re, im) = (real(|z| z.re), real(|z| z.im));
+            let along = Complex::new(e.dot(&(re * e)), e.dot(&(im * e)));
+            let out = Complex::new(re[(1, 1)], im[(1, 1)]);
+
+            let (slip, swivel) = impedances(&rest, omega, xi, drum_side == "rod");
+            let kappa = |c: f64| omega * (m / c * Complex::new(1.0, -2.0 * xi)).sqrt();
+            let length = state.free_length();
+            let axial = rod(ea, kappa(ea), length, slip);
+            let transverse = rod(tension / stretch, kappa(tension / stretch), length, swivel);
+            for (ours, exact) in [(along, axial), (out, transverse)] {
+                // Rounding of the clamped frequencies near their poles.
+                assert!((ours - exact).norm() < 1e-8 * exact.norm(), "ξ {xi}, {drum_side}, {hz} Hz: {ours} {exact}");
+            }
+        }
+    }
+}
+
+/// Points along the same cable: `u(s) = cos κs + B sin κs`.
+#[test]
+fn points_of_a_weightless_cable_move_with_the_drive_behind_it() {
+    let (robot, rest) = weightless(0.02, WINCH);
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 120.0).unwrap();
+    let fractions = [0.2, 0.7, 1.0];
+    let e = rest.cables[0].chord_w().normalize();
+    let length = rest.cables[0].free_length();
+    for loaded in [false, true] {
+        let stations = CableStations::new(&robot, &rest, &dynamics, 0, &fractions, loaded).unwrap();
+        for hz in [0.5, 7.0, 61.0] {
+            let omega = hz * TAU;
+            let (slip, _) = impedances(&rest, omega, 0.02, false);
+            let kappa = omega * (0.1 / 2e4 * Complex::new(1.0, -0.04)).sqrt();
+            let stiff = 2e4 * kappa;
+            let (sin, cos) = ((kappa * length).sin(), (kappa * length).cos());
+            let b = (stiff * sin - slip * cos) / (stiff * cos + slip * sin);
+            for (at, fraction) in fractions.iter().enumerate() {
+                let phase = kappa * length * fraction;
+                let exact = phase.cos() + b * phase.sin();
+                let vector = stations.transmission(&dynamics, at, &e, omega);
+                let ours: Complex = (0..3).map(|k| vector[k] * e[k]).sum();
+                assert!((ours - exact).norm() < 1e-8, "{hz} Hz, {fraction}: {ours} {exact}");
+            }
+        }
+    }
+}
+
+/// CoGiRo over pulleys, with inertia and a control in all its winches.
+fn driven(control: Control) -> (Robot, Equilibrium) {
+    let mut robot = cogiro(0.06);
+    for cable in &mut robot.cables {
+        let winch = cable.anchor.winch.as_mut().unwrap();
+        (winch.stiffness, winch.drum_mass, winch.motor_mass) = (f64::INFINITY, 20.0, 40.0);
+        winch.control = control;
+        let pulley = cable.anchor.pulley.as_mut().unwrap();
+        (pulley.inertia, pulley.swivel_inertia) = (5e-4, 3e-3);
+    }
+    let rest = statics::inverse(&robot, &Pose::new([1.0, 2.0, 1.5], [0.0; 3]), StaticModel::Catenary).unwrap();
+    (robot, rest)
+}
+
+fn servo(position_gain: f64, speed_gain: f64) -> Control {
+    Control::Position(Servo { position_gain, speed_gain, integral: true, delay: 0.0 })
+}
+
+fn listed(robot: &Robot, rest: &Equilibrium, winches: WinchMode, below_hz: f64) -> Vec<f64> {
+    let dynamics = Dynamics::about(robot, rest, Linearisation { winches, ..Default::default() }, below_hz).unwrap();
+    let found = modes::below(&dynamics, below_hz);
+    assert!(found.certified && found.unstable_directions == 0, "{winches:?}");
+    found.modes.iter().map(|mode| mode.frequency_hz).collect()
+}
+
+/// The position gain is a change of the stiffness of rank m, one per winch: it lifts every frequency, none beyond the
+/// one m places above, and clamped motors are its limit. Cables that stick to their pulleys are stiffer still.
+#[test]
+fn frequencies_interlace_in_the_position_gain() {
+    let below_hz = 9.0;
+    let (robot, rest) = driven(servo(5e4, 0.0));
+    let free = listed(&robot, &rest, WinchMode::Torque, below_hz);
+    let mut lower = free.clone();
+    for gain in [1e3, 5e4, 1e7] {
+        let (robot, rest) = driven(servo(gain, 0.0));
+        let higher = listed(&robot, &rest, WinchMode::AsGiven, below_hz);
+        for (j, f) in higher.iter().enumerate() {
+            assert!(lower.get(j).is_some_and(|lower| *lower <= f * (1.0 + 1e-9)), "gain {gain}, mode {j}");
+            assert!(
+                free.get(j + robot.cables.len()).is_none_or(|free| *f <= free * (1.0 + 1e-9)),
+                "gain {gain}, mode {j}"
+            );
+        }
+        lower = higher;
+    }
+
+    let clamped = listed(&robot, &rest, WinchMode::Clamped, below_hz);
+    let stuck = listed(&robot, &rest, WinchMode::Stuck, below_hz);
+    assert!(stuck.len() <= clamped.len() && clamped.len() <= lower.len() && lower.len() < free.len());
+    assert!(stuck.iter().zip(&clamped).all(|(stuck, clamped)| *stuck >= clamped * (1.0 - 1e-9)));
+
+    // A gain of 1e12 N/m is a clamped motor, to the ratio of the stiffnesses.
+    let (robot, rest) = driven(servo(1e12, 0.0));
+    let stiff = listed(&robot, &rest, WinchMode::AsGiven, below_hz);
+    assert!(stiff.len() == clamped.len() && stiff.iter().zip(&clamped).all(|(a, b)| (a / b - 1.0).abs() < 1e-6));
+}
+
+#[test]
+fn energies_of_platform_cables_and_drives_add_up() {
+    let (robot, rest) = driven(servo(5e4, 0.0));
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 12.0).unwrap();
+    let found = modes::below(&dynamics, 12.0);
+    for mode in &found.modes {
+        let parts = [&mode.cable_energy_fractions, &mode.drive_energy_fractions];
+        let sum = mode.platform_energy_fraction + parts.iter().flat_map(|part| part.iter()).sum::<f64>();
+        assert!((sum - 1.0).abs() < 1e-9, "{} Hz: {sum}", mode.frequency_hz);
+        assert!(parts.iter().flat_map(|part| part.iter()).all(|part| *part > -1e-9), "{} Hz", mode.frequency_hz);
+    }
+    assert!(found.modes.iter().any(|mode| mode.kind == Kind::Drive));
+
+    // The share of a mass is the logarithmic derivative of ω² by it: −Δω²/ω² per relative change of all drives' masses.
+    let share = |mode: &modes::Mode| mode.drive_energy_fractions.iter().sum::<f64>();
+    let mut heavier = robot.clone();
+    let step = 1e-5;
+    for cable in &mut heavier.cables {
+        let winch = cable.anchor.winch.as_mut().unwrap();
+        winch.drum_mass *= 1.0 + step;
+        winch.motor_mass *= 1.0 + step;
+        let pulley = cable.anchor.pulley.as_mut().unwrap();
+        pulley.inertia *= 1.0 + step;
+        pulley.swivel_inertia *= 1.0 + step;
+    }
+    let moved = listed(&heavier, &rest, WinchMode::AsGiven, 12.0);
+    for (mode, moved) in found.modes.iter().zip(&moved).take(12) {
+        let change = 2.0 * (mode.frequency_hz / moved).ln() / step;
+        // The square of the step, larger where frequencies are close.
+        assert!((change - share(mode)).abs() < 1e-3, "{} Hz: {change} {}", mode.frequency_hz, share(mode));
+    }
+}
+
+/// A servo's weak speed gain damps to first order as its loss in the undamped mode; a strong one is found, counted, and
+/// decays; without losses of the drive nothing changes.
+#[test]
+fn servos_damp_and_every_mode_has_its_partner() {
+    for (speed_gain, is_weak) in [(20.0, true), (2500.0, false)] {
+        let (robot, rest) = driven(servo(6e4, speed_gain));
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 8.0).unwrap();
+        let found = modes::below(&dynamics, 8.0);
+        let damped = modes::damped::damped_modes(&dynamics, &found);
+        assert!(damped.certified && damped.modes.len() == found.modes.len(), "gain {speed_gain}");
+        assert!(damped.modes.iter().all(|mode| mode.damping_ratio() > 0.0));
+        for (mode, partner) in found.modes.iter().zip(&damped.modes).filter(|_| is_weak) {
+            let (first_order, ratio) = (mode.damping_ratio, partner.damping_ratio());
+            // The second order: the damping over the distance of the next mode.
+            assert!((first_order - ratio).abs() < 0.1 * first_order + 1e-6, "{first_order} {ratio}");
+        }
+    }
+}
+
+#[test]
+fn a_drum_without_anything_behind_it_is_refused_where_the_cable_would_run_out() {
+    // A long horizontal cable with little tension, which its own weight pulls over the wheel.
+    let text = "name = \"one\"\n[platform]\nmass_kg = 0.1\nmotion = \"point-mass\"\n[materials.rope]\n\
+                axial_stiffness_n = 2e5\nmass_kg_per_m = 1.0\n[winches.drum]\ndrum_side_length_m = 1\ndrum_radius_m = 0.1\n\
+                drum_inertia_kg_m2 = 0.01\ncontrol = \"torque\"\n[[cables]]\nname = \"1\"\nmaterial = \"rope\"\n\
+                winch = \"drum\"\nanchor_m = [0, 0, 10]\nunstrained_length_m = 26.0\n[loads]\nforce_n = [20, 0, 100]\n";
+    let robot = Robot::from_toml(text).unwrap();
+    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    let error = Dynamics::about(&robot, &rest, Linearisation::default(), 2.0).unwrap_err();
+    assert!(error.to_string().contains("pull it over its pulley"), "{error}");
+    let clamped = Linearisation { winches: WinchMode::Clamped, ..Default::default() };
+    assert!(Dynamics::about(&robot, &rest, clamped, 2.0).is_ok());
+}
+
+#[test]
+fn a_rod_on_the_drum_side_lowers_frequencies_a_little() {
+    let (mut robot, rest) = driven(servo(5e4, 0.0));
+    let massless = listed(&robot, &rest, WinchMode::AsGiven, 9.0);
+    for cable in &mut robot.cables {
+        cable.anchor.winch.as_mut().unwrap().drum_side = DrumSide::Rod;
+    }
+    let rod = listed(&robot, &rest, WinchMode::AsGiven, 9.0);
+    assert_eq!(rod.len(), massless.len());
+    assert!(rod.iter().zip(&massless).all(|(rod, massless)| *rod <= massless * (1.0 + 1e-12)));
+    assert!(rod.iter().zip(&massless).any(|(rod, massless)| *rod < massless * (1.0 - 1e-6)));
+}
+
+#[test]
+fn reduced_models_refuse_drives_with_inertia() {
+    let (robot, rest) = driven(servo(5e4, 0.0));
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0).unwrap();
+    let along = |direction_w: Vec3| funicular::response::Signal::Along { direction_w, point_p: Vec3::zeros() };
+    let requested = funicular::reduced_model::RequestedModel {
+        below_hz: 5.0,
+        tolerance: 0.01,
+        damping_at: funicular::reduced_model::DampingAt::NaturalFrequencies,
+    };
+    let outputs = [(along(Vec3::z()), funicular::response::Quantity::Displacement)];
+    let error = funicular::reduced_model::reduce(&robot, &rest, &dynamics, &[along(Vec3::z())], &outputs, requested);
+    assert!(error.unwrap_err().to_string().contains("runs to a drive with inertia"));
+}
