@@ -359,12 +359,12 @@ impl PyRobot {
     /// ExecutorError
     ///     The executor's workers died; `resume` of the exception continues.
     #[pyo3(signature = (
-        grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, winches="as-given", up_to_hz=None, platform_share=None, payload_center_m=None,
-        tension_rule=None,
-        target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
-        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
-        discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
+        grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary",
+        cable_model=None, assembly="consistent", in_plane_only=false, winches="as-given", up_to_hz=None,
+        platform_share=None, payload_center_m=None, tension_rule=None, target_tension_n=None, min_tension_n=None,
+        max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None, wind_m_s=None,
+        cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false, discard=false, part=None,
+        threads=None, executor=None, chunks_per_task=None, progress=None
     ))]
     #[expect(clippy::too_many_arguments, clippy::fn_params_excessive_bools, reason = "Python\'s keywords")]
     fn map(
@@ -439,11 +439,11 @@ impl PyRobot {
     /// The other parameters are those of `map`.
     #[pyo3(signature = (
         vary, quantities=None, *, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, winches="as-given", up_to_hz=None, platform_share=None, payload_center_m=None,
-        tension_rule=None,
-        target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
-        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
-        discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
+        assembly="consistent", in_plane_only=false, winches="as-given", up_to_hz=None, platform_share=None,
+        payload_center_m=None, tension_rule=None, target_tension_n=None, min_tension_n=None, max_tension_n=None,
+        mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None, wind_m_s=None, cable_load_n_per_m=None,
+        hold_lengths_of_pose=false, file=None, resume=false, discard=false, part=None, threads=None, executor=None,
+        chunks_per_task=None, progress=None
     ))]
     #[expect(clippy::too_many_arguments, clippy::fn_params_excessive_bools, reason = "Python\'s keywords")]
     fn sweep(
