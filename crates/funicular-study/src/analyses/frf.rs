@@ -454,13 +454,13 @@ fn output_place<S: Serializer>(place: &PlaceRow, to: S) -> Result<S::Ok, S::Erro
 
 /// Unit of a response: motion divided by force or moment.
 pub fn unit(input: &Input, output: &Output) -> String {
-    let motion = if output.is_rotation { "rad" } else { "m" };
+    let motion = output.unit();
     let by_time = match output.quantity {
         Quantity::Displacement => "",
         Quantity::Velocity => "/s",
         Quantity::Acceleration => "/s²",
     };
-    let effort = if input.is_moment { "(N·m)" } else { "N" };
+    let effort = if input.is_moment { "(N·m)" } else { input.unit() };
     if by_time.is_empty() { format!("{motion}/{effort}") } else { format!("({motion}{by_time})/{effort}") }
 }
 
