@@ -7,7 +7,7 @@ use crate::errors;
 use crate::interrupt::interruptible;
 use crate::robot::PyRobot;
 use crate::vibration::{self, CompareKeywords, ModesKeywords, ModesObject, PairKeywords, Responses, SignalNames};
-use crate::written::{self, PageKeywords, ReduceKeywords, StateSpaceKeywords};
+use crate::written::{self, PageKeywords, ReduceKeywords};
 use funicular_study::analyses;
 use funicular_study::analyses::statics::Extras;
 use funicular_study::request::{State, Tensions};
@@ -375,14 +375,14 @@ impl PyAnalyses {
         in_plane_only: bool,
         winches: &str,
     ) -> PyResult<written::StateSpaceObject> {
-        let keywords = StateSpaceKeywords {
+        let keywords = ReduceKeywords {
             below_hz,
             input,
             output,
-            order,
-            tolerance,
             input_point_m,
             output_point_m,
+            order,
+            tolerance,
             damping_at_hz,
             cable_model,
             assembly,
@@ -438,6 +438,7 @@ impl PyAnalyses {
             output,
             input_point_m,
             output_point_m,
+            order: None,
             tolerance,
             damping_at_hz,
             cable_model,

@@ -1,6 +1,7 @@
 //! NumPy arrays as arguments and results, with the types that the `.pyi` names. A returned array owns its numbers.
 
 use crate::errors;
+use funicular::math::Vec3;
 use funicular_study::values;
 use numpy::ndarray::{Array, ArrayD, Dimension, Ix1, Ix2, Ix3, IxDyn};
 use numpy::{Complex64, Element, IntoPyArray, PyArray, PyArrayDyn, PyArrayMethods, PyUntypedArray};
@@ -79,6 +80,13 @@ impl<T> Matrix<T> {
     pub(crate) fn of_rows(flat: Vec<T>, columns: usize) -> Self {
         let rows = flat.len() / columns.max(1);
         Self(Array::from_shape_vec((rows, columns), flat).expect("whole rows"))
+    }
+}
+
+impl Matrix {
+    /// Makes a matrix with one point per row.
+    pub(crate) fn of_points(points: impl Iterator<Item = Vec3>) -> Self {
+        Self::of_rows(points.flat_map(<[f64; 3]>::from).collect(), 3)
     }
 }
 

@@ -18,6 +18,7 @@ mod interrupt;
 mod pose;
 mod request;
 mod robot;
+mod robot_text;
 mod sweep;
 mod threads;
 mod vibration;

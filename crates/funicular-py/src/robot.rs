@@ -8,41 +8,18 @@ use crate::dict_to_toml;
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::pose::PoseLike;
-use crate::request::{StateKeywords, TensionKeywords, model, share};
+use crate::request::{StateKeywords, TensionKeywords, model};
+use crate::robot_text;
 use crate::sweep::{self, Axes, ExecutorArgument, ProgressArgument, PyPlan, RunKeywords, SweepObject};
 use crate::threads::Threads;
 use funicular::robot::{Robot, State};
 use funicular_study::analyses;
-use funicular_study::request::{self as requests, EachPoint, MapRequest, Request, RobotText, SweepRequest};
-use funicular_study::robot_file::{self, MAX_BYTES, RobotFile};
-use funicular_study::sweep::MAX_HZ;
+use funicular_study::request::{self as requests, MapRequest, Request, RobotText, SweepRequest};
+use funicular_study::robot_file::RobotFile;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
-use std::fs;
-use std::io::{self, Read};
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// Request for the points of a map or sweep, from the keywords of Python.
-fn each_point(
-    quantities: Option<Vec<String>>,
-    up_to_hz: Option<Number>,
-    platform_share: Option<Number>,
-    payload_center_m: Option<Numbers>,
-    state: StateKeywords<'_>,
-    tensions: TensionKeywords<'_>,
-    model: requests::Model,
-) -> PyResult<EachPoint> {
-    Ok(EachPoint {
-        quantities: quantities.unwrap_or_else(EachPoint::default_quantities),
-        up_to_hz: up_to_hz.map_or(Ok(MAX_HZ), |up_to_hz| up_to_hz.value("up_to_hz"))?,
-        platform_share: share(platform_share)?,
-        payload_center_m: payload_center_m.map(|center| center.three("payload_center_m")).transpose()?,
-        state: state.request()?,
-        tensions: tensions.request()?,
-        model,
-    })
-}
 
 /// Cable-driven parallel robot, read from the text of a robot file (TOML); immutable.
 ///
@@ -80,16 +57,7 @@ impl PyRobot {
     ///     The file cannot be read.
     #[classmethod]
     fn from_file(cls: &Bound<'_, PyType>, path: PathBuf) -> PyResult<Py<Self>> {
-        let name = path.display().to_string();
-        let read = || {
-            let mut bytes = Vec::new();
-            fs::File::open(&path)?.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
-            Ok(bytes)
-        };
-        let bytes: Vec<u8> = read().map_err(|error: io::Error| {
-            io::Error::new(error.kind(), format!("cannot read the robot file {name}: {error}"))
-        })?;
-        let text = robot_file::decode(&name, bytes).map_err(|error| errors::change(format!("{error:#}")))?;
+        let (name, text) = robot_text::of_file(&path)?;
         Self::of_text(cls.py(), &name, text)
     }
 
@@ -148,15 +116,7 @@ impl PyRobot {
     ///     The file has no such path, or the value is wrong there.
     #[pyo3(signature = (changes=None, *, mass_kg=None))]
     fn with_(&self, py: Python<'_>, changes: Option<TextKeyed<'_>>, mass_kg: Option<Number>) -> PyResult<Py<Self>> {
-        let all = PyDict::new(py);
-        if let Some(TextKeyed(changes)) = changes {
-            all.update(changes.as_mapping())?;
-        }
-        if let Some(mass) = mass_kg {
-            all.set_item("platform.mass_kg", mass.positive("mass_kg")?)?;
-        }
-        let mut source = self.source.clone();
-        source.set.extend(dict_to_toml::changes(&all)?);
+        let source = robot_text::changed(py, &self.source, changes, mass_kg)?;
         Self::read(py, source)
     }
 
@@ -193,16 +153,13 @@ impl PyRobot {
     /// Anchors in world axes [m], one row per cable.
     #[getter]
     fn anchor_m(&self) -> Matrix {
-        Matrix::of_rows(
-            self.robot.cables.iter().flat_map(|cable| <[f64; 3]>::from(cable.anchor.reference_w())).collect(),
-            3,
-        )
+        Matrix::of_points(self.robot.cables.iter().map(|cable| cable.anchor.reference_w()))
     }
 
     /// Attachments in the platform frame [m], one row per cable.
     #[getter]
     fn attachment_m(&self) -> Matrix {
-        Matrix::of_rows(self.robot.cables.iter().flat_map(|cable| cable.attachment_p.iter().copied()).collect(), 3)
+        Matrix::of_points(self.robot.cables.iter().map(|cable| cable.attachment_p))
     }
 
     /// Unstrained lengths of the robot file [m], one per cable; None if the file gives a pose or no state.
@@ -407,12 +364,12 @@ impl PyRobot {
     /// RobotWarning
     ///     The robot has a value that no usual robot has; once per call, before the rows are computed.
     #[pyo3(signature = (
-        grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, winches="as-given", up_to_hz=None, platform_share=None, payload_center_m=None,
-        tension_rule=None,
-        target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
-        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
-        discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
+        grid=None, quantities=None, *, poses=None, pose=None, lengths_m=None, static_model="catenary",
+        cable_model=None, assembly="consistent", in_plane_only=false, winches="as-given", up_to_hz=None,
+        platform_share=None, payload_center_m=None, tension_rule=None, target_tension_n=None, min_tension_n=None,
+        max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None, wind_m_s=None,
+        cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false, discard=false, part=None,
+        threads=None, executor=None, chunks_per_task=None, progress=None
     ))]
     #[expect(clippy::too_many_arguments, clippy::fn_params_excessive_bools, reason = "Python\'s keywords")]
     fn map(
@@ -466,7 +423,7 @@ impl PyRobot {
 
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
         let model = model(cable_model, assembly, in_plane_only, winches)?;
-        let point = each_point(quantities, up_to_hz, platform_share, payload_center_m, state, tensions, model)?;
+        let point = sweep::each_point(quantities, up_to_hz, platform_share, payload_center_m, state, tensions, model)?;
         let grid = grid.map_or_else(Vec::new, |Axes(axes)| axes);
         let poses = poses.map(sweep::poses).transpose()?;
         let request = Request::Map(MapRequest { robot: self.source.clone(), grid, poses, point });
@@ -487,11 +444,11 @@ impl PyRobot {
     /// The other parameters are those of `map`.
     #[pyo3(signature = (
         vary, quantities=None, *, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, winches="as-given", up_to_hz=None, platform_share=None, payload_center_m=None,
-        tension_rule=None,
-        target_tension_n=None, min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None,
-        load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, file=None, resume=false,
-        discard=false, part=None, threads=None, executor=None, chunks_per_task=None, progress=None
+        assembly="consistent", in_plane_only=false, winches="as-given", up_to_hz=None, platform_share=None,
+        payload_center_m=None, tension_rule=None, target_tension_n=None, min_tension_n=None, max_tension_n=None,
+        mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None, wind_m_s=None, cable_load_n_per_m=None,
+        hold_lengths_of_pose=false, file=None, resume=false, discard=false, part=None, threads=None, executor=None,
+        chunks_per_task=None, progress=None
     ))]
     #[expect(clippy::too_many_arguments, clippy::fn_params_excessive_bools, reason = "Python\'s keywords")]
     fn sweep(
@@ -544,7 +501,7 @@ impl PyRobot {
 
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
         let model = model(cable_model, assembly, in_plane_only, winches)?;
-        let point = each_point(quantities, up_to_hz, platform_share, payload_center_m, state, tensions, model)?;
+        let point = sweep::each_point(quantities, up_to_hz, platform_share, payload_center_m, state, tensions, model)?;
         let request = Request::Sweep(SweepRequest { robot: self.source.clone(), vary: vary.0, point });
 
         let plan = PyPlan::of(py, request, part)?;
@@ -704,7 +661,7 @@ impl PyRobot {
         command: &str,
         keywords: Option<TextKeyed<'py>>,
     ) -> PyResult<TextKeyed<'py>> {
-        let robot = serde_json::to_string(&self.source).map_err(|error| errors::input(error.to_string()))?;
+        let robot = robot_text::to_json(&self.source)?;
         let keywords = keywords.map_or_else(|| PyDict::new(py), |TextKeyed(keywords)| keywords);
         let made = py.import("funicular._study")?.call_method1("request", (command, robot, keywords))?;
         Ok(TextKeyed(made.cast_into()?))
@@ -731,8 +688,7 @@ impl PyRobot {
     // The text before `with_` and its changes are kept: `hold_lengths_of_pose` refers to that text.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<PickleParts<'py, (String,)>> {
         let rebuild = slf.py().import("funicular._funicular")?.getattr("robot_of_source")?;
-        let source = serde_json::to_string(&slf.get().source).map_err(|error| errors::input(error.to_string()))?;
-        Ok((rebuild, (source,)))
+        Ok((rebuild, (robot_text::to_json(&slf.get().source)?,)))
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {
@@ -748,6 +704,5 @@ impl PyRobot {
 /// Robot of the text and the changes that a pickle contains, as JSON.
 #[pyfunction]
 pub(crate) fn robot_of_source(py: Python<'_>, source: &str) -> PyResult<Py<PyRobot>> {
-    let source = serde_json::from_str(source).map_err(|error| errors::input(error.to_string()))?;
-    PyRobot::read(py, source)
+    PyRobot::read(py, robot_text::of_json(source)?)
 }

@@ -47,13 +47,15 @@ object!(ReducedObject, "funicular._results", "ReducedModel");
 object!(StateSpaceObject, "funicular._results", "StateSpaceModel");
 object!(PageObject, "funicular._pages", "Page");
 
-/// Keywords of `reduce`.
+/// Keywords of `reduce` and `state_space`.
 pub(crate) struct ReduceKeywords<'a> {
     pub(crate) below_hz: Number,
     pub(crate) input: Option<Vec<String>>,
     pub(crate) output: Option<Vec<String>>,
     pub(crate) input_point_m: Option<Numbers>,
     pub(crate) output_point_m: Option<Numbers>,
+    /// Number of states, of a state space only.
+    pub(crate) order: Option<Count>,
     pub(crate) tolerance: Option<Number>,
     pub(crate) damping_at_hz: Option<Number>,
     pub(crate) cable_model: Option<&'a str>,
@@ -62,21 +64,28 @@ pub(crate) struct ReduceKeywords<'a> {
     pub(crate) winches: &'a str,
 }
 
+impl ReduceKeywords<'_> {
+    fn request(self, of: &PyEquilibrium, form: ModelForm) -> PyResult<request::ReduceRequest> {
+        let rule = format!("give a number of states from 2 to {MAX_ORDER}; a mode needs two");
+        Ok(request::ReduceRequest {
+            robot: of.of.get().source.clone(),
+            below_hz: self.below_hz.value("below_hz")?,
+            input: self.input.unwrap_or_default(),
+            output: self.output.unwrap_or_default(),
+            points: points(self.input_point_m, self.output_point_m)?,
+            form,
+            order: self.order.map(|order| order.within("order", 2..=MAX_ORDER, &rule)).transpose()?,
+            tolerance: self.tolerance.map(|tolerance| tolerance.value("tolerance")).transpose()?,
+            damping_at_hz: self.damping_at_hz.map(|hz| hz.value("damping_at_hz")).transpose()?,
+            state: of.state.clone(),
+            tensions: of.tensions.clone(),
+            model: model(self.cable_model, self.assembly, self.in_plane_only, self.winches)?,
+        })
+    }
+}
+
 pub(crate) fn reduce(py: Python<'_>, of: &PyEquilibrium, keywords: ReduceKeywords<'_>) -> PyResult<ReducedObject> {
-    let request = request::ReduceRequest {
-        robot: of.of.get().source.clone(),
-        below_hz: keywords.below_hz.value("below_hz")?,
-        input: keywords.input.unwrap_or_default(),
-        output: keywords.output.unwrap_or_default(),
-        points: points(keywords.input_point_m, keywords.output_point_m)?,
-        form: ModelForm::SecondOrder,
-        order: None,
-        tolerance: keywords.tolerance.map(|tolerance| tolerance.value("tolerance")).transpose()?,
-        damping_at_hz: keywords.damping_at_hz.map(|hz| hz.value("damping_at_hz")).transpose()?,
-        state: of.state.clone(),
-        tensions: of.tensions.clone(),
-        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
-    };
+    let request = keywords.request(of, ModelForm::SecondOrder)?;
     let at_rest = Arc::clone(&of.at_rest);
     let found = interruptible_in_steps(py, move |watch| analyses::reduce::about(&at_rest, &request, watch))?;
     let found = found.map_err(|error| errors::study(&error))?;
@@ -101,42 +110,12 @@ pub(crate) fn reduce(py: Python<'_>, of: &PyEquilibrium, keywords: ReduceKeyword
     Ok(ReducedObject(made.unbind()))
 }
 
-/// Keywords of `state_space`.
-pub(crate) struct StateSpaceKeywords<'a> {
-    pub(crate) below_hz: Number,
-    pub(crate) input: Option<Vec<String>>,
-    pub(crate) output: Option<Vec<String>>,
-    pub(crate) order: Option<Count>,
-    pub(crate) tolerance: Option<Number>,
-    pub(crate) input_point_m: Option<Numbers>,
-    pub(crate) output_point_m: Option<Numbers>,
-    pub(crate) damping_at_hz: Option<Number>,
-    pub(crate) cable_model: Option<&'a str>,
-    pub(crate) assembly: &'a str,
-    pub(crate) in_plane_only: bool,
-    pub(crate) winches: &'a str,
-}
-
 pub(crate) fn state_space(
     py: Python<'_>,
     of: &PyEquilibrium,
-    keywords: StateSpaceKeywords<'_>,
+    keywords: ReduceKeywords<'_>,
 ) -> PyResult<StateSpaceObject> {
-    let rule = format!("give a number of states from 2 to {MAX_ORDER}; a mode needs two");
-    let request = request::ReduceRequest {
-        robot: of.of.get().source.clone(),
-        below_hz: keywords.below_hz.value("below_hz")?,
-        input: keywords.input.unwrap_or_default(),
-        output: keywords.output.unwrap_or_default(),
-        points: points(keywords.input_point_m, keywords.output_point_m)?,
-        form: ModelForm::StateSpace,
-        order: keywords.order.map(|order| order.within("order", 2..=MAX_ORDER, &rule)).transpose()?,
-        tolerance: keywords.tolerance.map(|tolerance| tolerance.value("tolerance")).transpose()?,
-        damping_at_hz: keywords.damping_at_hz.map(|hz| hz.value("damping_at_hz")).transpose()?,
-        state: of.state.clone(),
-        tensions: of.tensions.clone(),
-        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
-    };
+    let request = keywords.request(of, ModelForm::StateSpace)?;
     let at_rest = Arc::clone(&of.at_rest);
     let found = interruptible_in_steps(py, move |watch| analyses::control_model::about(&at_rest, &request, watch))?;
     let found = found.map_err(|error| errors::study(&error))?;

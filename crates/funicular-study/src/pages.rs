@@ -38,7 +38,7 @@ impl Shell {
             contents,
             version: env!("CARGO_PKG_VERSION"),
             style: include_str!("../templates/page.css"),
-            script: include_str!("../templates/page.js"),
+            script: concat!(include_str!("../templates/space.js"), include_str!("../templates/page.js")),
             plotly: PLOTLY,
         }
     }

@@ -18,15 +18,9 @@ const page = (function () {
   }
   // Adds the buttons that save a figure: one for each ending in `formats`, which gives a promise of the picture's
   // address. They stand above the figure, so that neither they nor plotly's buttons cover the legend.
-  function offer(place, formats, note) {
+  function offer(place, formats) {
     const row = document.createElement("div"), id = place.closest("figure").id;
     row.className = "save";
-    if (note) {
-      const text = document.createElement("span");
-      text.textContent = note;
-      text.title = "The graphics card draws views in space as pixels. The command funicular statics with -o FILE.svg draws the robot as lines.";
-      row.append(text);
-    }
     Object.keys(formats).forEach(function (ending) {
       const button = document.createElement("button");
       button.type = "button";
@@ -44,12 +38,9 @@ const page = (function () {
     const picture = function (format, scale) {
       return function () { return Plotly.toImage(place, { format: format, width: place.clientWidth, height: place.clientHeight, scale: scale }); };
     };
-    // A view in space is drawn by the graphics card as pixels; inside an SVG file it would still be pixels.
-    if (place.classList.contains("scene")) {
-      offer(place, { png: picture("png", FINE) }, "drawn as pixels");
-    } else {
-      offer(place, { svg: picture("svg", 1), png: picture("png", FINE) });
-    }
+    // Plotly draws a view in space as pixels, also inside an SVG file.
+    const lines = place.classList.contains("scene") ? function () { return space.svgOf(place); } : picture("svg", 1);
+    offer(place, { svg: lines, png: picture("png", FINE) });
   }
 
   // Unpacks data of the page: gzip in base64.

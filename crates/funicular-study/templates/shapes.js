@@ -136,68 +136,8 @@
     show();
   }
 
-  function path(points) {
-    context.beginPath();
-    points.forEach(function (p, k) { if (k) { context.lineTo(p[0], p[1]); } else { context.moveTo(p[0], p[1]); } });
-  }
-  function stroke(points, style, width) {
-    path(points);
-    context.strokeStyle = style;
-    context.lineWidth = width;
-    context.stroke();
-  }
-  function ticks(k) {
-    const low = robot.low[k], high = robot.high[k], rough = (high - low) / 5, power = Math.pow(10, Math.floor(Math.log10(rough)));
-    const step = power * [1, 2, 5, 10].find(function (m) { return m * power >= rough; }), list = [];
-    for (let i = Math.ceil(low / step - 1e-6); i * step <= high + 1e-6 * step; i++) { list.push(i * step); }
-    return { list: list, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
-  }
-  // Floor with its grid, numbers along the front edges, heights along the left edge.
-  function axes(view) {
-    const low = robot.low, high = robot.high, z = low[2], to = view.to;
-    path([[low[0], low[1], z], [high[0], low[1], z], [high[0], high[1], z], [low[0], high[1], z]].map(to));
-    context.closePath();
-    context.fillStyle = "#f3f4f5";
-    context.fill();
-    const front = [0, 1].map(function (k) { return view.eye.towards[k] > 0 ? high[k] : low[k]; });
-    const middle = to([0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), z]);
-    const write = function (text, at, style, size, dx, dy) {
-      context.fillStyle = style;
-      context.font = size + "px system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif";
-      context.fillText(text, at[0] + dx, at[1] + dy);
-    };
-    context.textAlign = "center";
-    context.textBaseline = "middle";
-    [0, 1].forEach(function (k) {
-      const other = 1 - k, marks = ticks(k);
-      const point = function (value, at) { const p = [0, 0, z]; p[k] = value; p[other] = at; return to(p); };
-      const edge = [point(low[k], front[other]), point(high[k], front[other])];
-      // Direction normal to the edge, away from the floor.
-      let away = [edge[0][1] - edge[1][1], edge[1][0] - edge[0][0]];
-      const long = Math.hypot(away[0], away[1]) || 1, side = away[0] * (edge[0][0] - middle[0]) + away[1] * (edge[0][1] - middle[1]);
-      away = away.map(function (part) { return (side < 0 ? -part : part) / long; });
-      const spread = Math.hypot(edge[1][0] - edge[0][0], edge[1][1] - edge[0][1]);
-      marks.list.forEach(function (value) {
-        stroke([point(value, low[other]), point(value, high[other])], "#d9d9d9", 1);
-        if (spread > 60) { write(value.toFixed(marks.digits).replace("-", "−"), point(value, front[other]), "#565656", 10.5, 14 * away[0], 12 * away[1]); }
-      });
-      stroke(edge, "#8a8a8a", 1);
-      if (spread > 60) { write("xy"[k] + " [m]", point(0.5 * (low[k] + high[k]), front[other]), "#1b1b1b", 12, 38 * away[0], 29 * away[1]); }
-    });
-    const upright = [0, 1, 2, 3].map(function (mask) { return [mask & 1 ? high[0] : low[0], mask & 2 ? high[1] : low[1]]; })
-      .reduce(function (best, p) { return to([p[0], p[1], z])[0] < to([best[0], best[1], z])[0] ? p : best; });
-    const heights = ticks(2), ends = [to([upright[0], upright[1], low[2]]), to([upright[0], upright[1], high[2]])];
-    stroke(ends, "#8a8a8a", 1);
-    if (Math.abs(ends[1][1] - ends[0][1]) > 50) {
-      context.textAlign = "right";
-      heights.list.forEach(function (value, i) {
-        const at = to([upright[0], upright[1], value]);
-        stroke([at, [at[0] - 4, at[1]]], "#8a8a8a", 1);
-        if (i > 0) { write(value.toFixed(heights.digits).replace("-", "−"), at, "#565656", 10.5, -7, 0); }
-      });
-      write("z [m]", ends[1], "#1b1b1b", 12, 10, -11);
-    }
-  }
+  function path(points) { space.path(context, points); }
+  function stroke(points, style, width) { space.stroke(context, points, style, width); }
   function body(view, corners, centre, share) {
     const at = corners.map(view.to), sun = [0.35, -0.5, 0.8];
     robot.platform.faces
@@ -240,7 +180,7 @@
   function paint() {
     context.lineJoin = context.lineCap = "round";
     const view = projection(), mode = robot.modes[chosen], a = amplitude() * Math.cos(2 * Math.PI * phase);
-    axes(view);
+    space.scales(context, view, robot.low, robot.high);
     robot.cables.forEach(function (cable) { stroke(cable.points.map(view.to), "#b3b8bd", 1); });
     robot.platform.faces.forEach(function (face) {
       path(face.map(function (i) { return view.to(robot.platform.corners[i]); }));
@@ -282,45 +222,12 @@
     });
   }
 
-  // Records what `paint` draws as elements of SVG, so that the saved figure has lines and texts.
-  function recorder(width, height) {
-    const elements = [];
-    let path = "";
-    const number = function (x) { return String(Math.round(100 * x) / 100); };
-    const escaped = function (text) { return text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;"); };
-    const at = function (x, y) { return number(x) + " " + number(y); };
-    const lines = function (it) { return ' stroke="' + it.strokeStyle + '" stroke-width="' + number(it.lineWidth) + '" stroke-linejoin="round" stroke-linecap="round"'; };
-    const write = function (it, text, x, y, style) {
-      const anchor = it.textAlign === "right" ? "end" : it.textAlign === "center" ? "middle" : "start";
-      // A browser's middle line of a text lies a third of its size above the base line.
-      const size = parseFloat(/([0-9.]+)px/.exec(it.font)[1]), down = it.textBaseline === "middle" ? 0.35 * size : 0;
-      elements.push('<text x="' + number(x) + '" y="' + number(y + down) + '" font-size="' + number(size) + '" text-anchor="' + anchor + '"' + style + ">" + escaped(text) + "</text>");
-    };
-    return {
-      fillStyle: "#000000", strokeStyle: "#000000", lineWidth: 1, globalAlpha: 1, font: "12px sans-serif", textAlign: "start", textBaseline: "alphabetic",
-      beginPath: function () { path = ""; },
-      moveTo: function (x, y) { path += "M" + at(x, y); },
-      lineTo: function (x, y) { path += "L" + at(x, y); },
-      closePath: function () { path += "Z"; },
-      // Only complete circles are drawn.
-      arc: function (x, y, r) { path += "M" + at(x - r, y) + "a" + at(r, r) + " 0 1 0 " + at(2 * r, 0) + "a" + at(r, r) + " 0 1 0 " + at(-2 * r, 0) + "Z"; },
-      fill: function () { elements.push('<path d="' + path + '" fill="' + this.fillStyle + '" fill-opacity="' + this.globalAlpha + '"/>'); },
-      stroke: function () { elements.push('<path d="' + path + '" fill="none"' + lines(this) + "/>"); },
-      fillRect: function (x, y, w, h) { elements.push('<rect x="' + number(x) + '" y="' + number(y) + '" width="' + number(w) + '" height="' + number(h) + '" fill="' + this.fillStyle + '"/>'); },
-      fillText: function (text, x, y) { write(this, text, x, y, ' fill="' + this.fillStyle + '"'); },
-      strokeText: function (text, x, y) { write(this, text, x, y, ' fill="none"' + lines(this)); },
-      text: function () {
-        return '<svg xmlns="http://www.w3.org/2000/svg" width="' + width + '" height="' + height + '" viewBox="0 0 ' + width + " " + height +
-          '" font-family="Arial, Helvetica, sans-serif"><rect width="' + width + '" height="' + height + '" fill="#ffffff"/>' + elements.join("\n") + "</svg>";
-      }
-    };
-  }
   // Address of the view at this moment as a picture.
   function asSvg() {
-    const screen = context, record = recorder(canvas.clientWidth, canvas.clientHeight);
+    const screen = context, record = space.recorder(canvas.clientWidth, canvas.clientHeight);
     context = record;
     try { paint(); } finally { context = screen; }
-    return "data:image/svg+xml;charset=utf-8," + encodeURIComponent(record.text());
+    return space.address(record.text());
   }
   function asPng() {
     const screen = context, picture = document.createElement("canvas");

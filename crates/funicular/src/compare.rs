@@ -187,44 +187,14 @@ pub fn compare(
         .into_iter()
         .map(|model| {
             if model == reference {
-                let modes = Ok(truth.clone());
-                let (matches, within) = (Vec::new(), compared.len());
-                let largest_difference = None;
-                return ModelResult {
-                    model,
-                    modes,
-                    matches,
-                    missed: 0,
-                    within,
-                    largest_difference,
-                    first_wrong_hz: None,
-                };
+                return ModelResult::of_reference(&truth, model, compared.len());
             }
             let modes = with(model).map(|dynamics| modes::below(&dynamics, below_hz));
-            let found = modes.as_ref().map_or(&[][..], |m| &m.modes);
-            let matches = match_modes(found, &truth.modes, &compared, &dynamics.mass(), model, criterion);
-
-            // How many modes of the reference are hit, and which within the tolerance.
-            let mut hit = vec![false; truth.modes.len()];
-            let mut right = hit.clone();
-            for m in &matches {
-                hit[m.reference_index] = true;
-                right[m.reference_index] |= m.relative_difference.abs() <= criterion.tolerance;
-            }
-            let mut missed = compared.iter().filter(|&&i| !hit[i]).count();
-
-            if model.is_dynamic() && criterion.platform_share.is_none() {
-                // A dynamic model also has the cables' resonances. Among dozens of them the platform shapes distinguish
-                // little; each frequency counts as right if the model has it.
-                right = frequencies_within(criterion.tolerance, found, &truth.modes);
-                missed = truth.modes.len().saturating_sub(found.len());
-            }
-
-            let within = compared.iter().filter(|&&i| right[i]).count();
-            let differences = matches.iter().map(|m| m.relative_difference);
-            let largest_difference = differences.max_by(|a, b| a.abs().total_cmp(&b.abs()));
-            let first_wrong_hz = compared.iter().find(|&&i| !right[i]).map(|&i| truth.modes[i].frequency_hz);
-            ModelResult { model, modes, matches, missed, within, largest_difference, first_wrong_hz }
+            ModelResult::of(
+                modes,
+                model,
+                &Reference { dynamics: &dynamics, truth: &truth, compared: &compared, criterion },
+            )
         })
         .collect();
     let advice =
@@ -233,6 +203,59 @@ pub fn compare(
     let clamped = dynamics.clamped_frequencies_below(below_hz * TAU);
     let frozen_sag = clamped.first().and_then(|(omega, _)| frozen_sag(&models, omega / TAU, criterion));
     Ok(Comparison { below_hz, criterion, compared, reference, models, advice, frozen_sag })
+}
+
+/// Modes of the reference, with which those of the other models are compared.
+struct Reference<'a> {
+    dynamics: &'a Dynamics,
+    truth: &'a Modes,
+    /// Indices of the modes that count.
+    compared: &'a [usize],
+    criterion: Criterion,
+}
+
+impl ModelResult {
+    /// The reference itself.
+    fn of_reference(truth: &Modes, model: CableModel, compared: usize) -> Self {
+        Self {
+            model,
+            modes: Ok(truth.clone()),
+            matches: Vec::new(),
+            missed: 0,
+            within: compared,
+            largest_difference: None,
+            first_wrong_hz: None,
+        }
+    }
+
+    /// Modes of a model, or the reason why there are none, beside those of the reference.
+    fn of(modes: Result<Modes, DynamicsError>, model: CableModel, reference: &Reference<'_>) -> Self {
+        let Reference { dynamics, truth, compared, criterion } = *reference;
+        let found = modes.as_ref().map_or(&[][..], |m| &m.modes);
+        let matches = match_modes(found, &truth.modes, compared, &dynamics.mass(), model, criterion);
+
+        // How many modes of the reference are hit, and which within the tolerance.
+        let mut hit = vec![false; truth.modes.len()];
+        let mut right = hit.clone();
+        for m in &matches {
+            hit[m.reference_index] = true;
+            right[m.reference_index] |= m.relative_difference.abs() <= criterion.tolerance;
+        }
+        let mut missed = compared.iter().filter(|&&i| !hit[i]).count();
+
+        if model.is_dynamic() && criterion.platform_share.is_none() {
+            // A dynamic model also has the cables' resonances. Among dozens of them the platform shapes distinguish
+            // little; each frequency counts as right if the model has it.
+            right = frequencies_within(criterion.tolerance, found, &truth.modes);
+            missed = truth.modes.len().saturating_sub(found.len());
+        }
+
+        let within = compared.iter().filter(|&&i| right[i]).count();
+        let differences = matches.iter().map(|m| m.relative_difference);
+        let largest_difference = differences.max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let first_wrong_hz = compared.iter().find(|&&i| !right[i]).map(|&i| truth.modes[i].frequency_hz);
+        Self { model, modes, matches, missed, within, largest_difference, first_wrong_hz }
+    }
 }
 
 /// Modes for which the sag that a static model lets follow is frozen in the reference.
@@ -331,7 +354,12 @@ fn match_modes(
         }
     }
 
-    // The best pairs first.
+    best_pairs(found, truth, candidates)
+}
+
+/// Pairs in the order of their scores; each mode of either list is used once. A candidate has the score, the MAC, and
+/// the indices of both modes.
+fn best_pairs(found: &[Mode], truth: &[Mode], mut candidates: Vec<(f64, f64, usize, usize)>) -> Vec<Match> {
     candidates.sort_by(|a, b| b.0.total_cmp(&a.0));
     let (mut done, mut used) = (vec![None; found.len()], vec![false; truth.len()]);
     for (_, correlation, i, j) in candidates {

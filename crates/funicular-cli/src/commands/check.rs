@@ -3,7 +3,9 @@
 use crate::output::Printed;
 use crate::table::{self, Table, decimals, decimals_or_none, short, vector};
 use funicular::robot::PlatformMotion;
-use funicular_study::analyses::check::{Checked, CheckedCable, CheckedLimits, CheckedRope, CheckedWinch};
+use funicular_study::analyses::check::{
+    Checked, CheckedCable, CheckedLimits, CheckedPlatform, CheckedRope, CheckedWinch,
+};
 use std::cmp::Ordering;
 use std::fmt::Write;
 
@@ -16,29 +18,9 @@ impl Printed for Checked {
             say(format!("  source      {}", self.source));
         }
 
-        let (cables, dof) = (self.cables.len(), self.degrees_of_freedom);
-        let redundancy = match cables.cmp(&dof) {
-            Ordering::Less => format!("{} fewer than degrees of freedom", dof - cables),
-            Ordering::Equal => "as many as degrees of freedom".to_owned(),
-            Ordering::Greater => format!("{} more than degrees of freedom", cables - dof),
-        };
-        say(format!("  cables      {}, {redundancy}", self.cables.len()));
-
+        say(format!("  cables      {}, {}", self.cables.len(), redundancy(self)));
         let platform = &self.platform;
-        let kind = match (platform.plane_normal, platform.plane_offset_m) {
-            (Some(normal), Some(offset)) => {
-                format!(
-                    "{} platform, plane with normal ({}), {} m from the origin",
-                    platform.motion,
-                    vector(&normal, 4),
-                    short(offset, 4)
-                )
-            }
-            _ if platform.motion == PlatformMotion::PointMass.name() => "point mass".to_owned(),
-            _ => "rigid platform".to_owned(),
-        };
-        say(format!("  platform    {kind}, {} kg", short(platform.mass_kg, 6)));
-
+        say(format!("  platform    {}, {} kg", platform_kind(platform), short(platform.mass_kg, 6)));
         if platform.motion != PlatformMotion::PointMass.name() {
             let rows = platform.inertia_kg_m2;
             let cell = |i: usize, j: usize| short(rows[i][j], 5);
@@ -54,6 +36,7 @@ impl Printed for Checked {
             say(format!("  mass centre ({}) m in the platform frame", vector(&platform.center_of_mass_m, 4)));
         }
 
+        // Loads.
         say(format!("  gravity     ({}) m/s²", vector(&self.gravity_m_s2, 4)));
         if let Some(load) = &self.load {
             say(format!("  load        {}", load.text()));
@@ -106,6 +89,32 @@ impl Printed for Checked {
             out.serialize((&c.name, &c.material, c.anchor_m, c.attachment_m, c.unstrained_length_m, limits, load))?;
         }
         Ok(())
+    }
+}
+
+/// Number of cables beside that of degrees of freedom.
+fn redundancy(found: &Checked) -> String {
+    let (cables, dof) = (found.cables.len(), found.degrees_of_freedom);
+    match cables.cmp(&dof) {
+        Ordering::Less => format!("{} fewer than degrees of freedom", dof - cables),
+        Ordering::Equal => "as many as degrees of freedom".to_owned(),
+        Ordering::Greater => format!("{} more than degrees of freedom", cables - dof),
+    }
+}
+
+/// Kind of the platform in words, with the plane in which it moves.
+fn platform_kind(platform: &CheckedPlatform) -> String {
+    match (platform.plane_normal, platform.plane_offset_m) {
+        (Some(normal), Some(offset)) => {
+            format!(
+                "{} platform, plane with normal ({}), {} m from the origin",
+                platform.motion,
+                vector(&normal, 4),
+                short(offset, 4)
+            )
+        }
+        _ if platform.motion == PlatformMotion::PointMass.name() => "point mass".to_owned(),
+        _ => "rigid platform".to_owned(),
     }
 }
 

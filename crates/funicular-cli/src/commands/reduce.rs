@@ -32,6 +32,10 @@ impl Printed for ReducedForm {
     }
 }
 
+/// Sentence in place of the file that was not requested.
+const NOT_WRITTEN: &str =
+    "The matrices are not written: give --matrices model.npz, model.mat, or a folder for CSV files.";
+
 /// Names and units of inputs or outputs.
 fn names(channels: &[ChannelRow]) -> String {
     channels.iter().map(|of| format!("{} [{}]", of.name, of.unit)).collect::<Vec<_>>().join(", ")
@@ -48,43 +52,51 @@ fn percent(fraction: f64) -> String {
     }
 }
 
+/// Modes of a state space, with the numbers of their states from 1.
+fn modes_table(found: &ControlStateSpace) -> Table {
+    let mut modes = Table::new(&["states", "frequency [Hz]", "damping ratio [%]", "kind", "part in a response [%]"])
+        .text_columns(&[0, 3]);
+    for of in &found.states {
+        let states =
+            if of.states == 1 { format!("{}", of.first + 1) } else { format!("{}, {}", of.first + 1, of.first + 2) };
+        modes.row(vec![
+            states,
+            decimals(of.frequency_hz, 4),
+            decimals(100.0 * of.damping_ratio, 4),
+            of.kind.to_owned(),
+            percent(of.contribution),
+        ]);
+    }
+
+    modes
+}
+
+/// Peaks and errors of the responses, and the number of pairs that are not coupled.
+fn errors_table(found: &ControlStateSpace) -> String {
+    let mut errors =
+        Table::new(&["response", "peak", "unit", "at [Hz]", "error [% of peak]", "at [Hz]"]).text_columns(&[0, 2]);
+    let shown = found.responses.iter().filter(|of| of.coupled);
+    for of in shown.clone() {
+        errors.row(vec![
+            format!("{}/{}", of.output, of.input),
+            format!("{:.4e}", of.peak),
+            of.unit.clone(),
+            decimals(of.peak_hz, 4),
+            percent(of.error),
+            decimals(of.error_hz, 4),
+        ]);
+    }
+    let none = match found.responses.len() - shown.count() {
+        0 => String::new(),
+        n => format!("{} not coupled: below a millionth of the others\n", counted(n, "response")),
+    };
+
+    format!("{errors}{none}")
+}
+
 impl Printed for ControlStateSpace {
     fn text(&self) -> String {
-        let mut modes =
-            Table::new(&["states", "frequency [Hz]", "damping ratio [%]", "kind", "part in a response [%]"])
-                .text_columns(&[0, 3]);
-        for of in &self.states {
-            let states = if of.states == 1 {
-                format!("{}", of.first + 1)
-            } else {
-                format!("{}, {}", of.first + 1, of.first + 2)
-            };
-            modes.row(vec![
-                states,
-                decimals(of.frequency_hz, 4),
-                decimals(100.0 * of.damping_ratio, 4),
-                of.kind.to_owned(),
-                percent(of.contribution),
-            ]);
-        }
-
-        let mut errors =
-            Table::new(&["response", "peak", "unit", "at [Hz]", "error [% of peak]", "at [Hz]"]).text_columns(&[0, 2]);
-        let shown = self.responses.iter().filter(|of| of.coupled);
-        for of in shown.clone() {
-            errors.row(vec![
-                format!("{}/{}", of.output, of.input),
-                format!("{:.4e}", of.peak),
-                of.unit.clone(),
-                decimals(of.peak_hz, 4),
-                percent(of.error),
-                decimals(of.error_hz, 4),
-            ]);
-        }
-        let none = match self.responses.len() - shown.count() {
-            0 => String::new(),
-            n => format!("{} not coupled: below a millionth of the others\n", counted(n, "response")),
-        };
+        let (modes, errors) = (modes_table(self), errors_table(self));
         let damping = if self.damping_error == 0.0 {
             String::new()
         } else {
@@ -100,15 +112,14 @@ impl Printed for ControlStateSpace {
             percent(self.pointwise_error.response_over_peak),
         );
         let written = match &self.matrices_file {
-            None => "The matrices are not written: give --matrices model.npz, model.mat, or a folder for CSV files."
-                .to_owned(),
+            None => NOT_WRITTEN.to_owned(),
             Some(path) => format!("{path}: A, B, C, D of x' = A x + B f, y = C x + D f; description"),
         };
 
         format!(
             "{}: state space for frequencies below {} Hz\n{}\n\n{}; the complete model has {}, the robot {} below the \
              limit\ninputs: {}\noutputs: {}\ndamping: {}\n\n{modes}\nerror: at most {} % of the peak of each \
-             response{damping}\n{errors}{none}{pointwise}\n\n{written}\n",
+             response{damping}\n{errors}{pointwise}\n\n{written}\n",
             self.robot,
             self.below_hz,
             self.models.line(),
@@ -165,8 +176,7 @@ impl Printed for Reduced {
         };
 
         let written = match &self.matrices_file {
-            None => "The matrices are not written: give --matrices model.npz, model.mat, or a folder for CSV files."
-                .to_owned(),
+            None => NOT_WRITTEN.to_owned(),
             Some(path) => format!(
                 "{path}: M, C, K, B, L of M x'' + C x' + K x = B f, y = L x; ss_A, ss_B, ss_C, ss_D of its state \
                  space; description.json"

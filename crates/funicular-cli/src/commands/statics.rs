@@ -8,37 +8,7 @@ use funicular_study::analyses::statics::{
 
 impl Printed for Statics {
     fn text(&self) -> String {
-        let limited = self.cables.iter().any(|cable| cable.limits.is_some());
-        let header = [
-            "cable",
-            "unstrained [m]",
-            "chord [m]",
-            "T platform [N]",
-            "T anchor [N]",
-            "sag/chord",
-            "λ²",
-            "string [Hz]",
-            "limits [N]",
-            "margin [N]",
-        ];
-        let mut cables = Table::new(&header[..if limited { 10 } else { 8 }]);
-        let or_none = |value: Option<f64>| value.map_or_else(|| table::NONE.to_owned(), |v| significant(v, 4));
-        for cable in &self.cables {
-            let mut row = vec![
-                cable.name.clone(),
-                decimals(cable.unstrained_length_m, 4),
-                decimals(cable.chord_m, 4),
-                decimals(cable.tension_platform_n, 3),
-                decimals(cable.tension_anchor_n, 3),
-                decimals_or_none(cable.sag.sag_ratio, 5),
-                or_none(cable.sag.lambda2),
-                decimals_or_none(cable.sag.string_frequency_hz, 3),
-            ];
-            row.extend(cable.limits.iter().flat_map(limit_cells));
-            cables.row(row);
-        }
-
-        let drives = drives_table(self);
+        let (cables, drives) = (cables_table(self), drives_table(self));
         let friction = self.friction_interval.as_ref().map_or_else(String::new, friction_text);
         let stability = match (self.stable, self.stiffness_min_n_per_m) {
             (Some(true), Some(min)) => format!("Stable, min stiffness {} N/m", significant(min, 4)),
@@ -133,6 +103,41 @@ impl Printed for Statics {
         }
         Ok(())
     }
+}
+
+/// Lengths, tensions and sag of the cables, with limits and margin if the robot has limits.
+fn cables_table(found: &Statics) -> Table {
+    let limited = found.cables.iter().any(|cable| cable.limits.is_some());
+    let header = [
+        "cable",
+        "unstrained [m]",
+        "chord [m]",
+        "T platform [N]",
+        "T anchor [N]",
+        "sag/chord",
+        "λ²",
+        "string [Hz]",
+        "limits [N]",
+        "margin [N]",
+    ];
+    let mut cables = Table::new(&header[..if limited { 10 } else { 8 }]);
+    let or_none = |value: Option<f64>| value.map_or_else(|| table::NONE.to_owned(), |v| significant(v, 4));
+    for cable in &found.cables {
+        let mut row = vec![
+            cable.name.clone(),
+            decimals(cable.unstrained_length_m, 4),
+            decimals(cable.chord_m, 4),
+            decimals(cable.tension_platform_n, 3),
+            decimals(cable.tension_anchor_n, 3),
+            decimals_or_none(cable.sag.sag_ratio, 5),
+            or_none(cable.sag.lambda2),
+            decimals_or_none(cable.sag.string_frequency_hz, 3),
+        ];
+        row.extend(cable.limits.iter().flat_map(limit_cells));
+        cables.row(row);
+    }
+
+    cables
 }
 
 /// Pulleys and winches; empty if all cables end at fixed points.

@@ -2,10 +2,13 @@
 
 use super::{project, robot, succeed};
 use funicular::cable::CableModel;
-use funicular::statics::{StaticModel, TensionRule};
-use funicular_study::Request;
+use funicular::math::Vec3;
+use funicular::robot::Robot;
+use funicular::statics::{StaticModel, TensionRange, TensionRule};
 use funicular_study::analyses::reduce;
-use funicular_study::at_rest;
+use funicular_study::frequency_range::START_POINTS;
+use funicular_study::request::RobotText;
+use funicular_study::{Request, at_rest, figures};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use std::fs;
@@ -128,32 +131,149 @@ fn keywords_of_python_have_the_defaults_of_the_request() {
     assert!(compared > 30, "{compared}");
 }
 
-#[test]
-fn help_states_the_defaults_that_the_analyses_fill_in() {
-    // Options without a default in the request, because the default depends on others: their help is written by hand.
-    let stated = |command: &str, option: &str, default: &str| {
-        let help = succeed(&[command, "--help"]);
-        let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
-        let of_option = words.split(&format!(" --{option} <")).nth(1).unwrap_or_else(|| panic!("{command} --{option}"));
-        let of_option = of_option.split(" --").next().unwrap();
-        assert!(of_option.contains(&format!("[default: {default}")), "{command} --{option} {default}: {of_option}");
+/// Defaults that the help states, with their options.
+fn stated(command: &str) -> Vec<(String, String)> {
+    let (mut found, mut option, mut text) = (Vec::new(), String::new(), String::new());
+    let mut close = |option: &str, text: &str| {
+        let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        for part in words.split("[default").skip(1) {
+            let (_, default) = part.split_once(": ").unwrap();
+            let mut depth = 1;
+            let end = default.find(|c| {
+                depth += i32::from(c == '[') - i32::from(c == ']');
+                depth == 0
+            });
+            found.push((option.to_owned(), default[..end.unwrap()].to_owned()));
+        }
     };
+    for line in succeed(&[command, "--help"]).lines() {
+        let name = line.trim_start().split("--").nth(1).filter(|_| line.trim_start().starts_with('-'));
+        if let Some(name) = name {
+            close(&option, &text);
+            option = name.split([' ', '=']).next().unwrap().to_owned();
+            text.clear();
+        }
+        text += line;
+        text.push('\n');
+    }
+    close(&option, &text);
+    found
+}
+
+/// Literal of a default as the help shows it.
+fn literal(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Array(values) => values.iter().map(literal).collect::<Vec<_>>().join(","),
+        Value::Number(number) => number.as_f64().unwrap().to_string(),
+        other => other.to_string(),
+    }
+}
+
+/// Defaults that depend on other values, so that the request has none and the help is written by hand: command, option,
+/// and the beginnings of the defaults that the code has.
+fn filled_in() -> Vec<(&'static str, &'static str, Vec<String>)> {
     let model = |static_model| at_rest::cable_model(None, static_model).name();
     assert_eq!(model(StaticModel::Catenary), CableModel::default().name());
     let of_model = format!("{}; {} for static", model(StaticModel::Catenary), model(StaticModel::Spring));
-    for command in ["modes", "frf", "reduce", "cable"] {
-        stated(command, "cable-model", &of_model);
+    let mut all: Vec<(&str, &str, Vec<String>)> =
+        ["modes", "frf", "reduce", "cable"].map(|command| (command, "cable-model", vec![of_model.clone()])).into();
+    let rule = TensionRule::default().name();
+    all.push(("statics", "tension-rule", vec![rule.to_owned()]));
+    let tolerances = [reduce::DEFAULT_TOLERANCE, reduce::DEFAULT_SECOND_ORDER_TOLERANCE];
+    all.push(("reduce", "tolerance", tolerances.map(|tolerance| tolerance.to_string()).into()));
+
+    // A heavy level cable: its minimum tension over the weight of its chord.
+    let mut robot = Robot::from_toml(RobotText::embedded().text.as_str()).unwrap();
+    for cable in &mut robot.cables {
+        cable.material.mass_per_length = 1000.0;
     }
-    stated("statics", "tension-rule", TensionRule::default().name());
-    stated("reduce", "tolerance", &reduce::DEFAULT_TOLERANCE.to_string());
-    stated("reduce", "tolerance", &reduce::DEFAULT_SECOND_ORDER_TOLERANCE.to_string());
+    let (chord_w, weight) = (Vec3::new(3.0, 0.0, 0.0), 1000.0 * robot.gravity_w.norm() * 3.0);
+    let taut = TensionRange::of(&robot, 0, &chord_w).minimum / weight;
+    let tensions =
+        |command| (command, "min-tension-n", vec![format!("from the robot file, or {} times", rounded(taut))]);
+    all.extend(["statics", "map", "sweep", "export"].map(tensions));
+
+    // Figures.
+    let column = figures::WIDTHS.iter().find(|(_, width)| *width == figures::DEFAULT_WIDTH_MM).unwrap().0;
+    for command in ["statics", "modes", "frf", "compare", "plot"] {
+        all.push((command, "figure-width-mm", vec![column.to_owned()]));
+        all.push((command, "font-size-pt", vec![literal(&figures::DEFAULT_FONT_SIZE_PT.into())]));
+    }
+
+    // Number of frequencies of an adaptive response.
+    all.push(("frf", "points", vec![START_POINTS.to_string()]));
 
     // Values of a new robot, as its file has them.
-    let new = succeed(&["new"]);
-    let number = |key: &str| {
-        let value = new.lines().find_map(|line| line.strip_prefix(&format!("{key} = "))).unwrap();
-        value.split('#').next().unwrap().trim().parse::<f64>().unwrap()
+    let of = |motion: &str| succeed(&["new", "--motion", motion]);
+    let number = |file: &str, key: &str| -> f64 {
+        let value = file.lines().find_map(|line| line.trim().strip_prefix(&format!("{key} = "))).unwrap();
+        value.split('#').next().unwrap().trim().parse().unwrap()
     };
-    stated("new", "mass-kg", &format!("{}]", number("mass_kg")));
-    stated("new", "cables", &new.matches("[[cables]]").count().to_string());
+    let new = of("rigid");
+    let mass = number(&new, "mass_kg");
+    all.push(("new", "mass-kg", vec![mass.to_string()]));
+    let cables = |motion: &str| of(motion).matches("[[cables]]").count();
+    assert_eq!(cables("planar-xz"), cables("point-mass"));
+    all.push(("new", "cables", vec![format!("{}; {} for planar-xz and", cables("rigid"), cables("planar-xz"))]));
+    let rope = new.lines().find(|line| line.starts_with("# Wire rope")).unwrap();
+    let diameter_mm: f64 = rope.split(", ").nth(1).unwrap().split(" mm").next().unwrap().parse().unwrap();
+    let diameter = 1e-3 * diameter_mm;
+    all.push(("new", "diameter-m", vec![format!("by the mass of the platform, {diameter} for {mass} kg")]));
+    let robot = Robot::from_toml(&new).unwrap();
+    // Inertia of a box: m (b² + c²)/12 about a.
+    let inertia = robot.platform.inertia_p;
+    let side = |k: usize| (6.0 / mass * (inertia.trace() - 2.0 * inertia[(k, k)])).sqrt();
+    // The file gives moments with five digits.
+    let sides = [0, 1, 2].map(|k| ((1e3 * side(k)).round() / 1e3).to_string()).join(",");
+    all.push(("new", "box-m", vec![format!("{sides}, or the box")]));
+    all
+}
+
+/// Number without the rounding of the last digits.
+fn rounded(number: f64) -> f64 {
+    (1e9 * number).round() / 1e9
+}
+
+#[test]
+fn help_states_the_defaults_that_the_analyses_fill_in() {
+    for (command, option, wanted) in filled_in() {
+        let found: Vec<String> =
+            stated(command).into_iter().filter(|(name, _)| name == option).map(|(_, text)| text).collect();
+        assert_eq!(found.len(), wanted.len(), "{command} --{option}: {found:?}");
+        for (found, wanted) in found.iter().zip(&wanted) {
+            // A number has to end where the wanted one ends.
+            let rest = found.strip_prefix(wanted.as_str());
+            let is_stated = rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_ascii_digit() || c == '.'));
+            assert!(is_stated, "{command} --{option}: {found}, not {wanted}");
+        }
+    }
+}
+
+#[test]
+fn help_states_no_number_that_is_not_compared() {
+    let by_hand = filled_in();
+    let mut compared = 0;
+    let commands: Vec<String> = shortest().into_iter().map(|line| line[0].clone()).collect();
+    let lines: BTreeMap<String, Vec<String>> = shortest().into_iter().map(|line| (line[0].clone(), line)).collect();
+    let others = ["plot", "paper", "merge", "request", "validate"].map(str::to_owned);
+    for command in commands.iter().chain(&others) {
+        let request = lines.get(command).map(|line| request_of(line)).unwrap_or_default();
+        for (option, default) in stated(command) {
+            let of_request = request.get(&option.replace('-', "_")).filter(|value| !value.is_null());
+            let number = |text: &str| text.parse::<f64>().map_or(text.to_owned(), |number| number.to_string());
+            if let Some(value) = of_request
+                && !by_hand.iter().any(|(_, name, _)| *name == option)
+            {
+                assert_eq!(number(&default), literal(value), "{command} --{option}");
+                compared += 1;
+            } else if default.contains(|c: char| c.is_ascii_digit()) && !default.contains(".toml") {
+                assert!(
+                    by_hand.iter().any(|(_, name, _)| *name == option),
+                    "{command} --{option} states {default}, which no test compares with the code"
+                );
+            }
+        }
+    }
+    assert!(compared > 20, "{compared}");
 }

@@ -2,7 +2,9 @@
 
 use crate::arrays::{ARRAY_LIKE, Count, Number, Numbers};
 use crate::errors;
-use funicular_study::request::Axis;
+use crate::request::{StateKeywords, TensionKeywords, share};
+use funicular_study::request::{Axis, EachPoint, Model};
+use funicular_study::sweep::MAX_HZ;
 use pyo3::inspect::{PyStaticExpr, PyStaticOperator};
 use pyo3::prelude::*;
 use pyo3::types::{PyMapping, PyTuple};
@@ -122,4 +124,25 @@ pub(crate) fn poses(numbers: Numbers) -> PyResult<Vec<[f64; 6]>> {
         return six("poses", &[]).map(|_| Vec::new());
     }
     flat.chunks_exact(columns).map(|row| six("poses", row)).collect()
+}
+
+/// Request for the points of a map or sweep, from the keywords of Python.
+pub(crate) fn each_point(
+    quantities: Option<Vec<String>>,
+    up_to_hz: Option<Number>,
+    platform_share: Option<Number>,
+    payload_center_m: Option<Numbers>,
+    state: StateKeywords<'_>,
+    tensions: TensionKeywords<'_>,
+    model: Model,
+) -> PyResult<EachPoint> {
+    Ok(EachPoint {
+        quantities: quantities.unwrap_or_else(EachPoint::default_quantities),
+        up_to_hz: up_to_hz.map_or(Ok(MAX_HZ), |up_to_hz| up_to_hz.value("up_to_hz"))?,
+        platform_share: share(platform_share)?,
+        payload_center_m: payload_center_m.map(|center| center.three("payload_center_m")).transpose()?,
+        state: state.request()?,
+        tensions: tensions.request()?,
+        model,
+    })
 }

@@ -268,64 +268,8 @@ pub struct CheckedPose {
 
 /// Describes the robot as it was read, with warnings about unusual values.
 pub fn run(robot: Robot) -> Checked {
-    let mut materials: Vec<CheckedRope> = Vec::new();
-    for cable in &robot.cables {
-        let rope = &cable.material;
-        let (damping_ratio, viscous_damping_n_s_m2) = match rope.damping {
-            Damping::Ratio(ratio) => (Some(ratio), None),
-            Damping::Viscous(coefficient) => (None, Some(coefficient)),
-        };
-        let row = CheckedRope {
-            name: rope.name.clone(),
-            axial_stiffness_n: rope.axial_stiffness,
-            mass_kg_per_m: rope.mass_per_length,
-            damping_ratio,
-            viscous_damping_n_s_m2,
-            limits: CheckedLimits::of(rope.tension_limits),
-            breaking_load_n: rope.breaking_load,
-            drag_width_m: rope.drag_width,
-        };
-        if !materials.contains(&row) {
-            materials.push(row);
-        }
-    }
-
-    let lengths = match &robot.state {
-        State::Lengths(lengths) => Some(lengths),
-        State::Pose(_) | State::Unknown => None,
-    };
-    // Lengths can only be divided where the platform rests.
-    let driven = robot.cables.iter().any(|cable| !cable.anchor.is_fixed());
-    let rest = lengths.filter(|_| driven);
-    let rest = rest.and_then(|lengths| statics::forward(&robot, lengths, StaticModel::Catenary, None).ok());
-    let cables = robot
-        .cables
-        .iter()
-        .enumerate()
-        .map(|(i, cable)| CheckedCable {
-            name: cable.name.clone(),
-            material: cable.material.name.clone(),
-            anchor_m: cable.anchor.reference_w().into(),
-            attachment_m: cable.attachment_p.into(),
-            pulley: cable.anchor.pulley.as_ref().map(CheckedPulley::of),
-            winch: cable.anchor.winch.as_ref().map(CheckedWinch::of),
-            unstrained_length_m: lengths.map(|lengths| lengths[i]),
-            length_parts: rest.as_ref().and_then(|rest| LengthParts::of(cable, &rest.cables[i])),
-            limits: CheckedLimits::of(cable.limits()),
-            load_n_per_m: (cable.load_per_length_w.norm() > 0.0).then(|| cable.load_per_length_w.into()),
-        })
-        .collect();
-    let (state, pose) = match &robot.state {
-        State::Lengths(_) => ("lengths", None),
-        State::Pose(pose) => {
-            let row = CheckedPose {
-                position_m: pose.position_w.into(),
-                roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
-            };
-            ("pose", Some(row))
-        }
-        State::Unknown => ("none", None),
-    };
+    let (materials, cables) = (ropes(&robot), cables(&robot));
+    let (state, pose) = state(&robot);
     let inertia = robot.platform.inertia_p;
     let dof = robot.platform.motion.count();
 
@@ -356,6 +300,72 @@ pub fn run(robot: Robot) -> Checked {
         cables,
         state,
         pose,
+    }
+}
+
+/// Ropes of the cables, each once.
+fn ropes(robot: &Robot) -> Vec<CheckedRope> {
+    let mut ropes: Vec<CheckedRope> = Vec::new();
+    for cable in &robot.cables {
+        let rope = &cable.material;
+        let (damping_ratio, viscous_damping_n_s_m2) = match rope.damping {
+            Damping::Ratio(ratio) => (Some(ratio), None),
+            Damping::Viscous(coefficient) => (None, Some(coefficient)),
+        };
+        let row = CheckedRope {
+            name: rope.name.clone(),
+            axial_stiffness_n: rope.axial_stiffness,
+            mass_kg_per_m: rope.mass_per_length,
+            damping_ratio,
+            viscous_damping_n_s_m2,
+            limits: CheckedLimits::of(rope.tension_limits),
+            breaking_load_n: rope.breaking_load,
+            drag_width_m: rope.drag_width,
+        };
+        if !ropes.contains(&row) {
+            ropes.push(row);
+        }
+    }
+    ropes
+}
+
+/// Cables in the order of the file.
+fn cables(robot: &Robot) -> Vec<CheckedCable> {
+    let lengths = match &robot.state {
+        State::Lengths(lengths) => Some(lengths),
+        State::Pose(_) | State::Unknown => None,
+    };
+    // Lengths can only be divided where the platform rests.
+    let driven = robot.cables.iter().any(|cable| !cable.anchor.is_fixed());
+    let rest = lengths.filter(|_| driven);
+    let rest = rest.and_then(|lengths| statics::forward(robot, lengths, StaticModel::Catenary, None).ok());
+    let row = |(i, cable): (usize, &Cable)| CheckedCable {
+        name: cable.name.clone(),
+        material: cable.material.name.clone(),
+        anchor_m: cable.anchor.reference_w().into(),
+        attachment_m: cable.attachment_p.into(),
+        pulley: cable.anchor.pulley.as_ref().map(CheckedPulley::of),
+        winch: cable.anchor.winch.as_ref().map(CheckedWinch::of),
+        unstrained_length_m: lengths.map(|lengths| lengths[i]),
+        length_parts: rest.as_ref().and_then(|rest| LengthParts::of(cable, &rest.cables[i])),
+        limits: CheckedLimits::of(cable.limits()),
+        load_n_per_m: (cable.load_per_length_w.norm() > 0.0).then(|| cable.load_per_length_w.into()),
+    };
+    robot.cables.iter().enumerate().map(row).collect()
+}
+
+/// Kind of the state, and its pose if it has one.
+fn state(robot: &Robot) -> (&'static str, Option<CheckedPose>) {
+    match &robot.state {
+        State::Lengths(_) => ("lengths", None),
+        State::Pose(pose) => {
+            let row = CheckedPose {
+                position_m: pose.position_w.into(),
+                roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
+            };
+            ("pose", Some(row))
+        }
+        State::Unknown => ("none", None),
     }
 }
 

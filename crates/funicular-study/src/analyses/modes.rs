@@ -208,6 +208,7 @@ pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes>
     warnings.extend(found.caveat());
     let AtRest { robot, .. } = at_rest;
 
+    // Rows of the modes.
     let mut rows: Vec<ModeRow> = found.modes.iter().cloned().map(ModeRow::from).collect();
     let (damped, caveat) = if request.damped { modes::damped_partners(&dynamics, &found) } else { (None, None) };
     warnings.extend(caveat);
@@ -218,24 +219,11 @@ pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes>
             row.eigenvalue_per_s = Some([eigenvalue.re, eigenvalue.im]);
         }
     }
-    let mut participation = None;
-    if let (Some((input, output)), Some(signals)) = (&pair, signals) {
-        let [from, to] = at_rest.ports(&dynamics, signals)?;
-        for (row, mode) in rows.iter_mut().zip(&found.modes) {
-            let residue = from.in_mode(&dynamics, mode) * to.in_mode(&dynamics, mode) / mode.modal_mass;
-            let omega = mode.frequency_hz * TAU;
-            let by_time = match output.quantity {
-                Quantity::Displacement => 1.0,
-                Quantity::Velocity => omega,
-                Quantity::Acceleration => omega * omega,
-            };
-            row.residue_per_kg = Some(residue + 0.0);
-            let damping = 2.0 * row.damping_ratio * omega * omega;
-            row.peak = (damping > 0.0).then(|| residue.abs() * by_time / damping);
-        }
-        let peak_unit = frf::unit(input, output);
-        participation = Some(Participation { input: input.name.clone(), output: output.name.clone(), peak_unit });
-    }
+    let participation = match (&pair, signals) {
+        (Some(pair), Some(signals)) => Some(participate(&mut rows, at_rest, &dynamics, &found, pair, signals)?),
+        _ => None,
+    };
+
     let stations = request.stations.map_or(Ok(Vec::new()), |count| stations(at_rest, &dynamics, count))?;
     for (row, mode) in rows.iter_mut().zip(&found.modes) {
         row.cable_shapes = stations.iter().map(|of| of.in_mode(&dynamics, mode)).collect();
@@ -256,6 +244,31 @@ pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes>
         modes: rows,
         warnings,
     })
+}
+
+/// Writes residues and peaks of a response into the rows of the modes; names the response.
+fn participate(
+    rows: &mut [ModeRow],
+    at_rest: &AtRest,
+    dynamics: &Dynamics,
+    found: &modes::Modes,
+    (input, output): &(Input, Output),
+    signals: [Signal; 2],
+) -> Result<Participation> {
+    let [from, to] = at_rest.ports(dynamics, signals)?;
+    for (row, mode) in rows.iter_mut().zip(&found.modes) {
+        let residue = from.in_mode(dynamics, mode) * to.in_mode(dynamics, mode) / mode.modal_mass;
+        let omega = mode.frequency_hz * TAU;
+        let by_time = match output.quantity {
+            Quantity::Displacement => 1.0,
+            Quantity::Velocity => omega,
+            Quantity::Acceleration => omega * omega,
+        };
+        row.residue_per_kg = Some(residue + 0.0);
+        let damping = 2.0 * row.damping_ratio * omega * omega;
+        row.peak = (damping > 0.0).then(|| residue.abs() * by_time / damping);
+    }
+    Ok(Participation { input: input.name.clone(), output: output.name.clone(), peak_unit: frf::unit(input, output) })
 }
 
 /// Input and output of the response to which the modes contribute.

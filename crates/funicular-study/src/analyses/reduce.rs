@@ -246,28 +246,29 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest, watch: &mut dyn
     Ok(reduced)
 }
 
+/// Signals with these names, or else those of all possible motions of the platform.
+fn requested<T>(
+    robot: &Robot,
+    names: &[String],
+    of_motions: [&str; 6],
+    read: impl Fn(&str) -> Result<T>,
+) -> Result<Vec<T>> {
+    if names.is_empty() {
+        return robot.platform.motion.components().iter().map(|&i| read(of_motions[i])).collect();
+    }
+    names.iter().map(|name| read(name)).collect()
+}
+
 /// Requested inputs, or else every force and moment on the platform.
 fn inputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Input, Signal)>> {
-    let all = ["fx", "fy", "fz", "mx", "my", "mz"];
-    let requested = if request.input.is_empty() {
-        let possible = robot.platform.motion.components();
-        possible.iter().map(|&i| request::input(all[i])).collect::<Result<Vec<_>>>()?
-    } else {
-        request.input.iter().map(|name| request::input(name)).collect::<Result<Vec<_>>>()?
-    };
+    let requested = requested(robot, &request.input, ["fx", "fy", "fz", "mx", "my", "mz"], request::input)?;
     let point_p = request.points.input_point_m.map(Vec3::from);
     requested.into_iter().map(|input| Ok(input.signal(robot, point_p).map(|signal| (input, signal))?)).collect()
 }
 
 /// Requested outputs, or else every displacement and rotation of the platform.
 fn outputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Output, Signal)>> {
-    let all = ["x", "y", "z", "rx", "ry", "rz"];
-    let requested = if request.output.is_empty() {
-        let possible = robot.platform.motion.components();
-        possible.iter().map(|&i| request::output(all[i])).collect::<Result<Vec<_>>>()?
-    } else {
-        request.output.iter().map(|name| request::output(name)).collect::<Result<Vec<_>>>()?
-    };
+    let requested = requested(robot, &request.output, ["x", "y", "z", "rx", "ry", "rz"], request::output)?;
     let point_p = request.points.output_point_m.map(Vec3::from);
     requested.into_iter().map(|output| Ok(output.signal(robot, point_p).map(|signal| (output, signal))?)).collect()
 }

@@ -82,6 +82,7 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize, warnings: &mut Vec<String
         PlatformMotion::PointMass | PlatformMotion::Planar(_) => None,
     };
 
+    // Line type, line and end points of each cable; the largest and smallest values for the notes and the time step.
     let mut points = Vec::new();
     let mut lines = Vec::new();
     let (mut step, mut shortened, mut heavier, mut lowest) = (f64::INFINITY, 0.0_f64, 0.0_f64, 0.0_f64);
@@ -118,10 +119,6 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize, warnings: &mut Vec<String
     }
     points.sort_by_key(|point| point.id);
 
-    let undamped = |material: &Material| {
-        matches!(material.damping, Damping::Ratio(zeta) if zeta == 0.0)
-            || matches!(material.damping, Damping::Viscous(c) if c == 0.0)
-    };
     let input = MoorDynFile {
         name: without_section(&robot.name),
         source: without_section(&robot.source),
@@ -133,7 +130,7 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize, warnings: &mut Vec<String
             _ => "axes of the platform frame",
         },
         driven: !driven.is_empty(),
-        damping: !robot.cables.iter().all(|cable| undamped(&cable.material)),
+        damping: !robot.cables.iter().all(|cable| is_undamped(&cable.material)),
         types,
         body: body.map(|frame| frame.row),
         points,
@@ -144,6 +141,12 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize, warnings: &mut Vec<String
         depth: (-10.0 * lowest).max(1000.0),
     };
     Ok(input.render()? + "\n")
+}
+
+fn is_undamped(material: &Material) -> bool {
+    match material.damping {
+        Damping::Ratio(coefficient) | Damping::Viscous(coefficient) => coefficient == 0.0,
+    }
 }
 
 /// Ratio of the time step to the time that a wave takes along a segment. The Runge-Kutta method of fourth order is

@@ -118,20 +118,34 @@ impl Chart {
             at = frame.bottom + if i == last { 0.0 } else { 0.75 * size };
         }
 
-        // Labels and title of the common axis.
-        let base = at + style.tick + 0.35 * size + drawing.font.capital_height() * size;
+        let base = self.draw_x_labels(&mut drawing, &x_ticks, [left, right], at, style);
+        drawing.height = base + 1.95 * size;
+        drawing
+    }
+
+    /// Draws labels and title of the common axis below the last panel, which ends at `bottom`. Returns the base line of
+    /// the labels.
+    fn draw_x_labels(
+        &self,
+        drawing: &mut Drawing,
+        x_ticks: &Ticks,
+        [left, right]: [f64; 2],
+        bottom: f64,
+        style: &Type,
+    ) -> f64 {
+        let size = style.size;
+        let base = bottom + style.tick + 0.35 * size + drawing.font.capital_height() * size;
         for tick in &x_ticks.ticks {
             let Some(label) = &tick.label else { continue };
             let x = left + self.x.fraction(tick.at) * (right - left);
             drawing.text(label.clone(), [x, base], Align::Middle, size, BLACK);
         }
         let title = self.x.title(x_ticks.exponent);
-        let fitting = drawing.fitting(&title, size, width - size);
+        let fitting = drawing.fitting(&title, size, drawing.width - size);
         let half = 0.5 * drawing.width_of(&title, fitting);
-        let middle = (0.5 * (left + right)).clamp(half, (width - half).max(half));
+        let middle = (0.5 * (left + right)).clamp(half, (drawing.width - half).max(half));
         drawing.text(title, [middle, base + 1.45 * size], Align::Middle, fitting, BLACK);
-        drawing.height = base + 1.95 * size;
-        drawing
+        base
     }
 
     /// Draws the legend in rows from the top, and returns the top of the panels.

@@ -229,15 +229,8 @@ fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Re
     // A curve has every peak at its height, whatever the requested frequencies.
     let found = frf::run(robot.clone(), &request::FrfRequest { adaptive: true, ..of.clone() }, watch)?;
     let mut warnings = found.warnings.clone();
+    refuse_several_units(&found)?;
     let first_pair = &found.responses[0];
-    if let Some(other) = found.responses.iter().find(|pair| pair.unit != first_pair.unit) {
-        bail!(
-            "a figure shows responses with one unit, and these have {} and {}: choose ⟪input⟫ and ⟪output⟫ with one \
-             unit, or write .csv or .json",
-            first_pair.unit,
-            other.unit
-        );
-    }
     let (marks, caveat) = marks(robot, of)?;
     warnings.extend(caveat);
     let hz = &found.frequency_hz;
@@ -265,17 +258,9 @@ fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Re
         magnitudes.push(Layer::Line { points: magnitude, stroke: stroke.clone() });
         phases.push(Layer::Line { points: phase(values()), stroke });
     }
-    let low = low.max(high / 10_f64.powf(MAX_DECADES));
-    let (low, high) = if high > 0.0 { (low, high) } else { (0.1, 1.0) };
     // Numbers stand above the peaks; over several curves they would not show to which one they belong.
     let peaks = if found.responses.len() == 1 { labelled_peaks(&first_pair.peaks, &x_axis()) } else { Vec::new() };
-    let above = if peaks.is_empty() { 0.06 } else { 0.3 };
-    let room = (high / low).log10().max(0.5);
-    let y = Axis::logarithmic(
-        format!("magnitude [{}]", first_pair.unit),
-        low * 10_f64.powf(-0.05 * room),
-        high * 10_f64.powf(above * room),
-    );
+    let y = magnitude_axis(&first_pair.unit, low, high, !peaks.is_empty());
     magnitudes.push(Layer::Upright { texts: peaks, colour: BLACK });
 
     let phase_axis = Axis::linear("phase [°]", -190.0, 190.0).with_labels(
@@ -284,7 +269,41 @@ fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Re
     let mut panels = vec![Panel::new(y, 0.5, magnitudes), Panel::new(phase_axis, 0.24, phases)];
 
     // Natural frequencies below, by kind.
-    let mut stems = Vec::new();
+    let (stems, entries) = stems(&marks, first, last);
+    legend.extend(entries);
+    if !stems.is_empty() {
+        panels.push(Panel { bare: true, ..Panel::new(Axis::linear("", 0.0, 1.0), 0.05, stems) });
+    }
+    Ok(chart(
+        Chart { title: format!("{}: frequency response", found.robot), x: x_axis(), panels, legend, colour_bar: None },
+        warnings,
+    ))
+}
+
+fn refuse_several_units(found: &frf::Frf) -> Result<()> {
+    let unit = &found.responses[0].unit;
+    if let Some(other) = found.responses.iter().find(|pair| pair.unit != *unit) {
+        bail!(
+            "a figure shows responses with one unit, and these have {unit} and {}: choose ⟪input⟫ and ⟪output⟫ with one \
+             unit, or write .csv or .json",
+            other.unit
+        );
+    }
+    Ok(())
+}
+
+/// Axis of a magnitude between two values, with room above the curves, and more if there are `numbers` above the peaks.
+fn magnitude_axis(unit: &str, low: f64, high: f64, numbers: bool) -> Axis {
+    let low = low.max(high / 10_f64.powf(MAX_DECADES));
+    let (low, high) = if high > 0.0 { (low, high) } else { (0.1, 1.0) };
+    let above = if numbers { 0.3 } else { 0.06 };
+    let room = (high / low).log10().max(0.5);
+    Axis::logarithmic(format!("magnitude [{unit}]"), low * 10_f64.powf(-0.05 * room), high * 10_f64.powf(above * room))
+}
+
+/// Stems of the natural frequencies, by kind, and the legend's entries. A kind without any in the range is left out.
+fn stems(marks: &[Mode], first: f64, last: f64) -> (Vec<Layer>, Vec<Entry>) {
+    let (mut stems, mut legend) = (Vec::new(), Vec::new());
     for (kind, _, stroke, height) in kinds() {
         let x: Vec<f64> = marks.iter().filter(|mode| mode.kind == kind).map(|mode| mode.frequency_hz).collect();
         if !x.iter().any(|x| (first..=last).contains(x)) {
@@ -293,13 +312,7 @@ fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Re
         legend.push(entry(format!("{} mode", kind.name()), Sample::Stem(stroke.clone())));
         stems.push(Layer::Stems { x, from: 0.0, to: height, stroke });
     }
-    if !stems.is_empty() {
-        panels.push(Panel { bare: true, ..Panel::new(Axis::linear("", 0.0, 1.0), 0.05, stems) });
-    }
-    Ok(chart(
-        Chart { title: format!("{}: frequency response", found.robot), x: x_axis(), panels, legend, colour_bar: None },
-        warnings,
-    ))
+    (stems, legend)
 }
 
 /// Phase [°] of a response in (−180°, 180°], with gaps where it wraps, so that no line crosses the figure.

@@ -187,7 +187,7 @@ impl Space {
     /// Floor with its grid, scales along its front edges, heights along the left edge.
     fn draw_scales(&self, drawing: &mut Drawing, view: &View, style: &Type) {
         let size = style.size;
-        let [(low_x, high_x), (low_y, high_y), (floor, top)] = self.ranges;
+        let [(low_x, high_x), (low_y, high_y), (floor, _)] = self.ranges;
         let (low, high) = ([low_x, low_y], [high_x, high_y]);
         let capital = drawing.font.capital_height() * style.small;
         let corners = [[low_x, low_y], [high_x, low_y], [high_x, high_y], [low_x, high_y]];
@@ -234,9 +234,18 @@ impl Space {
         }
 
         let left = corners.into_iter().min_by(|a, b| on_floor(*a)[0].total_cmp(&on_floor(*b)[0])).unwrap_or(corners[0]);
+        self.draw_heights(drawing, view, left, style);
+    }
+
+    /// Heights along the edge above a corner of the floor.
+    fn draw_heights(&self, drawing: &mut Drawing, view: &View, corner: [f64; 2], style: &Type) {
+        let size = style.size;
+        let (floor, top) = self.ranges[2];
+        let capital = drawing.font.capital_height() * style.small;
+        let axis = Stroke::solid(BLACK, AXIS_WIDTH);
         // A little to the left, so that its numbers keep away from the names of anchors above this corner.
         let at = |z: f64| {
-            let [x, y] = view.at(Vec3::new(left[0], left[1], z));
+            let [x, y] = view.at(Vec3::new(corner[0], corner[1], z));
             [x - size, y]
         };
         drawing.line(vec![at(floor), at(top)], axis.clone());

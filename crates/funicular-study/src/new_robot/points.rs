@@ -63,23 +63,12 @@ pub(super) fn read(csv: &SourceFile, unit: Option<LengthUnit>, motion: NewMotion
             );
         }
 
-        let mut numbers = [0.0; 6];
-        for ((value, place), column) in numbers.iter_mut().zip(columns.places).zip(COLUMNS) {
-            let Some(place) = place else { continue };
-            let column = column.replace('_', " ");
-            *value = number(cells[place]).map_err(|reason| anyhow!("{shown}, line {line}, {column}: {reason}"))?
-                * columns.unit.metres();
+        let points =
+            columns.cable(&cells, cables.len() + 1).map_err(|reason| anyhow!("{shown}, line {line}{reason}"))?;
+        if cables.iter().any(|cable| cable.name == points.name) {
+            bail!("{shown}, line {line}: a second cable \"{}\"; give every cable its own name", points.name);
         }
-        let name = match columns.name {
-            Some(place) if cells[place].is_empty() => bail!("{shown}, line {line}: the name of the cable is empty"),
-            Some(place) => cells[place].to_owned(),
-            None => (cables.len() + 1).to_string(),
-        };
-        if cables.iter().any(|cable| cable.name == name) {
-            bail!("{shown}, line {line}: a second cable \"{name}\"; give every cable its own name");
-        }
-        let [x, y, z, u, v, w] = numbers.map(shortest);
-        cables.push(CablePoints { name, anchor: Vec3::new(x, y, z), attachment: Vec3::new(u, v, w) });
+        cables.push(points);
     }
 
     if cables.is_empty() {
@@ -104,6 +93,25 @@ struct Columns {
 }
 
 impl Columns {
+    /// Cable of a line; `position`, counted from 1, is its name if the lines have none. If a column is wrong, the error
+    /// begins with it.
+    fn cable(&self, cells: &[&str], position: usize) -> Result<CablePoints, String> {
+        let mut coordinates = [0.0; 6];
+        for ((value, place), column) in coordinates.iter_mut().zip(self.places).zip(COLUMNS) {
+            let Some(place) = place else { continue };
+            let given = number(cells[place]).map_err(|reason| format!(", {}: {reason}", column.replace('_', " ")))?;
+            *value = given * self.unit.metres();
+        }
+
+        let name = match self.name {
+            Some(place) if cells[place].is_empty() => return Err(": the name of the cable is empty".to_owned()),
+            Some(place) => cells[place].to_owned(),
+            None => position.to_string(),
+        };
+        let [x, y, z, u, v, w] = coordinates.map(shortest);
+        Ok(CablePoints { name, anchor: Vec3::new(x, y, z), attachment: Vec3::new(u, v, w) })
+    }
+
     /// Columns from the first line, and true if this line is a header.
     fn of_first_line(cells: &[&str], unit: Option<LengthUnit>, motion: NewMotion) -> Result<(Self, bool), String> {
         let needed = if motion == NewMotion::PointMass { 3 } else { 6 };

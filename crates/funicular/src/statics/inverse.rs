@@ -147,6 +147,8 @@ fn hang_all(loaded: &[LoadedCable<'_>], pose: &Pose, lengths: &[f64]) -> Vec<Cab
     loaded.iter().zip(lengths).map(|(cable, &length)| cable.hang(pose, length)).collect()
 }
 
+/// Equilibrium of sagging cables at a pose: Newton's method from cables with the tensions of `straight` ones, then from
+/// other starts.
 fn sagging_cables(
     robot: &Robot,
     pose: &Pose,
@@ -196,20 +198,33 @@ fn sagging_cables(
     if accept(&found) {
         return Ok(found.collected(robot, pose));
     }
+    let Some(i) = negative else {
+        let (p, CableSearch { residual, iterations, .. }) = (pose.position_w, found);
+        return Err(StaticsError::NotConverged { iterations, residual, limit: RESIDUAL_LIMIT, x: p.x, y: p.y, z: p.z });
+    };
+    let is_straight = loaded.iter().all(|cable| cable.load.size == 0.0);
+    Err(negative_tension(robot, pose, (i, straight[i]), is_straight, starts, &found))
+}
 
-    if let Some(i) = negative {
-        let (cable, tension) = (robot.cables[i].name.clone(), straight[i]);
-        let obstacle = obstacle(robot, pose, StaticModel::Catenary);
-        // Without sag the straight solution is the only one.
-        if loaded.iter().all(|cable| cable.load.size == 0.0) {
-            return Err(StaticsError::NegativeTension { cable, tension, obstacle });
-        }
-        let residual = found.residual;
-        let max_tension = (residual <= RESIDUAL_LIMIT).then(|| found.max_tension());
-        return Err(StaticsError::NotFound { cable, tension, starts, residual, max_tension, obstacle });
+/// Error of a pose at which a straight cable `i` would have a negative tension, and sagging cables that hold it were
+/// not found. If no cable can sag, `is_straight` is true: the straight solution is then the only one.
+fn negative_tension(
+    robot: &Robot,
+    pose: &Pose,
+    (i, tension): (usize, f64),
+    is_straight: bool,
+    starts: usize,
+    found: &CableSearch,
+) -> StaticsError {
+    let cable = robot.cables[i].name.clone();
+    let obstacle = obstacle(robot, pose, StaticModel::Catenary);
+    if is_straight {
+        return StaticsError::NegativeTension { cable, tension, obstacle };
     }
-    let (p, CableSearch { residual, iterations, .. }) = (pose.position_w, found);
-    Err(StaticsError::NotConverged { iterations, residual, limit: RESIDUAL_LIMIT, x: p.x, y: p.y, z: p.z })
+
+    let residual = found.residual;
+    let max_tension = (residual <= RESIDUAL_LIMIT).then(|| found.max_tension());
+    StaticsError::NotFound { cable, tension, starts, residual, max_tension, obstacle }
 }
 
 /// True if the weight of sagging cables cannot compensate the negative tension of a straight cable, unless one of them

@@ -116,32 +116,8 @@ pub(crate) fn figure(
     let (low, high) = (minimum(&levels), -minimum(&levels.iter().map(|l| -l).collect::<Vec<_>>()));
     let room = 0.22 * (high - low).max(0.5);
 
-    let mut data = Vec::new();
-    for curve in curves {
-        let trace = line(&curve.name, &curve.frequencies_hz, &curve.magnitude(), curve.style.0, curve.style.1);
-        let hover = format!("%{{x:.3f}} Hz<br>%{{y:.3e}} {unit}");
-        data.push(with(trace, json!({"hovertemplate": hover, "legendgroup": curve.name})));
-        if marks.phase {
-            let (x, y) = curve.phase();
-            let trace = line(&curve.name, &x, &y, curve.style.0, curve.style.1);
-            data.push(with(
-                trace,
-                json!({"yaxis": "y2", "showlegend": false, "legendgroup": curve.name, "hovertemplate": "%{x:.3f} Hz<br>%{y:.0f}°"}),
-            ));
-        }
-    }
-
+    let mut data = traces(curves, unit, marks.phase);
     data.extend(ticks(marks.modes));
-    let labels: Vec<Value> = spaced(marks.peaks, 0.03 * below_hz)
-        .iter()
-        .map(|peak| {
-            json!({
-                "x": peak.frequency_hz, "y": peak.magnitude.log10(), "text": format!("{:.2}", peak.frequency_hz), "textangle": -90,
-                "showarrow": false, "yanchor": "bottom", "yshift": 3, "bgcolor": "rgba(255,255,255,0.75)", "borderpad": 0, "font": {"size": 11, "color": curves[0].style.0},
-            })
-        })
-        .collect();
-
     let mut shapes = Vec::new();
     if let Some((name, frequencies)) = marks.published {
         for frequency in frequencies {
@@ -164,7 +140,7 @@ pub(crate) fn figure(
         "yaxis3": axis("", json!({
             "domain": strip, "range": [-1, 1], "showticklabels": false, "ticks": "", "showgrid": false, "fixedrange": true,
         })),
-        "annotations": labels,
+        "annotations": peak_labels(marks.peaks, below_hz, curves[0].style.0),
         "shapes": shapes,
     });
     if marks.phase {
@@ -173,6 +149,39 @@ pub(crate) fn figure(
     }
     layout["margin"] = json!({"l": 78});
     Figure::new(id, if marks.phase { 600 } else { 430 }, caption, &data, layout)
+}
+
+/// Lines of the magnitudes and, below them, of the phases.
+fn traces(curves: &[ResponseCurve], unit: &str, with_phase: bool) -> Vec<Value> {
+    let mut data = Vec::new();
+    for curve in curves {
+        let trace = line(&curve.name, &curve.frequencies_hz, &curve.magnitude(), curve.style.0, curve.style.1);
+        let hover = format!("%{{x:.3f}} Hz<br>%{{y:.3e}} {unit}");
+        data.push(with(trace, json!({"hovertemplate": hover, "legendgroup": curve.name})));
+        if with_phase {
+            let (x, y) = curve.phase();
+            let trace = line(&curve.name, &x, &y, curve.style.0, curve.style.1);
+            data.push(with(
+                trace,
+                json!({"yaxis": "y2", "showlegend": false, "legendgroup": curve.name, "hovertemplate": "%{x:.3f} Hz<br>%{y:.0f}°"}),
+            ));
+        }
+    }
+
+    data
+}
+
+/// Frequencies [Hz] above the peaks, where there is room.
+fn peak_labels(peaks: &[Peak], below_hz: f64, colour: &str) -> Vec<Value> {
+    spaced(peaks, 0.03 * below_hz)
+        .iter()
+        .map(|peak| {
+            json!({
+                "x": peak.frequency_hz, "y": peak.magnitude.log10(), "text": format!("{:.2}", peak.frequency_hz), "textangle": -90,
+                "showarrow": false, "yanchor": "bottom", "yshift": 3, "bgcolor": "rgba(255,255,255,0.75)", "borderpad": 0, "font": {"size": 11, "color": colour},
+            })
+        })
+        .collect()
 }
 
 fn minimum(values: &[f64]) -> f64 {

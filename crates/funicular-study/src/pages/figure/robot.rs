@@ -2,6 +2,7 @@
 
 use super::{Figure, colour, plain, rounded};
 use crate::figures::drive::DriveLines;
+use crate::figures::hull::faces;
 use crate::figures::view::{EYE, extent, joined, polygon, ranges, sides};
 use funicular::math::Vec3;
 use funicular::robot::Robot;
@@ -213,6 +214,8 @@ fn body(points: &[Vec3], reach: f64) -> Value {
     let [x, y, z] = coordinates(points);
     let mut mesh = json!({
         "type": "mesh3d", "x": x, "y": y, "z": z, "color": "#555555", "opacity": 0.55, "flatshading": true, "hoverinfo": "skip",
+        // For the script that saves the figure as lines; plotly computes the hull itself.
+        "meta": {"faces": faces(points)},
     });
     match polygon(points, reach) {
         Some(order) => {

@@ -171,38 +171,9 @@ fn slice(rows: &Rows, name: &str, wanted: Option<&ChosenColumns>, choice: &Choic
     let (h, v) = plane(rows, choice)?;
     let at = places(rows, choice, [h, v])?;
 
-    // A place that the user has given needs no note.
-    let mut notes = Vec::new();
-    let mut given = Vec::new();
-    for (name, _) in &choice.at {
-        given.push(axis_of(rows, "at", name)?);
-    }
-    for (k, axis) in rows.axes.iter().enumerate().filter(|(k, _)| *k != h && *k != v && !given.contains(k)) {
-        let unit = if axis.unit == "1" { String::new() } else { format!(" {}", axis.unit) };
-        notes.push(format!(
-            "the slice at {} = {}{unit} is drawn; ⟪at⟫ chooses another",
-            axis.name,
-            brief(axis.values()[at[k]])
-        ));
-    }
-    let thinned = rows.axes.iter().filter(|axis| axis.every > 1);
-    let thinned: Vec<String> =
-        thinned.map(|axis| format!("{} of {} values of {}", axis.kept(), axis.steps.count(), axis.name)).collect();
-    if !thinned.is_empty() {
-        notes.push(format!("the figure shows {}, to limit its size", thinned.join(", ")));
-    }
-
-    // Cells of the slice, row by row upwards.
-    let mut strides = vec![1; rows.axes.len()];
-    for k in 1..strides.len() {
-        strides[k] = strides[k - 1] * rows.axes[k - 1].kept();
-    }
-    let base: usize = (0..rows.axes.len()).filter(|k| *k != h && *k != v).map(|k| at[k] * strides[k]).sum();
+    let notes = slice_notes(rows, choice, [h, v], &at)?;
     let (x, y) = (rows.axes[h].values(), rows.axes[v].values());
-    let cells: Vec<usize> = (0..y.len())
-        .flat_map(|j| (0..x.len()).map(move |i| (i, j)))
-        .map(|(i, j)| base + i * strides[h] + j * strides[v])
-        .collect();
+    let cells = slice_cells(rows, [h, v], &at);
     let values: Vec<f64> = cells.iter().map(|&cell| series.values[cell]).collect();
     let infeasible: Vec<bool> = cells
         .iter()
@@ -235,6 +206,44 @@ fn slice(rows: &Rows, name: &str, wanted: Option<&ChosenColumns>, choice: &Choic
         colour_bar: Some(ColourBar { title, scale }),
     };
     Ok(Made { figure: Figure(Kind::Chart(chart)), notes })
+}
+
+/// Sentences about what the slice does not show: places on the other axes that the user has not given, and values that
+/// are left out.
+fn slice_notes(rows: &Rows, choice: &Choice, [h, v]: [usize; 2], at: &[usize]) -> Result<Vec<String>> {
+    let mut notes = Vec::new();
+    let mut given = Vec::new();
+    for (name, _) in &choice.at {
+        given.push(axis_of(rows, "at", name)?);
+    }
+    for (k, axis) in rows.axes.iter().enumerate().filter(|(k, _)| *k != h && *k != v && !given.contains(k)) {
+        let unit = if axis.unit == "1" { String::new() } else { format!(" {}", axis.unit) };
+        notes.push(format!(
+            "the slice at {} = {}{unit} is drawn; ⟪at⟫ chooses another",
+            axis.name,
+            brief(axis.values()[at[k]])
+        ));
+    }
+    let thinned = rows.axes.iter().filter(|axis| axis.every > 1);
+    let thinned: Vec<String> =
+        thinned.map(|axis| format!("{} of {} values of {}", axis.kept(), axis.steps.count(), axis.name)).collect();
+    if !thinned.is_empty() {
+        notes.push(format!("the figure shows {}, to limit its size", thinned.join(", ")));
+    }
+    Ok(notes)
+}
+
+/// Cells of the slice, row by row upwards, at these places on the other axes.
+fn slice_cells(rows: &Rows, [h, v]: [usize; 2], at: &[usize]) -> Vec<usize> {
+    let mut strides = vec![1; rows.axes.len()];
+    for k in 1..strides.len() {
+        strides[k] = strides[k - 1] * rows.axes[k - 1].kept();
+    }
+    let base: usize = (0..rows.axes.len()).filter(|k| *k != h && *k != v).map(|k| at[k] * strides[k]).sum();
+    (0..rows.axes[v].kept())
+        .flat_map(|j| (0..rows.axes[h].kept()).map(move |i| (i, j)))
+        .map(|(i, j)| base + i * strides[h] + j * strides[v])
+        .collect()
 }
 
 /// Axes of the slice: the chosen ones, or the two with most cells, in the order of the file.

@@ -132,6 +132,7 @@ impl Rows {
         Ok(rows)
     }
 
+    /// Rows of a file before they are read: axes, columns, and the values that are kept.
     fn empty(file: &dyn SweepRows) -> Result<Self> {
         let record = file.record();
         let columns = &record.columns;
@@ -155,16 +156,7 @@ impl Rows {
         }
         let (mut axes, fixed) = grid.map_or_else(Default::default, |grid| split(grid, &columns[..coordinates]));
 
-        let mut every = 1;
-        if axes.len() < 2 {
-            let rows = file.rows().max(1);
-            every = (rows * (numbers.len() + 1)).div_ceil(MAX_NUMBERS_OF_CURVES).max(1);
-        } else {
-            while axes.iter().map(PlotAxis::kept).product::<usize>() * (numbers.len() + 1) > MAX_NUMBERS {
-                let Some(longest) = axes.iter_mut().max_by_key(|axis| axis.kept()) else { break };
-                longest.every += 1;
-            }
-        }
+        let every = thin(&mut axes, numbers.len() + 1, file.rows());
         let kept = if axes.len() < 2 { 0 } else { axes.iter().map(PlotAxis::kept).product() };
 
         let series = numbers.into_iter().map(|column| Series {
@@ -393,4 +385,17 @@ pub(super) fn with_unit(name: &str, unit: &str) -> String {
 /// Name of the robot of a plan.
 pub(super) fn robot_name(plan: &serde_json::Map<String, Value>) -> String {
     plan.get("robot").and_then(Value::as_str).unwrap_or("a robot").to_owned()
+}
+
+/// Number of rows per kept row, for curves of a file with `rows` rows of `numbers` numbers. In a grid with several
+/// axes, values of the longest axes are left out instead.
+fn thin(axes: &mut [PlotAxis], numbers: usize, rows: usize) -> usize {
+    if axes.len() < 2 {
+        return (rows.max(1) * numbers).div_ceil(MAX_NUMBERS_OF_CURVES).max(1);
+    }
+    while axes.iter().map(PlotAxis::kept).product::<usize>() * numbers > MAX_NUMBERS {
+        let Some(longest) = axes.iter_mut().max_by_key(|axis| axis.kept()) else { break };
+        longest.every += 1;
+    }
+    1
 }

@@ -11,8 +11,9 @@ use super::cable_at_pose::{CableAtPose, TensionPlace};
 use super::feasible_set::{FeasiblePoint, FeasibleSet, MIN_DIRECTIONS_IN_CABLE_SPACE};
 use super::null_space::Solutions;
 use super::proof::{Infeasibility, ReachableTensions};
-use super::search::{Linear, ProximalStep, ProximalStepControl, TauBound, TensionSearch};
+use super::search::{HOLDS, Linear, ProximalStep, ProximalStepControl, TauBound, TensionSearch};
 use crate::drive::CableAtRest;
+use crate::math::active_set::Active;
 use crate::math::{Vec3, Vec6};
 use crate::platform::{Coordinates, load_wrench, wrench_of};
 use crate::robot::{Load, Pose, Robot};
@@ -287,15 +288,29 @@ impl PayloadSearch<'_> {
         let Some(FeasiblePoint { sigma: mut tau, held, .. }) = found else { return Ok(None) };
         let weight = tau.pop().unwrap_or(0.0);
 
-        // Limits that hold it back, and the multipliers of the balance.
+        Ok(Some(self.optimum(tau, weight, &held, &rows, &solutions)))
+    }
+
+    /// Extreme weight with the limits that hold it back and the multipliers of the balance. `held` are the active
+    /// inequalities; `rows` are the limits of all inequalities.
+    fn optimum(
+        &self,
+        tau: Vec<f64>,
+        weight: f64,
+        held: &[Active],
+        rows: &[Option<(usize, Limit)>],
+        solutions: &Solutions,
+    ) -> Optimum {
+        let (cables, sign) = (self.search.cables(), self.requested.side.sign());
+        let count = cables.len();
         let strongest = held.iter().fold(0.0, |most: f64, held| most.max(held.multiplier));
         let mut pressed = vec![0.0; count + 1];
         let (mut held_by, mut unlimited) = (Vec::new(), false);
-        for held in &held {
+        for held in held {
             match rows[held.row] {
                 Some((i, limit)) => {
                     pressed[i] += if limit == Limit::Minimum { held.multiplier } else { -held.multiplier };
-                    if held.multiplier > 1e-9 * strongest {
+                    if held.multiplier > HOLDS * strongest {
                         held_by.push((i, limit));
                         unlimited |= limit == Limit::Maximum && cables[i].range.maximum.is_infinite();
                     }
@@ -306,7 +321,7 @@ impl PayloadSearch<'_> {
         }
         let multipliers = solutions.multipliers(|i| -pressed[i]);
 
-        Ok(Some(Optimum { tau, weight, held_by, unlimited, multipliers }))
+        Optimum { tau, weight, held_by, unlimited, multipliers }
     }
 
     /// Result with the cables as they hang with the extreme payload.

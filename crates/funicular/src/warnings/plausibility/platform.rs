@@ -3,7 +3,7 @@
 use super::geometry::Size;
 use super::{Implausible, likely, outside, usual};
 use crate::math::Vec3;
-use crate::robot::{PlatformMotion, Robot, State};
+use crate::robot::{Platform, PlatformMotion, Robot, State};
 use std::f64::consts::PI;
 
 /// Warnings about the platform.
@@ -50,34 +50,38 @@ pub(super) fn check(robot: &Robot) -> Vec<Implausible> {
             likely(value, [3.0, 2000.0], slips)
         },
     );
-    let inertia = || {
-        let moment = match platform.motion {
-            PlatformMotion::Planar(plane) => {
-                let normal_p = plane.normal_w();
-                normal_p.dot(&(platform.inertia_p * normal_p))
-            }
-            PlatformMotion::Rigid | PlatformMotion::PointMass => platform.inertia_p.symmetric_eigenvalues().max(),
-        };
-        let gyration = (moment / platform.mass).sqrt();
-        let ratio = gyration / radius;
-        let what = "radius of gyration of the platform, √(inertia/mass), over the size of its attachments";
-        outside(what, ratio, "", usual::GYRATION, |value| {
-            // The distance of the world's origin is the radius of gyration about it.
-            if position_w.is_some_and(|at| (0.5..1.1).contains(&(gyration / at.norm()))) {
-                return "inertia about the origin of the world in place of the centre of mass?".to_owned();
-            }
-            let slips = &[
-                (1e-3, "inertia in kg mm² given as kg m²"),
-                (1e-7_f64.sqrt(), "inertia in g cm² given as kg m²"),
-                (1e-2, "inertia in kg cm² given as kg m²"),
-                (1e-3_f64.sqrt(), "inertia a factor of 1000 too large (g m²), or mass in t given as kg"),
-                (1e3_f64.sqrt(), "inertia a factor of 1000 too small (t m²), or mass in g given as kg"),
-                (platform.mass.sqrt(), "inertia divided by the mass"),
-            ];
-            likely(value, [0.15, 1.6], slips)
-        })
-    };
+    let inertia = || inertia(platform, radius, position_w);
     mass.or_else(inertia).into_iter().chain(damping(robot)).collect()
+}
+
+/// Inertia, as the radius of gyration over the `radius` of the platform [m]; `position_w` recognises an inertia about
+/// the origin of the world.
+fn inertia(platform: &Platform, radius: f64, position_w: Option<Vec3>) -> Option<Implausible> {
+    let moment = match platform.motion {
+        PlatformMotion::Planar(plane) => {
+            let normal_p = plane.normal_w();
+            normal_p.dot(&(platform.inertia_p * normal_p))
+        }
+        PlatformMotion::Rigid | PlatformMotion::PointMass => platform.inertia_p.symmetric_eigenvalues().max(),
+    };
+    let gyration = (moment / platform.mass).sqrt();
+    let ratio = gyration / radius;
+    let what = "radius of gyration of the platform, √(inertia/mass), over the size of its attachments";
+    outside(what, ratio, "", usual::GYRATION, |value| {
+        // The distance of the world's origin is the radius of gyration about it.
+        if position_w.is_some_and(|at| (0.5..1.1).contains(&(gyration / at.norm()))) {
+            return "inertia about the origin of the world in place of the centre of mass?".to_owned();
+        }
+        let slips = &[
+            (1e-3, "inertia in kg mm² given as kg m²"),
+            (1e-7_f64.sqrt(), "inertia in g cm² given as kg m²"),
+            (1e-2, "inertia in kg cm² given as kg m²"),
+            (1e-3_f64.sqrt(), "inertia a factor of 1000 too large (g m²), or mass in t given as kg"),
+            (1e3_f64.sqrt(), "inertia a factor of 1000 too small (t m²), or mass in g given as kg"),
+            (platform.mass.sqrt(), "inertia divided by the mass"),
+        ];
+        likely(value, [0.15, 1.6], slips)
+    })
 }
 
 /// Viscous damping over mass and inertia; the first value outside the usual range of each.

@@ -7,6 +7,7 @@
 //! the affine qᵀ K(τ) q. Cables that sag are linearised about the last tensions; a step that does not increase the
 //! stiffness is shortened.
 
+use super::super::null_space::Solutions;
 use super::super::search::{Linear, TensionSearch};
 use super::{GAIN, min_eigenvalue, present};
 use crate::math::active_set::Polyhedron;
@@ -81,15 +82,7 @@ fn stiffest_of_linear(
     // Height in the unit of tensions.
     let unit = rates.iter().fold(0.0, |m: f64, rate| m.max(rate.amax())).max(f64::MIN_POSITIVE);
 
-    // Limits, and the reach.
-    let mut set = Polyhedron::new(solutions.redundancy() + 1);
-    for (i, [lower, upper]) in linear.limits.iter().enumerate() {
-        let particular = solutions.particular[i];
-        let least = lower.at.max(search.cables()[i].slackest).max(here[i] - reach);
-        let most = upper.at.min(here[i] + reach);
-        set.add(solutions.part(i), 1.0, Some(0.0), least - particular);
-        set.add(solutions.part(i), -1.0, Some(0.0), particular - most);
-    }
+    let mut set = within_reach(search, linear, &solutions, reach);
 
     // Cuts: in each round those of the lowest eigenvectors.
     let mut z = solutions.along(|i| here[i]);
@@ -132,6 +125,21 @@ fn stiffest_of_linear(
         }
     }
     Ok(best)
+}
+
+/// Limits of the tensions, none further than `reach` from the present ones; the last coordinate is the height.
+fn within_reach(search: &TensionSearch<'_>, linear: &Linear, solutions: &Solutions, reach: f64) -> Polyhedron {
+    let here = search.tensions();
+    let mut set = Polyhedron::new(solutions.redundancy() + 1);
+    for (i, [lower, upper]) in linear.limits.iter().enumerate() {
+        let particular = solutions.particular[i];
+        let least = lower.at.max(search.cables()[i].slackest).max(here[i] - reach);
+        let most = upper.at.min(here[i] + reach);
+        set.add(solutions.part(i), 1.0, Some(0.0), least - particular);
+        set.add(solutions.part(i), -1.0, Some(0.0), particular - most);
+    }
+
+    set
 }
 
 fn form(matrix: &Mat6, q: &Vec6) -> f64 {
