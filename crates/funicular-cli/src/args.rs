@@ -77,6 +77,7 @@ pub(crate) enum Command {
         funicular statics robots/yuan2014-4mm.toml --lengths-m 6.9,6.6,6.8,6.7,6.8,6.6\n  \
         funicular statics robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250\n  \
         funicular statics robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --max-tension-n 1200\n  \
+        funicular statics docs/pulleys/winches.toml --friction-interval\n  \
         funicular statics robots/cogiro.toml -o robot.pdf")]
     Statics(StaticsArgs),
     /// 6×6 stiffness at one frequency, static at 0 Hz
@@ -237,6 +238,14 @@ pub(crate) struct StaticsArgs {
     /// Search for all equilibria of the unstrained lengths, including unstable ones
     #[arg(long)]
     pub(crate) all: bool,
+
+    /// Compute the interval in which friction of pulleys leaves pose and tensions
+    ///
+    /// The interval is that of every cable having last run towards the platform or towards its drum. With lengths given,
+    /// or with --hold-lengths-of-pose, pose and tensions vary. With a pose given, the tensions at the drums and the lengths
+    /// vary. Friction is given in [pulleys.NAME] by `friction_coefficient`, `efficiency` or `bearing_friction_coefficient`.
+    #[arg(long)]
+    pub(crate) friction_interval: bool,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
     #[command(flatten)]

@@ -9,6 +9,7 @@ use crate::robot::PyRobot;
 use crate::vibration::{self, CompareKeywords, ModesKeywords, ModesObject, PairKeywords, Responses, SignalNames};
 use crate::written::{self, PageKeywords, ReduceKeywords, StateSpaceKeywords};
 use funicular_study::analyses;
+use funicular_study::analyses::statics::Extras;
 use funicular_study::request::{State, Tensions};
 use numpy::Complex64;
 use pyo3::prelude::*;
@@ -79,7 +80,33 @@ impl PyAnalyses {
     /// `energy_j`, `distance_m` and `tensions_platform_n`; `search` describes the search. Lists of numbers are arrays.
     fn all_equilibria<'py>(slf: &Bound<'py, Self>, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
         let at_rest = Self::at(slf, |rest| Ok(Arc::clone(&rest.at_rest)))?;
-        let found = interruptible(py, move || analyses::statics::about(&at_rest, true))?;
+        let found =
+            interruptible(py, move || analyses::statics::about(&at_rest, Extras { all: true, ..Extras::default() }))?;
+        answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
+    }
+
+    /// Computes the interval in which friction of pulleys leaves pose and tensions.
+    ///
+    /// Every cable may have run last towards the platform or towards its drum. If the lengths are given or held, pose and
+    /// tensions vary; if the pose is given, the tensions at the drums and the lengths vary.
+    ///
+    /// Returns
+    /// -------
+    /// The keys of the program's JSON. `friction_interval` has `held`, which is `lengths` or `pose`; with lengths held
+    /// `translation_m` (3, 2) and `rotation_deg` (3, 2), the rotation vector, both in world axes; and `cables`, each with
+    /// `friction_exponent`, `excess_length_m`, `tension_platform_n`, `tension_anchor_n` and `tension_drum_n`. Pairs are
+    /// minimum and maximum. Theory (71) to (74).
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     No cable runs over a pulley with friction.
+    /// NoSolutionError
+    ///     The equilibrium is indifferent.
+    fn friction_interval<'py>(slf: &Bound<'py, Self>, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
+        let at_rest = Self::at(slf, |rest| Ok(Arc::clone(&rest.at_rest)))?;
+        let extras = Extras { friction_interval: true, ..Extras::default() };
+        let found = py.detach(|| analyses::statics::about(&at_rest, extras));
         answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
     }
 

@@ -10,6 +10,7 @@ use crate::written;
 use funicular::cable::Sag;
 use funicular::statics;
 use funicular_study::analyses;
+use funicular_study::analyses::statics::Extras;
 use funicular_study::at_rest::{self, AtRest};
 use funicular_study::request::{State, Tensions};
 use pyo3::prelude::*;
@@ -212,7 +213,7 @@ impl PyEquilibrium {
 
     /// Returns a dictionary with the keys of the program's JSON.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
-        let found = py.detach(|| analyses::statics::about(&self.at_rest, false));
+        let found = py.detach(|| analyses::statics::about(&self.at_rest, Extras::default()));
         answers::plain(py, &found.map_err(|error| errors::study(&error))?)
     }
 

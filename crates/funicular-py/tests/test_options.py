@@ -49,6 +49,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
 OTHERS: dict[tuple[str | None, str], tuple[str, object]] = {
     (None, "--set"): ("`robot.with_({path: value})`", Robot.with_),
     (None, "--all"): ("`equilibrium.all_equilibria()`", Equilibrium.all_equilibria),
+    (None, "--friction-interval"): ("`equilibrium.friction_interval()`", Equilibrium.friction_interval),
     (None, "--format"): ("`to_dict()`, `to_pandas()` of the result", Equilibrium.to_dict),
     (None, "--output-file"): ("results are values; `json.dumps(result.to_dict())`", Equilibrium.to_dict),
     (None, "--from-hz"): ("`hz=numpy.linspace(from_hz, to_hz, points)`", np.linspace),

@@ -5,7 +5,7 @@ use funicular::dynamics::DynamicsError;
 use funicular::reduced_model::ReductionError;
 use funicular::response::ResponseError;
 use funicular::robot::Robot;
-use funicular::statics::StaticsError;
+use funicular::statics::{FrictionError, StaticsError};
 use funicular::warnings;
 use std::fmt;
 
@@ -77,6 +77,7 @@ impl ErrorKind {
                 error.downcast_ref().is_some_and(DynamicsError::is_no_solution)
                     || matches!(error.downcast_ref::<ResponseError>(), Some(ResponseError::Resonance { .. }))
                     || error.downcast_ref().is_some_and(ReductionError::is_no_solution)
+                    || matches!(error.downcast_ref(), Some(FrictionError::Singular))
                     || error.is::<NoSolution>()
             }
         };

@@ -109,6 +109,9 @@ pub struct StaticsRequest {
     /// Search for all equilibria of the unstrained lengths.
     #[serde(default)]
     pub all: bool,
+    /// Interval in which friction of pulleys leaves pose and tensions.
+    #[serde(default)]
+    pub friction_interval: bool,
 }
 
 /// Request of `stiffness`.

@@ -1,9 +1,10 @@
 //! Names of signals: `fz` is a vertical force on the platform, `az` the vertical acceleration of the platform, and
-//! `cable:3@0.5:az` the vertical acceleration of the middle of cable "3".
+//! `cable:3@0.5:az` the vertical acceleration of the middle of cable "3", `length:3` the commanded length of cable "3".
 //!
 //! A name is read once, checked for the robot, and converted to a [`Signal`].
 
 use crate::values::{self, MIN_POSITIVE, NumberError};
+use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::math::Vec3;
 use funicular::response::{Quantity, Signal};
 use funicular::robot::{PlatformMotion, Robot};
@@ -40,14 +41,16 @@ pub enum SignalError {
     /// Name that is not an input.
     #[error(
         "not an input: fx, fy, fz (force), mx, my, mz (moment), f:ux,uy,uz or m:ux,uy,uz (along a direction in world \
-         axes), or a force on a cable as in cable:3@0.5:fz"
+         axes), a force on a cable as in cable:3@0.5:fz, the commanded length of a cable as in length:3, or a force of \
+         its motor or on its drum as in motor:3 or drum:3"
     )]
     NotAnInput,
     /// Name that is not an output.
     #[error(
         "not an output: x, y, z, rx, ry, rz (displacement, rotation), with v (velocity) or a (acceleration) before it \
-         as in ay, or x:ux,uy,uz, v:ux,uy,uz, a:ux,uy,uz (along a direction in world axes), or a point \
-         of a cable as in cable:3@0.5:az"
+         as in ay, or x:ux,uy,uz, v:ux,uy,uz, a:ux,uy,uz (along a direction in world axes), a point \
+         of a cable as in cable:3@0.5:az, the motion of a drum or a motor as in drum:3 or motor:3, or the tension of a \
+         cable at the platform as in tension:3"
     )]
     NotAnOutput,
     /// Cable that the robot does not have.
@@ -58,6 +61,9 @@ pub enum SignalError {
         /// Names of the robot's cables.
         names: Vec<String>,
     },
+    /// Signal of a drive where none is possible.
+    #[error("{0} is a signal of a drive: `frf` alone takes these")]
+    DriveElsewhere(String),
     /// Point of the platform for a signal on a cable.
     #[error(
         "the point of the {side} is a point of the platform, but the {side} {name} is on a cable: leave out the point"
@@ -143,6 +149,14 @@ fn axis(name: &str) -> Option<Vec3> {
     }
 }
 
+/// Signal of a drive from `length:NAME`, `drum:NAME`, `motor:NAME` or `tension:NAME`: the quantity and the cable's name;
+/// `None` for another name.
+fn of_drive(text: &str) -> Option<(DriveSignal, String)> {
+    let (kind, cable) = text.split_once(':')?;
+    let signal = DriveSignal::ALL.into_iter().find(|signal| signal.name() == kind)?;
+    Some((signal, cable.to_owned()))
+}
+
 /// Name of a cable, and a fraction of its unstrained length from the platform.
 type CablePoint = (String, f64);
 
@@ -159,7 +173,7 @@ fn on_cable(text: &str) -> Result<Option<(CablePoint, &str)>, SignalError> {
     Ok(Some(((name.to_owned(), fraction), what)))
 }
 
-/// Input signal: a force or moment on the platform, or a force on a cable.
+/// Input signal: a force or moment on the platform, a force on a cable, or a quantity of a cable's drive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
     /// Name as the user wrote it.
@@ -168,12 +182,15 @@ pub struct Input {
     pub on_cable: Option<(String, f64)>,
     /// True for a moment, false for a force.
     pub is_moment: bool,
-    /// Direction in world axes.
+    /// Direction in world axes; without meaning for a drive.
     pub direction_w: Vec3,
+    /// Quantity of a drive and its cable; `None` for other signals.
+    pub drive: Option<(DriveSignal, String)>,
 }
 
 impl Input {
-    /// Reads `fx` … `mz`, `f:ux,uy,uz`, `m:ux,uy,uz`; forces also after `cable:NAME@FRACTION:`.
+    /// Reads `fx` … `mz`, `f:ux,uy,uz`, `m:ux,uy,uz`; forces also after `cable:NAME@FRACTION:`; `length:NAME`,
+    /// `drum:NAME`, `motor:NAME`.
     ///
     /// # Errors
     /// [`SignalError`].
@@ -191,10 +208,13 @@ impl Input {
         let name = text.trim().to_owned();
         if let Some((place, what)) = on_cable(&name)? {
             let force = Self::parse(what)?;
-            if force.is_moment || force.on_cable.is_some() {
+            if force.is_moment || force.on_cable.is_some() || force.drive.is_some() {
                 return Err(SignalError::NotAForce(what.to_owned()));
             }
             return Ok(Self { name, on_cable: Some(place), ..force });
+        }
+        if let Some(drive) = of_drive(&name).filter(|(signal, _)| signal.is_input()) {
+            return Ok(Self { name, on_cable: None, is_moment: false, direction_w: Vec3::x(), drive: Some(drive) });
         }
         let (is_moment, direction_w) = if let Some(rest) = name.strip_prefix("f:") {
             (false, direction(rest)?)
@@ -207,7 +227,7 @@ impl Input {
         } else {
             return Err(SignalError::NotAnInput);
         };
-        Ok(Self { name, on_cable: None, is_moment, direction_w })
+        Ok(Self { name, on_cable: None, is_moment, direction_w, drive: None })
     }
 
     /// Signal on a robot, with the force at a point of the platform [m] (default: the origin).
@@ -215,13 +235,31 @@ impl Input {
     /// # Errors
     /// [`SignalError`] if the robot has no such input.
     pub fn signal(&self, robot: &Robot, point_p: Option<Vec3>) -> Result<Signal, SignalError> {
-        let Self { name, on_cable, is_moment: turns, direction_w } = self;
-        ResponseEnd { side: "input", name, turns: *turns, on_cable: on_cable.as_ref(), direction_w: *direction_w }
+        let Self { name, on_cable, is_moment: turns, direction_w, drive } = self;
+        let (on_cable, drive) = (on_cable.as_ref(), drive.as_ref());
+        ResponseEnd { side: "input", name, turns: *turns, on_cable, direction_w: *direction_w, drive }
             .signal(robot, point_p)
+    }
+
+    /// Unit of the signal.
+    pub fn unit(&self) -> &'static str {
+        match &self.drive {
+            Some((DriveSignal::Length, _)) => "m",
+            _ if self.is_moment => "N m",
+            _ => "N",
+        }
+    }
+
+    /// Checks that this is no signal of a drive.
+    ///
+    /// # Errors
+    /// [`SignalError::DriveElsewhere`].
+    pub fn beside_drives(&self) -> Result<(), SignalError> {
+        self.drive.as_ref().map_or(Ok(()), |_| Err(SignalError::DriveElsewhere(self.name.clone())))
     }
 }
 
-/// Output signal: a motion of the platform or of a point on a cable.
+/// Output signal: a motion of the platform or of a point on a cable, or a quantity of a cable's drive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output {
     /// Name as the user wrote it.
@@ -232,13 +270,15 @@ pub struct Output {
     pub is_rotation: bool,
     /// Displacement, velocity or acceleration.
     pub quantity: Quantity,
-    /// Direction in world axes.
+    /// Direction in world axes; without meaning for a drive.
     pub direction_w: Vec3,
+    /// Quantity of a drive and its cable; `None` for other signals.
+    pub drive: Option<(DriveSignal, String)>,
 }
 
 impl Output {
     /// Reads `x` … `rz`, with `v` or `a` before it, or `x:ux,uy,uz`, `v:…`, `a:…`; translations also after
-    /// `cable:NAME@FRACTION:`.
+    /// `cable:NAME@FRACTION:`; `drum:NAME`, `motor:NAME`, `tension:NAME`.
     ///
     /// # Errors
     /// [`SignalError`].
@@ -256,13 +296,17 @@ impl Output {
         let name = text.trim().to_owned();
         if let Some((place, what)) = on_cable(&name)? {
             let motion = Self::parse(what)?;
-            if motion.is_rotation || motion.on_cable.is_some() {
+            if motion.is_rotation || motion.on_cable.is_some() || motion.drive.is_some() {
                 return Err(SignalError::NotATranslation(what.to_owned()));
             }
             return Ok(Self { name, on_cable: Some(place), ..motion });
         }
+        if let Some(drive) = of_drive(&name).filter(|(signal, _)| signal.is_output()) {
+            let (quantity, direction_w) = (Quantity::Displacement, Vec3::x());
+            return Ok(Self { name, on_cable: None, is_rotation: false, quantity, direction_w, drive: Some(drive) });
+        }
         let (quantity, is_rotation, direction_w) = Self::motion(&name)?;
-        Ok(Self { name, on_cable: None, is_rotation, quantity, direction_w })
+        Ok(Self { name, on_cable: None, is_rotation, quantity, direction_w, drive: None })
     }
 
     fn motion(name: &str) -> Result<(Quantity, bool, Vec3), SignalError> {
@@ -290,9 +334,27 @@ impl Output {
     /// # Errors
     /// [`SignalError`] if the robot has no such output.
     pub fn signal(&self, robot: &Robot, point_p: Option<Vec3>) -> Result<Signal, SignalError> {
-        let Self { name, on_cable, is_rotation: turns, direction_w, .. } = self;
-        ResponseEnd { side: "output", name, turns: *turns, on_cable: on_cable.as_ref(), direction_w: *direction_w }
+        let Self { name, on_cable, is_rotation: turns, direction_w, drive, .. } = self;
+        let (on_cable, drive) = (on_cable.as_ref(), drive.as_ref());
+        ResponseEnd { side: "output", name, turns: *turns, on_cable, direction_w: *direction_w, drive }
             .signal(robot, point_p)
+    }
+
+    /// Unit of the signal as a displacement, or as the tension of a cable.
+    pub fn unit(&self) -> &'static str {
+        match &self.drive {
+            Some((DriveSignal::Tension, _)) => "N",
+            _ if self.is_rotation => "rad",
+            _ => "m",
+        }
+    }
+
+    /// Checks that this is no signal of a drive.
+    ///
+    /// # Errors
+    /// [`SignalError::DriveElsewhere`].
+    pub fn beside_drives(&self) -> Result<(), SignalError> {
+        self.drive.as_ref().map_or(Ok(()), |_| Err(SignalError::DriveElsewhere(self.name.clone())))
     }
 }
 
@@ -304,17 +366,21 @@ struct ResponseEnd<'a> {
     turns: bool,
     on_cable: Option<&'a CablePoint>,
     direction_w: Vec3,
+    drive: Option<&'a (DriveSignal, String)>,
 }
 
 impl ResponseEnd<'_> {
     fn signal(&self, robot: &Robot, point_p: Option<Vec3>) -> Result<Signal, SignalError> {
-        let Self { side, name, turns, on_cable, direction_w } = *self;
+        let Self { side, name, turns, on_cable, direction_w, drive } = *self;
         let name = name.to_owned();
-        if on_cable.is_some() && point_p.is_some() {
+        if (on_cable.is_some() || drive.is_some()) && point_p.is_some() {
             return Err(SignalError::PointOfCable { side, name });
         }
         if turns && point_p.is_some() {
             return Err(SignalError::PointOfRotation { side, name });
+        }
+        if let Some((signal, cable)) = drive {
+            return Ok(Signal::Drive { cable: cable_of(robot, cable)?, signal: *signal });
         }
         match robot.platform.motion {
             PlatformMotion::PointMass if turns => return Err(SignalError::PointMassTurns { side, name }),

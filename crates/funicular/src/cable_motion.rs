@@ -22,6 +22,17 @@ pub enum CableMotionError {
     /// The model describes the cable's end only.
     #[error("the {0} model describes the end of a cable only: the motion along it needs the model `catenary-dynamic`")]
     Model(CableModel),
+    /// The cable has no such signal of its drive.
+    #[error(
+        "cable \"{cable}\" has no signal `{signal}`: `length` needs a motor that holds its angle or a position control, \
+         `drum` a drum and `motor` a motor that can move, all the model `catenary-dynamic` and a cable with mass"
+    )]
+    NoDriveSignal {
+        /// Name of the cable.
+        cable: String,
+        /// Name of the signal.
+        signal: &'static str,
+    },
     /// The cable has no catenary-dynamic stiffness.
     #[error("cable \"{cable}\": {reason}")]
     CatenaryDynamic {

@@ -1,6 +1,7 @@
 //! Cable at rest between the platform and its winch: the free span, the arc on the pulley, the drum side and the winch.
 //!
-//! Friction and weight beyond the entry point are left out. In a cable without friction the sum ψ(T) + q·p, with
+//! Friction and weight beyond the entry point are left out; [`DriveAtRest::with_friction`] adds the friction of the pulley
+//! to a cable that was found without it. In a cable without friction the sum ψ(T) + q·p, with
 //! ψ(T) = T + T²/2EA, is constant from the platform to the entry point; between entry point and drum the tension is that
 //! at the entry point. The unknowns are the place of the cable on the pulley (wrap and swivel angle) and the unstrained
 //! length of the free span. The conditions are that the cable leaves the wheel along its tangent, that the swivel is
@@ -13,9 +14,11 @@ mod anchor_end;
 mod arc;
 mod balance;
 mod chain;
+mod friction;
 
 pub use anchor_end::AnchorEnd;
 pub use chain::{DriveChain, Motor, Place};
+pub use friction::DriveFriction;
 
 use crate::catenary::Rope;
 use crate::catenary::space::HangingCable;

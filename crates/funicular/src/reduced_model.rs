@@ -125,6 +125,9 @@ pub enum ReductionError {
         /// Name of the cable.
         cable: String,
     },
+    /// A signal belongs to a drive.
+    #[error("the reduced model has no signals of drives: use `frf` for them")]
+    DriveSignal,
     /// The motion of a point on a cable is not known.
     #[error(transparent)]
     CableMotion(#[from] CableMotionError),
@@ -175,6 +178,11 @@ pub enum ReductionError {
     },
 }
 
+/// Checks that no signal is one of a drive.
+fn check_signals<'a>(mut signals: impl Iterator<Item = &'a Signal>) -> Result<(), ReductionError> {
+    if signals.any(|signal| matches!(signal, Signal::Drive { .. })) { Err(ReductionError::DriveSignal) } else { Ok(()) }
+}
+
 /// Checks that all cables are catenary-dynamic and end at fixed points or at springs.
 fn check_cables(robot: &Robot, dynamics: &Dynamics) -> Result<(), ReductionError> {
     for term in dynamics.terms() {
@@ -218,6 +226,7 @@ pub fn reduce(
     requested: RequestedModel,
 ) -> Result<SecondOrder, ReductionError> {
     check_cables(robot, dynamics)?;
+    check_signals(inputs.iter().chain(outputs.iter().map(|(signal, _)| signal)))?;
 
     // The response of a cable to a force on itself has a kink, which the kept modes cannot represent.
     let loaded = inputs.iter().any(|signal| matches!(signal, Signal::OnCable { .. }));
@@ -314,6 +323,7 @@ impl Channels {
             Port::Platform(vector) => {
                 row[..layout.dof].copy_from_slice(&coordinates(vector).as_slice()[..layout.dof]);
             }
+            Port::Drive { .. } => unreachable!("signals of drives are refused"),
             Port::Cable { stations, station, direction_w } => {
                 let (platform, term, amplitudes) = stations.row(dynamics, *station, direction_w);
                 row[..layout.dof].copy_from_slice(&coordinates(&platform).as_slice()[..layout.dof]);

@@ -12,6 +12,8 @@ mod signals;
 pub use peaks::{Peak, peaks};
 pub use signals::{Port, Signal, about, along};
 
+use crate::cable::DynamicCable;
+use crate::cable::catenary_dynamic::DriveSignal;
 use crate::cable_motion::CableStations;
 use crate::dynamics::Dynamics;
 use crate::math::{CMat6, CVec6, Complex, Vec3, Vec6};
@@ -49,6 +51,9 @@ pub enum ResponseError {
          points among the same loaded stations"
     )]
     SameCable,
+    /// Input and output are the drive of a cable and a point on the same cable.
+    #[error("the drive of a cable and a point on the same cable do not go together as input and output")]
+    DriveAndCable,
 }
 
 /// Response of one output to one input at each frequency [Hz]: displacement per force [m/N], rotation per moment
@@ -119,7 +124,8 @@ pub fn matrix(
         return of_platform.into_iter().zip(pairs()).map(finished).collect();
     }
 
-    let own = pairs().map(|(input, output, _)| OwnResponse::of(input, output)).collect::<Result<Vec<_>, _>>()?;
+    let own =
+        pairs().map(|(input, output, _)| OwnResponse::of(dynamics, input, output)).collect::<Result<Vec<_>, _>>()?;
     let all = kernel::all_entries(dynamics, frequencies_hz);
     let mut rows = vec![Vec::with_capacity(frequencies_hz.len()); inputs.len() * outputs.len()];
     for (receptance, frequency_hz) in all.iter().zip(frequencies_hz) {
@@ -146,16 +152,28 @@ pub fn matrix(
 }
 
 /// Motion of a cable under a force on itself, which adds to the motion through the platform.
-struct OwnResponse<'a> {
-    stations: &'a CableStations,
-    to: (usize, &'a Vec3),
-    from: (usize, &'a Vec3),
+enum OwnResponse<'a> {
+    /// Between points of the cable.
+    Points { stations: &'a CableStations, to: (usize, &'a Vec3), from: (usize, &'a Vec3) },
+    /// Between signals of its drive; the cable's index among those whose stiffness depends on frequency.
+    Drive { term: usize, to: DriveSignal, from: DriveSignal },
 }
 
 impl<'a> OwnResponse<'a> {
     /// Own response of a pair of ports; `None` if they are not on the same cable.
-    fn of(input: &'a Port, output: &'a Port) -> Result<Option<Self>, ResponseError> {
+    fn of(dynamics: &Dynamics, input: &'a Port, output: &'a Port) -> Result<Option<Self>, ResponseError> {
         match (input, output) {
+            (Port::Drive { term, signal: from, .. }, Port::Drive { term: of_output, signal: to, .. })
+                if term == of_output =>
+            {
+                Ok(Some(Self::Drive { term: *term, to: *to, from: *from }))
+            }
+            (Port::Drive { term, .. }, Port::Cable { stations, .. })
+            | (Port::Cable { stations, .. }, Port::Drive { term, .. })
+                if dynamics.terms()[*term].cable() == stations.cable =>
+            {
+                Err(ResponseError::DriveAndCable)
+            }
             (
                 Port::Cable { stations, station: loaded, direction_w: force_w },
                 Port::Cable { stations: of_output, station, direction_w },
@@ -163,14 +181,22 @@ impl<'a> OwnResponse<'a> {
                 if !(Arc::ptr_eq(stations, of_output) && stations.has_own_receptance()) {
                     return Err(ResponseError::SameCable);
                 }
-                Ok(Some(Self { stations, to: (*station, direction_w), from: (*loaded, force_w) }))
+                Ok(Some(Self::Points { stations, to: (*station, direction_w), from: (*loaded, force_w) }))
             }
             _ => Ok(None),
         }
     }
 
     fn at(&self, dynamics: &Dynamics, omega: f64) -> Complex {
-        self.stations.own_receptance(dynamics, self.to, self.from, omega)
+        match self {
+            Self::Points { stations, to, from } => stations.own_receptance(dynamics, *to, *from, omega),
+            Self::Drive { term, to, from } => {
+                let DynamicCable::CatenaryDynamic(form) = dynamics.terms()[*term].form() else {
+                    unreachable!("ports of drives are on catenary-dynamic cables")
+                };
+                form.signal_response(*from, *to, omega).unwrap_or_default()
+            }
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod anchor;
 mod change;
+mod friction;
 mod motion;
 pub mod parameters;
 mod pulley;
@@ -15,6 +16,7 @@ mod wind;
 
 pub use anchor::Anchor;
 pub use change::{CableChange, RobotChange};
+pub use friction::PulleyFriction;
 pub use motion::{OutOfPlane, Plane, PlatformMotion};
 pub use pulley::{Pulley, PulleyContact};
 pub use winch::{Control, DrumSide, Servo, Winch, WinchMode};

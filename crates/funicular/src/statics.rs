@@ -13,6 +13,7 @@
 //! | nearest pose that fewer cables can hold (under-constrained) | [`nearest_equilibrium`] |
 //! | stiffness of an equilibrium | [`tangent_stiffness`], in wind [`tangent_with_drag`] |
 //! | derivatives of an equilibrium with respect to a number of the robot | [`derivatives`] |
+//! | pose and tensions between which friction of pulleys leaves the robot | [`friction_interval`] |
 //! | wrench at any pose, energy, nearness to a singular pose | [`wrench`], [`energy`], [`tension_gain`] |
 //!
 //! Every solution contains an [`Equilibrium`]; every refusal is a [`StaticsError`].
@@ -44,6 +45,7 @@ mod tension; // pose to lengths, more cables than degrees of freedom
 // Properties of an equilibrium.
 pub mod derivatives; // with respect to a number of the robot
 mod drag; // stiffness added by the turn of the wind's drag
+mod friction; // interval in which friction of pulleys leaves the equilibrium
 mod stiffness; // tangent stiffness and stability
 mod tension_gain; // nearness to a singular pose
 
@@ -53,6 +55,10 @@ pub use equilibria::{Candidate, Candidates, all_equilibria, another_stable_equil
 pub use equilibrium::{CableState, Equilibrium, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT, Stability};
 pub use error::StaticsError;
 pub use forward::forward;
+pub use friction::{
+    CableFriction, FrictionError, FrictionInterval, Held, Interval, MotionInterval, friction_exponents,
+    friction_interval,
+};
 pub use limits::{Limit, LimitViolation, TensionMargin, TensionRange};
 pub use model::StaticModel;
 pub use nearest_pose::{NearestEquilibrium, nearest_equilibrium, pose_distance};

@@ -103,7 +103,13 @@ impl RangeArgs {
 
 impl StaticsArgs {
     pub(crate) fn request(&self, robot: RobotText) -> request::StaticsRequest {
-        request::StaticsRequest { robot, state: self.state.request(), tensions: self.tensions.request(), all: self.all }
+        request::StaticsRequest {
+            robot,
+            state: self.state.request(),
+            tensions: self.tensions.request(),
+            all: self.all,
+            friction_interval: self.friction_interval,
+        }
     }
 }
 

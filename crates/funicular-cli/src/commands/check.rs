@@ -3,7 +3,7 @@
 use crate::output::Printed;
 use crate::table::{self, Table, decimals, decimals_or_none, short, vector};
 use funicular::robot::PlatformMotion;
-use funicular_study::analyses::check::{Checked, CheckedLimits, CheckedRope, CheckedWinch};
+use funicular_study::analyses::check::{Checked, CheckedCable, CheckedLimits, CheckedRope, CheckedWinch};
 use std::cmp::Ordering;
 use std::fmt::Write;
 
@@ -114,13 +114,16 @@ fn drive_table(found: &Checked) -> String {
     if found.cables.iter().all(|cable| cable.pulley.is_none() && cable.winch.is_none()) {
         return String::new();
     }
-    let header = ["cable", "pulley", "radius [m]", "entry direction", "winch", "to drum [m]", "stiffness [N/m]"];
-    let mut rows = Table::new(&header).text_columns(&[1, 4]);
+    let friction = |cable: &CheckedCable| cable.pulley.as_ref().and_then(|pulley| pulley.friction.text());
+    let has_friction = found.cables.iter().any(|cable| friction(cable).is_some());
+    let header =
+        ["cable", "pulley", "radius [m]", "entry direction", "winch", "to drum [m]", "stiffness [N/m]", "friction"];
+    let mut rows = Table::new(&header[..if has_friction { 8 } else { 7 }]).text_columns(&[1, 4]);
     for cable in &found.cables {
         let (pulley, winch) = (cable.pulley.as_ref(), cable.winch.as_ref());
         let none = || table::NONE.to_owned();
         let stiffness = |winch: &CheckedWinch| winch.stiffness_n_per_m.map_or("rigid".to_owned(), |k| short(k, 6));
-        rows.row(vec![
+        let mut row = vec![
             cable.name.clone(),
             pulley.map_or_else(none, |pulley| pulley.name.clone()),
             pulley.map_or_else(none, |pulley| short(pulley.radius_m, 6)),
@@ -128,7 +131,11 @@ fn drive_table(found: &Checked) -> String {
             winch.map_or_else(none, |winch| winch.name.clone()),
             winch.map_or_else(none, |winch| short(winch.drum_side_length_m, 6)),
             winch.map_or_else(none, stiffness),
-        ]);
+        ];
+        if has_friction {
+            row.push(friction(cable).unwrap_or_else(none));
+        }
+        rows.row(row);
     }
     format!("\n{rows}{}", length_table(found))
 }

@@ -51,7 +51,7 @@ impl Printed for Frf {
 /// Signals of a response and their places.
 fn heading(pair: &PairRow) -> String {
     let (output_place, input_place) = (place_text(&pair.output_place), place_text(&pair.input_place));
-    format!("response of {} at {output_place} to {} at {input_place}", pair.output, pair.input)
+    format!("response of {}{output_place} to {}{input_place}", pair.output, pair.input)
 }
 
 /// Sentence on the largest magnitude of a response.
@@ -86,7 +86,8 @@ fn peaks(pair: &PairRow, prominence_db: f64) -> String {
     format!("{table}{} of at least {prominence_db} dB.{undamped}", counted(pair.peaks.len(), "peak"))
 }
 
-/// Text for the place of the input or output of a response.
+/// Text for the place of the input or output of a response; empty for a signal of a drive.
 fn place_text(place: &PlaceRow) -> String {
-    format!("({}) m{}", vector(&place.point_m, 3), if place.on_cable { " of the world" } else { "" })
+    let world = if place.on_cable { " of the world" } else { "" };
+    place.point_m.map_or_else(String::new, |point| format!(" at ({}) m{world}", vector(&point, 3)))
 }

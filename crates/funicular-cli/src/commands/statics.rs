@@ -2,7 +2,9 @@
 
 use crate::output::Printed;
 use crate::table::{self, Table, decimals, decimals_or_none, short, significant, vector};
-use funicular_study::analyses::statics::{DriveRow, EquilibriumRow, LimitNumbers, OtherStable, Statics};
+use funicular_study::analyses::statics::{
+    DriveRow, EquilibriumRow, FrictionCableRow, FrictionRow, LimitNumbers, OtherStable, Statics,
+};
 
 impl Printed for Statics {
     fn text(&self) -> String {
@@ -37,6 +39,7 @@ impl Printed for Statics {
         }
 
         let drives = drives_table(self);
+        let friction = self.friction_interval.as_ref().map_or_else(String::new, friction_text);
         let stability = match (self.stable, self.stiffness_min_n_per_m) {
             (Some(true), Some(min)) => format!("Stable, min stiffness {} N/m", significant(min, 4)),
             (Some(false), Some(0.0)) => "INDIFFERENT: the platform is free to move in some direction".to_owned(),
@@ -72,7 +75,7 @@ impl Printed for Statics {
 
         format!(
             "{}: equilibrium with {} cables, {} kg{load}{wind}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n{nearest}{held}\n\
-             {cables}\n{drives}{stability}. {balance} after {}.\n{others}",
+             {cables}\n{drives}{stability}. {balance} after {}.\n{others}{friction}",
             self.robot,
             self.static_model,
             short(self.mass_kg, 6),
@@ -105,8 +108,10 @@ impl Printed for Statics {
         ];
         let drives = self.cables.iter().any(|cable| cable.drive.is_some());
         header.extend(DRIVE_COLUMNS.iter().filter(|_| drives));
+        let friction = self.friction_interval.as_ref();
+        header.extend(FRICTION_COLUMNS.iter().filter(|_| friction.is_some()));
         out.write_record(header)?;
-        for c in &self.cables {
+        for (i, c) in self.cables.iter().enumerate() {
             let limits = c.limits.as_ref();
             out.serialize((
                 &c.name,
@@ -123,6 +128,7 @@ impl Printed for Statics {
                 limits.map(|l| l.tension_margin_n),
                 limits.and_then(|l| l.limit_reached),
                 if drives { drive_values(c.drive.as_ref()).to_vec() } else { Vec::new() },
+                friction.map_or_else(Vec::new, |found| friction_values(&found.cables[i]).to_vec()),
             ))?;
         }
         Ok(())
@@ -173,6 +179,63 @@ fn drive_values(drive: Option<&DriveRow>) -> [Option<f64>; DRIVE_COLUMNS.len()] 
     let lengths = [drive.free_length_m, drive.arc_length_m, drive.drum_side_length_m, drive.winch_yield_m];
     let [free, arc, drum_side, yielded] = lengths.map(Some);
     [x, y, z, drive.wrap_deg, Some(drive.tension_drum_n), free, arc, drum_side, yielded]
+}
+
+/// Interval of friction: motion of the platform and tensions.
+fn friction_text(found: &FrictionRow) -> String {
+    let pair = |[min, max]: [f64; 2], digits: usize| format!("{} to {}", decimals(min, digits), decimals(max, digits));
+    let held = match &found.motion {
+        Some(motion) => {
+            let mm = motion.translation_m.map(|range| pair(range.map(|metres| 1e3 * metres), 3)).join(", ");
+            let degrees = motion.rotation_deg.map(|range| pair(range, 4)).join(", ");
+            format!(
+                "Friction of pulleys with the lengths held, minimum to maximum about this equilibrium:\n\n  \
+                 translation x, y, z    {mm} mm\n  rotation about x, y, z {degrees}°\n"
+            )
+        }
+        None => "Friction of pulleys with the pose held, minimum to maximum:\n".to_owned(),
+    };
+
+    // With the pose held the tensions of the free span do not vary.
+    let header = ["cable", "exponent", "beyond exit [mm]", "T drum [N]", "T platform [N]", "T anchor [N]"];
+    let columns = if found.motion.is_some() { 6 } else { 4 };
+    let mut rows = Table::new(&header[..columns]);
+    for cable in &found.cables {
+        let mut row = vec![
+            cable.name.clone(),
+            decimals(cable.friction_exponent, 4),
+            pair(cable.excess_length_m.map(|metres| 1e3 * metres), 3),
+            pair(cable.tension_drum_n, 3),
+            pair(cable.tension_platform_n, 3),
+            pair(cable.tension_anchor_n, 3),
+        ];
+        row.truncate(columns);
+        rows.row(row);
+    }
+    format!("\n{held}\n{rows}")
+}
+
+/// Columns of the friction interval in CSV.
+const FRICTION_COLUMNS: [&str; 9] = [
+    "friction_exponent",
+    "excess_length_min_m",
+    "excess_length_max_m",
+    "tension_platform_min_n",
+    "tension_platform_max_n",
+    "tension_anchor_min_n",
+    "tension_anchor_max_n",
+    "tension_drum_min_n",
+    "tension_drum_max_n",
+];
+
+/// Values of [`FRICTION_COLUMNS`].
+fn friction_values(cable: &FrictionCableRow) -> [f64; FRICTION_COLUMNS.len()] {
+    let [excess, platform, anchor, drum] =
+        [cable.excess_length_m, cable.tension_platform_n, cable.tension_anchor_n, cable.tension_drum_n];
+    let pairs = [excess, platform, anchor, drum];
+    let mut values = [cable.friction_exponent; FRICTION_COLUMNS.len()];
+    values[1..].copy_from_slice(pairs.as_flattened());
+    values
 }
 
 fn equilibria_csv(equilibria: &[EquilibriumRow], out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {

@@ -44,6 +44,7 @@ fn the_documents_show_what_the_program_prints() {
     assert!(blocks_are_printed("docs/how-to-choose.md") >= 2);
     assert!(blocks_are_printed("docs/sweeps.md") >= 1);
     assert!(blocks_are_printed("docs/control.md") >= 1);
+    assert!(blocks_are_printed("docs/pulleys.md") >= 1);
 }
 
 /// The test has a name of its own, so that it runs beside the one above.

@@ -181,6 +181,56 @@ fn a_load_is_the_files_or_the_options() {
     assert!(refused.status.code() == Some(2) && stderr(&refused).contains("give --force-n"));
 }
 
+#[test]
+fn friction_of_pulleys_leaves_an_interval() {
+    let robot = super::project("docs/pulleys/winches.toml");
+    let run = |arguments: &[&str]| super::run(&[&["statics", robot.as_str()], arguments].concat());
+
+    // Without the option the equilibrium is that without friction, with a warning of its size.
+    let left_out = run(&[]);
+    let smooth = run(&["--set", "pulleys.wheel.efficiency=1"]);
+    assert_eq!(stdout(&left_out), stdout(&smooth));
+    let warning =
+        "leaves out the friction of pulleys, which changes the tension at the drum of cable \"1\" by up to 2 %";
+    assert!(stderr(&left_out).contains(warning), "{}", stderr(&left_out));
+    assert!(stderr(&left_out).contains("--friction-interval gives"), "{}", stderr(&left_out));
+    assert_eq!(stderr(&smooth), "");
+    let modes = super::run(&["modes", &robot, "--below-hz", "1"]);
+    assert_eq!((modes.status.code(), stderr(&modes)), (Some(0), ""));
+    let checked = succeed(&["check", &robot]);
+    assert!(checked.contains("η = 0.98"), "{checked}");
+
+    // Lengths held.
+    let found = run(&["--friction-interval"]);
+    assert_eq!((found.status.code(), stderr(&found)), (Some(0), ""));
+    assert!(stdout(&found).starts_with(stdout(&left_out).trim_end()), "{}", stdout(&found));
+    assert!(stdout(&found).contains("translation x, y, z") && stdout(&found).contains("beyond exit [mm]"));
+    let printed = run(&["--friction-interval", "--format", "json"]);
+    let json: Value = serde_json::from_str(stdout(&printed)).unwrap();
+    let interval = &json["friction_interval"];
+    assert_eq!(interval["held"], "lengths");
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    for pair in interval["translation_m"].as_array().unwrap() {
+        assert!(number(&pair[0]) < 0.0 && number(&pair[1]) > 0.0, "{pair}");
+    }
+    let csv = run(&["--friction-interval", "--format", "csv"]);
+    let header = stdout(&csv).lines().next().unwrap();
+    assert!(header.ends_with("tension_anchor_max_n,tension_drum_min_n,tension_drum_max_n"), "{header}");
+    assert!(stdout(&csv).lines().all(|line| line.split(',').count() == header.split(',').count()));
+
+    // Pose held, and lengths of a pose held.
+    let pose = ["--pose", "0.02,0.01,0.45,0.4,3.1,-0.2", "--friction-interval"];
+    let held = run(&pose);
+    assert!(stdout(&held).contains("with the pose held") && !stdout(&held).contains("translation x"));
+    let held = run(&[&pose[..], &["--hold-lengths-of-pose", "--mass-kg", "12"]].concat());
+    assert!(stdout(&held).contains("with the lengths held"), "{}{}", stdout(&held), stderr(&held));
+
+    // A robot without friction.
+    let refused = super::run(&["statics", "ROBOT", "--friction-interval"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("no cable runs over a pulley with friction: give [pulleys.NAME]"));
+}
+
 /// Pulleys and winches in every command that takes a robot.
 #[test]
 fn commands_follow_cables_over_pulleys() {

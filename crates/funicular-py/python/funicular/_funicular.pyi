@@ -138,6 +138,27 @@ class Analyses:
         ResponseWarning
             At least ten frequencies ascend, and peaks between them are read more than 5 % too low.
         """
+    def friction_interval(self, /) -> dict[str, Any]:
+        """
+        Computes the interval in which friction of pulleys leaves pose and tensions.
+
+        Every cable may have run last towards the platform or towards its drum. If the lengths are given or held, pose and
+        tensions vary; if the pose is given, the tensions at the drums and the lengths vary.
+
+        Returns
+        -------
+        The keys of the program's JSON. `friction_interval` has `held`, which is `lengths` or `pose`; with lengths held
+        `translation_m` (3, 2) and `rotation_deg` (3, 2), the rotation vector, both in world axes; and `cables`, each with
+        `friction_exponent`, `excess_length_m`, `tension_platform_n`, `tension_anchor_n` and `tension_drum_n`. Pairs are
+        minimum and maximum. Theory (71) to (74).
+
+        Raises
+        ------
+        InputError
+            No cable runs over a pulley with friction.
+        NoSolutionError
+            The equilibrium is indifferent.
+        """
     def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True, rigid_cables: bool = False) -> Modes:
         """
         Computes all natural frequencies below a limit, and checks by an independent count that none is missing.

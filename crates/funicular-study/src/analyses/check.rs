@@ -3,7 +3,9 @@
 use super::found;
 use crate::text::{short, vector};
 use funicular::math::rotation;
-use funicular::robot::{Cable, Damping, Load, PlatformMotion, Pulley, Robot, State, TensionLimits, Winch, Wind};
+use funicular::robot::{
+    Cable, Damping, Load, PlatformMotion, Pulley, PulleyFriction, Robot, State, TensionLimits, Winch, Wind,
+};
 use funicular::statics::{self, CableState, StaticModel};
 use funicular::warnings::plausibility;
 use serde::Serialize;
@@ -183,6 +185,48 @@ pub struct CheckedPulley {
     pub radius_m: f64,
     /// Direction of travel at the anchor towards the platform, unit vector.
     pub entry_direction: [f64; 3],
+    /// Friction; empty without friction.
+    #[serde(flatten)]
+    pub friction: CheckedFriction,
+}
+
+/// Friction of a pulley, of one kind at most.
+#[derive(Serialize, Default)]
+pub struct CheckedFriction {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction_coefficient: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub efficiency: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bearing_friction_coefficient: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bearing_radius_m: Option<f64>,
+}
+
+impl CheckedFriction {
+    fn of(friction: Option<PulleyFriction>) -> Self {
+        let none = Self::default();
+        match friction {
+            None => none,
+            Some(PulleyFriction::Sliding { coefficient }) => Self { friction_coefficient: Some(coefficient), ..none },
+            Some(PulleyFriction::Efficiency(efficiency)) => Self { efficiency: Some(efficiency), ..none },
+            Some(PulleyFriction::Bearing { coefficient, radius }) => {
+                Self { bearing_friction_coefficient: Some(coefficient), bearing_radius_m: Some(radius), ..none }
+            }
+        }
+    }
+
+    /// Description in one phrase; `None` without friction.
+    pub fn text(&self) -> Option<String> {
+        if let Some(coefficient) = self.friction_coefficient {
+            return Some(format!("μ = {}", short(coefficient, 4)));
+        }
+        if let Some(efficiency) = self.efficiency {
+            return Some(format!("η = {}", short(efficiency, 4)));
+        }
+        let (coefficient, radius) = (self.bearing_friction_coefficient?, self.bearing_radius_m?);
+        Some(format!("bearing {} at {} m", short(coefficient, 4), short(radius, 4)))
+    }
 }
 
 /// Winch of a cable.
@@ -197,8 +241,13 @@ pub struct CheckedWinch {
 
 impl CheckedPulley {
     fn of(pulley: &Pulley) -> Self {
-        let Pulley { name, radius, entry_direction_w, .. } = pulley;
-        Self { name: name.clone(), radius_m: *radius, entry_direction: (*entry_direction_w).into() }
+        let Pulley { name, radius, entry_direction_w, friction, .. } = pulley;
+        Self {
+            name: name.clone(),
+            radius_m: *radius,
+            entry_direction: (*entry_direction_w).into(),
+            friction: CheckedFriction::of(*friction),
+        }
     }
 }
 

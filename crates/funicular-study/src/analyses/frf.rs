@@ -426,20 +426,24 @@ impl Response {
 pub struct PlaceRow {
     /// True if the point is on a cable. It is then in world axes, at equilibrium, and not in the platform frame.
     pub on_cable: bool,
-    pub point_m: [f64; 3],
+    /// `None` for a signal of a drive, which has no point.
+    pub point_m: Option<[f64; 3]>,
 }
 
 impl PlaceRow {
     fn of(port: &Port, point: Option<[f64; 3]>) -> Self {
-        match port.cable_point_w() {
-            None => Self { on_cable: false, point_m: point.unwrap_or_default() },
-            Some(point_w) => Self { on_cable: true, point_m: point_w.into() },
+        match (port, port.cable_point_w()) {
+            (Port::Drive { .. }, _) => Self { on_cable: true, point_m: None },
+            (_, None) => Self { on_cable: false, point_m: Some(point.unwrap_or_default()) },
+            (_, Some(point_w)) => Self { on_cable: true, point_m: Some(point_w.into()) },
         }
     }
 
     fn serialize<S: Serializer>(&self, keys: [&'static str; 2], to: S) -> Result<S::Ok, S::Error> {
-        let mut map = to.serialize_map(Some(1))?;
-        map.serialize_entry(keys[usize::from(self.on_cable)], &self.point_m)?;
+        let mut map = to.serialize_map(None)?;
+        if let Some(point) = &self.point_m {
+            map.serialize_entry(keys[usize::from(self.on_cable)], point)?;
+        }
         map.end()
     }
 }
@@ -454,13 +458,13 @@ fn output_place<S: Serializer>(place: &PlaceRow, to: S) -> Result<S::Ok, S::Erro
 
 /// Unit of a response: motion divided by force or moment.
 pub fn unit(input: &Input, output: &Output) -> String {
-    let motion = if output.is_rotation { "rad" } else { "m" };
+    let motion = output.unit();
     let by_time = match output.quantity {
         Quantity::Displacement => "",
         Quantity::Velocity => "/s",
         Quantity::Acceleration => "/s²",
     };
-    let effort = if input.is_moment { "(N·m)" } else { "N" };
+    let effort = if input.is_moment { "(N·m)" } else { input.unit() };
     if by_time.is_empty() { format!("{motion}/{effort}") } else { format!("({motion}{by_time})/{effort}") }
 }
 

@@ -257,7 +257,7 @@ fn outputs(robot: &Robot, request: &request::ReduceRequest) -> Result<Vec<(Outpu
 }
 
 fn input_rows(inputs: &[(Input, Signal)]) -> Vec<ChannelRow> {
-    let unit = |input: &Input| if input.is_moment { "N m" } else { "N" };
+    let unit = Input::unit;
     inputs.iter().map(|(input, _)| ChannelRow { name: input.name.clone(), unit: unit(input) }).collect()
 }
 

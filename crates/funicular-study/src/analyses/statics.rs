@@ -5,11 +5,15 @@ use super::found;
 use super::shared::{PoseDifferenceRow, SagNumbers};
 use crate::at_rest::{self, AtRest};
 use crate::request;
+use crate::text::short;
 use anyhow::Result;
 use funicular::cable::Sag;
 use funicular::pose_error::PoseDifference;
-use funicular::robot::{Pose, Robot, TensionLimits};
-use funicular::statics::{self, CableState, Candidate, Equilibrium, Limit, TensionMargin, TensionRange};
+use funicular::robot::{Pose, Robot, State, TensionLimits};
+use funicular::statics::{
+    self, CableFriction, CableState, Candidate, Equilibrium, FrictionInterval, Held, Interval, Limit, MotionInterval,
+    TensionMargin, TensionRange,
+};
 use serde::Serialize;
 
 pub use super::shared::PoseRow;
@@ -55,6 +59,9 @@ pub struct Statics {
     pub equilibria: Option<Vec<EquilibriumRow>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub search: Option<Search>,
+    /// Interval in which friction of pulleys leaves the robot; absent unless requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction_interval: Option<FrictionRow>,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
@@ -129,6 +136,78 @@ impl HeldRow {
     fn of(held: &Pose, reached: &Pose) -> Self {
         Self { pose: PoseRow::of(held), motion: PoseDifference::between(held, reached).into() }
     }
+}
+
+/// Interval in which friction of pulleys leaves the robot. Every pair is minimum and maximum.
+#[derive(Serialize)]
+pub struct FrictionRow {
+    /// Quantity that is held: `lengths` or `pose`.
+    pub held: &'static str,
+    /// Motion of the platform; absent with the pose held.
+    #[serde(flatten)]
+    pub motion: Option<FrictionMotionRow>,
+    pub cables: Vec<FrictionCableRow>,
+}
+
+/// Motion of the platform due to friction, along and about the world axes.
+#[derive(Serialize)]
+pub struct FrictionMotionRow {
+    pub translation_m: [[f64; 2]; 3],
+    /// Components of the rotation vector.
+    pub rotation_deg: [[f64; 2]; 3],
+}
+
+/// Tensions of a cable that friction permits.
+#[derive(Serialize)]
+pub struct FrictionCableRow {
+    pub name: String,
+    /// Friction exponent of the cable's pulley; zero without friction.
+    pub friction_exponent: f64,
+    /// Change of the unstrained length beyond the exit point.
+    pub excess_length_m: [f64; 2],
+    pub tension_platform_n: [f64; 2],
+    pub tension_anchor_n: [f64; 2],
+    pub tension_drum_n: [f64; 2],
+}
+
+impl FrictionRow {
+    /// Interval about the equilibrium, with the quantity held that the request gives.
+    ///
+    /// # Errors
+    /// [`funicular::statics::FrictionError`].
+    pub(crate) fn of(at_rest: &AtRest) -> Result<Self> {
+        let AtRest { robot, equilibrium, held_pose, .. } = at_rest;
+        let lengths_held = held_pose.is_some() || matches!(robot.state, State::Lengths(_));
+        let (held, name) = if lengths_held { (Held::Lengths, "lengths") } else { (Held::Pose, "pose") };
+        let FrictionInterval { motion, cables } = statics::friction_interval(robot, equilibrium, held)?;
+        let cables = robot.cables.iter().zip(&cables).map(|(cable, found)| FrictionCableRow::of(&cable.name, found));
+        Ok(Self { held: name, motion: motion.as_ref().map(FrictionMotionRow::of), cables: cables.collect() })
+    }
+}
+
+impl FrictionMotionRow {
+    fn of(motion: &MotionInterval) -> Self {
+        let degrees = |angle: Interval| [angle.min.to_degrees(), angle.max.to_degrees()];
+        Self { translation_m: motion.translation_w.map(pair), rotation_deg: motion.rotation_w.map(degrees) }
+    }
+}
+
+impl FrictionCableRow {
+    fn of(name: &str, found: &CableFriction) -> Self {
+        Self {
+            name: name.to_owned(),
+            friction_exponent: found.exponent,
+            excess_length_m: pair(found.excess_length),
+            tension_platform_n: pair(found.tension_platform),
+            tension_anchor_n: pair(found.tension_anchor),
+            tension_drum_n: pair(found.tension_drum),
+        }
+    }
+}
+
+/// Minimum and maximum.
+fn pair(interval: Interval) -> [f64; 2] {
+    [interval.min, interval.max]
 }
 
 /// Cable at the equilibrium.
@@ -221,7 +300,17 @@ impl LimitNumbers {
 /// # Errors
 /// A request that contradicts itself or the robot, or a robot without such an equilibrium.
 pub fn run(robot: Robot, request: &request::StaticsRequest) -> Result<Statics> {
-    about(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request.all)
+    let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
+    about(&at_rest, Extras { all: request.all, friction_interval: request.friction_interval })
+}
+
+/// Results of `statics` beyond the equilibrium.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Extras {
+    /// All equilibria of the unstrained lengths.
+    pub all: bool,
+    /// Interval in which friction of pulleys leaves pose and tensions.
+    pub friction_interval: bool,
 }
 
 /// Rows of the cables of a robot at equilibrium, one per cable.
@@ -246,17 +335,22 @@ pub fn cable_rows(at_rest: &AtRest) -> Vec<CableRow> {
         .collect()
 }
 
-/// Results for a robot at equilibrium; `all` searches for all equilibria of its lengths.
+/// Results for a robot at equilibrium, with the requested extras.
 ///
 /// # Errors
-/// A search that is not possible for the robot, for example with ideal cables.
-pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
+/// A search that is not possible for the robot, for example with ideal cables; a friction interval of a robot without
+/// friction or at an indifferent equilibrium.
+pub fn about(at_rest: &AtRest, extras: Extras) -> Result<Statics> {
     let AtRest { robot, equilibrium, rule, .. } = at_rest;
     let cables = cable_rows(at_rest);
     let (mut equilibria, mut search, mut another_stable_equilibrium) = (None, None, None);
     let mut warnings = at_rest.warnings(None);
+    let friction_interval = extras.friction_interval.then(|| FrictionRow::of(at_rest)).transpose()?;
+    if friction_interval.is_none() {
+        warnings.extend(friction_left_out(robot, equilibrium));
+    }
 
-    if all {
+    if extras.all {
         let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
         let found = statics::all_equilibria(robot, &lengths, equilibrium.model, Some(&equilibrium.pose))?;
         if let (true, Some(expected)) = (found.lacks_some(), found.expected_index_sum) {
@@ -293,6 +387,22 @@ pub fn about(at_rest: &AtRest, all: bool) -> Result<Statics> {
         another_stable_equilibrium,
         equilibria,
         search,
+        friction_interval,
+    })
+}
+
+/// Warning that the equilibrium leaves out the friction of the robot's pulleys, with its size.
+fn friction_left_out(robot: &Robot, equilibrium: &Equilibrium) -> Option<String> {
+    // The first of equal ones.
+    let exponents = statics::friction_exponents(robot, equilibrium).into_iter().enumerate().rev();
+    let (i, exponent) = exponents.max_by(|(_, one), (_, other)| one.total_cmp(other))?;
+    (exponent > 0.0).then(|| {
+        format!(
+            "the equilibrium leaves out the friction of pulleys, which changes the tension at the drum of cable \"{}\" \
+             by up to {} %: ⟪friction_interval⟫ gives the interval of pose and tensions",
+            robot.cables[i].name,
+            short(100.0 * exponent.exp_m1(), 2)
+        )
     })
 }
 

@@ -26,6 +26,7 @@ pub const KEYS: &[(&str, &str)] = &[
     ("min_tension_n", "minimum tension anywhere in a cable [N]"),
     ("max_tension_n", "maximum tension anywhere in a cable [N]"),
     ("all", "search for all equilibria of the unstrained lengths, including unstable ones"),
+    ("friction_interval", "compute the interval in which friction of pulleys leaves pose and tensions"),
     ("cable_model", "cable model: how cables respond to motion of the platform"),
     ("assembly", "terms of the stiffness"),
     ("in_plane_only", "leave out the out-of-plane stiffness of the cables"),

@@ -1,12 +1,14 @@
 //! Cables over pulleys and on winches.
 
-use super::reference::{CableToWinch, Drives, RobotWithWinches, SaggingOverPulley, StraightOverPulley};
+use super::reference::{
+    CableToWinch, Drives, FrictionCorner, FrictionHalfWidths, RobotWithWinches, SaggingOverPulley, StraightOverPulley,
+};
 use super::{Bound, Case, Comparison, Section};
 use anyhow::{Result, anyhow};
-use funicular::drive::CableAtRest;
+use funicular::drive::{CableAtRest, DriveFriction};
 use funicular::math::{Mat3, Vec3, rotation};
-use funicular::robot::{Anchor, Pulley, Robot, State};
-use funicular::statics::{self, CableState, StaticModel};
+use funicular::robot::{Anchor, Cable, Pulley, PulleyFriction, Robot, State};
+use funicular::statics::{self, CableState, Equilibrium, Held, Interval, StaticModel};
 use std::fmt::Write;
 
 pub(super) fn section(drives: &Drives) -> Result<Section> {
@@ -23,12 +25,21 @@ pub(super) fn section(drives: &Drives) -> Result<Section> {
     for row in &drives.robots.rows {
         rows.extend(robot(row, &drives.robots.source)?);
     }
+    for row in &drives.friction_corners.rows {
+        let robot = with_friction(drives, &row.robot, row.friction_coefficient)?;
+        rows.extend(friction_corner(row, &robot, &drives.friction_corners.source)?);
+    }
+    for row in &drives.friction_half_widths.rows {
+        let robot = with_friction(drives, &row.robot, row.friction_coefficient * SMALL_FRICTION)?;
+        rows.extend(friction_half_widths(row, &robot, &drives.friction_half_widths.source)?);
+    }
     Ok(Section {
         title: "Pulleys and winches",
         note: "Straight cables over swivelling pulleys against the closed forms of other programs; sagging elastic \
                cables over pulleys, whose weight begins at the entry point; cables to winches that yield; robots with \
                pulleys and winches. The stiffness with a tilted swivel axis is exact to the square of the kink, \
-               theory (69).",
+               theory (69). Friction of pulleys: equilibria after given last motions of the cables, solved without \
+               linearisation, and the first-order half widths of theory (74).",
         rows,
     })
 }
@@ -39,6 +50,10 @@ const CLOSED_FORM: f64 = 2e-14;
 /// Rounding of the solution: the unknowns are found to 1e-13, and a taut cable turns a relative error of its length into
 /// one of its tension that is EA/T times as large.
 const SOLVED: f64 = 1e-10;
+
+/// Relative difference of half widths due to the strain on the wheel, which the reference leaves out in the term of the
+/// arc: the strain T/EA is 2e-4, the arc gives a fiftieth of the half width.
+const ON_WHEEL: f64 = 1e-5;
 
 fn straight(row: &StraightOverPulley, source: &str) -> Vec<Comparison> {
     let anchor = Anchor {
@@ -172,6 +187,85 @@ fn robot(row: &RobotWithWinches, source: &str) -> Result<Vec<Comparison>> {
         rows.push(case.absolute("lengths from the pose [m]", lengths, &back, 1e-11, Bound::Rounding));
     }
     Ok(rows)
+}
+
+/// Robot of a case whose pulleys have friction.
+fn with_friction(drives: &Drives, case: &str, coefficient: f64) -> Result<Robot> {
+    let row = drives.robots.rows.iter().find(|row| row.case == case).ok_or_else(|| anyhow!("no robot \"{case}\""))?;
+    let mut robot = robot_of(row)?;
+    for pulley in robot.cables.iter_mut().filter_map(|cable| cable.anchor.pulley.as_mut()) {
+        pulley.friction = Some(PulleyFriction::Sliding { coefficient });
+    }
+    Ok(robot)
+}
+
+/// Change of the excess lengths per round [m] at which the rounds end: rounding of lengths of some metres.
+const LAST_CHANGE: f64 = 1e-14;
+
+/// Maximum number of rounds. Each reduces the error by about the friction exponent.
+const MAX_ROUNDS: usize = 60;
+
+/// Equilibrium with friction: cables without friction whose lengths are shorter by the excess of friction, which follows
+/// from their tensions.
+fn friction_corner(row: &FrictionCorner, robot: &Robot, source: &str) -> Result<Vec<Comparison>> {
+    let State::Lengths(lengths) = &robot.state else { return Err(anyhow!("the lengths are given")) };
+    let used: Vec<f64> = row.last_towards_platform.iter().map(|towards| if *towards { 1.0 } else { -1.0 }).collect();
+    let frictions = |rest: &Equilibrium| -> Result<Vec<DriveFriction>> {
+        let of = |((cable, state), used): ((&Cable, &CableState), &f64)| {
+            let (span, drive) = state.hanging.as_ref().zip(state.drive.as_ref())?;
+            Some(drive.with_friction(span, &cable.anchor, *used))
+        };
+        let found: Option<Vec<_>> = robot.cables.iter().zip(&rest.cables).zip(&used).map(of).collect();
+        found.ok_or_else(|| anyhow!("a cable over a pulley has a drive"))
+    };
+
+    let mut rest = statics::forward(robot, lengths, StaticModel::Catenary, None)?;
+    let mut found = frictions(&rest)?;
+    for _ in 0..MAX_ROUNDS {
+        let shortened: Vec<f64> = lengths.iter().zip(&found).map(|(length, own)| length - own.excess_length).collect();
+        rest = statics::forward(robot, &shortened, StaticModel::Catenary, Some(&rest.pose))?;
+        let next = frictions(&rest)?;
+        let change = next.iter().zip(&found).map(|(new, old)| (new.excess_length - old.excess_length).abs());
+        let change = change.fold(0.0, f64::max);
+        found = next;
+        if change < LAST_CHANGE {
+            break;
+        }
+    }
+
+    let exit: Vec<f64> = rest.cables.iter().map(|cable| cable.tension_anchor).collect();
+    let drum: Vec<f64> = found.iter().map(|own| own.tension_drum).collect();
+    let theirs: Vec<f64> = row.rotation.as_flattened().to_vec();
+    let ours = rest.pose.rot_wp.to_rotation_matrix();
+    // The reference lists rows.
+    let ours: Vec<f64> = ours.matrix().transpose().as_slice().to_vec();
+    let case = Case { name: row.case.clone(), source };
+    let digits = Bound::Digits("12 printed digits");
+    Ok(vec![
+        case.absolute("position [m]", &row.position_m, rest.pose.position_w.as_slice(), 1e-11, digits),
+        case.absolute("rotation matrix", &theirs, &ours, 1e-10, digits),
+        case.together("tensions at the exit [N]", &row.tension_exit_n, &exit, SOLVED, digits),
+        case.together("tensions at the drum [N]", &row.tension_drum_n, &drum, SOLVED, digits),
+    ])
+}
+
+/// Factor on the friction for which second-order terms are below the compared digits.
+const SMALL_FRICTION: f64 = 1e-4;
+
+fn friction_half_widths(row: &FrictionHalfWidths, robot: &Robot, source: &str) -> Result<Vec<Comparison>> {
+    let State::Lengths(lengths) = &robot.state else { return Err(anyhow!("the lengths are given")) };
+    let rest = statics::forward(robot, lengths, StaticModel::Catenary, None)?;
+    let found = statics::friction_interval(robot, &rest, Held::Lengths)?;
+    let motion = found.motion.ok_or_else(|| anyhow!("the lengths are held"))?;
+    let scaled = |intervals: [Interval; 3]| intervals.map(|interval| interval.half_width() / SMALL_FRICTION);
+
+    let case = Case { name: row.case.clone(), source };
+    let bound = Bound::Model("strain of the cable on the wheel");
+    let ours = [scaled(motion.translation_w), scaled(motion.rotation_w)];
+    Ok(vec![
+        case.relative("translation [m]", &row.translation_m, &ours[0], ON_WHEEL, bound),
+        case.relative("rotation [rad]", &row.rotation_rad, &ours[1], ON_WHEEL, bound),
+    ])
 }
 
 /// Numbers of one cable over a pulley.

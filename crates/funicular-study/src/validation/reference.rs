@@ -471,6 +471,8 @@ pub(super) struct Drives {
     pub(super) sagging: ReferenceTable<SaggingOverPulley>,
     pub(super) cables: ReferenceTable<CableToWinch>,
     pub(super) robots: ReferenceTable<RobotWithWinches>,
+    pub(super) friction_corners: ReferenceTable<FrictionCorner>,
+    pub(super) friction_half_widths: ReferenceTable<FrictionHalfWidths>,
 }
 
 /// Straight cable without mass over a pulley.
@@ -582,4 +584,31 @@ pub(super) struct MeasuredPose {
     pub(super) fixed_points_hz: Vec<f64>,
     /// Measured frequencies; `None` where no peak was found.
     pub(super) measured_hz: Vec<Option<f64>>,
+}
+
+/// Equilibrium with friction after given last motions of the cables.
+#[derive(Deserialize)]
+pub(super) struct FrictionCorner {
+    pub(super) case: String,
+    /// Case of the robot.
+    pub(super) robot: String,
+    pub(super) friction_coefficient: f64,
+    /// True per cable that last ran towards the platform, false per cable that last ran towards its drum.
+    pub(super) last_towards_platform: Vec<bool>,
+    pub(super) position_m: [f64; 3],
+    /// Rows of the rotation matrix.
+    pub(super) rotation: [[f64; 3]; 3],
+    pub(super) tension_exit_n: Vec<f64>,
+    pub(super) tension_drum_n: Vec<f64>,
+}
+
+/// Half widths of the interval in which friction leaves a robot, to first order in the friction.
+#[derive(Deserialize)]
+pub(super) struct FrictionHalfWidths {
+    pub(super) case: String,
+    /// Case of the robot.
+    pub(super) robot: String,
+    pub(super) friction_coefficient: f64,
+    pub(super) translation_m: [f64; 3],
+    pub(super) rotation_rad: [f64; 3],
 }

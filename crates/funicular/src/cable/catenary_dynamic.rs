@@ -13,12 +13,15 @@
 //! K_s and M_s being the static condensation and g_k the participation of the ends in mode k: a few operations per
 //! pole. Derivation: docs/theory.md, section 9.
 
+mod drive_signals;
 mod internal_motion;
 mod mesh;
 mod moving_end;
 mod partition;
 mod poles;
 
+pub use drive_signals::DriveSignal;
+use drive_signals::EndDirections;
 pub(crate) use internal_motion::InternalMotion;
 pub use internal_motion::{Displacements, Stations};
 pub(crate) use mesh::{ellipse, has_tension};
@@ -104,6 +107,8 @@ pub struct CatenaryDynamicEnd {
     pub in_plane_only: bool,
     /// Numbers of original poles in plane and out of plane, if the other poles have been compressed.
     pub(crate) kept: Option<(usize, usize)>,
+    /// Directions of the cable at its ends.
+    directions: EndDirections,
 }
 
 impl CatenaryDynamicEnd {
@@ -126,7 +131,16 @@ impl CatenaryDynamicEnd {
             CatenaryDynamic::with_stations(&hanging.catenary, end, mass_per_length, limit, Vec::new(), false)?.0;
         let (e, n) = hanging.axes_w();
         let axes = LocalAxes { e, n, b: e.cross(&n) };
-        Ok(Self { cable, axes, damping, mass_per_length, in_plane_only, kept: None })
+        let catenary = &hanging.catenary;
+        let (h, at_start, at_end) =
+            (catenary.horizontal_force(), catenary.vertical_force_at_start(), catenary.vertical_force_at_end());
+        let (first, last) = (catenary.tension_at_start(), catenary.tension_at_end());
+        let directions = EndDirections {
+            from_platform: [h / first, at_start / first],
+            to_platform: [-h / last, -at_end / last],
+            stretch: 1.0 + last / catenary.rope().axial_stiffness,
+        };
+        Ok(Self { cable, axes, damping, mass_per_length, in_plane_only, kept: None, directions })
     }
 
     /// Copy that keeps the poles below x and has a few poles in place of the others: see [`PoleResidue::compressed`].

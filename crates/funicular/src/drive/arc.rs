@@ -81,14 +81,13 @@ impl Beyond {
         let mut stretch_entry = stretch;
         if let Some(contact) = contact {
             let exit = contact.exit_offset_w();
-            let half = 0.5 * contact.wrap;
-            for (node, weight) in GAUSS.into_iter().flat_map(|(node, weight)| [(node, weight), (-node, weight)]) {
-                let offset = contact.offset_w(half * (1.0 + node));
+            for (angle, arc) in arc_nodes(contact) {
+                let offset = contact.offset_w(angle);
                 let potential = potential + load_w.dot(&(exit - offset));
                 let stretch = stretch_of(potential, ea);
                 let tension = 2.0 * potential / (1.0 + stretch);
                 // Unstrained length of the piece that belongs to the node.
-                let length = weight * half * contact.radius / stretch;
+                let length = arc / stretch;
                 beyond.arc_length += length;
                 beyond.rope_compliance += length / (ea * stretch * stretch);
                 beyond.moment += length * offset.dot(&contact.center_w);
@@ -125,8 +124,16 @@ impl Beyond {
     }
 }
 
+/// Points of the rim with the length of arc that belongs to each, for integrals over the arc: angles from the entry point
+/// [rad], and lengths [m].
+pub(super) fn arc_nodes(contact: &PulleyContact) -> impl Iterator<Item = (f64, f64)> + use<> {
+    let (half, radius) = (0.5 * contact.wrap, contact.radius);
+    let both = |(node, weight): (f64, f64)| [(node, weight), (-node, weight)];
+    GAUSS.into_iter().flat_map(both).map(move |(node, weight)| (half * (1.0 + node), weight * half * radius))
+}
+
 /// Stretch λ = √(1 + 2ψ/EA).
-fn stretch_of(potential: f64, axial_stiffness: f64) -> f64 {
+pub(super) fn stretch_of(potential: f64, axial_stiffness: f64) -> f64 {
     (1.0 + 2.0 * potential / axial_stiffness).max(MIN_SQUARED_STRETCH).sqrt()
 }
 

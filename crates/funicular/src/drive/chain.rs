@@ -60,9 +60,17 @@ impl Motor {
         let i = Complex::i();
         let viscous = (i * omega * self.damping, i * self.damping);
         let Some(servo) = self.servo else { return viscous };
-        let (gain, delay) = (servo.position_gain + i * omega * servo.speed_gain, (-i * omega * servo.delay).exp());
-        let slope = (i * servo.speed_gain - i * servo.delay * gain) * delay;
-        (viscous.0 + gain * delay - servo.position_gain, viscous.1 + slope)
+        let (control, slope) = servo.control(omega);
+        (viscous.0 + control - servo.position_gain, viscous.1 + slope)
+    }
+}
+
+impl Servo {
+    /// Force of the control at the cable per error of position at the complex ω [N/m], and its derivative by ω.
+    pub(crate) fn control(&self, omega: Complex) -> (Complex, Complex) {
+        let i = Complex::i();
+        let (gain, delay) = (self.position_gain + i * omega * self.speed_gain, (-i * omega * self.delay).exp());
+        (gain * delay, (i * self.speed_gain - i * self.delay * gain) * delay)
     }
 }
 

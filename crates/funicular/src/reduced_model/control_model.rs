@@ -10,7 +10,7 @@ use super::reference::{Maximum, Reference};
 use super::selection::{RemainingDifference, Size, chosen};
 use super::terms::{RealBlock, Term, terms};
 use super::{
-    Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, check_cables,
+    Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, check_cables, check_signals,
     viscous_damping_and_ratios,
 };
 use crate::dynamics::Dynamics;
@@ -158,6 +158,7 @@ pub fn control_model(
     requested: RequestedStateSpace,
 ) -> Result<ControlModel, ReductionError> {
     check_cables(robot, dynamics)?;
+    check_signals(inputs.iter().chain(outputs.iter().map(|(signal, _)| signal)))?;
     let RequestedStateSpace { below_hz, size, damping_at } = requested;
     let tolerance = match size {
         Size::Order(_) => MAX_TOLERANCE,

@@ -1,5 +1,7 @@
 //! Places and directions of forces and measured motions, as data ([`Signal`]) and on a linearised robot ([`Port`]).
 
+use crate::cable::DynamicCable;
+use crate::cable::catenary_dynamic::DriveSignal;
 use crate::cable_motion::{CableMotionError, CableStations};
 use crate::dynamics::Dynamics;
 use crate::math::{CVec6, Complex, Vec3, Vec6};
@@ -32,6 +34,13 @@ pub enum Signal {
         /// Direction, world axes.
         direction_w: Vec3,
     },
+    /// A quantity of the drive of a cable.
+    Drive {
+        /// Index of the cable, in the order of the file.
+        cable: usize,
+        /// Quantity.
+        signal: DriveSignal,
+    },
 }
 
 impl Signal {
@@ -42,7 +51,7 @@ impl Signal {
         match self {
             Self::Along { direction_w, point_p } => Some(along(direction_w, point_p, pose)),
             Self::About { axis_w } => Some(about(axis_w)),
-            Self::OnCable { .. } => None,
+            Self::OnCable { .. } | Self::Drive { .. } => None,
         }
     }
 }
@@ -74,6 +83,15 @@ pub enum Port {
         station: usize,
         /// Direction in world axes, a unit vector.
         direction_w: Vec3,
+    },
+    /// Quantity of the drive of a catenary-dynamic cable.
+    Drive {
+        /// Index of the cable among those whose stiffness depends on frequency.
+        term: usize,
+        /// Quantity.
+        signal: DriveSignal,
+        /// Attachment from the platform origin, world axes [m].
+        lever_w: Vec3,
     },
 }
 
@@ -108,32 +126,49 @@ impl Port {
 
         // The stations of a cable have the order of its signals.
         let mut next = vec![0; stations.len()];
-        let port = |signal: &Signal| match signal {
-            Signal::Along { direction_w, point_p } => Self::Platform(along(direction_w, point_p, &equilibrium.pose)),
-            Signal::About { axis_w } => Self::Platform(about(axis_w)),
-            Signal::OnCable { cable, direction_w, .. } => {
-                let at = points.iter().position(|(of, _)| of == cable).expect("every cable has stations");
-                let station = next[at];
-                next[at] += 1;
-                Self::Cable { stations: Arc::clone(&stations[at]), station, direction_w: direction_w.normalize() }
-            }
+        let port = |signal: &Signal| {
+            Ok(match signal {
+                Signal::Along { direction_w, point_p } => {
+                    Self::Platform(along(direction_w, point_p, &equilibrium.pose))
+                }
+                Signal::About { axis_w } => Self::Platform(about(axis_w)),
+                Signal::Drive { cable, signal } => {
+                    let no_signal = || CableMotionError::NoDriveSignal {
+                        cable: robot.cables[*cable].name.clone(),
+                        signal: signal.name(),
+                    };
+                    let term = dynamics.terms().iter().position(|term| term.cable() == *cable).ok_or_else(no_signal)?;
+                    let port = Self::Drive { term, signal: *signal, lever_w: equilibrium.cables[*cable].lever_w };
+                    // Every frequency has the same signals.
+                    port.drive_vector(dynamics, 1.0).ok_or_else(no_signal)?;
+                    port
+                }
+                Signal::OnCable { cable, direction_w, .. } => {
+                    let at = points.iter().position(|(of, _)| of == cable).expect("every cable has stations");
+                    let station = next[at];
+                    next[at] += 1;
+                    Self::Cable { stations: Arc::clone(&stations[at]), station, direction_w: direction_w.normalize() }
+                }
+            })
         };
-        Ok(signals.iter().map(port).collect())
+        signals.iter().map(port).collect()
     }
 
     /// Position at equilibrium of a port on a cable [m, world axes]; `None` for a port on the platform.
     pub fn cable_point_w(&self) -> Option<Vec3> {
         match self {
-            Self::Platform(_) => None,
+            Self::Platform(_) | Self::Drive { .. } => None,
             Self::Cable { stations, station, .. } => Some(stations.points_w[*station]),
         }
     }
 
     /// Motion of the port in a mode, in the scale of `Mode::shape` [m]. By reciprocity it is also the modal force per
-    /// unit force at the port. The residue of a mode is the product of the motions of two ports over the modal mass.
+    /// unit force at the port. The residue of a mode is the product of the motions of two ports over the modal mass. A
+    /// drive's signal has none here: NaN.
     pub fn in_mode(&self, dynamics: &Dynamics, mode: &Mode) -> f64 {
         match self {
             Self::Platform(vector) => vector.dot(&Vec6::from(mode.shape)),
+            Self::Drive { .. } => f64::NAN,
             Self::Cable { stations, station, direction_w } => {
                 let [e, n, b] = stations.in_mode(dynamics, mode)[*station];
                 (stations.axes.e * e + stations.axes.n * n + stations.axes.b * b).dot(direction_w)
@@ -141,10 +176,28 @@ impl Port {
         }
     }
 
+    /// Vector of a drive's signal about the platform origin at ω [rad/s]; `None` if the cable has no such signal.
+    fn drive_vector(&self, dynamics: &Dynamics, omega: f64) -> Option<CVec6> {
+        let Self::Drive { term, signal, lever_w } = self else { return None };
+        let DynamicCable::CatenaryDynamic(form) = dynamics.terms()[*term].form() else { return None };
+        let local = form.signal_vector(*signal, omega)?;
+        let axes = [form.axes.e, form.axes.n, form.axes.b];
+        let mut vector = CVec6::zeros();
+        for (axis, entry) in axes.iter().zip(local) {
+            let moment = lever_w.cross(axis);
+            for k in 0..3 {
+                vector[k] += entry * axis[k];
+                vector[3 + k] += entry * moment[k];
+            }
+        }
+        Some(vector)
+    }
+
     /// Vector of the port about the platform origin at ω [rad/s].
     pub(super) fn vector(&self, dynamics: &Dynamics, omega: f64) -> CVec6 {
         match self {
             Self::Platform(vector) => vector.map(Complex::from),
+            Self::Drive { .. } => self.drive_vector(dynamics, omega).unwrap_or_else(CVec6::zeros),
             Self::Cable { stations, station, direction_w } => {
                 stations.transmission(dynamics, *station, direction_w, omega)
             }

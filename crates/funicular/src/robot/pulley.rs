@@ -5,6 +5,7 @@
 //! in the plane of the wheel. The cable touches the wheel over the wrap angle β and leaves it at the exit point
 //! (docs/theory.md, equations (61) to (63)).
 
+use super::friction::PulleyFriction;
 use crate::math::{Vec3, any_normal};
 use std::f64::consts::TAU;
 
@@ -25,6 +26,8 @@ pub struct Pulley {
     pub inertia: f64,
     /// Moment of inertia of all that swivels, wheel included, about the swivel axis [kg m²].
     pub swivel_inertia: f64,
+    /// Friction; `None` for a wheel without friction.
+    pub friction: Option<PulleyFriction>,
 }
 
 /// Place of a cable on a pulley: swivel angle and wrap angle.
@@ -43,9 +46,9 @@ pub struct PulleyContact {
 }
 
 impl Pulley {
-    /// Pulley without inertia.
+    /// Pulley without inertia and without friction.
     pub fn new(name: &str, radius: f64, entry_direction_w: Vec3) -> Self {
-        Self { name: name.to_owned(), radius, entry_direction_w, inertia: 0.0, swivel_inertia: 0.0 }
+        Self { name: name.to_owned(), radius, entry_direction_w, inertia: 0.0, swivel_inertia: 0.0, friction: None }
     }
 
     /// Distance of a point from the wheel's centre [m]; the wheel swivels towards the point. `reach_w` is the point from

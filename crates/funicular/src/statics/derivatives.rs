@@ -114,12 +114,7 @@ pub fn at_held_lengths(
     let direct = Direct::new(robot, equilibrium, change)?;
     let coordinates = Coordinates::of(robot);
 
-    // The tangent contains half of a moment that is fixed in the world, so that it is symmetric; the balance contains
-    // none of it.
-    let mut jacobian = tangent_with_drag(robot, equilibrium).ok_or(StaticDerivativeError::Ideal)?;
-    let mut turns = jacobian.fixed_view_mut::<3, 3>(3, 3);
-    turns -= skew(&robot.load.moment_w) * 0.5;
-
+    let jacobian = balance_jacobian(robot, equilibrium).ok_or(StaticDerivativeError::Ideal)?;
     let motion = solve(coordinates.reduce_matrix(&jacobian), &coordinates, &direct.wrench)?;
     let motion = coordinates.expand(&motion);
     let translation_w = Vec3::new(motion[0], motion[1], motion[2]);
@@ -162,8 +157,19 @@ pub fn at_held_pose(
     Ok(direct.moved(equilibrium, Vec3::zeros(), Vec3::zeros()))
 }
 
+/// Derivative 𝒥 = −∂Φ/∂x of the balance; 6×6, about the platform origin, world axes [N/m, N, N·m]. `None` for ideal
+/// cables.
+pub(super) fn balance_jacobian(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
+    // The tangent contains half of a moment that is fixed in the world, so that it is symmetric; the balance contains
+    // none of it.
+    let mut jacobian = tangent_with_drag(robot, equilibrium)?;
+    let mut turns = jacobian.fixed_view_mut::<3, 3>(3, 3);
+    turns -= skew(&robot.load.moment_w) * 0.5;
+    Some(jacobian)
+}
+
 /// Solves for the reduced unknowns; `wrench` is not yet reduced.
-fn solve(mut matrix: Mat6, coordinates: &Coordinates, wrench: &Vec6) -> Result<Vec6, StaticDerivativeError> {
+pub(super) fn solve(mut matrix: Mat6, coordinates: &Coordinates, wrench: &Vec6) -> Result<Vec6, StaticDerivativeError> {
     let scale = matrix.amax();
     (coordinates.count()..6).for_each(|k| matrix[(k, k)] = scale);
     let singular = matrix.singular_values();

@@ -3,6 +3,7 @@
 mod energy;
 mod equilibria;
 mod forward;
+mod friction;
 mod ideal;
 mod inverse;
 mod nearest_pose;

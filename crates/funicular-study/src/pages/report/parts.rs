@@ -125,6 +125,40 @@ pub(crate) fn drive_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Pa
     Some(table)
 }
 
+/// Table of the interval in which friction of pulleys leaves pose and tensions; `None` without friction, and if friction
+/// may move the platform without limit.
+pub(crate) fn friction_table(at_rest: &AtRest) -> Option<PageTable> {
+    let found = statics::FrictionRow::of(at_rest).ok()?;
+    let range = |[min, max]: [f64; 2], digits: usize| format!("{} to {}", fixed(min, digits), fixed(max, digits));
+    let motion = match &found.motion {
+        Some(motion) => {
+            let mm = motion.translation_m.map(|pair| range(pair.map(|metres| 1e3 * metres), 3)).join(", ");
+            let degrees = motion.rotation_deg.map(|pair| range(pair, 4)).join(", ");
+            format!(
+                "With the lengths held, the pose is this far from the equilibrium: translation along x, y, z {mm} mm, \
+                 rotation about x, y, z {degrees}°."
+            )
+        }
+        None => "The pose and the tensions at the platform are held.".to_owned(),
+    };
+    let caption = format!(
+        "Friction of pulleys: minimum to maximum if every cable may have run last towards the platform or towards its \
+         drum. {motion} All other results leave friction out."
+    );
+    let columns = ["<cable", "friction exponent|–", "beyond exit|mm", "tension, drum|N", "tension, platform|N"];
+    let mut table = PageTable::new("table-friction", caption, &columns);
+    for cable in &found.cables {
+        table.row(vec![
+            cable.name.clone(),
+            fixed(cable.friction_exponent, 4),
+            range(cable.excess_length_m.map(|metres| 1e3 * metres), 3),
+            range(cable.tension_drum_n, 3),
+            range(cable.tension_platform_n, 3),
+        ]);
+    }
+    Some(table)
+}
+
 /// Maximum number of modes in the table with held exit points.
 const MAX_HELD: usize = 10;
 

@@ -186,9 +186,13 @@ impl<const S: usize> DriveAt<S> {
     /// Forces `Δ (1 + R Δ)⁻¹ z` of the additional stiffness `delta` of the drive [N/m], whose motion without them is
     /// `free`.
     pub(super) fn forces(&self, delta: &[Complex], free: &[Complex]) -> Vec<Complex> {
+        self.freed(delta, free).iter().zip(delta).map(|(moved, delta)| moved * delta).collect()
+    }
+
+    /// Motion `(1 + R Δ)⁻¹ z` of the drive, whose motion without the additional stiffness `delta` [N/m] is `free`.
+    pub(super) fn freed(&self, delta: &[Complex], free: &[Complex]) -> Vec<Complex> {
         let inverse = self.inverse(delta);
-        let moved = |i: usize| -> Complex { (0..delta.len()).map(|j| inverse[(i, j)] * free[j]).sum() };
-        (0..delta.len()).map(|i| delta[i] * moved(i)).collect()
+        (0..delta.len()).map(|i| (0..delta.len()).map(|j| inverse[(i, j)] * free[j]).sum()).collect()
     }
 
     /// Stiffness of the platform end that the additional stiffness `delta` of the drive adds [N/m]:

@@ -2,10 +2,14 @@
 
 use super::key::{Absent, Key, Shape};
 use super::range::Range;
-use super::read::{Named, Reader, Section, is_zero};
+use super::read::{Named, Reader, Section, Value, is_zero};
 use super::winches::{self, WINCH};
 use crate::math::Vec3;
-use crate::robot::{Anchor, Pulley, Winch};
+use crate::robot::{Anchor, Pulley, PulleyFriction, Winch};
+
+/// Coefficient of friction that must not be reached. Ropes in grooves have 0.1 to 0.5, rubber on steel has about 1; a value
+/// from 2 on is likely one in per cent.
+const FRICTION_LIMIT: f64 = 2.0;
 
 /// Keys of `[pulleys.NAME]`.
 pub(super) const PULLEY: &[Key] = &[
@@ -45,7 +49,48 @@ pub(super) const PULLEY: &[Key] = &[
         "moment of inertia of all that swivels, wheel included, about the swivel axis",
     )
     .or([0.0; 3]),
+    Key::numeric(
+        Shape::Number,
+        "friction_coefficient",
+        "friction_coefficient = 0.15",
+        "1",
+        Range::Below(FRICTION_LIMIT),
+        "coefficient of friction of a cable that slides: the wheel does not turn, or is a fixed bar",
+    )
+    .without(Absent::Means(OTHER_FRICTION)),
+    Key::numeric(
+        Shape::Number,
+        "efficiency",
+        "efficiency = 0.96",
+        "1",
+        Range::UpTo(1.0),
+        "efficiency of a wheel that turns, from a catalogue: smaller over larger tension while the cable runs",
+    )
+    .without(Absent::Means(OTHER_FRICTION)),
+    Key::numeric(
+        Shape::Number,
+        "bearing_friction_coefficient",
+        "bearing_friction_coefficient = 0.002",
+        "1",
+        Range::Below(FRICTION_LIMIT),
+        "coefficient of friction in the bearing of a wheel that turns",
+    )
+    .without(Absent::Means(OTHER_FRICTION)),
+    Key::numeric(
+        Shape::Number,
+        "bearing_radius_m",
+        "bearing_radius_m = 0.006",
+        "m",
+        Range::Positive,
+        "radius at which the friction of the bearing acts; half the bore of a rolling bearing; it serves \
+         `bearing_friction_coefficient` alone",
+    )
+    .without(Absent::Depends("required with `bearing_friction_coefficient`")),
 ];
+
+/// Effect of a missing kind of friction.
+const OTHER_FRICTION: &str =
+    "another of `friction_coefficient`, `efficiency` and `bearing_friction_coefficient`, else no friction";
 
 /// Pulley of a file. Its direction may be left to the cables.
 #[derive(Debug, Clone)]
@@ -55,6 +100,7 @@ pub(super) struct PulleyEntry {
     entry_direction_w: Option<Vec3>,
     inertia: f64,
     swivel_inertia: f64,
+    friction: Option<PulleyFriction>,
 }
 
 /// Pulleys and winches of a file; `None` if the tables as a whole were refused.
@@ -81,13 +127,90 @@ fn read_pulley(reader: &mut Reader, name: &str, section: &Section) -> Option<Pul
     let direction = direction(reader, section);
     let [inertia, swivel_inertia] =
         ["inertia_kg_m2", "swivel_inertia_kg_m2"].map(|key| reader.number_or_default(section, key));
+    let friction = read_friction(reader, section, radius);
     Some(PulleyEntry {
         name: name.to_owned(),
         radius: radius?,
         entry_direction_w: direction?,
         inertia: inertia?,
         swivel_inertia: swivel_inertia?,
+        friction: friction?,
     })
+}
+
+/// Friction of a pulley whose wheel has this radius [m], if the table gives one kind of it.
+#[expect(clippy::option_option, reason = "outside: refused, an issue is reported; inside: not given")]
+fn read_friction(reader: &mut Reader, section: &Section, wheel: Option<f64>) -> Option<Option<PulleyFriction>> {
+    // Check every number, also one that is refused beside another.
+    let keys = ["friction_coefficient", "efficiency", "bearing_friction_coefficient"];
+    let mut number = |key: &str| section.get(key).map(|value| friction_number(reader, section, key, value));
+    let [sliding, efficiency, bearing] = keys.map(&mut number);
+    let radius = section.get("bearing_radius_m").map(|value| bearing_radius(reader, section, value, wheel));
+
+    // Refuse two kinds.
+    let mut given = keys.into_iter().filter_map(|key| section.get(key).map(|value| (key, value)));
+    if let (Some((first, at_first)), Some((second, at_second))) = (given.next(), given.next()) {
+        reader
+            .issue(at_second.span(), format!("`{second}` does not go with `{first}`"))
+            .context(at_first.span(), "already given here")
+            .help(
+                "give one of the three: the friction of a cable that slides, the efficiency of the wheel, or the friction \
+                 of its bearing",
+            );
+        return None;
+    }
+
+    let friction = if let Some(coefficient) = sliding {
+        Some(PulleyFriction::Sliding { coefficient: coefficient? })
+    } else if let Some(efficiency) = efficiency {
+        Some(PulleyFriction::Efficiency(efficiency?))
+    } else if let Some(coefficient) = bearing {
+        let Some(radius) = radius else {
+            reader
+                .issue(
+                    section.span.clone(),
+                    format!("{} has `bearing_friction_coefficient`, but no `bearing_radius_m`", section.label()),
+                )
+                .help("add it, for example `bearing_radius_m = 0.006`: half the bore of a rolling bearing");
+            return None;
+        };
+        return Some(Some(PulleyFriction::Bearing { coefficient: coefficient?, radius: radius? }));
+    } else {
+        None
+    };
+    // The number is checked even where no friction refers to it.
+    radius.map_or(Some(0.0), |radius| radius)?;
+    Some(friction)
+}
+
+/// Coefficient or efficiency, within its range.
+fn friction_number(reader: &mut Reader, section: &Section, key: &str, value: &Value) -> Option<f64> {
+    let number = reader.number_of(section, key, value)?;
+    let (is_within, limit) = match section.number(key).range {
+        Range::UpTo(limit) => (number <= limit, format!("at most {limit}")),
+        range => (number < range.maximum(), format!("below {}", range.maximum())),
+    };
+    if !is_within {
+        let written = reader.written(value.span());
+        reader
+            .issue(value.span(), format!("`{key}` is {written}, it must be {limit}"))
+            .help("it is a fraction, not per cent");
+        return None;
+    }
+    Some(number)
+}
+
+/// Radius of a bearing [m], which lies inside the wheel.
+fn bearing_radius(reader: &mut Reader, section: &Section, value: &Value, wheel: Option<f64>) -> Option<f64> {
+    let radius = reader.number_of(section, "bearing_radius_m", value)?;
+    if let Some(wheel) = wheel.filter(|wheel| radius >= *wheel) {
+        let written = reader.written(value.span());
+        reader
+            .issue(value.span(), format!("`bearing_radius_m` is {written}, it must be below the `radius_m` {wheel}"))
+            .help("it is half the bore of a rolling bearing");
+        return None;
+    }
+    Some(radius)
 }
 
 /// Unit vector of `entry_direction`, if the table gives one.
@@ -129,8 +252,8 @@ pub(super) fn anchor(reader: &mut Reader, cable: &Section, drives: &Drives) -> O
                 );
                 return None;
             };
-            let PulleyEntry { name, radius, inertia, swivel_inertia, .. } = pulley;
-            Some(Pulley { name, radius, entry_direction_w, inertia, swivel_inertia })
+            let PulleyEntry { name, radius, inertia, swivel_inertia, friction, .. } = pulley;
+            Some(Pulley { name, radius, entry_direction_w, inertia, swivel_inertia, friction })
         }
     };
     Some(Anchor { point_w: Vec3::from(point?), pulley, winch: winch? })

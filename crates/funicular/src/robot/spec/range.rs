@@ -19,6 +19,8 @@ pub enum Range {
     Positive,
     /// Zero, or from 1e-12 to below a limit.
     Below(f64),
+    /// From 1e-12 to a limit.
+    UpTo(f64),
     /// Component of a vector whose magnitude is at most this.
     Magnitude(f64),
 }
@@ -29,7 +31,7 @@ impl Range {
         match self {
             Self::Any => -MAX_NUMBER,
             Self::NotNegative | Self::Below(_) => 0.0,
-            Self::Positive => MIN_NUMBER,
+            Self::Positive | Self::UpTo(_) => MIN_NUMBER,
             Self::Magnitude(limit) => -limit,
         }
     }
@@ -38,8 +40,13 @@ impl Range {
     pub fn maximum(self) -> f64 {
         match self {
             Self::Any | Self::NotNegative | Self::Positive => MAX_NUMBER,
-            Self::Below(limit) | Self::Magnitude(limit) => limit,
+            Self::Below(limit) | Self::UpTo(limit) | Self::Magnitude(limit) => limit,
         }
+    }
+
+    /// True if negative numbers and zero are out of range.
+    pub(super) fn is_positive(self) -> bool {
+        matches!(self, Self::Positive | Self::UpTo(_))
     }
 
     /// True if zero is the minimum.
@@ -49,7 +56,7 @@ impl Range {
 
     /// True if negative numbers, and positive numbers below 1e-12, are out of range.
     pub(super) fn is_one_sided(self) -> bool {
-        self == Self::Positive || self.is_not_negative()
+        self.is_positive() || self.is_not_negative()
     }
 }
 
@@ -60,6 +67,7 @@ impl fmt::Display for Range {
             Self::NotNegative => f.write_str("not negative"),
             Self::Positive => f.write_str("positive"),
             Self::Below(limit) => write!(f, "from 0 to below {limit}"),
+            Self::UpTo(limit) => write!(f, "above 0, at most {limit}"),
             Self::Magnitude(limit) => write!(f, "magnitude of the vector up to {limit}"),
         }
     }

@@ -203,12 +203,12 @@ impl<'t> Reader<'t> {
             Some("it must be finite".to_owned())
         } else if number.abs() > MAX_NUMBER {
             Some(format!("the limit is {MAX_NUMBER:e} in magnitude"))
-        } else if range == Limits::Positive && number <= 0.0 {
+        } else if range.is_positive() && number <= 0.0 {
             Some("it must be positive".to_owned())
         } else if range.is_not_negative() && number < 0.0 {
             Some("it must not be negative".to_owned())
         } else if range.is_one_sided() && number != 0.0 && number < MIN_NUMBER {
-            let or_zero = if range == Limits::Positive { "" } else { "zero or " };
+            let or_zero = if range.is_positive() { "" } else { "zero or " };
             Some(format!("it must be {or_zero}at least {MIN_NUMBER:e}"))
         } else {
             None

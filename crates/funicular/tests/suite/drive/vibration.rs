@@ -1,11 +1,13 @@
 //! Vibration of cables with drives: closed forms of a weightless cable, interlacing, energies, modes of winches.
 
 use super::cogiro;
+use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::cable::{CableModel, EndStiffness};
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Mat3, Vec3};
 use funicular::modes::{self, Kind};
+use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::{Control, DrumSide, Pose, Robot, Servo, WinchMode};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
@@ -275,4 +277,62 @@ fn reduced_models_refuse_drives_with_inertia() {
     let outputs = [(along(Vec3::z()), funicular::response::Quantity::Displacement)];
     let error = funicular::reduced_model::reduce(&robot, &rest, &dynamics, &[along(Vec3::z())], &outputs, requested);
     assert!(error.unwrap_err().to_string().contains("runs to a drive with inertia"));
+}
+
+/// A commanded length moves the platform at rest as forward statics does; with fixed anchors and with winches. A force of
+/// a motor moves its drum, and the drum's motion answers to a force on the platform by the same number.
+#[test]
+fn commanded_lengths_begin_at_the_derivative_of_statics() {
+    let pose = Pose::new([1.0, 2.0, 1.5], [0.0; 3]);
+    let plain = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    for (robot, cable) in [(plain, 2), (cogiro(0.06), 0), (driven(Control::Ideal).0, 5)] {
+        let rest = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0).unwrap();
+        let signals = [
+            Signal::Drive { cable, signal: DriveSignal::Length },
+            Signal::Along { direction_w: Vec3::new(0.2, -0.4, 1.0), point_p: Vec3::zeros() },
+            Signal::Drive { cable, signal: DriveSignal::Tension },
+        ];
+        let ports = Port::all(&robot, &rest, &dynamics, &signals, false).unwrap();
+        let slow = |output: &Port| {
+            response::between(&dynamics, &[1e-5], &ports[0], output, Quantity::Displacement).unwrap()[0].re
+        };
+
+        let mut lengths: Vec<f64> = rest.cables.iter().map(|cable| cable.unstrained_length).collect();
+        let (length, step) = (lengths[cable], 1e-5);
+        let mut moved = |by: f64| {
+            lengths[cable] = length + by;
+            statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&rest.pose)).unwrap()
+        };
+        let (ahead, behind) = (moved(step), moved(-step));
+        let along = Vec3::new(0.2, -0.4, 1.0).normalize();
+        let by_statics = (ahead.pose.position_w - behind.pose.position_w).dot(&along) / (2.0 * step);
+        // The step's square.
+        assert!((slow(&ports[1]) - by_statics).abs() < 1e-5 * by_statics.abs(), "{} {by_statics}", slow(&ports[1]));
+        let tension = |rest: &Equilibrium| rest.cables[cable].tension_platform;
+        let by_statics = (tension(&ahead) - tension(&behind)) / (2.0 * step);
+        // The force's derivative along the cable: its direction turns by the second order only.
+        assert!((slow(&ports[2]) - by_statics).abs() < 1e-4 * by_statics.abs(), "{} {by_statics}", slow(&ports[2]));
+    }
+
+    let (robot, rest) = driven(servo(5e4, 300.0));
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0).unwrap();
+    let fz = Signal::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() };
+    let motor = Signal::Drive { cable: 3, signal: DriveSignal::Motor };
+    let ports = Port::all(&robot, &rest, &dynamics, &[fz, motor], false).unwrap();
+    for hz in [0.3, 2.0, 4.4] {
+        let response = |from: usize, to: usize| {
+            response::between(&dynamics, &[hz], &ports[from], &ports[to], Quantity::Displacement).unwrap()[0]
+        };
+        let (there, back) = (response(0, 1), response(1, 0));
+        assert!((there - back).norm() < 1e-9 * there.norm());
+        // A force on the motor does work: its motion lags behind it.
+        assert!(response(1, 1).im < 0.0);
+    }
+
+    let torque = driven(Control::Torque).0;
+    let dynamics = Dynamics::about(&torque, &rest, Linearisation::default(), 5.0).unwrap();
+    let length = Signal::Drive { cable: 3, signal: DriveSignal::Length };
+    let error = Port::all(&torque, &rest, &dynamics, &[length], false).unwrap_err();
+    assert!(error.to_string().contains("has no signal `length`"), "{error}");
 }
