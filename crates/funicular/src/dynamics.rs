@@ -473,6 +473,11 @@ pub(crate) fn platform_terms(robot: &Robot, equilibrium: &Equilibrium) -> Platfo
     PlatformTerms { constant, mass, coordinates }
 }
 
+/// Viscous damping of the platform at an equilibrium; scaled, in the platform's coordinates [N s/m].
+pub(crate) fn platform_damping(robot: &Robot, equilibrium: &Equilibrium) -> Mat6 {
+    Coordinates::of(robot).reduce_matrix(&damping_matrix(&robot.platform, &equilibrium.pose))
+}
+
 /// Stiffness of a cable whose end stiffness [N/m] does not depend on frequency; scaled, in the platform's coordinates.
 pub(crate) fn constant_cable(robot: &Robot, state: &CableState, stiffness: &Mat3) -> Mat6 {
     let mut total = Mat6::zeros();

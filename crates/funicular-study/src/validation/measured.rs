@@ -135,8 +135,10 @@ fn robot(cables: usize) -> Result<Robot> {
     })?)
 }
 
-#[cfg(all(test, feature = "pages"))]
+#[cfg(test)]
 mod tests {
+    #![cfg(feature = "pages")]
+
     use super::*;
     use crate::figures::axis::Axis;
     use crate::figures::chart::{Chart, Entry, Layer, Panel, Sample};

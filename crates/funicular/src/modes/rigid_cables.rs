@@ -5,9 +5,8 @@
 //! and the weight alone: turning cables, moving exit points, and lever arms of static forces.
 
 use super::{Kind, Mode, Modes, RESIDUAL_LIMIT};
-use crate::dynamics::{NullVector, constant_cable, platform_terms};
+use crate::dynamics::{NullVector, PlatformTerms, constant_cable, platform_damping, platform_terms};
 use crate::math::{DMat, Mat3, Mat6, Vec3, Vec6, symmetric, symmetric_part};
-use crate::platform::{Coordinates, damping_matrix};
 use crate::robot::Robot;
 use crate::statics::{CableState, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
@@ -82,12 +81,11 @@ pub fn with_rigid_cables(robot: &Robot, equilibrium: &Equilibrium, below_hz: f64
 
     // Stiffness and mass of the motions that keep all lengths.
     let platform = platform_terms(robot, equilibrium);
-    let coordinates = platform.coordinates;
     let mut stiffness = platform.constant;
     for (i, state) in equilibrium.cables.iter().enumerate().filter(|(_, state)| !state.is_slack()) {
         stiffness += constant_cable(robot, state, &turning_stiffness(robot, i, state));
     }
-    let free = free_motions(equilibrium, &coordinates);
+    let free = free_motions(equilibrium, &platform);
     let within = |matrix: &Mat6| {
         let whole = DMat::from_column_slice(6, 6, matrix.as_slice());
         symmetric_part(&(free.transpose() * whole * &free))
@@ -105,7 +103,7 @@ pub fn with_rigid_cables(robot: &Robot, equilibrium: &Equilibrium, below_hz: f64
     let zero = INDIFFERENT * squares.iter().fold(0.0_f64, |most, square| most.max(square.abs()));
     let unstable_directions = squares.iter().filter(|square| **square <= zero).count();
     let limit = below_hz * TAU;
-    let damping = coordinates.reduce_matrix(&damping_matrix(&robot.platform, &equilibrium.pose));
+    let damping = platform_damping(robot, equilibrium);
     let mut modes = Vec::new();
     for (square, vector) in squares.iter().zip(&vectors).filter(|(square, _)| **square > zero) {
         let omega = square.sqrt();
@@ -116,7 +114,7 @@ pub fn with_rigid_cables(robot: &Robot, equilibrium: &Equilibrium, below_hz: f64
         let residual = ((y.transpose() * (&k - &m * *square) * &y)[(0, 0)] / square).abs();
         let moved = &free * y;
         let x = Vec6::from_fn(|i, _| moved[(i, 0)]);
-        modes.push(mode(&coordinates, x, omega, x.dot(&(damping * x)), residual, robot.cables.len()));
+        modes.push(mode(&platform, x, omega, x.dot(&(damping * x)), residual, robot.cables.len()));
     }
     mark_multiple(&mut modes);
 
@@ -144,13 +142,13 @@ fn turning_stiffness(robot: &Robot, i: usize, state: &CableState) -> Mat3 {
 }
 
 /// Orthonormal basis of the scaled motions that change no length of a taut cable, as columns of six numbers.
-fn free_motions(equilibrium: &Equilibrium, coordinates: &Coordinates) -> DMat {
-    let n = coordinates.count();
+fn free_motions(equilibrium: &Equilibrium, platform: &PlatformTerms) -> DMat {
+    let n = platform.coordinates.count();
     let taut: Vec<&CableState> = equilibrium.cables.iter().filter(|state| !state.is_slack()).collect();
     // Zero rows make it at least square, so that all right singular vectors are computed.
     let mut rows = DMat::zeros(n.max(taut.len()), n);
     for (i, state) in taut.iter().enumerate() {
-        let unit = coordinates.reduce_force(&state.chord_w().normalize(), &state.lever_w);
+        let unit = platform.coordinates.reduce_force(&state.chord_w().normalize(), &state.lever_w);
         rows.view_mut((i, 0), (1, n)).copy_from(&unit.rows(0, n).transpose());
     }
 
@@ -162,10 +160,10 @@ fn free_motions(equilibrium: &Equilibrium, coordinates: &Coordinates) -> DMat {
 }
 
 /// Mode of a scaled motion `x` with unit modal mass at ω [rad/s].
-fn mode(coordinates: &Coordinates, x: Vec6, omega: f64, damping: f64, residual: f64, cables: usize) -> Mode {
-    let motion_w = coordinates.expand(&x);
+fn mode(platform: &PlatformTerms, x: Vec6, omega: f64, damping: f64, residual: f64, cables: usize) -> Mode {
+    let motion_w = platform.coordinates.expand(&x);
     let largest = motion_w[motion_w.iamax()];
-    let shape = std::array::from_fn(|i| motion_w[i] / largest / if i < 3 { 1.0 } else { coordinates.ell() });
+    let shape = std::array::from_fn(|i| motion_w[i] / largest / if i < 3 { 1.0 } else { platform.coordinates.ell() });
     let energies = vec![0.0; cables];
     Mode {
         frequency_hz: omega / TAU,
