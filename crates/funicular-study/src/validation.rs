@@ -6,6 +6,7 @@
 mod catenary;
 mod cube;
 mod damped;
+mod driven;
 mod drives;
 mod dynamics;
 mod exact;

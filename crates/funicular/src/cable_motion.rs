@@ -9,7 +9,7 @@ pub use weighted::WeightedMotions;
 
 use crate::cable::catenary_dynamic::{CatenaryDynamic, CatenaryDynamicError, InternalMotion, Stations};
 use crate::cable::{CableModel, DynamicCable, LocalAxes};
-use crate::dynamics::Dynamics;
+use crate::dynamics::{DynamicCableAt, Dynamics};
 use crate::math::{CVec6, Complex, Vec3, Vec6};
 use crate::modes::Mode;
 use crate::robot::Robot;
@@ -292,7 +292,7 @@ fn with_drive(
     motion: InternalMotion,
     omega: f64,
 ) -> InternalMotion {
-    let form = dynamics.terms().iter().find(|term| term.cable() == i).map(|term| term.form());
+    let form = dynamics.terms().iter().find(|term| term.cable() == i).map(DynamicCableAt::form);
     match form {
         Some(DynamicCable::CatenaryDynamic(form)) if form.has_drive_losses() => {
             let losses = form.beyond_undamped(omega.into(), 1.0);

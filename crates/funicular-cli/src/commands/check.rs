@@ -125,9 +125,12 @@ fn drive_table(found: &Checked) -> String {
     }
     let friction = |cable: &CheckedCable| cable.pulley.as_ref().and_then(|pulley| pulley.friction.text());
     let has_friction = found.cables.iter().any(|cable| friction(cable).is_some());
-    let header =
-        ["cable", "pulley", "radius [m]", "entry direction", "winch", "to drum [m]", "stiffness [N/m]", "friction"];
-    let mut rows = Table::new(&header[..if has_friction { 8 } else { 7 }]).text_columns(&[1, 4]);
+    let drive = |cable: &CheckedCable| cable.winch.as_ref().and_then(CheckedWinch::drive_text);
+    let moves = found.cables.iter().any(|cable| drive(cable).is_some());
+    let mut header =
+        vec!["cable", "pulley", "radius [m]", "entry direction", "winch", "to drum [m]", "stiffness [N/m]"];
+    header.extend(moves.then_some("at the cable").into_iter().chain(has_friction.then_some("friction")));
+    let mut rows = Table::new(&header).text_columns(&[1, 4]);
     for cable in &found.cables {
         let (pulley, winch) = (cable.pulley.as_ref(), cable.winch.as_ref());
         let none = || table::NONE.to_owned();
@@ -141,6 +144,9 @@ fn drive_table(found: &Checked) -> String {
             winch.map_or_else(none, |winch| short(winch.drum_side_length_m, 6)),
             winch.map_or_else(none, stiffness),
         ];
+        if moves {
+            row.push(drive(cable).unwrap_or_else(none));
+        }
         if has_friction {
             row.push(friction(cable).unwrap_or_else(none));
         }

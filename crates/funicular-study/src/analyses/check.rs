@@ -4,7 +4,7 @@ use super::found;
 use crate::text::{short, vector};
 use funicular::math::rotation;
 use funicular::robot::{
-    Cable, Damping, Load, PlatformMotion, Pulley, PulleyFriction, Robot, State, TensionLimits, Winch, Wind,
+    Cable, Control, Damping, Load, PlatformMotion, Pulley, PulleyFriction, Robot, State, TensionLimits, Winch, Wind,
 };
 use funicular::statics::{self, CableState, StaticModel};
 use funicular::warnings::plausibility;
@@ -237,6 +237,19 @@ pub struct CheckedWinch {
     /// Stiffness at the cable; absent for a rigid winch.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_n_per_m: Option<f64>,
+    /// Masses that drum and motor add at the cable; absent without inertia.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drum_mass_kg: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motor_mass_kg: Option<f64>,
+    /// Control of the motor; absent if it holds its angle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub control: Option<&'static str>,
+    /// Gains of a position control at the cable.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub position_gain_n_per_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed_gain_n_s_per_m: Option<f64>,
 }
 
 impl CheckedPulley {
@@ -253,9 +266,36 @@ impl CheckedPulley {
 
 impl CheckedWinch {
     fn of(winch: &Winch) -> Self {
-        let Winch { name, drum_side_length, stiffness, .. } = winch;
-        let stiffness_n_per_m = stiffness.is_finite().then_some(*stiffness);
-        Self { name: name.clone(), drum_side_length_m: *drum_side_length, stiffness_n_per_m }
+        let Winch { name, drum_side_length, stiffness, drum_mass, motor_mass, .. } = winch;
+        let servo = if let Control::Position(servo) = winch.control { Some(servo) } else { None };
+        let control = match winch.control {
+            Control::Ideal => None,
+            Control::Position(_) => Some("position"),
+            Control::Torque => Some("torque"),
+        };
+        Self {
+            name: name.clone(),
+            drum_side_length_m: *drum_side_length,
+            stiffness_n_per_m: stiffness.is_finite().then_some(*stiffness),
+            drum_mass_kg: Some(*drum_mass).filter(|mass| *mass > 0.0),
+            motor_mass_kg: Some(*motor_mass).filter(|mass| *mass > 0.0),
+            control,
+            position_gain_n_per_m: servo.map(|servo| servo.position_gain),
+            speed_gain_n_s_per_m: servo.map(|servo| servo.speed_gain),
+        }
+    }
+
+    /// Motion of its drum in one phrase; `None` for a motor that holds its angle and has no inertia.
+    pub fn drive_text(&self) -> Option<String> {
+        let mass = self.drum_mass_kg.unwrap_or(0.0) + self.motor_mass_kg.unwrap_or(0.0);
+        let inertia = (mass > 0.0).then(|| format!("{} kg", short(mass, 4)));
+        let control = match (self.control, self.position_gain_n_per_m) {
+            (Some(control), Some(gain)) => Some(format!("{control} control, {} N/m", short(gain, 4))),
+            (Some(control), None) => Some(format!("constant {control}")),
+            (None, _) => inertia.is_some().then(|| "motor held".to_owned()),
+        };
+        (inertia.is_some() || control.is_some())
+            .then(|| inertia.into_iter().chain(control).collect::<Vec<_>>().join(", "))
     }
 }
 

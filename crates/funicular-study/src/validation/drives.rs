@@ -3,7 +3,7 @@
 use super::reference::{
     CableToWinch, Drives, FrictionCorner, FrictionHalfWidths, RobotWithWinches, SaggingOverPulley, StraightOverPulley,
 };
-use super::{Bound, Case, Comparison, Section};
+use super::{Bound, Case, Comparison, Section, driven};
 use anyhow::{Result, anyhow};
 use funicular::drive::{CableAtRest, DriveFriction};
 use funicular::math::{Mat3, Vec3, rotation};
@@ -25,6 +25,7 @@ pub(super) fn section(drives: &Drives) -> Result<Section> {
     for row in &drives.robots.rows {
         rows.extend(robot(row, &drives.robots.source)?);
     }
+    rows.extend(driven::comparisons(drives)?);
     for row in &drives.friction_corners.rows {
         let robot = with_friction(drives, &row.robot, row.friction_coefficient)?;
         rows.extend(friction_corner(row, &robot, &drives.friction_corners.source)?);
@@ -293,12 +294,12 @@ fn single(of: &Single) -> Result<Robot> {
     Ok(Robot::from_toml(&text)?)
 }
 
-fn winch_text(drum_side_length: f64, stiffness: Option<f64>) -> String {
+pub(super) fn winch_text(drum_side_length: f64, stiffness: Option<f64>) -> String {
     let stiffness = stiffness.map_or_else(String::new, |stiffness| format!("stiffness_n_per_m = {stiffness:?}\n"));
     format!("[winches.drum]\ndrum_side_length_m = {drum_side_length:?}\n{stiffness}")
 }
 
-fn robot_of(row: &RobotWithWinches) -> Result<Robot> {
+pub(super) fn robot_of(row: &RobotWithWinches) -> Result<Robot> {
     let mut text = format!(
         "name = {:?}\n[platform]\nmass_kg = {:?}\ncenter_of_mass_m = {:?}\ninertia_kg_m2 = {:?}\n[materials.rope]\n\
          axial_stiffness_n = {:?}\nmass_kg_per_m = {:?}\n[pulleys.wheel]\nradius_m = {:?}\n\

@@ -471,6 +471,8 @@ pub(super) struct Drives {
     pub(super) sagging: ReferenceTable<SaggingOverPulley>,
     pub(super) cables: ReferenceTable<CableToWinch>,
     pub(super) robots: ReferenceTable<RobotWithWinches>,
+    pub(super) vibration: ReferenceTable<DrivenRobot>,
+    pub(super) moving_cables: ReferenceTable<DrivenCable>,
     pub(super) friction_corners: ReferenceTable<FrictionCorner>,
     pub(super) friction_half_widths: ReferenceTable<FrictionHalfWidths>,
 }
@@ -534,6 +536,83 @@ pub(super) struct CableToWinch {
     pub(super) stiffness_n_per_m: [[f64; 3]; 3],
     pub(super) force_per_unstrained_length_n_per_m: [f64; 3],
     pub(super) energy_j: f64,
+}
+
+/// Vibration of a robot whose drives have inertia and control; all masses and gains at the cable.
+#[derive(Deserialize)]
+pub(super) struct DrivenRobot {
+    /// Case of the robot.
+    pub(super) case: String,
+    pub(super) wheel_inertia_kg_m2: f64,
+    pub(super) swivel_inertia_kg_m2: f64,
+    pub(super) drum_mass_kg: f64,
+    pub(super) motor_mass_kg: f64,
+    /// `ideal`, `position` or `torque`.
+    pub(super) control: String,
+    pub(super) position_gain_n_per_m: f64,
+    pub(super) speed_gain_n_s_per_m: f64,
+    pub(super) cable_damping_ratio: f64,
+    /// All undamped natural frequencies up to the last.
+    pub(super) frequencies_hz: Vec<f64>,
+    /// Motion of the platform per commanded length, or per force of a motor: (6, cables).
+    pub(super) responses: Vec<DriveResponse>,
+    /// Damped modes with the damping of the servos alone.
+    #[serde(default)]
+    pub(super) servo_damped: Option<ServoDamped>,
+}
+
+/// Complex 6×m matrix at a frequency.
+#[derive(Deserialize)]
+pub(super) struct DriveResponse {
+    pub(super) frequency_hz: f64,
+    pub(super) re: Vec<Vec<f64>>,
+    pub(super) im: Vec<Vec<f64>>,
+}
+
+/// Damped modes whose undamped partners lie below a limit.
+#[derive(Deserialize)]
+pub(super) struct ServoDamped {
+    pub(super) below_hz: f64,
+    /// |ω|/2π.
+    pub(super) frequency_hz: Vec<f64>,
+    pub(super) damping_ratio: Vec<f64>,
+}
+
+/// Cable over a pulley to a winch with inertia, its platform end at a point.
+#[derive(Deserialize)]
+pub(super) struct DrivenCable {
+    pub(super) case: String,
+    pub(super) entry_point_m: [f64; 3],
+    pub(super) radius_m: f64,
+    pub(super) drum_side_length_m: f64,
+    pub(super) winch_stiffness_n_per_m: Option<f64>,
+    pub(super) axial_stiffness_n: f64,
+    pub(super) mass_kg_per_m: f64,
+    pub(super) unstrained_length_m: f64,
+    pub(super) platform_point_m: [f64; 3],
+    pub(super) force_on_platform_n: [f64; 3],
+    pub(super) wheel_inertia_kg_m2: f64,
+    pub(super) swivel_inertia_kg_m2: f64,
+    pub(super) drum_mass_kg: f64,
+    pub(super) motor_mass_kg: f64,
+    /// `massless` or `rod`.
+    pub(super) drum_side: String,
+    pub(super) position_gain_n_per_m: f64,
+    pub(super) speed_gain_n_s_per_m: f64,
+    pub(super) cable_damping_ratio: f64,
+    /// All natural frequencies with the platform end held, up to the last.
+    pub(super) clamped_frequencies_hz: Vec<f64>,
+    pub(super) dynamic: Vec<DrivenCableAt>,
+}
+
+/// Dynamic stiffness of the platform end and force per commanded length at a frequency, world axes.
+#[derive(Deserialize)]
+pub(super) struct DrivenCableAt {
+    pub(super) frequency_hz: f64,
+    pub(super) stiffness_re: [[f64; 3]; 3],
+    pub(super) stiffness_im: [[f64; 3]; 3],
+    pub(super) length_re: [f64; 3],
+    pub(super) length_im: [f64; 3],
 }
 
 /// Robot whose cables run over equal pulleys to equal winches.

@@ -238,7 +238,7 @@ impl CatenaryDynamicEnd {
         let x = omega * omega;
         let left_out = |out_of_plane: bool| {
             let mut indices = near.iter().filter(|near| near.1 == out_of_plane).map(|near| near.0);
-            indices.next().map_or(0..0, |first| first..indices.last().unwrap_or(first) + 1)
+            indices.next().map_or(0..0, |first| first..indices.next_back().unwrap_or(first) + 1)
         };
         let Some(motions) = self.drive_at(x.into(), &(left_out(false), left_out(true))) else { return (0.0, 0.0) };
         let Some(moving) = &self.cable.end else { return (0.0, 0.0) };

@@ -153,10 +153,10 @@ impl DriveRows {
             })
             .collect();
         let mut receptance = vec![vec![zero; count]; count];
-        for i in 0..along {
-            for j in 0..along {
+        for (i, row) in receptance.iter_mut().enumerate().take(along) {
+            for (j, entry) in row.iter_mut().enumerate().take(along) {
                 let at = (i, j);
-                receptance[i][j] = (motions.along.receptance[at], motions.along.receptance_slope[at] * square_slope);
+                *entry = (motions.along.receptance[at], motions.along.receptance_slope[at] * square_slope);
             }
         }
         let mut loss = losses.along.clone();

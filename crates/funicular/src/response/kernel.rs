@@ -131,8 +131,8 @@ fn catenary_dynamic(form: &CatenaryDynamicEnd, omega: &Lane) -> LocalStiffness<C
 #[cold]
 #[inline(never)]
 fn add_drive(k: &mut LocalStiffness<Complexes>, form: &CatenaryDynamicEnd, omega: &Lane) {
-    for i in 0..LANES {
-        let Some(added) = form.drive_stiffness(omega[i]) else { continue };
+    for (i, omega) in omega.iter().enumerate() {
+        let Some(added) = form.drive_stiffness(*omega) else { continue };
         let entries = [
             (&mut k.axial, added.axial),
             (&mut k.coupling, added.coupling),

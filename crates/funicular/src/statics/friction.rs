@@ -198,15 +198,13 @@ pub fn friction_exponents(robot: &Robot, equilibrium: &Equilibrium) -> Vec<f64> 
 /// Friction exponent Θ of a cable at its state.
 fn exponent(cable: &Cable, state: &CableState) -> f64 {
     let anchor = &cable.anchor;
-    match &state.drive {
-        Some(drive) => drive.friction_exponent(anchor),
-        // Ideal cables are straight.
-        None => {
-            let friction = anchor.pulley.as_ref().and_then(|pulley| pulley.friction);
-            let contact = anchor.contact(&state.attachment_w);
-            friction.zip(contact).map_or(0.0, |(friction, contact)| friction.exponent(contact.radius, contact.wrap))
-        }
+    if let Some(drive) = &state.drive {
+        return drive.friction_exponent(anchor);
     }
+    // Ideal cables are straight.
+    let friction = anchor.pulley.as_ref().and_then(|pulley| pulley.friction);
+    let contact = anchor.contact(&state.attachment_w);
+    friction.zip(contact).map_or(0.0, |(friction, contact)| friction.exponent(contact.radius, contact.wrap))
 }
 
 /// True if the cable runs over a pulley with friction.

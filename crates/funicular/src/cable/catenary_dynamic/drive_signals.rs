@@ -120,15 +120,16 @@ impl CatenaryDynamicEnd {
             DriveSignal::Drum => at(chain.drum?, 1.0.into()),
             DriveSignal::Motor => at(chain.motor?.place, 1.0.into()),
             DriveSignal::Tension => return None,
-            DriveSignal::Length => match &chain.motor {
-                Some(motor) => at(motor.place, motor.servo?.control(omega.into()).0 * chain.stretch_drum),
-                None => {
+            DriveSignal::Length => {
+                if let Some(motor) = &chain.motor {
+                    at(motor.place, motor.servo?.control(omega.into()).0 * chain.stretch_drum);
+                } else {
                     let square = self.square(omega);
                     for (force, (still, moving)) in force.iter_mut().zip(&chain.by_length) {
                         *force = still + square * *moving;
                     }
                 }
-            },
+            }
         }
         Some(force)
     }

@@ -1,6 +1,6 @@
 //! Motion of the points along a cable, from the motion of its ends and the amplitudes of its clamped modes.
 
-use super::{CatenaryDynamic, DriveAt, DriveLosses, PoleResidue};
+use super::{CatenaryDynamic, PoleResidue};
 use crate::math::{Complex, DMat};
 
 /// Displacement of stations along a catenary-dynamic cable (D components per point) by motions of its ends (N = 2D
@@ -73,7 +73,7 @@ impl<const D: usize, const N: usize> Displacements<D, N> {
     }
 
     /// Displacement of station `at` for motions `ends` of the ends and amplitudes of the clamped modes.
-    fn at(&self, at: usize, ends: &[Complex; N], amplitudes: &[Complex]) -> [Complex; D] {
+    pub(super) fn at(&self, at: usize, ends: &[Complex; N], amplitudes: &[Complex]) -> [Complex; D] {
         let mut sum = self.still[at].map(|row| ends.iter().zip(row).map(|(u, psi)| u * psi).sum());
         for (mode, amplitude) in self.modes.iter().zip(amplitudes) {
             for (sum, value) in sum.iter_mut().zip(&mode[at]) {
@@ -99,8 +99,8 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
 /// Motion of a cable whose start moves and whose end is held.
 pub(crate) struct InternalMotion {
     /// Motions of both ends in plane (horizontal, up) and out of plane.
-    in_plane_ends: [Complex; 4],
-    out_of_plane_ends: [Complex; 2],
+    pub(super) in_plane_ends: [Complex; 4],
+    pub(super) out_of_plane_ends: [Complex; 2],
     /// Amplitudes of the clamped modes [m √kg].
     pub(crate) in_plane: Vec<Complex>,
     pub(crate) out_of_plane: Vec<Complex>,
@@ -136,36 +136,6 @@ impl InternalMotion {
             in_plane: in_plane.map(|(pole, mode)| along(mode) / (*pole - square)).collect(),
             out_of_plane: out_of_plane.map(|(pole, mode)| mode[loaded][0] * force[2] / (*pole - square)).collect(),
         }
-    }
-
-    /// This motion with the losses of the drive at the end of the cable: their forces `Δ z` act on the clamped modes.
-    #[must_use]
-    pub(crate) fn with_drive(mut self, cable: &CatenaryDynamic, losses: &DriveLosses, square: Complex) -> Self {
-        let Some(drive) = &cable.drive else { return self };
-
-        // Along the cable: the motion z without these forces, then with them.
-        let free: Vec<Complex> =
-            (0..losses.along.len()).map(|j| drive.along.at(j, &self.in_plane_ends, &self.in_plane)[0]).collect();
-        let delta: Vec<Complex> = losses.along.iter().map(|(value, _)| *value).collect();
-        let at = DriveAt::<2>::at(&cable.in_plane, &drive.along, &drive.flexibility, square, &(0..0));
-        let forces = at.forces(&delta, &free);
-        for ((amplitude, pole), mode) in self.in_plane.iter_mut().zip(&cable.in_plane.poles).zip(&drive.along.modes) {
-            let force: Complex = mode.iter().zip(&forces).map(|([phi, _], force)| force * *phi).sum();
-            *amplitude -= force / (*pole - square);
-        }
-
-        // Sideways.
-        if drive.flexibility_out_of_plane > 0.0 {
-            let free = drive.out_of_plane.at(0, &self.out_of_plane_ends, &self.out_of_plane)[0];
-            let flexibility = DMat::from_element(1, 1, drive.flexibility_out_of_plane);
-            let at = DriveAt::<1>::at(&cable.out_of_plane, &drive.out_of_plane, &flexibility, square, &(0..0));
-            let force = at.forces(&[losses.sideways.0], &[free])[0];
-            let modes = cable.out_of_plane.poles.iter().zip(&drive.out_of_plane.modes);
-            for (amplitude, (pole, mode)) in self.out_of_plane.iter_mut().zip(modes) {
-                *amplitude -= force * mode[0][0] / (*pole - square);
-            }
-        }
-        self
     }
 }
 

@@ -6,7 +6,7 @@
 //! `z = T u − R p` of the drive under the motion u of the platform end and the forces p that the drive has besides,
 //! `p = Δ z`, the cable has the stiffness `K + Tᵀ Δ (1 + R Δ)⁻¹ T` (docs/theory.md, equations (80) and (81)).
 
-use super::{CatenaryDynamicError, Displacements, PoleResidue};
+use super::{CatenaryDynamic, CatenaryDynamicError, Displacements, InternalMotion, PoleResidue};
 use crate::catenary::space::HangingCable;
 use crate::drive::{AnchorEnd, DriveChain};
 use crate::math::{CDMat, Complex, DMat};
@@ -154,9 +154,9 @@ impl<const S: usize> DriveAt<S> {
             let (by_end, by_end_slope) = (x * inverse, *pole * inverse * inverse);
             let (by_force, by_force_slope) = (x * inverse / *pole, inverse * inverse);
             for i in 0..count {
-                for s in 0..S {
-                    at.transfer[i][s] += phi(i) * g[s] * by_end;
-                    at.transfer_slope[i][s] += phi(i) * g[s] * by_end_slope;
+                for (s, g) in g.iter().take(S).enumerate() {
+                    at.transfer[i][s] += phi(i) * g * by_end;
+                    at.transfer_slope[i][s] += phi(i) * g * by_end_slope;
                 }
                 for j in 0..count {
                     at.receptance[(i, j)] += phi(i) * phi(j) * by_force;
@@ -225,5 +225,37 @@ impl DriveMotions {
         let out_of_plane =
             self.sideways.as_ref().map_or_else(Complex::default, |sideways| sideways.added(&[losses.sideways.0])[0][0]);
         ([axial, coupling, normal], [out_of_plane])
+    }
+}
+
+impl InternalMotion {
+    /// This motion with the losses of the drive at the end of the cable: their forces `Δ z` act on the clamped modes.
+    #[must_use]
+    pub(crate) fn with_drive(mut self, cable: &CatenaryDynamic, losses: &DriveLosses, square: Complex) -> Self {
+        let Some(drive) = &cable.drive else { return self };
+
+        // Along the cable: the motion z without these forces, then with them.
+        let free: Vec<Complex> =
+            (0..losses.along.len()).map(|j| drive.along.at(j, &self.in_plane_ends, &self.in_plane)[0]).collect();
+        let delta: Vec<Complex> = losses.along.iter().map(|(value, _)| *value).collect();
+        let at = DriveAt::<2>::at(&cable.in_plane, &drive.along, &drive.flexibility, square, &(0..0));
+        let forces = at.forces(&delta, &free);
+        for ((amplitude, pole), mode) in self.in_plane.iter_mut().zip(&cable.in_plane.poles).zip(&drive.along.modes) {
+            let force: Complex = mode.iter().zip(&forces).map(|([phi, _], force)| force * *phi).sum();
+            *amplitude -= force / (*pole - square);
+        }
+
+        // Sideways.
+        if drive.flexibility_out_of_plane > 0.0 {
+            let free = drive.out_of_plane.at(0, &self.out_of_plane_ends, &self.out_of_plane)[0];
+            let flexibility = DMat::from_element(1, 1, drive.flexibility_out_of_plane);
+            let at = DriveAt::<1>::at(&cable.out_of_plane, &drive.out_of_plane, &flexibility, square, &(0..0));
+            let force = at.forces(&[losses.sideways.0], &[free])[0];
+            let modes = cable.out_of_plane.poles.iter().zip(&drive.out_of_plane.modes);
+            for (amplitude, (pole, mode)) in self.out_of_plane.iter_mut().zip(modes) {
+                *amplitude -= force * mode[0][0] / (*pole - square);
+            }
+        }
+        self
     }
 }

@@ -179,9 +179,8 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         let length = self.row_length;
         let mut rows = vec![0.0; all * length];
         for (row, &from) in rows.chunks_exact_mut(length).zip(&kept) {
-            let count = if from == first { D } else { 1 };
-            for i in 0..count {
-                let factor = if count == 1 { 1.0 } else { direction[i] };
+            let factors: &[f64] = if from == first { direction } else { &[1.0] };
+            for (i, factor) in factors.iter().enumerate() {
                 let old = &self.rows[(from + i) * length..(from + i + 1) * length];
                 row.iter_mut().zip(old).for_each(|(entry, old)| *entry += factor * old);
             }

@@ -1,0 +1,230 @@
+//! Vibration of cables and robots whose drives have inertia and control.
+
+use super::reference::{DrivenCable, DrivenRobot, Drives, ServoDamped};
+use super::{Bound, Case, Comparison, drives};
+use anyhow::{Result, anyhow};
+use funicular::cable::catenary_dynamic::DriveSignal;
+use funicular::cable::{CableModel, EndStiffness, LocalStiffness};
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::math::{Complex, Mat3, Vec3};
+use funicular::modes;
+use funicular::response::{self, Port, Quantity, Signal};
+use funicular::robot::{Control, Damping, DrumSide, Robot, Servo, State, Winch, WinchMode};
+use funicular::statics::{self, Equilibrium, StaticModel};
+use std::f64::consts::TAU;
+
+/// Frequency beyond the last listed one, relative: the list ends between two of them.
+const BEYOND: f64 = 1e-6;
+
+/// Relative error of frequencies: 12 printed digits, and the error of the discretisation that is accepted.
+const FREQUENCIES: f64 = 1e-9;
+
+/// Relative error of the lowest frequencies with motors at constant torque. Their stiffness is that of the weight, a
+/// hundred thousandth of the stiffness of the cables, whose rounding it has.
+const AT_CONSTANT_TORQUE: f64 = 1e-8;
+
+pub(super) fn comparisons(of: &Drives) -> Result<Vec<Comparison>> {
+    let mut rows = Vec::new();
+    for row in &of.moving_cables.rows {
+        rows.extend(cable(row, &of.moving_cables.source)?);
+    }
+    for row in &of.vibration.rows {
+        let at_rest = of.robots.rows.iter().find(|robot| robot.case == row.case);
+        let robot = drives::robot_of(at_rest.ok_or_else(|| anyhow!("no robot \"{}\"", row.case))?)?;
+        rows.extend(driven(row, robot, &of.vibration.source)?);
+    }
+    Ok(rows)
+}
+
+/// Masses and gains of a drive at the cable.
+struct Parts {
+    drum_mass: f64,
+    motor_mass: f64,
+    control: Control,
+}
+
+fn equip(robot: &mut Robot, parts: &Parts, [wheel, swivel]: [f64; 2], damping_ratio: f64) {
+    for cable in &mut robot.cables {
+        cable.material.damping = Damping::Ratio(damping_ratio);
+        if let Some(pulley) = &mut cable.anchor.pulley {
+            (pulley.inertia, pulley.swivel_inertia) = (wheel, swivel);
+        }
+        if let Some(Winch { drum_mass, motor_mass, control, .. }) = &mut cable.anchor.winch {
+            (*drum_mass, *motor_mass, *control) = (parts.drum_mass, parts.motor_mass, parts.control);
+        }
+    }
+}
+
+fn position_control(position_gain: f64, speed_gain: f64) -> Control {
+    Control::Position(Servo { position_gain, speed_gain, integral: true, delay: 0.0 })
+}
+
+fn driven(row: &DrivenRobot, mut robot: Robot, source: &str) -> Result<Vec<Comparison>> {
+    let control = match row.control.as_str() {
+        "position" => position_control(row.position_gain_n_per_m, row.speed_gain_n_s_per_m),
+        "torque" => Control::Torque,
+        _ => Control::Ideal,
+    };
+    let parts = Parts { drum_mass: row.drum_mass_kg, motor_mass: row.motor_mass_kg, control };
+    equip(&mut robot, &parts, [row.wheel_inertia_kg_m2, row.swivel_inertia_kg_m2], row.cable_damping_ratio);
+    let State::Lengths(lengths) = &robot.state else { return Err(anyhow!("the lengths are given")) };
+    let rest = statics::forward(&robot, lengths, StaticModel::Catenary, None)?;
+
+    // All natural frequencies.
+    let below_hz = row.frequencies_hz.iter().copied().fold(0.0, f64::max) * (1.0 + BEYOND);
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), below_hz)?;
+    let found = modes::below(&dynamics, below_hz);
+    let frequencies: Vec<f64> = found.modes.iter().map(|mode| mode.frequency_hz).collect();
+    let certified = if found.certified { frequencies.len() } else { 0 };
+    let case = Case { name: format!("{}, moving drives", row.case), source };
+    let torque = control == Control::Torque;
+    let tolerance = if torque { AT_CONSTANT_TORQUE } else { FREQUENCIES };
+    let mut rows = vec![
+        case.count("certified frequencies", row.frequencies_hz.len(), certified),
+        case.relative("frequencies [Hz]", &row.frequencies_hz, &frequencies, tolerance, Bound::Rounding),
+    ];
+
+    // Responses of the platform to all commanded lengths, or to the forces of all motors.
+    let signal = if torque { DriveSignal::Motor } else { DriveSignal::Length };
+    let inputs: Vec<Signal> = (0..robot.cables.len()).map(|cable| Signal::Drive { cable, signal }).collect();
+    let along = |direction_w: Vec3| Signal::Along { direction_w, point_p: Vec3::zeros() };
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let motions: Vec<Signal> = axes.map(along).into_iter().chain(axes.map(|axis_w| Signal::About { axis_w })).collect();
+    let inputs = Port::all(&robot, &rest, &dynamics, &inputs, false)?;
+    let outputs: Vec<(Port, Quantity)> = Port::all(&robot, &rest, &dynamics, &motions, false)?
+        .into_iter()
+        .map(|port| (port, Quantity::Displacement))
+        .collect();
+    let what = if torque { "motion per force of a motor" } else { "motion per commanded length" };
+    for theirs in &row.responses {
+        let found = response::matrix(&dynamics, &[theirs.frequency_hz], &inputs, &outputs)?;
+        let ours: Vec<f64> = found.iter().flat_map(|row| [row[0].re, row[0].im]).collect();
+        let pairs = theirs.re.iter().flatten().zip(theirs.im.iter().flatten());
+        let theirs_flat: Vec<f64> = pairs.flat_map(|(re, im)| [*re, *im]).collect();
+        let quantity = format!("{what} at {} Hz", theirs.frequency_hz);
+        rows.push(case.together(&quantity, &theirs_flat, &ours, AT_CONSTANT_TORQUE, Bound::Rounding));
+    }
+
+    if let Some(damped) = &row.servo_damped {
+        rows.extend(servo_damped(damped, robot, &rest, &case)?);
+    }
+    Ok(rows)
+}
+
+/// Damped modes with cables without damping.
+fn servo_damped(theirs: &ServoDamped, mut robot: Robot, rest: &Equilibrium, case: &Case) -> Result<Vec<Comparison>> {
+    for cable in &mut robot.cables {
+        cable.material.damping = Damping::Ratio(0.0);
+    }
+    let dynamics = Dynamics::about(&robot, rest, Linearisation::default(), theirs.below_hz)?;
+    let undamped = modes::below(&dynamics, theirs.below_hz);
+    let damped = modes::damped::damped_modes(&dynamics, &undamped);
+
+    // The order of strongly damped modes is that of neither list: each is compared with the nearest.
+    let ours: Vec<Complex> = damped.modes.iter().map(|mode| mode.omega / TAU).collect();
+    let zero = |(hz, ratio): (&f64, &f64)| hz * Complex::new((1.0 - ratio * ratio).sqrt(), *ratio);
+    let zeros: Vec<Complex> = theirs.frequency_hz.iter().zip(&theirs.damping_ratio).map(zero).collect();
+    let nearest = |theirs: &Complex| {
+        ours.iter().copied().min_by(|a, b| (a - theirs).norm().total_cmp(&(b - theirs).norm())).unwrap_or_default()
+    };
+    let pairs: Vec<(Complex, Complex)> = zeros.iter().map(|theirs| (*theirs, nearest(theirs))).collect();
+    let flat = |numbers: Vec<Complex>| numbers.iter().flat_map(|z| [z.re, z.im]).collect::<Vec<f64>>();
+    let (theirs, ours_matched) = (pairs.iter().map(|pair| pair.0).collect(), pairs.iter().map(|pair| pair.1).collect());
+    let certified = if damped.certified { damped.modes.len() } else { 0 };
+    Ok(vec![
+        case.count("certified damped frequencies", zeros.len(), certified),
+        case.together(
+            "damped frequencies, real and imaginary [Hz]",
+            &flat(theirs),
+            &flat(ours_matched),
+            FREQUENCIES,
+            Bound::Digits("12 printed digits"),
+        ),
+    ])
+}
+
+fn cable(row: &DrivenCable, source: &str) -> Result<Vec<Comparison>> {
+    // A point mass in equilibrium at the platform's point: its load balances the cable.
+    let weight = Vec3::new(0.0, 0.0, -9.81);
+    let load_w = -Vec3::from(row.force_on_platform_n) - weight;
+    let winch = drives::winch_text(row.drum_side_length_m, row.winch_stiffness_n_per_m);
+    let text = format!(
+        "name = \"one cable\"\n[platform]\nmass_kg = 1.0\nmotion = \"point-mass\"\n[materials.rope]\n\
+         axial_stiffness_n = {:?}\nmass_kg_per_m = {:?}\n[pulleys.wheel]\nradius_m = {:?}\nentry_direction = [0, 0, 1]\n\
+         {winch}[[cables]]\nname = \"1\"\nmaterial = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\nanchor_m = {:?}\n\
+         unstrained_length_m = {:?}\n[loads]\nforce_n = {:?}\n",
+        row.axial_stiffness_n,
+        row.mass_kg_per_m,
+        row.radius_m,
+        row.entry_point_m,
+        row.unstrained_length_m,
+        load_w.as_slice()
+    );
+    let mut robot = Robot::from_toml(&text)?;
+    let control = if row.position_gain_n_per_m > 0.0 {
+        position_control(row.position_gain_n_per_m, row.speed_gain_n_s_per_m)
+    } else {
+        Control::Ideal
+    };
+    let parts = Parts { drum_mass: row.drum_mass_kg, motor_mass: row.motor_mass_kg, control };
+    equip(&mut robot, &parts, [row.wheel_inertia_kg_m2, row.swivel_inertia_kg_m2], row.cable_damping_ratio);
+    if let (true, Some(winch)) = (row.drum_side == "rod", &mut robot.cables[0].anchor.winch) {
+        winch.drum_side = DrumSide::Rod;
+    }
+    let rest = statics::forward(&robot, &[row.unstrained_length_m], StaticModel::Catenary, None)?;
+
+    // Frequencies with the platform end held.
+    let limit = row.clamped_frequencies_hz.iter().copied().fold(0.0, f64::max) * (1.0 + BEYOND);
+    let model = CableModel::CatenaryDynamic;
+    let found = EndStiffness::new(&robot, 0, &rest.cables[0], model, false, WinchMode::AsGiven, limit)?;
+    let EndStiffness::Dynamic(found) = found else { return Err(anyhow!("the cable has mass")) };
+    let clamped: Vec<f64> = found.clamped_frequencies_below(limit * TAU).iter().map(|omega| omega / TAU).collect();
+    let case = Case { name: format!("{}, moving drive", row.case), source };
+    let point = rest.pose.position_w;
+    let digits = Bound::Digits("12 printed digits");
+    let mut rows = vec![
+        // The force is printed with 12 digits, and the stiffness across a taut cable is small.
+        case.absolute("platform point [m]", &row.platform_point_m, point.as_slice(), 1e-9, digits),
+        case.count("clamped frequencies", row.clamped_frequencies_hz.len(), clamped.len()),
+        case.relative("clamped frequencies [Hz]", &row.clamped_frequencies_hz, &clamped, FREQUENCIES, Bound::Rounding),
+    ];
+
+    // Dynamic stiffness, and the force per commanded length on a platform that is held: that on the mass, which D moves.
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), limit)?;
+    let signals = [Signal::Drive { cable: 0, signal: DriveSignal::Length }].into_iter().chain(
+        [Vec3::x(), Vec3::y(), Vec3::z()].map(|direction_w| Signal::Along { direction_w, point_p: Vec3::zeros() }),
+    );
+    let ports = Port::all(&robot, &rest, &dynamics, &signals.collect::<Vec<_>>(), false)?;
+    for theirs in &row.dynamic {
+        let omega = theirs.frequency_hz * TAU;
+        let k = found.damped(omega);
+        let part = |of: fn(&Complex) -> f64| -> Mat3 {
+            let [axial, coupling, normal, out_of_plane] = [&k.axial, &k.coupling, &k.normal, &k.out_of_plane].map(of);
+            LocalStiffness { axial, coupling, normal, out_of_plane }.in_world(found.axes())
+        };
+        let (re, im) = (part(|z| z.re), part(|z| z.im));
+        let flat = |re: &[f64], im: &[f64]| re.iter().chain(im).copied().collect::<Vec<f64>>();
+        let both = [&theirs.stiffness_re, &theirs.stiffness_im].map(|rows| Mat3::from_fn(|i, j| rows[i][j]));
+        let at = format!("at {} Hz", theirs.frequency_hz);
+        let theirs_k = flat(both[0].as_slice(), both[1].as_slice());
+        let ours_k = flat(re.as_slice(), im.as_slice());
+        rows.push(case.together(&format!("stiffness {at} [N/m]"), &theirs_k, &ours_k, AT_CONSTANT_TORQUE, digits));
+
+        // f = D x.
+        let x: Vec<Complex> = (1..4)
+            .map(|k| {
+                Ok(response::between(&dynamics, &[theirs.frequency_hz], &ports[0], &ports[k], Quantity::Displacement)?
+                    [0])
+            })
+            .collect::<Result<_>>()?;
+        let d = dynamics.stiffness(omega);
+        let force = |i: usize| -> Complex {
+            (0..3).map(|j| d[(i, j)] * x[j]).sum::<Complex>() - omega * omega * robot.platform.mass * x[i]
+        };
+        let ours: Vec<Complex> = (0..3).map(force).collect();
+        let ours = flat(&[ours[0].re, ours[1].re, ours[2].re], &[ours[0].im, ours[1].im, ours[2].im]);
+        let theirs_f = flat(&theirs.length_re, &theirs.length_im);
+        rows.push(case.together(&format!("force per length {at} [N/m]"), &theirs_f, &ours, AT_CONSTANT_TORQUE, digits));
+    }
+    Ok(rows)
+}
