@@ -23,8 +23,8 @@ impl DriveAtRest {
         self.friction(anchor).map_or(0.0, |(friction, contact)| friction.exponent(contact.radius, contact.wrap))
     }
 
-    /// Effect of friction beyond the exit point, with the free span held. `used` is the fraction of the friction that acts:
-    /// 1 if the cable last ran towards the platform, −1 if it last ran towards the drum, and any value between.
+    /// Effect of friction beyond the exit point, with the free span held. `used` is the fraction of the friction that
+    /// acts: 1 if the cable last ran towards the platform, −1 if it last ran towards the drum, and any value between.
     ///
     /// # References
     /// docs/theory.md, equations (72) and (73).

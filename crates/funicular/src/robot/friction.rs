@@ -1,18 +1,19 @@
 //! Friction of a cable on a pulley.
 //!
-//! Friction changes the tension over the pulley by a factor between e^−Θ and e^Θ. The friction exponent Θ depends on the
-//! kind of the friction (docs/theory.md, equation (71)).
+//! Friction changes the tension over the pulley by a factor between e^−Θ and e^Θ. The friction exponent Θ depends on
+//! the kind of the friction (docs/theory.md, equation (71)).
 
 /// Friction of a pulley.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PulleyFriction {
-    /// The cable slides in the groove of a wheel that does not turn, or over a fixed bar. Θ = μβ, β being the wrap angle.
+    /// The cable slides in the groove of a wheel that does not turn, or over a fixed bar. Θ = μβ, β being the wrap
+    /// angle.
     Sliding {
         /// Coefficient μ of friction between cable and groove, not negative.
         coefficient: f64,
     },
-    /// The wheel turns with the cable and has the efficiency η of a catalogue: the ratio of the tension on the pulled side
-    /// to that on the pulling side, in (0, 1]. Θ = −ln η.
+    /// The wheel turns with the cable and has the efficiency η of a catalogue: the ratio of the tension on the pulled
+    /// side to that on the pulling side, in (0, 1]. Θ = −ln η.
     Efficiency(f64),
     /// The wheel turns with the cable, and its bearing has friction. `Θ = 2 μ_b (r_b/r) sin(β/2)`.
     Bearing {
@@ -24,8 +25,8 @@ pub enum PulleyFriction {
 }
 
 impl PulleyFriction {
-    /// Friction exponent Θ of a wheel with this radius [m] that the cable touches over the wrap angle [rad]: the tension at
-    /// the drum is at most e^Θ times, and at least e^−Θ times that without friction.
+    /// Friction exponent Θ of a wheel with this radius [m] that the cable touches over the wrap angle [rad]: the
+    /// tension at the drum is at most e^Θ times, and at least e^−Θ times that without friction.
     ///
     /// # Example
     /// ```
@@ -48,9 +49,9 @@ impl PulleyFriction {
 
     /// Friction exponent between the exit point and the point of the rim at the angle θ [rad] from the entry point.
     ///
-    /// A cable that slides changes its tension all along the arc. On a wheel that turns it sticks to the groove and changes
-    /// its tension near the point at which it leaves the wheel. Then the whole arc has the tension of one of the two sides;
-    /// the result is that of the drum side, which differs the more from the tension without friction.
+    /// A cable that slides changes its tension all along the arc. On a wheel that turns it sticks to the groove and
+    /// changes its tension near the point at which it leaves the wheel. Then the whole arc has the tension of one of
+    /// the two sides; the result is that of the drum side, which differs the more from the tension without friction.
     pub(crate) fn exponent_from_exit(&self, wheel_radius: f64, wrap: f64, angle: f64) -> f64 {
         match *self {
             Self::Sliding { coefficient } => coefficient * (wrap - angle),

@@ -2,8 +2,8 @@
 //!
 //! Friction holds a cable at rest with any tension at the drum between e^−Θ and e^Θ times that without friction. The
 //! friction depends on the last motion of every cable, so the equilibrium is one of many. With unstrained lengths held,
-//! friction changes the strain behind the exit points, and this moves the platform. With the pose held, friction changes
-//! the tensions at the drums and the lengths.
+//! friction changes the strain behind the exit points, and this moves the platform. With the pose held, friction
+//! changes the tensions at the drums and the lengths.
 
 use super::derivatives::{self, load_of};
 use super::equilibrium::{CableState, Equilibrium};
@@ -101,8 +101,8 @@ pub struct MotionInterval {
 pub struct CableFriction {
     /// Friction exponent Θ of the cable's pulley; zero without friction.
     pub exponent: f64,
-    /// Change of the unstrained length beyond the exit point, with the free span held [m]. With the pose held the length
-    /// of the cable changes by it; with lengths held the free span changes by the opposite.
+    /// Change of the unstrained length beyond the exit point, with the free span held [m]. With the pose held the
+    /// length of the cable changes by it; with lengths held the free span changes by the opposite.
     pub excess_length: Interval,
     /// Tension at the platform end [N].
     pub tension_platform: Interval,
@@ -115,11 +115,12 @@ pub struct CableFriction {
 /// Interval in which friction of the pulleys leaves an equilibrium without friction: every state of friction between
 /// "last ran towards the platform" and "last ran towards the drum" is possible for every cable on its own.
 ///
-/// The change of the unstrained lengths behind the exit points is that of the profile of the tension. Motion and tensions
-/// are of first order in this change. Ideal cables have no strain, so only their tensions at the drum change.
+/// The change of the unstrained lengths behind the exit points is that of the profile of the tension. Motion and
+/// tensions are of first order in this change. Ideal cables have no strain, so only their tensions at the drum change.
 ///
-/// Left out: the friction of the swivel, of guide wheels behind the entry point and of the winch; for the tensions at the
-/// exit points the weight of the cable over the exit point's own motion; for all tensions the turn of the wind's drag.
+/// Left out: the friction of the swivel, of guide wheels behind the entry point and of the winch; for the tensions at
+/// the exit points the weight of the cable over the exit point's own motion; for all tensions the turn of the wind's
+/// drag.
 ///
 /// # Errors
 /// [`FrictionError`].
@@ -186,8 +187,8 @@ pub fn friction_interval(
     Ok(FrictionInterval { motion, cables: cables.collect() })
 }
 
-/// Friction exponent Θ of every cable, in file order: friction changes the tension at its drum by a factor of up to e^Θ.
-/// Zero for a cable without friction.
+/// Friction exponent Θ of every cable, in file order: friction changes the tension at its drum by a factor of up to
+/// e^Θ. Zero for a cable without friction.
 ///
 /// # References
 /// docs/theory.md, equation (71).
@@ -212,8 +213,8 @@ fn has_friction(cable: &Cable) -> bool {
     cable.anchor.pulley.as_ref().is_some_and(|pulley| pulley.friction.is_some())
 }
 
-/// Motion of the platform per unstrained length of each cable: translation [m/m] and rotation vector [rad/m], world axes.
-/// Zero for ideal cables, which have no strain.
+/// Motion of the platform per unstrained length of each cable: translation [m/m] and rotation vector [rad/m], world
+/// axes. Zero for ideal cables, which have no strain.
 fn motions_by_length(robot: &Robot, equilibrium: &Equilibrium) -> Result<Vec<[f64; 6]>, FrictionError> {
     let Some(jacobian) = derivatives::balance_jacobian(robot, equilibrium) else {
         return Ok(vec![[0.0; 6]; robot.cables.len()]);
