@@ -1,6 +1,5 @@
 //! Output of a run without a result: one message on stderr, and the exit code.
 
-use crate::interrupt;
 use funicular_study::robot_file::Refused;
 use funicular_study::wording::{Words, message, worded};
 use funicular_study::{Error, ErrorKind};
@@ -10,6 +9,9 @@ use thiserror::Error;
 
 /// Exit code of a valid input for a robot that has no such solution.
 const NO_SOLUTION: u8 = 1;
+/// Exit code of a run that the user or the system has stopped, as a shell reports SIGINT.
+pub(crate) const STOPPED: u8 = 130;
+
 /// Exit code of an input that has to change.
 const BAD_INPUT: u8 = 2;
 
@@ -68,11 +70,11 @@ fn refused(error: &anyhow::Error) -> Option<&Refused> {
 
 fn code(error: &anyhow::Error) -> u8 {
     if error.is::<Interrupted>() {
-        return interrupt::EXIT_CODE;
+        return STOPPED;
     }
     match error.downcast_ref::<Error>().map_or_else(|| ErrorKind::of(error), Error::kind) {
         ErrorKind::Input => BAD_INPUT,
         ErrorKind::NoSolution => NO_SOLUTION,
-        ErrorKind::Cancelled => interrupt::EXIT_CODE,
+        ErrorKind::Cancelled => STOPPED,
     }
 }

@@ -7,9 +7,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-/// Exit code of a run that the user or the system has stopped, as a shell reports SIGINT.
-pub(crate) const EXIT_CODE: u8 = 130;
-
 /// Time that an analysis has for its next step. One eigenvalue problem of a large model takes longer.
 const PATIENCE: Duration = Duration::from_secs(1);
 
@@ -23,7 +20,7 @@ static COMPUTES: AtomicBool = AtomicBool::new(false);
 pub(crate) fn stop_at_next_row() -> Result<()> {
     ctrlc::set_handler(|| {
         if STOPPED.swap(true, Ordering::Relaxed) {
-            process::exit(EXIT_CODE.into());
+            process::exit(errors::STOPPED.into());
         }
     })
     .context("cannot listen for Ctrl-C")
@@ -36,13 +33,13 @@ pub(crate) fn stop_analysis() -> Computes {
     // Without a handler Ctrl-C ends the program at once, which is no error of the analysis.
     let _ = ctrlc::set_handler(|| {
         if STOPPED.swap(true, Ordering::Relaxed) || !COMPUTES.load(Ordering::Relaxed) {
-            process::exit(EXIT_CODE.into());
+            process::exit(errors::STOPPED.into());
         }
         thread::spawn(|| {
             thread::sleep(PATIENCE);
             if COMPUTES.load(Ordering::Relaxed) {
                 errors::report(&Interrupted("stopped before the end".to_owned()).into());
-                process::exit(EXIT_CODE.into());
+                process::exit(errors::STOPPED.into());
             }
         });
     });

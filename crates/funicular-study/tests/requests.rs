@@ -41,8 +41,7 @@ fn requests() -> Vec<Value> {
     let tensions = json!({
         "tension_rule": "closest", "target_tension_n": [900.0], "min_tension_n": 5.0, "max_tension_n": 4000.0,
     });
-    let model =
-        json!({ "cable_model": "shallow-static", "assembly": "without-geometric-stiffness", "in_plane_only": true });
+    let model = json!({ "cable_model": "shallow-static", "assembly": "without-geometric-stiffness", "in_plane_only": true, "winches": "torque" });
     let points = json!({ "input_point_m": [0.1, 0.0, 0.0], "output_point_m": [0.0, 0.0, 0.1] });
     let range = json!({ "from_hz": 0.1, "to_hz": 10.0, "points": 7, "log": true });
     let signals = json!({ "input": "f:1,0,1", "output": "cable:3@0.5:az" });
@@ -65,9 +64,9 @@ fn requests() -> Vec<Value> {
     let of = |command: &str, parts: &[&Value]| joined(&[&[&json!({ "command": command })], parts].concat());
     vec![
         of("check", &[&robot]),
-        of("statics", &[&robot, &state, &tensions, &json!({ "all": false })]),
-        of("statics", &[&robot, &lengths, &json!({ "all": true })]),
-        of("statics", &[&robot, &loads, &turned, &json!({ "all": false })]),
+        of("statics", &[&robot, &state, &tensions, &json!({ "all": false, "friction_interval": true })]),
+        of("statics", &[&robot, &lengths, &json!({ "all": true, "friction_interval": false })]),
+        of("statics", &[&robot, &loads, &turned, &json!({ "all": false, "friction_interval": false })]),
         of("stiffness", &[&robot, &state, &tensions, &model, &json!({ "at_hz": 3.5 })]),
         of(
             "modes",
@@ -115,7 +114,8 @@ fn requests() -> Vec<Value> {
                 &tensions,
                 &share,
                 &json!({
-                    "below_hz": 2.0, "assembly": "consistent", "in_plane_only": false, "platform": true, "tolerance": 0.1,
+                    "below_hz": 2.0, "assembly": "consistent", "in_plane_only": false, "winches": "clamped", "platform": true,
+                    "tolerance": 0.1,
                 }),
             ],
         ),
@@ -161,7 +161,7 @@ fn requests() -> Vec<Value> {
                 &lengths,
                 &tensions,
                 &range,
-                &json!({ "name": "3", "cable_model": "catenary-dynamic", "in_plane_only": true }),
+                &json!({ "name": "3", "cable_model": "catenary-dynamic", "in_plane_only": true, "winches": "stuck" }),
             ],
         ),
         of(
