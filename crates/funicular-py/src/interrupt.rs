@@ -61,7 +61,7 @@ pub(crate) fn interruptible_in_steps<T: Send + 'static>(
             match receiver.recv_timeout(INTERVAL) {
                 Ok(result) => return Ok(result),
                 Err(RecvTimeoutError::Timeout) => {
-                    check_signals().inspect_err(|_| stop.0.store(true, Ordering::Relaxed))?
+                    check_signals().inspect_err(|_| stop.0.store(true, Ordering::Relaxed))?;
                 }
                 Err(RecvTimeoutError::Disconnected) => match worker.join() {
                     Err(panic) => std::panic::resume_unwind(panic),

@@ -104,13 +104,14 @@ impl From<Bound> for &'static str {
 /// A reference file that cannot be read, or a robot in it without an equilibrium.
 pub fn sections() -> Result<Vec<Section>> {
     let (published, independent) = (reference::published()?, reference::independent()?);
+    let of_drives = reference::drives()?;
     Ok(vec![
         catenary::section(&published)?,
         robots::section(&published)?,
         independent::section(&independent)?,
         exact::section(&published, &reference::exact()?, &independent)?,
         damped::section(&reference::damped()?, &independent)?,
-        drives::section(&reference::drives()?)?,
+        drives::section(&of_drives, driven::comparisons(&of_drives)?)?,
         measured::section(&reference::measured()?.grab)?,
         dynamics::section(&published),
         cube::section(&published)?,

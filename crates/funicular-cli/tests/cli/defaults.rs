@@ -150,7 +150,7 @@ fn stated(command: &str) -> Vec<(String, String)> {
         let name = line.trim_start().split("--").nth(1).filter(|_| line.trim_start().starts_with('-'));
         if let Some(name) = name {
             close(&option, &text);
-            option = name.split([' ', '=']).next().unwrap().to_owned();
+            name.split([' ', '=']).next().unwrap().clone_into(&mut option);
             text.clear();
         }
         text += line;

@@ -134,7 +134,7 @@ mod tests {
         let State::Lengths(lengths) = &robot.state else { unreachable!() };
         let rest = statics::forward(&robot, lengths, StaticModel::Catenary, None).unwrap();
         // No mode has all of its energy in the platform.
-        let status = first_platform(&robot, &rest, Linearisation::default(), 1.0, 100.0).unwrap_err();
+        let status = first_platform(&robot, &rest, Linearisation::default(), 1.0, 500.0).unwrap_err();
         assert_eq!(status.code, "no-frequency");
         assert!(status.reason.starts_with("no mode of the platform was found: of the natural"), "{}", status.reason);
         assert!(status.reason.contains("more than the 400 that are computed. The cables vibrate"), "{}", status.reason);

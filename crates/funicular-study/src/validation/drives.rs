@@ -3,7 +3,7 @@
 use super::reference::{
     CableToWinch, Drives, FrictionCorner, FrictionHalfWidths, RobotWithWinches, SaggingOverPulley, StraightOverPulley,
 };
-use super::{Bound, Case, Comparison, Section, driven};
+use super::{Bound, Case, Comparison, Section};
 use anyhow::{Result, anyhow};
 use funicular::drive::{CableAtRest, DriveFriction};
 use funicular::math::{Mat3, Vec3, rotation};
@@ -11,7 +11,8 @@ use funicular::robot::{Anchor, Cable, Pulley, PulleyFriction, Robot, State};
 use funicular::statics::{self, CableState, Equilibrium, Held, Interval, StaticModel};
 use std::fmt::Write;
 
-pub(super) fn section(drives: &Drives) -> Result<Section> {
+/// Section of all drives; `moving` are the comparisons of their vibration.
+pub(super) fn section(drives: &Drives, moving: Vec<Comparison>) -> Result<Section> {
     let mut rows = Vec::new();
     for row in &drives.straight.rows {
         rows.extend(straight(row, &drives.straight.source));
@@ -25,7 +26,7 @@ pub(super) fn section(drives: &Drives) -> Result<Section> {
     for row in &drives.robots.rows {
         rows.extend(robot(row, &drives.robots.source)?);
     }
-    rows.extend(driven::comparisons(drives)?);
+    rows.extend(moving);
     for row in &drives.friction_corners.rows {
         let robot = with_friction(drives, &row.robot, row.friction_coefficient)?;
         rows.extend(friction_corner(row, &robot, &drives.friction_corners.source)?);

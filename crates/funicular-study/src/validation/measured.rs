@@ -135,10 +135,9 @@ fn robot(cables: usize) -> Result<Robot> {
     })?)
 }
 
+#[cfg(feature = "pages")]
 #[cfg(test)]
 mod tests {
-    #![cfg(feature = "pages")]
-
     use super::*;
     use crate::figures::axis::Axis;
     use crate::figures::chart::{Chart, Entry, Layer, Panel, Sample};

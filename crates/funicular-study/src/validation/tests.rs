@@ -59,7 +59,8 @@ fn what_the_paper_prints_of_itself_follows_where_it_can() {
 
 #[test]
 fn cables_over_pulleys_and_on_winches_rest_as_in_other_programs() {
-    check(super::drives::section(&drives().unwrap()));
+    let drives = drives().unwrap();
+    check(super::drives::section(&drives, super::driven::comparisons(&drives).unwrap()));
 }
 
 #[test]

@@ -192,9 +192,9 @@ mod tests {
 
     #[test]
     fn noise_and_zeros_end_the_approach() {
-        for response in
-            [&(|f: f64| 1.0 + 1e-3 * (1e9 * f).sin()) as &dyn Fn(f64) -> f64, &|f: f64| f64::from(u8::from(f == 10.0))]
-        {
+        for response in [&(|f: f64| 1.0 + 1e-3 * (1e9 * f).sin()) as &dyn Fn(f64) -> f64, &|f: f64| {
+            f64::from(u8::from((f - 10.0).abs() < f64::MIN_POSITIVE))
+        }] {
             let (maximum, count) = approached(10.0, response);
             assert!(count <= MAX_STEPS && maximum.height().is_finite(), "{maximum:?} after {count}");
         }
