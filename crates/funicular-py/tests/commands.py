@@ -13,7 +13,7 @@ OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode"}
 # Options without a value.
 SWITCHES = {
     *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
-    *("--platform", "--hold-lengths-of-pose", "--friction-interval"),
+    *("--platform", "--hold-lengths-of-pose", "--friction-interval", "--rigid-cables"),
 }
 # Options that may be given several times.
 LISTS = {"reduce": {"--input", "--output"}}

@@ -28,6 +28,7 @@ EXCEPTIONS: dict[str, dict[str, str]] = {
     "Modes": {
         "robot": "the name of the robot, which `statics` has as the key `robot`",
         "first_platform_index": "the key `index` of `first_platform_mode`",
+        "drive_energy_fractions": "a key for robots with inertia in their drives; here zeros",
         "cable_axes": "`axes` of `stations`, as one array",
         "station_arc_length_m": "`arc_length_m` of `stations`, as one array",
         "station_position_m": "`position_m` of `stations`, as one array",

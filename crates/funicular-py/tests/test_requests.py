@@ -16,7 +16,7 @@ from conftest import ROOT
 # Lines for commands and options without an example in the help texts.
 STATE = "--mass-kg 20 --force-n 1,0,-5 --moment-n-m 0,0.1,0 --load-point-m 0,0,0.1 --wind-m-s 5,0,0 --cable-load-n-per-m 0,0,-0.1"
 LENGTHS = "--lengths-m 6.9,6.6,6.8,6.7,6.8,6.6"
-MODEL = "--cable-model shallow-dynamic --assembly without-geometric-stiffness --in-plane-only"
+MODEL = "--cable-model shallow-dynamic --assembly without-geometric-stiffness --in-plane-only --winches torque"
 ROBOT = "robots/yuan2014-4mm.toml"
 WHOLE = "--cable-model catenary-dynamic --assembly consistent"
 RANGE = "--from-hz 0.5 --to-hz 8 --points 7"
@@ -49,14 +49,17 @@ MORE = [
     "--payload-center-m 0,0,-0.1 --platform-share 0.75 --quantity payload-max,first-platform-frequency,tension-max-cable",
     "funicular sweep robots/cogiro.toml --pose 1,2,1.5 --vary platform.mass_kg=100,150 --hold-lengths-of-pose "
     "--payload-center-m 0,0,-0.1 --platform-share 0.75 --quantity pose,payload-max",
-    f"funicular compare {ROBOT} --below-hz 2 --pose 0,0,0.5 {STATE} --assembly without-geometric-stiffness --in-plane-only",
+    f"funicular compare {ROBOT} --below-hz 2 --pose 0,0,0.5 {STATE} --assembly without-geometric-stiffness "
+    "--in-plane-only --winches clamped",
     f"funicular cable {ROBOT} --name 3 {RANGE}",
-    f"funicular cable {ROBOT} --name 3 {RANGE} --log --pose 0,0,0.5 {STATE} --cable-model shallow-dynamic --in-plane-only",
+    f"funicular cable {ROBOT} --name 3 {RANGE} --log --pose 0,0,0.5 {STATE} --cable-model shallow-dynamic "
+    "--in-plane-only --winches stuck",
     f"funicular pose-error {ROBOT} --mass-kg 10.55:86.35:5 {LENGTHS} --tolerance-mm 5",
     f"funicular reduce {ROBOT} --below-hz 2 --input fx --input mz --output x --output rz --pose 0,0,0.5 --order 12",
     f"funicular reduce {ROBOT} --below-hz 2 --input fx --output ax --input-point-m 0.1,0,0 --output-point-m 0,0,0.1 "
     "--damping-at-hz 1 --tolerance 0.5",
-    f"funicular reduce {ROBOT} --below-hz 1 --input fx --output x --tolerance 0.1 --form second-order {STATE} {WHOLE}",
+    f"funicular reduce {ROBOT} --below-hz 1 --input fx --output x --tolerance 0.1 --form second-order {STATE} {WHOLE} "
+    "--winches clamped",
     f"funicular map robots/cogiro.toml --grid z=1:2:2 {TENSIONS} {STATE} {MODEL} --quantity tensions --up-to-hz 50",
     f"funicular sweep {ROBOT} --vary cables.3.unstrained_length_m=6.7,6.8 --static-model spring --set platform.mass_kg=12",
     f"funicular report {ROBOT} --below-hz 3 --input mz --output arz --cable-model spring --mass-kg 12",

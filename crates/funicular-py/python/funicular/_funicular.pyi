@@ -33,7 +33,7 @@ class Analyses:
         The keys of the program's JSON. `equilibria` lists the solutions, the lowest first, each with `pose`, `stable`,
         `energy_j`, `distance_m` and `tensions_platform_n`; `search` describes the search. Lists of numbers are arrays.
         """
-    def cable(self, /, name: str, hz: ArrayLike, *, cable_model: str | None = None, in_plane_only: bool = False) -> dict[str, Any]:
+    def cable(self, /, name: str, hz: ArrayLike, *, cable_model: str | None = None, in_plane_only: bool = False, winches: str = "as-given") -> dict[str, Any]:
         """
         Computes the dynamic stiffness of the platform end of one cable with a fixed anchor.
 
@@ -43,7 +43,7 @@ class Analyses:
             Name of a cable.
         hz
             Frequencies [Hz], a row of n.
-        cable_model, in_plane_only
+        cable_model, in_plane_only, winches
             Model, as in `stiffness`.
 
         Returns
@@ -52,7 +52,7 @@ class Analyses:
         normal in plane, out of plane [N/m]. `world` is (n, 3, 3), complex, in world axes. `clamped_frequencies_hz` are
         the natural frequencies of the cable with both ends fixed.
         """
-    def compare(self, /, below_hz: SupportsFloat | SupportsIndex, *, platform: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> dict[str, Any]:
+    def compare(self, /, below_hz: SupportsFloat | SupportsIndex, *, platform: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> dict[str, Any]:
         """
         Compares every cable model with the catenary-dynamic model: frequencies found, missed and wrong, and the
         recommended model.
@@ -67,7 +67,7 @@ class Analyses:
             Minimum fraction of the kinetic energy in the platform for a mode of the platform; 0.5 if not given.
         tolerance
             Maximum relative difference of frequency for a model that is good enough; 0.01 if not given.
-        assembly, in_plane_only
+        assembly, in_plane_only, winches
             Terms of the stiffness, as in `stiffness`.
 
         Returns
@@ -95,11 +95,11 @@ class Analyses:
             The file cannot be written.
         """
     @overload
-    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: Literal[False] = False, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[complex128]: ...
+    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: Literal[False] = False, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> NDArray[complex128]: ...
     @overload
-    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: Literal[True], input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> tuple[NDArray[float64], NDArray[complex128]]: ...
+    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: Literal[True], input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> tuple[NDArray[float64], NDArray[complex128]]: ...
     @overload
-    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: bool, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[complex128] | tuple[NDArray[float64], NDArray[complex128]]:
+    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: bool, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> NDArray[complex128] | tuple[NDArray[float64], NDArray[complex128]]:
         """
         Computes frequency responses: complex, for e^{+iωt}, in units of output per input.
 
@@ -120,7 +120,7 @@ class Analyses:
             response has no bound, there is a gap of 5e-5 of the frequency on either side.
         input_point_m, output_point_m
             Point where the forces act and point whose motion is measured, platform frame [m]; the origin if not given.
-        cable_model, assembly, in_plane_only
+        cable_model, assembly, in_plane_only, winches
             Models, as in `stiffness`.
 
         Returns
@@ -159,7 +159,7 @@ class Analyses:
         NoSolutionError
             The equilibrium is indifferent.
         """
-    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True, rigid_cables: bool = False) -> Modes:
+    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True, rigid_cables: bool = False) -> Modes:
         """
         Computes all natural frequencies below a limit, and checks by an independent count that none is missing.
 
@@ -173,7 +173,7 @@ class Analyses:
             Points of the platform, as in `frf`.
         stations
             Number of points along every cable, ends included, whose displacements are wanted.
-        cable_model, assembly, in_plane_only
+        cable_model, assembly, in_plane_only, winches
             Models, as in `stiffness`.
         platform_share
             Minimum fraction of the kinetic energy in the platform for `first_platform_index`, the first mode of the
@@ -185,14 +185,14 @@ class Analyses:
             Modes with cables that are straight, without mass and rigid in length, of the motions that they leave free. The
             equilibrium has the static model `ideal` or `spring`.
         """
-    def receptance(self, /, hz: ArrayLike, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[complex128]:
+    def receptance(self, /, hz: ArrayLike, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> NDArray[complex128]:
         """
         Computes the receptance of all six motions to all six wrench components about the platform origin: (n, 6, 6),
         world axes.
 
         The parameters are those of `frf`.
         """
-    def reduce(self, /, below_hz: SupportsFloat | SupportsIndex, input: SupportsGetItem[int, str] | None = None, output: SupportsGetItem[int, str] | None = None, *, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> ReducedModel:
+    def reduce(self, /, below_hz: SupportsFloat | SupportsIndex, input: SupportsGetItem[int, str] | None = None, output: SupportsGetItem[int, str] | None = None, *, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> ReducedModel:
         """
         Computes a second-order model M x'' + C x' + K x = B f, y = L x, and its state space with all clamped modes.
 
@@ -212,10 +212,10 @@ class Analyses:
         damping_at_hz
             Frequency at which constant damping ratios are right when made viscous [Hz]; at every natural frequency if
             not given.
-        cable_model, assembly, in_plane_only
+        cable_model, assembly, in_plane_only, winches
             Models, as in `stiffness`.
         """
-    def report(self, /, path: str | PathLike[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None) -> Page:
+    def report(self, /, path: str | PathLike[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", platform_share: SupportsFloat | SupportsIndex | None = None) -> Page:
         """
         Makes a page in HTML about the equilibrium and its vibration, which notebooks show.
 
@@ -228,12 +228,12 @@ class Analyses:
         input, output
             Signals of the response on the page, as in `frf`; `fz` and `az` if not given, or `fx` and `ax` for a
             platform that cannot move along z.
-        input_point_m, output_point_m, cable_model, assembly, in_plane_only
+        input_point_m, output_point_m, cable_model, assembly, in_plane_only, winches
             Points and models, as in `frf`.
         platform_share
             Minimum fraction of the kinetic energy in the platform for the first mode of the platform; 0.5 if not given.
         """
-    def state_space(self, /, input: SupportsGetItem[int, str] | None = None, output: SupportsGetItem[int, str] | None = None, *, below_hz: SupportsFloat | SupportsIndex, order: SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> StateSpaceModel:
+    def state_space(self, /, input: SupportsGetItem[int, str] | None = None, output: SupportsGetItem[int, str] | None = None, *, below_hz: SupportsFloat | SupportsIndex, order: SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> StateSpaceModel:
         """
         Computes a state space A, B, C, D for control design: the modes that inputs and outputs see.
 
@@ -254,7 +254,7 @@ class Analyses:
         damping_at_hz
             Frequency at which constant damping ratios are right when made viscous [Hz]; at every natural frequency if
             not given.
-        cable_model, assembly, in_plane_only
+        cable_model, assembly, in_plane_only, winches
             Models, as in `stiffness`.
 
         Raises
@@ -262,7 +262,7 @@ class Analyses:
         funicular.NoSolutionError
             No choice of modes keeps the tolerance, a mode has no damping, or the equilibrium is unstable.
         """
-    def stiffness(self, /, at_hz: ArrayLike | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False) -> NDArray[Any]:
+    def stiffness(self, /, at_hz: ArrayLike | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> NDArray[Any]:
         """
         Computes the stiffness about the platform origin in world axes [N/m, N, N m].
 
@@ -281,6 +281,9 @@ class Analyses:
             alone, as in Yuan et al. 2014.
         in_plane_only
             Leave out the stiffness of cables out of their planes, as in Yuan et al. 2014.
+        winches
+            Winches in vibration, for cables that run to one: `as-given`, motors `clamped`, at constant `torque`, or
+            cables `stuck` on their pulleys.
 
         Returns
         -------
@@ -661,7 +664,7 @@ class Robot(Analyses):
         """
         Unstrained lengths of the robot file [m], one per cable; None if the file gives a pose or no state.
         """
-    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: SupportsGetItem[int, str] | None = None, *, poses: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: SupportsGetItem[int, str] | None = None, *, poses: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over poses, one row per pose.
 
@@ -806,7 +809,7 @@ class Robot(Analyses):
         """
         Source of the robot's numbers.
         """
-    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: SupportsGetItem[int, str] | None = None, *, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: SupportsGetItem[int, str] | None = None, *, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over values of the robot file, one row per combination, as the program's `sweep`.
 
