@@ -388,6 +388,11 @@ impl Dynamics {
         damping.times(losses).zero(undamped, mass_per_length)
     }
 
+    /// True if the control of a motor has a delay.
+    pub(crate) fn has_delays(&self) -> bool {
+        self.terms.iter().any(|term| matches!(&term.form, DynamicCable::CatenaryDynamic(form) if form.has_delay()))
+    }
+
     /// True if a drive adds mass or losses to cable `i` that do not share the damping of the cable.
     pub(crate) fn has_drive_losses(&self, i: usize) -> bool {
         self.terms.iter().any(|term| {

@@ -223,6 +223,13 @@ impl CatenaryDynamicEnd {
         })
     }
 
+    /// True if the control of its motor has a delay.
+    pub(crate) fn has_delay(&self) -> bool {
+        let along = self.cable.end.as_ref().and_then(|end| end.along.as_ref());
+        let servo = along.and_then(|along| along.chain.motor).and_then(|motor| motor.servo);
+        servo.is_some_and(|servo| servo.delay > 0.0)
+    }
+
     /// True if wheel, swivel, drum or motor has mass.
     pub(crate) fn has_drive_mass(&self) -> bool {
         self.cable.end.as_ref().is_some_and(|end| {

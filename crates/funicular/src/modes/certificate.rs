@@ -1,6 +1,6 @@
 //! Checks of a list of modes: its length before it is computed, and caveats about the result.
 
-use super::damped::{self, DampedModes};
+use super::damped::{self, DampedMode, DampedModes};
 use super::{Modes, RESIDUAL_LIMIT};
 use crate::counted;
 use crate::dynamics::Dynamics;
@@ -80,9 +80,22 @@ pub fn damped_partners(dynamics: &Dynamics, undamped: &Modes) -> (Option<DampedM
     (Some(damped), caveat)
 }
 
+/// Ratio of growth to frequency above which a motion grows: a thousand times the error of a damped frequency.
+const GROWING: f64 = 1e-6;
+
 impl DampedModes {
     /// Caveat about the damped partners of an undamped list, in addition to the caveat about that list.
     fn caveat(&self, undamped: &Modes) -> Option<String> {
+        let grows = |mode: &&DampedMode| mode.omega.im < -GROWING * mode.omega.norm();
+        if let Some(fastest) = self.modes.iter().filter(grows).min_by(|a, b| a.omega.im.total_cmp(&b.omega.im)) {
+            let count = self.modes.iter().filter(grows).count();
+            return Some(format!(
+                "the control of the motors is unstable: {} by themselves, the fastest at {:.4} Hz; reduce its gain or its \
+                 delay",
+                if count == 1 { "one motion grows".to_owned() } else { format!("{count} motions grow") },
+                fastest.ringing_hz()
+            ));
+        }
         match self.overdamped {
             0 if undamped.certified && !self.certified => Some(
                 "the damped list is not certified: one of its searches did not settle, or its count differs; damping \
@@ -93,9 +106,8 @@ impl DampedModes {
                 let frequencies: Vec<String> =
                     self.others.iter().map(|mode| format!("{:.4} Hz", mode.ringing_hz())).collect();
                 Some(format!(
-                    "strong damping moves modes from above the limit below it: {} more damped, at {}; raise the limit to \
-                     list them with their undamped modes",
-                    if frequencies.len() == 1 { "one is".to_owned() } else { format!("{} are", frequencies.len()) },
+                    "strong damping lowers a frequency from above the limit to below it, at {}: raise the limit to list \
+                     the mode",
                     frequencies.join(", ")
                 ))
             }

@@ -81,10 +81,10 @@ const SETTLED: f64 = 4e-15;
 /// Maximum number of rounds of Newton steps. Four are usual; the maximum is a guard for clusters, where convergence is
 /// linear at first.
 const MAX_NEWTON_ROUNDS: usize = 60;
-/// Ratio of Re ω to |ω| up to which a motion counts as decaying without oscillation: its ω is imaginary except for an
-/// error of at most [`WANTED_ERROR`], while a frequency so near to critical damping that it lies below needs a damping
-/// ratio within 5e-15 of one.
-const IMAGINARY: f64 = 1e-7;
+/// Ratio of Re ω to |ω| up to which a motion counts as decaying without oscillation: its damping ratio is then within 5e-7
+/// of one. With viscous damping alone its ω is imaginary, except for an error of at most [`WANTED_ERROR`]; the constant
+/// damping ratio of cables moves it off the axis, by 1e-5 for servos with three times the critical damping.
+const IMAGINARY: f64 = 1e-3;
 /// Distance of the starts of modes that share an undamped zero from their mean, over the damping ratio, and the angle of
 /// the first of them in units of the angle between them. The distance is below one, so that no start crosses the real
 /// axis; the angle is none at which starts lie symmetric to an axis, on which searches would move alike.
@@ -132,6 +132,7 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
         losses: 1.0 / steps,
         poles: dynamics.poles_below(POLES_BEYOND * limit),
         foreign: Vec::new(),
+        may_grow: dynamics.has_delays(),
     };
 
     // All zeros at once; the damping is added in steps.
@@ -159,7 +160,7 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
         && overdamped == 0
         && modes.iter().all(|mode| mode.error <= WANTED_ERROR && mode.omega.re > 0.0);
     let unlisted = if settled { search.unlisted(&modes, limit, right) } else { None };
-    let others = unlisted.and_then(|count| search.others(&mut zeros, count, right));
+    let others = unlisted.and_then(|(count, left)| search.others(&mut zeros, count, (left, right)));
     let certified = others.is_some();
     let mut others = others.unwrap_or_default();
     others.extend_from_slice(&modes[undamped.modes.len()..]);
@@ -177,6 +178,8 @@ struct ZeroSearch<'a> {
     poles: Vec<Vec<f64>>,
     /// Zeros outside the region at which a search has ended; they are divided out, too.
     foreign: Vec<Complex>,
+    /// True if a motion may grow, because the control of a motor has a delay. Otherwise every motion decays.
+    may_grow: bool,
 }
 
 /// Zero with the undamped modes that share it.
@@ -305,7 +308,11 @@ impl ZeroSearch<'_> {
         };
         // Zeros without damping lie on the real axis, except for rounding.
         let minimum = |zero: &DampedZero| -WANTED_ERROR * zero.omega.norm();
-        let is_outside = |zero: &DampedZero| zero.omega.re.min(zero.omega.im) < minimum(zero) || zero.omega.re > right;
+        let may_grow = self.may_grow;
+        let is_outside = |zero: &DampedZero| {
+            let grows = !may_grow && zero.omega.im < minimum(zero);
+            grows || zero.omega.re < minimum(zero) || zero.omega.re > right
+        };
         let is_lost = |zero: &DampedZero| zero.error > WANTED_ERROR || is_outside(zero);
 
         let mut outside: Vec<(usize, Complex)> = Vec::new();
@@ -331,7 +338,7 @@ impl ZeroSearch<'_> {
                     let beside = Complex::from_polar(BESIDE, BESIDE_ANGLE + k as f64);
                     start(&zeros[at]) * (1.0 + beside)
                 } else {
-                    anywhere(round * (1 + k), right)
+                    self.anywhere(round * (1 + k), right)
                 };
                 zeros[i].error = f64::INFINITY;
             }
@@ -340,7 +347,8 @@ impl ZeroSearch<'_> {
 
         // A zero that is nowhere in the region is beyond its right edge: the first place there to which it came.
         for i in (0..zeros.len()).filter(|i| is_lost(&zeros[*i])).collect::<Vec<_>>() {
-            let beyond = outside.iter().find(|(of, omega)| *of == i && omega.re > right && omega.im > 0.0);
+            let beyond =
+                outside.iter().find(|(of, omega)| *of == i && omega.re > right && (may_grow || omega.im > 0.0));
             if let Some((_, omega)) = beyond {
                 (zeros[i].omega, zeros[i].error) = (*omega, 0.0);
             }
@@ -377,31 +385,36 @@ impl ZeroSearch<'_> {
     }
 
     /// Number of zeros in the region that are not listed: those of the undamped robot and the turns of the phase of the
-    /// quotient of both determinants along the boundary, less the listed ones. `None` if they are fewer than listed, or
-    /// not countable.
-    fn unlisted(&self, modes: &[DampedMode], limit: f64, right: f64) -> Option<usize> {
-        let Some(min_re) = modes.iter().map(|mode| mode.omega.re).reduce(f64::min) else { return Some(0) };
+    /// quotient of both determinants along the boundary, less the listed ones; with the left edge of the region [rad/s].
+    /// `None` if they are fewer than listed, or not countable.
+    fn unlisted(&self, modes: &[DampedMode], limit: f64, right: f64) -> Option<(usize, f64)> {
+        let Some(min_re) = modes.iter().map(|mode| mode.omega.re).reduce(f64::min) else { return Some((0, right)) };
         let left = 0.5 * min_re;
         let undamped = self.dynamics.modes_below(right) as f64 - self.dynamics.modes_below(left) as f64;
         let listed = modes.iter().filter(|mode| mode.omega.re < right).count() as f64;
         let unlisted = (undamped + self.turns(modes, (left, right), limit)? / TAU - listed).round();
-        (unlisted >= 0.0).then_some(unlisted as usize)
+        (unlisted >= 0.0).then_some((unlisted as usize, left))
     }
 
-    /// Further zeros in the region, of this number; `None` if they are not all found.
-    fn others(&mut self, zeros: &mut Vec<DampedZero>, count: usize, right: f64) -> Option<Vec<DampedMode>> {
+    /// Further zeros between two real parts, of this number; `None` if they are not all found.
+    fn others(
+        &mut self,
+        zeros: &mut Vec<DampedZero>,
+        count: usize,
+        (left, right): (f64, f64),
+    ) -> Option<Vec<DampedMode>> {
         let mut found = Vec::with_capacity(count);
         for number in 0..MAX_ROUNDS {
             if found.len() == count {
                 break;
             }
-            let omega = anywhere(number, right);
+            let omega = self.anywhere(number, right);
             zeros.push(DampedZero { omega, error: f64::INFINITY, members: vec![0] });
             self.converge(zeros);
             let last = zeros.last()?;
             let (omega, error) = (last.omega, last.error);
             let settled = error <= WANTED_ERROR;
-            if settled && omega.re > 0.0 && omega.re < right && omega.im >= 0.0 {
+            if settled && omega.re > left && omega.re < right && (self.may_grow || omega.im >= 0.0) {
                 found.push(DampedMode { omega, error });
                 continue;
             }
@@ -413,17 +426,25 @@ impl ZeroSearch<'_> {
         (found.len() == count).then_some(found)
     }
 
+    /// Start of a search anywhere in the region below a frequency [rad/s]; the starts of all numbers fill it evenly.
+    fn anywhere(&self, number: usize, right: f64) -> Complex {
+        let [along, damped] = SPREAD.map(|step| ((number + 1) as f64 * step).fract());
+        let ratio = if self.may_grow { 2.0 * damped - 1.0 } else { damped };
+        right * along * Complex::new(1.0, MAX_START_RATIO * ratio)
+    }
+
     /// Total change of the phase of the quotient of both determinants along the boundary of the region between two real
     /// parts [rad]; `None` if the boundary passes too near to a zero.
     fn turns(&self, modes: &[DampedMode], (left, right): (f64, f64), limit: f64) -> Option<f64> {
         let max_im = modes.iter().map(|mode| mode.omega.im).fold(0.0, f64::max);
+        let min_im = modes.iter().map(|mode| mode.omega.im).fold(0.0, f64::min);
 
         // Corners of the region, so far from all zeros that the phase changes slowly.
-        let margin = (MARGIN * max_im).max(MIN_MARGIN * limit);
+        let margin = (MARGIN * max_im.max(-min_im)).max(MIN_MARGIN * limit);
         let corner = |re, im| Complex::new(re, im);
         let corners = [
-            corner(left, -margin),
-            corner(right, -margin),
+            corner(left, min_im - margin),
+            corner(right, min_im - margin),
             corner(right, max_im + margin),
             corner(left, max_im + margin),
         ];
@@ -448,12 +469,6 @@ impl ZeroSearch<'_> {
 
         Some(turned)
     }
-}
-
-/// Start of a search anywhere in the region below a frequency [rad/s]; the starts of all numbers fill it evenly.
-fn anywhere(number: usize, right: f64) -> Complex {
-    let [along, damped] = SPREAD.map(|step| ((number + 1) as f64 * step).fract());
-    right * along * Complex::new(1.0, MAX_START_RATIO * damped)
 }
 
 /// Frequency at or slightly above the limit [rad/s], in the widest gap between undamped modes. Damping shifts the

@@ -344,3 +344,29 @@ fn commanded_lengths_begin_at_the_derivative_of_statics() {
     let error = Port::all(&torque, &rest, &dynamics, &[length], false).unwrap_err();
     assert!(error.to_string().contains("has no signal `length`"), "{error}");
 }
+
+/// A delay of the loop takes phase: a servo that is stable with little delay grows with more, in every list that the count
+/// certifies. With gains of three times the critical damping some motions no longer ring.
+#[test]
+fn delays_destabilise_and_strong_gains_stop_ringing() {
+    let partners = |speed_gain: f64, delay: f64| {
+        let servo = Servo { position_gain: 6e4, speed_gain, integral: true, delay };
+        let (robot, rest) = driven(Control::Position(servo));
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 4.0).unwrap();
+        modes::damped_partners(&dynamics, &modes::below(&dynamics, 4.0))
+    };
+
+    let least = |delay: f64| {
+        let (found, caveat) = partners(2500.0, delay);
+        let found = found.unwrap();
+        assert!(found.certified, "delay {delay}");
+        (found.modes.iter().map(|mode| mode.damping_ratio()).fold(f64::INFINITY, f64::min), caveat)
+    };
+    let (stable, caveat) = least(0.001);
+    assert!(stable > 0.0 && caveat.is_none_or(|caveat| !caveat.contains("unstable")));
+    let (unstable, caveat) = least(0.06);
+    assert!(unstable < -0.01 && caveat.unwrap().contains("the control of the motors is unstable"), "{unstable}");
+
+    let (found, caveat) = partners(12_000.0, 0.0);
+    assert!(found.unwrap().overdamped > 0 && caveat.unwrap().contains("do not ring"));
+}
