@@ -266,8 +266,10 @@
     fact("drawn", short(a) + (rests ? " × the shape with a modal mass of 1 kg; " : " × the shape in the table; ") + "at most " + short(a * motion.largest) + "\u00a0m, " + motion.where);
   }
   function shares(mode) {
-    const names = ["platform"].concat(robot.cables.map(function (cable) { return "cable " + cable.name; }));
-    place.querySelector(".shares tbody").replaceChildren(...[mode.platform].concat(mode.cables).map(function (share, i) {
+    const names = ["platform"].concat(
+      robot.cables.map(function (cable) { return "cable " + cable.name; }),
+      robot.cables.map(function (cable) { return "drive of " + cable.name; }));
+    place.querySelector(".shares tbody").replaceChildren(...[mode.platform].concat(mode.cables, mode.drives).map(function (share, i) {
       const row = document.createElement("tr"), head = document.createElement("th"), bar = document.createElement("td"), number = document.createElement("td"), fill = document.createElement("i");
       head.scope = "row";
       head.textContent = names[i];

@@ -264,13 +264,15 @@ fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
             found.modes.len()
         )
     };
-    format!(
-        "Cable model: {}; {assembly}{plane}. {certified}. Kinds: {}, {}, {}.",
-        linearisation.cable_model.name(),
+    let mut kinds = vec![
         counted(of(Kind::Platform), "platform mode"),
         counted(of(Kind::Cable), "cable mode"),
-        counted(of(Kind::Mixed), "mixed mode")
-    )
+        counted(of(Kind::Mixed), "mixed mode"),
+    ];
+    // Drives without inertia have no modes of their own.
+    kinds.extend((of(Kind::Drive) > 0).then(|| counted(of(Kind::Drive), "drive mode")));
+    let model = linearisation.cable_model.name();
+    format!("Cable model: {model}; {assembly}{plane}. {certified}. Kinds: {}.", kinds.join(", "))
 }
 
 /// View of the mode shapes, or the reason why there is none and how to get it.

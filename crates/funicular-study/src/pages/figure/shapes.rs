@@ -172,6 +172,7 @@ fn described(mode: &Mode, intervals: usize, scale: f64) -> Value {
         "mass": significant(mode.modal_mass, 4),
         "platform": shares(&[mode.platform_energy_fraction])[0],
         "cables": shares(&mode.cable_energy_fractions),
+        "drives": shares(&mode.drive_energy_fractions),
         "shape": mode.shape,
         "intervals": intervals,
         "scale": scale,
