@@ -107,7 +107,7 @@ class Robot:
             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
         ])  # fmt: skip
         cables = self.file["cables"]
-        drives = [row.get("drive", {}) for row in self.statics["cables"]]
+        drives = self.drives = [row.get("drive", {}) for row in self.statics["cables"]]
         self.anchors = np.array([drive.get("exit_m", cable["anchor_m"]) for drive, cable in zip(drives, cables)])
         self.attachments = np.array([cable.get("attachment_m", [0.0, 0.0, 0.0]) for cable in cables])
         self.ropes = [self.file["materials"][cable["material"]] for cable in cables]
@@ -328,14 +328,15 @@ def check_vtk(robot, folder, table):
     table.row(robot.name, "VTK", "anchors [m]", off, 1e-12)
     table.row(robot.name, "VTK", "tensions / maximum tension", robot.off(ends), 1e-12)
     table.row(robot.name, "VTK", "cables and modes missing", abs(shape.GetNumberOfLines() - len(at)) + abs(data.GetNumberOfArrays() - 2 - len(modes)), 0)
-    # The start of a cable moves with the platform.
+    # The start of a cable moves with the platform; its end rests, unless it is on a wheel.
     worst = 0.0
+    held = at[[i for i, drive in enumerate(robot.drives) if not drive]] + BARS
     arms = robot.attachments @ robot.rotation.T
     for i, mode in enumerate(modes):
         field = vtk_to_numpy(data.GetArray(2 + i))
         shift, turn = np.array(mode["shape"][:3]), np.array(mode["shape"][3:])
         rigid = shift + np.cross(turn, arms)
-        worst = max(worst, np.abs(field[at] - rigid).max(), np.abs(field[at[-1] + BARS + 1 :] - rigid).max(), np.abs(field[at + BARS]).max())
+        worst = max(worst, np.abs(field[at] - rigid).max(), np.abs(field[at[-1] + BARS + 1 :] - rigid).max(), np.abs(field[held]).max(initial=0.0))
     table.row(robot.name, "VTK", "ends of cables in modes against the platform", worst, 1e-6)
 
 
