@@ -239,6 +239,9 @@ pub(crate) fn tension_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure
     Figure::new("figure-tensions", 300, "Tension at both ends of the cables.", &data, layout)
 }
 
+/// Minimum of the axis of sag over chord: that of cables without mass has another number than zero at its end.
+const MIN_SHOWN_SAG: f64 = 1e-9;
+
 /// Bar chart of the sag, with the limit of the shallow models.
 pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     let ratios: Vec<f64> = sags(robot, equilibrium).iter().map(Sag::ratio).collect();
@@ -253,7 +256,7 @@ pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     } else {
         json!([])
     };
-    let top = 1.12 * if near { maximum.max(SHALLOW_SAG_LIMIT) } else { maximum.max(f64::MIN_POSITIVE) };
+    let top = 1.12 * if near { maximum.max(SHALLOW_SAG_LIMIT) } else { maximum.max(MIN_SHOWN_SAG) };
     let layout = json!({
         "bargap": 0.45, "showlegend": false, "shapes": shapes, "xaxis": axis("cable", json!({"type": "category", "ticks": ""})),
         "yaxis": axis("sag ratio d/l", json!({"range": [0, top], "exponentformat": "power"})),
