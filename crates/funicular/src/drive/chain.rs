@@ -241,8 +241,8 @@ impl DriveChain {
 
 impl Assembly {
     /// Adds waves and mass of a drum side with the axial stiffness EA [N], the mass per length [kg/m] and the length of
-    /// a uniform rod [m]; its spring is there. The result is minus the mass between the motions and the end at the drum
-    /// per unit motion of that end [kg], for a drum that is held.
+    /// a uniform rod [m]; its spring is there. The result is the mass between the motions and the end at the drum [kg],
+    /// if the drum is held.
     fn rod(
         &mut self,
         (axial_stiffness, mass_per_length, length): (f64, f64, f64),

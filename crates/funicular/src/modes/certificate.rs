@@ -106,8 +106,7 @@ impl DampedModes {
                 let frequencies: Vec<String> =
                     self.others.iter().map(|mode| format!("{:.4} Hz", mode.ringing_hz())).collect();
                 Some(format!(
-                    "strong damping lowers a frequency from above the limit to below it, at {}: raise the limit to list \
-                     the mode",
+                    "damping lowers a frequency from above the limit to below it, at {}: raise the limit to list the mode",
                     frequencies.join(", ")
                 ))
             }

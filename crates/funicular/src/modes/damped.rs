@@ -73,7 +73,7 @@ const MAX_STEPS: f64 = 20.0;
 const MAX_ROUNDS: usize = 60;
 const ROUNDS_AT_MODES: usize = 5;
 /// Maximum damping ratio of starts anywhere in the region, and the steps of their sequence, which fills the region evenly
-/// (R. L. Roberts' sequence in two dimensions).
+/// (powers of the inverse of the plastic number, 1.3247…, as an additive sequence in two dimensions).
 const MAX_START_RATIO: f64 = 0.9;
 const SPREAD: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 /// Relative step below which the search of a zero has converged.
@@ -154,11 +154,11 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
         }
     }
 
-    // The ω of a motion without oscillation is imaginary, except for rounding.
-    let overdamped = modes.iter().filter(|mode| mode.omega.re.abs() <= IMAGINARY * mode.omega.norm()).count();
+    // Motions without oscillation lie on the imaginary axis, where no zeros are counted.
+    let is_still = |mode: &DampedMode| mode.omega.re.abs() <= IMAGINARY * mode.omega.norm();
+    let overdamped = modes[..undamped.modes.len()].iter().filter(|mode| is_still(mode)).count();
     let settled = undamped.certified
-        && overdamped == 0
-        && modes.iter().all(|mode| mode.error <= WANTED_ERROR && mode.omega.re > 0.0);
+        && modes.iter().all(|mode| mode.error <= WANTED_ERROR && mode.omega.re > 0.0 && !is_still(mode));
     let unlisted = if settled { search.unlisted(&modes, limit, right) } else { None };
     let others = unlisted.and_then(|(count, left)| search.others(&mut zeros, count, (left, right)));
     let certified = others.is_some();
