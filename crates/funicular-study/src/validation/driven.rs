@@ -1,6 +1,6 @@
 //! Vibration of cables and robots whose drives have inertia and control.
 
-use super::reference::{DrivenCable, DrivenRobot, Drives, ServoDamped};
+use super::reference::{CableToWinch, DriveParts, DrivenCable, DrivenRobot, Drives, ServoDamped};
 use super::{Bound, Case, Comparison, drives};
 use anyhow::{Result, anyhow};
 use funicular::cable::catenary_dynamic::DriveSignal;
@@ -9,7 +9,7 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Mat3, Vec3};
 use funicular::modes;
 use funicular::response::{self, Port, Quantity, Signal};
-use funicular::robot::{Control, Damping, DrumSide, Robot, Servo, State, Winch, WinchMode};
+use funicular::robot::{Control, Damping, DrumSide, Robot, Servo, State, WinchMode};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
 
@@ -26,7 +26,9 @@ const AT_CONSTANT_TORQUE: f64 = 1e-8;
 pub(super) fn comparisons(of: &Drives) -> Result<Vec<Comparison>> {
     let mut rows = Vec::new();
     for row in &of.moving_cables.rows {
-        rows.extend(cable(row, &of.moving_cables.source)?);
+        let at_rest = of.cables.rows.iter().find(|cable| cable.case == row.case);
+        let at_rest = at_rest.ok_or_else(|| anyhow!("no cable \"{}\"", row.case))?;
+        rows.extend(cable(row, at_rest, &of.moving_cables.source)?);
     }
     for row in &of.vibration.rows {
         let at_rest = of.robots.rows.iter().find(|robot| robot.case == row.case);
@@ -36,37 +38,32 @@ pub(super) fn comparisons(of: &Drives) -> Result<Vec<Comparison>> {
     Ok(rows)
 }
 
-/// Masses and gains of a drive at the cable.
-struct Parts {
-    drum_mass: f64,
-    motor_mass: f64,
-    control: Control,
+/// Control of a motor, integral action included.
+fn control(parts: &DriveParts) -> Control {
+    let DriveParts { position_gain_n_per_m: position_gain, speed_gain_n_s_per_m: speed_gain, .. } = *parts;
+    match parts.control.as_str() {
+        "position" => Control::Position(Servo { position_gain, speed_gain, integral: true, delay: 0.0 }),
+        "torque" => Control::Torque,
+        _ => Control::Ideal,
+    }
 }
 
-fn equip(robot: &mut Robot, parts: &Parts, [wheel, swivel]: [f64; 2], damping_ratio: f64) {
+/// Gives all cables of a robot the inertia and the control of a case.
+fn equip(robot: &mut Robot, parts: &DriveParts) {
     for cable in &mut robot.cables {
-        cable.material.damping = Damping::Ratio(damping_ratio);
+        cable.material.damping = Damping::Ratio(parts.cable_damping_ratio);
         if let Some(pulley) = &mut cable.anchor.pulley {
-            (pulley.inertia, pulley.swivel_inertia) = (wheel, swivel);
+            (pulley.inertia, pulley.swivel_inertia) = (parts.wheel_inertia_kg_m2, parts.swivel_inertia_kg_m2);
         }
-        if let Some(Winch { drum_mass, motor_mass, control, .. }) = &mut cable.anchor.winch {
-            (*drum_mass, *motor_mass, *control) = (parts.drum_mass, parts.motor_mass, parts.control);
+        if let Some(winch) = &mut cable.anchor.winch {
+            (winch.drum_mass, winch.motor_mass) = (parts.drum_mass_kg, parts.motor_mass_kg);
+            winch.control = control(parts);
         }
     }
 }
 
-fn position_control(position_gain: f64, speed_gain: f64) -> Control {
-    Control::Position(Servo { position_gain, speed_gain, integral: true, delay: 0.0 })
-}
-
 fn driven(row: &DrivenRobot, mut robot: Robot, source: &str) -> Result<Vec<Comparison>> {
-    let control = match row.control.as_str() {
-        "position" => position_control(row.position_gain_n_per_m, row.speed_gain_n_s_per_m),
-        "torque" => Control::Torque,
-        _ => Control::Ideal,
-    };
-    let parts = Parts { drum_mass: row.drum_mass_kg, motor_mass: row.motor_mass_kg, control };
-    equip(&mut robot, &parts, [row.wheel_inertia_kg_m2, row.swivel_inertia_kg_m2], row.cable_damping_ratio);
+    equip(&mut robot, &row.parts);
     let State::Lengths(lengths) = &robot.state else { return Err(anyhow!("the lengths are given")) };
     let rest = statics::forward(&robot, lengths, StaticModel::Catenary, None)?;
 
@@ -77,7 +74,7 @@ fn driven(row: &DrivenRobot, mut robot: Robot, source: &str) -> Result<Vec<Compa
     let frequencies: Vec<f64> = found.modes.iter().map(|mode| mode.frequency_hz).collect();
     let certified = if found.certified { frequencies.len() } else { 0 };
     let case = Case { name: format!("{}, moving drives", row.case), source };
-    let torque = control == Control::Torque;
+    let torque = control(&row.parts) == Control::Torque;
     let tolerance = if torque { AT_CONSTANT_TORQUE } else { FREQUENCIES };
     let mut rows = vec![
         case.count("certified frequencies", row.frequencies_hz.len(), certified),
@@ -143,35 +140,15 @@ fn servo_damped(theirs: &ServoDamped, mut robot: Robot, rest: &Equilibrium, case
     ])
 }
 
-fn cable(row: &DrivenCable, source: &str) -> Result<Vec<Comparison>> {
+fn cable(row: &DrivenCable, at_rest: &CableToWinch, source: &str) -> Result<Vec<Comparison>> {
     // A point mass in equilibrium at the platform's point: its load balances the cable.
-    let weight = Vec3::new(0.0, 0.0, -9.81);
-    let load_w = -Vec3::from(row.force_on_platform_n) - weight;
-    let winch = drives::winch_text(row.drum_side_length_m, row.winch_stiffness_n_per_m);
-    let text = format!(
-        "name = \"one cable\"\n[platform]\nmass_kg = 1.0\nmotion = \"point-mass\"\n[materials.rope]\n\
-         axial_stiffness_n = {:?}\nmass_kg_per_m = {:?}\n[pulleys.wheel]\nradius_m = {:?}\nentry_direction = [0, 0, 1]\n\
-         {winch}[[cables]]\nname = \"1\"\nmaterial = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\nanchor_m = {:?}\n\
-         unstrained_length_m = {:?}\n[loads]\nforce_n = {:?}\n",
-        row.axial_stiffness_n,
-        row.mass_kg_per_m,
-        row.radius_m,
-        row.entry_point_m,
-        row.unstrained_length_m,
-        load_w.as_slice()
-    );
-    let mut robot = Robot::from_toml(&text)?;
-    let control = if row.position_gain_n_per_m > 0.0 {
-        position_control(row.position_gain_n_per_m, row.speed_gain_n_s_per_m)
-    } else {
-        Control::Ideal
-    };
-    let parts = Parts { drum_mass: row.drum_mass_kg, motor_mass: row.motor_mass_kg, control };
-    equip(&mut robot, &parts, [row.wheel_inertia_kg_m2, row.swivel_inertia_kg_m2], row.cable_damping_ratio);
+    let mut robot = drives::to_winch_robot(at_rest)?;
+    robot.load.force_w = -Vec3::from(at_rest.force_on_platform_n) - robot.gravity_w * robot.platform.mass;
+    equip(&mut robot, &row.parts);
     if let (true, Some(winch)) = (row.drum_side == "rod", &mut robot.cables[0].anchor.winch) {
         winch.drum_side = DrumSide::Rod;
     }
-    let rest = statics::forward(&robot, &[row.unstrained_length_m], StaticModel::Catenary, None)?;
+    let rest = statics::forward(&robot, &[at_rest.unstrained_length_m], StaticModel::Catenary, None)?;
 
     // Frequencies with the platform end held.
     let limit = row.clamped_frequencies_hz.iter().copied().fold(0.0, f64::max) * (1.0 + BEYOND);
@@ -184,7 +161,7 @@ fn cable(row: &DrivenCable, source: &str) -> Result<Vec<Comparison>> {
     let digits = Bound::Digits("12 printed digits");
     let mut rows = vec![
         // The force is printed with 12 digits, and the stiffness across a taut cable is small.
-        case.absolute("platform point [m]", &row.platform_point_m, point.as_slice(), 1e-9, digits),
+        case.absolute("platform point [m]", &at_rest.platform_point_m, point.as_slice(), 1e-9, digits),
         case.count("clamped frequencies", row.clamped_frequencies_hz.len(), clamped.len()),
         case.relative("clamped frequencies [Hz]", &row.clamped_frequencies_hz, &clamped, FREQUENCIES, Bound::Rounding),
     ];

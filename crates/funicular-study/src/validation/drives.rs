@@ -114,8 +114,9 @@ fn sagging(row: &SaggingOverPulley, source: &str) -> Result<Vec<Comparison>> {
     ])
 }
 
-fn to_winch(row: &CableToWinch, source: &str) -> Result<Vec<Comparison>> {
-    let robot = single(&Single {
+/// Point mass on the cable of a case.
+pub(super) fn to_winch_robot(row: &CableToWinch) -> Result<Robot> {
+    single(&Single {
         gravity: 9.81,
         mass_per_length: row.mass_kg_per_m,
         axial_stiffness: row.axial_stiffness_n,
@@ -124,7 +125,11 @@ fn to_winch(row: &CableToWinch, source: &str) -> Result<Vec<Comparison>> {
         anchor: row.entry_point_m,
         drum_side_length: row.drum_side_length_m,
         winch_stiffness: row.winch_stiffness_n_per_m,
-    })?;
+    })
+}
+
+fn to_winch(row: &CableToWinch, source: &str) -> Result<Vec<Comparison>> {
+    let robot = to_winch_robot(row)?;
     let found = CableAtRest::of(&robot, 0, Vec3::from(row.platform_point_m), row.unstrained_length_m);
     let drive = found.drive.as_ref().ok_or_else(|| anyhow!("a cable over a pulley has a drive"))?;
     let catenary = &found.span.catenary;
@@ -295,7 +300,7 @@ fn single(of: &Single) -> Result<Robot> {
     Ok(Robot::from_toml(&text)?)
 }
 
-pub(super) fn winch_text(drum_side_length: f64, stiffness: Option<f64>) -> String {
+fn winch_text(drum_side_length: f64, stiffness: Option<f64>) -> String {
     let stiffness = stiffness.map_or_else(String::new, |stiffness| format!("stiffness_n_per_m = {stiffness:?}\n"));
     format!("[winches.drum]\ndrum_side_length_m = {drum_side_length:?}\n{stiffness}")
 }

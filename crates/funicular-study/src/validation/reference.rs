@@ -538,11 +538,9 @@ pub(super) struct CableToWinch {
     pub(super) energy_j: f64,
 }
 
-/// Vibration of a robot whose drives have inertia and control; all masses and gains at the cable.
+/// Inertia and control of a drive; masses and gains at the cable.
 #[derive(Deserialize)]
-pub(super) struct DrivenRobot {
-    /// Case of the robot.
-    pub(super) case: String,
+pub(super) struct DriveParts {
     pub(super) wheel_inertia_kg_m2: f64,
     pub(super) swivel_inertia_kg_m2: f64,
     pub(super) drum_mass_kg: f64,
@@ -552,6 +550,15 @@ pub(super) struct DrivenRobot {
     pub(super) position_gain_n_per_m: f64,
     pub(super) speed_gain_n_s_per_m: f64,
     pub(super) cable_damping_ratio: f64,
+}
+
+/// Vibration of a robot whose drives have inertia and control.
+#[derive(Deserialize)]
+pub(super) struct DrivenRobot {
+    /// Case of the robot.
+    pub(super) case: String,
+    #[serde(flatten)]
+    pub(super) parts: DriveParts,
     /// All undamped natural frequencies up to the last.
     pub(super) frequencies_hz: Vec<f64>,
     /// Motion of the platform per commanded length, or per force of a motor: (6, cables).
@@ -581,25 +588,12 @@ pub(super) struct ServoDamped {
 /// Cable over a pulley to a winch with inertia, its platform end at a point.
 #[derive(Deserialize)]
 pub(super) struct DrivenCable {
+    /// Case of the cable at rest.
     pub(super) case: String,
-    pub(super) entry_point_m: [f64; 3],
-    pub(super) radius_m: f64,
-    pub(super) drum_side_length_m: f64,
-    pub(super) winch_stiffness_n_per_m: Option<f64>,
-    pub(super) axial_stiffness_n: f64,
-    pub(super) mass_kg_per_m: f64,
-    pub(super) unstrained_length_m: f64,
-    pub(super) platform_point_m: [f64; 3],
-    pub(super) force_on_platform_n: [f64; 3],
-    pub(super) wheel_inertia_kg_m2: f64,
-    pub(super) swivel_inertia_kg_m2: f64,
-    pub(super) drum_mass_kg: f64,
-    pub(super) motor_mass_kg: f64,
+    #[serde(flatten)]
+    pub(super) parts: DriveParts,
     /// `massless` or `rod`.
     pub(super) drum_side: String,
-    pub(super) position_gain_n_per_m: f64,
-    pub(super) speed_gain_n_s_per_m: f64,
-    pub(super) cable_damping_ratio: f64,
     /// All natural frequencies with the platform end held, up to the last.
     pub(super) clamped_frequencies_hz: Vec<f64>,
     pub(super) dynamic: Vec<DrivenCableAt>,
