@@ -4,13 +4,14 @@
 //! side with mass, the drum and the motor, both as motion of the cable at the drum towards the wheel. What cannot move
 //! has no motion: a rigid winch is a wall (docs/theory.md, equations (75) to (79)).
 
-use super::DriveAtRest;
+use super::{AnchorEnd, DriveAtRest};
 use crate::math::{Complex, DMat, legendre};
-use crate::robot::{Anchor, Control, DrumSide, Servo, WinchMode};
+use crate::robot::{Anchor, Control, DrumSide, Servo, Winch, WinchMode};
 
 /// Polynomial degree of a drum side with mass per radian of an axial wave's phase, and its degrees besides. A wave needs
-/// 0.5 degrees per radian; six more degrees leave an error of 1e-12.
-const DEGREE_PER_RADIAN: f64 = 0.5;
+/// 0.5 degrees per radian; the rest is margin. The stiffness is then exact to 1e-10, which a test checks up to 50 radians;
+/// with 0.5 it is 4e-10 there.
+const DEGREE_PER_RADIAN: f64 = 0.7;
 const BASE_DEGREE: f64 = 8.0;
 
 /// Motions behind the exit point of a cable, as a chain from the wheel to the motor.
@@ -40,6 +41,13 @@ pub struct Place {
     pub motion: usize,
     /// Motion of the part per that motion.
     pub factor: f64,
+}
+
+impl Place {
+    /// Place that moves `factor` times as far.
+    fn times(self, factor: f64) -> Self {
+        Self { factor: factor * self.factor, ..self }
+    }
 }
 
 /// Motor that can move.
@@ -100,6 +108,191 @@ impl Assembly {
     fn heavy(&mut self, mass: f64, at: Place) {
         self.mass[(at.motion, at.motion)] += mass * at.factor * at.factor;
     }
+
+    /// Adds the drum side, which stretches between σ and its end at the drum. For a rod and a drum that is held the
+    /// result is the mass between the motions and that end [kg], otherwise zeros.
+    fn drum_side(&mut self, parts: &Parts, layout: &Layout) -> Vec<f64> {
+        if parts.has_rope() {
+            let ends: Vec<Place> = [SLIP].into_iter().chain(layout.rope_end.map(|end| end.times(-1.0))).collect();
+            self.spring(parts.spring(), &ends);
+        }
+
+        // Functions of a rod: hats at σ and at the drum, then polynomials that vanish at both.
+        let mut by_end = vec![0.0; layout.count];
+        if !parts.is_rod() {
+            return by_end;
+        }
+        let half = 0.5 * parts.rod_length();
+        let mass = legendre::element_mass(layout.waves + 1) * (half * parts.mass_per_length);
+        let place = |function: usize| match function {
+            0 => Some(SLIP),
+            1 => layout.rope_end,
+            wave => Some(Place { motion: wave - 1, factor: 1.0 }),
+        };
+        for row in 0..layout.waves + 2 {
+            let Some(a) = place(row) else { continue };
+            for column in 0..layout.waves + 2 {
+                let entry = mass[(row, column)];
+                match place(column) {
+                    Some(b) => self.cable_mass[(a.motion, b.motion)] += entry * a.factor * b.factor,
+                    None => by_end[a.motion] += entry * a.factor,
+                }
+            }
+            // The slopes of these polynomials are orthonormal.
+            if row >= 2 {
+                self.stiffness[(a.motion, a.motion)] += parts.axial_stiffness / half;
+            }
+        }
+        by_end
+    }
+
+    /// Adds drum, shaft and motor.
+    fn winch(&mut self, parts: &Parts, layout: &Layout) {
+        let (Some(winch), Some(drum)) = (parts.winch, layout.drum) else { return };
+        self.heavy(winch.drum_mass, drum);
+        if parts.shaft.is_finite() {
+            let ends: Vec<Place> = [drum].into_iter().chain(layout.motor.map(|motor| motor.times(-1.0))).collect();
+            self.spring(parts.shaft, &ends);
+        }
+        if let Some(motor) = layout.motor {
+            self.heavy(winch.motor_mass, motor);
+            self.spring(parts.servo().map_or(0.0, |servo| servo.position_gain), &[motor]);
+        }
+    }
+}
+
+/// Slip of the cable on the wheel: the first motion of every chain.
+const SLIP: Place = Place { motion: 0, factor: 1.0 };
+
+/// What a chain is made of.
+struct Parts<'a> {
+    winch: Option<&'a Winch>,
+    /// Control of the motor in the requested mode of winches.
+    control: Control,
+    /// Mechanical stiffness of the winch at the cable [N/m]; infinite for a rigid one.
+    shaft: f64,
+    /// EA [N] and mass per length [kg/m] of the cable.
+    axial_stiffness: f64,
+    mass_per_length: f64,
+    /// Stretch at the exit point, and at the drum.
+    stretch: f64,
+    stretch_drum: f64,
+    /// Compliance of arc and drum side [m/N]; zero if the drum is at the exit point.
+    rope_compliance: f64,
+}
+
+impl<'a> Parts<'a> {
+    /// Parts behind an end; `None` if nothing of them moves.
+    fn of(
+        anchor: &'a Anchor,
+        end: &AnchorEnd,
+        (axial_stiffness, mass_per_length): (f64, f64),
+        mode: WinchMode,
+    ) -> Option<Self> {
+        let winch = anchor.winch.as_ref();
+        let control = match (mode, winch) {
+            (WinchMode::Stuck, _) => return None,
+            (WinchMode::Clamped, _) | (_, None) => Control::Ideal,
+            (WinchMode::Torque, Some(_)) => Control::Torque,
+            (WinchMode::AsGiven, Some(winch)) => winch.control,
+        };
+        let parts = Self {
+            winch,
+            control,
+            shaft: winch.map_or(f64::INFINITY, |winch| winch.stiffness),
+            axial_stiffness,
+            mass_per_length,
+            stretch: end.stretch,
+            stretch_drum: end.stretch_drum,
+            rope_compliance: end.rope_compliance,
+        };
+        (parts.has_rope() || parts.drum_moves()).then_some(parts)
+    }
+
+    /// True if there is cable between exit point and drum.
+    fn has_rope(&self) -> bool {
+        self.rope_compliance > 0.0
+    }
+
+    fn motor_moves(&self) -> bool {
+        self.control != Control::Ideal
+    }
+
+    fn drum_moves(&self) -> bool {
+        self.motor_moves() || self.shaft.is_finite()
+    }
+
+    fn servo(&self) -> Option<Servo> {
+        if let Control::Position(servo) = self.control { Some(servo) } else { None }
+    }
+
+    /// Stiffness k_r of arc and drum side on σ [N/m], equation (75).
+    fn spring(&self) -> f64 {
+        1.0 / (self.stretch * self.stretch * self.rope_compliance)
+    }
+
+    /// Length of the uniform rod with this stiffness [m].
+    fn rod_length(&self) -> f64 {
+        self.axial_stiffness / self.spring()
+    }
+
+    /// True if the mass of the cable between exit point and drum counts.
+    fn is_rod(&self) -> bool {
+        let wanted = self.winch.is_some_and(|winch| winch.drum_side == DrumSide::Rod);
+        wanted && self.has_rope() && self.mass_per_length > 0.0
+    }
+}
+
+/// Order of the motions: σ, waves of the drum side, drum, motor.
+struct Layout {
+    count: usize,
+    waves: usize,
+    /// Places of drum and motor, if they move. A drum at the exit point moves with σ, a rigid shaft with its motor.
+    drum: Option<Place>,
+    motor: Option<Place>,
+    /// Place of the cable's end at the drum as a part of its elongation: the motion of the drum but for the stretch.
+    rope_end: Option<Place>,
+}
+
+impl Layout {
+    fn of(parts: &Parts, limit: f64) -> Self {
+        let waves = if parts.is_rod() {
+            let phase = limit * (parts.mass_per_length / parts.axial_stiffness).sqrt() * parts.rod_length();
+            (DEGREE_PER_RADIAN * phase + BASE_DEGREE).ceil() as usize - 1
+        } else {
+            0
+        };
+        let mut count = 1 + waves;
+        let mut another = || {
+            count += 1;
+            Place { motion: count - 1, factor: 1.0 }
+        };
+
+        let ratio = parts.stretch / parts.stretch_drum;
+        let drum = parts.drum_moves().then(|| if parts.has_rope() { another() } else { SLIP.times(1.0 / ratio) });
+        let motor = match drum {
+            Some(drum) if parts.motor_moves() => Some(if parts.shaft.is_finite() { another() } else { drum }),
+            _ => None,
+        };
+        Self { count, waves, drum, motor, rope_end: drum.map(|drum| drum.times(ratio)) }
+    }
+}
+
+/// Force on the motions per unstrained length that is paid out: see [`DriveChain::by_length`]. `held_end` is the mass
+/// between the motions and the end of a rod at a drum that is held [kg].
+fn by_length(parts: &Parts, layout: &Layout, held_end: &[f64]) -> Vec<(f64, f64)> {
+    match (layout.drum, layout.motor) {
+        (_, Some(_)) => Vec::new(),
+        (Some(drum), None) => {
+            let mut force = vec![(0.0, 0.0); layout.count];
+            force[drum.motion].0 = parts.shaft * drum.factor * parts.stretch_drum;
+            force
+        }
+        (None, None) => {
+            let still = |motion: usize| if motion == SLIP.motion { parts.spring() * parts.stretch } else { 0.0 };
+            held_end.iter().enumerate().map(|(motion, mass)| (still(motion), mass * parts.stretch)).collect()
+        }
+    }
 }
 
 impl DriveChain {
@@ -112,100 +305,31 @@ impl DriveChain {
         mode: WinchMode,
         limit: f64,
     ) -> Option<Self> {
-        let end = &drive.end;
-        let winch = anchor.winch.as_ref();
-        let control = match (mode, winch) {
-            (WinchMode::Stuck, _) => return None,
-            (WinchMode::Clamped, _) | (_, None) => Control::Ideal,
-            (WinchMode::Torque, Some(_)) => Control::Torque,
-            (WinchMode::AsGiven, Some(winch)) => winch.control,
-        };
-        let shaft = winch.map_or(f64::INFINITY, |winch| winch.stiffness);
-        let (motor_moves, yields) = (control != Control::Ideal, shaft.is_finite());
-        let drum_moves = motor_moves || yields;
+        let parts = Parts::of(anchor, &drive.end, (axial_stiffness, mass_per_length), mode)?;
+        let layout = Layout::of(&parts, limit);
+        let mut chain = Assembly::new(layout.count);
 
-        // Motions: σ, waves of the drum side, drum, motor. A drum side of no length makes drum and cable one.
-        let rope = end.rope_compliance;
-        if rope <= 0.0 && !drum_moves {
-            return None;
-        }
-        let stretch = end.stretch;
-        let (spring, length) = (1.0 / (stretch * stretch * rope), axial_stiffness * stretch * stretch * rope);
-        let is_rod = rope > 0.0 && mass_per_length > 0.0 && winch.is_some_and(|winch| winch.drum_side == DrumSide::Rod);
-        let waves = if is_rod {
-            let phase = limit * (mass_per_length / axial_stiffness).sqrt() * length;
-            (DEGREE_PER_RADIAN * phase + BASE_DEGREE).ceil() as usize - 1
-        } else {
-            0
-        };
-        let mut count = 1 + waves;
-        let mut another = || {
-            count += 1;
-            Place { motion: count - 1, factor: 1.0 }
-        };
-        let slip = Place { motion: 0, factor: 1.0 };
-        let ratio = stretch / end.stretch_drum;
-        let drum = drum_moves.then(|| if rope > 0.0 { another() } else { Place { motion: 0, factor: 1.0 / ratio } });
-        let motor = match drum {
-            Some(drum) if motor_moves => Some(if yields { another() } else { drum }),
-            _ => None,
-        };
-
-        // Wheel and weight of the cable on it.
-        let mut chain = Assembly::new(count);
-        chain.stiffness[(0, 0)] += end.weight;
+        // Wheel and weight of the cable on it, drum side, then drum, shaft and motor.
+        chain.stiffness[(0, 0)] += drive.end.weight;
         if let Some(pulley) = &anchor.pulley {
-            chain.heavy(pulley.inertia / (pulley.radius * pulley.radius), slip);
+            chain.heavy(pulley.inertia / (pulley.radius * pulley.radius), SLIP);
         }
-
-        // Drum side: the cable stretches between σ and its end at the drum, which is the motion w of the drum there,
-        // but for the stretch.
-        let at_drum = drum.map(|place| Place { factor: ratio * place.factor, ..place });
-        if rope > 0.0 {
-            match at_drum {
-                Some(at_drum) => chain.spring(spring, &[slip, Place { factor: -at_drum.factor, ..at_drum }]),
-                None => chain.spring(spring, &[slip]),
-            }
-        }
-        let mut held_end = vec![0.0; count];
-        if is_rod {
-            held_end = chain.rod((axial_stiffness, mass_per_length, length), waves, at_drum);
-        }
-
-        // Drum, shaft and motor.
-        let (drum_mass, motor_mass) = winch.map_or((0.0, 0.0), |winch| (winch.drum_mass, winch.motor_mass));
-        if let Some(drum) = drum {
-            chain.heavy(drum_mass, drum);
-            match motor {
-                Some(motor) if yields => chain.spring(shaft, &[drum, Place { factor: -motor.factor, ..motor }]),
-                None => chain.spring(shaft, &[drum]),
-                Some(_) => {}
-            }
-        }
-        let servo = if let Control::Position(servo) = control { Some(servo) } else { None };
-        if let Some(motor) = motor {
-            chain.heavy(motor_mass, motor);
-            chain.spring(servo.map_or(0.0, |servo| servo.position_gain), &[motor]);
-        }
-
-        // Force by a length that is paid out at a drum that is held, or behind a shaft that yields.
-        let by_length = match (drum, motor) {
-            (_, Some(_)) => Vec::new(),
-            (Some(drum), None) => {
-                let mut force = vec![(0.0, 0.0); count];
-                force[drum.motion].0 = shaft * drum.factor * end.stretch_drum;
-                force
-            }
-            (None, None) => {
-                let still = |motion: usize| if motion == 0 { spring * stretch } else { 0.0 };
-                held_end.iter().enumerate().map(|(motion, mass)| (still(motion), mass * stretch)).collect()
-            }
-        };
+        let held_end = chain.drum_side(&parts, &layout);
+        chain.winch(&parts, &layout);
 
         let Assembly { stiffness, mass, cable_mass } = chain;
-        let damping = winch.map_or(0.0, |winch| winch.damping);
-        let motor = motor.map(|place| Motor { place, damping, servo });
-        Some(Self { stiffness, mass, cable_mass, drum, motor, by_length, stretch_drum: end.stretch_drum })
+        let damping = parts.winch.map_or(0.0, |winch| winch.damping);
+        let motor = layout.motor.map(|place| Motor { place, damping, servo: parts.servo() });
+        let (drum, stretch_drum) = (layout.drum, drive.end.stretch_drum);
+        Some(Self {
+            stiffness,
+            mass,
+            cable_mass,
+            drum,
+            motor,
+            by_length: by_length(&parts, &layout, &held_end),
+            stretch_drum,
+        })
     }
 
     /// Number of motions.
@@ -237,47 +361,7 @@ impl DriveChain {
         total[(0, 0)] += held;
         Some(total.cholesky()?.inverse())
     }
-}
 
-impl Assembly {
-    /// Adds waves and mass of a drum side with the axial stiffness EA [N], the mass per length [kg/m] and the length of
-    /// a uniform rod [m]; its spring is there. The result is the mass between the motions and the end at the drum [kg],
-    /// if the drum is held.
-    fn rod(
-        &mut self,
-        (axial_stiffness, mass_per_length, length): (f64, f64, f64),
-        waves: usize,
-        at_drum: Option<Place>,
-    ) -> Vec<f64> {
-        // Functions of the rod: hats at σ and at the drum, then polynomials that vanish at both.
-        let half = 0.5 * length;
-        let mass = legendre::element_mass(waves + 1) * (half * mass_per_length);
-        let place = |function: usize| match function {
-            0 => Some(Place { motion: 0, factor: 1.0 }),
-            1 => at_drum,
-            bubble => Some(Place { motion: bubble - 1, factor: 1.0 }),
-        };
-
-        let mut by_end = vec![0.0; self.mass.nrows()];
-        for row in 0..waves + 2 {
-            let Some(a) = place(row) else { continue };
-            for column in 0..waves + 2 {
-                let entry = mass[(row, column)];
-                match place(column) {
-                    Some(b) => self.cable_mass[(a.motion, b.motion)] += entry * a.factor * b.factor,
-                    None => by_end[a.motion] += entry * a.factor,
-                }
-            }
-            // The slopes of these polynomials are orthonormal.
-            if row >= 2 {
-                self.stiffness[(a.motion, a.motion)] += axial_stiffness / half;
-            }
-        }
-        by_end
-    }
-}
-
-impl DriveChain {
     /// Dynamic stiffness of each motion besides that of the undamped chain, at the complex ω [N/m], with its derivative
     /// by ω: no two motions share a mass or a loss. The undamped matrices move with ω_c² (`square`, with its derivative by
     /// ω), because the cable has damping of its own; wheel, drum and motor have ω². `losses` is the fraction of the
@@ -298,5 +382,41 @@ impl DriveChain {
             delta[motion].1 += losses * factor * factor * loss_slope;
         }
         delta
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A rod whose end is held: its condensed stiffness is EA κ cot κs, up to the highest frequency that it is made for.
+    #[test]
+    fn a_rod_has_the_axial_waves_of_its_length() {
+        let winch = Winch { drum_side: DrumSide::Rod, ..Winch::rigid("winch", 0.0) };
+        for limit in [10.0, 3e3, 3e4] {
+            let parts = Parts {
+                winch: Some(&winch),
+                control: Control::Ideal,
+                shaft: f64::INFINITY,
+                axial_stiffness: 2e5,
+                mass_per_length: 0.07,
+                stretch: 1.0,
+                stretch_drum: 1.0,
+                rope_compliance: 3.0 / 2e5,
+            };
+            let layout = Layout::of(&parts, limit);
+            let mut chain = Assembly::new(layout.count);
+            chain.drum_side(&parts, &layout);
+            for omega in [0.3 * limit, 0.77 * limit, limit] {
+                let d = &chain.stiffness - &chain.cable_mass * (omega * omega);
+                // Schur complement on σ.
+                let condensed = 1.0 / d.try_inverse().unwrap()[(0, 0)];
+                let kappa: f64 = omega * (0.07_f64 / 2e5).sqrt();
+                let exact = 2e5 * kappa / (kappa * 3.0).tan();
+                // Ill-conditioned beside a zero, hence relative to the static stiffness.
+                let size = exact.abs().max(2e5 / 3.0);
+                assert!((condensed - exact).abs() < 1e-10 * size, "{limit} {omega}: {condensed} {exact}");
+            }
+        }
     }
 }

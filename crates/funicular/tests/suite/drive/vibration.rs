@@ -360,7 +360,7 @@ fn delays_destabilise_and_strong_gains_stop_ringing() {
         let (found, caveat) = partners(2500.0, delay);
         let found = found.unwrap();
         assert!(found.certified, "delay {delay}");
-        (found.modes.iter().map(|mode| mode.damping_ratio()).fold(f64::INFINITY, f64::min), caveat)
+        (found.modes.iter().map(modes::damped::DampedMode::damping_ratio).fold(f64::INFINITY, f64::min), caveat)
     };
     let (stable, caveat) = least(0.001);
     assert!(stable > 0.0 && caveat.is_none_or(|caveat| !caveat.contains("unstable")));
