@@ -13,6 +13,7 @@
 //! K_s and M_s being the static condensation and g_k the participation of the ends in mode k: a few operations per
 //! pole. Derivation: docs/theory.md, section 9.
 
+mod drive_motion;
 mod drive_signals;
 mod internal_motion;
 mod mesh;
@@ -20,14 +21,15 @@ mod moving_end;
 mod partition;
 mod poles;
 
+use drive_motion::DriveAt;
+pub use drive_motion::DriveMotion;
+pub(crate) use drive_motion::{DriveLosses, DriveMotions};
 pub use drive_signals::DriveSignal;
 use drive_signals::EndDirections;
 pub(crate) use internal_motion::InternalMotion;
 pub use internal_motion::{Displacements, Stations};
 pub(crate) use mesh::{ellipse, has_tension};
-use moving_end::DriveAt;
-pub(crate) use moving_end::{DriveLosses, DriveMotions};
-pub use moving_end::{DriveMotion, EndAlong, MovingEnd};
+pub use moving_end::{EndAlong, MovingEnd};
 pub use poles::PoleResidue;
 
 use super::{LocalAxes, LocalStiffness};
@@ -178,10 +180,15 @@ impl CatenaryDynamicEnd {
         self.with_out_of_plane(self.in_plane().undamped(x, 0..0), |family| family.undamped(x, 0..0))
     }
 
+    /// Square ω_c² of the complex frequency of the cable at ω [rad/s], [rad²/s²].
+    fn square(&self, omega: f64) -> Complex {
+        let (re, im) = self.damping.square(omega, self.mass_per_length);
+        Complex::new(re, im)
+    }
+
     /// Damped stiffness at ω [rad/s], [N/m].
     pub fn damped(&self, omega: f64) -> LocalStiffness<Complex> {
-        let (re, im) = self.damping.square(omega, self.mass_per_length);
-        let square = Complex::new(re, im);
+        let square = self.square(omega);
         let mut stiffness = self.with_out_of_plane(self.in_plane().damped(square), |family| family.damped(square));
         if let Some(added) = self.drive_stiffness(omega) {
             stiffness.axial += added.axial;
@@ -190,111 +197,6 @@ impl CatenaryDynamicEnd {
             stiffness.out_of_plane += added.out_of_plane;
         }
         stiffness
-    }
-
-    /// Stiffness at ω [rad/s] that comes from what the undamped model of the drive leaves out [N/m]; `None` without it.
-    pub(crate) fn drive_stiffness(&self, omega: f64) -> Option<LocalStiffness<Complex>> {
-        let (re, im) = self.damping.square(omega, self.mass_per_length);
-        let drive = self.drive_at(Complex::new(re, im), &(0..0, 0..0)).filter(|_| self.has_drive_losses())?;
-        let (in_plane, out_of_plane) = drive.added_stiffness(&self.beyond_undamped(omega.into(), 1.0));
-        Some(local(in_plane, out_of_plane))
-    }
-
-    /// True if the undamped model does not describe its drive completely: masses of the drive that do not share the
-    /// damping of the cable, or losses of its control.
-    pub(crate) fn has_drive_losses(&self) -> bool {
-        let Some(end) = &self.cable.end else { return false };
-        let chain = end.along.as_ref().map(|along| &along.chain);
-        let heavy =
-            chain.is_some_and(|chain| chain.mass.amax() > 0.0) || end.out_of_plane.is_some_and(|(_, m)| m > 0.0);
-        let damped_cable = self.damping.ratio_at(1.0, self.mass_per_length) > 0.0;
-        (heavy && damped_cable) || chain.is_some_and(DriveChain::has_losses)
-    }
-
-    /// Motions of the drive at x = ω_c², without the poles `left_out` in plane and out of plane; `None` without a drive.
-    pub(crate) fn drive_at(&self, x: Complex, left_out: &(Range<usize>, Range<usize>)) -> Option<DriveMotions> {
-        let motion = self.cable.drive.as_ref()?;
-        Some(DriveMotions {
-            along: DriveAt::at(&self.cable.in_plane, &motion.along, &motion.flexibility, x, &left_out.0),
-            sideways: (self.out_of_plane().filter(|_| motion.flexibility_out_of_plane > 0.0)).map(|family| {
-                let flexibility = DMat::from_element(1, 1, motion.flexibility_out_of_plane);
-                DriveAt::at(family, &motion.out_of_plane, &flexibility, x, &left_out.1)
-            }),
-        })
-    }
-
-    /// True if the control of its motor has a delay.
-    pub(crate) fn has_delay(&self) -> bool {
-        let along = self.cable.end.as_ref().and_then(|end| end.along.as_ref());
-        let servo = along.and_then(|along| along.chain.motor).and_then(|motor| motor.servo);
-        servo.is_some_and(|servo| servo.delay > 0.0)
-    }
-
-    /// True if wheel, swivel, drum or motor has mass.
-    pub(crate) fn has_drive_mass(&self) -> bool {
-        self.cable.end.as_ref().is_some_and(|end| {
-            end.along.as_ref().is_some_and(|along| along.chain.mass.amax() > 0.0)
-                || end.out_of_plane.is_some_and(|(_, mass)| mass > 0.0)
-        })
-    }
-
-    /// Kinetic energy of the drive over ω²/2 [kg m²], and the work of its losses, by which its damping grows [N m], in
-    /// a motion of the platform end (e, n, b) at the undamped ω [rad/s]. `near` has the amplitudes of the clamped modes
-    /// that are unknowns of their own.
-    pub(crate) fn drive_share(&self, omega: f64, end: [f64; 3], near: &[(usize, bool, f64)]) -> (f64, f64) {
-        let x = omega * omega;
-        let left_out = |out_of_plane: bool| {
-            let mut indices = near.iter().filter(|near| near.1 == out_of_plane).map(|near| near.0);
-            indices.next().map_or(0..0, |first| first..indices.next_back().unwrap_or(first) + 1)
-        };
-        let Some(motions) = self.drive_at(x.into(), &(left_out(false), left_out(true))) else { return (0.0, 0.0) };
-        let Some(moving) = &self.cable.end else { return (0.0, 0.0) };
-
-        // Motions by the platform end, and in the near modes.
-        let mut along: Vec<f64> = motions.along.transfer.iter().map(|[e, n]| e.re * end[0] + n.re * end[1]).collect();
-        let mut sideways = motions.sideways.as_ref().map_or(0.0, |sideways| sideways.transfer[0][0].re * end[2]);
-        for (index, out_of_plane, amplitude) in near {
-            let motion = self.drive_in_mode(*index, *out_of_plane);
-            if *out_of_plane {
-                sideways += motion.iter().map(|phi| phi * amplitude).sum::<f64>();
-            } else {
-                along.iter_mut().zip(&motion).for_each(|(sum, phi)| *sum += phi * amplitude);
-            }
-        }
-
-        // Masses, and the imaginary part of what the drive has besides the undamped model, without the cable's damping.
-        let (mut mass, mut loss) = (moving.out_of_plane.map_or(0.0, |(_, mass)| mass) * sideways * sideways, 0.0);
-        if let Some(EndAlong { chain, .. }) = &moving.along {
-            let undamped = (Complex::from(x), Complex::from(2.0 * omega));
-            let losses = chain.beyond_undamped(omega.into(), undamped, 1.0);
-            for (j, z) in along.iter().enumerate() {
-                mass += chain.mass[(j, j)] * z * z;
-                loss += losses[j].0.im * z * z;
-            }
-        }
-        (mass, loss)
-    }
-
-    /// Motions of the drive in the clamped mode with this index, along the cable or sideways [1/√kg].
-    pub(crate) fn drive_in_mode(&self, index: usize, out_of_plane: bool) -> Vec<f64> {
-        let Some(motion) = &self.cable.drive else { return Vec::new() };
-        if out_of_plane {
-            motion.out_of_plane.modes[index].iter().map(|[motion]| *motion).collect()
-        } else {
-            motion.along.modes[index].iter().map(|[motion, _]| *motion).collect()
-        }
-    }
-
-    /// Dynamic stiffness that the drive has besides that of the undamped model, over its motions along the cable and
-    /// sideways, at the complex ω [N/m], with its derivative by ω. `losses` is the fraction of the damping that acts.
-    pub(crate) fn beyond_undamped(&self, omega: Complex, losses: f64) -> DriveLosses {
-        let square = self.damping.times(losses).square_with_slope(omega, self.mass_per_length);
-        let end = self.cable.end.as_ref();
-        let along =
-            end.and_then(|end| end.along.as_ref()).map(|along| along.chain.beyond_undamped(omega, square, losses));
-        let mass = end.and_then(|end| end.out_of_plane).map_or(0.0, |(_, mass)| mass);
-        let sideways = (mass * (square.0 - omega * omega), mass * (square.1 - 2.0 * omega));
-        DriveLosses { along: along.unwrap_or_default(), sideways }
     }
 
     /// Minus the derivative of the undamped stiffness by ω² [kg].

@@ -1,6 +1,6 @@
 //! Signals of the drive of a cable: commanded length, force of the motor, motions of drum and motor, tension.
 
-use super::{CatenaryDynamicEnd, DriveAt, DriveLosses, EndAlong};
+use super::{CatenaryDynamicEnd, DriveAt, DriveLosses};
 use crate::drive::{DriveChain, Place};
 use crate::math::Complex;
 
@@ -65,7 +65,7 @@ impl CatenaryDynamicEnd {
             return Some([-(k.axial * h + k.coupling * v), -(k.coupling * h + k.normal * v), zero]);
         }
         let square = self.square(omega);
-        let Some(EndAlong { chain, .. }) = self.along() else {
+        let Some(chain) = self.chain() else {
             // The drum is rigid and holds the far end: the cable that is paid out moves it towards the platform.
             let ([h, v], family) = (self.directions.to_platform, &self.cable.in_plane);
             let towards =
@@ -75,7 +75,7 @@ impl CatenaryDynamicEnd {
 
         let force = self.forces_of(chain, signal, omega)?;
         let (motions, losses) = self.motions_with_losses(omega)?;
-        let moved = motions.moved(&along(&losses));
+        let moved = motions.moved(&losses.values_along());
         let sum = |s: usize| (0..force.len()).map(|j| moved[j][s] * force[j]).sum();
         Some([sum(0), sum(1), zero])
     }
@@ -88,22 +88,13 @@ impl CatenaryDynamicEnd {
             let [x, y, _] = self.signal_vector(input, omega)?;
             return Some(x * h + y * v);
         }
-        let EndAlong { chain, .. } = self.along()?;
+        let chain = self.chain()?;
         let (force, row) = (self.forces_of(chain, input, omega)?, self.forces_of(chain, output, omega)?);
         let (motions, losses) = self.motions_with_losses(omega)?;
         let free: Vec<Complex> =
             (0..force.len()).map(|i| (0..force.len()).map(|j| motions.receptance[(i, j)] * force[j]).sum()).collect();
-        let held = motions.freed(&along(&losses), &free);
+        let held = motions.freed(&losses.values_along(), &free);
         Some(row.iter().zip(&held).map(|(row, moved)| row * moved).sum())
-    }
-
-    fn along(&self) -> Option<&EndAlong> {
-        self.cable.end.as_ref().and_then(|end| end.along.as_ref())
-    }
-
-    fn square(&self, omega: f64) -> Complex {
-        let (re, im) = self.damping.square(omega, self.mass_per_length);
-        Complex::new(re, im)
     }
 
     fn motions_with_losses(&self, omega: f64) -> Option<(DriveAt<2>, DriveLosses)> {
@@ -133,9 +124,4 @@ impl CatenaryDynamicEnd {
         }
         Some(force)
     }
-}
-
-/// Losses along the cable, without their derivatives.
-fn along(losses: &DriveLosses) -> Vec<Complex> {
-    losses.along.iter().map(|(value, _)| *value).collect()
 }
