@@ -330,21 +330,49 @@ impl EndStiffness {
             CableModel::CatenaryDynamic => {
                 let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
                 let (m, damping, limit) = (material.mass_per_length, material.damping, up_to_hz * TAU);
-                let anchor = &robot.cables[i].anchor;
-                let end = drive.map(|drive| {
-                    let chain = DriveChain::of(anchor, drive, (material.axial_stiffness, m), winches, limit);
-                    (&drive.end, chain, drive.swivel_mass(anchor))
-                });
-                // Without any mass the cable and its drive are springs.
-                let moves = |(_, chain, swivel): &(&AnchorEnd, Option<DriveChain>, f64)| {
-                    *swivel > 0.0 || chain.as_ref().is_some_and(DriveChain::has_dynamics)
-                };
-                if m == 0.0 && !end.as_ref().is_some_and(moves) {
+                let end = EndWithDrive::of(robot, i, state, winches, limit);
+                if m == 0.0 && !end.as_ref().is_some_and(EndWithDrive::has_dynamics) {
                     return Ok(Self::Constant(without_b(in_series(hanging.tangent_w()))));
                 }
-                let cable = CatenaryDynamicEnd::new(hanging, end, m, damping, in_plane_only, limit)?;
+                let cable = CatenaryDynamicEnd::new(
+                    hanging,
+                    end.map(EndWithDrive::into_parts),
+                    m,
+                    damping,
+                    in_plane_only,
+                    limit,
+                )?;
                 Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable)))
             }
         })
+    }
+}
+
+/// End of a cable at its pulley or winch, with the drive behind it.
+pub(crate) struct EndWithDrive<'a> {
+    end: &'a AnchorEnd,
+    /// Motions behind the end; `None` if the cable cannot move there.
+    chain: Option<DriveChain>,
+    /// Mass of the swivel at the cable [kg].
+    swivel_mass: f64,
+}
+
+impl<'a> EndWithDrive<'a> {
+    /// End of cable `i` of a robot at an equilibrium, for frequencies up to `limit` [rad/s]; `None` for a fixed anchor.
+    pub(crate) fn of(robot: &Robot, i: usize, state: &'a CableState, winches: WinchMode, limit: f64) -> Option<Self> {
+        let (drive, anchor, material) = (state.drive.as_deref()?, &robot.cables[i].anchor, &robot.cables[i].material);
+        let rope = (material.axial_stiffness, material.mass_per_length);
+        let chain = DriveChain::of(anchor, drive, rope, winches, limit);
+        Some(Self { end: &drive.end, chain, swivel_mass: drive.swivel_mass(anchor) })
+    }
+
+    /// True if the drive has mass or losses. A cable without mass and its drive are springs otherwise.
+    pub(crate) fn has_dynamics(&self) -> bool {
+        self.swivel_mass > 0.0 || self.chain.as_ref().is_some_and(DriveChain::has_dynamics)
+    }
+
+    /// End, motions behind it, and mass of the swivel at the cable [kg].
+    pub(crate) fn into_parts(self) -> (&'a AnchorEnd, Option<DriveChain>, f64) {
+        (self.end, self.chain, self.swivel_mass)
     }
 }

@@ -63,8 +63,11 @@ pub struct First {
     pub kind: Kind,
     /// Fraction of the kinetic energy that the platform has.
     pub platform_energy_fraction: f64,
-    /// Fraction of the kinetic energy that each cable has, in the order of the file.
+    /// Fraction of the kinetic energy that each cable has, in the order of the file, without its drive.
     pub cable_energy_fractions: Vec<f64>,
+    /// Fraction of the kinetic energy that the drive of each cable has: wheel, swivel, drum and motor. Empty if no drive
+    /// has inertia.
+    pub drive_energy_fractions: Vec<f64>,
     /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1. Zero
     /// if the platform is at rest.
     pub shape: [f64; 6],
@@ -144,12 +147,21 @@ const MAX_HZ: f64 = 1e8;
 
 impl First {
     fn of_mode(mode: Mode, unstable_directions: usize, certified: bool) -> Self {
-        let Mode { frequency_hz, kind, platform_energy_fraction, cable_energy_fractions, shape, .. } = mode;
+        let Mode {
+            frequency_hz,
+            kind,
+            platform_energy_fraction,
+            cable_energy_fractions,
+            drive_energy_fractions,
+            shape,
+            ..
+        } = mode;
         Self {
             frequency_hz,
             kind,
             platform_energy_fraction,
             cable_energy_fractions,
+            drive_energy_fractions,
             shape,
             unstable_directions,
             certified,

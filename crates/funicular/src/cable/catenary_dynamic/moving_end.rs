@@ -37,7 +37,7 @@ impl MovingEnd {
     ///
     /// # Errors
     /// [`CatenaryDynamicError::Skew`]: the end moves in and out of plane at the same time.
-    pub(super) fn of(
+    pub(crate) fn of(
         hanging: &HangingCable,
         end: &AnchorEnd,
         chain: Option<DriveChain>,

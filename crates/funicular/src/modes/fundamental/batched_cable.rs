@@ -13,14 +13,17 @@
 
 mod element;
 mod element_integrals;
+mod end_elimination;
 mod mesh;
 mod node_elimination;
 
 pub(super) use element_integrals::place;
 
+use crate::cable::catenary_dynamic::MovingEnd;
 use crate::catenary::Catenary;
 use crate::math::simd::{LANES, Lane, Lanes};
 use element::{ElementBatch, ForceShapes};
+use end_elimination::CableEnd;
 use mesh::GradedMesh;
 use node_elimination::ElementChain;
 use pulp::Simd;
@@ -35,6 +38,16 @@ const MAX_TERMS: usize = 45;
 /// Relative size below which coefficients of C are left out.
 const TRUNCATION: f64 = 1e-13;
 
+/// Free span of a cable with mass, or with a drive that has mass.
+#[derive(Debug)]
+pub(super) struct CableSpan<'a> {
+    pub(super) catenary: &'a Catenary,
+    /// Mass m per unstrained length [kg/m].
+    pub(super) mass_per_length: f64,
+    /// Motion of its far end with the drive behind it; `None` for an end that is held.
+    pub(super) end: Option<MovingEnd>,
+}
+
 /// Group of up to [`LANES`] cables, either all of one element or all of several.
 #[derive(Debug)]
 pub(super) struct CableGroup {
@@ -44,6 +57,8 @@ pub(super) struct CableGroup {
     packs: Vec<ElementBatch>,
     /// Elimination of the nodes of each cable; empty for cables of one element.
     chains: Vec<ElementChain>,
+    /// Far end of each cable; empty if all ends are held.
+    ends: Vec<CableEnd>,
     /// Number of Legendre terms of C.
     terms: usize,
     /// Components of e along the horizontal and up, per cable: along the chord, or vertical if the cable is slack.
@@ -71,21 +86,27 @@ impl Default for KeptStiffness {
     }
 }
 
-/// Amplitudes of all functions of elements side by side, in plane and out of plane for each pack.
+/// Amplitudes of all functions of a group's cables.
 #[derive(Debug)]
-pub(super) struct FunctionMotion(Vec<[Lanes; 2]>);
+pub(super) struct FunctionMotion {
+    /// Functions of elements side by side, in plane and out of plane for each pack.
+    elements: Vec<[Lanes; 2]>,
+    /// Unknowns at the far ends, cable by cable.
+    ends: Vec<f64>,
+}
 
 impl CableGroup {
-    /// Groups of all cables, each given with its mass m per unstrained length [kg/m]. `None` if a point of a cable has
-    /// no tension.
-    pub(super) fn groups(cables: &[(&Catenary, f64)]) -> Option<Vec<Self>> {
-        let meshes = cables.iter().map(|(catenary, _)| GradedMesh::of(catenary)).collect::<Option<Vec<_>>>()?;
+    /// Groups of all cables. `None` if a point of a cable has no tension, or nothing holds its drive.
+    pub(super) fn groups(cables: &[CableSpan]) -> Option<Vec<Self>> {
+        let meshes = cables.iter().map(|cable| GradedMesh::of(cable.catenary)).collect::<Option<Vec<_>>>()?;
         let (single, divided): (Vec<usize>, Vec<usize>) = (0..cables.len()).partition(|i| meshes[*i].kept == 0);
-        let groups = single.chunks(LANES).chain(divided.chunks(LANES));
-        Some(groups.map(|members| Self::of(cables, &meshes, members)).collect())
+        let (moving, held): (Vec<usize>, Vec<usize>) = single.into_iter().partition(|i| cables[*i].end.is_some());
+        let groups = held.chunks(LANES).chain(moving.chunks(LANES)).chain(divided.chunks(LANES));
+        groups.map(|members| Self::of(cables, &meshes, members)).collect()
     }
 
-    fn of(cables: &[(&Catenary, f64)], meshes: &[GradedMesh], members: &[usize]) -> Self {
+    /// Group of some of the cables. `None` if nothing holds the drive of one of them.
+    fn of(cables: &[CableSpan], meshes: &[GradedMesh], members: &[usize]) -> Option<Self> {
         let size = members.iter().map(|i| meshes[*i].size).fold(f64::INFINITY, f64::min);
         let terms = if size.is_finite() { (-TRUNCATION.ln() / size.ln()).ceil() as usize + 1 } else { 1 };
         let terms = terms.min(MAX_TERMS);
@@ -106,18 +127,24 @@ impl CableGroup {
             let mut shapes = ForceShapes::default();
             for lane in 0..LANES {
                 let (i, from, to) = pack[lane.min(pack.len() - 1)];
-                shapes.set(lane, cables[i], meshes[i].axis, from, to);
+                shapes.set(lane, &cables[i], meshes[i].axis, from, to);
             }
             shapes
         });
         let shapes: Vec<ForceShapes> = shapes.collect();
-        Self {
+
+        // Far ends.
+        let moving = members.iter().any(|i| cables[*i].end.is_some());
+        let end = |i: &usize| CableEnd::new(&cables[*i], meshes[*i].axis, meshes[*i].kept > 0);
+        let ends = if moving { members.iter().map(end).collect::<Option<Vec<_>>>()? } else { Vec::new() };
+        Some(Self {
             members: members.to_vec(),
             packs: pulp::Arch::new().dispatch(Expand { shapes: &shapes, terms }),
             chains,
+            ends,
             terms,
             axes: members.iter().map(|i| meshes[*i].axis).collect(),
-        }
+        })
     }
 
     /// Index of the cable in each lane.
@@ -153,7 +180,14 @@ impl CableGroup {
 
     /// Products `aᵀ M b` in plane and out of plane [kg × motion²].
     pub(super) fn mass(&self, a: &FunctionMotion, b: &FunctionMotion) -> [Lane; 2] {
-        pulp::Arch::new().dispatch(Mass { cables: self, a, b })
+        let mut masses = pulp::Arch::new().dispatch(Mass { cables: self, a: &a.elements, b: &b.elements });
+        end_elimination::add_mass(&self.ends, &a.ends, &b.ends, &mut masses);
+        masses
+    }
+
+    /// Mass of the drive of each cable in a motion [kg × motion²].
+    pub(super) fn drive_mass(&self, motion: &FunctionMotion) -> Lane {
+        end_elimination::drive_mass(&self.ends, &motion.ends)
     }
 }
 
@@ -189,9 +223,16 @@ impl pulp::WithSimd for FactoriseCables<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> KeptStiffness {
-        let Self { cables: CableGroup { packs, chains, .. }, x, degree } = self;
+        let Self { cables: CableGroup { packs, chains, ends, .. }, x, degree } = self;
 
-        // Cables of one element.
+        // Cables of one element with moving ends: the element, then the motions at its far end.
+        if chains.is_empty() && !ends.is_empty() {
+            let mut min_pivot = [f64::INFINITY; LANES];
+            packs[0].factorise::<S, 2>(simd, x, degree, (5, 3), &mut min_pivot);
+            return end_elimination::condense(ends, &packs[0], x, &min_pivot);
+        }
+
+        // Cables of one element with ends that are held.
         if chains.is_empty() {
             let mut min_pivot = [f64::INFINITY; LANES];
             let element = &mut packs[0];
@@ -210,7 +251,7 @@ impl pulp::WithSimd for FactoriseCables<'_> {
             element.factorise::<S, 2>(simd, x, degree, (4, 2), &mut min_pivot);
             min_pivots.push(min_pivot);
         }
-        node_elimination::condense(chains, packs, &min_pivots)
+        node_elimination::condense(chains, ends, packs, x, &min_pivots)
     }
 }
 
@@ -226,23 +267,29 @@ impl pulp::WithSimd for Substitute<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> FunctionMotion {
-        let Self { cables: CableGroup { packs, chains, .. }, in_plane, out_of_plane } = self;
+        let Self { cables: CableGroup { packs, chains, ends, .. }, in_plane, out_of_plane } = self;
+        if chains.is_empty() && !ends.is_empty() {
+            let (in_plane, out_of_plane, ends) = end_elimination::follow(ends, &in_plane, &out_of_plane);
+            return FunctionMotion { elements: vec![packs[0].moved(simd, &in_plane, &out_of_plane)], ends };
+        }
         if chains.is_empty() {
-            return FunctionMotion(vec![packs[0].moved(simd, &in_plane, &out_of_plane)]);
+            let elements = vec![packs[0].moved(simd, &in_plane, &out_of_plane)];
+            return FunctionMotion { elements, ends: Vec::new() };
         }
-        let mut all = Vec::with_capacity(packs.len());
-        for (element, ends) in packs.iter().zip(node_elimination::ends(chains, packs.len(), &in_plane, &out_of_plane)) {
-            all.push(element.moved(simd, &ends.in_plane, &ends.out_of_plane));
+        let mut elements = Vec::with_capacity(packs.len());
+        let (of_packs, ends) = node_elimination::ends(chains, ends, packs.len(), &in_plane, &out_of_plane);
+        for (element, ends) in packs.iter().zip(of_packs) {
+            elements.push(element.moved(simd, &ends.in_plane, &ends.out_of_plane));
         }
-        FunctionMotion(all)
+        FunctionMotion { elements, ends }
     }
 }
 
 /// Job for vector registers: products with the mass.
 struct Mass<'a> {
     cables: &'a CableGroup,
-    a: &'a FunctionMotion,
-    b: &'a FunctionMotion,
+    a: &'a [[Lanes; 2]],
+    b: &'a [[Lanes; 2]],
 }
 
 impl pulp::WithSimd for Mass<'_> {
@@ -250,12 +297,15 @@ impl pulp::WithSimd for Mass<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> [Lane; 2] {
-        let Self { cables: CableGroup { packs, chains, .. }, a, b } = self;
+        let Self { cables: CableGroup { packs, chains, ends, .. }, a, b } = self;
+        if chains.is_empty() && !ends.is_empty() {
+            return packs[0].mass::<S, 2>(simd, &a[0], &b[0]);
+        }
         if chains.is_empty() {
-            return packs[0].mass::<S, 1>(simd, &a.0[0], &b.0[0]);
+            return packs[0].mass::<S, 1>(simd, &a[0], &b[0]);
         }
         let mut masses = Vec::with_capacity(packs.len());
-        for ((element, a), b) in packs.iter().zip(&a.0).zip(&b.0) {
+        for ((element, a), b) in packs.iter().zip(a).zip(b) {
             masses.push(element.mass::<S, 2>(simd, a, b));
         }
         node_elimination::sums(chains, &masses)
@@ -272,6 +322,11 @@ mod tests {
     /// Entries of one cable, in plane and out of plane.
     fn of(kept: &KeptStiffness, lane: usize) -> ([f64; 6], [f64; 3]) {
         (from_fn(|entry| kept.in_plane[entry][lane]), from_fn(|entry| kept.out_of_plane[entry][lane]))
+    }
+
+    /// Cable whose far end is held.
+    fn held(catenary: &Catenary, mass_per_length: f64) -> CableSpan<'_> {
+        CableSpan { catenary, mass_per_length, end: None }
     }
 
     /// Cable from the sine of its slope, the ratio of length to chord, and the decimal logarithm of EA.
@@ -298,8 +353,8 @@ mod tests {
             let oracles: Vec<CatenaryDynamic> = cables.iter().map(|c| CatenaryDynamic::new(c, MASS, 60.0).unwrap()).collect();
             let first = |e: &CatenaryDynamic| e.in_plane.poles[0].min(e.out_of_plane.poles[0]);
             let x = part * oracles.iter().map(first).fold(f64::INFINITY, f64::min);
-            let pairs: Vec<_> = cables.iter().map(|c| (c, MASS)).collect();
-            let mut groups = CableGroup::groups(&pairs).unwrap();
+            let spans: Vec<_> = cables.iter().map(|c| held(c, MASS)).collect();
+            let mut groups = CableGroup::groups(&spans).unwrap();
             let kept: Vec<KeptStiffness> = groups.iter_mut().map(|group| group.kept(x, 30)).collect();
             let lanes = |(k, group): (usize, &CableGroup)| -> Vec<_> {
                 group.members().iter().enumerate().map(|(lane, i)| (k, lane, *i)).collect()
@@ -340,7 +395,7 @@ mod tests {
             let catenary = cable(shape);
             let oracle = CatenaryDynamic::new(&catenary, MASS, 20.0).unwrap();
             let x = part * oracle.in_plane.poles[0].min(oracle.out_of_plane.poles[0]);
-            let group = &mut CableGroup::groups(&[(&catenary, MASS)]).unwrap()[0];
+            let group = &mut CableGroup::groups(&[held(&catenary, MASS)]).unwrap()[0];
             let mut work = |x: f64| {
                 let ([nn, en, ee, ..], [oo, ..]) = of(&group.kept(x, 24), 0);
                 [nn * n * n + 2.0 * en * n * e + ee * e * e, oo * n * n]
@@ -364,6 +419,6 @@ mod tests {
     fn a_loop_without_tension_is_left_to_others() {
         let rope = Rope { unstrained_length: 8.0, weight_per_length: 0.6, axial_stiffness: 1e5 };
         let slack = Catenary::between(0.0, 6.0, rope).unwrap();
-        assert!(CableGroup::groups(&[(&slack, 0.06)]).is_none());
+        assert!(CableGroup::groups(&[held(&slack, 0.06)]).is_none());
     }
 }

@@ -136,6 +136,14 @@ fn pairs<T>(all: &[T], form: impl Fn(&T, &T) -> Lane) -> Vec<Lane> {
     (0..all.len()).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| form(&all[i], &all[j])).collect()
 }
 
+impl AllUnknowns<'_> {
+    /// Mass of the drive of each cable of a group in a motion, at the x of the last call of `kept`.
+    pub(super) fn drive_mass(&self, group: usize, (in_plane, out_of_plane): KeptMotion) -> Lane {
+        let group = &self.groups[group];
+        group.drive_mass(&group.moved(in_plane, out_of_plane))
+    }
+}
+
 impl Cables for AllUnknowns<'_> {
     fn kept(&mut self, x: f64, into: &mut Vec<KeptStiffness>) {
         into.clear();

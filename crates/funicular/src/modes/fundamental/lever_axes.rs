@@ -130,3 +130,19 @@ impl RobotMotion {
         (in_plane, out_of_plane)
     }
 }
+
+/// Job for vector registers: motion of the kept unknowns of a group.
+pub(super) struct KeptOf<'a> {
+    pub(super) motion: &'a RobotMotion,
+    pub(super) lever_axes: &'a LeverAxes,
+    pub(super) group: usize,
+}
+
+impl pulp::WithSimd for KeptOf<'_> {
+    type Output = ([Lane; IN_PLANE], [Lane; OUT_OF_PLANE]);
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        self.motion.kept(simd, self.lever_axes, self.group)
+    }
+}

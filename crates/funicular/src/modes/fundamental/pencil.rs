@@ -1,15 +1,18 @@
 //! Robot as a pencil whose lowest eigenvalue is sought: platform, and cables side by side.
 
-use super::batched_cable::{CableGroup, KeptStiffness};
+use super::batched_cable::{CableGroup, CableSpan, KeptStiffness};
 use super::lever_axes::{LeverAxes, RobotMotion};
+use crate::cable::catenary_dynamic::MovingEnd;
+use crate::cable::{EndWithDrive, Sag};
 use crate::catenary::space::HangingCable;
 use crate::dynamics::{self, PlatformTerms};
 use crate::math::simd::{LANES, Line, Part, sum};
 use crate::math::{Mat6, Vec6};
-use crate::robot::{PlatformMotion, Robot};
+use crate::robot::{PlatformMotion, Robot, WinchMode};
 use crate::statics::Equilibrium;
 use pulp::Simd;
 use std::array::from_fn;
+use std::f64::consts::TAU;
 
 /// Pencil K − xM of a robot about its equilibrium.
 pub(super) struct RobotPencil {
@@ -32,33 +35,52 @@ pub(super) struct RobotPencil {
     pub(super) groups: Vec<CableGroup>,
     /// Number of cables of the robot, those without mass included.
     pub(super) cable_count: usize,
+    /// True if a wheel, a swivel, a drum or a motor has mass.
+    pub(super) has_drive_mass: bool,
 }
 
+/// Limit of the frequencies for which drives are discretised, over the frequency of the taut string. Only a drum side
+/// with mass depends on it, by the phase of its axial waves, which is small at these frequencies.
+const ABOVE_STRING: f64 = 2.0;
+
 impl RobotPencil {
-    /// Pencil of a robot; `None` if a cable does not hang, has no tension, has a point without tension, or runs over a
-    /// pulley or to a winch.
+    /// Pencil of a robot; `None` if a cable does not hang, has no tension or a point without tension, if nothing holds
+    /// its drive, or if its end moves in plane and out of plane at the same time.
     pub(super) fn new(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         let PlatformTerms { mut constant, mass, coordinates } = dynamics::platform_terms(robot, equilibrium);
 
-        // Collect the cables with mass, and add the stiffness of the others.
+        // Collect the cables with mass or with a drive that has mass, and add the stiffness of the others.
         let mut massive = Vec::with_capacity(equilibrium.cables.len());
-        let mut curves = Vec::with_capacity(equilibrium.cables.len());
+        let mut spans = Vec::with_capacity(equilibrium.cables.len());
+        let mut has_drive_mass = false;
         for (i, state) in equilibrium.cables.iter().enumerate() {
             let hanging = state.hanging.as_ref()?;
             let mass_per_length = robot.cables[i].material.mass_per_length;
-            if hanging.catenary.parallel_tension() <= 0.0 || state.drive.is_some() {
+            if hanging.catenary.parallel_tension() <= 0.0 {
                 return None;
             }
-            if mass_per_length == 0.0 {
-                constant += dynamics::constant_cable(robot, state, &hanging.tangent_w());
+
+            let end = state.drive.as_ref().and_then(|_| {
+                let limit = ABOVE_STRING * TAU * Sag::of(robot, i, state).string_frequency_hz();
+                EndWithDrive::of(robot, i, state, WinchMode::default(), limit)
+            });
+            if mass_per_length == 0.0 && !end.as_ref().is_some_and(EndWithDrive::has_dynamics) {
+                constant += dynamics::constant_cable(robot, state, &state.tangent_w()?);
                 continue;
             }
+            let end = end.map(|end| {
+                let (end, chain, swivel_mass) = end.into_parts();
+                MovingEnd::of(hanging, end, chain, swivel_mass)
+            });
+            let end = end.transpose().ok()?.flatten();
+
+            has_drive_mass |= end.as_ref().is_some_and(MovingEnd::has_mass);
             massive.push((i, hanging));
-            curves.push((&hanging.catenary, mass_per_length));
+            spans.push(CableSpan { catenary: &hanging.catenary, mass_per_length, end });
         }
 
         // Groups of cables side by side, with their axes.
-        let groups = CableGroup::groups(&curves)?;
+        let groups = CableGroup::groups(&spans)?;
         let (mut lever_axes, mut members) = (Vec::with_capacity(groups.len()), Vec::with_capacity(groups.len()));
         for group in &groups {
             let mut axes = LeverAxes::default();
@@ -77,7 +99,19 @@ impl RobotPencil {
         let mass_columns = from_fn(|j| Line(from_fn(|i| if i < 6 { mass[(i, j)] } else { 0.0 })));
         let (dof, cable_count) = (coordinates.count(), robot.cables.len());
         let (motions, ell) = (coordinates.motion(), coordinates.ell());
-        Some(Self { dof, motions, ell, constant, mass, mass_columns, lever_axes, members, groups, cable_count })
+        Some(Self {
+            dof,
+            motions,
+            ell,
+            constant,
+            mass,
+            mass_columns,
+            lever_axes,
+            members,
+            groups,
+            cable_count,
+            has_drive_mass,
+        })
     }
 
     /// Start vector number `number`. Its fixed quasi-random entries make orthogonality to a mode practically
@@ -94,10 +128,11 @@ impl RobotPencil {
         for (group, (mass, members)) in masses.iter().zip(&self.members).enumerate() {
             for (line, mass) in motion.bubbles_mut(group).into_iter().zip([&mass.in_plane[5], &mass.out_of_plane[2]]) {
                 let used = members.len();
-                *line =
-                    Line(from_fn(
-                        |i| if i < used { (self.mass[(0, 0)] / mass[i]).sqrt() * entry(next + i) } else { 0.0 },
-                    ));
+                // An unknown without mass follows the others.
+                *line = Line(from_fn(|i| {
+                    let moves = i < used && mass[i] > 0.0;
+                    if moves { (self.mass[(0, 0)] / mass[i]).sqrt() * entry(next + i) } else { 0.0 }
+                }));
                 next += used;
             }
         }

@@ -2,6 +2,7 @@
 
 use super::batched_cable::CableGroup;
 use super::condensed_cables::{AllUnknowns, Reduced, degree_of_start};
+use super::lever_axes::KeptOf;
 use super::pencil::RobotPencil;
 use super::search::{FINAL, LowestPair, NEAR, ROUGH, lowest};
 use super::{First, Kind};
@@ -48,7 +49,7 @@ pub(super) fn first(mut pencil: RobotPencil) -> Option<First> {
     let x = if divided { BELOW_FOUND * near.square } else { near.square };
     near.motions.truncate(1);
     let found = lowest(&pencil, &mut whole, &start.mass, x, near.motions, &FINAL)?;
-    Some(mode_of(&pencil, &found))
+    Some(mode_of(&pencil, &found, &whole))
 }
 
 /// Better start for divided cables. At x = 0 their eliminated unknowns move very differently than at the frequency,
@@ -76,12 +77,25 @@ fn nearer(
     Some(near)
 }
 
-/// First mode from the lowest eigenvalue and its motion.
-fn mode_of(pencil: &RobotPencil, found: &LowestPair) -> First {
+/// First mode from the lowest eigenvalue and its motion, with the cables as the search has left them: at the frequency.
+fn mode_of(pencil: &RobotPencil, found: &LowestPair, whole: &AllUnknowns) -> First {
     let mut cable_energy_fractions = vec![0.0; pencil.cable_count];
     for (members, masses) in pencil.members.iter().zip(&found.cables) {
         for (cable, mass) in members.iter().zip(masses) {
             cable_energy_fractions[*cable] = mass / found.mass;
+        }
+    }
+
+    // Energies of the drives, which those of the cables contain.
+    let mut drive_energy_fractions = Vec::new();
+    if pencil.has_drive_mass {
+        drive_energy_fractions.resize(pencil.cable_count, 0.0);
+        for (group, (members, lever_axes)) in pencil.members.iter().zip(&pencil.lever_axes).enumerate() {
+            let kept = pulp::Arch::new().dispatch(KeptOf { motion: &found.motions[0], lever_axes, group });
+            for (cable, mass) in members.iter().zip(whole.drive_mass(group, kept)) {
+                drive_energy_fractions[*cable] = mass / found.mass;
+                cable_energy_fractions[*cable] -= mass / found.mass;
+            }
         }
     }
 
@@ -100,9 +114,10 @@ fn mode_of(pencil: &RobotPencil, found: &LowestPair) -> First {
 
     First {
         frequency_hz: found.square.sqrt() / TAU,
-        kind: Kind::of(platform_energy_fraction, 0.0),
+        kind: Kind::of(platform_energy_fraction, drive_energy_fractions.iter().sum()),
         platform_energy_fraction,
         cable_energy_fractions,
+        drive_energy_fractions,
         shape,
         unstable_directions: 0,
         certified: true,

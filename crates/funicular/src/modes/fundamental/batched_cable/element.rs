@@ -1,7 +1,7 @@
 //! Elements of several cables side by side: their matrices and the elimination of their unknowns.
 
+use super::CableSpan;
 use super::element_integrals::{MASSES, RULES, TRIPLES, place};
-use crate::catenary::Catenary;
 use crate::math::simd::{LANES, Lane, Lanes, Line, Part};
 use pulp::Simd;
 use std::array::from_fn;
@@ -51,9 +51,10 @@ pub(super) struct ForceShapes {
 }
 
 impl ForceShapes {
-    /// Sets lane `i` to the element between two arc lengths [m] of a cable with mass m per length [kg/m]. The
-    /// components of e along the horizontal and up are `axis`.
-    pub(super) fn set(&mut self, i: usize, (catenary, mass): (&Catenary, f64), axis: [f64; 2], from: f64, to: f64) {
+    /// Sets lane `i` to the element between two arc lengths [m] of a cable. The components of e along the horizontal and
+    /// up are `axis`.
+    pub(super) fn set(&mut self, i: usize, cable: &CableSpan, axis: [f64; 2], from: f64, to: f64) {
+        let CableSpan { catenary, mass_per_length, .. } = cable;
         let rope = catenary.rope();
         let w = rope.weight_per_length;
         let [cos, sin] = axis;
@@ -63,7 +64,7 @@ impl ForceShapes {
         (self.along_change[i], self.normal_change[i]) = (change * sin, change * cos);
         self.axial_stiffness[i] = rope.axial_stiffness;
         self.inverse_half[i] = 2.0 / (to - from);
-        self.half_mass[i] = 0.5 * mass * (to - from);
+        self.half_mass[i] = 0.5 * mass_per_length * (to - from);
     }
 }
 

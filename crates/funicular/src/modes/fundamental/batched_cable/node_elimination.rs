@@ -2,6 +2,7 @@
 
 use super::element::ElementBatch;
 use super::element_integrals::place;
+use super::end_elimination::CableEnd;
 use super::mesh::GradedMesh;
 use super::{IN_PLANE, KeptStiffness, OUT_OF_PLANE};
 use crate::math::Matrix;
@@ -34,8 +35,16 @@ impl ElementChain {
         }
     }
 
-    /// Eliminates the nodes between elements that are already condensed onto their ends, and sets a lane of `into`.
-    fn condense(&mut self, packs: &[ElementBatch], min_pivots: &[Lane], lane: usize, into: &mut KeptStiffness) {
+    /// Eliminates the nodes between elements that are already condensed onto their ends, and sets a lane of `into`. The
+    /// far end may move; its motions are eliminated first.
+    fn condense(
+        &mut self,
+        (packs, min_pivots): (&[ElementBatch], &[Lane]),
+        mut far_end: Option<&mut CableEnd>,
+        x: f64,
+        lane: usize,
+        into: &mut KeptStiffness,
+    ) {
         let mut min_pivot = self.of(min_pivots).fold(f64::INFINITY, f64::min);
 
         let entry = |factor: fn(&ElementBatch) -> &Lanes, e: usize, row: usize, column: usize| {
@@ -45,6 +54,23 @@ impl ElementChain {
         let in_plane = |e: usize, row: usize, column: usize| entry(|element| &element.in_plane_factor, e, row, column);
         let out_of_plane =
             |e: usize, row: usize, column: usize| entry(|element| &element.out_of_plane_factor, e, row, column);
+
+        // The far end, onto the near end of the last element.
+        let last = self.elements - 1;
+        if let Some(end) = &mut far_end {
+            let (plane, out) = end.families_mut();
+            plane.condense(x, |row, column| in_plane(last, row, column), &mut min_pivot);
+            out.condense(x, |row, column| out_of_plane(last, row, column), &mut min_pivot);
+        }
+        let families = far_end.as_deref().map(CableEnd::families);
+        let in_plane = |e: usize, row: usize, column: usize| match families {
+            Some((plane, _)) if e == last && row.max(column) < 2 => plane.at(row, column),
+            _ => in_plane(e, row, column),
+        };
+        let out_of_plane = |e: usize, row: usize, column: usize| match families {
+            Some((_, out)) if e == last && row.max(column) < 1 => out.at(row, column),
+            _ => out_of_plane(e, row, column),
+        };
 
         // In plane; the unknown e of the kept node is eliminated last.
         let [own, between, kept] = self.in_plane.eliminate(in_plane, self.elements, self.kept, &mut min_pivot);
@@ -69,8 +95,15 @@ impl ElementChain {
         into.min_pivot[lane] = min_pivot;
     }
 
-    /// Sets the motion of the elements' ends from the motion of the kept unknowns, which all nodes follow.
-    fn spread(&self, in_plane: [f64; IN_PLANE], out_of_plane: [f64; OUT_OF_PLANE], ends: &mut [ElementEnds]) {
+    /// Sets the motion of the elements' ends from the motion of the kept unknowns, which all nodes follow, and appends
+    /// the motion of the unknowns at the far end.
+    fn spread(
+        &self,
+        in_plane: [f64; IN_PLANE],
+        out_of_plane: [f64; OUT_OF_PLANE],
+        ends: &mut [ElementEnds],
+        far_end: Option<(&CableEnd, &mut Vec<f64>)>,
+    ) {
         let [n, e, q] = in_plane;
         let (level, inverse) = self.level;
         let level = -inverse * (level[0] * n + level[1] * e + level[2] * q);
@@ -78,16 +111,29 @@ impl ElementChain {
         let out_of_plane =
             self.out_of_plane.follow([out_of_plane[0]].into(), [out_of_plane[1]].into(), self.elements, self.kept);
         for (node, (in_plane, out_of_plane)) in in_plane.iter().zip(&out_of_plane).enumerate() {
-            // A node is the second end of one element and the first end of the next. The anchor does not move.
+            // A node is the second end of one element and the first end of the next.
             for (element, side) in [(node.checked_sub(1), 1), (Some(node), 0)] {
                 let Some(element) = element else { continue };
-                let at = self.first + element;
-                let ends = &mut ends[at / LANES];
-                ends.in_plane[2 * side][at % LANES] = in_plane[0];
-                ends.in_plane[2 * side + 1][at % LANES] = in_plane[1];
-                ends.out_of_plane[side][at % LANES] = out_of_plane[0];
+                self.set(element, side, [in_plane[0], in_plane[1], out_of_plane[0]], ends);
             }
         }
+
+        // An anchor does not move, unless it is the end at a drive.
+        if let (Some((end, unknowns)), Some(in_plane), Some(out_of_plane)) =
+            (far_end, in_plane.last(), out_of_plane.last())
+        {
+            let moved = end.follow_node([in_plane[0], in_plane[1]], [out_of_plane[0]], unknowns);
+            self.set(self.elements - 1, 1, moved, ends);
+        }
+    }
+
+    /// Sets the motion (n, e, b) of one side of an element.
+    fn set(&self, element: usize, side: usize, [n, e, b]: [f64; 3], ends: &mut [ElementEnds]) {
+        let at = self.first + element;
+        let ends = &mut ends[at / LANES];
+        ends.in_plane[2 * side][at % LANES] = n;
+        ends.in_plane[2 * side + 1][at % LANES] = e;
+        ends.out_of_plane[side][at % LANES] = b;
     }
 
     /// Values of the chain's elements, from the values of all packs.
@@ -196,29 +242,40 @@ fn inverted<const D: usize>(block: &Block<D>, min_pivot: &mut f64) -> Block<D> {
     })
 }
 
-/// Stiffness of the kept unknowns of chains whose elements are condensed onto their ends.
-pub(super) fn condense(chains: &mut [ElementChain], packs: &[ElementBatch], min_pivots: &[Lane]) -> KeptStiffness {
+/// Stiffness of the kept unknowns of chains whose elements are condensed onto their ends, at x = ω². `far_ends` is empty
+/// if all of them are held.
+pub(super) fn condense(
+    chains: &mut [ElementChain],
+    far_ends: &mut [CableEnd],
+    packs: &[ElementBatch],
+    x: f64,
+    min_pivots: &[Lane],
+) -> KeptStiffness {
     let mut kept = KeptStiffness::default();
     // In lanes without a cable the pivots must not be zero.
     (kept.in_plane[5], kept.out_of_plane[2]) = ([1.0; LANES], [1.0; LANES]);
     for (lane, chain) in chains.iter_mut().enumerate() {
-        chain.condense(packs, min_pivots, lane, &mut kept);
+        chain.condense((packs, min_pivots), far_ends.get_mut(lane), x, lane, &mut kept);
     }
     kept
 }
 
-/// Motions of the ends of packs of elements, which follow those of the kept unknowns of chains.
+/// Motions of the ends of packs of elements, which follow those of the kept unknowns of chains, and motions of the
+/// unknowns at their far ends.
 pub(super) fn ends(
     chains: &[ElementChain],
+    far_ends: &[CableEnd],
     packs: usize,
     in_plane: &[Lane; IN_PLANE],
     out_of_plane: &[Lane; OUT_OF_PLANE],
-) -> Vec<ElementEnds> {
-    let mut ends = vec![ElementEnds::default(); packs];
+) -> (Vec<ElementEnds>, Vec<f64>) {
+    let (mut ends, mut unknowns) = (vec![ElementEnds::default(); packs], Vec::new());
     for (lane, chain) in chains.iter().enumerate() {
-        chain.spread(in_plane.map(|values| values[lane]), out_of_plane.map(|values| values[lane]), &mut ends);
+        let (in_plane, out_of_plane) = (in_plane.map(|values| values[lane]), out_of_plane.map(|values| values[lane]));
+        let far_end = far_ends.get(lane).map(|end| (end, &mut unknowns));
+        chain.spread(in_plane, out_of_plane, &mut ends, far_end);
     }
-    ends
+    (ends, unknowns)
 }
 
 /// Sums over the elements of each chain, from the values of all packs.
