@@ -118,6 +118,42 @@ fn first_frequencies(c: &mut Criterion) {
     }
 }
 
+/// A thousand poses all over the workspace of CoGiRo, eight cables: from fixed points, and over pulleys from winches whose
+/// wheels, swivels and motors have inertia, under position control.
+fn first_frequencies_of_eight_cables(c: &mut Criterion) {
+    let with_control = "gear_ratio = 3\ncontrol = \"position\"\nbandwidth_hz = 5\n";
+    let with_inertia = "radius_m = 0.05\ninertia_kg_m2 = 5e-4\nswivel_inertia_kg_m2 = 3e-3\n";
+    let driven = funicular_robots::COGIRO_WINCHES.replacen("gear_ratio = 3\n", with_control, 1).replacen(
+        "radius_m = 0.05\n",
+        with_inertia,
+        1,
+    );
+    let entry = |i: u32, root: f64| (f64::from(i + 1) * root).fract() * 2.0 - 1.0;
+    for (name, text) in [("", funicular_robots::COGIRO), (", pulleys and winches with inertia", &driven)] {
+        let robot = Robot::from_toml(text).expect("the library's robot");
+        let pose = |i: u32| {
+            let along = [2f64, 3.0, 5.0].map(|square| entry(i, square.sqrt()));
+            let turns = [7f64, 11.0, 13.0].map(|square| 5.0 * entry(i, square.sqrt()));
+            Pose::new([5.0 * along[0], 3.0 * along[1], 2.0 + 1.5 * along[2]], turns)
+        };
+        let possible = |pose: &Pose| {
+            let held = statics::inverse(&robot, pose, StaticModel::Catenary);
+            held.is_ok_and(|rest| modes::first(&robot, &rest).is_ok_and(|first| first.unstable_directions == 0))
+        };
+        let poses: Vec<Pose> = (0..20_000).map(pose).filter(possible).take(1000).collect();
+        assert_eq!(poses.len(), 1000);
+        c.bench_function(&format!("1,000 poses of eight cables: statics, tensions, first frequency{name}"), |b| {
+            b.iter(|| {
+                let first = |pose: &Pose| {
+                    let rest = statics::inverse(&robot, pose, StaticModel::Catenary).expect("possible");
+                    modes::first(&robot, &rest).expect("possible").frequency_hz
+                };
+                black_box(&poses).iter().map(first).sum::<f64>()
+            });
+        });
+    }
+}
+
 fn linearised(robot: &Robot, lengths: &[f64]) -> (Dynamics, Pose) {
     let rest = statics::forward(robot, lengths, StaticModel::Catenary, None).expect("converges");
     let shallow_dynamic = Linearisation { cable_model: CableModel::ShallowDynamic, ..Default::default() };
@@ -186,6 +222,6 @@ fn catenary_dynamic_cables(c: &mut Criterion) {
 criterion_group! {
     name = jobs;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
-    targets = one_catenary, statics_both_ways, tension_distribution, first_frequencies, responses, natural_frequencies, catenary_dynamic_cables
+    targets = one_catenary, statics_both_ways, tension_distribution, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables
 }
 criterion_main!(jobs);

@@ -17,6 +17,18 @@ pub(super) fn collect(
     unstrained_lengths: &[f64],
     iterations: usize,
 ) -> Equilibrium {
+    with_stability(robot, without_stability(robot, pose, model, cables, unstrained_lengths, iterations))
+}
+
+/// Collects an equilibrium like [`collect`], but leaves its stability open, as that of rigid cables.
+pub(super) fn without_stability(
+    robot: &Robot,
+    pose: Pose,
+    model: StaticModel,
+    cables: Vec<CableAtRest>,
+    unstrained_lengths: &[f64],
+    iterations: usize,
+) -> Equilibrium {
     let cables: Vec<CableState> = cables
         .into_iter()
         .zip(unstrained_lengths)
@@ -34,7 +46,7 @@ pub(super) fn collect(
         .collect();
 
     let residual = residual_of(robot, &pose, &cables);
-    with_stability(robot, Equilibrium { pose, model, cables, residual, iterations, stability: Stability::Rigid })
+    Equilibrium { pose, model, cables, residual, iterations, stability: Stability::Rigid }
 }
 
 /// Equilibrium with the stability of its cables.

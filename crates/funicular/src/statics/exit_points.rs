@@ -10,6 +10,7 @@ use super::equilibrium::{CableState, Equilibrium};
 use super::error::StaticsError;
 use super::limits::TensionRange;
 use super::model::StaticModel;
+use crate::catenary::space::HangingCable;
 use crate::drive::{CableAtRest, contact_of_span};
 use crate::math::Vec3;
 use crate::robot::{Anchor, Cable, Pose, PulleyContact, Robot, TensionLimits};
@@ -21,7 +22,11 @@ const STILL: f64 = 1e-15;
 /// Maximum number of rounds, a guard.
 const MAX_ROUNDS: usize = 40;
 
-/// Equilibrium at a pose by a solver that holds the exit points of the cables.
+/// Maximum number of times that a cable is followed at one tension, a guard: each time the exit point moves by the ratio
+/// of the radius to the span, or less.
+const MAX_FOLLOWED: usize = 8;
+
+/// Equilibrium at a pose by a solver that holds the exit points of the cables and leaves the stability open.
 ///
 /// # Errors
 /// Those of the solver; [`StaticsError::InsidePulley`] for an attachment inside a wheel; no convergence.
@@ -31,10 +36,11 @@ pub(super) fn equilibrium(
     model: StaticModel,
     solve: impl Fn(&Robot) -> Result<Equilibrium, StaticsError>,
 ) -> Result<Equilibrium, StaticsError> {
-    if !follows(robot, model) {
-        return solve(robot);
-    }
-    let found = followed(robot, pose, solve, |equilibrium| &mut equilibrium.cables)?;
+    let found = if follows(robot, model) {
+        followed(robot, pose, solve, |equilibrium| &mut equilibrium.cables)?
+    } else {
+        solve(robot)?
+    };
     Ok(with_stability(robot, found))
 }
 
@@ -65,7 +71,7 @@ pub(super) fn followed<T>(
 
         // The places on the pulleys that follow.
         let states = cables(&mut found);
-        let next: Vec<Option<PulleyContact>> = (robot.cables.iter().zip(&*states).zip(&contacts))
+        let mut next: Vec<Option<PulleyContact>> = (robot.cables.iter().zip(&*states).zip(&contacts))
             .map(|((cable, state), contact)| contact_of_span(state.hanging.as_ref()?, &cable.anchor, contact.as_ref()))
             .collect();
         let before = moved;
@@ -85,8 +91,12 @@ pub(super) fn followed<T>(
             return Ok(found);
         }
 
+        // The next round, with each cable followed at its tension first: this costs little, and saves rounds.
         for (i, state) in cables(&mut found).iter().enumerate() {
             held.cables[i].tension_limits = limits_of_span(robot, i, state, contacts[i]);
+            if let (Some(span), Some(contact)) = (&state.hanging, &mut next[i]) {
+                *contact = at_tension(&robot.cables[i], span, *contact);
+            }
         }
         contacts = next;
     }
@@ -113,6 +123,27 @@ fn straight_contact(cable: &Cable, pose: &Pose) -> Result<Option<PulleyContact>,
 
 fn exit_w(cable: &Cable, contact: Option<&PulleyContact>) -> Vec3 {
     cable.anchor.point_w + contact.map_or_else(Vec3::zeros, PulleyContact::exit_offset_w)
+}
+
+/// Place on its pulley of a cable with the tension of a span, from a place near it: direction and exit point follow each
+/// other.
+fn at_tension(cable: &Cable, span: &HangingCable, near: PulleyContact) -> PulleyContact {
+    let (tension, rope, up_w) = (span.catenary.parallel_tension(), span.catenary.rope(), span.axes_w().1);
+    let mut contact = near;
+    if tension <= 0.0 {
+        return contact;
+    }
+    for _ in 0..MAX_FOLLOWED {
+        let end_w = exit_w(cable, Some(&contact));
+        let span = HangingCable::with_parallel_tension(span.start_w, end_w, up_w, rope, tension);
+        let Some(next) = contact_of_span(&span, &cable.anchor, Some(&contact)) else { break };
+        let moved = (exit_w(cable, Some(&next)) - end_w).norm();
+        contact = next;
+        if moved <= STILL * (span.chord_w().norm() + cable.anchor.reference_w().norm()) {
+            break;
+        }
+    }
+    contact
 }
 
 /// Adds the drive to the state of a cable whose free span is known.

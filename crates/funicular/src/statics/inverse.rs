@@ -3,7 +3,7 @@
 
 mod starts;
 
-use super::collect::collect;
+use super::collect::without_stability;
 use super::equilibrium::{Equilibrium, RESIDUAL_LIMIT};
 use super::error::StaticsError;
 use super::exit_points;
@@ -80,7 +80,7 @@ fn at_exit_points(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equi
                     chord / (1.0 + tensions[i] / cable.material.axial_stiffness)
                 })
                 .collect();
-            Ok(collect(robot, *pose, model, hang_all(&loaded, pose, &lengths), &lengths, 0))
+            Ok(without_stability(robot, *pose, model, hang_all(&loaded, pose, &lengths), &lengths, 0))
         }
         StaticModel::Catenary => sagging_cables(robot, pose, &loaded, &tensions),
     }
@@ -284,7 +284,7 @@ impl CableSearch {
     fn collected(self, robot: &Robot, pose: &Pose) -> Equilibrium {
         let lengths: Vec<f64> = self.hanging.iter().map(|cable| cable.catenary.rope().unstrained_length).collect();
         let cables = self.hanging.into_iter().map(CableAtRest::fixed).collect();
-        collect(robot, *pose, StaticModel::Catenary, cables, &lengths, self.iterations)
+        without_stability(robot, *pose, StaticModel::Catenary, cables, &lengths, self.iterations)
     }
 }
 

@@ -16,7 +16,7 @@ mod proof;
 mod search;
 mod stiffest;
 
-use super::collect::collect;
+use super::collect::without_stability;
 use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
 use super::exit_points;
@@ -131,7 +131,7 @@ fn at_exit_points(
 
     let lengths: Vec<f64> = held.iter().map(|cable| cable.hanging.catenary.rope().unstrained_length).collect();
     let hanging = held.into_iter().map(|cable| CableAtRest::fixed(cable.hanging)).collect();
-    Ok(collect(robot, *pose, model, hanging, &lengths, iterations))
+    Ok(without_stability(robot, *pose, model, hanging, &lengths, iterations))
 }
 
 /// Cables at a pose, taut, with their limits.

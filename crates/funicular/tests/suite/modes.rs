@@ -2,6 +2,7 @@
 
 mod damped;
 mod first;
+mod first_with_drives;
 mod rigid_cables;
 mod tracking;
 

@@ -96,17 +96,16 @@ pub(super) struct FunctionMotion {
 }
 
 impl CableGroup {
-    /// Groups of all cables. `None` if a point of a cable has no tension, or nothing holds its drive.
+    /// Groups of all cables. `None` if a point of a cable has no tension.
     pub(super) fn groups(cables: &[CableSpan]) -> Option<Vec<Self>> {
         let meshes = cables.iter().map(|cable| GradedMesh::of(cable.catenary)).collect::<Option<Vec<_>>>()?;
         let (single, divided): (Vec<usize>, Vec<usize>) = (0..cables.len()).partition(|i| meshes[*i].kept == 0);
         let (moving, held): (Vec<usize>, Vec<usize>) = single.into_iter().partition(|i| cables[*i].end.is_some());
         let groups = held.chunks(LANES).chain(moving.chunks(LANES)).chain(divided.chunks(LANES));
-        groups.map(|members| Self::of(cables, &meshes, members)).collect()
+        Some(groups.map(|members| Self::of(cables, &meshes, members)).collect())
     }
 
-    /// Group of some of the cables. `None` if nothing holds the drive of one of them.
-    fn of(cables: &[CableSpan], meshes: &[GradedMesh], members: &[usize]) -> Option<Self> {
+    fn of(cables: &[CableSpan], meshes: &[GradedMesh], members: &[usize]) -> Self {
         let size = members.iter().map(|i| meshes[*i].size).fold(f64::INFINITY, f64::min);
         let terms = if size.is_finite() { (-TRUNCATION.ln() / size.ln()).ceil() as usize + 1 } else { 1 };
         let terms = terms.min(MAX_TERMS);
@@ -136,15 +135,15 @@ impl CableGroup {
         // Far ends.
         let moving = members.iter().any(|i| cables[*i].end.is_some());
         let end = |i: &usize| CableEnd::new(&cables[*i], meshes[*i].axis, meshes[*i].kept > 0);
-        let ends = if moving { members.iter().map(end).collect::<Option<Vec<_>>>()? } else { Vec::new() };
-        Some(Self {
+        let ends = if moving { members.iter().map(end).collect() } else { Vec::new() };
+        Self {
             members: members.to_vec(),
             packs: pulp::Arch::new().dispatch(Expand { shapes: &shapes, terms }),
             chains,
             ends,
             terms,
             axes: members.iter().map(|i| meshes[*i].axis).collect(),
-        })
+        }
     }
 
     /// Index of the cable in each lane.

@@ -44,8 +44,8 @@ pub(super) struct RobotPencil {
 const ABOVE_STRING: f64 = 2.0;
 
 impl RobotPencil {
-    /// Pencil of a robot; `None` if a cable does not hang, has no tension or a point without tension, if nothing holds
-    /// its drive, or if its end moves in plane and out of plane at the same time.
+    /// Pencil of a robot; `None` if a cable does not hang, has no tension or a point without tension, or if its end moves
+    /// in plane and out of plane at the same time.
     pub(super) fn new(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         let PlatformTerms { mut constant, mass, coordinates } = dynamics::platform_terms(robot, equilibrium);
 

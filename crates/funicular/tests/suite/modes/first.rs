@@ -7,25 +7,40 @@ use funicular::modes::{self, First, FirstError};
 use funicular::robot::{Cable, Pose, Robot};
 use funicular::statics::{self, Equilibrium, Stability, StaticModel};
 use proptest::prelude::*;
+use std::f64::consts::TAU;
 
 const YUAN: &str = funicular_robots::YUAN2014_4MM;
 
 /// Fault of the first mode of a robot, compared with the list up to a tenth above it; energies with the usual accuracy.
-fn fault(robot: &Robot, rest: &Equilibrium, first: &First) -> Option<String> {
-    fault_beyond(robot, rest, first, |_| 1e-6)
+pub(super) fn fault(robot: &Robot, rest: &Equilibrium, first: &First) -> Option<String> {
+    fault_beyond(robot, rest, first, &Bounds { energy: |_| 1e-6, stiffest: 0.0 })
 }
 
-/// Fault of the first mode, with a bound of the energies' error as a function of the relative distance to the next
-/// frequency.
-fn fault_beyond(robot: &Robot, rest: &Equilibrium, first: &First, most: impl Fn(f64) -> f64) -> Option<String> {
+/// Bounds of the errors of a first mode.
+pub(super) struct Bounds {
+    /// Error of the energies as a function of the relative distance to the next frequency.
+    pub(super) energy: fn(f64) -> f64,
+    /// Stiffness of the stiffest spring [N/m], whose rounding changes the frequency; 0 to leave it out.
+    pub(super) stiffest: f64,
+}
+
+/// Rounding of a soft motion's stiffness over the stiffest spring: the elimination of some fifty unknowns, twice. A drum
+/// of 1 kg at constant torque behind 14 cm of a steel rope of 2e7 N leaves 140 units in the last place, found by
+/// comparison with longer ropes.
+const STIFFNESS_ROUNDING: f64 = 128.0 * f64::EPSILON;
+
+/// Fault of the first mode beyond some bounds.
+pub(super) fn fault_beyond(robot: &Robot, rest: &Equilibrium, first: &First, bounds: &Bounds) -> Option<String> {
     let limit = 1.1 * first.frequency_hz;
     let all = modes::below(&Dynamics::about(robot, rest, Linearisation::default(), limit).unwrap(), limit);
     let Some(mode) = all.modes.first() else { return Some(format!("none below {limit} Hz")) };
     let off = (first.frequency_hz / mode.frequency_hz - 1.0).abs();
-    if !first.certified || off > 1e-9 {
+    let modal_stiffness = (TAU * mode.frequency_hz).powi(2) * mode.modal_mass;
+    if !first.certified || off > 1e-9 + STIFFNESS_ROUNDING * bounds.stiffest / modal_stiffness {
         return Some(format!("{} Hz is {off:e} off", first.frequency_hz));
     }
-    let total = first.platform_energy_fraction + first.cable_energy_fractions.iter().sum::<f64>();
+    let of_drives: f64 = first.drive_energy_fractions.iter().sum();
+    let total = first.platform_energy_fraction + first.cable_energy_fractions.iter().sum::<f64>() + of_drives;
     if (total - 1.0).abs() > 1e-12 {
         return Some(format!("energies sum to {total}"));
     }
@@ -34,12 +49,13 @@ fn fault_beyond(robot: &Robot, rest: &Equilibrium, first: &First, most: impl Fn(
     if apart < 1e-3 {
         return None;
     }
-    let energy = (first.platform_energy_fraction - mode.platform_energy_fraction).abs();
+    let drives = (of_drives - mode.drive_energy_fractions.iter().sum::<f64>()).abs();
+    let energy = (first.platform_energy_fraction - mode.platform_energy_fraction).abs().max(drives);
     let shape = first.shape.iter().zip(&mode.shape).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let size = mode.shape.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
     // In a mode of a cable alone the platform hardly moves, and another of its components may be the largest.
     let moves = mode.platform_energy_fraction > 1e-6;
-    (energy > most(apart) || first.kind != mode.kind || (moves && shape > 1e-4 * size))
+    (energy > (bounds.energy)(apart) || first.kind != mode.kind || (moves && shape > 1e-4 * size))
         .then(|| format!("energy {energy:e}, shape {shape:e} off, {apart:e} from the next mode"))
 }
 
@@ -93,7 +109,8 @@ proptest! {
         prop_assume!(matches!(rest.stability, Stability::Stable { .. }));
         let first = modes::first(&robot, &rest).unwrap();
         // The bound that follows from the frequency's width of 5e-10.
-        prop_assert_eq!(fault_beyond(&robot, &rest, &first, |apart| 2.0 * (5e-10 / apart).sqrt()), None);
+        let bounds = Bounds { energy: |apart| 2.0 * (5e-10 / apart).sqrt(), stiffest: 0.0 };
+        prop_assert_eq!(fault_beyond(&robot, &rest, &first, &bounds), None);
     }
 }
 

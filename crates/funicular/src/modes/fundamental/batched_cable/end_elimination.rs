@@ -40,16 +40,15 @@ pub(super) struct EndMotions<const D: usize> {
 
 impl CableEnd {
     /// Far end of a cable whose axis e has these components along the horizontal and up. A cable of one element keeps a
-    /// bubble or a motion of its end besides the platform end, a `divided` one keeps neither. `None` if nothing holds the
-    /// drive.
-    pub(super) fn new(cable: &CableSpan, [cos, sin]: [f64; 2], divided: bool) -> Option<Self> {
+    /// bubble or a motion of its end besides the platform end, a `divided` one keeps neither.
+    pub(super) fn new(cable: &CableSpan, [cos, sin]: [f64; 2], divided: bool) -> Self {
         let catenary = cable.catenary;
 
         // A clamped cable alone: 1/ω² of a taut string.
         let chord = catenary.span().hypot(catenary.rise());
         let string = cable.mass_per_length * (chord / PI).powi(2) / catenary.parallel_tension();
 
-        // The chain along the cable. Its motion with the largest part of Σ 1/ω² carries its lowest mode.
+        // The chain along the cable.
         let along = cable.end.as_ref().and_then(|end| end.along.as_ref());
         let in_plane = match along {
             None => EndMotions::held(divided),
@@ -58,8 +57,8 @@ impl CableEnd {
                 let held = h * h * hh + 2.0 * h * v * hv + v * v * vv;
                 let chain = &along.chain;
                 let mass = &chain.mass + &chain.cable_mass;
-                let slowness = chain.flexibility(held)?.diagonal().component_mul(&mass.diagonal());
-                let kept = (slowness.sum() > string).then(|| slowness.imax());
+                let kept = slowest(&chain.stiffness, &mass, held).filter(|(_, slowness)| *slowness > string);
+                let kept = kept.map(|(motion, _)| motion);
                 let direction = [v * cos - h * sin, h * cos + v * sin];
                 EndMotions::new(direction, &chain.stiffness, &mass, &chain.mass, divided, kept)
             }
@@ -74,7 +73,7 @@ impl CableEnd {
                 EndMotions::new([1.0], &stiffness, &mass, &mass, divided, kept)
             }
         };
-        Some(Self { in_plane, out_of_plane })
+        Self { in_plane, out_of_plane }
     }
 
     /// Number of unknowns in plane and out of plane, those of the near end included.
@@ -90,6 +89,39 @@ impl CableEnd {
     pub(super) fn families_mut(&mut self) -> (&mut EndMotions<2>, &mut EndMotions<1>) {
         (&mut self.in_plane, &mut self.out_of_plane)
     }
+}
+
+/// Motion of a chain with the largest part of the sum Σ 1/ω² over its modes, and this sum: the trace of the flexibility
+/// times the mass. This motion carries the lowest mode. The cable adds the stiffness `held` [N/m] to the first motion.
+/// `None` without mass.
+fn slowest(stiffness: &DMat, mass: &DMat, held: f64) -> Option<(usize, f64)> {
+    let n = stiffness.nrows();
+    if mass.diagonal().amax() == 0.0 {
+        return None;
+    }
+
+    // Inverse in place (sweep operator); the chain needs no exchanges, because springs hold it.
+    let mut a = stiffness.clone();
+    a[(0, 0)] += held;
+    for k in 0..n {
+        let inverse = 1.0 / a[(k, k)];
+        for i in (0..n).filter(|i| *i != k) {
+            let factor = a[(i, k)] * inverse;
+            for j in (0..n).filter(|j| *j != k) {
+                let by = a[(k, j)];
+                a[(i, j)] -= factor * by;
+            }
+            a[(i, k)] = -factor;
+        }
+        for j in (0..n).filter(|j| *j != k) {
+            a[(k, j)] *= inverse;
+        }
+        a[(k, k)] = inverse;
+    }
+
+    let slowness = |i: usize| a[(i, i)] * mass[(i, i)];
+    let slowest = (0..n).max_by(|i, j| slowness(*i).total_cmp(&slowness(*j)))?;
+    Some((slowest, (0..n).map(slowness).sum()))
 }
 
 impl<const D: usize> EndMotions<D> {
