@@ -85,7 +85,7 @@ impl Beyond {
                 let offset = contact.offset_w(angle);
                 let potential = potential + load_w.dot(&(exit - offset));
                 let stretch = stretch_of(potential, ea);
-                let tension = 2.0 * potential / (1.0 + stretch);
+                let tension = tension_of(potential, stretch);
                 // Unstrained length of the piece that belongs to the node.
                 let length = arc / stretch;
                 beyond.arc_length += length;
@@ -95,7 +95,7 @@ impl Beyond {
             }
             let potential = potential + load_w.dot(&exit);
             stretch_entry = stretch_of(potential, ea);
-            beyond.tension_entry = 2.0 * potential / (1.0 + stretch_entry);
+            beyond.tension_entry = tension_of(potential, stretch_entry);
 
             let lever = contact.distance_from_axis() * tension;
             let sine = if lever > 0.0 { -load_w.dot(&contact.sideways_w) * beyond.moment / lever } else { 0.0 };
@@ -118,6 +118,13 @@ impl Beyond {
         beyond
     }
 
+    /// Sideways kink κ of a balanced swivel [rad], without the integrals over the arc where the load does not turn the
+    /// swivel.
+    pub(super) fn kink_of(span: &HangingCable, anchor: &Anchor, contact: &PulleyContact) -> f64 {
+        let turned = span.load_w().dot(&contact.sideways_w) != 0.0;
+        if turned { Self::of(span, anchor, Some(contact)).kink } else { 0.0 }
+    }
+
     /// Unstrained length beyond the exit point [m].
     pub(super) fn length(&self) -> f64 {
         self.arc_length + self.drum_side_length
@@ -130,6 +137,20 @@ pub(super) fn arc_nodes(contact: &PulleyContact) -> impl Iterator<Item = (f64, f
     let (half, radius) = (0.5 * contact.wrap, contact.radius);
     let both = |(node, weight): (f64, f64)| [(node, weight), (-node, weight)];
     GAUSS.into_iter().flat_map(both).map(move |(node, weight)| (half * (1.0 + node), weight * half * radius))
+}
+
+/// Tension from the entry point of a span to its drum [N].
+pub(crate) fn tension_at_drum(span: &HangingCable, contact: Option<&PulleyContact>) -> f64 {
+    let ea = span.catenary.rope().axial_stiffness;
+    let tension = end_force_w(span).norm();
+    let Some(contact) = contact else { return tension };
+    let potential = tension * 0.5 * (2.0 + tension / ea) + span.load_w().dot(&contact.exit_offset_w());
+    tension_of(potential, stretch_of(potential, ea))
+}
+
+/// Tension [N] of ψ and the stretch λ: T = 2ψ/(1 + λ).
+fn tension_of(potential: f64, stretch: f64) -> f64 {
+    2.0 * potential / (1.0 + stretch)
 }
 
 /// Stretch λ = √(1 + 2ψ/EA).

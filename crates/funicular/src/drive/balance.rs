@@ -61,7 +61,7 @@ pub(crate) fn contact_of_span(
     contact: Option<&PulleyContact>,
 ) -> Option<PulleyContact> {
     let (pulley, contact) = (anchor.pulley.as_ref()?, contact?);
-    Some(follow(pulley, span, contact, Beyond::of(span, anchor, Some(contact)).kink))
+    Some(follow(pulley, span, contact, Beyond::kink_of(span, anchor, contact)))
 }
 
 /// Unknowns of a cable: its place on the pulley, if it has one, and the unstrained length of its free span.

@@ -11,7 +11,7 @@ use super::error::StaticsError;
 use super::limits::TensionRange;
 use super::model::StaticModel;
 use crate::catenary::space::HangingCable;
-use crate::drive::{CableAtRest, contact_of_span};
+use crate::drive::{CableAtRest, contact_of_span, tension_at_drum};
 use crate::math::Vec3;
 use crate::robot::{Anchor, Cable, Pose, PulleyContact, Robot, TensionLimits};
 
@@ -22,11 +22,16 @@ const STILL: f64 = 1e-15;
 /// Maximum number of rounds, a guard.
 const MAX_ROUNDS: usize = 40;
 
+/// Motion of an exit point at one tension, over its motion in a round, at which the cable is followed: the tensions change
+/// the exit points of the next round by a millionth.
+const FOLLOWED: f64 = 1e-6;
+
 /// Maximum number of times that a cable is followed at one tension, a guard: each time the exit point moves by the ratio
 /// of the radius to the span, or less.
 const MAX_FOLLOWED: usize = 8;
 
-/// Equilibrium at a pose by a solver that holds the exit points of the cables and leaves the stability open.
+/// Equilibrium at a pose by a solver that holds the exit points of the cables and leaves the stability open. The solver
+/// may start from the result of the round before.
 ///
 /// # Errors
 /// Those of the solver; [`StaticsError::InsidePulley`] for an attachment inside a wheel; no convergence.
@@ -34,12 +39,12 @@ pub(super) fn equilibrium(
     robot: &Robot,
     pose: &Pose,
     model: StaticModel,
-    solve: impl Fn(&Robot) -> Result<Equilibrium, StaticsError>,
+    solve: impl Fn(&Robot, Option<&Equilibrium>) -> Result<Equilibrium, StaticsError>,
 ) -> Result<Equilibrium, StaticsError> {
     let found = if follows(robot, model) {
         followed(robot, pose, solve, |equilibrium| &mut equilibrium.cables)?
     } else {
-        solve(robot)?
+        solve(robot, None)?
     };
     Ok(with_stability(robot, found))
 }
@@ -50,24 +55,26 @@ pub(super) fn follows(robot: &Robot, model: StaticModel) -> bool {
     model != StaticModel::Ideal && robot.cables.iter().any(|cable| !cable.anchor.is_fixed())
 }
 
-/// Result of a solver at a pose, with the exit points that belong to it. `cables` gives access to the cables of a result;
+/// Result of a solver at a pose, with the exit points that belong to it. The solver gets the result of the round before.
+/// `cables` gives access to the cables of a result;
 /// a result without cables is final.
 pub(super) fn followed<T>(
     robot: &Robot,
     pose: &Pose,
-    solve: impl Fn(&Robot) -> Result<T, StaticsError>,
+    solve: impl Fn(&Robot, Option<&T>) -> Result<T, StaticsError>,
     cables: impl Fn(&mut T) -> &mut Vec<CableState>,
 ) -> Result<T, StaticsError> {
     let mut contacts = straight_contacts(robot, pose)?;
     let mut held = robot.clone();
     let mut moved = f64::INFINITY;
+    let mut last = None;
 
     for _ in 0..MAX_ROUNDS {
         // Hold the exit points, and solve.
         for ((held, cable), contact) in held.cables.iter_mut().zip(&robot.cables).zip(&contacts) {
             held.anchor = Anchor::from(exit_w(cable, contact.as_ref()));
         }
-        let mut found = solve(&held)?;
+        let mut found = solve(&held, last.as_ref())?;
 
         // The places on the pulleys that follow.
         let states = cables(&mut found);
@@ -95,10 +102,11 @@ pub(super) fn followed<T>(
         for (i, state) in cables(&mut found).iter().enumerate() {
             held.cables[i].tension_limits = limits_of_span(robot, i, state, contacts[i]);
             if let (Some(span), Some(contact)) = (&state.hanging, &mut next[i]) {
-                *contact = at_tension(&robot.cables[i], span, *contact);
+                *contact = at_tension(&robot.cables[i], span, *contact, (FOLLOWED * moved).max(STILL));
             }
         }
         contacts = next;
+        last = Some(found);
     }
 
     let (p, limit) = (pose.position_w, STILL);
@@ -126,8 +134,8 @@ fn exit_w(cable: &Cable, contact: Option<&PulleyContact>) -> Vec3 {
 }
 
 /// Place on its pulley of a cable with the tension of a span, from a place near it: direction and exit point follow each
-/// other.
-fn at_tension(cable: &Cable, span: &HangingCable, near: PulleyContact) -> PulleyContact {
+/// other until the exit point moves by the fraction `still` of the size of the cable.
+fn at_tension(cable: &Cable, span: &HangingCable, near: PulleyContact, still: f64) -> PulleyContact {
     let (tension, rope, up_w) = (span.catenary.parallel_tension(), span.catenary.rope(), span.axes_w().1);
     let mut contact = near;
     if tension <= 0.0 {
@@ -139,7 +147,7 @@ fn at_tension(cable: &Cable, span: &HangingCable, near: PulleyContact) -> Pulley
         let Some(next) = contact_of_span(&span, &cable.anchor, Some(&contact)) else { break };
         let moved = (exit_w(cable, Some(&next)) - end_w).norm();
         contact = next;
-        if moved <= STILL * (span.chord_w().norm() + cable.anchor.reference_w().norm()) {
+        if moved <= still * (span.chord_w().norm() + cable.anchor.reference_w().norm()) {
             break;
         }
     }
@@ -158,9 +166,8 @@ fn complete(state: &mut CableState, cable: &Cable, contact: Option<PulleyContact
 fn limits_of_span(robot: &Robot, i: usize, state: &CableState, contact: Option<PulleyContact>) -> TensionLimits {
     let cable = &robot.cables[i];
     let mut limits = cable.tension_limits;
-    let Some(span) = &state.hanging else { return limits };
-    let drive = CableAtRest::with_span(span.clone(), &cable.anchor, contact).drive;
-    let Some(drum) = drive.map(|drive| drive.tension_drum) else { return limits };
+    let Some(span) = state.hanging.as_ref().filter(|_| !cable.anchor.is_fixed()) else { return limits };
+    let drum = tension_at_drum(span, contact.as_ref());
 
     let range = TensionRange::of(robot, i, &state.chord_w());
     let (above, below) = (drum - span.catenary.max_tension(), span.catenary.min_tension() - drum);

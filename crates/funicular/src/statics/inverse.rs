@@ -24,7 +24,7 @@ use crate::robot::{Pose, Robot};
 /// # Errors
 /// [`StaticsError`], as `at_exit_points`; an attachment inside a wheel.
 pub(super) fn determinate(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
-    exit_points::equilibrium(robot, pose, model, |held| at_exit_points(held, pose, model))
+    exit_points::equilibrium(robot, pose, model, |held, _| at_exit_points(held, pose, model))
 }
 
 /// Unstrained lengths and tensions that hold the platform at a pose with as many cables as degrees of freedom, which end

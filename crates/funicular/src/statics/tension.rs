@@ -96,18 +96,24 @@ pub fn distribute_tensions(
     model: StaticModel,
     rule: &TensionRule,
 ) -> Result<Equilibrium, StaticsError> {
-    exit_points::equilibrium(robot, pose, model, |held| at_exit_points(held, pose, model, rule))
+    exit_points::equilibrium(robot, pose, model, |held, last| at_exit_points(held, pose, model, rule, last))
 }
 
-/// Tensions by [`distribute_tensions`] of cables that end at fixed points.
+/// Tensions by [`distribute_tensions`] of cables that end at fixed points. `last` is the result for points nearby, from
+/// which a search for the nearest tensions starts; it has one optimum.
 fn at_exit_points(
     robot: &Robot,
     pose: &Pose,
     model: StaticModel,
     rule: &TensionRule,
+    last: Option<&Equilibrium>,
 ) -> Result<Equilibrium, StaticsError> {
     let cables = robot.cables.len();
-    let mut search = TensionSearch::new(robot, pose, model, cables_at(robot, pose, model, rule)?);
+    let mut start = cables_at(robot, pose, model, rule)?;
+    if let (Some(last), TensionRule::Lowest | TensionRule::Closest(_)) = (last, rule) {
+        start_from(&mut start, last);
+    }
+    let mut search = TensionSearch::new(robot, pose, model, start);
 
     match rule {
         TensionRule::Lowest => {
@@ -132,6 +138,14 @@ fn at_exit_points(
     let lengths: Vec<f64> = held.iter().map(|cable| cable.hanging.catenary.rope().unstrained_length).collect();
     let hanging = held.into_iter().map(|cable| CableAtRest::fixed(cable.hanging)).collect();
     Ok(without_stability(robot, *pose, model, hanging, &lengths, iterations))
+}
+
+/// Gives cables at a pose the tensions of an equilibrium.
+fn start_from(cables: &mut [CableAtPose], equilibrium: &Equilibrium) {
+    for (cable, state) in cables.iter_mut().zip(&equilibrium.cables) {
+        let tau = state.hanging.as_ref().map_or(state.tension_platform, |of| of.catenary.parallel_tension());
+        cable.set(tau.max(cable.slackest));
+    }
 }
 
 /// Cables at a pose, taut, with their limits.

@@ -140,7 +140,7 @@ pub fn payload_bound(
     if !exit_points::follows(robot, model) {
         return at_exit_points(robot, pose, model, requested, start);
     }
-    let solve = |held: &Robot| at_exit_points(held, pose, model, requested, start);
+    let solve = |held: &Robot, _: Option<&PayloadBound>| at_exit_points(held, pose, model, requested, start);
     exit_points::followed(robot, pose, solve, |bound| &mut bound.cables)
 }
 
@@ -163,10 +163,7 @@ fn at_exit_points(
 
     let mut cables = super::cables_at(robot, pose, model, &TensionRule::Lowest)?;
     if let Some(start) = start {
-        for (cable, state) in cables.iter_mut().zip(&start.cables) {
-            let tau = state.hanging.as_ref().map_or(state.tension_platform, |of| of.catenary.parallel_tension());
-            cable.set(tau.max(cable.slackest));
-        }
+        super::start_from(&mut cables, start);
     }
 
     let search = TensionSearch::new(robot, pose, model, cables);
