@@ -19,6 +19,7 @@
 //! | `batched_cable/element` | matrices of one element in each lane, and their elimination |
 //! | `batched_cable/element_integrals` | integrals of hats, bubbles and Legendre polynomials; Gauss's rules |
 //! | `batched_cable/node_elimination` | nodes between the elements of slack cables |
+//! | `batched_cable/end_elimination` | far ends that move, with the drives behind them |
 //! | `condensed_cables` | kept unknowns of all cables: as a pencil about one frequency, and with all unknowns |
 //! | `lever_axes` | axes of the cables over the platform's motion; motions of the robot |
 //! | `factor` | factorisation of the pencil at a shift, and its inertia |
@@ -30,8 +31,8 @@
 //! library, random robots and slack cables to 1e-9 of the frequency. The tests of `batched_cable` compare its stiffness
 //! with the stiffness by poles.
 //!
-//! **Cost.** Tens of microseconds per pose for taut cables, more for slack ones; the list of all modes takes twenty
-//! times as long. Robots whose stiffness is not positive definite, and searches that rounding keeps from ending, use
+//! **Cost.** Tens of microseconds per pose for taut cables, twice as long with drives, more for slack ones; the list of
+//! all modes takes ten to twenty times as long. Robots whose stiffness is not positive definite, and searches that rounding keeps from ending, use
 //! that list.
 
 mod batched_cable;
@@ -197,5 +198,32 @@ mod tests {
             }
         }
         assert!(poses.iter().all(|count| *count > 25), "{poses:?}");
+    }
+
+    /// Held motors without inertia, a servo, constant torque, and a shaft with a drum that moves by itself.
+    #[test]
+    fn usual_drives_never_need_the_slow_way() {
+        let motors = [
+            ("", 0.0),
+            ("control = \"position\"\nbandwidth_hz = 5\n", 5e-4),
+            ("control = \"torque\"\n", 5e-4),
+            ("stiffness_n_per_m = 5e5\ndrum_inertia_kg_m2 = 20.0\n", 5e-4),
+        ];
+        for (motor, inertia) in motors {
+            let text = funicular_robots::COGIRO_WINCHES
+                .replacen("gear_ratio = 3\n", &format!("gear_ratio = 3\n{motor}"), 1)
+                .replacen("radius_m = 0.05\n", &format!("radius_m = 0.05\ninertia_kg_m2 = {inertia}\n"), 1)
+                .replacen("radius_m = 0.05\n", &format!("radius_m = 0.05\nswivel_inertia_kg_m2 = {inertia}\n"), 1);
+            let robot = Robot::from_toml(&text).unwrap();
+            let mut poses = 0;
+            for (x, y, z) in [(0.0, 0.0, 1.5), (3.0, 2.0, 1.0), (-4.0, 2.5, 2.5), (5.0, -3.0, 0.5), (0.5, 3.0, 3.0)] {
+                let pose = Pose::new([x, y, z], [0.0, 2.0, -4.0]);
+                let Ok(rest) = statics::inverse(&robot, &pose, StaticModel::Catenary) else { continue };
+                poses += 1;
+                let found = RobotPencil::new(&robot, &rest).and_then(stages::first);
+                assert!(found.is_some(), "{motor} {x}, {y}, {z}");
+            }
+            assert!(poses >= 4, "{poses}");
+        }
     }
 }

@@ -314,13 +314,54 @@ impl pulp::WithSimd for Mass<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cable::catenary_dynamic::CatenaryDynamic;
+    use crate::cable::LocalStiffness;
+    use crate::cable::catenary_dynamic::{CatenaryDynamic, EndAlong};
     use crate::catenary::Rope;
+    use crate::drive::DriveChain;
+    use crate::math::DMat;
     use proptest::prelude::*;
 
     /// Entries of one cable, in plane and out of plane.
     fn of(kept: &KeptStiffness, lane: usize) -> ([f64; 6], [f64; 3]) {
         (from_fn(|entry| kept.in_plane[entry][lane]), from_fn(|entry| kept.out_of_plane[entry][lane]))
+    }
+
+    /// Stiffness ee, en, nn, bb of the platform end, the inner unknowns that are kept condensed, too.
+    fn at_platform(kept: &KeptStiffness, lane: usize) -> [f64; 4] {
+        let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = of(kept, lane);
+        assert!(qq > 0.0 && bb > 0.0);
+        [ee - qe * qe / qq, en - qn * qe / qq, nn - qn * qn / qq, oo - bo * bo / bb]
+    }
+
+    /// Stiffness ee, en, nn, bb in axes with these components of e along the horizontal and up.
+    fn in_axes(k: &LocalStiffness<f64>, [c, s]: [f64; 2]) -> [f64; 4] {
+        [
+            k.axial * c * c + 2.0 * k.coupling * c * s + k.normal * s * s,
+            (k.normal - k.axial) * c * s + k.coupling * (c * c - s * s),
+            k.axial * s * s - 2.0 * k.coupling * c * s + k.normal * c * c,
+            k.out_of_plane,
+        ]
+    }
+
+    /// End over a wheel, with a drum on a spring and a motor behind a shaft; masses [kg] of all three and of the swivel.
+    fn moving(catenary: &Catenary, [wheel, drum, motor, swivel]: [f64; 4]) -> MovingEnd {
+        let tension = catenary.tension_at_end();
+        let direction = [-catenary.horizontal_force() / tension, -catenary.vertical_force_at_end() / tension];
+        let (rope, shaft, servo) = (2e5, 5e4, 1e4);
+        let chain = DriveChain {
+            stiffness: DMat::from_row_slice(
+                3,
+                3,
+                &[rope, -rope, 0.0, -rope, rope + shaft, -shaft, 0.0, -shaft, shaft + servo],
+            ),
+            mass: DMat::from_partial_diagonal(3, 3, &[wheel, drum, motor]),
+            cable_mass: DMat::zeros(3, 3),
+            drum: None,
+            motor: None,
+            by_length: Vec::new(),
+            stretch_drum: 1.0,
+        };
+        MovingEnd { along: Some(EndAlong { direction, chain }), out_of_plane: Some((500.0, swivel)) }
     }
 
     /// Cable whose far end is held.
@@ -362,17 +403,9 @@ mod tests {
             prop_assert_eq!(places.len(), cables.len());
             for (k, lane, i) in places {
                 let (group, kept, oracle) = (&groups[k], &kept[k], &oracles[i]);
-                let ([nn, en, ee, qn, qe, qq], [oo, bo, bb]) = of(kept, lane);
-                prop_assert!(kept.min_pivot[lane] > 0.0 && qq > 0.0 && bb > 0.0);
-                let ours = [ee - qe * qe / qq, en - qn * qe / qq, nn - qn * qn / qq, oo - bo * bo / bb];
-                let k = oracle.undamped(x.sqrt());
-                let [c, s] = group.axis(lane);
-                let theirs = [
-                    k.axial * c * c + 2.0 * k.coupling * c * s + k.normal * s * s,
-                    (k.normal - k.axial) * c * s + k.coupling * (c * c - s * s),
-                    k.axial * s * s - 2.0 * k.coupling * c * s + k.normal * c * c,
-                    k.out_of_plane,
-                ];
+                prop_assert!(kept.min_pivot[lane] > 0.0);
+                let ours = at_platform(kept, lane);
+                let theirs = in_axes(&oracle.undamped(x.sqrt()), group.axis(lane));
                 let size = theirs.iter().fold(0.0, |m: f64, k| m.max(k.abs()));
                 // The stiffness of a cable that hangs in a loop is a millionth of the elastic stiffness, whose rounding
                 // errors remain.
@@ -385,16 +418,53 @@ mod tests {
             }
         }
 
+        /// Drives from light to heavy: the lowest clamped mode is that of the cable, the swivel, or the drive.
+        #[test]
+        fn cables_with_moving_ends_have_the_stiffness_of_each_by_its_poles(
+            shapes in prop::collection::vec((-0.9f64..0.9, 0.99f64..1.3, 4.5f64..6.0), 1..=LANES),
+            masses in prop::array::uniform4(-3.0f64..4.0), held in 0usize..LANES, part in 0.0f64..0.98,
+        ) {
+            const MASS: f64 = 0.067;
+            let cables: Vec<Catenary> = shapes.into_iter().map(cable).collect();
+            let end = |i: usize| (i != held).then(|| moving(&cables[i], masses.map(|mass| 10f64.powf(mass))));
+            let oracle = |(i, c): (usize, &Catenary)| {
+                CatenaryDynamic::with_stations(c, end(i), MASS, 60.0, Vec::new(), false).unwrap().0
+            };
+            let oracles: Vec<CatenaryDynamic> = cables.iter().enumerate().map(oracle).collect();
+            let first = |e: &CatenaryDynamic| e.in_plane.poles[0].min(e.out_of_plane.poles[0]);
+            let x = part * oracles.iter().map(first).fold(f64::INFINITY, f64::min);
+            let spans: Vec<_> = (cables.iter().enumerate())
+                .map(|(i, catenary)| CableSpan { catenary, mass_per_length: MASS, end: end(i) })
+                .collect();
+            for group in &mut CableGroup::groups(&spans).unwrap() {
+                let kept = group.kept(x, 30);
+                for (lane, i) in group.members().iter().enumerate() {
+                    prop_assert!(kept.min_pivot[lane] > 0.0);
+                    let theirs = in_axes(&oracles[*i].undamped(x.sqrt()), group.axis(lane));
+                    let size = theirs.iter().fold(0.0, |m: f64, k| m.max(k.abs()));
+                    let rope = cables[*i].rope();
+                    let elastic = rope.axial_stiffness / rope.unstrained_length + 2e5;
+                    for (ours, theirs) in at_platform(&kept, lane).into_iter().zip(theirs) {
+                        let bound = 1e-8 * size + 1e-12 * elastic;
+                        prop_assert!((ours - theirs).abs() < bound, "{ours} for {theirs}, largest {size}");
+                    }
+                }
+            }
+        }
+
         /// Motions of the end that the bubbles follow.
         #[test]
         fn the_mass_of_a_motion_is_minus_the_change_of_stiffness(
             shape in (-0.9f64..0.9, 0.99f64..1.08, 4.5f64..6.0), part in 0.1f64..0.5, n in -1.0f64..1.0, e in -1.0f64..1.0,
+            masses in prop::option::of(prop::array::uniform4(-3.0f64..3.0)),
         ) {
             const MASS: f64 = 0.067;
             let catenary = cable(shape);
-            let oracle = CatenaryDynamic::new(&catenary, MASS, 20.0).unwrap();
+            let end = masses.map(|masses| moving(&catenary, masses.map(|mass| 10f64.powf(mass))));
+            let oracle = CatenaryDynamic::with_stations(&catenary, end.clone(), MASS, 20.0, Vec::new(), false).unwrap().0;
             let x = part * oracle.in_plane.poles[0].min(oracle.out_of_plane.poles[0]);
-            let group = &mut CableGroup::groups(&[held(&catenary, MASS)]).unwrap()[0];
+            let span = CableSpan { catenary: &catenary, mass_per_length: MASS, end };
+            let group = &mut CableGroup::groups(&[span]).unwrap()[0];
             let mut work = |x: f64| {
                 let ([nn, en, ee, ..], [oo, ..]) = of(&group.kept(x, 24), 0);
                 [nn * n * n + 2.0 * en * n * e + ee * e * e, oo * n * n]
