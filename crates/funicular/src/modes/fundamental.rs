@@ -31,9 +31,12 @@
 //! library, random robots and slack cables to 1e-9 of the frequency. The tests of `batched_cable` compare its stiffness
 //! with the stiffness by poles.
 //!
-//! **Cost.** Tens of microseconds per pose for taut cables, twice as long with drives, more for slack ones; the list of
-//! all modes takes ten to twenty times as long. Robots whose stiffness is not positive definite, and searches that rounding keeps from ending, use
-//! that list.
+//! **Drives.** The motions of pulleys and winches are unknowns of their cable. They are eliminated after those of the
+//! span, cable by cable, because each cable has few of them; one is kept if it carries the cable's lowest clamped mode.
+//!
+//! **Cost.** Tens of microseconds per pose for taut cables, twice as much with drives, more for slack ones; the list of
+//! all modes takes ten to twenty times as long. Robots whose stiffness is not positive definite, and searches that
+//! rounding keeps from ending, use that list.
 
 mod batched_cable;
 mod condensed_cables;
