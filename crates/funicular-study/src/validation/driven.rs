@@ -4,7 +4,7 @@ use super::reference::{CableToWinch, DriveParts, DrivenCable, DrivenRobot, Drive
 use super::{Bound, Case, Comparison, drives};
 use anyhow::{Result, anyhow};
 use funicular::cable::catenary_dynamic::DriveSignal;
-use funicular::cable::{CableModel, EndStiffness, LocalStiffness};
+use funicular::cable::{CableModel, EndStiffness};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Mat3, Vec3};
 use funicular::modes;
@@ -175,11 +175,7 @@ fn cable(row: &DrivenCable, at_rest: &CableToWinch, source: &str) -> Result<Vec<
     for theirs in &row.dynamic {
         let omega = theirs.frequency_hz * TAU;
         let k = found.damped(omega);
-        let part = |of: fn(&Complex) -> f64| -> Mat3 {
-            let [axial, coupling, normal, out_of_plane] = [&k.axial, &k.coupling, &k.normal, &k.out_of_plane].map(of);
-            LocalStiffness { axial, coupling, normal, out_of_plane }.in_world(found.axes())
-        };
-        let (re, im) = (part(|z| z.re), part(|z| z.im));
+        let (re, im) = (k.map(|z| z.re).in_world(found.axes()), k.map(|z| z.im).in_world(found.axes()));
         let flat = |re: &[f64], im: &[f64]| re.iter().chain(im).copied().collect::<Vec<f64>>();
         let both = [&theirs.stiffness_re, &theirs.stiffness_im].map(|rows| Mat3::from_fn(|i, j| rows[i][j]));
         let at = format!("at {} Hz", theirs.frequency_hz);

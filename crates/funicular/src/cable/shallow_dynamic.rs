@@ -45,11 +45,17 @@ pub(crate) struct Entire<T> {
 
 /// Arithmetic that the formulas need.
 pub(crate) trait Number:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Mul<f64, Output = Self>
+    Copy
+    + Default
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Mul<f64, Output = Self>
 {
 }
 impl<T> Number for T where
-    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T> + Div<Output = T> + Mul<f64, Output = T>
+    T: Copy + Default + Add<Output = T> + Sub<Output = T> + Mul<Output = T> + Div<Output = T> + Mul<f64, Output = T>
 {
 }
 
@@ -82,6 +88,7 @@ pub(crate) fn stiffness<T: Number>(of: Entire<T>, sag: &Sag) -> LocalStiffness<T
         coupling: gamma * q / determinant * (0.5 * sag.epsilon * along),
         normal: (string - gamma * (sigma + sagging) / determinant) * transverse,
         out_of_plane: (string - gamma * sigma / c) * transverse,
+        across: Default::default(),
     }
 }
 
@@ -213,6 +220,7 @@ impl ShallowDynamic {
             coupling: quotient(gamma * q, q + gamma * q_by, d, d_by) * (-along * 0.5 * self.sag.epsilon),
             normal: (string_by - quotient(gamma * p, p + gamma * p_by, d, d_by)) * -transverse,
             out_of_plane: (string_by - quotient(gamma * sigma, sigma + gamma * sigma_by, c, c_by)) * -transverse,
+            across: Default::default(),
         }
     }
 
