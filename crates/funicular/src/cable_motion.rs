@@ -33,6 +33,12 @@ pub enum CableMotionError {
         /// Name of the signal.
         signal: &'static str,
     },
+    /// The force of the cable on the platform by a motion of its anchor is not known.
+    #[error("cable \"{cable}\" has no stiffness that a motion of its anchor could act on")]
+    NoFrameMotion {
+        /// Name of the cable.
+        cable: String,
+    },
     /// The cable has no catenary-dynamic stiffness.
     #[error("cable \"{cable}\": {reason}")]
     CatenaryDynamic {
@@ -211,6 +217,29 @@ impl CableStations {
             }
         }
         vector
+    }
+
+    /// Displacement of station `at` along `direction_w` (unit) for a displacement `far_end_w` of the far end, the platform
+    /// held, at ω [rad/s], damped; for cables whose far end cannot move by itself.
+    pub(crate) fn by_far_end(
+        &self,
+        dynamics: &Dynamics,
+        at: usize,
+        direction_w: &Vec3,
+        far_end_w: &Vec3,
+        omega: f64,
+    ) -> Complex {
+        match &self.model {
+            StationModel::Straight(fractions) => (far_end_w.dot(direction_w) * (1.0 - fractions[at])).into(),
+            StationModel::CatenaryDynamic { cable, stations, .. } => {
+                let held = [Complex::new(0.0, 0.0); 3];
+                let square = dynamics.cable_square(self.cable, omega);
+                let far_end = self.local(far_end_w).map(Complex::from);
+                let motion_along = InternalMotion::between(cable, held, far_end, square);
+                let moved = stations.displacement(at, &motion_along);
+                moved.iter().zip(self.local(direction_w)).map(|(u, component)| u * component).sum()
+            }
+        }
     }
 
     /// Row of the motion of station `at` along `direction_w` (unit) over the platform's slow motion and the amplitudes

@@ -13,6 +13,7 @@
 //! K_s and M_s being the static condensation and g_k the participation of the ends in mode k: a few operations per
 //! pole. Derivation: docs/theory.md, section 9.
 
+mod carrier;
 mod drive_motion;
 mod drive_signals;
 mod internal_motion;
@@ -21,6 +22,7 @@ mod moving_end;
 mod partition;
 mod poles;
 
+pub(crate) use carrier::CarrierMotion;
 pub use drive_motion::DriveMotion;
 pub(crate) use drive_motion::{DriveAt, DriveLosses};
 pub use drive_signals::DriveSignal;
@@ -58,8 +60,9 @@ pub struct CatenaryDynamic {
     pub error: f64,
     /// Polynomial degree of each element.
     pub degrees: Vec<usize>,
-    /// Motion that the end has; `None` for an end that is held. The components of a moving end are zero in the
-    /// stiffness, the mass and the participations: it belongs to the inside of the cable.
+    /// Motions that the end has; `None` for an end that is held. They belong to the inside of the cable, and are relative
+    /// to what carries the end: the components of the end in stiffness, mass and participations are the motion of that
+    /// carrier, with wheel and drum.
     pub end: Option<MovingEnd>,
     /// Motions of the drive at that end.
     pub drive: Option<DriveMotion>,

@@ -1,6 +1,7 @@
 //! Robots with pulleys and winches: equilibria, limits, vibration against closed forms, and the reader's errors. Single
 //! cables at rest have their tests in the source; the comparisons with other programs are in the validation.
 
+mod frame;
 mod vibration;
 
 use funicular::cable::{CableModel, EndStiffness};

@@ -69,6 +69,25 @@ impl DriveAt {
         at
     }
 
+    /// Motion per component (e, n, b) of the carrier of the end, the platform end held, for the first `count` motions.
+    pub(super) fn by_carrier(
+        cable: &CatenaryDynamic,
+        drive: &DriveMotion,
+        count: usize,
+        x: Complex,
+    ) -> Vec<[Complex; 3]> {
+        let mut rows = vec![[Complex::new(0.0, 0.0); 3]; count];
+        let along = drive.along.still.len();
+        add_carrier(&mut rows, &cable.in_plane, &drive.along, 0, [0, 1], x);
+        if count > along {
+            add_carrier(&mut rows, &cable.out_of_plane, &drive.sideways, along, [2], x);
+        }
+        if let Some(coupled) = &cable.coupled {
+            add_carrier(&mut rows, coupled, &drive.coupled, 0, [0, 1, 2], x);
+        }
+        rows
+    }
+
     /// Adds what the modes of one family move: the motions `rows`, by the components `axes` of the platform end.
     fn add<const D: usize, const N: usize, const E: usize>(
         &mut self,
@@ -148,6 +167,25 @@ impl DriveAt {
         let moved = self.moved(delta);
         let entry = |r: usize, c: usize| (0..delta.len()).map(|j| self.transfer[j][r] * delta[j] * moved[j][c]).sum();
         std::array::from_fn(|r| std::array::from_fn(|c| entry(r, c)))
+    }
+}
+
+/// Adds the motions from `first` on by the carrier in one family, whose components are `axes`.
+fn add_carrier<const D: usize, const N: usize, const E: usize>(
+    rows: &mut [[Complex; 3]],
+    family: &PoleResidue<N, E>,
+    motion: &Displacements<D, N>,
+    first: usize,
+    axes: [usize; D],
+    x: Complex,
+) {
+    for (j, still) in motion.still.iter().enumerate() {
+        for (s, axis) in axes.iter().enumerate() {
+            let by_modes: Complex = (family.poles.iter().zip(&family.participation).zip(&motion.modes))
+                .map(|((pole, g), phi)| phi[j][0] * g[D + s] * x / (*pole - x))
+                .sum();
+            rows[first + j][*axis] += still[0][D + s] + by_modes;
+        }
     }
 }
 

@@ -88,9 +88,7 @@ impl CatenaryDynamicEnd {
     /// signals.
     pub(crate) fn signal_response(&self, input: DriveSignal, output: DriveSignal, omega: f64) -> Option<Complex> {
         if output == DriveSignal::Tension {
-            let [h, v] = self.directions.from_platform;
-            let [x, y, _] = self.signal_vector(input, omega)?;
-            return Some(x * h + y * v);
+            return Some(self.tension_of(&self.signal_vector(input, omega)?));
         }
         let chain = self.chain()?;
         let (force, row) = (self.forces_of(chain, input, omega)?, self.forces_of(chain, output, omega)?);
@@ -103,14 +101,20 @@ impl CatenaryDynamicEnd {
         Some(row.iter().zip(&held).map(|(row, moved)| row * moved).sum())
     }
 
-    fn motions_with_losses(&self, omega: f64) -> Option<(DriveAt, DriveLosses)> {
+    /// Tension at the platform for a force on the held platform end in (e, n, b).
+    pub(super) fn tension_of(&self, [x, y, _]: &[Complex; 3]) -> Complex {
+        let [h, v] = self.directions.from_platform;
+        x * h + y * v
+    }
+
+    pub(super) fn motions_with_losses(&self, omega: f64) -> Option<(DriveAt, DriveLosses)> {
         let motions = self.drive_at(self.square(omega), &NearRanges::default())?;
         Some((motions, self.beyond_undamped(omega.into(), 1.0)))
     }
 
     /// Forces on the motions of the drive per unit of an input [N/m or 1]; for drum and motor also the row of their
     /// motion.
-    fn forces_of(&self, chain: &DriveChain, signal: DriveSignal, omega: f64) -> Option<Vec<Complex>> {
+    pub(super) fn forces_of(&self, chain: &DriveChain, signal: DriveSignal, omega: f64) -> Option<Vec<Complex>> {
         let mut force = vec![Complex::new(0.0, 0.0); chain.len()];
         let mut at = |place: Place, factor: Complex| force[place.motion] += factor * place.factor;
         match signal {

@@ -103,7 +103,7 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
     }
 }
 
-/// Motion of a cable whose start moves and whose end is held.
+/// Motion along a cable whose ends move.
 pub(crate) struct InternalMotion {
     /// Motions of both ends in plane (horizontal, up) and out of plane.
     pub(super) in_plane_ends: [Complex; 4],
@@ -118,10 +118,14 @@ impl InternalMotion {
     /// Motion that follows from the start's (horizontal towards the end, up, out of plane) at the complex square ω_c²
     /// [rad²/s²].
     pub(crate) fn new(cable: &CatenaryDynamic, start: [Complex; 3], square: Complex) -> Self {
-        let held = Complex::new(0.0, 0.0);
+        Self::between(cable, start, [Complex::new(0.0, 0.0); 3], square)
+    }
+
+    /// Motion that follows from those of both ends (horizontal, up, out of plane) at the complex square ω_c² [rad²/s²].
+    pub(crate) fn between(cable: &CatenaryDynamic, start: [Complex; 3], end: [Complex; 3], square: Complex) -> Self {
         let mut motion = Self {
-            in_plane_ends: [start[0], start[1], held, held],
-            out_of_plane_ends: [start[2], held],
+            in_plane_ends: [start[0], start[1], end[0], end[1]],
+            out_of_plane_ends: [start[2], end[2]],
             in_plane: Vec::new(),
             out_of_plane: Vec::new(),
             coupled: Vec::new(),

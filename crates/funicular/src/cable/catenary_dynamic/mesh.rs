@@ -230,9 +230,12 @@ impl<'a> Mesh<'a> {
             0 => ends.push((0, 0)),
             _ => inner.push((0, e - 1)),
         }
-        match e {
-            _ if e == last && !moves => ends.push((1, 1)),
-            _ => inner.push((1, e)),
+        if e == last {
+            ends.push((1, 1));
+        }
+        // The motions at an end that moves are relative to what carries it, whose motion is that of the end function.
+        if e < last || moves {
+            inner.push((1, e));
         }
 
         // Bubbles up to the degree, and those beyond it.

@@ -152,32 +152,28 @@ impl MovingEnd {
         Guide { directions, stiffness, mass }
     }
 
-    /// Static stiffness of the start in plane and out of plane, from those with the end held, and the static response of
-    /// all motions at the end to forces on them. The stiffness of an end that moves is zero.
-    pub(super) fn still(&self, [[hh, hv], [_, vv]]: [[f64; 2]; 2], o: f64) -> Result<Still, CatenaryDynamicError> {
-        let mut in_plane = [[hh, hv, -hh, -hv], [hv, vv, -hv, -vv], [-hh, -hv, hh, hv], [-hv, -vv, hv, vv]];
+    /// Static stiffness of both ends in plane and out of plane, from those of the start with the end held, and the static
+    /// response of all motions at the end to forces on them.
+    pub(super) fn still(&self, held: [[f64; 2]; 2], held_out_of_plane: f64) -> Result<Still, CatenaryDynamicError> {
+        let ([[mut hh, mut hv], [_, mut vv]], mut o) = (held, held_out_of_plane);
         let (along, count) = self.counts();
         let mut flexibility = DMat::zeros(count, count);
         if let Some(EndAlong { direction: [h, v, _], chain }) = &self.along {
             let pulled = [hh * h + hv * v, hv * h + vv * v];
             let of_chain = chain.flexibility(h * pulled[0] + v * pulled[1]).ok_or(CatenaryDynamicError::RunsOut)?;
             let left = |held: f64, i: usize, j: usize| held - pulled[i] * pulled[j] * of_chain[(0, 0)];
-            in_plane = [[0.0; 4]; 4];
-            (in_plane[0][0], in_plane[1][1]) = (left(hh, 0, 0), left(vv, 1, 1));
-            (in_plane[0][1], in_plane[1][0]) = (left(hv, 0, 1), left(hv, 0, 1));
+            (hh, hv, vv) = (left(hh, 0, 0), left(hv, 0, 1), left(vv, 1, 1));
             flexibility.view_mut((0, 0), (along, along)).copy_from(&of_chain);
         }
-        let out_of_plane = match &self.sideways {
-            Some(EndSideways { stiffness, .. }) => {
-                flexibility[(along, along)] = 1.0 / (o + stiffness);
-                [[o - o * o / (o + stiffness), 0.0], [0.0, 0.0]]
-            }
-            None => [[o, -o], [-o, o]],
-        };
-        Ok(Still { in_plane, out_of_plane, flexibility })
+        if let Some(EndSideways { stiffness, .. }) = &self.sideways {
+            flexibility[(along, along)] = 1.0 / (o + stiffness);
+            o -= o * o / (o + stiffness);
+        }
+        let in_plane = [[hh, hv, -hh, -hv], [hv, vv, -hv, -vv], [-hh, -hv, hh, hv], [-hv, -vv, hv, vv]];
+        Ok(Still { in_plane, out_of_plane: [[o, -o], [-o, o]], flexibility })
     }
 
-    /// Static stiffness of the start for an end that couples the families, and the static response of all motions at the
+    /// Static stiffness of both ends for an end that couples the families, and the static response of all motions at the
     /// end to forces on them.
     ///
     /// # References
@@ -207,16 +203,16 @@ impl MovingEnd {
             }
         }
         let mut still = [[0.0; 6]; 6];
-        for (i, row) in still.iter_mut().enumerate().take(3) {
-            for (j, entry) in row.iter_mut().enumerate().take(3) {
-                *entry = left[(i, j)];
+        for (i, row) in still.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = if (i < 3) == (j < 3) { left[(i % 3, j % 3)] } else { -left[(i % 3, j % 3)] };
             }
         }
         Ok((still, flexibility))
     }
 }
 
-/// Static stiffness of a cable whose end may move, and flexibility of the motions at that end.
+/// Static stiffness of both ends of a cable, and flexibility of the motions at its end.
 pub(super) struct Still {
     pub(super) in_plane: [[f64; 4]; 4],
     pub(super) out_of_plane: [[f64; 2]; 2],
