@@ -213,7 +213,7 @@ impl<'a> OwnResponse<'a> {
                 Ok(Some(Self::DriveByFrame { term: *term, to: *signal, from }))
             }
             (Port::Frame(from), Port::Cable { stations, station, direction_w }) => {
-                from.check_stations(dynamics, stations)?;
+                frame_motion::check_stations(dynamics, stations)?;
                 Ok(Some(Self::PointByFrame { stations, to: (*station, direction_w), from }))
             }
             _ => Ok(None),

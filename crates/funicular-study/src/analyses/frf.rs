@@ -465,7 +465,7 @@ pub fn unit(input: &Input, output: &Output) -> String {
         Quantity::Velocity => "/s",
         Quantity::Acceleration => "/s²",
     };
-    let effort = if input.is_moment { "(N·m)" } else { input.unit() };
+    let effort = if input.unit() == "N m" { "(N·m)" } else { input.unit() };
     if by_time.is_empty() { format!("{motion}/{effort}") } else { format!("({motion}{by_time})/{effort}") }
 }
 

@@ -7,7 +7,7 @@ use super::ResponseError;
 use crate::cable::catenary_dynamic::{CarrierMotion, DriveSignal};
 use crate::cable::{DynamicCable, EndStiffness, LocalAxes};
 use crate::cable_motion::{CableMotionError, CableStations};
-use crate::dynamics::Dynamics;
+use crate::dynamics::{DynamicCableAt, Dynamics};
 use crate::math::{CVec6, Complex, Mat3, Vec3, Vec6};
 use crate::robot::Robot;
 use crate::statics::{CableState, Equilibrium};
@@ -108,15 +108,12 @@ impl FrameMotion {
                 continue;
             };
             frame.displacements_w.push(anchor.exit_w);
-            match dynamics.terms().iter().position(|term| term.cable() == i) {
-                Some(term) => {
-                    let motion = carrier_motion(state, &anchor, dynamics.terms()[term].form().axes());
-                    frame.cables.push(MovedCable { term, lever_w: state.lever_w, motion });
-                }
-                None => {
-                    let force_w = constant_force_w(robot, i, state, dynamics, &anchor)?;
-                    frame.constant += wrench(&force_w, &state.lever_w);
-                }
+            if let Some(term) = dynamics.terms().iter().position(|term| term.cable() == i) {
+                let motion = carrier_motion(state, &anchor, dynamics.terms()[term].form().axes());
+                frame.cables.push(MovedCable { term, lever_w: state.lever_w, motion });
+            } else {
+                let force_w = constant_force_w(robot, i, state, dynamics, &anchor)?;
+                frame.constant += wrench(&force_w, &state.lever_w);
             }
         }
         Ok(frame)
@@ -151,18 +148,6 @@ impl FrameMotion {
         }
     }
 
-    /// Checks that the motion of stations of a cable by the frame is known, the platform held.
-    ///
-    /// # Errors
-    /// [`ResponseError::FrameAndCable`]: the cable runs over a pulley or to a winch that yields.
-    pub(super) fn check_stations(&self, dynamics: &Dynamics, stations: &CableStations) -> Result<(), ResponseError> {
-        let term = dynamics.terms().iter().find(|term| term.cable() == stations.cable);
-        match term.map(|term| term.form()) {
-            Some(DynamicCable::CatenaryDynamic(form)) if form.cable.end.is_some() => Err(ResponseError::FrameAndCable),
-            _ => Ok(()),
-        }
-    }
-
     /// Displacement of station `at` of a cable along `direction_w` at ω [rad/s], the platform held.
     pub(super) fn of_station(
         &self,
@@ -172,6 +157,18 @@ impl FrameMotion {
         omega: f64,
     ) -> Complex {
         stations.by_far_end(dynamics, at, direction_w, &self.displacements_w[stations.cable], omega)
+    }
+}
+
+/// Checks that the motion of stations of a cable by the frame is known, the platform held.
+///
+/// # Errors
+/// [`ResponseError::FrameAndCable`]: the cable runs over a pulley or to a winch that yields.
+pub(super) fn check_stations(dynamics: &Dynamics, stations: &CableStations) -> Result<(), ResponseError> {
+    let term = dynamics.terms().iter().find(|term| term.cable() == stations.cable);
+    match term.map(DynamicCableAt::form) {
+        Some(DynamicCable::CatenaryDynamic(form)) if form.cable.end.is_some() => Err(ResponseError::FrameAndCable),
+        _ => Ok(()),
     }
 }
 

@@ -135,7 +135,7 @@ fn anchor_and_drum_together_are_the_anchor_and_paid_out_length() {
 
             for hz in [0.4, 3.1, 17.0] {
                 let found = responses(&robot, &rest, &dynamics, hz, &inputs, &outputs);
-                for output in 0..outputs.len() {
+                for (output, base) in found[2 * count].iter().enumerate() {
                     // A drum that follows its anchor towards the wheel pays that length out.
                     let sum: Complex = (0..count)
                         .map(|i| {
@@ -146,7 +146,6 @@ fn anchor_and_drum_together_are_the_anchor_and_paid_out_length() {
                             found[i][output] + found[count + i][output] * (along / stretch)
                         })
                         .sum();
-                    let base = found[2 * count][output];
                     let size = (0..count).map(|i| found[i][output].norm()).sum::<f64>();
                     // The anchor moves the entry point, the length is paid out at the stretch of the drum side: these
                     // differ by the change of the stretch over the wheel, the weight of the length on it over EA.
