@@ -315,7 +315,7 @@ impl pulp::WithSimd for Mass<'_> {
 mod tests {
     use super::*;
     use crate::cable::LocalStiffness;
-    use crate::cable::catenary_dynamic::{CatenaryDynamic, EndAlong};
+    use crate::cable::catenary_dynamic::{CatenaryDynamic, EndAlong, EndSideways};
     use crate::catenary::Rope;
     use crate::drive::DriveChain;
     use crate::math::DMat;
@@ -346,7 +346,8 @@ mod tests {
     /// End over a wheel, with a drum on a spring and a motor behind a shaft; masses [kg] of all three and of the swivel.
     fn moving(catenary: &Catenary, [wheel, drum, motor, swivel]: [f64; 4]) -> MovingEnd {
         let tension = catenary.tension_at_end();
-        let direction = [-catenary.horizontal_force() / tension, -catenary.vertical_force_at_end() / tension];
+        let (h, v) = (catenary.horizontal_force(), catenary.vertical_force_at_end());
+        let direction = [-h / tension, -v / tension, 0.0];
         let (rope, shaft, servo) = (2e5, 5e4, 1e4);
         let chain = DriveChain {
             stiffness: DMat::from_row_slice(
@@ -359,9 +360,12 @@ mod tests {
             drum: None,
             motor: None,
             by_length: Vec::new(),
+            drum_side: Vec::new(),
+            drum_end: None,
             stretch_drum: 1.0,
         };
-        MovingEnd { along: Some(EndAlong { direction, chain }), out_of_plane: Some((500.0, swivel)) }
+        let sideways = EndSideways { direction: [0.0, 0.0, 1.0], stiffness: 500.0, coupling: 0.0, mass: swivel };
+        MovingEnd { along: Some(EndAlong { direction, chain }), sideways: Some(sideways) }
     }
 
     /// Cable whose far end is held.

@@ -3,7 +3,7 @@
 use super::batched_cable::{CableGroup, CableSpan, KeptStiffness};
 use super::lever_axes::{LeverAxes, RobotMotion};
 use crate::cable::catenary_dynamic::MovingEnd;
-use crate::cable::{EndWithDrive, Sag};
+use crate::cable::{Sag, moving_end};
 use crate::catenary::space::HangingCable;
 use crate::dynamics::{self, PlatformTerms};
 use crate::math::simd::{LANES, Line, Part, sum};
@@ -44,8 +44,8 @@ pub(super) struct RobotPencil {
 const ABOVE_STRING: f64 = 2.0;
 
 impl RobotPencil {
-    /// Pencil of a robot; `None` if a cable does not hang, has no tension or a point without tension, or if its end moves
-    /// in plane and out of plane at the same time.
+    /// Pencil of a robot; `None` if a cable does not hang, has no tension or a point without tension, or if its end
+    /// couples motions in plane and out of plane.
     pub(super) fn new(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         let PlatformTerms { mut constant, mass, coordinates } = dynamics::platform_terms(robot, equilibrium);
 
@@ -62,17 +62,15 @@ impl RobotPencil {
 
             let end = state.drive.as_ref().and_then(|_| {
                 let limit = ABOVE_STRING * TAU * Sag::of(robot, i, state).string_frequency_hz();
-                EndWithDrive::of(robot, i, state, WinchMode::default(), limit)
+                moving_end(robot, i, state, WinchMode::default(), limit)
             });
-            if mass_per_length == 0.0 && !end.as_ref().is_some_and(EndWithDrive::has_dynamics) {
+            if end.as_ref().is_some_and(MovingEnd::couples) {
+                return None;
+            }
+            if mass_per_length == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
                 constant += dynamics::constant_cable(robot, state, &state.tangent_w()?);
                 continue;
             }
-            let end = end.map(|end| {
-                let (end, chain, swivel_mass) = end.into_parts();
-                MovingEnd::of(hanging, end, chain, swivel_mass)
-            });
-            let end = end.transpose().ok()?.flatten();
 
             has_drive_mass |= end.as_ref().is_some_and(MovingEnd::has_mass);
             massive.push((i, hanging));

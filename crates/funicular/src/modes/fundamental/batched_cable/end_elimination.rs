@@ -7,6 +7,7 @@
 use super::element::ElementBatch;
 use super::element_integrals::place;
 use super::{CableSpan, IN_PLANE, KeptStiffness, OUT_OF_PLANE};
+use crate::cable::catenary_dynamic::EndSideways;
 use crate::math::DMat;
 use crate::math::simd::{LANES, Lane};
 use std::f64::consts::PI;
@@ -53,7 +54,7 @@ impl CableEnd {
         let in_plane = match along {
             None => EndMotions::held(divided),
             Some(along) => {
-                let ([h, v], [[hh, hv], [_, vv]]) = (along.direction, catenary.tangent());
+                let ([h, v, _], [[hh, hv], [_, vv]]) = (along.direction, catenary.tangent());
                 let held = h * h * hh + 2.0 * h * v * hv + v * v * vv;
                 let chain = &along.chain;
                 let mass = &chain.mass + &chain.cable_mass;
@@ -65,9 +66,9 @@ impl CableEnd {
         };
 
         // The swivel.
-        let out_of_plane = match cable.end.as_ref().and_then(|end| end.out_of_plane) {
+        let out_of_plane = match cable.end.as_ref().and_then(|end| end.sideways) {
             None => EndMotions::held(divided),
-            Some((stiffness, mass)) => {
+            Some(EndSideways { stiffness, mass, .. }) => {
                 let kept = (mass / (catenary.out_of_plane_stiffness() + stiffness) > string).then_some(0);
                 let [stiffness, mass] = [stiffness, mass].map(|entry| DMat::from_element(1, 1, entry));
                 EndMotions::new([1.0], &stiffness, &mass, &mass, divided, kept)
