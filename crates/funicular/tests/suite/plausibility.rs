@@ -216,6 +216,21 @@ fn slips_of_units_and_signs_are_named() {
         changed(&hall, &[("[0.0, 0.0, 2.0]", "[0.0, 0.0, 0.5236]")]),
         &["yaw is 0.5236°, which is 30° in radians"],
     );
+    // 8° times 180/π.
+    slip(
+        "yaw in degrees converted to degrees",
+        changed(&hall, &[("[0.0, 0.0, 2.0]", "[0.0, 0.0, 458.37]")]),
+        &[
+            "yaw of the pose is 458.4 degrees, usual is -360 to 360 degrees",
+            "multiplied by 57.3",
+            "Without its full turns it is 98.37 degrees",
+        ],
+    );
+    slip(
+        "pitch in arc minutes",
+        changed(&hall, &[("[0.0, 0.0, 2.0]", "[0.0, -600.0, 0.0]")]),
+        &["pitch of the pose is -600 degrees", "an angle in another unit"],
+    );
     slip(
         "pose above the anchors",
         changed(&hall, &[("position_m = [0.0, 0.0, 3.0]", "position_m = [0.0, 0.0, 12.0]")]),
@@ -552,5 +567,19 @@ fn lengths_of_another_number_than_the_cables_are_no_panic() {
     for lengths in [vec![], vec![12.0; 3], vec![12.0; 20]] {
         let robot = Robot { state: State::Lengths(lengths), ..robot.clone() };
         assert!(said(&robot).contains("unstrained lengths given for 8 cables"));
+    }
+}
+
+/// Full turns are warned of up to the limit alone, and only for the pose that the angles were written for.
+#[test]
+fn a_full_turn_is_plausible_and_more_is_not() {
+    for (written, expected) in [("360.0", 0), ("-360.0", 0), ("360.001", 1), ("-3600.0", 1)] {
+        let text = changed(&hall(), &[("[0.0, 0.0, 2.0]", &format!("[0.0, 0.0, {written}]"))]);
+        let robot = Robot::from_toml(&text).unwrap();
+        assert_eq!(warnings::of_robot(&robot).len(), expected, "{written}");
+
+        // Code sets another pose: the angles of the file are not its angles.
+        let moved = Robot { state: State::Pose(Pose::new([0.0, 0.0, 3.0], [0.0, 0.0, 7.0])), ..robot };
+        assert_eq!(warnings::of_robot(&moved), [], "{written}");
     }
 }

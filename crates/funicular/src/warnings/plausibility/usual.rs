@@ -164,6 +164,11 @@ pub const AIR_DENSITY: [f64; 2] = [0.5, 2.0];
 /// Density of water [kg/m³], for robots in water.
 pub const WATER_DENSITY: [f64; 2] = [900.0, 1100.0];
 
+/// Roll, pitch or yaw of a pose [degrees]. A full turn in either direction holds every orientation however it is counted.
+/// Inside: headings from 0° to 360°, angles from -180° to 180°; the library has no angles. Outside: degrees multiplied by
+/// 57.3 as if they were radians, from 6.3° on.
+pub const ANGLE: [f64; 2] = [-360.0, 360.0];
+
 /// Unstrained length of a cable over the distance of its ends. Library: up to 1.011 (Yuan 2014, 8 mm). A cable that
 /// hangs down by half the distance of its ends has 1.5. Outside: poses at which a straight cable would have to push,
 /// and one length in other units.
