@@ -6,6 +6,7 @@ pub(crate) mod active_set;
 pub(crate) mod eigenvectors;
 pub mod generalized_eigen;
 pub mod legendre;
+pub(crate) mod order;
 pub mod roots;
 pub mod rotation;
 pub(crate) mod simd;
