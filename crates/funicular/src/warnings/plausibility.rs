@@ -51,7 +51,7 @@ impl fmt::Display for Implausible {
                 };
                 let range = match *usual {
                     [low, high] if high.is_infinite() => format!("usual is at least {}", with_unit(low)),
-                    [low, high] if low == 0.0 => format!("usual is at most {}", with_unit(high)),
+                    [0.0, high] => format!("usual is at most {}", with_unit(high)),
                     [low, high] => format!("usual is {} to {}", number(low), with_unit(high)),
                 };
                 write!(f, "{what} is {}, {range}: {slip}", with_unit(*value))
