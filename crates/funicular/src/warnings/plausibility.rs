@@ -115,6 +115,7 @@ pub fn of_robot(robot: &Robot) -> Vec<Implausible> {
     let of_geometry = geometry::check(robot);
     let geometry_fits = of_geometry.is_empty();
     found.extend(of_geometry);
+    found.extend(geometry::full_turns(robot));
     if geometry_fits {
         found.extend(platform::check(robot));
     }

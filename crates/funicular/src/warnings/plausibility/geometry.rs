@@ -37,7 +37,7 @@ pub(super) fn check(robot: &Robot) -> Vec<Implausible> {
     let of_size = of_size.or_else(|| distance(robot, &size)).or_else(|| attachments_in_world(robot, &size));
     let mut found: Vec<Implausible> = of_size.into_iter().collect();
     found.extend(signs(robot, &size));
-    found.extend(full_turns(robot).or_else(|| angles(robot)));
+    found.extend(angles(robot));
     found
 }
 
@@ -300,8 +300,8 @@ fn signs(robot: &Robot, size: &Size) -> Vec<Implausible> {
     found
 }
 
-/// Angle of the pose, as it was written, beyond a full turn.
-fn full_turns(robot: &Robot) -> Option<Implausible> {
+/// Angle of the pose, as it was written, beyond a full turn. It changes neither the pose nor any size.
+pub(super) fn full_turns(robot: &Robot) -> Option<Implausible> {
     let State::Pose(pose) = &robot.state else { return None };
     let written = robot.written_angles_deg;
     // Code may have set another pose since.
