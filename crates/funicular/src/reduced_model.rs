@@ -133,6 +133,9 @@ pub enum ReductionError {
     /// A signal belongs to a drive.
     #[error("the reduced model has no signals of drives: use `frf` for them")]
     DriveSignal,
+    /// A signal is a motion of the frame.
+    #[error("the reduced model has no motions of the base or of anchors: use `frf` for them")]
+    FrameSignal,
     /// The motion of a point on a cable is not known.
     #[error(transparent)]
     CableMotion(#[from] CableMotionError),
@@ -186,9 +189,16 @@ pub enum ReductionError {
     },
 }
 
-/// Checks that no signal is one of a drive.
-fn check_signals<'a>(mut signals: impl Iterator<Item = &'a Signal>) -> Result<(), ReductionError> {
-    if signals.any(|signal| matches!(signal, Signal::Drive { .. })) { Err(ReductionError::DriveSignal) } else { Ok(()) }
+/// Checks that no signal is one of a drive or a motion of the frame.
+fn check_signals<'a>(signals: impl Iterator<Item = &'a Signal>) -> Result<(), ReductionError> {
+    for signal in signals {
+        match signal {
+            Signal::Drive { .. } => return Err(ReductionError::DriveSignal),
+            Signal::Frame(_) => return Err(ReductionError::FrameSignal),
+            Signal::Along { .. } | Signal::About { .. } | Signal::OnCable { .. } => {}
+        }
+    }
+    Ok(())
 }
 
 /// Checks that all cables are catenary-dynamic and end at fixed points or at springs.
@@ -343,7 +353,7 @@ impl Channels {
             Port::Platform(vector) => {
                 row[..layout.dof].copy_from_slice(&coordinates(vector).as_slice()[..layout.dof]);
             }
-            Port::Drive { .. } => unreachable!("signals of drives are refused"),
+            Port::Drive { .. } | Port::Frame(_) => unreachable!("signals of drives and of the frame are refused"),
             Port::Cable { stations, station, direction_w } => {
                 let (platform, term, amplitudes) = stations.row(dynamics, *station, direction_w);
                 row[..layout.dof].copy_from_slice(&coordinates(&platform).as_slice()[..layout.dof]);

@@ -283,7 +283,7 @@ fn output_rows(outputs: &[(Output, Signal)]) -> Vec<ChannelRow> {
 }
 
 fn unit(output: &Output) -> &'static str {
-    match (output.is_rotation, output.quantity) {
+    match (output.is_rotation(), output.quantity) {
         (false, Quantity::Displacement) => "m",
         (false, Quantity::Velocity) => "m/s",
         (false, Quantity::Acceleration) => "m/s²",

@@ -30,8 +30,21 @@ pub struct DriveChain {
     /// Force on the motions per unstrained length that is paid out at a drum or by a motor that is held [N/m], and that
     /// by the mass of the cable, per ω² [kg]; empty if a control moves the drum.
     pub(crate) by_length: Vec<(f64, f64)>,
+    /// Drum side as each motion feels it; empty if the drum is at the exit point.
+    pub(crate) drum_side: Vec<OnDrumSide>,
     /// Stretch λ_E between entry point and drum.
     pub(crate) stretch_drum: f64,
+}
+
+/// Force of the drum side on a motion of the chain when the pulley moves along the drum side, or carries it along.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct OnDrumSide {
+    /// Stiffness between the motion and the end of the drum side at the wheel [N/m].
+    pub(crate) stiffness: f64,
+    /// Mass between them [kg].
+    pub(crate) mass: f64,
+    /// Mass between the motion and a motion of the whole drum side along itself [kg].
+    pub(crate) carried_mass: f64,
 }
 
 /// Place of a part of the drive in the chain: its motion as a multiple of one of the motions.
@@ -109,18 +122,19 @@ impl Assembly {
         self.mass[(at.motion, at.motion)] += mass * at.factor * at.factor;
     }
 
-    /// Adds the drum side, which stretches between σ and its end at the drum. For a rod and a drum that is held the
-    /// result is the mass between the motions and that end [kg], otherwise zeros.
-    fn drum_side(&mut self, parts: &Parts, layout: &Layout) -> Vec<f64> {
+    /// Adds the drum side, which stretches between σ and its end at the drum. For a rod and a drum that is held the first
+    /// result is the mass between the motions and that end [kg], otherwise zeros; the second is the mass of the rod
+    /// between the motions and a motion of the whole rod [kg].
+    fn drum_side(&mut self, parts: &Parts, layout: &Layout) -> (Vec<f64>, Vec<f64>) {
         if parts.has_rope() {
             let ends: Vec<Place> = [SLIP].into_iter().chain(layout.rope_end.map(|end| end.times(-1.0))).collect();
             self.spring(parts.spring(), &ends);
         }
 
         // Functions of a rod: hats at σ and at the drum, then polynomials that vanish at both.
-        let mut by_end = vec![0.0; layout.count];
+        let (mut by_end, mut carried) = (vec![0.0; layout.count], vec![0.0; layout.count]);
         if !parts.is_rod() {
-            return by_end;
+            return (by_end, carried);
         }
         let half = 0.5 * parts.rod_length();
         let mass = legendre::element_mass(layout.waves + 1) * (half * parts.mass_per_length);
@@ -131,6 +145,7 @@ impl Assembly {
         };
         for row in 0..layout.waves + 2 {
             let Some(a) = place(row) else { continue };
+            carried[a.motion] += (mass[(row, 0)] + mass[(row, 1)]) * a.factor;
             for column in 0..layout.waves + 2 {
                 let entry = mass[(row, column)];
                 match place(column) {
@@ -143,7 +158,7 @@ impl Assembly {
                 self.stiffness[(a.motion, a.motion)] += parts.axial_stiffness / half;
             }
         }
-        by_end
+        (by_end, carried)
     }
 
     /// Adds drum, shaft and motor.
@@ -314,7 +329,13 @@ impl DriveChain {
         if let Some(pulley) = &anchor.pulley {
             chain.heavy(pulley.inertia / (pulley.radius * pulley.radius), SLIP);
         }
-        let held_end = chain.drum_side(&parts, &layout);
+        let (held_end, carried) = chain.drum_side(&parts, &layout);
+        let on_drum_side = |motion: usize| OnDrumSide {
+            stiffness: chain.stiffness[(motion, 0)] - if motion == 0 { drive.end.weight } else { 0.0 },
+            mass: chain.cable_mass[(motion, 0)],
+            carried_mass: carried[motion],
+        };
+        let drum_side = if parts.has_rope() { (0..layout.count).map(on_drum_side).collect() } else { Vec::new() };
         chain.winch(&parts, &layout);
 
         let Assembly { stiffness, mass, cable_mass } = chain;
@@ -328,6 +349,7 @@ impl DriveChain {
             drum,
             motor,
             by_length: by_length(&parts, &layout, &held_end),
+            drum_side,
             stretch_drum,
         })
     }

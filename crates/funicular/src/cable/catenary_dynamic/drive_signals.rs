@@ -1,6 +1,6 @@
 //! Signals of the drive of a cable: commanded length, force of the motor, motions of drum and motor, tension.
 
-use super::{CatenaryDynamicEnd, DriveAt, DriveLosses};
+use super::{CatenaryDynamicEnd, DriveAt, DriveLosses, NearRanges};
 use crate::drive::{DriveChain, Place};
 use crate::math::Complex;
 
@@ -58,11 +58,15 @@ impl CatenaryDynamicEnd {
     /// Vector of a signal at ω [rad/s] in (e, n, b): the force on the held platform end per unit of an input, and by
     /// reciprocity the output per motion of the platform end. `None` if the cable has no such signal.
     pub(crate) fn signal_vector(&self, signal: DriveSignal, omega: f64) -> Option<[Complex; 3]> {
-        let zero = Complex::new(0.0, 0.0);
         if signal == DriveSignal::Tension {
             let k = self.damped(omega);
             let [h, v] = self.directions.from_platform;
-            return Some([-(k.axial * h + k.coupling * v), -(k.coupling * h + k.normal * v), zero]);
+            let [along, normal] = k.across;
+            return Some([
+                -(k.axial * h + k.coupling * v),
+                -(k.coupling * h + k.normal * v),
+                -(along * h + normal * v),
+            ]);
         }
         let square = self.square(omega);
         let Some(chain) = self.chain() else {
@@ -70,41 +74,47 @@ impl CatenaryDynamicEnd {
             let ([h, v], family) = (self.directions.to_platform, &self.cable.in_plane);
             let towards =
                 |i: usize| -self.directions.stretch * (family.entry(i, 2, square) * h + family.entry(i, 3, square) * v);
-            return (signal == DriveSignal::Length).then(|| [towards(0), towards(1), zero]);
+            let known = signal == DriveSignal::Length && self.cable.coupled.is_none();
+            return known.then(|| [towards(0), towards(1), Complex::new(0.0, 0.0)]);
         };
 
         let force = self.forces_of(chain, signal, omega)?;
         let (motions, losses) = self.motions_with_losses(omega)?;
-        let moved = motions.moved(&losses.values_along());
-        let sum = |s: usize| (0..force.len()).map(|j| moved[j][s] * force[j]).sum();
-        Some([sum(0), sum(1), zero])
+        let moved = motions.moved(&losses.values());
+        Some(std::array::from_fn(|s| force.iter().zip(&moved).map(|(force, moved)| moved[s] * force).sum()))
     }
 
     /// Output per input of signals of this cable, its platform end held, at ω [rad/s]. `None` if the cable has no such
     /// signals.
     pub(crate) fn signal_response(&self, input: DriveSignal, output: DriveSignal, omega: f64) -> Option<Complex> {
         if output == DriveSignal::Tension {
-            let [h, v] = self.directions.from_platform;
-            let [x, y, _] = self.signal_vector(input, omega)?;
-            return Some(x * h + y * v);
+            return Some(self.tension_of(&self.signal_vector(input, omega)?));
         }
         let chain = self.chain()?;
         let (force, row) = (self.forces_of(chain, input, omega)?, self.forces_of(chain, output, omega)?);
         let (motions, losses) = self.motions_with_losses(omega)?;
-        let free: Vec<Complex> =
-            (0..force.len()).map(|i| (0..force.len()).map(|j| motions.receptance[(i, j)] * force[j]).sum()).collect();
-        let held = motions.freed(&losses.values_along(), &free);
+        let count = losses.0.len();
+        let free: Vec<Complex> = (0..count)
+            .map(|i| force.iter().enumerate().map(|(j, force)| motions.receptance[(i, j)] * force).sum())
+            .collect();
+        let held = motions.freed(&losses.values(), &free);
         Some(row.iter().zip(&held).map(|(row, moved)| row * moved).sum())
     }
 
-    fn motions_with_losses(&self, omega: f64) -> Option<(DriveAt<2>, DriveLosses)> {
-        let motions = self.drive_at(self.square(omega), &(0..0, 0..0))?;
-        Some((motions.along, self.beyond_undamped(omega.into(), 1.0)))
+    /// Tension at the platform for a force on the held platform end in (e, n, b).
+    pub(super) fn tension_of(&self, [x, y, _]: &[Complex; 3]) -> Complex {
+        let [h, v] = self.directions.from_platform;
+        x * h + y * v
+    }
+
+    pub(super) fn motions_with_losses(&self, omega: f64) -> Option<(DriveAt, DriveLosses)> {
+        let motions = self.drive_at(self.square(omega), &NearRanges::default())?;
+        Some((motions, self.beyond_undamped(omega.into(), 1.0)))
     }
 
     /// Forces on the motions of the drive per unit of an input [N/m or 1]; for drum and motor also the row of their
     /// motion.
-    fn forces_of(&self, chain: &DriveChain, signal: DriveSignal, omega: f64) -> Option<Vec<Complex>> {
+    pub(super) fn forces_of(&self, chain: &DriveChain, signal: DriveSignal, omega: f64) -> Option<Vec<Complex>> {
         let mut force = vec![Complex::new(0.0, 0.0); chain.len()];
         let mut at = |place: Place, factor: Complex| force[place.motion] += factor * place.factor;
         match signal {

@@ -5,7 +5,7 @@ use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::cable::{CableModel, EndStiffness};
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::math::{Complex, Mat3, Vec3};
+use funicular::math::{Complex, Vec3};
 use funicular::modes::{self, Kind};
 use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::{Control, DrumSide, Pose, Robot, Servo, WinchMode};
@@ -77,12 +77,7 @@ fn a_weightless_cable_ends_in_the_impedance_of_its_drive() {
         for hz in [0.5, 1.3, 7.0, 23.0, 61.0, 103.0] {
             let omega = hz * TAU;
             let k = cable.damped(omega);
-            let real = |part: fn(&Complex) -> f64| -> Mat3 {
-                let entries = [&k.axial, &k.coupling, &k.normal, &k.out_of_plane].map(part);
-                let [axial, coupling, normal, out_of_plane] = entries;
-                funicular::cable::LocalStiffness { axial, coupling, normal, out_of_plane }.in_world(cable.axes())
-            };
-            let (re, im) = (real(|z| z.re), real(|z| z.im));
+            let (re, im) = (k.map(|z| z.re).in_world(cable.axes()), k.map(|z| z.im).in_world(cable.axes()));
             let along = Complex::new(e.dot(&(re * e)), e.dot(&(im * e)));
             let out = Complex::new(re[(1, 1)], im[(1, 1)]);
 
