@@ -356,8 +356,8 @@ pub(crate) struct FrfArgs {
 
     /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…,
     /// a:… along a direction, world axes; the motion of a point on a cable (name, fraction of its length from the
-    /// platform), as in cable:3@0.5:az; the motion of a drum or motor, drum:3, motor:3, or the tension at the platform,
-    /// tension:3 (repeatable)
+    /// platform), as in cable:3@0.5:az; the motion of a drum or motor, drum:3, motor:3, or the tension at the platform
+    /// or at the drum, tension:3, drum-tension:3 (repeatable)
     #[arg(long, value_name = "OUTPUT", value_parser = Output::parse, required = true)]
     pub(crate) output: Vec<Output>,
     #[command(flatten)]

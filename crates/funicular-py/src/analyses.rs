@@ -188,8 +188,8 @@ impl PyAnalyses {
     /// output
     ///     Output signal: displacement `x`, `y`, `z`, rotation `rx`, `ry`, `rz`, with `v` (velocity) or `a`
     ///     (acceleration) before it, or `x:ux,uy,uz`, `v:…`, `a:…` along a direction; a point of a cable, as in
-    ///     `cable:3@0.5:az`; or the motion of a drum or motor, or the tension of a cable at the platform, as in `drum:3`,
-    ///     `motor:3`, `tension:3`. A list names several.
+    ///     `cable:3@0.5:az`; or the motion of a drum or motor, or the tension of a cable at the platform or at its drum, as
+    ///     in `drum:3`, `motor:3`, `tension:3`, `drum-tension:3`. A list names several.
     /// adaptive
     ///     Add frequencies between those in `hz`, which ascend, until every peak has its height (to 0.1 %) and straight
     ///     lines over the logarithm of the magnitude are accurate to 1 %. At undamped natural frequencies, where the

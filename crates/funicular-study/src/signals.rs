@@ -52,7 +52,7 @@ pub enum SignalError {
         "not an output: x, y, z, rx, ry, rz (displacement, rotation), with v (velocity) or a (acceleration) before it \
          as in ay, or x:ux,uy,uz, v:ux,uy,uz, a:ux,uy,uz (along a direction in world axes), a point \
          of a cable as in cable:3@0.5:az, the motion of a drum or a motor as in drum:3 or motor:3, or the tension of a \
-         cable at the platform as in tension:3"
+         cable at the platform or at its drum as in tension:3 or drum-tension:3"
     )]
     NotAnOutput,
     /// Cable that the robot does not have.
@@ -403,7 +403,7 @@ impl Output {
     /// Unit of the signal as a displacement, or as the tension of a cable.
     pub fn unit(&self) -> &'static str {
         match &self.place {
-            Place::Drive { signal: DriveSignal::Tension, .. } => "N",
+            Place::Drive { signal, .. } if signal.is_tension() => "N",
             Place::Platform { turns: true, .. } => "rad",
             _ => "m",
         }

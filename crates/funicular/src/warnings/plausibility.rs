@@ -3,6 +3,7 @@
 //! A value outside the usual range is a warning, never an error: the robot may be an unusual one. Each warning has the
 //! value, the usual range and the likely slip. All ranges are in one table, [`usual`].
 
+mod drives;
 mod equilibrium;
 mod geometry;
 mod loads;
@@ -120,6 +121,7 @@ pub fn of_robot(robot: &Robot) -> Vec<Implausible> {
         found.extend(platform::check(robot));
     }
     found.extend(loads::check(robot, ropes_fit && geometry_fits));
+    found.extend(drives::check(robot));
     found
 }
 

@@ -418,6 +418,39 @@ fn slips_of_single_values_are_named() {
 
 /// At a pose that straight cables cannot hold, cables of 17 times the distance of their ends balance the platform.
 #[test]
+fn slips_at_pulleys_and_winches_are_named() {
+    let drives = "[pulleys.wheel]\nradius_m = 0.05\nentry_direction = [0.0, 0.0, 1.0]\ninertia_kg_m2 = 0.0004\n\
+                  swivel_inertia_kg_m2 = 0.001\n[winches.drum]\ndrum_side_length_m = 5.0\ndrum_radius_m = 0.0675\n\
+                  stiffness_n_per_m = 200000.0\ndrum_inertia_kg_m2 = 0.27\ncontrol = \"position\"\nbandwidth_hz = 5.0\n\
+                  control_damping_ratio = 0.7\ndelay_s = 0.002\n\n[state]";
+    let hall = changed(
+        &hall(),
+        &[
+            ("[state]", drives),
+            ("material = \"rope\"\n", "material = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\n"),
+        ],
+    );
+    assert_eq!(said(&Robot::from_toml(&hall).unwrap()), "");
+
+    let mut misses = Vec::new();
+    for (key, factor, expected) in [
+        ("radius_m", 1e2, "radius in cm given as m"),
+        ("inertia_kg_m2", 1e4, "inertia in kg cm² given as kg m²"),
+        ("swivel_inertia_kg_m2", 1e4, "inertia in kg cm² given as kg m²"),
+        ("drum_side_length_m", 1e3, "length in mm given as m"),
+        ("drum_radius_m", 1e3, "radius of the drum in mm given as m"),
+        ("drum_inertia_kg_m2", 1e4, "inertia in kg cm² given as kg m²"),
+        ("stiffness_n_per_m", 1e-3, "stiffness in kN/m given as N/m"),
+        ("bandwidth_hz", 1e3, "bandwidth of its control"),
+        ("control_damping_ratio", 1e2, "damping ratio in per cent given as a fraction"),
+        ("delay_s", 1e3, "delay in ms given as s"),
+    ] {
+        check(key, &scaled(&hall, key, factor), &[expected], &mut misses);
+    }
+    assert!(misses.is_empty(), "{}", misses.join("\n"));
+}
+
+#[test]
 fn cables_that_balance_only_far_below_their_ends_are_named() {
     let text = r#"
 name = "camera on three pairs of cables"

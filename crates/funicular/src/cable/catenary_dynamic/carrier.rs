@@ -63,14 +63,31 @@ impl CatenaryDynamicEnd {
         if output == DriveSignal::Tension {
             return Some(self.tension_of(&self.force_by_carrier(motion, omega)));
         }
-        let row = self.forces_of(self.chain()?, output, omega)?;
+        let Some(chain) = self.chain() else {
+            return (output == DriveSignal::DrumTension).then(|| self.tension_at_moved_end(motion, omega)).flatten();
+        };
+        let row = self.output_row(chain, output, omega)?;
         let (motions, losses, mut free, given) = self.drive_under_carrier(motion, omega)?;
         let count = free.len();
         for (i, free) in free.iter_mut().enumerate() {
             *free += (0..count).map(|j| motions.receptance[(i, j)] * given[j]).sum::<Complex>();
         }
         let moved = motions.freed(&losses.values(), &free);
-        Some(row.iter().zip(&moved).map(|(row, moved)| row * moved).sum())
+        let through: Complex = row.iter().zip(&moved).map(|(row, moved)| row * moved).sum();
+        if output != DriveSignal::DrumTension {
+            return Some(through);
+        }
+        let along = motion.along_drum_side;
+        let ends = if motion.with_drum { [0.0, 0.0, along] } else { [0.0, along, 0.0] };
+        Some(through + self.drum_tension_of_ends(ends, omega))
+    }
+
+    /// Tension at a far end without a drive, which moves with its carrier; `None` if the end couples the families.
+    fn tension_at_moved_end(&self, motion: &CarrierMotion, omega: f64) -> Option<Complex> {
+        let ([h, v], square, [e, n, _]) = (self.directions.to_platform, self.square(omega), motion.displacement);
+        let of = |i: usize, j: usize| self.in_plane().entry(i, j, square);
+        let force = |i: usize| of(i, 2) * e + of(i, 3) * n;
+        self.coupled().is_none().then(|| -(force(2) * h + force(3) * v))
     }
 
     /// Motions of the drive at ω [rad/s], what its losses add, the motions by the carrier alone, and the forces on them

@@ -6,8 +6,8 @@ use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Rotation, Vec3};
 use funicular::response::{self, FrameInput, Port, Quantity, Signal};
-use funicular::robot::{DrumSide, Pose, Robot, WinchMode};
-use funicular::statics::{self, Equilibrium, StaticModel};
+use funicular::robot::{DrumSide, Pose, Robot};
+use funicular::statics::{self, CableState, Equilibrium, StaticModel};
 
 /// CoGiRo with pulleys and winches at a pose, its swivel axes inclined by `incline`, with the lengths of that pose.
 fn at_rest(incline: f64) -> (Robot, Equilibrium) {
@@ -80,6 +80,7 @@ fn at_rest_the_platform_follows_the_frame_as_forward_statics_say() {
         .chain(axes.iter().map(|axis| FrameInput::Anchor { cable: 3, direction_w: *axis }))
         .collect();
     let signals: Vec<Signal> = inputs.iter().map(|input| Signal::Frame(*input)).collect();
+    let tensions = [DriveSignal::Tension, DriveSignal::DrumTension].map(|signal| Signal::Drive { cable: 3, signal });
 
     // With inclined axes the stiffness is exact to the square of the kink.
     for (incline, tolerance) in [(0.0, 2e-6), (0.4, 2e-5)] {
@@ -87,21 +88,32 @@ fn at_rest_the_platform_follows_the_frame_as_forward_statics_say() {
         for cable_model in [CableModel::CatenaryDynamic, CableModel::CatenaryStatic] {
             let dynamics =
                 Dynamics::about(&robot, &rest, Linearisation { cable_model, ..Default::default() }, 1.0).unwrap();
-            let found = responses(&robot, &rest, &dynamics, 1e-5, &signals, &motions());
+            // Cables without vibration have no signals of drives.
+            let tensions = if cable_model.is_dynamic() { &tensions[..] } else { &[] };
+            let outputs = [&motions(), tensions].concat();
+            let found = responses(&robot, &rest, &dynamics, 1e-5, &signals, &outputs);
 
             for (input, found) in inputs.iter().zip(&found) {
                 let amount = 1e-5;
                 let at = |amount: f64| {
                     let robot = moved(&robot, input, amount);
-                    statics::forward(&robot, &lengths(&rest), StaticModel::Catenary, Some(&rest.pose)).unwrap().pose
+                    statics::forward(&robot, &lengths(&rest), StaticModel::Catenary, Some(&rest.pose)).unwrap()
                 };
-                let (plus, minus) = (at(amount), at(-amount));
+                let (more, less) = (at(amount), at(-amount));
+                let (plus, minus) = (&more.pose, &less.pose);
                 let along = (plus.position_w - minus.position_w) / (2.0 * amount);
                 let turn = plus.rot_wp * minus.rot_wp.inverse();
                 let about = turn.scaled_axis() / (2.0 * amount);
-                let expected: Vec<f64> = along.iter().chain(about.iter()).copied().collect();
-                let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
-                for (found, expected) in found.iter().zip(&expected) {
+                let both = |cable: &CableState| [cable.tension_platform, cable.tension_drum()];
+                let [plus, minus] = [both(&more.cables[3]), both(&less.cables[3])];
+                let by_tension = [0, 1].map(|i| (plus[i] - minus[i]) / (2.0 * amount));
+
+                // Motions by their largest, tensions by the stiffness of the cable.
+                let motion: Vec<f64> = along.iter().chain(about.iter()).copied().collect();
+                let size = motion.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+                let stiffness = rest.cables[3].tangent_w().unwrap().amax();
+                let expected = motion.iter().map(|x| (*x, size)).chain(by_tension.map(|t| (t, size * stiffness)));
+                for (found, (expected, size)) in found.iter().zip(expected) {
                     assert!(
                         (found.re - expected).abs() < tolerance * size && found.im.abs() < 1e-3 * size,
                         "{cable_model} {input:?}: {found} {expected}"
@@ -121,10 +133,9 @@ fn anchor_and_drum_together_are_the_anchor_and_paid_out_length() {
             (winch.drum_side, winch.stiffness) = (drum_side, f64::INFINITY);
         }
         let direction_w = Vec3::new(0.3, -0.5, 0.7).normalize();
-        for winches in [WinchMode::AsGiven, WinchMode::Clamped] {
+        {
             let rest = statics::forward(&robot, &lengths(&rest), StaticModel::Catenary, Some(&rest.pose)).unwrap();
-            let dynamics =
-                Dynamics::about(&robot, &rest, Linearisation { winches, ..Default::default() }, 20.0).unwrap();
+            let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0).unwrap();
             let count = robot.cables.len();
             let anchors = (0..count).map(|cable| Signal::Frame(FrameInput::Anchor { cable, direction_w }));
             let lengths = (0..count).map(|cable| Signal::Drive { cable, signal: DriveSignal::Length });
@@ -196,6 +207,38 @@ fn shallow_cables_transmit_the_motion_of_the_base_as_catenaries_do() {
         let size = exact.iter().flatten().map(|x| x.norm()).fold(0.0, f64::max);
         for (shallow, exact) in shallow.iter().flatten().zip(exact.iter().flatten()) {
             assert!((shallow - exact).norm() < 2e-2 * size, "{hz} Hz: {shallow} {exact} of {size}");
+        }
+    }
+}
+
+#[test]
+fn tensions_at_fixed_anchors_begin_at_the_derivative_of_statics() {
+    let robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    let drive = |signal: DriveSignal| Signal::Drive { cable: 3, signal };
+    let push = Signal::Along { direction_w: Vec3::y(), point_p: Vec3::zeros() };
+    let anchor = FrameInput::Anchor { cable: 3, direction_w: Vec3::new(0.0, 0.6, 0.8) };
+    let inputs = [drive(DriveSignal::Length), push, Signal::Frame(anchor)];
+    let outputs = [drive(DriveSignal::Tension), drive(DriveSignal::DrumTension)];
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 1.0).unwrap();
+    let found = responses(&robot, &rest, &dynamics, 1e-5, &inputs, &outputs);
+
+    for (input, found) in found.iter().enumerate() {
+        let amount = [1e-5, 1e-2, 1e-5][input];
+        let at = |amount: f64| {
+            let (mut robot, mut lengths) = (robot.clone(), lengths(&rest));
+            match input {
+                0 => lengths[3] += amount,
+                1 => robot.load.force_w.y += amount,
+                _ => robot.cables[3].anchor.point_w += Vec3::new(0.0, 0.6, 0.8) * amount,
+            }
+            let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&rest.pose)).unwrap();
+            [rest.cables[3].tension_platform, rest.cables[3].tension_anchor]
+        };
+        let (more, less) = (at(amount), at(-amount));
+        for (i, found) in found.iter().enumerate() {
+            let expected = (more[i] - less[i]) / (2.0 * amount);
+            assert!((found.re / expected - 1.0).abs() < 1e-5, "{input} {i}: {found} {expected}");
         }
     }
 }
