@@ -114,8 +114,8 @@ pub(crate) fn refuse_page_as_figure(path: &Path) -> Result<()> {
     if FigureFormat::of(Some(path)).is_some() {
         bail!(
             "{} would hold one figure, but the page has many: write one with `funicular statics`, `modes`, `frf`, \
-             `compare` or `plot` and -o {}, or choose a name that ends in .html and use the buttons SVG and PNG of the \
-             page",
+             `compare` or `plot` and -o {}, or choose a name that ends in .html and use the buttons SVG, PNG and PDF \
+             of the page",
             path.display(),
             path.display()
         );

@@ -245,6 +245,8 @@ def test_implausible_values_come_with_the_result_and_with_an_error(robot: funicu
     slip = robot.with_({"materials.rope-4mm.youngs_modulus_pa": 20.0})
     warnings = slip.equilibrium(pose=[0.0, 0.0, 1.0]).warnings
     assert sum("GPa given as Pa?" in warning and "Young's modulus is" in warning for warning in warnings) == 1
+    turned = robot.equilibrium(pose=[0.0, 0.0, 1.0, 0.0, 0.0, 720.0]).warnings
+    assert sum("yaw of the pose is 720 degrees" in warning for warning in turned) == 1
     with pytest.raises(funicular.StaticsError) as caught:
         robot.equilibrium(pose=[0.0, 0.0, 1500.0])
     assert caught.value.code == "negative-tension"

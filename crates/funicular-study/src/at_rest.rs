@@ -178,10 +178,11 @@ pub fn with_state(mut robot: Robot, state: &request::State) -> Result<Robot> {
     if let Some(lengths) = &state.lengths_m {
         robot.state = State::Lengths(lengths.clone());
     }
-    if let Some(pose) = &state.pose {
-        let pose = pose.to_robot()?;
+    if let Some(requested) = state.pose {
+        let pose = requested.to_robot()?;
         check_pose(&robot, &pose)?;
         robot.state = State::Pose(pose);
+        robot.written_angles_deg = requested.written_angles_deg();
     }
     if let Some(mass) = state.mass_kg {
         robot.platform.mass = mass;

@@ -6,32 +6,76 @@ const page = (function () {
   // Pixels of a saved picture per pixel of the screen: 300 dots per inch for a figure printed 190 mm wide.
   const FINE = 4;
 
-  // Saves a picture under the name of the page and the figure.
-  function save(address, id, ending) {
-    const name = document.title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-+|-+$/g, "");
+  // Title of the page. While a figure is printed, the document has the figure's name as its title.
+  const title = document.title;
+
+  // File name of a figure without its ending: the title of the page and the figure.
+  function nameOf(id) {
+    return title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-+|-+$/g, "") + "-" + id.replace(/^figure-/, "");
+  }
+  // Saves a picture under this file name.
+  function save(address, name) {
     const link = document.createElement("a");
     link.href = address;
-    link.download = name + "-" + id.replace(/^figure-/, "") + "." + ending;
+    link.download = name;
     document.body.append(link);
     link.click();
     link.remove();
   }
+  // Opens the browser's print dialogue for a figure alone, on one page of the figure's size, with lines and texts. A
+  // browser writes PDF only when it prints. It proposes the title of the printed document, or of the page around it, as
+  // the file name.
+  async function print(address, name) {
+    const svg = decodeURIComponent(address.slice(address.indexOf(",") + 1));
+    const root = new DOMParser().parseFromString(svg, "image/svg+xml").documentElement;
+    // A pixel of CSS is 1/96 inch.
+    const [width, height] = ["width", "height"].map(function (side) { return +(Number(root.getAttribute(side)) * 25.4 / 96).toFixed(4) + "mm"; });
+
+    // The frame of the figure before is removed only now: some browsers still read it after `print` has returned.
+    document.querySelectorAll("iframe.sheet").forEach(function (old) { old.remove(); });
+    const sheet = document.createElement("iframe");
+    sheet.className = "sheet";
+    sheet.title = name;
+    sheet.tabIndex = -1;
+    sheet.setAttribute("aria-hidden", "true");
+    sheet.srcdoc = '<!DOCTYPE html><html lang="en"><meta charset="utf-8"><style>' +
+      "@page { size: " + width + " " + height + "; margin: 0 } " +
+      // Rounding of the lengths must not begin a second page.
+      "html, body { margin: 0; height: 100%; overflow: hidden; background: #ffffff } svg { display: block } " +
+      "* { print-color-adjust: exact; -webkit-print-color-adjust: exact }" +
+      "</style>" + svg;
+    const loaded = new Promise(function (done) { sheet.addEventListener("load", done, { once: true }); });
+    document.body.append(sheet);
+    await loaded;
+
+    const view = sheet.contentWindow;
+    view.addEventListener("afterprint", function () { document.title = title; });
+    view.document.title = name;
+    document.title = name;
+    view.print();
+  }
   // Adds the buttons that save a figure: one for each ending in `formats`, which gives a promise of the picture's
-  // address. They stand above the figure, so that neither they nor plotly's buttons cover the legend.
+  // address, and one that prints the SVG. They stand above the figure, so that neither they nor plotly's buttons cover
+  // the legend.
   function offer(place, formats) {
     const row = document.createElement("div"), id = place.closest("figure").id;
     row.className = "save";
-    Object.keys(formats).forEach(function (ending) {
+    const add = function (ending, tip, act) {
       const button = document.createElement("button");
       button.type = "button";
       button.textContent = ending.toUpperCase();
-      button.title = "Save this figure as " + ending.toUpperCase();
+      button.title = tip;
       button.addEventListener("click", async function () {
         button.disabled = true;
-        try { save(await formats[ending](), id, ending); } finally { button.disabled = false; }
+        try { await act(); } finally { button.disabled = false; }
       });
       row.append(button);
+    };
+    Object.keys(formats).forEach(function (ending) {
+      add(ending, "Save this figure as " + ending.toUpperCase(), async function () { save(await formats[ending](), nameOf(id) + "." + ending); });
     });
+    add("pdf", "Opens the print dialogue: choose \u201cSave as PDF\u201d as the printer. The PDF has one page of the size of this figure, with lines and texts.",
+      async function () { await print(await formats.svg(), nameOf(id)); });
     place.before(row);
   }
   function offerPlot(place) {

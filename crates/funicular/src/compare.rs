@@ -4,7 +4,7 @@
 use crate::cable::catenary_dynamic::CatenaryDynamicError;
 use crate::cable::{CableModel, SHALLOW_SAG_LIMIT, Sag};
 use crate::dynamics::{Dynamics, DynamicsError, Linearisation};
-use crate::math::{Mat6, Vec6};
+use crate::math::{Mat6, Vec6, order};
 use crate::modes::{self, Mode, Modes};
 use crate::robot::Robot;
 use crate::statics::Equilibrium;
@@ -360,7 +360,7 @@ fn match_modes(
 /// Pairs in the order of their scores; each mode of either list is used once. A candidate has the score, the MAC, and
 /// the indices of both modes.
 fn best_pairs(found: &[Mode], truth: &[Mode], mut candidates: Vec<(f64, f64, usize, usize)>) -> Vec<Match> {
-    candidates.sort_by(|a, b| b.0.total_cmp(&a.0));
+    order::sort_descending(&mut candidates, |candidate| candidate.0);
     let (mut done, mut used) = (vec![None; found.len()], vec![false; truth.len()]);
     for (_, correlation, i, j) in candidates {
         if done[i].is_none() && !used[j] {

@@ -12,7 +12,7 @@ pub(crate) use null_vectors::NullVector;
 
 use crate::cable::catenary_dynamic::CatenaryDynamicError;
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness};
-use crate::math::{CMat6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6};
+use crate::math::{CMat6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6, order};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
 use crate::robot::{Damping, PlatformMotion, Robot, WinchMode};
 use crate::statics::{CableState, Equilibrium};
@@ -428,7 +428,7 @@ impl Dynamics {
             .iter()
             .flat_map(|t| t.form.clamped_frequencies_below(omega).into_iter().map(|f| (f, t.cable)))
             .collect();
-        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        order::sort_ascending(&mut all, |(omega, _)| *omega);
         all
     }
 }

@@ -6,6 +6,7 @@ pub(crate) mod active_set;
 pub(crate) mod eigenvectors;
 pub mod generalized_eigen;
 pub mod legendre;
+pub(crate) mod order;
 pub mod roots;
 pub mod rotation;
 pub(crate) mod simd;
@@ -60,6 +61,15 @@ where
     (matrix + matrix.transpose()) * 0.5
 }
 
+/// Inverse of a 6×6 matrix by elimination with pivots; `None` if it is singular.
+///
+/// nalgebra's `try_inverse` calls the same elimination for more than four rows. The compiler translates its formulas for
+/// up to four rows for each type of matrix, too, although no 6×6 matrix uses them.
+pub(crate) fn inverse6<T: nalgebra::ComplexField>(matrix: &Matrix6<T>) -> Option<Matrix6<T>> {
+    let mut inverse = matrix.clone();
+    nalgebra::linalg::try_invert_to(matrix.clone(), &mut inverse).then_some(inverse)
+}
+
 /// Matrix of a fixed size.
 pub(crate) type Matrix<const R: usize, const C: usize> = nalgebra::SMatrix<f64, R, C>;
 /// 6×6 matrix of any scalar.
@@ -70,3 +80,30 @@ pub(crate) use nalgebra::Scalar;
 pub type DMat = nalgebra::DMatrix<f64>;
 /// Complex matrix of any size.
 pub type CDMat = nalgebra::DMatrix<Complex>;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Every digit is that of nalgebra's own inverse, also beside a singular matrix.
+        #[test]
+        fn an_inverse_has_the_digits_of_nalgebra(
+            entries in proptest::collection::vec(-1e3..1e3_f64, 72),
+            copied in 0..6_usize,
+            is_singular: bool,
+        ) {
+            let mut real = Mat6::from_column_slice(&entries[..36]);
+            let mut complex = CMat6::from_fn(|i, j| Complex::new(entries[6 * i + j], entries[36 + 6 * i + j]));
+            if is_singular {
+                real.set_column(copied, &Vec6::zeros());
+                complex.set_column(copied, &CVec6::zeros());
+            }
+            prop_assert_eq!(inverse6(&real).is_none(), is_singular);
+            prop_assert_eq!(inverse6(&real), real.try_inverse());
+            prop_assert_eq!(inverse6(&complex).is_none(), is_singular);
+            prop_assert_eq!(inverse6(&complex), complex.try_inverse());
+        }
+    }
+}

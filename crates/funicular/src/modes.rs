@@ -21,7 +21,7 @@ pub use rigid_cables::{RigidCablesError, with_rigid_cables};
 pub use certificate::{MAX_MODES, TooMany, check_count, damped_partners};
 
 use crate::dynamics::{Dynamics, NullVector};
-use crate::math::{Vec6, roots};
+use crate::math::{Vec6, order, roots};
 use std::f64::consts::TAU;
 
 /// Kind of a mode by kinetic energy: vibration of the platform, of the cables, of their drives, or of several.
@@ -213,7 +213,7 @@ fn in_interval(
     list.between(from, count, limit, count_limit);
 
     let List { mut modes, consistent, .. } = list;
-    modes.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+    order::sort_ascending(&mut modes, |mode| mode.frequency_hz);
     (modes, consistent)
 }
 

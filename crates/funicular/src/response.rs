@@ -21,7 +21,7 @@ use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::DriveSignal;
 use crate::cable_motion::CableStations;
 use crate::dynamics::Dynamics;
-use crate::math::{CMat6, CVec6, Complex, Vec3, Vec6};
+use crate::math::{CMat6, CVec6, Complex, Vec3, Vec6, inverse6};
 use std::f64::consts::TAU;
 use std::slice;
 use std::sync::Arc;
@@ -313,7 +313,7 @@ pub fn receptance(dynamics: &Dynamics, omega: f64) -> CMat6 {
     for i in dynamics.dof()..6 {
         d[(i, i)] = Complex::new(1.0, 0.0);
     }
-    let mut inverse = d.try_inverse().unwrap_or_else(|| CMat6::repeat(Complex::new(f64::INFINITY, 0.0)));
+    let mut inverse = inverse6(&d).unwrap_or_else(|| CMat6::repeat(Complex::new(f64::INFINITY, 0.0)));
     for i in dynamics.dof()..6 {
         inverse[(i, i)] = Complex::new(0.0, 0.0);
     }

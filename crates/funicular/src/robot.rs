@@ -44,6 +44,9 @@ pub struct Robot {
     pub cables: Vec<Cable>,
     /// State given by the file: unstrained lengths or a pose.
     pub state: State,
+    /// Roll, pitch, yaw that the pose of `state` was written with [degrees]; zero if it was written in another way.
+    /// They have the full turns that a rotation does not keep, and serve [`crate::warnings::plausibility`] alone.
+    pub written_angles_deg: [f64; 3],
 }
 
 /// The moving platform.

@@ -89,6 +89,37 @@ fn an_implausible_value_is_warned_of_once_by_every_command() {
     assert!(noted.contains("Note: rope \"rope-4mm\": `diameter_m` gives the area of the full circle"), "{noted}");
 }
 
+/// Pose of the file, of an option, and of a command that holds its lengths.
+#[test]
+fn an_angle_beyond_a_full_turn_is_warned_of() {
+    let warning = "warning: yaw of the pose is 720 degrees, usual is -360 to 360 degrees: ";
+    let without_lengths = std::fs::read_to_string(robot("cogiro.toml")).unwrap();
+    let without_lengths: Vec<&str> =
+        without_lengths.lines().filter(|line| !line.starts_with("unstrained_length_m")).collect();
+    let text = without_lengths.join("\n") + "\n[state]\nposition_m = [0, 0, 1]\nroll_pitch_yaw_deg = [0, 0, 720]\n";
+    let said = |line: &str| {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        let output = run_with(&arguments, &text);
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
+        stderr(&output).to_owned()
+    };
+
+    for line in [
+        "check -",
+        "statics -",
+        "statics - --pose 0,0,1.5,0,0,720",
+        "statics - --pose 0,0,1.5,0,0,720 --hold-lengths-of-pose --mass-kg 310",
+        "modes - --below-hz 3",
+        "map - --grid x=0:0.1:2",
+        "report - --below-hz 2 -o -",
+    ] {
+        let said = said(line);
+        assert_eq!(said.matches(warning).count(), 1, "{line}: {said}");
+    }
+    // The pose of the option replaces that of the file.
+    assert!(!said("statics - --pose 0,0,1.5,0,0,7").contains("degrees"));
+}
+
 #[test]
 fn an_error_comes_with_the_implausible_values_that_may_cause_it() {
     let far = ["statics", "ROBOT", "--pose", "0,0,1500"];

@@ -257,7 +257,9 @@ fn participate(
 ) -> Result<Participation> {
     let [from, to] = at_rest.ports(dynamics, signals)?;
     for (row, mode) in rows.iter_mut().zip(&found.modes) {
-        let residue = from.in_mode(dynamics, mode) * to.in_mode(dynamics, mode) / mode.modal_mass;
+        // Signals of drives and motions of the frame are refused before.
+        let (Some(from), Some(to)) = (from.in_mode(dynamics, mode), to.in_mode(dynamics, mode)) else { continue };
+        let residue = from * to / mode.modal_mass;
         let omega = mode.frequency_hz * TAU;
         let by_time = match output.quantity {
             Quantity::Displacement => 1.0,

@@ -107,6 +107,14 @@ impl Pose {
             }
         }
     }
+
+    /// Roll, pitch, yaw as they are written [degrees]; zero for a quaternion.
+    pub(crate) fn written_angles_deg(self) -> [f64; 3] {
+        match self {
+            Self::Angles([_, _, _, roll, pitch, yaw]) => [roll, pitch, yaw],
+            Self::Quaternion(..) => [0.0; 3],
+        }
+    }
 }
 
 impl From<&funicular::robot::Pose> for Pose {

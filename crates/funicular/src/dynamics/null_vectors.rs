@@ -14,7 +14,7 @@
 use super::{Dynamics, NEAR_POLE_FRACTION, add_local};
 use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::Family;
-use crate::math::{DMat, Mat6, Vec6, symmetric};
+use crate::math::{DMat, Mat6, Vec6, order, symmetric};
 
 /// Amplitude of one clamped mode of one cable.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -215,8 +215,8 @@ impl BorderedPencil {
 
 /// Indices of the `several` values of smallest magnitude, in ascending order of magnitude.
 fn nearest_zero(values: &[f64], several: usize) -> impl Iterator<Item = usize> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|&i, &j| values[i].abs().total_cmp(&values[j].abs()));
+    let magnitudes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
+    let mut order = order::ascending(&magnitudes);
     order.truncate(several);
     order.into_iter()
 }

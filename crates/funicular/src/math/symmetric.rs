@@ -1,6 +1,6 @@
 //! Eigenvalues of real symmetric matrices, and their signs by congruence.
 
-use super::{Mat6, Vec6};
+use super::{Mat6, Vec6, order};
 
 /// Number of negative eigenvalues of the leading `n`×`n` block of the symmetric `matrix`, which must be scaled.
 ///
@@ -122,8 +122,7 @@ pub fn eigen(matrix: &Mat6, n: usize) -> (Vec<f64>, Vec<Vec6>) {
         vectors.view_mut((0, 0), (n, n)).copy_from(&some.eigenvectors);
         (some.eigenvalues.iter().copied().collect(), vectors)
     };
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&i, &j| values[i].total_cmp(&values[j]));
+    let order = order::ascending(&values);
     (order.iter().map(|&i| values[i]).collect(), order.iter().map(|&i| vectors.column(i).clone_owned()).collect())
 }
 

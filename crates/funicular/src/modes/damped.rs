@@ -11,7 +11,7 @@
 
 use super::{Mode, Modes};
 use crate::dynamics::Dynamics;
-use crate::math::Complex;
+use crate::math::{Complex, order};
 use std::f64::consts::TAU;
 
 /// Damped natural frequency.
@@ -325,7 +325,7 @@ impl ZeroSearch<'_> {
             // Starts: the zero's own, then those of the zeros that have moved farthest.
             let gone = |zero: &DampedZero| (zero.omega - start(zero)).norm() / zero.omega.norm();
             let mut places: Vec<usize> = (0..zeros.len()).filter(|i| !is_lost(&zeros[*i])).collect();
-            places.sort_by(|i, j| gone(&zeros[*j]).total_cmp(&gone(&zeros[*i])));
+            order::sort_descending(&mut places, |i| gone(&zeros[*i]));
 
             for (k, i) in lost.into_iter().enumerate() {
                 if zeros[i].error <= WANTED_ERROR {

@@ -8,7 +8,7 @@
 use super::reference::Reference;
 use super::{ReductionError, SecondOrder};
 use crate::math::eigenvectors::upper_eigen;
-use crate::math::{CDMat, Complex, DMat};
+use crate::math::{CDMat, Complex, DMat, order};
 
 /// Maximum number of modes that are chosen from: the eigenvalue problem has twice as many rows. A controller for more
 /// is not made.
@@ -57,7 +57,7 @@ impl ModalModel {
         // Ascending in frequency, which is descending in 1/ω².
         let n = model.mass.nrows();
         let mut order: Vec<usize> = (0..n).collect();
-        order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+        order::sort_descending(&mut order, |k| eigen.eigenvalues[*k]);
         let smallest = f64::EPSILON * eigen.eigenvalues[*order.first()?];
         let omega: Vec<f64> = order.iter().map(|k| eigen.eigenvalues[*k].max(smallest).sqrt().recip()).collect();
         let mut sorted = DMat::zeros(n, n);
@@ -131,7 +131,7 @@ impl ModalModel {
                 ((0..reference.pairs()).map(height).fold(0.0, f64::max), k)
             })
             .collect();
-        sized.sort_by(|a, b| b.0.total_cmp(&a.0));
+        order::sort_descending(&mut sized, |(size, _)| *size);
         sized.truncate(MAX_CANDIDATES);
 
         let mut sum = 0.0;
@@ -205,11 +205,8 @@ impl ModalModel {
 
         // Groups of equal eigenvalues, in the order of their imaginary and then their real parts.
         let mut order: Vec<usize> = (0..eigen.values.len()).collect();
-        let key = |k: &usize| (eigen.values[*k].im, eigen.values[*k].re);
-        order.sort_by(|a, b| {
-            let ((a, r), (b, s)) = (key(a), key(b));
-            a.total_cmp(&b).then(r.total_cmp(&s))
-        });
+        order::sort_ascending(&mut order, |k| eigen.values[*k].re);
+        order::sort_ascending(&mut order, |k| eigen.values[*k].im);
         let groups = order.chunk_by(|a, b| {
             let (a, b) = (eigen.values[*a], eigen.values[*b]);
             (a - b).norm() <= MULTIPLE * a.re.abs() && (a.im > 0.0) == (b.im > 0.0)

@@ -3,7 +3,7 @@
 use super::ReductionError;
 use super::reference::Reference;
 use super::terms::Term;
-use crate::math::Complex;
+use crate::math::{Complex, order};
 
 /// Wanted size of a state space.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,7 +78,7 @@ pub(super) fn chosen(
 
     for set in sets {
         let mut ranked: Vec<&Term> = set.iter().collect();
-        ranked.sort_by(|a, b| b.size.total_cmp(&a.size));
+        order::sort_descending(&mut ranked, |term| term.size);
         match size {
             Size::Order(states) => {
                 let (terms, error) = of_order(&ranked, reference, states, &mut term_done)?;
@@ -101,7 +101,7 @@ pub(super) fn chosen(
 
     match (best, size) {
         (Some((mut terms, _)), _) => {
-            terms.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()));
+            order::sort_ascending(&mut terms, |term| term.value.norm());
             Ok(terms)
         }
         (None, Size::Order(order)) => Err(ReductionError::Order(order)),

@@ -8,7 +8,7 @@
 
 use super::maxima::{BracketedMaximum, Resonance, approach};
 use super::{Measured, Peak, peaks};
-use crate::math::Complex;
+use crate::math::{Complex, order};
 use crate::modes::Mode;
 use std::f64::consts::TAU;
 
@@ -270,7 +270,9 @@ impl Search {
         all.extend(self.gaps.iter().flat_map(|(low, high)| [(*low, true), (*high, true)]));
 
         all.retain(|(hz, _)| (first..=last).contains(hz) && !self.in_gap(*hz));
-        all.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+        // Of equal frequencies, the one that is kept comes first.
+        order::sort_descending(&mut all, |(_, kept)| f64::from(*kept));
+        order::sort_ascending(&mut all, |(hz, _)| *hz);
         // Two frequencies may differ by rounding alone: the one that is kept stays.
         all.dedup_by(|b, a| {
             let same = b.0 - a.0 <= 1e-14 * a.0;
@@ -400,7 +402,9 @@ fn with_maxima<E>(
             Some(row) => samples.push(Sample::new(maximum.hz(), &row, 0, true)),
         }
     }
-    samples.sort_by(|a, b| a.hz.total_cmp(&b.hz).then(b.kept.cmp(&a.kept)));
+    // Of equal frequencies, the one that is kept comes first.
+    order::sort_descending(&mut samples, |sample| f64::from(sample.kept));
+    order::sort_ascending(&mut samples, |sample| sample.hz);
     samples.dedup_by(|b, a| b.hz - a.hz <= 0.0);
     Ok(samples)
 }

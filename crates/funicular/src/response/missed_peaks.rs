@@ -2,7 +2,7 @@
 
 use super::Measured;
 use super::maxima::{BracketedMaximum, Resonance, approach};
-use crate::math::Complex;
+use crate::math::{Complex, order};
 use crate::modes::Mode;
 use std::iter::once;
 
@@ -158,7 +158,7 @@ impl Grid<'_> {
                 }
             }
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        order::sort_ascending(&mut found, |of| of.0);
         found.dedup_by(|b, a| b.0 - a.0 <= EQUAL * a.1.min(b.1));
         found.into_iter().map(|of| of.0).collect()
     }
@@ -183,7 +183,7 @@ impl Grid<'_> {
             all.extend(new.map(|(hz, row)| Between { hz: *hz, above: self.above(*hz), round, row }));
 
             all.retain(|place| self.hz[place.above] > place.hz);
-            all.sort_by(|a, b| a.hz.total_cmp(&b.hz));
+            order::sort_ascending(&mut all, |place| place.hz);
             all.dedup_by(|b, a| b.hz - a.hz <= 0.0);
             next = self.predicted(&all, round);
         }

@@ -169,17 +169,17 @@ impl Port {
     }
 
     /// Motion of the port in a mode, in the scale of `Mode::shape` [m]. By reciprocity it is also the modal force per
-    /// unit force at the port. The residue of a mode is the product of the motions of two ports over the modal mass. A
-    /// drive's signal and a motion of the frame have none here: NaN.
-    pub fn in_mode(&self, dynamics: &Dynamics, mode: &Mode) -> f64 {
-        match self {
+    /// unit force at the port. The residue of a mode is the product of the motions of two ports over the modal mass.
+    /// `None` for a drive's signal and for a motion of the frame.
+    pub fn in_mode(&self, dynamics: &Dynamics, mode: &Mode) -> Option<f64> {
+        Some(match self {
             Self::Platform(vector) => vector.dot(&Vec6::from(mode.shape)),
-            Self::Drive { .. } | Self::Frame(_) => f64::NAN,
+            Self::Drive { .. } | Self::Frame(_) => return None,
             Self::Cable { stations, station, direction_w } => {
                 let [e, n, b] = stations.in_mode(dynamics, mode)[*station];
                 (stations.axes.e * e + stations.axes.n * n + stations.axes.b * b).dot(direction_w)
             }
-        }
+        })
     }
 
     /// Vector of a drive's signal about the platform origin at ω [rad/s]; `None` if the cable has no such signal.

@@ -270,9 +270,10 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let materials = materials::read(reader, &root);
     let drives = drives::read(reader, &root);
     let cables = cables::read(reader, &root, materials.as_ref(), &drives, motion);
-    let state = read_state(reader, &root, cables.as_deref(), motion);
+    let state_and_angles = read_state(reader, &root, cables.as_deref(), motion);
 
     let cables = cables?.into_iter().map(|entry| entry.cable).collect::<Option<Vec<Cable>>>()?;
+    let (state, written_angles_deg) = state_and_angles?;
     Some(Robot {
         name: name?,
         source: source?,
@@ -281,7 +282,8 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
         load: load?,
         wind: wind?,
         cables,
-        state: state?,
+        state,
+        written_angles_deg,
     })
 }
 
@@ -336,13 +338,14 @@ fn read_wind(reader: &mut Reader, root: &Section) -> Option<Wind> {
     Some(Wind { velocity_w: Vec3::from(velocity?), air_density: air_density? })
 }
 
-/// Reads `[state]` or the cables' lengths, and checks them against the geometry.
+/// Reads `[state]` or the cables' lengths, and checks them against the geometry. Also returns the angles of `[state]` as
+/// they are written [degrees].
 fn read_state(
     reader: &mut Reader,
     root: &Section,
     cables: Option<&[CableEntry]>,
     motion: Option<PlatformMotion>,
-) -> Option<State> {
+) -> Option<(State, [f64; 3])> {
     let lengths = cables.map(|cables| cables::lengths(reader, cables));
 
     let Some(value) = root.get("state") else {
@@ -350,7 +353,8 @@ fn read_state(
         if !lengths.is_empty() {
             cables::refuse_one_anchor(reader, cables?);
         }
-        return Some(if lengths.is_empty() { State::Unknown } else { State::Lengths(lengths) });
+        let state = if lengths.is_empty() { State::Unknown } else { State::Lengths(lengths) };
+        return Some((state, [0.0; 3]));
     };
 
     let table = reader.table("state", "[state]", value)?;
@@ -377,13 +381,14 @@ fn read_state(
         return None;
     }
 
-    let pose = Pose::new(position?, angles?);
+    let (position, angles) = (position?, angles?);
+    let pose = Pose::new(position, angles);
     if let Some(Err(out)) = motion.map(|motion| motion.check(&pose)) {
         reader.issue(value.span(), format!("this pose is not in the plane: {out}"));
         return None;
     }
     cables::refuse_coincident_ends(reader, cables?, &pose);
-    Some(State::Pose(pose))
+    Some((State::Pose(pose), angles))
 }
 
 #[cfg(test)]

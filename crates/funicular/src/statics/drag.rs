@@ -3,7 +3,7 @@
 use super::equilibrium::Equilibrium;
 use super::model::StaticModel;
 use super::stiffness::tangent_stiffness;
-use crate::math::{Mat6, symmetric_part};
+use crate::math::{Mat6, inverse6, symmetric_part};
 use crate::platform::{Coordinates, add_congruent};
 use crate::robot::Robot;
 
@@ -75,7 +75,7 @@ pub fn drag_effect(robot: &Robot, equilibrium: &Equilibrium) -> Option<f64> {
     let coordinates = Coordinates::of(robot);
     let [turn, mut whole] = [turn, whole].map(|k| coordinates.reduce_matrix(&k));
     (coordinates.count()..6).for_each(|k| whole[(k, k)] = 1.0);
-    let effect = (whole.try_inverse()? * turn).singular_values().max();
+    let effect = (inverse6(&whole)? * turn).singular_values().max();
     effect.is_finite().then_some(effect)
 }
 
@@ -94,6 +94,6 @@ pub fn stiffness_along_coordinates(robot: &Robot, equilibrium: &Equilibrium) -> 
     let n = motion.count();
     let mut reduced = motion.reduced_matrix(&whole);
     (n..6).for_each(|k| reduced[(k, k)] = 1.0);
-    let compliance = reduced.try_inverse()?;
+    let compliance = inverse6(&reduced)?;
     Some((0..n).map(|k| 1.0 / compliance[(k, k)]).collect())
 }

@@ -13,7 +13,7 @@ use super::forward::{CONVERGED, EnergySearch, descend_to_equilibrium, forward};
 use super::model::StaticModel;
 use super::nearest_pose::pose_distance;
 use super::residual::check_lengths;
-use crate::math::{Vec3, symmetric};
+use crate::math::{Vec3, order, symmetric};
 use crate::platform::load_size;
 use crate::robot::{PlatformMotion, Pose, Robot};
 use std::f64::consts::TAU;
@@ -335,13 +335,13 @@ impl<'a> EquilibriumSearch<'a> {
     fn sorted(mut self, starts: usize) -> Candidates {
         let (index_sum, expected_index_sum) = (self.index_sum(), self.expected());
         if self.has_energy() {
-            self.found.sort_by(|a, b| a.1.total_cmp(&b.1));
+            order::sort_ascending(&mut self.found, |(_, energy)| *energy);
             let lowest = self.found.first().map_or(0.0, |(_, energy)| *energy);
             for (candidate, energy) in &mut self.found {
                 candidate.energy = Some(*energy - lowest);
             }
         } else {
-            self.found.sort_by(|a, b| a.0.distance.total_cmp(&b.0.distance));
+            order::sort_ascending(&mut self.found, |(candidate, _)| candidate.distance);
         }
         let found = self.found.into_iter().map(|(candidate, _)| candidate).collect();
         Candidates { found, starts, index_sum, expected_index_sum }

@@ -4,7 +4,7 @@ use super::equilibrium::{CableState, Equilibrium, Stability};
 use super::error::StaticsError;
 use super::model::StaticModel;
 use super::residual::residual_of;
-use crate::math::{Mat6, Vec3, Vec6};
+use crate::math::{Mat6, Vec3, Vec6, inverse6};
 use crate::platform::{Coordinates, StraightCable, load_wrench};
 use crate::robot::{Pose, Robot};
 
@@ -181,7 +181,7 @@ pub(super) fn straight_tensions(robot: &Robot, pose: &Pose, load: &Vec6) -> Resu
     let coordinates = Coordinates::of(robot);
     let right = -coordinates.reduce(load);
     let columns = unit_wrenches(robot, pose, &coordinates);
-    let inverse = columns.try_inverse().ok_or(StaticsError::Singular)?;
+    let inverse = inverse6(&columns).ok_or(StaticsError::Singular)?;
 
     // Frobenius norms bound the condition number from above and cost a tenth of the singular values.
     let bound = columns.norm() * inverse.norm();

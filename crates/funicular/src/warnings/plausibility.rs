@@ -3,6 +3,7 @@
 //! A value outside the usual range is a warning, never an error: the robot may be an unusual one. Each warning has the
 //! value, the usual range and the likely slip. All ranges are in one table, [`usual`].
 
+mod drives;
 mod equilibrium;
 mod geometry;
 mod loads;
@@ -51,7 +52,7 @@ impl fmt::Display for Implausible {
                 };
                 let range = match *usual {
                     [low, high] if high.is_infinite() => format!("usual is at least {}", with_unit(low)),
-                    [low, high] if low <= 0.0 => format!("usual is at most {}", with_unit(high)),
+                    [0.0, high] => format!("usual is at most {}", with_unit(high)),
                     [low, high] => format!("usual is {} to {}", number(low), with_unit(high)),
                 };
                 write!(f, "{what} is {}, {range}: {slip}", with_unit(*value))
@@ -115,10 +116,12 @@ pub fn of_robot(robot: &Robot) -> Vec<Implausible> {
     let of_geometry = geometry::check(robot);
     let geometry_fits = of_geometry.is_empty();
     found.extend(of_geometry);
+    found.extend(geometry::full_turns(robot));
     if geometry_fits {
         found.extend(platform::check(robot));
     }
     found.extend(loads::check(robot, ropes_fit && geometry_fits));
+    found.extend(drives::check(robot));
     found
 }
 

@@ -57,7 +57,7 @@ fn what_a_mode_adds_to_a_response_is_its_residue() {
         (ports.remove(0), ports.remove(0))
     });
     let residue = |(input, output): &(Port, Port), mode: &modes::Mode| {
-        input.in_mode(&dynamics, mode) * output.in_mode(&dynamics, mode) / mode.modal_mass
+        [&input, &output].iter().map(|port| port.in_mode(&dynamics, mode).unwrap()).product::<f64>() / mode.modal_mass
     };
     let largest = pairs.each_ref().map(|pair| found.modes.iter().map(|m| residue(pair, m).abs()).fold(0.0, f64::max));
     let mut beside_poles = 0;

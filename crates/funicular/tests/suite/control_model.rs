@@ -190,7 +190,8 @@ fn fewest(case: &Case, input: &Signal, output: &(Signal, Quantity), tolerance: f
     let mut parts: Vec<(f64, Vec<Complex>)> = (undamped.modes.iter().zip(&damped.modes))
         .map(|(mode, partner)| {
             let residue =
-                ports[0].in_mode(&case.dynamics, mode) * ports[1].in_mode(&case.dynamics, mode) / mode.modal_mass;
+                [0, 1].iter().map(|i: &usize| ports[*i].in_mode(&case.dynamics, mode).unwrap()).product::<f64>()
+                    / mode.modal_mass;
             let omega_n = partner.omega.norm();
             let values: Vec<Complex> = frequencies
                 .iter()

@@ -216,6 +216,21 @@ fn slips_of_units_and_signs_are_named() {
         changed(&hall, &[("[0.0, 0.0, 2.0]", "[0.0, 0.0, 0.5236]")]),
         &["yaw is 0.5236°, which is 30° in radians"],
     );
+    // 8° times 180/π.
+    slip(
+        "yaw in degrees converted to degrees",
+        changed(&hall, &[("[0.0, 0.0, 2.0]", "[0.0, 0.0, 458.37]")]),
+        &[
+            "yaw of the pose is 458.4 degrees, usual is -360 to 360 degrees",
+            "multiplied by 57.3",
+            "Without its full turns it is 98.37 degrees",
+        ],
+    );
+    slip(
+        "pitch in arc minutes",
+        changed(&hall, &[("[0.0, 0.0, 2.0]", "[0.0, -600.0, 0.0]")]),
+        &["pitch of the pose is -600 degrees", "an angle in another unit"],
+    );
     slip(
         "pose above the anchors",
         changed(&hall, &[("position_m = [0.0, 0.0, 3.0]", "position_m = [0.0, 0.0, 12.0]")]),
@@ -403,6 +418,39 @@ fn slips_of_single_values_are_named() {
 
 /// At a pose that straight cables cannot hold, cables of 17 times the distance of their ends balance the platform.
 #[test]
+fn slips_at_pulleys_and_winches_are_named() {
+    let drives = "[pulleys.wheel]\nradius_m = 0.05\nentry_direction = [0.0, 0.0, 1.0]\ninertia_kg_m2 = 0.0004\n\
+                  swivel_inertia_kg_m2 = 0.001\n[winches.drum]\ndrum_side_length_m = 5.0\ndrum_radius_m = 0.0675\n\
+                  stiffness_n_per_m = 200000.0\ndrum_inertia_kg_m2 = 0.27\ncontrol = \"position\"\nbandwidth_hz = 5.0\n\
+                  control_damping_ratio = 0.7\ndelay_s = 0.002\n\n[state]";
+    let hall = changed(
+        &hall(),
+        &[
+            ("[state]", drives),
+            ("material = \"rope\"\n", "material = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\n"),
+        ],
+    );
+    assert_eq!(said(&Robot::from_toml(&hall).unwrap()), "");
+
+    let mut misses = Vec::new();
+    for (key, factor, expected) in [
+        ("radius_m", 1e2, "radius in cm given as m"),
+        ("inertia_kg_m2", 1e4, "inertia in kg cm² given as kg m²"),
+        ("swivel_inertia_kg_m2", 1e4, "inertia in kg cm² given as kg m²"),
+        ("drum_side_length_m", 1e3, "length in mm given as m"),
+        ("drum_radius_m", 1e3, "radius of the drum in mm given as m"),
+        ("drum_inertia_kg_m2", 1e4, "inertia in kg cm² given as kg m²"),
+        ("stiffness_n_per_m", 1e-3, "stiffness in kN/m given as N/m"),
+        ("bandwidth_hz", 1e3, "bandwidth of its control"),
+        ("control_damping_ratio", 1e2, "damping ratio in per cent given as a fraction"),
+        ("delay_s", 1e3, "delay in ms given as s"),
+    ] {
+        check(key, &scaled(&hall, key, factor), &[expected], &mut misses);
+    }
+    assert!(misses.is_empty(), "{}", misses.join("\n"));
+}
+
+#[test]
 fn cables_that_balance_only_far_below_their_ends_are_named() {
     let text = r#"
 name = "camera on three pairs of cables"
@@ -552,5 +600,19 @@ fn lengths_of_another_number_than_the_cables_are_no_panic() {
     for lengths in [vec![], vec![12.0; 3], vec![12.0; 20]] {
         let robot = Robot { state: State::Lengths(lengths), ..robot.clone() };
         assert!(said(&robot).contains("unstrained lengths given for 8 cables"));
+    }
+}
+
+/// Full turns are warned of up to the limit alone, and only for the pose that the angles were written for.
+#[test]
+fn a_full_turn_is_plausible_and_more_is_not() {
+    for (written, expected) in [("360.0", 0), ("-360.0", 0), ("360.001", 1), ("-3600.0", 1)] {
+        let text = changed(&hall(), &[("[0.0, 0.0, 2.0]", &format!("[0.0, 0.0, {written}]"))]);
+        let robot = Robot::from_toml(&text).unwrap();
+        assert_eq!(warnings::of_robot(&robot).len(), expected, "{written}");
+
+        // Code sets another pose: the angles of the file are not its angles.
+        let moved = Robot { state: State::Pose(Pose::new([0.0, 0.0, 3.0], [0.0, 0.0, 7.0])), ..robot };
+        assert_eq!(warnings::of_robot(&moved), [], "{written}");
     }
 }

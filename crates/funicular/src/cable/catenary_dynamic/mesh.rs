@@ -3,7 +3,7 @@
 use super::CatenaryDynamicError;
 use super::partition::{Condensed, Functions, Guide, Partition};
 use crate::catenary::Catenary;
-use crate::math::{Complex, DMat, legendre};
+use crate::math::{Complex, DMat, legendre, order};
 
 /// Cable divided into elements, each with its polynomial degree.
 pub(super) struct Mesh<'a> {
@@ -99,7 +99,7 @@ impl<'a> Mesh<'a> {
         // Nodes where forces act.
         let mut nodes: Vec<f64> = cuts.iter().copied().filter(|s| *s > 0.0 && *s < rope.unstrained_length).collect();
         nodes.extend([0.0, rope.unstrained_length]);
-        nodes.sort_by(|a, b| b.total_cmp(a));
+        order::sort_descending(&mut nodes, |s| *s);
         nodes.dedup();
 
         // The last interval is taken first, so that the elements are in ascending order.

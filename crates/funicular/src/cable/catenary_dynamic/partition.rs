@@ -7,7 +7,7 @@
 
 use super::internal_motion::Displacements;
 use super::{CatenaryDynamicError, PoleResidue};
-use crate::math::{DMat, generalized_eigen};
+use crate::math::{DMat, generalized_eigen, order};
 
 /// Functions of one element by kind: index in the matrices of the element, and number among the functions of its kind.
 pub(super) struct Functions {
@@ -220,7 +220,7 @@ impl<const D: usize, const N: usize> Partition<D, N> {
 
         // Low frequencies first. Values that are not positive are infinite frequencies with rounding errors.
         let (mut order, infinite): (Vec<usize>, Vec<usize>) = (0..values.len()).partition(|&k| values[k] > 0.0);
-        order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
+        order::sort_descending(&mut order, |&k| values[k]);
 
         // Poles, participations and displacements, mode by mode; each mode takes its contribution out of the end mass.
         let (mut mass, mut error) = (end_mass, 0.0_f64);

@@ -1,7 +1,7 @@
 //! End stiffness by poles and residues.
 
 use crate::math::simd::LANES;
-use crate::math::{Complex, DMat};
+use crate::math::{Complex, DMat, order};
 use std::array::from_fn;
 use std::ops::Range;
 
@@ -199,8 +199,7 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
         // Rayleigh and Ritz in the space of the remaining motions.
         let stiffness = basis.transpose() * DMat::from_fn(beyond, free.len(), |k, i| pole(k) * basis[(k, i)]);
         let ritz = stiffness.symmetric_eigen();
-        let mut order: Vec<usize> = (0..free.len()).collect();
-        order.sort_by(|&i, &j| ritz.eigenvalues[i].total_cmp(&ritz.eigenvalues[j]));
+        let order = order::ascending(ritz.eigenvalues.as_slice());
         let turn = DMat::from_columns(&order.iter().map(|&i| ritz.eigenvectors.column(i)).collect::<Vec<_>>());
         let weights = basis * turn;
         let participation = weights.transpose() * g;

@@ -7,7 +7,7 @@ use super::factor::Factor;
 use super::lever_axes::RobotMotion;
 use super::pencil::RobotPencil;
 use crate::math::simd::{LANES, Lane, sum};
-use crate::math::{DMat, symmetric_part};
+use crate::math::{DMat, order, symmetric_part};
 use pulp::Simd;
 
 /// Accuracy and effort of a search.
@@ -335,8 +335,7 @@ fn combined(x: f64, work: &DMat, mass: &DMat, motions: Vec<RobotMotion>, masses:
     let symmetric = symmetric_part(work);
     let eigen = (&inverse * symmetric * inverse.transpose()).symmetric_eigen();
     let vectors = inverse.transpose() * &eigen.eigenvectors;
-    let mut order: Vec<usize> = (0..count).collect();
-    order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
+    let order = order::ascending(eigen.eigenvalues.as_slice());
 
     // Motions, ascending, and the masses of the cables in the first.
     let motion = |&k: &usize| {

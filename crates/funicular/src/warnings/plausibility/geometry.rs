@@ -1,6 +1,6 @@
 //! Plausibility of the geometry: sizes of anchors, attachments, poses and lengths, and signs of coordinates.
 
-use super::{Implausible, likely, outside, usual};
+use super::{Implausible, likely, number, outside, usual};
 use crate::math::{Vec3, rotation};
 use crate::robot::{Cable, Robot, State};
 use crate::statics::spread;
@@ -298,6 +298,27 @@ fn signs(robot: &Robot, size: &Size) -> Vec<Implausible> {
         }
     }
     found
+}
+
+/// Angle of the pose, as it was written, beyond a full turn. It changes neither the pose nor any size.
+pub(super) fn full_turns(robot: &Robot) -> Option<Implausible> {
+    let State::Pose(pose) = &robot.state else { return None };
+    let written = robot.written_angles_deg;
+    // Code may have set another pose since.
+    if rotation::from_roll_pitch_yaw_deg(written[0], written[1], written[2]) != pose.rot_wp {
+        return None;
+    }
+
+    ["roll", "pitch", "yaw"].into_iter().zip(written).find_map(|(name, degrees)| {
+        outside(format!("{name} of the pose"), degrees, "degrees", usual::ANGLE, |degrees| {
+            let left = degrees - 360.0 * (degrees / 360.0).round();
+            format!(
+                "an angle in degrees multiplied by 57.3 (180/π) as if it were in radians, or an angle in another unit? \
+                 Without its full turns it is {} degrees",
+                number(left)
+            )
+        })
+    })
 }
 
 /// Difference of an angle from a multiple of 15° in radians up to which it counts as that: four decimals, rounded.

@@ -164,6 +164,11 @@ pub const AIR_DENSITY: [f64; 2] = [0.5, 2.0];
 /// Density of water [kg/m³], for robots in water.
 pub const WATER_DENSITY: [f64; 2] = [900.0, 1100.0];
 
+/// Roll, pitch or yaw of a pose [degrees]. A full turn in either direction holds every orientation however it is counted.
+/// Inside: headings from 0° to 360°, angles from -180° to 180°; the library has no angles. Outside: degrees multiplied by
+/// 57.3 as if they were radians, from 6.3° on.
+pub const ANGLE: [f64; 2] = [-360.0, 360.0];
+
 /// Unstrained length of a cable over the distance of its ends. Library: up to 1.011 (Yuan 2014, 8 mm). A cable that
 /// hangs down by half the distance of its ends has 1.5. Outside: poses at which a straight cable would have to push,
 /// and one length in other units.
@@ -171,3 +176,30 @@ pub const LENGTH_OVER_CHORD: [f64; 2] = [0.0, 2.0];
 
 /// Weight of all cables over the sum of their tensions. Library: up to 0.34. Outside: kg per 100 m, g/m.
 pub const WEIGHT_OVER_TENSION: [f64; 2] = [0.0, 1.0];
+
+/// Radius of a pulley [m]. Library: 0.02 (GRAB) to 0.06; shaft sheaves of mines have 3 m. Outside: millimetres given as m.
+pub const PULLEY_RADIUS: [f64; 2] = [2e-3, 4.0];
+
+/// Moment of inertia of a wheel or of a swivel over the square of the radius [kg]: for a disc half its mass. Outside:
+/// kg cm² given as kg m² (a wheel of 5 kg has 2.5e4).
+pub const WHEEL_MASS: [f64; 2] = [1e-5, 1e3];
+
+/// Length of the cable from the drum to its anchor [m]. Outside: millimetres given as m.
+pub const DRUM_SIDE: [f64; 2] = [0.0, 300.0];
+
+/// Inertia of drum and motor over the square of the radius of the drum [kg]. Library: 59 (CoGiRo). Outside: kg cm² given as
+/// kg m² (5.9e5), and millimetres for the radius (5.9e-5).
+pub const WINCH_MASS: [f64; 2] = [1e-3, 1e5];
+
+/// Length of cable with the stiffness of the winch [m], EA over its stiffness. Shafts and gears stretch as much as some
+/// metres of cable. Outside: kN/m given as N/m.
+pub const LENGTH_OF_WINCH: [f64; 2] = [0.0, 1e3];
+
+/// Bandwidth of a position control [Hz]. Outside: gains in N mm given as N m (31 times).
+pub const BANDWIDTH: [f64; 2] = [0.05, 300.0];
+
+/// Damping ratio of a position control. Outside: per cent given as a fraction (70).
+pub const CONTROL_DAMPING: [f64; 2] = [0.0, 10.0];
+
+/// Delay of a position control [s]. Outside: milliseconds given as seconds.
+pub const DELAY: [f64; 2] = [0.0, 0.2];

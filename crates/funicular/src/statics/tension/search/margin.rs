@@ -2,8 +2,8 @@
 
 use super::proximal_step::ProximalStep;
 use super::{Linear, STILL, TensionSearch};
-use crate::math::Vec6;
 use crate::math::active_set::Active;
+use crate::math::{Vec6, order};
 use crate::statics::error::StaticsError;
 use crate::statics::limits::Limit;
 use crate::statics::tension::feasible_set::{FeasiblePoint, FeasibleSet};
@@ -67,7 +67,7 @@ impl TensionSearch<'_> {
         let strongest = held.iter().fold(0.0, |m: f64, a| m.max(a.multiplier));
         let binds = |held: &Active| (held.multiplier > HOLDS * strongest).then(|| rows[held.row]).flatten();
         let mut held_by: Vec<_> = held.iter().filter_map(binds).collect();
-        held_by.sort_by_key(|(i, _)| *i);
+        order::sort_ascending(&mut held_by, |(i, _)| *i as f64);
         let mut multipliers = Vec6::zeros();
         if widths.is_none() {
             let mut pressed = vec![0.0; self.cables.len()];

@@ -3,6 +3,7 @@
 use super::margin::MarginOptimum;
 use super::proximal_step::ProximalStepControl;
 use super::{HOLDS, MAX_ITERATIONS, TensionSearch, VIOLATION};
+use crate::math::order;
 use crate::platform::{Coordinates, load_wrench};
 use crate::statics::error::StaticsError;
 use crate::statics::limits::{Limit, LimitViolation};
@@ -205,7 +206,7 @@ impl TensionSearch<'_> {
                 break;
             }
         }
-        named.sort_by_key(|(i, _)| *i);
+        order::sort_ascending(&mut named, |(i, _)| *i as f64);
         named
     }
 
