@@ -333,8 +333,8 @@ pub(crate) struct FrfArgs {
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) to_hz: f64,
 
-    /// Number of frequencies, 2 to 1000000; with --adaptive the number from which it starts [default with --adaptive:
-    /// 200; a figure FILE.svg or FILE.pdf without --points is --adaptive]
+    /// Number of frequencies, 2 to 1000000; with --adaptive the number from which it starts. A figure, FILE.svg or
+    /// FILE.pdf, is --adaptive without it [default with --adaptive: 200]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(2..=1_000_000),
         allow_hyphen_values = true, required_unless_present_any = ["adaptive", "output_file"])]
     pub(crate) points: Option<u64>,
