@@ -13,6 +13,7 @@
 //! K_s and M_s being the static condensation and g_k the participation of the ends in mode k: a few operations per
 //! pole. Derivation: docs/theory.md, section 9.
 
+mod drive_forms;
 mod drive_motion;
 mod drive_signals;
 mod internal_motion;
@@ -21,6 +22,7 @@ mod moving_end;
 mod partition;
 mod poles;
 
+pub(crate) use drive_forms::{DriveForm, DrivePart, InPowersOfS};
 use drive_motion::DriveAt;
 pub use drive_motion::DriveMotion;
 pub(crate) use drive_motion::{DriveLosses, DriveMotions};
@@ -107,10 +109,26 @@ pub struct CatenaryDynamicEnd {
     pub mass_per_length: f64,
     /// Leave out the stiffness out of plane, as the paper does.
     pub in_plane_only: bool,
-    /// Numbers of original poles in plane and out of plane, if the other poles have been compressed.
-    pub(crate) kept: Option<(usize, usize)>,
+    /// Poles that have been compressed, if some have been.
+    pub(crate) kept: Option<Box<KeptModes>>,
     /// Directions of the cable at its ends.
     directions: EndDirections,
+}
+
+/// Clamped modes that a cable has kept, and the modes that replace the others.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct KeptModes {
+    /// Number of modes that are kept, and the weights of the others in the modes that replace them, by columns.
+    in_plane: (usize, DMat),
+    out_of_plane: (usize, DMat),
+}
+
+impl KeptModes {
+    /// Compresses displacements by all clamped modes in the same way.
+    pub(crate) fn compress(&self, in_plane: &mut Displacements<2, 4>, out_of_plane: &mut Displacements<1, 2>) {
+        in_plane.compress(self.in_plane.0, &self.in_plane.1);
+        out_of_plane.compress(self.out_of_plane.0, &self.out_of_plane.1);
+    }
 }
 
 impl CatenaryDynamicEnd {
@@ -146,12 +164,21 @@ impl CatenaryDynamicEnd {
     }
 
     /// Copy that keeps the poles below x and has a few poles in place of the others: see [`PoleResidue::compressed`].
-    pub(crate) fn with_poles_below(&self, x: f64) -> Self {
+    /// These represent the losses of the drive and its `signals`, too.
+    pub(crate) fn with_poles_below(&self, x: f64, signals: &[DriveSignal]) -> Self {
         let mut cut = self.clone();
+        let [of_plane, of_normal] = self.forces_on_modes(signals);
         let (in_plane, out_of_plane) = (self.cable.in_plane.poles_below(x), self.cable.out_of_plane.poles_below(x));
-        cut.cable.in_plane = self.cable.in_plane.compressed(in_plane, 2).0;
-        cut.cable.out_of_plane = self.cable.out_of_plane.compressed(out_of_plane, 1).0;
-        cut.kept = Some((in_plane, out_of_plane));
+        let (poles, weights) = self.cable.in_plane.compressed(in_plane, 2, &of_plane);
+        let (poles_out_of_plane, weights_out_of_plane) =
+            self.cable.out_of_plane.compressed(out_of_plane, 1, &of_normal);
+
+        (cut.cable.in_plane, cut.cable.out_of_plane) = (poles, poles_out_of_plane);
+        let kept = KeptModes { in_plane: (in_plane, weights), out_of_plane: (out_of_plane, weights_out_of_plane) };
+        if let Some(drive) = &mut cut.cable.drive {
+            kept.compress(&mut drive.along, &mut drive.out_of_plane);
+        }
+        cut.kept = Some(Box::new(kept));
         cut
     }
 

@@ -24,6 +24,7 @@ pub(super) struct Term {
     /// Feedthrough of all pairs.
     pub(super) constants: Vec<f64>,
     pub(super) platform: f64,
+    pub(super) drives: f64,
     pub(super) is_residual: bool,
     /// Maximum of the term relative to the peaks.
     pub(super) size: f64,
@@ -112,8 +113,8 @@ fn term(pair: &DampedPair, mut column: Vec<Complex>, row: Vec<Complex>, referenc
     }
 
     let residues = row.iter().flat_map(|b| column.iter().map(move |c| c * b)).collect();
-    let (platform, is_residual) = (pair.platform, pair.is_residual);
-    let mut term = Term { value, column, row, residues, constants, platform, is_residual, size: 0.0 };
+    let DampedPair { platform, drives, is_residual, .. } = *pair;
+    let mut term = Term { value, column, row, residues, constants, platform, drives, is_residual, size: 0.0 };
     let mut responses = vec![Complex::from(0.0); reference.pairs()];
     for frequency_hz in &reference.frequencies_hz {
         responses.fill(0.0.into());

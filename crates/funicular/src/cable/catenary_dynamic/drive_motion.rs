@@ -221,8 +221,13 @@ impl CatenaryDynamicEnd {
 
     /// True if the control of its motor has a delay.
     pub(crate) fn has_delay(&self) -> bool {
+        self.delay() > 0.0
+    }
+
+    /// Delay of the control of its motor [s].
+    pub(crate) fn delay(&self) -> f64 {
         let servo = self.chain().and_then(|chain| chain.motor).and_then(|motor| motor.servo);
-        servo.is_some_and(|servo| servo.delay > 0.0)
+        servo.map_or(0.0, |servo| servo.delay)
     }
 
     /// True if wheel, swivel, drum or motor has mass.
