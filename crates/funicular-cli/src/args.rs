@@ -134,6 +134,7 @@ pub(crate) enum Command {
     #[command(after_help = "Examples:\n  \
         funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --input fz --output az --matrices model.mat\n  \
         funicular reduce robots/cogiro.toml --below-hz 10 --input fz --output z --order 8 --matrices model.npz\n  \
+        funicular reduce robots/cogiro-winches.toml --below-hz 5 --input length:1 --output z --output tension:1\n  \
         funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --form second-order --matrices model\n\n\
         In Python: m = numpy.load('model.npz'); m['A'], m['B'], m['C'], m['D']\n\
         In MATLAB: load model.mat; sys = ss(A, B, C, D)")]
@@ -348,14 +349,16 @@ pub(crate) struct FrfArgs {
     #[arg(long)]
     pub(crate) adaptive: bool,
 
-    /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; or a force
-    /// on a cable, as in cable:3@0.5:fz (repeatable)
+    /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; a force on a
+    /// cable, as in cable:3@0.5:fz; or a commanded length, as in length:3, or a force on a drum or of a motor, as in
+    /// drum:3, motor:3 (repeatable)
     #[arg(long, value_name = "INPUT", value_parser = Input::parse, required = true)]
     pub(crate) input: Vec<Input>,
 
     /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…,
-    /// a:… along a direction, world axes; or the motion of a point on a cable (name, fraction of its length from the
-    /// platform), as in cable:3@0.5:az (repeatable)
+    /// a:… along a direction, world axes; the motion of a point on a cable (name, fraction of its length from the
+    /// platform), as in cable:3@0.5:az; or the motion of drum or motor or the tension, as in drum:3, motor:3, tension:3
+    /// (repeatable)
     #[arg(long, value_name = "OUTPUT", value_parser = Output::parse, required = true)]
     pub(crate) output: Vec<Output>,
     #[command(flatten)]

@@ -243,6 +243,10 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest, watch: &mut dyn
         ));
     }
 
+    if let Err(error) = reduced.model.state_space() {
+        reduced.warnings.push(format!("the state space of this model is left out: {error}"));
+    }
+
     Ok(reduced)
 }
 
@@ -283,6 +287,9 @@ fn output_rows(outputs: &[(Output, Signal)]) -> Vec<ChannelRow> {
 }
 
 fn unit(output: &Output) -> &'static str {
+    if output.drive.is_some() {
+        return output.unit();
+    }
     match (output.is_rotation, output.quantity) {
         (false, Quantity::Displacement) => "m",
         (false, Quantity::Velocity) => "m/s",

@@ -181,7 +181,8 @@ impl ModalModel {
         }
         forces.extend(self.lossy.column_iter().map(|column| column.rows(below, count).into_owned()));
 
-        let still = |force: &DVec| DVec::from_fn(count, |j, _| force[j] / (self.omega[below + j] * self.omega[below + j]));
+        let still =
+            |force: &DVec| DVec::from_fn(count, |j, _| force[j] / (self.omega[below + j] * self.omega[below + j]));
         let motions: Vec<DVec> = forces.iter().map(still).collect();
         // Each input and each output counts as much as any other.
         let equal: Vec<_> = motions.iter().filter(|m| m.norm() > 0.0).map(|m| m.normalize()).collect();

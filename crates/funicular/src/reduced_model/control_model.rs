@@ -12,8 +12,8 @@ use super::selection::{RemainingDifference, Size, chosen};
 use super::steps::{STEPS, Steps};
 use super::terms::{RealBlock, Term, terms};
 use super::{
-    Channels, KEPT, Quantity, ReductionError, RequestedModel, SecondOrder, StateSpace, assembled, check_cables, drive_signals,
-    matrices,
+    Channels, KEPT, Quantity, ReductionError, RequestedModel, SecondOrder, StateSpace, assembled, check_cables,
+    drive_signals, matrices,
 };
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, DMat};

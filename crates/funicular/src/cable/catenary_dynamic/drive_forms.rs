@@ -1,7 +1,7 @@
 //! Motions, losses and signals of a drive as linear forms over the platform end and the amplitudes of the clamped modes.
 //!
 //! A second-order model has these as its coordinates. There the losses of a drive are a damping matrix, and a signal is a
-//! row that is a polynomial of s = iω (docs/theory.md, equations (45a) to (45c)).
+//! row that is a polynomial of s = iω (docs/theory.md, equations (45a) to (45d)).
 
 use super::{CatenaryDynamicEnd, DriveSignal, MovingEnd};
 use crate::math::DMat;
@@ -44,6 +44,9 @@ pub(crate) struct DrivePart {
     /// response: zero unless the part has no mass.
     pub(crate) massless: f64,
 }
+
+/// Relative size below which the difference of two static responses is rounding; the modes leave about 1e-10.
+const ROUNDING: f64 = 1e-8;
 
 /// Coefficients of 1, s and s² of a polynomial of s = iω.
 pub(crate) type InPowersOfS<T> = [T; 3];
@@ -91,7 +94,10 @@ impl CatenaryDynamicEnd {
                 }
             }
         }
-        rest
+
+        // Rounding is no motion without mass.
+        let size = drive.flexibility.diagonal().map(f64::sqrt);
+        rest.map_with_location(|i, j, entry| if entry.abs() < ROUNDING * size[i] * size[j] { 0.0 } else { entry })
     }
 
     /// Parts of the drive that have mass of their own or losses; a delay of the control is left out.

@@ -83,10 +83,11 @@ impl Case {
     }
 }
 
-/// Shafts of finite stiffness between drum and motor, a position control with speed gain, and friction.
+/// Shafts of finite stiffness between drum and motor, a position control with speed gain and without integral action, and
+/// friction. So statics yields by the position gain, as slow vibration does.
 fn servo(winch: &mut Winch) {
     (winch.stiffness, winch.drum_mass, winch.motor_mass, winch.damping) = (3e5, 6.0, 50.0, 40.0);
-    winch.control = Control::Position(Servo::of_bandwidth(56.0, 3.0, 0.7, true, 0.0));
+    winch.control = Control::Position(Servo::of_bandwidth(56.0, 3.0, 0.7, false, 0.0));
 }
 
 /// Motors of constant torque with friction, rigid shafts.
@@ -118,16 +119,17 @@ fn elsewhere(count: usize) -> Vec<f64> {
     (0..count).map(|i| BELOW * (0.003 + 0.9967 * (i as f64 + 0.317) / count as f64)).collect()
 }
 
-/// Largest difference of any pair, relative to the peak of the pair over these frequencies.
-fn difference(full: &[CDMat], others: &[CDMat]) -> f64 {
-    let (outputs, inputs) = full[0].shape();
-    let mut largest: f64 = 0.0;
-    for at in (0..outputs).flat_map(|o| (0..inputs).map(move |i| (o, i))) {
-        let peak = full.iter().map(|g| g[at].norm()).fold(0.0, f64::max);
-        let gap = full.iter().zip(others).map(|(a, b)| (a[at] - b[at]).norm()).fold(0.0, f64::max);
-        largest = largest.max(gap / peak);
+/// Checks the stated error of each pair at frequencies that the program did not use.
+fn check_stated_errors(case: &Case, inputs: &[Signal], outputs: &[(Signal, Quantity)], model: &ControlModel) {
+    let frequencies = elsewhere(200);
+    let full = case.full(inputs, outputs, &frequencies);
+    let ours: Vec<CDMat> = frequencies.iter().map(|f| transfer(&model.space, *f)).collect();
+    for at in (0..outputs.len()).flat_map(|o| (0..inputs.len()).map(move |i| (o, i))) {
+        let stated = &model.responses[at.1 * outputs.len() + at.0];
+        let gap = full.iter().zip(&ours).map(|(a, b)| (a[at] - b[at]).norm()).fold(0.0, f64::max);
+        // The accuracy to which maxima are searched for.
+        assert!(gap <= 1.001 * stated.error * stated.peak, "{} {at:?}: {gap} {stated:?}", case.name);
     }
-    largest
 }
 
 fn transfer(space: &StateSpace, frequency_hz: f64) -> CDMat {
@@ -182,4 +184,126 @@ fn check_matrices(model: &SecondOrder, name: &str) {
     assert!(model.mass.clone().cholesky().is_some(), "{name}");
     let least = |matrix: &DMat| matrix.clone().symmetric_eigenvalues().min() / matrix.amax();
     assert!(least(&model.damping) > -1e-10, "{name}: {}", least(&model.damping));
+}
+
+/// A small second-order model keeps the error that it states, at frequencies that its measurement did not use.
+#[test]
+fn a_small_second_order_model_with_drives_is_as_good_as_it_says() {
+    let case = Case::new("servo", Damping::Viscous(0.02), servo);
+    let inputs = [drive(1, DriveSignal::Length), drive(0, DriveSignal::Motor)];
+    let outputs = [(along(Vec3::z()), Quantity::Displacement), (drive(1, DriveSignal::Drum), Quantity::Displacement)];
+    let model = case.second_order(&inputs, &outputs, 1e-3).unwrap();
+    let stated = model.truncation_error.unwrap();
+    let complete = case.second_order(&inputs, &outputs, 0.0).unwrap();
+    assert!(stated <= 1e-3 && 2 * model.mass.nrows() < complete.mass.nrows());
+
+    let frequencies = elsewhere(40);
+    let full = case.full(&inputs, &outputs, &frequencies);
+    for (full, f) in full.iter().zip(&frequencies) {
+        let ours = model.receptance(f * TAU).unwrap();
+        // Each input has outputs of one kind; lengths and forces are kinds of their own.
+        for input in 0..2 {
+            let size = full.column(input).camax();
+            let gap = (full.column(input) - ours.column(input)).camax();
+            assert!(gap < 1.05 * stated * size, "{f} Hz, input {input}: {gap:e} {size:e} {stated:e}");
+        }
+    }
+    check_matrices(&model, case.name);
+
+    // Its state space has the same responses, and the damped modes of the full model.
+    let space = model.state_space().unwrap();
+    for f in [0.31, 2.2] {
+        let (ours, other) = (model.receptance(f * TAU).unwrap(), transfer(&space, f));
+        assert!((&ours - &other).camax() < 1e-8 * ours.camax(), "{f} Hz: {ours} {other}");
+    }
+    let undamped = modes::below(&case.dynamics, BELOW);
+    let damped = modes::damped::damped_modes(&case.dynamics, &undamped);
+    assert!(damped.certified && damped.modes.iter().any(|mode| mode.damping_ratio() > 0.2));
+    let eigenvalues = space.a.complex_eigenvalues();
+    for mode in &damped.modes {
+        let lambda = mode.eigenvalue();
+        let nearest = eigenvalues.iter().map(|other| (other - lambda).norm()).fold(f64::INFINITY, f64::min);
+        // The response error of the small model.
+        assert!(nearest < 1e-3 * lambda.norm(), "{lambda}: {nearest:e}");
+    }
+}
+
+/// The state space of few states has drives as well: its stated error is kept, and its static gain is that of statics.
+#[test]
+fn the_state_space_of_few_states_commands_lengths() {
+    for (name, change) in [("servo", servo as fn(&mut Winch)), ("rods", rods), ("ideal", |_: &mut Winch| ())] {
+        let case = Case::new(name, Damping::Ratio(0.005), change);
+        let inputs = [drive(1, DriveSignal::Length)];
+        let outputs = [
+            (along(Vec3::new(1.0, 0.0, 0.4)), Quantity::Displacement),
+            (drive(1, DriveSignal::Tension), Quantity::Displacement),
+        ];
+        let model = case.control_model(&inputs, &outputs, 0.02).unwrap();
+        assert!(model.error <= 0.02, "{name}: {}", model.error);
+        assert!(model.space.a.nrows() < 60, "{name}: {} states", model.space.a.nrows());
+
+        check_stated_errors(&case, &inputs, &outputs, &model);
+
+        // Statics with a longer cable.
+        let mut lengths: Vec<f64> = case.rest.cables.iter().map(|cable| cable.unstrained_length).collect();
+        let step = 1e-5;
+        let mut moved = |by: f64| {
+            lengths[1] += by;
+            statics::forward(&case.robot, &lengths, StaticModel::Catenary, Some(&case.rest.pose)).unwrap()
+        };
+        let (ahead, behind) = (moved(step), moved(-2.0 * step));
+        let u = Vec3::new(1.0, 0.0, 0.4).normalize();
+        let by_statics = [
+            (ahead.pose.position_w - behind.pose.position_w).dot(&u) / (2.0 * step),
+            (ahead.cables[1].tension_platform - behind.cables[1].tension_platform) / (2.0 * step),
+        ];
+        let gain = transfer(&model.space, 0.0);
+        for (o, expected) in by_statics.iter().enumerate() {
+            // The square of the step, and the frequency at which the program takes the static response.
+            assert!((gain[(o, 0)].re - expected).abs() < 1e-4 * expected.abs(), "{name} {o}: {gain} {by_statics:?}");
+        }
+    }
+}
+
+/// Forces of motors at constant torque, and what has no second-order form.
+#[test]
+fn motors_push_and_delays_are_refused() {
+    let case = Case::new("torque", Damping::Ratio(0.005), torque);
+    let inputs = [drive(0, DriveSignal::Motor), drive(1, DriveSignal::Motor)];
+    let outputs = [
+        (along(Vec3::new(1.0, 0.0, 0.4)), Quantity::Velocity),
+        (along(Vec3::z()), Quantity::Acceleration),
+        (drive(0, DriveSignal::Motor), Quantity::Displacement),
+    ];
+    let model = case.control_model(&inputs, &outputs, 0.02).unwrap();
+    check_stated_errors(&case, &inputs, &outputs, &model);
+
+    // Motors without shaft and drums move with the platform on the cables: modes of drives.
+    assert!(model.states.iter().any(|of| of.kind == Some(modes::Kind::Drive)), "{:?}", model.states);
+
+    let delayed = Case::new("delay", Damping::Ratio(0.005), |winch| {
+        servo(winch);
+        winch.control = Control::Position(Servo::of_bandwidth(56.0, 3.0, 0.7, true, 0.01));
+    });
+    let error = delayed.second_order(&inputs, &outputs, 1e-3).unwrap_err();
+    assert_eq!(error, ReductionError::Delay { cable: "1".to_owned(), delay_s: 0.01 });
+    assert!(error.to_string().contains("a delay of 0.01 s") && error.to_string().contains("Padé"), "{error}");
+    assert!(!error.is_no_solution());
+    assert!(matches!(delayed.control_model(&inputs, &outputs, 0.02), Err(ReductionError::Delay { .. })));
+
+    let massless = Case::new("massless", Damping::Ratio(0.005), |winch| {
+        servo(winch);
+        (winch.motor_mass, winch.damping) = (0.0, 40.0);
+    });
+    let error = massless.second_order(&inputs, &outputs, 1e-3).unwrap_err();
+    assert_eq!(error, ReductionError::Massless { cable: "1".to_owned() });
+    assert!(error.to_string().contains("`motor_inertia_kg_m2`"), "{error}");
+
+    // The acceleration of the platform contains the rate of the commanded length.
+    let case = Case::new("servo", Damping::Ratio(0.005), servo);
+    let (inputs, outputs) = ([drive(1, DriveSignal::Length)], [(along(Vec3::z()), Quantity::Acceleration)]);
+    let second_order = case.second_order(&inputs, &outputs, 1e-3).unwrap();
+    assert_eq!(second_order.state_space().unwrap_err(), ReductionError::Improper { output: 1, input: 1 });
+    let model = case.control_model(&inputs, &outputs, 0.02).unwrap();
+    assert!(model.error <= 0.02);
 }
