@@ -321,7 +321,8 @@ fn cut(
             let expansion = Expansion::of(&model);
             let beside = |pair: usize| {
                 let at = (pair % outputs.len(), pair / outputs.len());
-                expansion.beside_modes(below_hz * TAU, at, reference.quantity(pair)) / reference.sizes[pair]
+                let no_feedthrough = reference.quantity(pair) == Quantity::Velocity && !reference.has_drive_losses;
+                expansion.beside_modes(below_hz * TAU, at, no_feedthrough) / reference.sizes[pair]
             };
             if (0..pairs).map(beside).fold(0.0, f64::max) > requested.tolerance {
                 continue;

@@ -1,7 +1,7 @@
 //! State space of a second-order model whose inputs and outputs are polynomials of s, and what of it is no state space.
 
 use super::reference::derivatives;
-use super::{Quantity, SecondOrder};
+use super::SecondOrder;
 use crate::math::{Complex, DMat};
 
 /// State space and polynomial part of `L(s) (K + sC + s²M)⁻¹ B(s) + D(s)`, in the quantities of the outputs.
@@ -85,10 +85,9 @@ impl Expansion {
     }
 
     /// Magnitude at ω [rad/s] of what a sum over modes with a static correction leaves out of a response, with every mode:
-    /// the powers of s of its polynomial part, and for a velocity all of that part.
-    pub(super) fn beside_modes(&self, omega: f64, (output, input): (usize, usize), quantity: Quantity) -> f64 {
-        let first = usize::from(quantity != Quantity::Velocity);
-        let sum: Complex = (self.direct.iter().enumerate().skip(first))
+    /// the powers of s of its polynomial part, and all of that part if the sum has `no_feedthrough`.
+    pub(super) fn beside_modes(&self, omega: f64, (output, input): (usize, usize), no_feedthrough: bool) -> f64 {
+        let sum: Complex = (self.direct.iter().enumerate().skip(usize::from(!no_feedthrough)))
             .map(|(power, direct)| Complex::new(0.0, omega).powu(power as u32) * direct[(output, input)])
             .sum();
         sum.norm()

@@ -104,6 +104,8 @@ fn term(pair: &DampedPair, mut column: Vec<Complex>, row: Vec<Complex>, referenc
         let residue = column[at % outputs] * row[at / outputs];
         *constant = match reference.quantity(at) {
             Quantity::Displacement => twice * (residue / value).re,
+            // A constant input gives no velocity. Without strong damping the residue is imaginary.
+            Quantity::Velocity if reference.has_drive_losses => twice * residue.re,
             Quantity::Velocity => 0.0,
             Quantity::Acceleration => twice * (residue * value).re,
         };
