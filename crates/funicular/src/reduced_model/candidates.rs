@@ -169,7 +169,8 @@ impl ModalModel {
 
         // Forces on the modes by inputs and outputs, in each power of s at the highest frequency, and by losses.
         let last_hz = reference.frequencies_hz.last().copied().unwrap_or_default();
-        let powers = || (0..3).map(|power| (power, (last_hz * std::f64::consts::TAU).powi(power as i32)));
+        let highest = last_hz * std::f64::consts::TAU;
+        let powers = || [1.0, highest, highest * highest].into_iter().enumerate();
         let mut forces: Vec<DVec> = Vec::new();
         for (power, factor) in powers() {
             let scaled = self.input[power].column_iter().zip(&reference.input_scale);
@@ -185,7 +186,7 @@ impl ModalModel {
             |force: &DVec| DVec::from_fn(count, |j, _| force[j] / (self.omega[below + j] * self.omega[below + j]));
         let motions: Vec<DVec> = forces.iter().map(still).collect();
         // Each input and each output counts as much as any other.
-        let equal: Vec<_> = motions.iter().filter(|m| m.norm() > 0.0).map(|m| m.normalize()).collect();
+        let equal: Vec<_> = motions.iter().filter(|m| m.norm() > 0.0).map(DVec::normalize).collect();
         if equal.is_empty() {
             return DMat::zeros(count, 0);
         }

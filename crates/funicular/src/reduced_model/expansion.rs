@@ -1,7 +1,7 @@
 //! State space of a second-order model whose inputs and outputs are polynomials of s, and what of it is no state space.
 
-use super::reference::derivatives;
 use super::SecondOrder;
+use super::reference::derivatives;
 use crate::math::{Complex, DMat};
 
 /// State space and polynomial part of `L(s) (K + sC + s²M)⁻¹ B(s) + D(s)`, in the quantities of the outputs.

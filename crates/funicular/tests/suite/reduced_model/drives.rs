@@ -9,7 +9,7 @@ use funicular::reduced_model::{
     control_model, reduce,
 };
 use funicular::response::{self, Port, Quantity, Signal};
-use funicular::robot::{Control, Damping, DrumSide, Robot, Servo, Winch};
+use funicular::robot::{Control, Damping, DrumSide, Robot, Servo, State, Winch};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
 
@@ -42,6 +42,23 @@ impl Case {
             cable.material.damping = damping;
             change(cable.anchor.winch.as_mut().unwrap());
         }
+        Self::at_rest(name, robot)
+    }
+
+    /// Two cables that end at fixed points.
+    fn fixed(damping: Damping) -> Self {
+        let mut robot = Robot::from_toml(TWO_CABLES).unwrap();
+        for cable in &mut robot.cables {
+            cable.material.damping = damping;
+            (cable.anchor.pulley, cable.anchor.winch) = (None, None);
+        }
+        // The drum side is not part of the cables.
+        let State::Lengths(lengths) = &mut robot.state else { panic!("its file gives lengths") };
+        lengths.iter_mut().for_each(|length| *length -= 3.0);
+        Self::at_rest("fixed", robot)
+    }
+
+    fn at_rest(name: &'static str, robot: Robot) -> Self {
         let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
         let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), BELOW).unwrap();
         Self { name, robot, rest, dynamics }
@@ -145,12 +162,13 @@ fn with_all_modes_every_signal_of_every_drive_is_exact() {
     use DriveSignal::{Drum, Length, Motor, Tension};
     let viscous = Damping::Viscous(0.02);
     let on_cable = Signal::OnCable { cable: 0, fraction: 0.4, direction_w: Vec3::z() };
-    let cases: [(Case, &[DriveSignal], &[DriveSignal]); 5] = [
-        (Case::new("servo", viscous, servo), &[Length, Drum, Motor], &[Drum, Motor, Tension]),
-        (Case::new("torque", viscous, torque), &[Drum, Motor], &[Drum, Motor, Tension]),
+    let cases: [(Case, &[DriveSignal], &[DriveSignal]); 6] = [
+        (Case::new("servo", viscous, servo), &[Length, Motor], &[Drum, Tension]),
+        (Case::new("torque", viscous, torque), &[Drum], &[Motor, Tension]),
         (Case::new("rods", viscous, rods), &[Length, Drum], &[Drum, Tension]),
         (Case::new("rods alone", viscous, rods_alone), &[Length], &[Tension]),
         (Case::new("ideal", viscous, |_| ()), &[Length], &[Tension]),
+        (Case::fixed(viscous), &[Length], &[Tension]),
     ];
     for (case, from, to) in cases {
         let inputs: Vec<Signal> = [along(Vec3::z())].into_iter().chain(from.iter().map(|s| drive(1, *s))).collect();
