@@ -136,9 +136,9 @@ pub enum ReductionError {
     Model,
     /// The control of a motor has a delay.
     #[error(
-        "the control of the motor of cable \"{cable}\" has a delay of {delay_s} s, which no second-order model and no state \
-         space can have: set `delay_s = 0` in its winch and put the delay into the controller as a Padé approximation, or \
-         use `frf` and `modes`, which have the delay"
+        "the control of the motor of cable \"{cable}\" has a delay of {delay_s} s, which no second-order model and no \
+         state space can have: set `delay_s = 0` in its winch and put the delay into the controller as a Padé approximation, \
+         or compute responses with `frf`, which has the delay"
     )]
     Delay {
         /// Name of the cable.
