@@ -335,9 +335,9 @@ pub(crate) struct FrfArgs {
     pub(crate) to_hz: f64,
 
     /// Number of frequencies, 2 to 1000000; with --adaptive the number from which it starts [default with --adaptive:
-    /// 200]
+    /// 200; a figure FILE.svg or FILE.pdf without --points is --adaptive]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(2..=1_000_000),
-        allow_hyphen_values = true, required_unless_present = "adaptive")]
+        allow_hyphen_values = true, required_unless_present_any = ["adaptive", "output_file"])]
     pub(crate) points: Option<u64>,
 
     /// Equal ratios between frequencies instead of equal steps
@@ -349,16 +349,16 @@ pub(crate) struct FrfArgs {
     #[arg(long)]
     pub(crate) adaptive: bool,
 
-    /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; a force on a
-    /// cable, as in cable:3@0.5:fz; or a commanded length, as in length:3, or a force on a drum or of a motor, as in
-    /// drum:3, motor:3 (repeatable)
+    /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; a force on
+    /// a cable, as in cable:3@0.5:fz; the commanded length of a cable, length:3, a force of its motor or on its drum,
+    /// motor:3, drum:3; a motion of the base, base-x to base-rz, or of an anchor, anchor:3:x (repeatable)
     #[arg(long, value_name = "INPUT", value_parser = Input::parse, required = true)]
     pub(crate) input: Vec<Input>,
 
     /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…,
     /// a:… along a direction, world axes; the motion of a point on a cable (name, fraction of its length from the
-    /// platform), as in cable:3@0.5:az; or the motion of drum or motor or the tension, as in drum:3, motor:3, tension:3
-    /// (repeatable)
+    /// platform), as in cable:3@0.5:az; the motion of a drum or motor, drum:3, motor:3, or the tension at the platform
+    /// or at the drum, tension:3, drum-tension:3 (repeatable)
     #[arg(long, value_name = "OUTPUT", value_parser = Output::parse, required = true)]
     pub(crate) output: Vec<Output>,
     #[command(flatten)]

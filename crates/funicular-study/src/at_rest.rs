@@ -263,8 +263,8 @@ pub fn linearisation(model: &Model, static_model: StaticModel) -> Linearisation 
 /// A signal that does not exist on the robot, or a point that is not finite.
 pub fn signals(robot: &Robot, input: &Input, output: &Output, points: &ResponsePoints) -> Result<[Signal; 2]> {
     points.check()?;
-    input.beside_drives()?;
-    output.beside_drives()?;
+    input.on_platform_or_cable()?;
+    output.on_platform_or_cable()?;
     let [from, to] = [points.input_point_m, points.output_point_m].map(|point| point.map(Vec3::from));
     Ok([input.signal(robot, from)?, output.signal(robot, to)?])
 }

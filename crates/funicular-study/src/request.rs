@@ -183,9 +183,9 @@ pub struct FrfRequest {
     /// Add frequencies until every peak has its height and the drawn curve is accurate.
     #[serde(default)]
     pub adaptive: bool,
-    /// Input signal, as `fz` or `cable:3@0.5:fz`, or a list of input signals.
+    /// Input signal, as `fz`, `cable:3@0.5:fz`, `length:3` or `base-x`, or a list of input signals.
     pub input: OneOrSeveral,
-    /// Output signal, as `ay` or `cable:3@0.5:az`, or a list of output signals.
+    /// Output signal, as `ay`, `cable:3@0.5:az` or `tension:3`, or a list of output signals.
     pub output: OneOrSeveral,
     /// Points of the platform.
     #[serde(flatten)]

@@ -1,12 +1,13 @@
 //! Names of signals: `fz` is a vertical force on the platform, `az` the vertical acceleration of the platform, and
-//! `cable:3@0.5:az` the vertical acceleration of the middle of cable "3", `length:3` the commanded length of cable "3".
+//! `cable:3@0.5:az` the vertical acceleration of the middle of cable "3", `length:3` the commanded length of cable "3",
+//! `base-x` a motion of the base, `anchor:3:z` one of the anchor of cable "3".
 //!
 //! A name is read once, checked for the robot, and converted to a [`Signal`].
 
 use crate::values::{self, MIN_POSITIVE, NumberError};
 use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::math::Vec3;
-use funicular::response::{Quantity, Signal};
+use funicular::response::{FrameInput, Quantity, Signal};
 use funicular::robot::{PlatformMotion, Robot};
 use funicular::suggest::nearest;
 use thiserror::Error;
@@ -41,8 +42,9 @@ pub enum SignalError {
     /// Name that is not an input.
     #[error(
         "not an input: fx, fy, fz (force), mx, my, mz (moment), f:ux,uy,uz or m:ux,uy,uz (along a direction in world \
-         axes), a force on a cable as in cable:3@0.5:fz, the commanded length of a cable as in length:3, or a force of \
-         its motor or on its drum as in motor:3 or drum:3"
+         axes), a force on a cable as in cable:3@0.5:fz, the commanded length of a cable as in length:3, a force of its \
+         motor or on its drum as in motor:3 or drum:3, a motion of the base as in base-x or base-rz, or one of an \
+         anchor as in anchor:3:x"
     )]
     NotAnInput,
     /// Name that is not an output.
@@ -50,7 +52,7 @@ pub enum SignalError {
         "not an output: x, y, z, rx, ry, rz (displacement, rotation), with v (velocity) or a (acceleration) before it \
          as in ay, or x:ux,uy,uz, v:ux,uy,uz, a:ux,uy,uz (along a direction in world axes), a point \
          of a cable as in cable:3@0.5:az, the motion of a drum or a motor as in drum:3 or motor:3, or the tension of a \
-         cable at the platform as in tension:3"
+         cable at the platform or at its drum as in tension:3 or drum-tension:3"
     )]
     NotAnOutput,
     /// Cable that the robot does not have.
@@ -61,14 +63,18 @@ pub enum SignalError {
         /// Names of the robot's cables.
         names: Vec<String>,
     },
-    /// Signal of a drive where none is possible.
-    #[error("{0} is a signal of a drive: `frf` alone takes these")]
-    DriveElsewhere(String),
-    /// Point of the platform for a signal on a cable.
+    /// Anchor without a direction.
+    #[error("the direction is missing: the motion of an anchor is anchor:NAME:DIRECTION, as in anchor:3:x")]
+    AnchorForm,
+    /// Signal of a drive or motion of the frame where none is possible.
+    #[error("{0} is a signal of a drive or a motion of the base or of an anchor: `frf` takes these")]
+    BesidePlatform(String),
+    /// Point of the platform for a signal that is not on the platform.
     #[error(
-        "the point of the {side} is a point of the platform, but the {side} {name} is on a cable: leave out the point"
+        "the point of the {side} is a point of the platform, but the {side} {name} is not on the platform: leave out the \
+         point"
     )]
-    PointOfCable {
+    PointOfPlatform {
         /// `input` or `output`.
         side: &'static str,
         /// Name of the signal.
@@ -157,12 +163,75 @@ fn of_drive(text: &str) -> Option<(DriveSignal, String)> {
     Some((signal, cable.to_owned()))
 }
 
-/// Name of a cable, and a fraction of its unstrained length from the platform.
-type CablePoint = (String, f64);
+/// Given motion of the frame from `base-x` … `base-rz` or `anchor:NAME:x`; `None` for another name.
+fn of_frame(text: &str) -> Result<Option<Place>, SignalError> {
+    if let Some(rest) = text.strip_prefix("base-") {
+        let (turns, rest) = rest.strip_prefix('r').map_or((false, rest), |rest| (true, rest));
+        return Ok(axis(rest).map(|direction_w| Place::Base { turns, direction_w }));
+    }
+    let Some(rest) = text.strip_prefix("anchor:") else { return Ok(None) };
+    let (cable, along) = rest.rsplit_once(':').ok_or(SignalError::AnchorForm)?;
+    let direction_w = axis(along).map_or_else(|| direction(along), Ok)?;
+    Ok(Some(Place::Anchor { cable: cable.to_owned(), direction_w }))
+}
+
+/// Place of an input or output, by names.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Place {
+    /// The platform: along a direction in world axes, or about it.
+    Platform {
+        /// True for a moment or a rotation.
+        turns: bool,
+        /// Direction in world axes.
+        direction_w: Vec3,
+    },
+    /// A point of a cable.
+    Cable {
+        /// Name of the cable.
+        cable: String,
+        /// Fraction of its unstrained length from the platform, 0 to 1.
+        fraction: f64,
+        /// Direction in world axes.
+        direction_w: Vec3,
+    },
+    /// A quantity of the drive of a cable.
+    Drive {
+        /// Name of the cable.
+        cable: String,
+        /// Quantity.
+        signal: DriveSignal,
+    },
+    /// A given motion of the base with all anchors and drums; an input.
+    Base {
+        /// True for a rotation about an axis through the origin of the world.
+        turns: bool,
+        /// Direction in world axes.
+        direction_w: Vec3,
+    },
+    /// A given motion of the anchor of a cable; an input.
+    Anchor {
+        /// Name of the cable.
+        cable: String,
+        /// Direction in world axes.
+        direction_w: Vec3,
+    },
+}
+
+impl Place {
+    /// Checks that this is the platform or a point of a cable.
+    fn on_platform_or_cable(&self, name: &str) -> Result<(), SignalError> {
+        match self {
+            Self::Platform { .. } | Self::Cable { .. } => Ok(()),
+            Self::Drive { .. } | Self::Base { .. } | Self::Anchor { .. } => {
+                Err(SignalError::BesidePlatform(name.to_owned()))
+            }
+        }
+    }
+}
 
 /// Splits `cable:NAME@FRACTION:WHAT` into the point and WHAT; `None` if the text does not begin with `cable:`. The name
 /// may hold any character; the last `@` ends it.
-fn on_cable(text: &str) -> Result<Option<(CablePoint, &str)>, SignalError> {
+fn on_cable(text: &str) -> Result<Option<(String, f64, &str)>, SignalError> {
     let Some(rest) = text.strip_prefix("cable:") else { return Ok(None) };
     let (name, rest) = rest.rsplit_once('@').ok_or(SignalError::Form("`@`"))?;
     let (fraction, what) = rest.split_once(':').ok_or(SignalError::Form("the direction"))?;
@@ -170,53 +239,50 @@ fn on_cable(text: &str) -> Result<Option<(CablePoint, &str)>, SignalError> {
     if !(0.0..=1.0).contains(&fraction) {
         return Err(SignalError::Fraction(fraction));
     }
-    Ok(Some(((name.to_owned(), fraction), what)))
+    Ok(Some((name.to_owned(), fraction, what)))
 }
 
-/// Input signal: a force or moment on the platform, a force on a cable, or a quantity of a cable's drive.
+/// Input signal: a force or moment on the platform, a force on a cable, a quantity of a cable's drive, or a given motion of
+/// the base or of an anchor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
     /// Name as the user wrote it.
     pub name: String,
-    /// Cable and fraction of its unstrained length from the platform; `None` for a signal on the platform.
-    pub on_cable: Option<(String, f64)>,
-    /// True for a moment, false for a force.
-    pub is_moment: bool,
-    /// Direction in world axes; without meaning for a drive.
-    pub direction_w: Vec3,
-    /// Quantity of a drive and its cable; `None` for other signals.
-    pub drive: Option<(DriveSignal, String)>,
+    /// Place.
+    pub place: Place,
 }
 
 impl Input {
     /// Reads `fx` … `mz`, `f:ux,uy,uz`, `m:ux,uy,uz`; forces also after `cable:NAME@FRACTION:`; `length:NAME`,
-    /// `drum:NAME`, `motor:NAME`.
+    /// `drum:NAME`, `motor:NAME`; `base-x` … `base-rz`, `anchor:NAME:x`.
     ///
     /// # Errors
     /// [`SignalError`].
     ///
     /// # Example
     /// ```
-    /// use funicular_study::signals::Input;
+    /// use funicular_study::signals::{Input, Place};
     ///
-    /// assert!(Input::parse("mz")?.is_moment);
-    /// assert_eq!(Input::parse("cable:3@0.5:fz")?.on_cable.unwrap().0, "3");
+    /// assert!(matches!(Input::parse("mz")?.place, Place::Platform { turns: true, .. }));
+    /// assert!(matches!(Input::parse("cable:3@0.5:fz")?.place, Place::Cable { cable, .. } if cable == "3"));
     /// assert!(Input::parse("z").is_err());
     /// # Ok::<(), funicular_study::signals::SignalError>(())
     /// ```
     pub fn parse(text: &str) -> Result<Self, SignalError> {
         let name = text.trim().to_owned();
-        if let Some((place, what)) = on_cable(&name)? {
-            let force = Self::parse(what)?;
-            if force.is_moment || force.on_cable.is_some() || force.drive.is_some() {
+        if let Some((cable, fraction, what)) = on_cable(&name)? {
+            let Place::Platform { turns: false, direction_w } = Self::parse(what)?.place else {
                 return Err(SignalError::NotAForce(what.to_owned()));
-            }
-            return Ok(Self { name, on_cable: Some(place), ..force });
+            };
+            return Ok(Self { name, place: Place::Cable { cable, fraction, direction_w } });
         }
-        if let Some(drive) = of_drive(&name).filter(|(signal, _)| signal.is_input()) {
-            return Ok(Self { name, on_cable: None, is_moment: false, direction_w: Vec3::x(), drive: Some(drive) });
+        if let Some((signal, cable)) = of_drive(&name).filter(|(signal, _)| signal.is_input()) {
+            return Ok(Self { name, place: Place::Drive { cable, signal } });
         }
-        let (is_moment, direction_w) = if let Some(rest) = name.strip_prefix("f:") {
+        if let Some(place) = of_frame(&name)? {
+            return Ok(Self { name, place });
+        }
+        let (turns, direction_w) = if let Some(rest) = name.strip_prefix("f:") {
             (false, direction(rest)?)
         } else if let Some(rest) = name.strip_prefix("m:") {
             (true, direction(rest)?)
@@ -227,7 +293,7 @@ impl Input {
         } else {
             return Err(SignalError::NotAnInput);
         };
-        Ok(Self { name, on_cable: None, is_moment, direction_w, drive: None })
+        Ok(Self { name, place: Place::Platform { turns, direction_w } })
     }
 
     /// Signal on a robot, with the force at a point of the platform [m] (default: the origin).
@@ -235,27 +301,27 @@ impl Input {
     /// # Errors
     /// [`SignalError`] if the robot has no such input.
     pub fn signal(&self, robot: &Robot, point_p: Option<Vec3>) -> Result<Signal, SignalError> {
-        let Self { name, on_cable, is_moment: turns, direction_w, drive } = self;
-        let (on_cable, drive) = (on_cable.as_ref(), drive.as_ref());
-        ResponseEnd { side: "input", name, turns: *turns, on_cable, direction_w: *direction_w, drive }
-            .signal(robot, point_p)
+        ResponseEnd { side: "input", name: &self.name, place: &self.place }.signal(robot, point_p)
     }
 
     /// Unit of the signal.
     pub fn unit(&self) -> &'static str {
-        match &self.drive {
-            Some((DriveSignal::Length, _)) => "m",
-            _ if self.is_moment => "N m",
-            _ => "N",
+        match &self.place {
+            Place::Platform { turns: true, .. } => "N m",
+            Place::Drive { signal: DriveSignal::Length, .. }
+            | Place::Base { turns: false, .. }
+            | Place::Anchor { .. } => "m",
+            Place::Base { turns: true, .. } => "rad",
+            Place::Platform { .. } | Place::Cable { .. } | Place::Drive { .. } => "N",
         }
     }
 
-    /// Checks that this is no signal of a drive.
+    /// Checks that this is a force or moment on the platform, or a force on a cable.
     ///
     /// # Errors
-    /// [`SignalError::DriveElsewhere`].
-    pub fn beside_drives(&self) -> Result<(), SignalError> {
-        self.drive.as_ref().map_or(Ok(()), |_| Err(SignalError::DriveElsewhere(self.name.clone())))
+    /// [`SignalError::BesidePlatform`].
+    pub fn on_platform_or_cable(&self) -> Result<(), SignalError> {
+        self.place.on_platform_or_cable(&self.name)
     }
 }
 
@@ -264,16 +330,10 @@ impl Input {
 pub struct Output {
     /// Name as the user wrote it.
     pub name: String,
-    /// Cable and fraction of its unstrained length from the platform; `None` for a signal on the platform.
-    pub on_cable: Option<(String, f64)>,
-    /// True for a rotation, false for a translation.
-    pub is_rotation: bool,
+    /// Place.
+    pub place: Place,
     /// Displacement, velocity or acceleration.
     pub quantity: Quantity,
-    /// Direction in world axes; without meaning for a drive.
-    pub direction_w: Vec3,
-    /// Quantity of a drive and its cable; `None` for other signals.
-    pub drive: Option<(DriveSignal, String)>,
 }
 
 impl Output {
@@ -289,24 +349,22 @@ impl Output {
     /// use funicular_study::signals::Output;
     ///
     /// let output = Output::parse("ary")?;
-    /// assert!(output.is_rotation && output.quantity == Quantity::Acceleration);
+    /// assert!(output.is_rotation() && output.quantity == Quantity::Acceleration);
     /// # Ok::<(), funicular_study::signals::SignalError>(())
     /// ```
     pub fn parse(text: &str) -> Result<Self, SignalError> {
         let name = text.trim().to_owned();
-        if let Some((place, what)) = on_cable(&name)? {
-            let motion = Self::parse(what)?;
-            if motion.is_rotation || motion.on_cable.is_some() || motion.drive.is_some() {
+        if let Some((cable, fraction, what)) = on_cable(&name)? {
+            let Self { place: Place::Platform { turns: false, direction_w }, quantity, .. } = Self::parse(what)? else {
                 return Err(SignalError::NotATranslation(what.to_owned()));
-            }
-            return Ok(Self { name, on_cable: Some(place), ..motion });
+            };
+            return Ok(Self { name, place: Place::Cable { cable, fraction, direction_w }, quantity });
         }
-        if let Some(drive) = of_drive(&name).filter(|(signal, _)| signal.is_output()) {
-            let (quantity, direction_w) = (Quantity::Displacement, Vec3::x());
-            return Ok(Self { name, on_cable: None, is_rotation: false, quantity, direction_w, drive: Some(drive) });
+        if let Some((signal, cable)) = of_drive(&name).filter(|(signal, _)| signal.is_output()) {
+            return Ok(Self { name, place: Place::Drive { cable, signal }, quantity: Quantity::Displacement });
         }
-        let (quantity, is_rotation, direction_w) = Self::motion(&name)?;
-        Ok(Self { name, on_cable: None, is_rotation, quantity, direction_w, drive: None })
+        let (quantity, turns, direction_w) = Self::motion(&name)?;
+        Ok(Self { name, place: Place::Platform { turns, direction_w }, quantity })
     }
 
     fn motion(name: &str) -> Result<(Quantity, bool, Vec3), SignalError> {
@@ -334,27 +392,29 @@ impl Output {
     /// # Errors
     /// [`SignalError`] if the robot has no such output.
     pub fn signal(&self, robot: &Robot, point_p: Option<Vec3>) -> Result<Signal, SignalError> {
-        let Self { name, on_cable, is_rotation: turns, direction_w, drive, .. } = self;
-        let (on_cable, drive) = (on_cable.as_ref(), drive.as_ref());
-        ResponseEnd { side: "output", name, turns: *turns, on_cable, direction_w: *direction_w, drive }
-            .signal(robot, point_p)
+        ResponseEnd { side: "output", name: &self.name, place: &self.place }.signal(robot, point_p)
+    }
+
+    /// True for a rotation of the platform.
+    pub fn is_rotation(&self) -> bool {
+        matches!(self.place, Place::Platform { turns: true, .. })
     }
 
     /// Unit of the signal as a displacement, or as the tension of a cable.
     pub fn unit(&self) -> &'static str {
-        match &self.drive {
-            Some((DriveSignal::Tension, _)) => "N",
-            _ if self.is_rotation => "rad",
+        match &self.place {
+            Place::Drive { signal, .. } if signal.is_tension() => "N",
+            Place::Platform { turns: true, .. } => "rad",
             _ => "m",
         }
     }
 
-    /// Checks that this is no signal of a drive.
+    /// Checks that this is a motion of the platform or of a point on a cable.
     ///
     /// # Errors
-    /// [`SignalError::DriveElsewhere`].
-    pub fn beside_drives(&self) -> Result<(), SignalError> {
-        self.drive.as_ref().map_or(Ok(()), |_| Err(SignalError::DriveElsewhere(self.name.clone())))
+    /// [`SignalError::BesidePlatform`].
+    pub fn on_platform_or_cable(&self) -> Result<(), SignalError> {
+        self.place.on_platform_or_cable(&self.name)
     }
 }
 
@@ -362,32 +422,54 @@ impl Output {
 struct ResponseEnd<'a> {
     side: &'static str,
     name: &'a str,
-    /// True for a moment or a rotation.
-    turns: bool,
-    on_cable: Option<&'a CablePoint>,
-    direction_w: Vec3,
-    drive: Option<&'a (DriveSignal, String)>,
+    place: &'a Place,
 }
 
 impl ResponseEnd<'_> {
     fn signal(&self, robot: &Robot, point_p: Option<Vec3>) -> Result<Signal, SignalError> {
-        let Self { side, name, turns, on_cable, direction_w, drive } = *self;
-        let name = name.to_owned();
-        if (on_cable.is_some() || drive.is_some()) && point_p.is_some() {
-            return Err(SignalError::PointOfCable { side, name });
+        let (side, name) = (self.side, self.name.to_owned());
+        let has_point = point_p.is_some();
+        let none = |signal: Result<Signal, SignalError>| {
+            if has_point { Err(SignalError::PointOfPlatform { side, name: name.clone() }) } else { signal }
+        };
+        match self.place {
+            Place::Platform { turns, direction_w } => self.on_platform(robot, *turns, *direction_w, point_p),
+            Place::Cable { cable, fraction, direction_w } => {
+                none(cable_of(robot, cable).map(|cable| Signal::OnCable {
+                    cable,
+                    fraction: *fraction,
+                    direction_w: *direction_w,
+                }))
+            }
+            Place::Drive { cable, signal } => {
+                none(cable_of(robot, cable).map(|cable| Signal::Drive { cable, signal: *signal }))
+            }
+            Place::Base { turns: false, direction_w } => none(Ok(Signal::Frame(FrameInput::BaseAlong(*direction_w)))),
+            Place::Base { turns: true, direction_w } => none(Ok(Signal::Frame(FrameInput::BaseAbout(*direction_w)))),
+            Place::Anchor { cable, direction_w } => none(
+                cable_of(robot, cable)
+                    .map(|cable| Signal::Frame(FrameInput::Anchor { cable, direction_w: *direction_w })),
+            ),
         }
+    }
+
+    fn on_platform(
+        &self,
+        robot: &Robot,
+        turns: bool,
+        direction_w: Vec3,
+        point_p: Option<Vec3>,
+    ) -> Result<Signal, SignalError> {
+        let (side, name) = (self.side, self.name.to_owned());
         if turns && point_p.is_some() {
             return Err(SignalError::PointOfRotation { side, name });
-        }
-        if let Some((signal, cable)) = drive {
-            return Ok(Signal::Drive { cable: cable_of(robot, cable)?, signal: *signal });
         }
         match robot.platform.motion {
             PlatformMotion::PointMass if turns => return Err(SignalError::PointMassTurns { side, name }),
             PlatformMotion::PointMass if point_p.is_some_and(|point| point.norm() > 0.0) => {
                 return Err(SignalError::PointMassPoint { side });
             }
-            PlatformMotion::Planar(plane) if on_cable.is_none() => {
+            PlatformMotion::Planar(plane) => {
                 let (normal, u) = (plane.normal_w(), direction_w.normalize());
                 let along = normal.dot(&u);
                 // A planar platform moves in its plane and rotates about the normal.
@@ -397,15 +479,10 @@ impl ResponseEnd<'_> {
                     return Err(SignalError::OutOfPlane { side, name, dof, normal });
                 }
             }
-            PlatformMotion::Rigid | PlatformMotion::PointMass | PlatformMotion::Planar(_) => {}
+            PlatformMotion::Rigid | PlatformMotion::PointMass => {}
         }
-        Ok(match on_cable {
-            Some((cable, fraction)) => {
-                Signal::OnCable { cable: cable_of(robot, cable)?, fraction: *fraction, direction_w }
-            }
-            None if turns => Signal::About { axis_w: direction_w },
-            None => Signal::Along { direction_w, point_p: point_p.unwrap_or_default() },
-        })
+        let along = Signal::Along { direction_w, point_p: point_p.unwrap_or_default() };
+        Ok(if turns { Signal::About { axis_w: direction_w } } else { along })
     }
 }
 
@@ -423,10 +500,19 @@ mod tests {
 
     #[test]
     fn inputs_and_outputs_have_the_names_of_the_field() {
-        for (text, is_moment) in [("fx", false), ("mz", true), ("f:0,-1,1", false), ("m:1,0,0", true)] {
-            assert_eq!(Input::parse(text).unwrap().is_moment, is_moment, "{text}");
+        for (text, unit) in [
+            ("fx", "N"),
+            ("mz", "N m"),
+            ("f:0,-1,1", "N"),
+            ("m:1,0,0", "N m"),
+            ("length:3", "m"),
+            ("base-z", "m"),
+            ("base-ry", "rad"),
+            ("anchor:left: 2:0,1,1", "m"),
+        ] {
+            assert_eq!(Input::parse(text).unwrap().unit(), unit, "{text}");
         }
-        for bad in ["", "f", "fw", "fxy", "f:0,0,0", "f:1,2", "x", "Fx"] {
+        for bad in ["", "f", "fw", "fxy", "f:0,0,0", "f:1,2", "x", "Fx", "base-w", "base-", "anchor:3", "anchor:3:w"] {
             assert!(Input::parse(bad).is_err(), "{bad}");
         }
 
@@ -439,7 +525,7 @@ mod tests {
             ("x:0,1,1", Quantity::Displacement, false),
         ] {
             let found = Output::parse(text).unwrap();
-            assert!(found.quantity == quantity && found.is_rotation == is_rotation, "{text}");
+            assert!(found.quantity == quantity && found.is_rotation() == is_rotation, "{text}");
         }
 
         for bad in ["", "a", "v", "r", "rw", "fz", "a:0,0,0", "é"] {
@@ -450,9 +536,10 @@ mod tests {
     #[test]
     fn a_point_on_a_cable_is_its_name_and_a_part_of_its_length() {
         let found = Output::parse("cable:left @ rope:2@0.25:a:0,1,1").unwrap();
-        assert_eq!(found.on_cable, Some(("left @ rope:2".to_owned(), 0.25)));
-        assert!(found.quantity == Quantity::Acceleration && found.direction_w == Vec3::new(0.0, 1.0, 1.0));
-        assert_eq!(Input::parse("cable:3@1:fz").unwrap().on_cable.unwrap().1.to_bits(), 1.0_f64.to_bits());
+        let (cable, direction_w) = ("left @ rope:2".to_owned(), Vec3::new(0.0, 1.0, 1.0));
+        assert_eq!(found.place, Place::Cable { cable, fraction: 0.25, direction_w });
+        assert_eq!(found.quantity, Quantity::Acceleration);
+        assert!(matches!(Input::parse("cable:3@1:fz").unwrap().place, Place::Cable { fraction: 1.0, .. }));
         for bad in ["cable:3", "cable:3@0.5", "cable:3@1.5:z", "cable:3@-0.1:z", "cable:3@x:z", "cable:3@0.5:rz"] {
             assert!(Output::parse(bad).is_err(), "{bad}");
         }

@@ -11,11 +11,11 @@ pub mod shallow_dynamic;
 pub mod shallow_static;
 pub mod spring;
 
-use crate::drive::{AnchorEnd, DriveChain};
+use crate::drive::DriveChain;
 use crate::math::{Complex, Mat3, Vec3, any_normal};
 use crate::robot::{Robot, WinchMode};
 use crate::statics::CableState;
-use catenary_dynamic::CatenaryDynamicEnd;
+use catenary_dynamic::{CatenaryDynamicEnd, MovingEnd};
 use shallow_dynamic::ShallowDynamic;
 use std::f64::consts::TAU;
 use std::fmt;
@@ -92,8 +92,8 @@ impl LocalAxes {
     }
 }
 
-/// End stiffness in local axes as its four entries [N/m]; `T` is real or complex.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// End stiffness in local axes as its entries [N/m]; `T` is real or complex.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LocalStiffness<T> {
     /// Along the chord.
     pub axial: T,
@@ -103,17 +103,35 @@ pub struct LocalStiffness<T> {
     pub normal: T,
     /// Out of plane.
     pub out_of_plane: T,
+    /// Between chord and out of plane, and between normal and out of plane: zero unless the far end of the cable couples
+    /// them, as a pulley with an inclined swivel axis does.
+    pub across: [T; 2],
+}
+
+impl<T> LocalStiffness<T> {
+    /// Stiffness whose entries are a function of these, as their real parts.
+    pub fn map<U>(&self, of: impl Fn(&T) -> U) -> LocalStiffness<U> {
+        LocalStiffness {
+            axial: of(&self.axial),
+            coupling: of(&self.coupling),
+            normal: of(&self.normal),
+            out_of_plane: of(&self.out_of_plane),
+            across: [of(&self.across[0]), of(&self.across[1])],
+        }
+    }
 }
 
 impl LocalStiffness<f64> {
     /// Stiffness as a 3×3 matrix in world axes [N/m].
     pub fn in_world(&self, axes: &LocalAxes) -> Mat3 {
         let LocalAxes { e, n, b } = axes;
-        let mixed = e * n.transpose();
+        let mixed = |p: &Vec3, q: &Vec3| p * q.transpose() + q * p.transpose();
         e * e.transpose() * self.axial
-            + (mixed + mixed.transpose()) * self.coupling
+            + mixed(e, n) * self.coupling
             + n * n.transpose() * self.normal
             + b * b.transpose() * self.out_of_plane
+            + mixed(e, b) * self.across[0]
+            + mixed(n, b) * self.across[1]
     }
 }
 
@@ -331,15 +349,12 @@ impl EndStiffness {
                 let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
                 let (m, damping, limit) = (material.mass_per_length, material.damping, up_to_hz * TAU);
                 let anchor = &robot.cables[i].anchor;
-                let end = drive.map(|drive| {
+                let end = drive.and_then(|drive| {
                     let chain = DriveChain::of(anchor, drive, (material.axial_stiffness, m), winches, limit);
-                    (&drive.end, chain, drive.swivel_mass(anchor))
+                    MovingEnd::of(hanging, &drive.end, chain, drive.swivel_mass(anchor))
                 });
                 // Without any mass the cable and its drive are springs.
-                let moves = |(_, chain, swivel): &(&AnchorEnd, Option<DriveChain>, f64)| {
-                    *swivel > 0.0 || chain.as_ref().is_some_and(DriveChain::has_dynamics)
-                };
-                if m == 0.0 && !end.as_ref().is_some_and(moves) {
+                if m == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
                     return Ok(Self::Constant(without_b(in_series(hanging.tangent_w()))));
                 }
                 let cable = CatenaryDynamicEnd::new(hanging, end, m, damping, in_plane_only, limit)?;

@@ -33,6 +33,12 @@ pub enum CableMotionError {
         /// Name of the signal.
         signal: &'static str,
     },
+    /// The force of the cable on the platform by a motion of its anchor is not known.
+    #[error("cable \"{cable}\" has no stiffness that a motion of its anchor could act on")]
+    NoFrameMotion {
+        /// Name of the cable.
+        cable: String,
+    },
     /// The cable has no catenary-dynamic stiffness.
     #[error("cable \"{cable}\": {reason}")]
     CatenaryDynamic {
@@ -113,7 +119,7 @@ impl CableStations {
                 if !loaded {
                     // Take the cable of `dynamics`, with as many clamped modes as it has kept.
                     if let Some(kept) = &end.kept {
-                        kept.compress(&mut stations.in_plane, &mut stations.out_of_plane);
+                        kept.compress(&mut stations.in_plane, &mut stations.out_of_plane, &mut stations.coupled);
                     }
                     cable = end.cable.clone();
                 }
@@ -162,16 +168,11 @@ impl CableStations {
                 // Clamped modes whose poles lie near the frequency have their amplitudes in the mode.
                 for near in motion.near.iter().filter(|near| near.term == *term) {
                     // Loaded stations have their own discretisation, in which a clamped mode may have the other sign.
-                    let (family, same_sign) = if near.out_of_plane {
-                        let [theirs, ours] =
-                            [&end.cable, &**cable].map(|cable| cable.out_of_plane.participation[near.pole]);
-                        (&mut motion_along.out_of_plane, ours.iter().zip(theirs).map(|(a, b)| a * b).sum::<f64>() > 0.0)
-                    } else {
-                        let [theirs, ours] =
-                            [&end.cable, &**cable].map(|cable| cable.in_plane.participation[near.pole]);
-                        (&mut motion_along.in_plane, ours.iter().zip(theirs).map(|(a, b)| a * b).sum::<f64>() > 0.0)
-                    };
-                    family[near.pole] = if same_sign { near.amplitude } else { -near.amplitude }.into();
+                    let [theirs, ours] =
+                        [&end.cable, &**cable].map(|cable| cable.participation(near.family, near.pole));
+                    let same_sign = ours.iter().zip(theirs).map(|(a, b)| a * b).sum::<f64>() > 0.0;
+                    motion_along.amplitudes(near.family)[near.pole] =
+                        if same_sign { near.amplitude } else { -near.amplitude }.into();
                 }
 
                 let at = |k: usize| stations.displacement(k, &motion_along).map(|u| u.re * scale);
@@ -214,6 +215,29 @@ impl CableStations {
         vector
     }
 
+    /// Displacement of station `at` along `direction_w` (unit) for a displacement `far_end_w` of the far end, the platform
+    /// held, at ω [rad/s], damped; for cables whose far end cannot move by itself.
+    pub(crate) fn by_far_end(
+        &self,
+        dynamics: &Dynamics,
+        at: usize,
+        direction_w: &Vec3,
+        far_end_w: &Vec3,
+        omega: f64,
+    ) -> Complex {
+        match &self.model {
+            StationModel::Straight(fractions) => (far_end_w.dot(direction_w) * (1.0 - fractions[at])).into(),
+            StationModel::CatenaryDynamic { cable, stations, .. } => {
+                let held = [Complex::new(0.0, 0.0); 3];
+                let square = dynamics.cable_square(self.cable, omega);
+                let far_end = self.local(far_end_w).map(Complex::from);
+                let motion_along = InternalMotion::between(cable, held, far_end, square);
+                let moved = stations.displacement(at, &motion_along);
+                moved.iter().zip(self.local(direction_w)).map(|(u, component)| u * component).sum()
+            }
+        }
+    }
+
     /// Row of the motion of station `at` along `direction_w` (unit) over the platform's slow motion and the amplitudes
     /// of the cable's clamped modes, in plane and then out of plane. The results are the platform's 6-vector, the index
     /// of a catenary-dynamic cable among the terms of the dynamics, and the row over the amplitudes.
@@ -224,8 +248,16 @@ impl CableStations {
                 (self.of_end(towards.map(|component| component * fractions[at])), None, Vec::new())
             }
             StationModel::CatenaryDynamic { stations, term, .. } => {
-                let Stations { in_plane, out_of_plane, .. } = stations;
+                let Stations { in_plane, out_of_plane, coupled, .. } = stations;
                 let [h, v, b] = towards;
+
+                if !coupled.still.is_empty() {
+                    let along = |part: &[f64; 3]| part.iter().zip(towards).map(|(part, axis)| part * axis).sum::<f64>();
+                    let psi = &coupled.still[at];
+                    let still = std::array::from_fn(|n| along(&[psi[0][n], psi[1][n], psi[2][n]]));
+                    let amplitudes = coupled.modes.iter().map(|mode| along(&mode[at])).collect();
+                    return (self.of_end(still), Some(*term), amplitudes);
+                }
 
                 // Slow motion with the platform end.
                 let psi = &in_plane.still[at];

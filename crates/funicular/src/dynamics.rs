@@ -361,7 +361,11 @@ impl Dynamics {
         for term in &self.terms {
             let m = term.form.effective_mass(omega);
             let [a, n, b] = term.displacement(x);
-            cables[term.cable] = m.axial * a * a + 2.0 * m.coupling * a * n + m.normal * n * n + m.out_of_plane * b * b;
+            cables[term.cable] = m.axial * a * a
+                + 2.0 * m.coupling * a * n
+                + m.normal * n * n
+                + m.out_of_plane * b * b
+                + 2.0 * (m.across[0] * a + m.across[1] * n) * b;
         }
         (platform, cables)
     }
@@ -436,7 +440,7 @@ impl Dynamics {
 const RESOLUTION: f64 = 1e-9;
 
 /// Adds the stiffness of a cable in local axes; `times(k, product)` multiplies k by a product of axis components.
-fn add_local<T: Copy + std::ops::AddAssign + Scalar>(
+fn add_local<T: Copy + Default + std::ops::AddAssign + Scalar>(
     total: &mut Matrix6<T>,
     term: &DynamicCableAt,
     k: &LocalStiffness<T>,
@@ -450,6 +454,19 @@ fn add_local<T: Copy + std::ops::AddAssign + Scalar>(
             *entry += times(k.coupling, a[i] * n[j] + n[i] * a[j]);
             *entry += times(k.normal, n[i] * n[j]);
             *entry += times(k.out_of_plane, b[i] * b[j]);
+        }
+    }
+
+    // Most cables couple no motion out of plane.
+    let [with_axial, with_normal] = k.across;
+    if k.across == [T::default(); 2] {
+        return;
+    }
+    for j in 0..6 {
+        for i in 0..6 {
+            let entry = &mut total[(i, j)];
+            *entry += times(with_axial, a[i] * b[j] + b[i] * a[j]);
+            *entry += times(with_normal, n[i] * b[j] + b[i] * n[j]);
         }
     }
 }

@@ -166,6 +166,9 @@ pub enum ReductionError {
         /// Number of the input, from 1.
         input: usize,
     },
+    /// A signal is a motion of the frame.
+    #[error("the reduced model has no motions of the base or of anchors: use `frf` for them")]
+    FrameSignal,
     /// The motion of a point on a cable is not known.
     #[error(transparent)]
     CableMotion(#[from] CableMotionError),
@@ -221,6 +224,12 @@ pub enum ReductionError {
 
 /// Fraction of its static response above which a part of a drive has no mass; rounding leaves 1e-9.
 const MASSLESS: f64 = 1e-6;
+
+/// Checks that no signal is a motion of the frame.
+fn check_signals(inputs: &[Signal]) -> Result<(), ReductionError> {
+    let of_frame = inputs.iter().any(|signal| matches!(signal, Signal::Frame(_)));
+    if of_frame { Err(ReductionError::FrameSignal) } else { Ok(()) }
+}
 
 /// Checks that all cables are catenary-dynamic and that the losses of their drives have a second-order form.
 fn check_cables(robot: &Robot, dynamics: &Dynamics) -> Result<(), ReductionError> {
@@ -288,6 +297,7 @@ pub fn reduce(
 ) -> Result<SecondOrder, ReductionError> {
     let mut steps = Steps::new(report);
     check_cables(robot, dynamics)?;
+    check_signals(inputs)?;
 
     // The response of a cable to a force on itself has a kink, which the kept modes cannot represent.
     let loaded = inputs.iter().any(|signal| matches!(signal, Signal::OnCable { .. }));
@@ -343,9 +353,10 @@ fn relative_error(natural: &[f64], others: &[modes::Mode]) -> f64 {
 /// Kind of each response, the pairs of the first output with all inputs first. Responses of one kind have comparable
 /// sizes: motion or tension, per force or per commanded length.
 fn pair_kinds(inputs: &[Signal], outputs: &[(Signal, Quantity)]) -> Vec<usize> {
-    let is = |signal: &Signal, of: DriveSignal| matches!(signal, Signal::Drive { signal, .. } if *signal == of);
+    let is =
+        |signal: &Signal, of: fn(DriveSignal) -> bool| matches!(signal, Signal::Drive { signal, .. } if of(*signal));
     let kind = |input: &Signal, output: &Signal| {
-        2 * usize::from(is(output, DriveSignal::Tension)) + usize::from(is(input, DriveSignal::Length))
+        2 * usize::from(is(output, DriveSignal::is_tension)) + usize::from(is(input, |of| of == DriveSignal::Length))
     };
     outputs.iter().flat_map(|(output, _)| inputs.iter().map(move |input| kind(input, output))).collect()
 }
@@ -408,6 +419,7 @@ impl Channels {
                     layout.add_row(of_cable, *term, 1.0, row);
                 }
             }
+            Port::Frame(_) => unreachable!("motions of the frame are refused"),
             Port::Cable { stations, station, direction_w } => {
                 let (platform, term, amplitudes) = stations.row(dynamics, *station, direction_w);
                 row[0][..layout.dof].copy_from_slice(&coordinates(&platform).as_slice()[..layout.dof]);

@@ -6,12 +6,14 @@
 //! frequencies miss.
 
 pub mod adaptive;
+mod frame_motion;
 mod kernel;
 mod maxima;
 pub mod missed_peaks;
 mod peaks;
 mod signals;
 
+pub use frame_motion::{FrameInput, FrameMotion};
 pub use peaks::{Peak, peaks};
 pub use signals::{Port, Signal, about, along};
 
@@ -63,6 +65,13 @@ pub enum ResponseError {
          points among the same loaded stations"
     )]
     SameCable,
+    /// The output is a point of a cable that runs over a pulley or to a winch that yields, and the input a motion of its
+    /// anchor.
+    #[error(
+        "the motion of a point of a cable by a motion of its anchor is not known for a cable that runs over a pulley or \
+         to a winch that yields: choose an output on the platform"
+    )]
+    FrameAndCable,
     /// Input and output are the drive of a cable and a point on the same cable.
     #[error("the drive of a cable and a point on the same cable do not go together as input and output")]
     DriveAndCable,
@@ -163,12 +172,17 @@ pub fn matrix(
     rows.into_iter().zip(pairs()).map(finished).collect()
 }
 
-/// Motion of a cable under a force on itself, which adds to the motion through the platform.
+/// Motion of a cable under a force on itself, or a motion of its anchor, which adds to the motion through the platform.
 enum OwnResponse<'a> {
     /// Between points of the cable.
     Points { stations: &'a CableStations, to: (usize, &'a Vec3), from: (usize, &'a Vec3) },
     /// Between signals of its drive; the cable's index among those whose stiffness depends on frequency.
     Drive { term: usize, to: DriveSignal, from: DriveSignal },
+    /// From a motion of the frame to a signal of a drive; the cable's index among those whose stiffness depends on
+    /// frequency.
+    DriveByFrame { term: usize, to: DriveSignal, from: &'a FrameMotion },
+    /// From a motion of the frame to a point of a cable.
+    PointByFrame { stations: &'a CableStations, to: (usize, &'a Vec3), from: &'a FrameMotion },
 }
 
 impl<'a> OwnResponse<'a> {
@@ -195,6 +209,13 @@ impl<'a> OwnResponse<'a> {
                 }
                 Ok(Some(Self::Points { stations, to: (*station, direction_w), from: (*loaded, force_w) }))
             }
+            (Port::Frame(from), Port::Drive { term, signal, .. }) => {
+                Ok(Some(Self::DriveByFrame { term: *term, to: *signal, from }))
+            }
+            (Port::Frame(from), Port::Cable { stations, station, direction_w }) => {
+                frame_motion::check_stations(dynamics, stations)?;
+                Ok(Some(Self::PointByFrame { stations, to: (*station, direction_w), from }))
+            }
             _ => Ok(None),
         }
     }
@@ -202,6 +223,8 @@ impl<'a> OwnResponse<'a> {
     fn at(&self, dynamics: &Dynamics, omega: f64) -> Complex {
         match self {
             Self::Points { stations, to, from } => stations.own_receptance(dynamics, *to, *from, omega),
+            Self::DriveByFrame { term, to, from } => from.of_drive(dynamics, *term, *to, omega),
+            Self::PointByFrame { stations, to, from } => from.of_station(dynamics, stations, *to, omega),
             Self::Drive { term, to, from } => {
                 let DynamicCable::CatenaryDynamic(form) = dynamics.terms()[*term].form() else {
                     unreachable!("ports of drives are on catenary-dynamic cables")

@@ -6,6 +6,7 @@ use super::{
     PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs, ReportArgs, StateArgs, StaticsArgs, StiffnessArgs,
     SweepArgs, TensionArgs, TensionRuleName, TermArgs, WinchModeName, WireRopeName,
 };
+use funicular_files::endings::Kind;
 use funicular_study::import::SourceFile;
 use funicular_study::names::TensionRuleName as Rule;
 use funicular_study::new_robot::{LengthUnit, NewMotion, WireRope};
@@ -145,6 +146,12 @@ impl ModesArgs {
 }
 
 impl FrfArgs {
+    /// True if the output file is a figure.
+    fn draws_figure(&self) -> bool {
+        let kind = self.sink.output_file.as_deref().and_then(Kind::of);
+        matches!(kind, Some(Kind::Svg | Kind::Pdf))
+    }
+
     pub(crate) fn request(&self, robot: RobotText) -> request::FrfRequest {
         request::FrfRequest {
             robot,
@@ -154,7 +161,8 @@ impl FrfArgs {
                 points: self.points.map(|points| points as usize),
                 log: self.log,
             },
-            adaptive: self.adaptive,
+            // A figure shows every peak unless the frequencies are given.
+            adaptive: self.adaptive || self.points.is_none() && self.draws_figure(),
             input: OneOrSeveral::of(self.input.iter().map(|input| input.name.clone()).collect()),
             output: OneOrSeveral::of(self.output.iter().map(|output| output.name.clone()).collect()),
             signal_points: self.signal_points.request(),

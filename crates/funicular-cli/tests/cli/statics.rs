@@ -272,11 +272,14 @@ fn commands_follow_cables_over_pulleys() {
         "--vary",
         "pulleys.wheel.radius_m=0.01:0.2:3",
         "--quantity",
-        "drum-tensions,wrap-max",
+        "exit-tensions,drum-tensions,wrap-max",
         "--format",
         "csv",
     ]);
-    assert!(rows.contains("tension_drum_1_n") && rows.contains("wrap_max_deg"), "{rows}");
+    assert!(
+        rows.contains("tension_anchor_1_n,") && rows.contains("tension_drum_1_n") && rows.contains("wrap_max_deg"),
+        "{rows}"
+    );
     let page = printed(&["report", "-", "--below-hz", "2", "-o", "-"]);
     assert!(page.contains("tension, drum") && page.contains("exit points held") && page.contains("drum of cable"));
     let moordyn = run_with(&["export", "-", "--to", "moordyn"], &robot);

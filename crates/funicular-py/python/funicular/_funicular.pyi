@@ -109,13 +109,14 @@ class Analyses:
             Frequencies [Hz], a row of n.
         input
             Input signal: force `fx`, `fy`, `fz`, moment `mx`, `my`, `mz`, or `f:ux,uy,uz`, `m:ux,uy,uz` along a
-            direction, in world axes; a force on a cable, as in `cable:3@0.5:fz`; or of a drive the commanded length
-            `length:3` [m], the force on the drum `drum:3` or of the motor `motor:3`. A list names several.
+            direction, in world axes; a force on a cable, as in `cable:3@0.5:fz`; the commanded length of a cable, a
+            force of its motor or on its drum, as in `length:3`, `motor:3`, `drum:3`; or a motion of the base, `base-x`
+            to `base-rz`, or of an anchor, as in `anchor:3:x`. A list names several.
         output
             Output signal: displacement `x`, `y`, `z`, rotation `rx`, `ry`, `rz`, with `v` (velocity) or `a`
             (acceleration) before it, or `x:ux,uy,uz`, `v:…`, `a:…` along a direction; a point of a cable, as in
-            `cable:3@0.5:az`; or of a drive the motions `drum:3`, `motor:3` and the tension `tension:3` [N]. A list names
-            several.
+            `cable:3@0.5:az`; or the motion of a drum or motor, or the tension of a cable at the platform or at its drum, as
+            in `drum:3`, `motor:3`, `tension:3`, `drum-tension:3`. A list names several.
         adaptive
             Add frequencies between those in `hz`, which ascend, until every peak has its height (to 0.1 %) and straight
             lines over the logarithm of the magnitude are accurate to 1 %. At undamped natural frequencies, where the

@@ -147,7 +147,7 @@ pub fn about(at_rest: &AtRest, requested: RequestedCable<'_>) -> Result<CableRes
         imag: values.iter().map(|k| of(k).im + 0.0).collect(),
     };
     let world = |of: fn(&Complex) -> f64| {
-        values.iter().map(|k| rows(&in_part(k, of).in_world(&axes))).collect::<Vec<[[f64; 3]; 3]>>()
+        values.iter().map(|k| rows(&k.map(of).in_world(&axes))).collect::<Vec<[[f64; 3]; 3]>>()
     };
 
     Ok(CableResult {
@@ -183,8 +183,8 @@ fn curve(stiffness: &EndStiffness, axes: &LocalAxes, frequency_hz: &[f64]) -> Re
                 EndStiffness::Constant(world) => in_axes(world, axes),
                 EndStiffness::Dynamic(form) => turned(&form.damped(f * TAU), form.axes(), axes),
             };
-            let finite =
-                [k.axial, k.coupling, k.normal, k.out_of_plane].iter().all(|k| k.re.is_finite() && k.im.is_finite());
+            let numbers = [k.axial, k.coupling, k.normal, k.out_of_plane].into_iter().chain(k.across);
+            let finite = numbers.into_iter().all(|k| k.re.is_finite() && k.im.is_finite());
             if finite {
                 Ok(k)
             } else {
@@ -201,14 +201,14 @@ fn turned(k: &LocalStiffness<Complex>, from: &LocalAxes, to: &LocalAxes) -> Loca
     if from == to {
         return *k;
     }
-    let part = |of: fn(&Complex) -> f64| in_axes(&in_part(k, of).in_world(from), to);
-    let (re, im) = (part(|k| k.re), part(|k| k.im));
-    let join = |re: Complex, im: Complex| Complex::new(re.re, im.re);
+    let [re, im] = [k.map(|k| k.re), k.map(|k| k.im)].map(|part| in_axes(&part.in_world(from), to));
+    let i = Complex::i();
     LocalStiffness {
-        axial: join(re.axial, im.axial),
-        coupling: join(re.coupling, im.coupling),
-        normal: join(re.normal, im.normal),
-        out_of_plane: join(re.out_of_plane, im.out_of_plane),
+        axial: re.axial + i * im.axial,
+        coupling: re.coupling + i * im.coupling,
+        normal: re.normal + i * im.normal,
+        out_of_plane: re.out_of_plane + i * im.out_of_plane,
+        across: [0, 1].map(|axis| re.across[axis] + i * im.across[axis]),
     }
 }
 
@@ -216,15 +216,12 @@ fn turned(k: &LocalStiffness<Complex>, from: &LocalAxes, to: &LocalAxes) -> Loca
 fn in_axes(world: &Mat3, axes: &LocalAxes) -> LocalStiffness<Complex> {
     let LocalAxes { e, n, b } = axes;
     let between = |u: &funicular::math::Vec3, v: &funicular::math::Vec3| Complex::new(u.dot(&(world * v)), 0.0);
-    LocalStiffness { axial: between(e, e), coupling: between(e, n), normal: between(n, n), out_of_plane: between(b, b) }
-}
-
-fn in_part(k: &LocalStiffness<Complex>, of: fn(&Complex) -> f64) -> LocalStiffness<f64> {
     LocalStiffness {
-        axial: of(&k.axial),
-        coupling: of(&k.coupling),
-        normal: of(&k.normal),
-        out_of_plane: of(&k.out_of_plane),
+        axial: between(e, e),
+        coupling: between(e, n),
+        normal: between(n, n),
+        out_of_plane: between(b, b),
+        across: [between(e, b), between(n, b)],
     }
 }
 

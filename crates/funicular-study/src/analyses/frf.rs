@@ -427,14 +427,14 @@ impl Response {
 pub struct PlaceRow {
     /// True if the point is on a cable. It is then in world axes, at equilibrium, and not in the platform frame.
     pub on_cable: bool,
-    /// `None` for a signal of a drive, which has no point.
+    /// `None` for a signal of a drive or a motion of the frame, which have no point.
     pub point_m: Option<[f64; 3]>,
 }
 
 impl PlaceRow {
     fn of(port: &Port, point: Option<[f64; 3]>) -> Self {
         match (port, port.cable_point_w()) {
-            (Port::Drive { .. }, _) => Self { on_cable: true, point_m: None },
+            (Port::Drive { .. } | Port::Frame(_), _) => Self { on_cable: true, point_m: None },
             (_, None) => Self { on_cable: false, point_m: Some(point.unwrap_or_default()) },
             (_, Some(point_w)) => Self { on_cable: true, point_m: Some(point_w.into()) },
         }
@@ -465,7 +465,7 @@ pub fn unit(input: &Input, output: &Output) -> String {
         Quantity::Velocity => "/s",
         Quantity::Acceleration => "/s²",
     };
-    let effort = if input.is_moment { "(N·m)" } else { input.unit() };
+    let effort = if input.unit() == "N m" { "(N·m)" } else { input.unit() };
     if by_time.is_empty() { format!("{motion}/{effort}") } else { format!("({motion}{by_time})/{effort}") }
 }
 

@@ -287,14 +287,10 @@ fn output_rows(outputs: &[(Output, Signal)]) -> Vec<ChannelRow> {
 }
 
 fn unit(output: &Output) -> &'static str {
-    if output.drive.is_some() {
-        return output.unit();
-    }
-    match (output.is_rotation, output.quantity) {
-        (false, Quantity::Displacement) => "m",
+    match (output.is_rotation(), output.quantity) {
+        (_, Quantity::Displacement) => output.unit(),
         (false, Quantity::Velocity) => "m/s",
         (false, Quantity::Acceleration) => "m/s²",
-        (true, Quantity::Displacement) => "rad",
         (true, Quantity::Velocity) => "rad/s",
         (true, Quantity::Acceleration) => "rad/s²",
     }

@@ -63,7 +63,7 @@ enum Parameter {
 pub const MAX_FREQUENCIES: usize = 100;
 
 /// Every quantity, in the order of the documentation.
-static TABLE: [Definition; 22] = [
+static TABLE: [Definition; 23] = [
     Definition {
         name: "first-frequency",
         about: "lowest natural frequency",
@@ -168,6 +168,16 @@ static TABLE: [Definition; 22] = [
         frequencies: |_| 0,
         columns: |robot, _| each_cable(robot, "tension_platform", "n", "N", "tension of a cable at its platform end"),
         values: |row, _, out| out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.tension_platform)))),
+    },
+    Definition {
+        name: "exit-tensions",
+        about: "tension of every cable where it leaves its anchor or pulley",
+        documentation: "`tension_anchor_NAME_n`: tension of every cable at its anchor, over a pulley at the exit point",
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
+        frequencies: |_| 0,
+        columns: |robot, _| each_cable(robot, "tension_anchor", "n", "N", "tension of a cable at its anchor"),
+        values: |row, _, out| out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.tension_anchor)))),
     },
     Definition {
         name: "drum-tensions",

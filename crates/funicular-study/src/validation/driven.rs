@@ -4,11 +4,11 @@ use super::reference::{CableToWinch, DriveParts, DrivenCable, DrivenRobot, Drive
 use super::{Bound, Case, Comparison, drives};
 use anyhow::{Result, anyhow};
 use funicular::cable::catenary_dynamic::DriveSignal;
-use funicular::cable::{CableModel, EndStiffness, LocalStiffness};
+use funicular::cable::{CableModel, EndStiffness};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Mat3, Vec3};
 use funicular::modes;
-use funicular::response::{self, Port, Quantity, Signal};
+use funicular::response::{self, FrameInput, Port, Quantity, Signal};
 use funicular::robot::{Control, Damping, DrumSide, Robot, Servo, State, WinchMode};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
@@ -93,13 +93,20 @@ fn driven(row: &DrivenRobot, mut robot: Robot, source: &str) -> Result<Vec<Compa
         .map(|port| (port, Quantity::Displacement))
         .collect();
     let what = if torque { "motion per force of a motor" } else { "motion per commanded length" };
-    for theirs in &row.responses {
-        let found = response::matrix(&dynamics, &[theirs.frequency_hz], &inputs, &outputs)?;
-        let ours: Vec<f64> = found.iter().flat_map(|row| [row[0].re, row[0].im]).collect();
-        let pairs = theirs.re.iter().flatten().zip(theirs.im.iter().flatten());
-        let theirs_flat: Vec<f64> = pairs.flat_map(|(re, im)| [*re, *im]).collect();
-        let quantity = format!("{what} at {} Hz", theirs.frequency_hz);
-        rows.push(case.together(&quantity, &theirs_flat, &ours, AT_CONSTANT_TORQUE, Bound::Rounding));
+    let base = axes.map(FrameInput::BaseAlong).into_iter().chain(axes.map(FrameInput::BaseAbout));
+    let base: Vec<Signal> = base.map(Signal::Frame).collect();
+    let base = Port::all(&robot, &rest, &dynamics, &base, false)?;
+    for (what, inputs, responses) in
+        [(what, &inputs, &row.responses), ("motion per motion of the base", &base, &row.base)]
+    {
+        for theirs in responses {
+            let found = response::matrix(&dynamics, &[theirs.frequency_hz], inputs, &outputs)?;
+            let ours: Vec<f64> = found.iter().flat_map(|row| [row[0].re, row[0].im]).collect();
+            let pairs = theirs.re.iter().flatten().zip(theirs.im.iter().flatten());
+            let theirs_flat: Vec<f64> = pairs.flat_map(|(re, im)| [*re, *im]).collect();
+            let quantity = format!("{what} at {} Hz", theirs.frequency_hz);
+            rows.push(case.together(&quantity, &theirs_flat, &ours, AT_CONSTANT_TORQUE, Bound::Rounding));
+        }
     }
 
     if let Some(damped) = &row.servo_damped {
@@ -166,42 +173,62 @@ fn cable(row: &DrivenCable, at_rest: &CableToWinch, source: &str) -> Result<Vec<
         case.relative("clamped frequencies [Hz]", &row.clamped_frequencies_hz, &clamped, FREQUENCIES, Bound::Rounding),
     ];
 
-    // Dynamic stiffness, and the force per commanded length on a platform that is held: that on the mass, which D moves.
+    // Dynamic stiffness; and the forces per commanded length, per motion of the anchor and per motion of anchor and drum on
+    // a platform that is held: those on the mass, which D moves.
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), limit)?;
-    let signals = [Signal::Drive { cable: 0, signal: DriveSignal::Length }].into_iter().chain(
-        [Vec3::x(), Vec3::y(), Vec3::z()].map(|direction_w| Signal::Along { direction_w, point_p: Vec3::zeros() }),
-    );
-    let ports = Port::all(&robot, &rest, &dynamics, &signals.collect::<Vec<_>>(), false)?;
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let length = Signal::Drive { cable: 0, signal: DriveSignal::Length };
+    let anchor = axes.map(|direction_w| Signal::Frame(FrameInput::Anchor { cable: 0, direction_w }));
+    let base = axes.map(|direction_w| Signal::Frame(FrameInput::BaseAlong(direction_w)));
+    let inputs: Vec<Signal> = [length].into_iter().chain(anchor).chain(base).collect();
+    let outputs = axes.map(|direction_w| Signal::Along { direction_w, point_p: Vec3::zeros() });
+    let inputs = Port::all(&robot, &rest, &dynamics, &inputs, false)?;
+    let outputs: Vec<(Port, Quantity)> = Port::all(&robot, &rest, &dynamics, &outputs, false)?
+        .into_iter()
+        .map(|port| (port, Quantity::Displacement))
+        .collect();
+
     for theirs in &row.dynamic {
         let omega = theirs.frequency_hz * TAU;
         let k = found.damped(omega);
-        let part = |of: fn(&Complex) -> f64| -> Mat3 {
-            let [axial, coupling, normal, out_of_plane] = [&k.axial, &k.coupling, &k.normal, &k.out_of_plane].map(of);
-            LocalStiffness { axial, coupling, normal, out_of_plane }.in_world(found.axes())
-        };
-        let (re, im) = (part(|z| z.re), part(|z| z.im));
+        let (re, im) = (k.map(|z| z.re).in_world(found.axes()), k.map(|z| z.im).in_world(found.axes()));
         let flat = |re: &[f64], im: &[f64]| re.iter().chain(im).copied().collect::<Vec<f64>>();
-        let both = [&theirs.stiffness_re, &theirs.stiffness_im].map(|rows| Mat3::from_fn(|i, j| rows[i][j]));
+        let columns = |rows: &[[f64; 3]; 3]| Mat3::from_fn(|i, j| rows[i][j]);
+        let together = |re: &[[f64; 3]; 3], im: &[[f64; 3]; 3]| flat(columns(re).as_slice(), columns(im).as_slice());
         let at = format!("at {} Hz", theirs.frequency_hz);
-        let theirs_k = flat(both[0].as_slice(), both[1].as_slice());
+        let theirs_k = together(&theirs.stiffness_re, &theirs.stiffness_im);
         let ours_k = flat(re.as_slice(), im.as_slice());
         rows.push(case.together(&format!("stiffness {at} [N/m]"), &theirs_k, &ours_k, AT_CONSTANT_TORQUE, digits));
 
-        // f = D x.
-        let x: Vec<Complex> = (1..4)
-            .map(|k| {
-                Ok(response::between(&dynamics, &[theirs.frequency_hz], &ports[0], &ports[k], Quantity::Displacement)?
-                    [0])
-            })
-            .collect::<Result<_>>()?;
+        // f = D x for each input: one column of three components.
+        let x = response::matrix(&dynamics, &[theirs.frequency_hz], &inputs, &outputs)?;
         let d = dynamics.stiffness(omega);
-        let force = |i: usize| -> Complex {
-            (0..3).map(|j| d[(i, j)] * x[j]).sum::<Complex>() - omega * omega * robot.platform.mass * x[i]
+        let force = |input: usize, i: usize| -> Complex {
+            let x = |j: usize| x[j * inputs.len() + input][0];
+            (0..3).map(|j| d[(i, j)] * x(j)).sum::<Complex>() - omega * omega * robot.platform.mass * x(i)
         };
-        let ours: Vec<Complex> = (0..3).map(force).collect();
-        let ours = flat(&[ours[0].re, ours[1].re, ours[2].re], &[ours[0].im, ours[1].im, ours[2].im]);
-        let theirs_f = flat(&theirs.length_re, &theirs.length_im);
-        rows.push(case.together(&format!("force per length {at} [N/m]"), &theirs_f, &ours, AT_CONSTANT_TORQUE, digits));
+        let forces = |inputs: std::ops::Range<usize>| -> Vec<f64> {
+            let all: Vec<Complex> =
+                inputs.flat_map(|input| (0..3).map(move |i| (input, i))).map(|(k, i)| force(k, i)).collect();
+            all.iter().map(|f| f.re).chain(all.iter().map(|f| f.im)).collect()
+        };
+        let by_base = theirs.base_re.as_ref().zip(theirs.base_im.as_ref());
+        let by_base = by_base.map(|(re, im)| ("motion of anchor and drum", together(re, im), forces(4..7)));
+        for (what, theirs, ours) in [
+            ("length", flat(&theirs.length_re, &theirs.length_im), forces(0..1)),
+            ("motion of the anchor", together(&theirs.anchor_re, &theirs.anchor_im), forces(1..4)),
+        ]
+        .into_iter()
+        .chain(by_base)
+        {
+            rows.push(case.together(
+                &format!("force per {what} {at} [N/m]"),
+                &theirs,
+                &ours,
+                AT_CONSTANT_TORQUE,
+                digits,
+            ));
+        }
     }
     Ok(rows)
 }

@@ -563,6 +563,8 @@ pub(super) struct DrivenRobot {
     pub(super) frequencies_hz: Vec<f64>,
     /// Motion of the platform per commanded length, or per force of a motor: (6, cables).
     pub(super) responses: Vec<DriveResponse>,
+    /// Motion of the platform per motion of the base, anchors and drums, in six directions: (6, 6).
+    pub(super) base: Vec<DriveResponse>,
     /// Damped modes with the damping of the servos alone.
     #[serde(default)]
     pub(super) servo_damped: Option<ServoDamped>,
@@ -607,6 +609,15 @@ pub(super) struct DrivenCableAt {
     pub(super) stiffness_im: [[f64; 3]; 3],
     pub(super) length_re: [f64; 3],
     pub(super) length_im: [f64; 3],
+    /// Force on the platform end per motion of the anchor, its drum fixed: (3, 3).
+    pub(super) anchor_re: [[f64; 3]; 3],
+    pub(super) anchor_im: [[f64; 3]; 3],
+    /// Force on the platform end per motion of anchor and drum: (3, 3). `None` where the source leaves out the inertia of
+    /// the drum side that moves along.
+    #[serde(default)]
+    pub(super) base_re: Option<[[f64; 3]; 3]>,
+    #[serde(default)]
+    pub(super) base_im: Option<[[f64; 3]; 3]>,
 }
 
 /// Robot whose cables run over equal pulleys to equal winches.

@@ -13,6 +13,7 @@
 //! K_s and M_s being the static condensation and g_k the participation of the ends in mode k: a few operations per
 //! pole. Derivation: docs/theory.md, section 9.
 
+mod carrier;
 mod drive_forms;
 mod drive_motion;
 mod drive_signals;
@@ -22,26 +23,26 @@ mod moving_end;
 mod partition;
 mod poles;
 
+pub(crate) use carrier::CarrierMotion;
 pub(crate) use drive_forms::{DriveForm, DrivePart, InPowersOfS};
-use drive_motion::DriveAt;
 pub use drive_motion::DriveMotion;
-pub(crate) use drive_motion::{DriveLosses, DriveMotions};
+pub(crate) use drive_motion::{DriveAt, DriveLosses};
 pub use drive_signals::DriveSignal;
 use drive_signals::EndDirections;
 pub(crate) use internal_motion::InternalMotion;
 pub use internal_motion::{Displacements, Stations};
 pub(crate) use mesh::{ellipse, has_tension};
-pub use moving_end::{EndAlong, MovingEnd};
+pub use moving_end::{EndAlong, EndSideways, MovingEnd};
 pub use poles::PoleResidue;
 
 use super::{LocalAxes, LocalStiffness};
 use crate::catenary::Catenary;
 use crate::catenary::space::HangingCable;
-use crate::drive::{AnchorEnd, DriveChain};
 use crate::math::{Complex, DMat};
 use crate::robot::Damping;
 use mesh::Mesh;
-use partition::{Condensed, Guide};
+use moving_end::Still;
+use partition::Condensed;
 use std::ops::Range;
 use thiserror::Error;
 
@@ -52,14 +53,18 @@ pub struct CatenaryDynamic {
     pub in_plane: PoleResidue<4, 3>,
     /// Stiffness out of plane: start, then end.
     pub out_of_plane: PoleResidue<2, 1>,
+    /// Stiffness of a cable whose end couples both families, which are then empty: components (horizontal, up, out of
+    /// plane) of the start, then of the end.
+    pub coupled: Option<Box<PoleResidue<6, 6>>>,
     /// Highest angular frequency for which the discretisation was made [rad/s].
     pub limit: f64,
     /// Estimated relative error of the clamped frequencies below the limit.
     pub error: f64,
     /// Polynomial degree of each element.
     pub degrees: Vec<usize>,
-    /// Motion that the end has; `None` for an end that is held. The components of a moving end are zero in the
-    /// stiffness, the mass and the participations: it belongs to the inside of the cable.
+    /// Motions that the end has; `None` for an end that is held. They belong to the inside of the cable, and are relative
+    /// to what carries the end: the components of the end in stiffness, mass and participations are the motion of that
+    /// carrier, with wheel and drum.
     pub end: Option<MovingEnd>,
     /// Motions of the drive at that end.
     pub drive: Option<DriveMotion>,
@@ -71,10 +76,10 @@ pub enum CatenaryDynamicError {
     /// A point of the cable has no tension: a slack massless cable, or a loop that hangs straight down.
     #[error("the cable has no tension at its lowest point: it has no linear vibration")]
     NoTension,
-    /// The end of the cable moves in its plane and out of it at the same time.
+    /// The end of the cable couples the motions in plane, which alone are wanted, with those out of plane.
     #[error(
-        "the swivel axis of its pulley is not parallel to the load of the cable: the model exists for pulleys whose \
-         swivel axis is vertical, and without wind; choose the model `catenary-static`"
+        "the swivel axis of its pulley is not parallel to the load of the cable, so that its motions in plane and out of \
+         plane are coupled: leave `in-plane-only` out"
     )]
     Skew,
     /// Nothing holds the drum: the cable would run over its pulley.
@@ -115,38 +120,46 @@ pub struct CatenaryDynamicEnd {
     directions: EndDirections,
 }
 
-/// Clamped modes that a cable has kept, and the modes that replace the others.
+/// Clamped modes that a cable has kept, and the modes that replace the others: per family the number of modes that are
+/// kept, and the weights of the others in the modes that replace them, by columns.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct KeptModes {
-    /// Number of modes that are kept, and the weights of the others in the modes that replace them, by columns.
     in_plane: (usize, DMat),
     out_of_plane: (usize, DMat),
+    coupled: (usize, DMat),
 }
 
 impl KeptModes {
-    /// Compresses displacements by all clamped modes in the same way.
-    pub(crate) fn compress(&self, in_plane: &mut Displacements<2, 4>, out_of_plane: &mut Displacements<1, 2>) {
+    /// Compresses displacements by all clamped modes in the same way. A family without displacements stays empty.
+    pub(crate) fn compress(
+        &self,
+        in_plane: &mut Displacements<2, 4>,
+        out_of_plane: &mut Displacements<1, 2>,
+        coupled: &mut Displacements<3, 6>,
+    ) {
         in_plane.compress(self.in_plane.0, &self.in_plane.1);
         out_of_plane.compress(self.out_of_plane.0, &self.out_of_plane.1);
+        coupled.compress(self.coupled.0, &self.coupled.1);
     }
 }
 
 impl CatenaryDynamicEnd {
-    /// Platform end of a hanging cable, valid up to ω = `limit` [rad/s]. `end` is its end at the pulley or the winch,
-    /// with the drive behind it and the mass of the swivel at the cable [kg]; `None` for a fixed anchor.
+    /// Platform end of a hanging cable, valid up to ω = `limit` [rad/s]. `end` is its end at the pulley or the winch;
+    /// `None` for an end that is held.
     ///
     /// # Errors
     /// [`CatenaryDynamicError`].
     pub fn new(
         hanging: &HangingCable,
-        end: Option<(&AnchorEnd, Option<DriveChain>, f64)>,
+        end: Option<MovingEnd>,
         mass_per_length: f64,
         damping: Damping,
         in_plane_only: bool,
         limit: f64,
     ) -> Result<Self, CatenaryDynamicError> {
-        let end =
-            end.map(|(end, chain, swivel_mass)| MovingEnd::of(hanging, end, chain, swivel_mass)).transpose()?.flatten();
+        if in_plane_only && end.as_ref().is_some_and(MovingEnd::couples) {
+            return Err(CatenaryDynamicError::Skew);
+        }
         let cable =
             CatenaryDynamic::with_stations(&hanging.catenary, end, mass_per_length, limit, Vec::new(), false)?.0;
         let (e, n) = hanging.axes_w();
@@ -167,16 +180,26 @@ impl CatenaryDynamicEnd {
     /// These represent the losses of the drive and its `signals`, too.
     pub(crate) fn with_poles_below(&self, x: f64, signals: &[DriveSignal]) -> Self {
         let mut cut = self.clone();
-        let [of_plane, of_normal] = self.forces_on_modes(signals);
-        let (in_plane, out_of_plane) = (self.cable.in_plane.poles_below(x), self.cable.out_of_plane.poles_below(x));
-        let (poles, weights) = self.cable.in_plane.compressed(in_plane, 2, &of_plane);
-        let (poles_out_of_plane, weights_out_of_plane) =
-            self.cable.out_of_plane.compressed(out_of_plane, 1, &of_normal);
-
+        let [of_plane, of_normal, of_coupled] = self.forces_on_modes(signals);
+        let CatenaryDynamic { in_plane, out_of_plane, coupled, .. } = &self.cable;
+        let below = [in_plane.poles_below(x), out_of_plane.poles_below(x)];
+        let (poles, weights) = in_plane.compressed(below[0], 2, &of_plane);
+        let (poles_out_of_plane, weights_out_of_plane) = out_of_plane.compressed(below[1], 1, &of_normal);
+        let mut kept = KeptModes {
+            in_plane: (below[0], weights),
+            out_of_plane: (below[1], weights_out_of_plane),
+            coupled: (0, DMat::zeros(0, 0)),
+        };
         (cut.cable.in_plane, cut.cable.out_of_plane) = (poles, poles_out_of_plane);
-        let kept = KeptModes { in_plane: (in_plane, weights), out_of_plane: (out_of_plane, weights_out_of_plane) };
+        if let Some(family) = coupled {
+            let count = family.poles_below(x);
+            let (poles, weights) = family.compressed(count, 3, &of_coupled);
+            cut.cable.coupled = Some(Box::new(poles));
+            kept.coupled = (count, weights);
+        }
+
         if let Some(drive) = &mut cut.cable.drive {
-            kept.compress(&mut drive.along, &mut drive.out_of_plane);
+            kept.compress(&mut drive.along, &mut drive.sideways, &mut drive.coupled);
         }
         cut.kept = Some(Box::new(kept));
         cut
@@ -192,19 +215,28 @@ impl CatenaryDynamicEnd {
         (!self.in_plane_only).then_some(&self.cable.out_of_plane)
     }
 
-    /// Local stiffness from its entries in plane, and those out of plane unless they are left out.
-    fn with_out_of_plane<T: Default>(
+    /// Poles and residues of both families together; `None` unless the end of the cable couples them.
+    pub(crate) fn coupled(&self) -> Option<&PoleResidue<6, 6>> {
+        self.cable.coupled.as_deref()
+    }
+
+    /// Local stiffness from its entries per family; those out of plane may be left out.
+    fn local<T: Default>(
         &self,
-        in_plane: [T; 3],
-        entries: impl FnOnce(&PoleResidue<2, 1>) -> [T; 1],
+        in_plane: impl FnOnce(&PoleResidue<4, 3>) -> [T; 3],
+        out_of_plane: impl FnOnce(&PoleResidue<2, 1>) -> [T; 1],
+        coupled: impl FnOnce(&PoleResidue<6, 6>) -> [T; 6],
     ) -> LocalStiffness<T> {
-        local(in_plane, self.out_of_plane().map_or_else(Default::default, entries))
+        match self.coupled() {
+            Some(family) => local_of_coupled(coupled(family)),
+            None => local(in_plane(self.in_plane()), self.out_of_plane().map_or_else(Default::default, out_of_plane)),
+        }
     }
 
     /// Undamped stiffness at ω [rad/s], [N/m].
     pub fn undamped(&self, omega: f64) -> LocalStiffness<f64> {
         let x = omega * omega;
-        self.with_out_of_plane(self.in_plane().undamped(x, 0..0), |family| family.undamped(x, 0..0))
+        self.local(|of| of.undamped(x, 0..0), |of| of.undamped(x, 0..0), |of| of.undamped(x, 0..0))
     }
 
     /// Square ω_c² of the complex frequency of the cable at ω [rad/s], [rad²/s²].
@@ -216,12 +248,13 @@ impl CatenaryDynamicEnd {
     /// Damped stiffness at ω [rad/s], [N/m].
     pub fn damped(&self, omega: f64) -> LocalStiffness<Complex> {
         let square = self.square(omega);
-        let mut stiffness = self.with_out_of_plane(self.in_plane().damped(square), |family| family.damped(square));
+        let mut stiffness = self.local(|of| of.damped(square), |of| of.damped(square), |of| of.damped(square));
         if let Some(added) = self.drive_stiffness(omega) {
             stiffness.axial += added.axial;
             stiffness.coupling += added.coupling;
             stiffness.normal += added.normal;
             stiffness.out_of_plane += added.out_of_plane;
+            stiffness.across.iter_mut().zip(added.across).for_each(|(sum, added)| *sum += added);
         }
         stiffness
     }
@@ -229,13 +262,15 @@ impl CatenaryDynamicEnd {
     /// Minus the derivative of the undamped stiffness by ω² [kg].
     pub fn effective_mass(&self, omega: f64) -> LocalStiffness<f64> {
         let x = omega * omega;
-        self.with_out_of_plane(self.in_plane().effective_mass(x, 0..0), |family| family.effective_mass(x, 0..0))
+        self.local(|of| of.effective_mass(x, 0..0), |of| of.effective_mass(x, 0..0), |of| of.effective_mass(x, 0..0))
     }
 
     /// Number of clamped-clamped frequencies below ω [rad/s].
     pub fn clamped_modes_below(&self, omega: f64) -> usize {
         let x = omega * omega;
-        self.in_plane().poles_below(x) + self.out_of_plane().map_or(0, |family| family.poles_below(x))
+        self.in_plane().poles_below(x)
+            + self.out_of_plane().map_or(0, |family| family.poles_below(x))
+            + self.coupled().map_or(0, |family| family.poles_below(x))
     }
 
     /// Clamped-clamped frequencies below ω [rad/s], ascending.
@@ -245,20 +280,23 @@ impl CatenaryDynamicEnd {
         all
     }
 
-    /// Poles below x, in plane and then out of plane.
+    /// Poles below x, family by family.
     pub(crate) fn poles_below(&self, x: f64) -> impl Iterator<Item = f64> + '_ {
         let in_plane = &self.in_plane().poles[..self.in_plane().poles_below(x)];
         let out_of_plane = self.out_of_plane().map_or(&[][..], |family| &family.poles[..family.poles_below(x)]);
-        in_plane.iter().chain(out_of_plane).copied()
+        let coupled = self.coupled().map_or(&[][..], |family| &family.poles[..family.poles_below(x)]);
+        in_plane.iter().chain(out_of_plane).chain(coupled).copied()
     }
 
     /// Undamped stiffness at x = ω² without the poles in the relative distance `width` of x, and those poles.
     pub(crate) fn beside_poles(&self, x: f64, width: f64) -> (LocalStiffness<f64>, Vec<NearPole>) {
-        let (in_plane, out_of_plane) = self.near(x, width);
-        let stiffness = self.with_out_of_plane(self.in_plane().undamped(x, in_plane.clone()), |family| {
-            family.undamped(x, out_of_plane.clone())
-        });
-        (stiffness, self.near_poles(in_plane, out_of_plane))
+        let near = self.near(x, width);
+        let stiffness = self.local(
+            |of| of.undamped(x, near.in_plane.clone()),
+            |of| of.undamped(x, near.out_of_plane.clone()),
+            |of| of.undamped(x, near.coupled.clone()),
+        );
+        (stiffness, self.near_poles(&near))
     }
 
     /// Damped stiffness at the complex x = ω_c² without the poles in the relative distance `width` of the real part of
@@ -268,44 +306,90 @@ impl CatenaryDynamicEnd {
         x: Complex,
         width: f64,
     ) -> (LocalStiffness<Complex>, LocalStiffness<Complex>, Vec<NearPole>) {
-        let (in_plane, out_of_plane) = self.near(x.re, width);
-        let (k, mass) = self.in_plane().with_derivative(x, in_plane.clone());
-        let (k_out_of_plane, mass_out_of_plane) = match self.out_of_plane() {
-            Some(family) => family.with_derivative(x, out_of_plane.clone()),
-            None => Default::default(),
+        let near = self.near(x.re, width);
+        let (stiffness, effective_mass) = if let Some(family) = self.coupled() {
+            let (k, mass) = family.with_derivative(x, near.coupled.clone());
+            (local_of_coupled(k), local_of_coupled(mass))
+        } else {
+            let (k, mass) = self.in_plane().with_derivative(x, near.in_plane.clone());
+            let (k_out_of_plane, mass_out_of_plane) = match self.out_of_plane() {
+                Some(family) => family.with_derivative(x, near.out_of_plane.clone()),
+                None => Default::default(),
+            };
+            (local(k, k_out_of_plane), local(mass, mass_out_of_plane))
         };
-        let stiffness = self.with_out_of_plane(k, |_| k_out_of_plane);
-        let effective_mass = self.with_out_of_plane(mass, |_| mass_out_of_plane);
-        (stiffness, effective_mass, self.near_poles(in_plane, out_of_plane))
+        (stiffness, effective_mass, self.near_poles(&near))
     }
 
     /// Minus the derivative by ω² of the undamped stiffness at x = ω² [kg], without the poles that
     /// [`beside_poles`](Self::beside_poles) leaves out.
     pub(crate) fn effective_mass_beside_poles(&self, x: f64, width: f64) -> LocalStiffness<f64> {
-        let (in_plane, out_of_plane) = self.near(x, width);
-        self.with_out_of_plane(self.in_plane().effective_mass(x, in_plane), |family| {
-            family.effective_mass(x, out_of_plane)
-        })
+        let near = self.near(x, width);
+        self.local(
+            |of| of.effective_mass(x, near.in_plane.clone()),
+            |of| of.effective_mass(x, near.out_of_plane.clone()),
+            |of| of.effective_mass(x, near.coupled.clone()),
+        )
     }
 
-    /// Indices of the poles in the relative distance `width` of x, in plane and out of plane.
-    pub(crate) fn near(&self, x: f64, width: f64) -> (Range<usize>, Range<usize>) {
-        (self.in_plane().near(x, width), self.out_of_plane().map_or(0..0, |family| family.near(x, width)))
+    /// Indices of the poles in the relative distance `width` of x.
+    pub(crate) fn near(&self, x: f64, width: f64) -> NearRanges {
+        NearRanges {
+            in_plane: self.in_plane().near(x, width),
+            out_of_plane: self.out_of_plane().map_or(0..0, |family| family.near(x, width)),
+            coupled: self.coupled().map_or(0..0, |family| family.near(x, width)),
+        }
     }
 
-    /// Poles at the given places in plane and out of plane.
-    fn near_poles(&self, in_plane: Range<usize>, out_of_plane: Range<usize>) -> Vec<NearPole> {
-        let CatenaryDynamic { in_plane: plane_family, out_of_plane: normal_family, .. } = &self.cable;
-        let in_plane = in_plane.map(|index| {
-            let [e, n, ..] = plane_family.participation[index];
-            NearPole { direction: [e, n, 0.0], pole: plane_family.poles[index], out_of_plane: false, index }
+    /// Poles at the given places.
+    fn near_poles(&self, near: &NearRanges) -> Vec<NearPole> {
+        let CatenaryDynamic { in_plane, out_of_plane, .. } = &self.cable;
+        let pole = |family: Family, index: usize, direction: [f64; 3], poles: &[f64]| NearPole {
+            direction,
+            pole: poles[index],
+            family,
+            index,
+        };
+        let of_plane = near.in_plane.clone().map(|index| {
+            let [e, n, ..] = in_plane.participation[index];
+            pole(Family::InPlane, index, [e, n, 0.0], &in_plane.poles)
         });
-        let out_of_plane = out_of_plane.map(|index| {
-            let [b, _] = normal_family.participation[index];
-            NearPole { direction: [0.0, 0.0, b], pole: normal_family.poles[index], out_of_plane: true, index }
+        let of_normal = near.out_of_plane.clone().map(|index| {
+            let [b, _] = out_of_plane.participation[index];
+            pole(Family::OutOfPlane, index, [0.0, 0.0, b], &out_of_plane.poles)
         });
-        in_plane.chain(out_of_plane).collect()
+        let of_coupled = self.coupled().into_iter().flat_map(|family| {
+            near.coupled.clone().map(move |index| {
+                let [e, n, b, ..] = family.participation[index];
+                pole(Family::Coupled, index, [e, n, b], &family.poles)
+            })
+        });
+        of_plane.chain(of_normal).chain(of_coupled).collect()
     }
+}
+
+/// Family of clamped modes of a cable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Family {
+    /// Motion in the plane of the cable.
+    InPlane,
+    /// Motion out of that plane.
+    OutOfPlane,
+    /// Motion in all directions, of a cable whose end couples them.
+    Coupled,
+}
+
+impl Family {
+    /// All families.
+    const ALL: [Self; 3] = [Self::InPlane, Self::OutOfPlane, Self::Coupled];
+}
+
+/// Indices of poles near a frequency, by families.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct NearRanges {
+    pub(crate) in_plane: Range<usize>,
+    pub(crate) out_of_plane: Range<usize>,
+    pub(crate) coupled: Range<usize>,
 }
 
 /// Pole near a frequency.
@@ -314,13 +398,13 @@ pub(crate) struct NearPole {
     pub(crate) direction: [f64; 3],
     /// ω_k² [rad²/s²].
     pub(crate) pole: f64,
-    /// True for a mode out of the cable's plane.
-    pub(crate) out_of_plane: bool,
-    /// Index in the cable's list of poles in plane or out of plane.
+    /// Family of the mode.
+    pub(crate) family: Family,
+    /// Index in the cable's list of poles of that family.
     pub(crate) index: usize,
 }
 
-/// Maximum number of unknowns of one cable in plane; the eigenproblem then takes about two seconds.
+/// Maximum number of unknowns in one eigenproblem of a cable; the eigenproblem then takes about two seconds.
 const MAX_UNKNOWNS: usize = 1200;
 
 /// Estimated relative error of the clamped frequencies at which the refinement of the discretisation ends.
@@ -364,73 +448,162 @@ impl CatenaryDynamic {
     ) -> Result<(Self, Stations), CatenaryDynamicError> {
         let cuts = if loaded { &arc_lengths[..] } else { &[] };
         let mut mesh = Mesh::new(catenary, mass_per_length, limit, cuts, end.is_some())?;
+        let couples = end.as_ref().is_some_and(MovingEnd::couples);
         loop {
-            let unknowns = mesh.unknowns();
+            let unknowns = mesh.unknowns(if couples { 3 } else { 2 });
             if unknowns > MAX_UNKNOWNS {
                 return Err(CatenaryDynamicError::TooFine { unknowns, limit: MAX_UNKNOWNS });
             }
 
-            // Static stiffness of both ends.
-            let [[hh, hv], [_, vv]] = catenary.tangent();
-            let o = catenary.out_of_plane_stiffness();
-            let held = MovingEnd { along: None, out_of_plane: None };
-            let still = end.as_ref().unwrap_or(&held).still([[hh, hv], [hv, vv]], o)?;
-
-            // Poles and residues of both families, with the drive among the stations.
-            let tables = mesh.tables();
-            let along = end.as_ref().and_then(|end| end.along.as_ref()).map(|along| {
-                let mass = &along.chain.mass + &along.chain.cable_mass;
-                Guide { direction: along.direction, stiffness: along.chain.stiffness.clone(), mass }
-            });
-            let sideways = end.as_ref().and_then(|end| end.out_of_plane).map(|(stiffness, mass)| {
-                let [stiffness, mass] = [stiffness, mass].map(|entry| DMat::from_element(1, 1, entry));
-                Guide { direction: [1.0], stiffness, mass }
-            });
-            let mut in_plane: Condensed<2, 4, 3> =
-                mesh.condense(&tables, still.in_plane, along.as_ref(), limit, &arc_lengths)?;
-            let mut out_of_plane: Condensed<1, 2, 1> =
-                mesh.condense(&tables, still.out_of_plane, sideways.as_ref(), limit, &arc_lengths)?;
-            let error = in_plane.error.max(out_of_plane.error);
+            // Poles and residues, with the drive among the stations.
+            let found = match &end {
+                Some(end) if couples => Families::together(catenary, &mesh, end, limit, &arc_lengths)?,
+                _ => Families::apart(catenary, &mesh, end.as_ref(), limit, &arc_lengths)?,
+            };
 
             // Accept the discretisation if it is fine enough, otherwise refine it.
-            if error <= WANTED_ERROR || mesh.refined == MAX_REFINEMENTS {
-                let drive = end.is_some().then(|| DriveMotion {
-                    along: in_plane.stations.split_off(arc_lengths.len()),
-                    out_of_plane: out_of_plane.stations.split_off(arc_lengths.len()),
-                    flexibility: still.flexibility,
-                    flexibility_out_of_plane: still.flexibility_out_of_plane,
-                });
-                let stations =
-                    Stations { arc_lengths, in_plane: in_plane.stations, out_of_plane: out_of_plane.stations };
-                let (in_plane, out_of_plane) = (in_plane.ends, out_of_plane.ends);
-                let cable = Self { in_plane, out_of_plane, limit, error, degrees: mesh.degrees(), end, drive };
-                return Ok((cable, stations));
+            if found.error <= WANTED_ERROR || mesh.refined == MAX_REFINEMENTS {
+                return Ok(found.split(end, limit, mesh.degrees(), arc_lengths));
             }
             mesh.refine();
         }
     }
 
+    /// Participations of the ends in a clamped mode [√kg].
+    pub(crate) fn participation(&self, family: Family, index: usize) -> &[f64] {
+        match family {
+            Family::InPlane => &self.in_plane.participation[index],
+            Family::OutOfPlane => &self.out_of_plane.participation[index],
+            Family::Coupled => self.coupled.as_ref().map_or(&[], |of| &of.participation[index]),
+        }
+    }
+
+    /// Poles of both families together; none unless the end of the cable couples them.
+    pub(crate) fn coupled_poles(&self) -> &[f64] {
+        self.coupled.as_ref().map_or(&[], |family| &family.poles)
+    }
+
     /// Undamped stiffness of the start in the axes (horizontal towards the end, up, out of plane) at ω [rad/s], [N/m].
     pub fn undamped(&self, omega: f64) -> LocalStiffness<f64> {
         let x = omega * omega;
-        local(self.in_plane.undamped(x, 0..0), self.out_of_plane.undamped(x, 0..0))
+        match &self.coupled {
+            Some(family) => local_of_coupled(family.undamped(x, 0..0)),
+            None => local(self.in_plane.undamped(x, 0..0), self.out_of_plane.undamped(x, 0..0)),
+        }
     }
 
     /// Stiffness of the start in the axes of [`undamped`](Self::undamped) at the complex square ω_c² [rad²/s²], [N/m].
     pub fn damped(&self, square: Complex) -> LocalStiffness<Complex> {
-        local(self.in_plane.damped(square), self.out_of_plane.damped(square))
+        match &self.coupled {
+            Some(family) => local_of_coupled(family.damped(square)),
+            None => local(self.in_plane.damped(square), self.out_of_plane.damped(square)),
+        }
     }
 
     /// Minus the derivative of the undamped stiffness by ω² in the axes of [`undamped`](Self::undamped) [kg].
     pub fn effective_mass(&self, omega: f64) -> LocalStiffness<f64> {
         let x = omega * omega;
-        local(self.in_plane.effective_mass(x, 0..0), self.out_of_plane.effective_mass(x, 0..0))
+        match &self.coupled {
+            Some(family) => local_of_coupled(family.effective_mass(x, 0..0)),
+            None => local(self.in_plane.effective_mass(x, 0..0), self.out_of_plane.effective_mass(x, 0..0)),
+        }
+    }
+}
+
+/// Poles and residues of the families of a discretised cable, with the displacements of its stations and of the motions at
+/// its end.
+struct Families {
+    in_plane: Condensed<2, 4, 3>,
+    out_of_plane: Condensed<1, 2, 1>,
+    coupled: Option<Condensed<3, 6, 6>>,
+    flexibility: DMat,
+    error: f64,
+}
+
+impl Families {
+    /// Motions in plane and out of plane for themselves.
+    fn apart(
+        catenary: &Catenary,
+        mesh: &Mesh,
+        end: Option<&MovingEnd>,
+        limit: f64,
+        arc_lengths: &[f64],
+    ) -> Result<Self, CatenaryDynamicError> {
+        let held = MovingEnd { along: None, sideways: None };
+        let end = end.unwrap_or(&held);
+        let Still { in_plane, out_of_plane, flexibility } =
+            end.still(catenary.tangent(), catenary.out_of_plane_stiffness())?;
+
+        let tables = mesh.tables();
+        let in_plane = mesh.condense(&tables, in_plane, end.guide_in_plane().as_ref(), limit, arc_lengths)?;
+        let out_of_plane =
+            mesh.condense(&tables, out_of_plane, end.guide_out_of_plane().as_ref(), limit, arc_lengths)?;
+        let error = in_plane.error.max(out_of_plane.error);
+        Ok(Self { in_plane, out_of_plane, coupled: None, flexibility, error })
+    }
+
+    /// Motions in plane and out of plane, which the end couples.
+    fn together(
+        catenary: &Catenary,
+        mesh: &Mesh,
+        end: &MovingEnd,
+        limit: f64,
+        arc_lengths: &[f64],
+    ) -> Result<Self, CatenaryDynamicError> {
+        let (still, flexibility) = end.still_coupled(catenary.tangent(), catenary.out_of_plane_stiffness())?;
+        let coupled = mesh.condense(&mesh.tables(), still, Some(&end.guide()), limit, arc_lengths)?;
+        let error = coupled.error;
+        Ok(Self {
+            in_plane: Condensed::none(),
+            out_of_plane: Condensed::none(),
+            coupled: Some(coupled),
+            flexibility,
+            error,
+        })
+    }
+
+    /// Cable, and its stations; the motions at its end, which follow the stations, belong to the cable.
+    fn split(
+        mut self,
+        end: Option<MovingEnd>,
+        limit: f64,
+        degrees: Vec<usize>,
+        arc_lengths: Vec<f64>,
+    ) -> (CatenaryDynamic, Stations) {
+        let first = arc_lengths.len();
+        let mut coupled_stations = Displacements::none();
+        let mut drive = DriveMotion {
+            along: Displacements::none(),
+            sideways: Displacements::none(),
+            coupled: Displacements::none(),
+            flexibility: self.flexibility,
+        };
+        let coupled = self.coupled.map(|mut coupled| {
+            drive.coupled = coupled.stations.split_off(first);
+            coupled_stations = coupled.stations;
+            Box::new(coupled.ends)
+        });
+        if coupled.is_none() {
+            drive.along = self.in_plane.stations.split_off(first);
+            drive.sideways = self.out_of_plane.stations.split_off(first);
+        }
+
+        let drive = end.is_some().then_some(drive);
+        let (in_plane, out_of_plane) = (self.in_plane.stations, self.out_of_plane.stations);
+        let stations = Stations { arc_lengths, in_plane, out_of_plane, coupled: coupled_stations };
+        let (in_plane, out_of_plane) = (self.in_plane.ends, self.out_of_plane.ends);
+        (CatenaryDynamic { in_plane, out_of_plane, coupled, limit, error: self.error, degrees, end, drive }, stations)
     }
 }
 
 /// Local stiffness from its entries in plane and out of plane, in the order of [`PoleResidue`].
-fn local<T>([axial, coupling, normal]: [T; 3], [out_of_plane]: [T; 1]) -> LocalStiffness<T> {
-    LocalStiffness { axial, coupling, normal, out_of_plane }
+fn local<T: Default>([axial, coupling, normal]: [T; 3], [out_of_plane]: [T; 1]) -> LocalStiffness<T> {
+    LocalStiffness { axial, coupling, normal, out_of_plane, across: Default::default() }
+}
+
+/// Local stiffness from its entries in all directions, in the order of [`PoleResidue`].
+fn local_of_coupled<T>([axial, coupling, normal, along, across, out_of_plane]: [T; 6]) -> LocalStiffness<T> {
+    LocalStiffness { axial, coupling, normal, out_of_plane, across: [along, across] }
 }
 
 /// Number of refinements after which the discretisation is accepted with its estimated error. Each refinement adds a

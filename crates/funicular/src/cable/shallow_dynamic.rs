@@ -45,11 +45,17 @@ pub(crate) struct Entire<T> {
 
 /// Arithmetic that the formulas need.
 pub(crate) trait Number:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Mul<f64, Output = Self>
+    Copy
+    + Default
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Mul<f64, Output = Self>
 {
 }
 impl<T> Number for T where
-    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T> + Div<Output = T> + Mul<f64, Output = T>
+    T: Copy + Default + Add<Output = T> + Sub<Output = T> + Mul<Output = T> + Div<Output = T> + Mul<f64, Output = T>
 {
 }
 
@@ -82,6 +88,7 @@ pub(crate) fn stiffness<T: Number>(of: Entire<T>, sag: &Sag) -> LocalStiffness<T
         coupling: gamma * q / determinant * (0.5 * sag.epsilon * along),
         normal: (string - gamma * (sigma + sagging) / determinant) * transverse,
         out_of_plane: (string - gamma * sigma / c) * transverse,
+        across: Default::default(),
     }
 }
 
@@ -185,6 +192,25 @@ impl ShallowDynamic {
         (k, mass)
     }
 
+    /// Force on the held platform end in (e, n, b) for a displacement of the far end at ω [rad/s], damped [N].
+    ///
+    /// # References
+    /// docs/theory.md, equation (86).
+    pub(crate) fn force_by_far_end(&self, [e, n, b]: &[f64; 3], omega: f64) -> [Complex; 3] {
+        let (re, im) = self.damping.square(omega, self.sag.mass_per_length);
+        let of = Entire::complex(Complex::new(re, im) * self.gamma_by_square);
+        let Entire { gamma, c, sigma, q } = of;
+        let along = stiffness(of, &self.sag).axial;
+        let turn = gamma * q / c * (0.5 * self.sag.epsilon);
+
+        // The functions are divided by cosh Im √γ, their products by its square: 1/(σc) gets it back.
+        let scale = (Complex::new(re, im) * self.gamma_by_square).sqrt().im.cosh().powi(2);
+        let across = self.sag.tension / self.sag.chord / (sigma * c * scale);
+        let pulled = along * (turn * n - e);
+        let out_of_plane = if self.in_plane_only { 0.0.into() } else { across * b };
+        [-pulled, across * n - turn * pulled, out_of_plane]
+    }
+
     /// Minus the derivative of the undamped stiffness by ω² [kg]: the moving mass of the cable per unit motion of its
     /// end. As a 3×3 matrix it is positive semidefinite.
     pub fn effective_mass(&self, omega: f64) -> LocalStiffness<f64> {
@@ -213,6 +239,7 @@ impl ShallowDynamic {
             coupling: quotient(gamma * q, q + gamma * q_by, d, d_by) * (-along * 0.5 * self.sag.epsilon),
             normal: (string_by - quotient(gamma * p, p + gamma * p_by, d, d_by)) * -transverse,
             out_of_plane: (string_by - quotient(gamma * sigma, sigma + gamma * sigma_by, c, c_by)) * -transverse,
+            across: Default::default(),
         }
     }
 

@@ -16,5 +16,6 @@ pub fn stiffness(sag: &Sag) -> LocalStiffness<f64> {
         coupling: 0.0,
         normal: transverse,
         out_of_plane: transverse,
+        across: Default::default(),
     }
 }

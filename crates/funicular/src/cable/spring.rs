@@ -4,5 +4,5 @@ use super::{LocalStiffness, Sag};
 
 /// Local stiffness [N/m] of a straight massless spring along the cable's chord.
 pub fn stiffness(sag: &Sag) -> LocalStiffness<f64> {
-    LocalStiffness { axial: sag.axial_stiffness / sag.chord, coupling: 0.0, normal: 0.0, out_of_plane: 0.0 }
+    LocalStiffness { axial: sag.axial_stiffness / sag.chord, ..LocalStiffness::default() }
 }

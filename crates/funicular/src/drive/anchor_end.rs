@@ -102,6 +102,13 @@ impl AnchorEnd {
         Some((along * a + sideways * b) * self.force_by_length)
     }
 
+    /// Force on the platform per generalised force on the motion sideways [-]; zero if there is none.
+    pub(crate) fn force_by_swivel_w(&self, held: &Mat3) -> Vec3 {
+        let (Some(along_w), Some(sideways_w)) = (self.along_w, self.sideways_w) else { return Vec3::zeros() };
+        let [_, [b, c]] = self.inverse(held);
+        held * (along_w * b + sideways_w * c)
+    }
+
     /// Inverse of `S + Wᵀ K W`, K being the stiffness of the span and W the directions.
     fn inverse(&self, held: &Mat3) -> [[f64; 2]; 2] {
         let Some(along) = self.along_w else { return [[0.0; 2]; 2] };

@@ -30,8 +30,38 @@ pub struct DriveChain {
     /// Force on the motions per unstrained length that is paid out at a drum or by a motor that is held [N/m], and that
     /// by the mass of the cable, per ω² [kg]; empty if a control moves the drum.
     pub(crate) by_length: Vec<(f64, f64)>,
+    /// Drum side as each motion feels it; empty if the drum is at the exit point.
+    pub(crate) drum_side: Vec<OnDrumSide>,
+    /// End of the drum side at the drum; `None` if the drum is at the exit point.
+    pub(crate) drum_end: Option<DrumEnd>,
     /// Stretch λ_E between entry point and drum.
     pub(crate) stretch_drum: f64,
+}
+
+/// Force of the drum side on a motion of the chain when the pulley moves along the drum side, or carries it along.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct OnDrumSide {
+    /// Stiffness between the motion and the end of the drum side at the wheel [N/m].
+    pub(crate) stiffness: f64,
+    /// Mass between them [kg].
+    pub(crate) mass: f64,
+    /// Mass between the motion and a motion of the whole drum side along itself [kg].
+    pub(crate) carried_mass: f64,
+}
+
+/// Force at the end of the drum side at the drum, towards the wheel as the drum feels it, over the stretch: stiffness
+/// [N/m] and mass [kg] pairs.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct DrumEnd {
+    /// Between that end and each motion.
+    pub(crate) by_motion: Vec<(f64, f64)>,
+    /// Of that end itself; it moves by the stretch at the exit point times a length that is paid out by a drum that is
+    /// held.
+    pub(crate) own: (f64, f64),
+    /// Between that end and the end at the wheel.
+    pub(crate) by_wheel: (f64, f64),
+    /// Tension at the drum per force on that end: the ratio of the stretch at the exit point to that at the drum.
+    pub(crate) ratio: f64,
 }
 
 /// Place of a part of the drive in the chain: its motion as a multiple of one of the motions.
@@ -109,18 +139,28 @@ impl Assembly {
         self.mass[(at.motion, at.motion)] += mass * at.factor * at.factor;
     }
 
-    /// Adds the drum side, which stretches between σ and its end at the drum. For a rod and a drum that is held the
-    /// result is the mass between the motions and that end [kg], otherwise zeros.
-    fn drum_side(&mut self, parts: &Parts, layout: &Layout) -> Vec<f64> {
+    /// Adds the drum side, which stretches between σ and its end at the drum. The result is the end at the drum, and the
+    /// mass of a rod between each motion and a motion of the whole rod [kg].
+    fn drum_side(&mut self, parts: &Parts, layout: &Layout) -> (DrumEnd, Vec<f64>) {
+        let spring = if parts.has_rope() { parts.spring() } else { 0.0 };
+        let mut end = DrumEnd {
+            by_motion: vec![(0.0, 0.0); layout.count],
+            own: (spring, 0.0),
+            by_wheel: (-spring, 0.0),
+            ratio: parts.stretch / parts.stretch_drum,
+        };
         if parts.has_rope() {
             let ends: Vec<Place> = [SLIP].into_iter().chain(layout.rope_end.map(|end| end.times(-1.0))).collect();
-            self.spring(parts.spring(), &ends);
+            self.spring(spring, &ends);
+            for place in ends {
+                end.by_motion[place.motion].0 -= spring * place.factor;
+            }
         }
 
         // Functions of a rod: hats at σ and at the drum, then polynomials that vanish at both.
-        let mut by_end = vec![0.0; layout.count];
+        let mut carried = vec![0.0; layout.count];
         if !parts.is_rod() {
-            return by_end;
+            return (end, carried);
         }
         let half = 0.5 * parts.rod_length();
         let mass = legendre::element_mass(layout.waves + 1) * (half * parts.mass_per_length);
@@ -129,13 +169,14 @@ impl Assembly {
             1 => layout.rope_end,
             wave => Some(Place { motion: wave - 1, factor: 1.0 }),
         };
+        (end.own.1, end.by_wheel.1) = (mass[(1, 1)], mass[(0, 1)]);
         for row in 0..layout.waves + 2 {
             let Some(a) = place(row) else { continue };
+            carried[a.motion] += (mass[(row, 0)] + mass[(row, 1)]) * a.factor;
+            end.by_motion[a.motion].1 += mass[(row, 1)] * a.factor;
             for column in 0..layout.waves + 2 {
-                let entry = mass[(row, column)];
-                match place(column) {
-                    Some(b) => self.cable_mass[(a.motion, b.motion)] += entry * a.factor * b.factor,
-                    None => by_end[a.motion] += entry * a.factor,
+                if let Some(b) = place(column) {
+                    self.cable_mass[(a.motion, b.motion)] += mass[(row, column)] * a.factor * b.factor;
                 }
             }
             // The slopes of these polynomials are orthonormal.
@@ -143,7 +184,7 @@ impl Assembly {
                 self.stiffness[(a.motion, a.motion)] += parts.axial_stiffness / half;
             }
         }
-        by_end
+        (end, carried)
     }
 
     /// Adds drum, shaft and motor.
@@ -278,9 +319,8 @@ impl Layout {
     }
 }
 
-/// Force on the motions per unstrained length that is paid out: see [`DriveChain::by_length`]. `held_end` is the mass
-/// between the motions and the end of a rod at a drum that is held [kg].
-fn by_length(parts: &Parts, layout: &Layout, held_end: &[f64]) -> Vec<(f64, f64)> {
+/// Force on the motions per unstrained length that is paid out: see [`DriveChain::by_length`].
+fn by_length(parts: &Parts, layout: &Layout, drum_end: &DrumEnd) -> Vec<(f64, f64)> {
     match (layout.drum, layout.motor) {
         (_, Some(_)) => Vec::new(),
         (Some(drum), None) => {
@@ -288,10 +328,8 @@ fn by_length(parts: &Parts, layout: &Layout, held_end: &[f64]) -> Vec<(f64, f64)
             force[drum.motion].0 = parts.shaft * drum.factor * parts.stretch_drum;
             force
         }
-        (None, None) => {
-            let still = |motion: usize| if motion == SLIP.motion { parts.spring() * parts.stretch } else { 0.0 };
-            held_end.iter().enumerate().map(|(motion, mass)| (still(motion), mass * parts.stretch)).collect()
-        }
+        // The end at the drum is moved.
+        (None, None) => drum_end.by_motion.iter().map(|(k, mass)| (-k * parts.stretch, mass * parts.stretch)).collect(),
     }
 }
 
@@ -314,7 +352,13 @@ impl DriveChain {
         if let Some(pulley) = &anchor.pulley {
             chain.heavy(pulley.inertia / (pulley.radius * pulley.radius), SLIP);
         }
-        let held_end = chain.drum_side(&parts, &layout);
+        let (drum_end, carried) = chain.drum_side(&parts, &layout);
+        let on_drum_side = |motion: usize| OnDrumSide {
+            stiffness: chain.stiffness[(motion, 0)] - if motion == 0 { drive.end.weight } else { 0.0 },
+            mass: chain.cable_mass[(motion, 0)],
+            carried_mass: carried[motion],
+        };
+        let drum_side = if parts.has_rope() { (0..layout.count).map(on_drum_side).collect() } else { Vec::new() };
         chain.winch(&parts, &layout);
 
         let Assembly { stiffness, mass, cable_mass } = chain;
@@ -327,7 +371,9 @@ impl DriveChain {
             cable_mass,
             drum,
             motor,
-            by_length: by_length(&parts, &layout, &held_end),
+            by_length: by_length(&parts, &layout, &drum_end),
+            drum_side,
+            drum_end: parts.has_rope().then_some(drum_end),
             stretch_drum,
         })
     }

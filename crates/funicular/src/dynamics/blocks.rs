@@ -11,7 +11,7 @@
 use super::{DynamicCableAt, Dynamics};
 use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveForm, DrivePart, DriveSignal, InPowersOfS};
-use crate::math::{DMat, Mat6, Vec6};
+use crate::math::{DMat, Mat3, Mat6, Vec6};
 use crate::robot::Damping;
 
 /// Matrices of the platform over its coordinates [m, rad]; they include all stiffness that does not depend on
@@ -112,9 +112,37 @@ impl Dynamics {
         let (plane, normal) = (&cable.in_plane, &cable.out_of_plane);
         let (damping, mass_per_length) = self.damping[term.cable];
 
+        // The drive.
+        let part = |part: DrivePart| {
+            let DrivePart { motion, mass, damping, massless } = part;
+            DrivePartBlock { row: self.row(term, motion), mass, damping, massless }
+        };
+        let drive: Vec<DrivePartBlock> = end.drive_parts().into_iter().map(part).collect();
+
+        if let Some(coupled) = &cable.coupled {
+            let at_end =
+                |matrix: &[[f64; 6]; 6]| self.unscaled_block(&term.congruent(&Mat3::from_fn(|i, j| matrix[i][j])));
+            let modes = coupled.participation.iter().zip(&coupled.poles).map(|(g, pole)| {
+                let direction = term.vector([g[0], g[1], g[2]]);
+                ClampedMode { participation: self.unscaled_row(&direction), pole: *pole, out_of_plane: false }
+            });
+            let (end_stiffness, end_mass) = (at_end(&coupled.stiffness), at_end(&coupled.mass));
+            return CableBlocks {
+                cable: term.cable,
+                end_stiffness,
+                end_mass,
+                modes: modes.collect(),
+                damping,
+                mass_per_length,
+                drive,
+            };
+        }
+
         // The end.
-        let at_end = |in_plane: &[[f64; 4]; 4], out_of_plane: f64| {
-            self.unscaled_block(&term.congruent(in_plane, if with_out_of_plane { out_of_plane } else { 0.0 }))
+        let at_end = |[[hh, hv, ..], [vh, vv, ..], ..]: &[[f64; 4]; 4], out_of_plane: f64| {
+            let out_of_plane = if with_out_of_plane { out_of_plane } else { 0.0 };
+            let local = Mat3::new(*hh, *hv, 0.0, *vh, *vv, 0.0, 0.0, 0.0, out_of_plane);
+            self.unscaled_block(&term.congruent(&local))
         };
         let end_stiffness = at_end(&plane.stiffness, normal.stiffness[0][0]);
         let end_mass = at_end(&plane.mass, normal.mass[0][0]);
@@ -133,13 +161,6 @@ impl Dynamics {
             .chain(out_of_plane.map(|(direction, pole)| mode(direction, pole, true)))
             .collect();
 
-        // The drive.
-        let part = |part: DrivePart| {
-            let DrivePart { motion, mass, damping, massless } = part;
-            DrivePartBlock { row: self.row(term, motion), mass, damping, massless }
-        };
-        let drive = end.drive_parts().into_iter().map(part).collect();
-
         CableBlocks { cable: term.cable, end_stiffness, end_mass, modes, damping, mass_per_length, drive }
     }
 
@@ -157,18 +178,17 @@ impl Dynamics {
 }
 
 impl DynamicCableAt {
-    /// Transforms a form of the end's displacement to the platform's scaled coordinates. The form is given by a matrix
-    /// in plane over both ends, of which the start's block counts, and one number out of plane.
-    fn congruent(&self, in_plane: &[[f64; 4]; 4], out_of_plane: f64) -> Mat6 {
-        let plane = [&self.along, &self.normal];
+    /// Transforms a form of the end's displacement (e, n, b) to the platform's scaled coordinates.
+    fn congruent(&self, local: &Mat3) -> Mat6 {
+        let axes = self.axes();
         Mat6::from_fn(|i, j| {
             let mut sum = 0.0;
-            for (p, u) in plane.iter().enumerate() {
-                for (q, v) in plane.iter().enumerate() {
-                    sum += in_plane[p][q] * u[i] * v[j];
+            for (p, u) in axes.iter().enumerate() {
+                for (q, v) in axes.iter().enumerate() {
+                    sum += local[(p, q)] * u[i] * v[j];
                 }
             }
-            sum + out_of_plane * self.out[i] * self.out[j]
+            sum
         })
     }
 }

@@ -12,7 +12,7 @@
 //! by T and φ_k, and `z = T x + φ_k q_k − R Δ z` (docs/theory.md, equation (82)).
 
 use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
-use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveLosses, DriveMotions, NearPole};
+use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveAt, DriveLosses, NearPole};
 use crate::cable::{DynamicCable, LocalStiffness};
 use crate::math::{CDMat, CMat6, Complex};
 
@@ -135,48 +135,27 @@ impl DriveRows {
     fn new(
         term: &DynamicCableAt,
         form: &CatenaryDynamicEnd,
-        motions: &DriveMotions,
+        motions: &DriveAt,
         losses: &DriveLosses,
         (near, first_border): (&[NearPole], usize),
         square_slope: Complex,
     ) -> Self {
-        let along = losses.along.len();
-        let count = along + usize::from(motions.sideways.is_some());
-        let zero = (Complex::new(0.0, 0.0), Complex::new(0.0, 0.0));
-        let [e, n, b] = term.axes();
+        let count = losses.0.len();
+        let axes = term.axes();
 
-        // T and R along the cable, then sideways.
-        let mut transfer: Vec<[(Complex, Complex); 6]> = (0..along)
-            .map(|j| {
-                let ([te, tn], [se, sn]) = (motions.along.transfer[j], motions.along.transfer_slope[j]);
-                std::array::from_fn(|i| (te * e[i] + tn * n[i], (se * e[i] + sn * n[i]) * square_slope))
-            })
+        // T and R.
+        let in_platform =
+            |row: &[Complex; 3], i: usize| -> Complex { row.iter().zip(axes).map(|(t, axis)| t * axis[i]).sum() };
+        let transfer = (motions.transfer.iter().zip(&motions.transfer_slope))
+            .map(|(row, slope)| std::array::from_fn(|i| (in_platform(row, i), in_platform(slope, i) * square_slope)))
             .collect();
-        let mut receptance = vec![vec![zero; count]; count];
-        for (i, row) in receptance.iter_mut().enumerate().take(along) {
-            for (j, entry) in row.iter_mut().enumerate().take(along) {
-                let at = (i, j);
-                *entry = (motions.along.receptance[at], motions.along.receptance_slope[at] * square_slope);
-            }
-        }
-        let mut loss = losses.along.clone();
-        if let Some(sideways) = &motions.sideways {
-            let ([t], [s]) = (sideways.transfer[0], sideways.transfer_slope[0]);
-            transfer.push(std::array::from_fn(|i| (t * b[i], s * b[i] * square_slope)));
-            receptance[along][along] = (sideways.receptance[(0, 0)], sideways.receptance_slope[(0, 0)] * square_slope);
-            loss.push(losses.sideways);
-        }
+        let entry = |i: usize, j: usize| (motions.receptance[(i, j)], motions.receptance_slope[(i, j)] * square_slope);
+        let receptance = (0..count).map(|i| (0..count).map(|j| entry(i, j)).collect()).collect();
 
-        // Near poles move either family.
         let near = (near.iter().enumerate())
-            .map(|(k, near)| {
-                let motions = form.drive_in_mode(near.index, near.out_of_plane);
-                let first = if near.out_of_plane { along } else { 0 };
-                let mut all = vec![0.0; count];
-                motions.iter().zip(all.iter_mut().skip(first)).for_each(|(phi, entry)| *entry = *phi);
-                (first_border + k, all)
-            })
+            .map(|(k, near)| (first_border + k, form.drive_in_mode(near.index, near.family)))
             .collect();
+        let loss = losses.0.clone();
         Self { transfer, receptance, loss, near }
     }
 

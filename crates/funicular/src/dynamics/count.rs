@@ -128,7 +128,7 @@ fn add_bordered(
         borders.push((term.normal, sigma / c / transverse));
         let normal = -gamma * (sigma + sagging) / determinant * transverse;
         let (axial, coupling) = (c / determinant * along, turn / determinant * along);
-        let k = LocalStiffness { axial, coupling, normal, out_of_plane: 0.0 };
+        let k = LocalStiffness { axial, coupling, normal, ..LocalStiffness::default() };
         add_local(matrix, term, &k, |k, product| k * product);
     } else if turn.abs() <= c.abs() {
         // Symmetric pole, mainly along the chord.

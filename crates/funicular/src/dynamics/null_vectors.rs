@@ -13,6 +13,7 @@
 
 use super::{Dynamics, NEAR_POLE_FRACTION, add_local};
 use crate::cable::DynamicCable;
+use crate::cable::catenary_dynamic::Family;
 use crate::math::{DMat, Mat6, Vec6, symmetric};
 
 /// Amplitude of one clamped mode of one cable.
@@ -20,9 +21,9 @@ use crate::math::{DMat, Mat6, Vec6, symmetric};
 pub(crate) struct NearMotion {
     /// Index of the cable among those whose stiffness depends on frequency.
     pub(crate) term: usize,
-    /// True for a mode out of the cable's plane.
-    pub(crate) out_of_plane: bool,
-    /// Index of the pole among those of the cable in plane or out of plane.
+    /// Family of the mode.
+    pub(crate) family: Family,
+    /// Index of the pole among those of the cable in that family.
     pub(crate) pole: usize,
     /// Amplitude q_k, in the scale of the platform's motion [m √kg].
     pub(crate) amplitude: f64,
@@ -137,7 +138,7 @@ impl BorderedPencil {
                     m * product
                 });
                 near.extend(poles.iter().map(|near| NearMode {
-                    motion: NearMotion { term: t, out_of_plane: near.out_of_plane, pole: near.index, amplitude: 0.0 },
+                    motion: NearMotion { term: t, family: near.family, pole: near.index, amplitude: 0.0 },
                     participation: term.vector(near.direction),
                     pole: near.pole,
                 }));
@@ -199,8 +200,8 @@ impl BorderedPencil {
                 continue;
             }
             drive_energies.resize(dynamics.cable_count(), 0.0);
-            let of_cable: Vec<(usize, bool, f64)> = (near.iter().filter(|near| near.term == t))
-                .map(|near| (near.pole, near.out_of_plane, near.amplitude))
+            let of_cable: Vec<(usize, Family, f64)> = (near.iter().filter(|near| near.term == t))
+                .map(|near| (near.pole, near.family, near.amplitude))
                 .collect();
             let (mass, loss) = form.drive_share(omega, term.displacement(&platform), &of_cable);
             drive_energies[term.cable] = mass / total;

@@ -237,7 +237,7 @@ impl CableMotion {
         let largest = platform_w[platform_w.iamax()];
         let scale = if mode.shape.iter().all(|component| *component == 0.0) { 1.0 } else { 1.0 / largest };
         for near in mode.motion.near.iter().filter(|near| near.term == at) {
-            let family = if near.out_of_plane { &mut motion.out_of_plane } else { &mut motion.in_plane };
+            let family = motion.amplitudes(near.family);
             family[near.pole] = (near.amplitude * scale).into();
         }
         let displacement_w: Vec<Vec3> = (0..nodes.len())

@@ -13,7 +13,7 @@ use super::steps::{STEPS, Steps};
 use super::terms::{RealBlock, Term, terms};
 use super::{
     Channels, KEPT, Quantity, ReductionError, RequestedModel, SecondOrder, StateSpace, assembled, check_cables,
-    drive_signals, matrices,
+    check_signals, drive_signals, matrices,
 };
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, DMat};
@@ -172,6 +172,7 @@ pub fn control_model(
 ) -> Result<ControlModel, ReductionError> {
     let mut steps = Steps::new(report);
     check_cables(robot, dynamics)?;
+    check_signals(inputs)?;
     let RequestedStateSpace { below_hz, size, damping_at } = requested;
     let tolerance = match size {
         Size::Order(_) => MAX_TOLERANCE,

@@ -20,12 +20,13 @@ const fn at(i: usize, j: usize) -> usize {
 /// without pivoting keeps at least ten digits.
 const MIN_PIVOT: f64 = 1e-6;
 
-/// Products of a cable's axes: entries of aaᵀ, anᵀ + naᵀ, nnᵀ, bbᵀ.
+/// Products of a cable's axes: entries of aaᵀ, anᵀ + naᵀ, nnᵀ, bbᵀ, and of abᵀ + baᵀ and nbᵀ + bnᵀ.
 struct Products {
     axial: [f64; 21],
     coupling: [f64; 21],
     normal: [f64; 21],
     out: [f64; 21],
+    across: [[f64; 21]; 2],
 }
 
 /// Data of the linearised robot in the layout of the kernel: lower triangles by columns.
@@ -64,6 +65,7 @@ impl<'a> Prepared<'a> {
                     coupling: lower(&|i, j| a[i] * n[j] + n[i] * a[j]),
                     normal: lower(&|i, j| n[i] * n[j]),
                     out: lower(&|i, j| b[i] * b[j]),
+                    across: [a, n].map(|axis| lower(&|i, j| axis[i] * b[j] + b[i] * axis[j])),
                 }
             })
             .collect();
@@ -86,16 +88,16 @@ impl<'a> Prepared<'a> {
         });
 
         for (term, products) in self.dynamics.terms().iter().zip(&self.products) {
-            let (k, in_plane_only) = match term.form() {
+            let (k, in_plane_only, coupled) = match term.form() {
                 DynamicCable::ShallowDynamic(form) => {
-                    (shallow_dynamic::stiffness(entire(form, omega), &form.sag), form.in_plane_only)
+                    (shallow_dynamic::stiffness(entire(form, omega), &form.sag), form.in_plane_only, false)
                 }
                 DynamicCable::CatenaryDynamic(form) => {
                     let mut k = catenary_dynamic(form, omega);
                     if form.has_drive_losses() {
                         add_drive(&mut k, form, omega);
                     }
-                    (k, form.in_plane_only)
+                    (k, form.in_plane_only, form.coupled().is_some())
                 }
             };
             for (entry, d) in d.iter_mut().enumerate() {
@@ -104,6 +106,10 @@ impl<'a> Prepared<'a> {
                 d.add_scaled(&k.normal, products.normal[entry]);
                 if !in_plane_only {
                     d.add_scaled(&k.out_of_plane, products.out[entry]);
+                }
+                if coupled {
+                    d.add_scaled(&k.across[0], products.across[0][entry]);
+                    d.add_scaled(&k.across[1], products.across[1][entry]);
                 }
             }
         }
@@ -119,12 +125,16 @@ fn catenary_dynamic(form: &CatenaryDynamicEnd, omega: &Lane) -> LocalStiffness<C
         (re[i], im[i]) = form.damping.square(omega[i], form.mass_per_length);
     }
     let x = Complexes { re, im };
+    if let Some(family) = form.coupled() {
+        let [axial, coupling, normal, along, across, out_of_plane] = pole_sum(family, &x);
+        return LocalStiffness { axial, coupling, normal, out_of_plane, across: [along, across] };
+    }
     let [axial, coupling, normal] = pole_sum(form.in_plane(), &x);
     let out_of_plane = match form.out_of_plane() {
         Some(family) => pole_sum(family, &x)[0],
         None => Complexes::ZERO,
     };
-    LocalStiffness { axial, coupling, normal, out_of_plane }
+    LocalStiffness { axial, coupling, normal, out_of_plane, across: [Complexes::ZERO; 2] }
 }
 
 /// Adds what comes from the losses of a drive, lane by lane.
@@ -139,7 +149,8 @@ fn add_drive(k: &mut LocalStiffness<Complexes>, form: &CatenaryDynamicEnd, omega
             (&mut k.normal, added.normal),
             (&mut k.out_of_plane, added.out_of_plane),
         ];
-        for (sum, added) in entries {
+        let across = k.across.iter_mut().zip(added.across);
+        for (sum, added) in entries.into_iter().chain(across) {
             sum.re[i] += added.re;
             sum.im[i] += added.im;
         }

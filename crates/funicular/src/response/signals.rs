@@ -1,5 +1,6 @@
 //! Places and directions of forces and measured motions, as data ([`Signal`]) and on a linearised robot ([`Port`]).
 
+use super::frame_motion::{FrameInput, FrameMotion};
 use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::DriveSignal;
 use crate::cable_motion::{CableMotionError, CableStations};
@@ -41,6 +42,8 @@ pub enum Signal {
         /// Quantity.
         signal: DriveSignal,
     },
+    /// A given motion of the frame; an input.
+    Frame(FrameInput),
 }
 
 impl Signal {
@@ -51,7 +54,7 @@ impl Signal {
         match self {
             Self::Along { direction_w, point_p } => Some(along(direction_w, point_p, pose)),
             Self::About { axis_w } => Some(about(axis_w)),
-            Self::OnCable { .. } | Self::Drive { .. } => None,
+            Self::OnCable { .. } | Self::Drive { .. } | Self::Frame(_) => None,
         }
     }
 }
@@ -93,6 +96,8 @@ pub enum Port {
         /// Attachment from the platform origin, world axes [m].
         lever_w: Vec3,
     },
+    /// Given motion of the frame; an input.
+    Frame(FrameMotion),
 }
 
 impl Port {
@@ -143,6 +148,7 @@ impl Port {
                     port.drive_vector(dynamics, 1.0).ok_or_else(no_signal)?;
                     port
                 }
+                Signal::Frame(input) => Self::Frame(FrameMotion::new(robot, equilibrium, dynamics, input)?),
                 Signal::OnCable { cable, direction_w, .. } => {
                     let at = points.iter().position(|(of, _)| of == cable).expect("every cable has stations");
                     let station = next[at];
@@ -157,18 +163,18 @@ impl Port {
     /// Position at equilibrium of a port on a cable [m, world axes]; `None` for a port on the platform.
     pub fn cable_point_w(&self) -> Option<Vec3> {
         match self {
-            Self::Platform(_) | Self::Drive { .. } => None,
+            Self::Platform(_) | Self::Drive { .. } | Self::Frame(_) => None,
             Self::Cable { stations, station, .. } => Some(stations.points_w[*station]),
         }
     }
 
     /// Motion of the port in a mode, in the scale of `Mode::shape` [m]. By reciprocity it is also the modal force per
     /// unit force at the port. The residue of a mode is the product of the motions of two ports over the modal mass. A
-    /// drive's signal has none here: NaN.
+    /// drive's signal and a motion of the frame have none here: NaN.
     pub fn in_mode(&self, dynamics: &Dynamics, mode: &Mode) -> f64 {
         match self {
             Self::Platform(vector) => vector.dot(&Vec6::from(mode.shape)),
-            Self::Drive { .. } => f64::NAN,
+            Self::Drive { .. } | Self::Frame(_) => f64::NAN,
             Self::Cable { stations, station, direction_w } => {
                 let [e, n, b] = stations.in_mode(dynamics, mode)[*station];
                 (stations.axes.e * e + stations.axes.n * n + stations.axes.b * b).dot(direction_w)
@@ -198,6 +204,7 @@ impl Port {
         match self {
             Self::Platform(vector) => vector.map(Complex::from),
             Self::Drive { .. } => self.drive_vector(dynamics, omega).unwrap_or_else(CVec6::zeros),
+            Self::Frame(motion) => motion.vector(dynamics, omega),
             Self::Cable { stations, station, direction_w } => {
                 stations.transmission(dynamics, *station, direction_w, omega)
             }

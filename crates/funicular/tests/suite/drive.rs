@@ -1,6 +1,7 @@
 //! Robots with pulleys and winches: equilibria, limits, vibration against closed forms, and the reader's errors. Single
 //! cables at rest have their tests in the source; the comparisons with other programs are in the validation.
 
+mod frame;
 mod vibration;
 
 use funicular::cable::{CableModel, EndStiffness};
@@ -171,21 +172,47 @@ fn a_weightless_cable_is_a_rod_and_a_string_on_springs() {
 }
 
 #[test]
-fn a_tilted_axis_refuses_the_dynamic_model_and_keeps_the_static_one() {
+fn a_tilted_axis_couples_the_motions_in_plane_and_out_of_plane() {
     let mut robot = cogiro(0.06);
-    for cable in &mut robot.cables {
-        cable.anchor.pulley.as_mut().unwrap().entry_direction_w = Vec3::new(0.3, 0.1, 1.0).normalize();
-    }
+    let mut turned = |axis: Vec3| {
+        for cable in &mut robot.cables {
+            let pulley = cable.anchor.pulley.as_mut().unwrap();
+            (pulley.entry_direction_w, pulley.swivel_inertia) = (axis.normalize(), 2e-3);
+        }
+        robot.clone()
+    };
     let pose = Pose::new([1.0, 2.0, 1.5], [0.0; 3]);
-    let rest = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
-    assert!(rest.residual < 1e-10);
-    let error = Dynamics::about(&robot, &rest, Linearisation::default(), 10.0).unwrap_err();
+    let below = |robot: &Robot| {
+        let rest = statics::inverse(robot, &pose, StaticModel::Catenary).unwrap();
+        assert!(rest.residual < 1e-10);
+        let dynamics = Dynamics::about(robot, &rest, Linearisation::default(), 10.0).unwrap();
+        let listed = modes::below(&dynamics, 10.0);
+        assert!(listed.certified);
+        (rest, dynamics, listed.modes.iter().map(|mode| mode.frequency_hz).collect::<Vec<f64>>())
+    };
+
+    // The limit of a small angle: one eigenproblem for both families, or one for each.
+    let (upright, nearly) = (below(&turned(Vec3::z())).2, below(&turned(Vec3::new(1e-6, 2e-6, 1.0))).2);
+    assert!(upright.len() > 20 && upright.len() == nearly.len());
+    for (upright, nearly) in upright.iter().zip(&nearly) {
+        assert!((nearly / upright - 1.0).abs() < 1e-6, "{upright} {nearly}");
+    }
+
+    // At rest the stiffness is that of the catenary, (69): exact to the square of the kink, 3e-4 rad here.
+    let inclined = turned(Vec3::new(0.3, 0.1, 1.0));
+    let (rest, dynamics, _) = below(&inclined);
+    let still = Linearisation { cable_model: CableModel::CatenaryStatic, ..Default::default() };
+    let still = Dynamics::about(&inclined, &rest, still, 10.0).unwrap();
+    let (dynamic, still) = (dynamics.stiffness(1e-3), still.stiffness(1e-3));
+    let size = still.map(funicular::math::Complex::norm).amax();
+    assert!((dynamic - still).map(funicular::math::Complex::norm).amax() < 1e-6 * size, "{dynamic} {still}");
+
+    // What exists for one plane is refused.
+    let in_plane = Linearisation { in_plane_only: true, ..Default::default() };
+    let error = Dynamics::about(&inclined, &rest, in_plane, 10.0).unwrap_err();
     assert!(error.to_string().contains("swivel axis of its pulley is not parallel"), "{error}");
-    let model = CableModel::CatenaryStatic;
-    let still = Dynamics::about(&robot, &rest, Linearisation { cable_model: model, ..Default::default() }, 10.0);
-    assert!(modes::below(&still.unwrap(), 100.0).certified);
     let shallow = Linearisation { cable_model: CableModel::ShallowDynamic, ..Default::default() };
-    let error = Dynamics::about(&robot, &rest, shallow, 10.0).unwrap_err();
+    let error = Dynamics::about(&inclined, &rest, shallow, 10.0).unwrap_err();
     assert!(error.to_string().contains("runs over a pulley or to a winch"), "{error}");
 }
 

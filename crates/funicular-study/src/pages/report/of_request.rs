@@ -6,7 +6,7 @@ use crate::at_rest::{self, AtRest};
 use crate::pages::table::listed;
 use crate::request;
 use crate::robot_file::RobotFile;
-use crate::signals::{Input, Output};
+use crate::signals::{Input, Output, Place};
 use anyhow::{Result, anyhow};
 use funicular::math::Vec3;
 use funicular::response::{Quantity, Signal};
@@ -73,18 +73,20 @@ fn response(request: &request::ReportRequest, robot: &Robot) -> Result<(Input, O
 }
 
 fn input_in_words(input: &Input, point: Option<[f64; 3]>) -> String {
-    let along = axis_in_words(input.direction_w);
-    if input.is_moment {
-        format!("a moment about {along}")
-    } else {
-        format!("a force along {along} {}", at("at", point))
+    match &input.place {
+        Place::Platform { turns: true, direction_w } => format!("a moment about {}", axis_in_words(*direction_w)),
+        Place::Platform { turns: false, direction_w } => {
+            format!("a force along {} {}", axis_in_words(*direction_w), at("at", point))
+        }
+        _ => input.name.clone(),
     }
 }
 
 fn output_in_words(output: &Output, point: Option<[f64; 3]>) -> String {
-    let along = axis_in_words(output.direction_w);
+    let Place::Platform { turns, direction_w } = &output.place else { return output.name.clone() };
+    let along = axis_in_words(*direction_w);
     let of_platform = || at("of", point);
-    match (output.is_rotation, output.quantity) {
+    match (turns, output.quantity) {
         (false, Quantity::Displacement) => format!("the displacement along {along} {}", of_platform()),
         (false, Quantity::Velocity) => format!("the velocity along {along} {}", of_platform()),
         (false, Quantity::Acceleration) => format!("the acceleration along {along} {}", of_platform()),

@@ -6,61 +6,112 @@
 //! (81)).
 
 use super::moving_end::MovingEnd;
-use super::{CatenaryDynamic, CatenaryDynamicEnd, Displacements, InternalMotion, PoleResidue, local};
+use super::{CatenaryDynamic, CatenaryDynamicEnd, Displacements, Family, InternalMotion, NearRanges, PoleResidue};
 use crate::cable::LocalStiffness;
 use crate::drive::DriveChain;
 use crate::math::{CDMat, Complex, DMat};
 use std::ops::Range;
 
-/// Motions of a drive in the clamped modes of its cable.
+/// Motions of a drive in the clamped modes of its cable. In each displacement the first component is the motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriveMotion {
-    /// Motions of the chain along the cable, in the first component of each.
+    /// Motions of the chain along the cable, in the modes in plane.
     pub along: Displacements<2, 4>,
-    /// Motion out of plane, if the end has one.
-    pub out_of_plane: Displacements<1, 2>,
-    /// Static response of the chain to unit forces on its motions, the platform end of the cable held [m/N].
+    /// Motion sideways, if the end has one, in the modes out of plane.
+    pub sideways: Displacements<1, 2>,
+    /// All motions, those of the chain and then that sideways, for an end that couples the families.
+    pub coupled: Displacements<3, 6>,
+    /// Static response of all motions to unit forces on them, the platform end of the cable held [m/N].
     pub(super) flexibility: DMat,
-    /// Static response of the motion out of plane to a unit force on it [m/N].
-    pub(super) flexibility_out_of_plane: f64,
 }
 
-/// Motions of a drive at one frequency, in one family of modes: S components of the platform end move it.
-pub(crate) struct DriveAt<const S: usize> {
-    /// T: motion per component of the platform end, and its derivative by x = ω_c².
-    pub(crate) transfer: Vec<[Complex; S]>,
-    pub(crate) transfer_slope: Vec<[Complex; S]>,
+/// Motions of a drive at one frequency: those of the chain, then that sideways if there is one.
+pub(crate) struct DriveAt {
+    /// T: motion per component (e, n, b) of the platform end, and its derivative by x = ω_c².
+    pub(crate) transfer: Vec<[Complex; 3]>,
+    pub(crate) transfer_slope: Vec<[Complex; 3]>,
     /// R: motion per force, the platform end held, and its derivative by x [m/N].
     pub(crate) receptance: CDMat,
     pub(crate) receptance_slope: CDMat,
 }
 
-impl<const S: usize> DriveAt<S> {
-    /// Motions of `count` parts at x = ω_c², without the poles `left_out`.
-    pub(super) fn at<const D: usize, const N: usize, const E: usize>(
-        family: &PoleResidue<N, E>,
-        motion: &Displacements<D, N>,
-        flexibility: &DMat,
+impl DriveAt {
+    /// First `count` motions of a drive at x = ω_c², without the poles `left_out`.
+    pub(super) fn at(
+        cable: &CatenaryDynamic,
+        drive: &DriveMotion,
+        count: usize,
         x: Complex,
-        left_out: &Range<usize>,
+        left_out: &NearRanges,
     ) -> Self {
         let zero = Complex::new(0.0, 0.0);
-        let count = flexibility.nrows();
         let mut at = Self {
-            transfer: (0..count).map(|j| std::array::from_fn(|s| motion.still[j][0][s].into())).collect(),
-            transfer_slope: vec![[zero; S]; count],
-            receptance: flexibility.map(Complex::from),
+            transfer: vec![[zero; 3]; count],
+            transfer_slope: vec![[zero; 3]; count],
+            receptance: drive.flexibility.view((0, 0), (count, count)).map(Complex::from),
             receptance_slope: CDMat::zeros(count, count),
         };
+        let along = drive.along.still.len();
+        at.add(&cable.in_plane, &drive.along, 0..along, [0, 1], x, &left_out.in_plane);
+        if count > along {
+            at.add(
+                &cable.out_of_plane,
+                &drive.sideways,
+                along..along + drive.sideways.still.len(),
+                [2],
+                x,
+                &left_out.out_of_plane,
+            );
+        }
+        if let Some(coupled) = &cable.coupled {
+            at.add(coupled, &drive.coupled, 0..count, [0, 1, 2], x, &left_out.coupled);
+        }
+        at
+    }
+
+    /// Motion per component (e, n, b) of the carrier of the end, the platform end held, for the first `count` motions.
+    pub(super) fn by_carrier(
+        cable: &CatenaryDynamic,
+        drive: &DriveMotion,
+        count: usize,
+        x: Complex,
+    ) -> Vec<[Complex; 3]> {
+        let mut rows = vec![[Complex::new(0.0, 0.0); 3]; count];
+        let along = drive.along.still.len();
+        add_carrier(&mut rows, &cable.in_plane, &drive.along, 0, [0, 1], x);
+        if count > along {
+            add_carrier(&mut rows, &cable.out_of_plane, &drive.sideways, along, [2], x);
+        }
+        if let Some(coupled) = &cable.coupled {
+            add_carrier(&mut rows, coupled, &drive.coupled, 0, [0, 1, 2], x);
+        }
+        rows
+    }
+
+    /// Adds what the modes of one family move: the motions `rows`, by the components `axes` of the platform end.
+    fn add<const D: usize, const N: usize, const E: usize>(
+        &mut self,
+        family: &PoleResidue<N, E>,
+        motion: &Displacements<D, N>,
+        rows: Range<usize>,
+        axes: [usize; D],
+        x: Complex,
+        left_out: &Range<usize>,
+    ) {
+        for (i, still) in rows.clone().zip(&motion.still) {
+            for (s, axis) in axes.iter().enumerate() {
+                self.transfer[i][*axis] += still[0][s];
+            }
+        }
 
         for (k, (pole, g)) in family.poles.iter().zip(&family.participation).enumerate() {
-            let phi = |j: usize| motion.modes[k][j][0];
+            let phi = |i: usize| motion.modes[k][i - rows.start][0];
             if left_out.contains(&k) {
                 // The mode is an unknown beside these motions: only its static response, which the flexibility
                 // contains, has to be taken out.
-                for i in 0..count {
-                    for j in 0..count {
-                        at.receptance[(i, j)] -= phi(i) * phi(j) / pole;
+                for i in rows.clone() {
+                    for j in rows.clone() {
+                        self.receptance[(i, j)] -= phi(i) * phi(j) / pole;
                     }
                 }
                 continue;
@@ -69,18 +120,17 @@ impl<const S: usize> DriveAt<S> {
             // x/(p − x), x/(p (p − x)) and their derivatives p/(p − x)², 1/(p − x)².
             let (by_end, by_end_slope) = (x * inverse, *pole * inverse * inverse);
             let (by_force, by_force_slope) = (x * inverse / *pole, inverse * inverse);
-            for i in 0..count {
-                for (s, g) in g.iter().take(S).enumerate() {
-                    at.transfer[i][s] += phi(i) * g * by_end;
-                    at.transfer_slope[i][s] += phi(i) * g * by_end_slope;
+            for i in rows.clone() {
+                for (s, axis) in axes.iter().enumerate() {
+                    self.transfer[i][*axis] += phi(i) * g[s] * by_end;
+                    self.transfer_slope[i][*axis] += phi(i) * g[s] * by_end_slope;
                 }
-                for j in 0..count {
-                    at.receptance[(i, j)] += phi(i) * phi(j) * by_force;
-                    at.receptance_slope[(i, j)] += phi(i) * phi(j) * by_force_slope;
+                for j in rows.clone() {
+                    self.receptance[(i, j)] += phi(i) * phi(j) * by_force;
+                    self.receptance_slope[(i, j)] += phi(i) * phi(j) * by_force_slope;
                 }
             }
         }
-        at
     }
 
     /// `(1 + R Δ)⁻¹`; not finite at a resonance of the drive without damping.
@@ -93,7 +143,7 @@ impl<const S: usize> DriveAt<S> {
 
     /// Motion z per component of the platform end with the additional stiffness `delta` of the drive [N/m]:
     /// `(1 + R Δ)⁻¹ T`.
-    pub(crate) fn moved(&self, delta: &[Complex]) -> Vec<[Complex; S]> {
+    pub(crate) fn moved(&self, delta: &[Complex]) -> Vec<[Complex; 3]> {
         let (count, inverse) = (delta.len(), self.inverse(delta));
         let moved = |i: usize, s: usize| (0..count).map(|j| inverse[(i, j)] * self.transfer[j][s]).sum();
         (0..count).map(|i| std::array::from_fn(|s| moved(i, s))).collect()
@@ -113,41 +163,63 @@ impl<const S: usize> DriveAt<S> {
 
     /// Stiffness of the platform end that the additional stiffness `delta` of the drive adds [N/m]:
     /// `Tᵀ Δ (1 + R Δ)⁻¹ T`.
-    fn added(&self, delta: &[Complex]) -> [[Complex; S]; S] {
+    fn added(&self, delta: &[Complex]) -> [[Complex; 3]; 3] {
         let moved = self.moved(delta);
         let entry = |r: usize, c: usize| (0..delta.len()).map(|j| self.transfer[j][r] * delta[j] * moved[j][c]).sum();
         std::array::from_fn(|r| std::array::from_fn(|c| entry(r, c)))
     }
 }
 
-/// Motions of a drive at one frequency, along the cable and sideways.
-pub(crate) struct DriveMotions {
-    pub(crate) along: DriveAt<2>,
-    /// `None` if the end does not move sideways.
-    pub(crate) sideways: Option<DriveAt<1>>,
-}
-
-/// Dynamic stiffness of a drive besides that of the undamped model [N/m], and its derivative by ω, per motion.
-pub(crate) struct DriveLosses {
-    pub(crate) along: Vec<(Complex, Complex)>,
-    pub(crate) sideways: (Complex, Complex),
-}
-
-impl DriveLosses {
-    /// Stiffness per motion along the cable [N/m].
-    pub(super) fn values_along(&self) -> Vec<Complex> {
-        self.along.iter().map(|(value, _)| *value).collect()
+/// Adds the motions from `first` on by the carrier in one family, whose components are `axes`.
+fn add_carrier<const D: usize, const N: usize, const E: usize>(
+    rows: &mut [[Complex; 3]],
+    family: &PoleResidue<N, E>,
+    motion: &Displacements<D, N>,
+    first: usize,
+    axes: [usize; D],
+    x: Complex,
+) {
+    for (j, still) in motion.still.iter().enumerate() {
+        for (s, axis) in axes.iter().enumerate() {
+            let by_modes: Complex = (family.poles.iter().zip(&family.participation).zip(&motion.modes))
+                .map(|((pole, g), phi)| phi[j][0] * g[D + s] * x / (*pole - x))
+                .sum();
+            rows[first + j][*axis] += still[0][D + s] + by_modes;
+        }
     }
 }
 
-impl DriveMotions {
-    /// Entries of the stiffness that the losses add to the platform end, in plane and out of plane [N/m].
-    pub(super) fn added_stiffness(&self, losses: &DriveLosses) -> ([Complex; 3], [Complex; 1]) {
-        let delta = losses.values_along();
-        let [[axial, coupling], [_, normal]] = self.along.added(&delta);
-        let out_of_plane =
-            self.sideways.as_ref().map_or_else(Complex::default, |sideways| sideways.added(&[losses.sideways.0])[0][0]);
-        ([axial, coupling, normal], [out_of_plane])
+/// Dynamic stiffness of a drive besides that of the undamped model [N/m], and its derivative by ω, per motion: those of
+/// the chain, then that sideways if there is one.
+pub(crate) struct DriveLosses(pub(crate) Vec<(Complex, Complex)>);
+
+impl DriveLosses {
+    /// Stiffness per motion [N/m].
+    pub(super) fn values(&self) -> Vec<Complex> {
+        self.0.iter().map(|(value, _)| *value).collect()
+    }
+}
+
+impl DriveMotion {
+    /// Motions in the clamped mode with this index of a family [1/√kg]; zero for motions that it does not contain.
+    pub(super) fn in_mode(&self, family: Family, index: usize) -> Vec<f64> {
+        let mut motions = vec![0.0; self.flexibility.nrows()];
+        let sideways = self.along.still.len();
+        match family {
+            Family::InPlane => {
+                motions.iter_mut().zip(&self.along.modes[index]).for_each(|(motion, [phi, _])| *motion = *phi);
+            }
+            Family::OutOfPlane => {
+                motions[sideways..]
+                    .iter_mut()
+                    .zip(&self.sideways.modes[index])
+                    .for_each(|(motion, [phi])| *motion = *phi);
+            }
+            Family::Coupled => {
+                motions.iter_mut().zip(&self.coupled.modes[index]).for_each(|(motion, [phi, ..])| *motion = *phi);
+            }
+        }
+        motions
     }
 }
 
@@ -156,27 +228,30 @@ impl InternalMotion {
     #[must_use]
     pub(crate) fn with_drive(mut self, cable: &CatenaryDynamic, losses: &DriveLosses, square: Complex) -> Self {
         let Some(drive) = &cable.drive else { return self };
+        let (along, count) = (drive.along.still.len(), losses.0.len());
 
-        // Along the cable: the motion z without these forces, then with them.
-        let free: Vec<Complex> =
-            (0..losses.along.len()).map(|j| drive.along.at(j, &self.in_plane_ends, &self.in_plane)[0]).collect();
-        let delta = losses.values_along();
-        let at = DriveAt::<2>::at(&cable.in_plane, &drive.along, &drive.flexibility, square, &(0..0));
-        let forces = at.forces(&delta, &free);
-        for ((amplitude, pole), mode) in self.in_plane.iter_mut().zip(&cable.in_plane.poles).zip(&drive.along.modes) {
-            let force: Complex = mode.iter().zip(&forces).map(|([phi, _], force)| force * *phi).sum();
-            *amplitude -= force / (*pole - square);
-        }
+        // The motion z without these forces, then the forces with them.
+        let free: Vec<Complex> = (0..count)
+            .map(|j| match (&cable.coupled, j.checked_sub(along)) {
+                (Some(_), _) => drive.coupled.at(j, &self.ends(), &self.coupled)[0],
+                (None, None) => drive.along.at(j, &self.in_plane_ends, &self.in_plane)[0],
+                (None, Some(k)) => drive.sideways.at(k, &self.out_of_plane_ends, &self.out_of_plane)[0],
+            })
+            .collect();
+        let at = DriveAt::at(cable, drive, count, square, &NearRanges::default());
+        let forces = at.forces(&losses.values(), &free);
 
-        // Sideways.
-        if drive.flexibility_out_of_plane > 0.0 {
-            let free = drive.out_of_plane.at(0, &self.out_of_plane_ends, &self.out_of_plane)[0];
-            let flexibility = DMat::from_element(1, 1, drive.flexibility_out_of_plane);
-            let at = DriveAt::<1>::at(&cable.out_of_plane, &drive.out_of_plane, &flexibility, square, &(0..0));
-            let force = at.forces(&[losses.sideways.0], &[free])[0];
-            let modes = cable.out_of_plane.poles.iter().zip(&drive.out_of_plane.modes);
-            for (amplitude, (pole, mode)) in self.out_of_plane.iter_mut().zip(modes) {
-                *amplitude -= force * mode[0][0] / (*pole - square);
+        // The clamped modes under these forces.
+        for family in Family::ALL {
+            let (amplitudes, poles) = match family {
+                Family::InPlane => (&mut self.in_plane, &cable.in_plane.poles[..]),
+                Family::OutOfPlane => (&mut self.out_of_plane, &cable.out_of_plane.poles[..]),
+                Family::Coupled => (&mut self.coupled, cable.coupled_poles()),
+            };
+            for (index, (amplitude, pole)) in amplitudes.iter_mut().zip(poles).enumerate() {
+                let force: Complex =
+                    drive.in_mode(family, index).iter().zip(&forces).map(|(phi, force)| force * *phi).sum();
+                *amplitude -= force / (*pole - square);
             }
         }
         self
@@ -194,9 +269,15 @@ impl CatenaryDynamicEnd {
         if !self.has_drive_losses() {
             return None;
         }
-        let drive = self.drive_at(self.square(omega), &(0..0, 0..0))?;
-        let (in_plane, out_of_plane) = drive.added_stiffness(&self.beyond_undamped(omega.into(), 1.0));
-        Some(local(in_plane, out_of_plane))
+        let drive = self.drive_at(self.square(omega), &NearRanges::default())?;
+        let added = drive.added(&self.beyond_undamped(omega.into(), 1.0).values());
+        Some(LocalStiffness {
+            axial: added[0][0],
+            coupling: added[0][1],
+            normal: added[1][1],
+            out_of_plane: added[2][2],
+            across: [added[0][2], added[1][2]],
+        })
     }
 
     /// True if the undamped model does not describe its drive completely: masses of the drive that do not share the
@@ -207,16 +288,15 @@ impl CatenaryDynamicEnd {
         (damped_cable && end.has_mass()) || end.chain().is_some_and(DriveChain::has_losses)
     }
 
-    /// Motions of the drive at x = ω_c², without the poles `left_out` in plane and out of plane; `None` without a drive.
-    pub(crate) fn drive_at(&self, x: Complex, left_out: &(Range<usize>, Range<usize>)) -> Option<DriveMotions> {
-        let motion = self.cable.drive.as_ref()?;
-        Some(DriveMotions {
-            along: DriveAt::at(&self.cable.in_plane, &motion.along, &motion.flexibility, x, &left_out.0),
-            sideways: (self.out_of_plane().filter(|_| motion.flexibility_out_of_plane > 0.0)).map(|family| {
-                let flexibility = DMat::from_element(1, 1, motion.flexibility_out_of_plane);
-                DriveAt::at(family, &motion.out_of_plane, &flexibility, x, &left_out.1)
-            }),
-        })
+    /// Number of motions at its end that count: without motion out of plane only those along the cable.
+    pub(super) fn motions(&self) -> usize {
+        let (along, all) = self.cable.end.as_ref().map_or((0, 0), MovingEnd::counts);
+        if self.in_plane_only { along } else { all }
+    }
+
+    /// Motions of the drive at x = ω_c², without the poles `left_out`; `None` without a drive.
+    pub(crate) fn drive_at(&self, x: Complex, left_out: &NearRanges) -> Option<DriveAt> {
+        Some(DriveAt::at(&self.cable, self.cable.drive.as_ref()?, self.motions(), x, left_out))
     }
 
     /// True if the control of its motor has a delay.
@@ -238,33 +318,35 @@ impl CatenaryDynamicEnd {
     /// Kinetic energy of the drive over ω²/2 [kg m²], and the work of its losses, by which its damping grows [N m], in
     /// a motion of the platform end (e, n, b) at the undamped ω [rad/s]. `near` has the amplitudes of the clamped modes
     /// that are unknowns of their own.
-    pub(crate) fn drive_share(&self, omega: f64, end: [f64; 3], near: &[(usize, bool, f64)]) -> (f64, f64) {
+    pub(crate) fn drive_share(&self, omega: f64, end: [f64; 3], near: &[(usize, Family, f64)]) -> (f64, f64) {
         let x = omega * omega;
-        let left_out = |out_of_plane: bool| {
-            let mut indices = near.iter().filter(|near| near.1 == out_of_plane).map(|near| near.0);
+        let left_out = |family: Family| {
+            let mut indices = near.iter().filter(|near| near.1 == family).map(|near| near.0);
             indices.next().map_or(0..0, |first| first..indices.next_back().unwrap_or(first) + 1)
         };
-        let Some(motions) = self.drive_at(x.into(), &(left_out(false), left_out(true))) else { return (0.0, 0.0) };
+        let left_out = NearRanges {
+            in_plane: left_out(Family::InPlane),
+            out_of_plane: left_out(Family::OutOfPlane),
+            coupled: left_out(Family::Coupled),
+        };
+        let Some(motions) = self.drive_at(x.into(), &left_out) else { return (0.0, 0.0) };
 
         // Motions by the platform end, and in the near modes.
-        let mut along: Vec<f64> = motions.along.transfer.iter().map(|[e, n]| e.re * end[0] + n.re * end[1]).collect();
-        let mut sideways = motions.sideways.as_ref().map_or(0.0, |sideways| sideways.transfer[0][0].re * end[2]);
-        for (index, out_of_plane, amplitude) in near {
-            let motion = self.drive_in_mode(*index, *out_of_plane);
-            if *out_of_plane {
-                sideways += motion.iter().map(|phi| phi * amplitude).sum::<f64>();
-            } else {
-                along.iter_mut().zip(&motion).for_each(|(sum, phi)| *sum += phi * amplitude);
-            }
+        let by_end = |row: &[Complex; 3]| row.iter().zip(end).map(|(transfer, u)| transfer.re * u).sum();
+        let mut motion: Vec<f64> = motions.transfer.iter().map(by_end).collect();
+        for (index, family, amplitude) in near {
+            let of_mode = self.drive_in_mode(*index, *family);
+            motion.iter_mut().zip(&of_mode).for_each(|(sum, phi)| *sum += phi * amplitude);
         }
 
         // Masses, and the imaginary part of what the drive has besides the undamped model, without the cable's damping.
+        let (along, _) = self.cable.end.as_ref().map_or((0, 0), MovingEnd::counts);
         let swivel = self.cable.end.as_ref().map_or(0.0, MovingEnd::swivel_mass);
-        let (mut mass, mut loss) = (swivel * sideways * sideways, 0.0);
+        let (mut mass, mut loss) = (motion[along..].iter().map(|z| swivel * z * z).sum(), 0.0);
         if let Some(chain) = self.chain() {
             let undamped = (Complex::from(x), Complex::from(2.0 * omega));
             let losses = chain.beyond_undamped(omega.into(), undamped, 1.0);
-            for (j, z) in along.iter().enumerate() {
+            for (j, z) in motion[..along].iter().enumerate() {
                 mass += chain.mass[(j, j)] * z * z;
                 loss += losses[j].0.im * z * z;
             }
@@ -272,23 +354,19 @@ impl CatenaryDynamicEnd {
         (mass, loss)
     }
 
-    /// Motions of the drive in the clamped mode with this index, along the cable or sideways [1/√kg].
-    pub(crate) fn drive_in_mode(&self, index: usize, out_of_plane: bool) -> Vec<f64> {
-        let Some(motion) = &self.cable.drive else { return Vec::new() };
-        if out_of_plane {
-            motion.out_of_plane.modes[index].iter().map(|[motion]| *motion).collect()
-        } else {
-            motion.along.modes[index].iter().map(|[motion, _]| *motion).collect()
-        }
+    /// Motions of the drive in the clamped mode with this index of a family [1/√kg].
+    pub(crate) fn drive_in_mode(&self, index: usize, family: Family) -> Vec<f64> {
+        self.cable.drive.as_ref().map_or_else(Vec::new, |motion| motion.in_mode(family, index))
     }
 
-    /// Dynamic stiffness that the drive has besides that of the undamped model, over its motions along the cable and
-    /// sideways, at the complex ω [N/m], with its derivative by ω. `losses` is the fraction of the damping that acts.
+    /// Dynamic stiffness that the drive has besides that of the undamped model, per motion, at the complex ω [N/m], with
+    /// its derivative by ω. `losses` is the fraction of the damping that acts.
     pub(crate) fn beyond_undamped(&self, omega: Complex, losses: f64) -> DriveLosses {
         let square = self.damping.times(losses).square_with_slope(omega, self.mass_per_length);
         let along = self.chain().map(|chain| chain.beyond_undamped(omega, square, losses));
+        let mut all = along.unwrap_or_default();
         let mass = self.cable.end.as_ref().map_or(0.0, MovingEnd::swivel_mass);
-        let sideways = (mass * (square.0 - omega * omega), mass * (square.1 - 2.0 * omega));
-        DriveLosses { along: along.unwrap_or_default(), sideways }
+        all.resize(self.motions(), (mass * (square.0 - omega * omega), mass * (square.1 - 2.0 * omega)));
+        DriveLosses(all)
     }
 }

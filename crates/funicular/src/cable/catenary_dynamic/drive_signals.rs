@@ -1,6 +1,6 @@
 //! Signals of the drive of a cable: commanded length, force of the motor, motions of drum and motor, tension.
 
-use super::{CatenaryDynamicEnd, DriveAt, DriveLosses};
+use super::{CatenaryDynamicEnd, DriveAt, DriveLosses, NearRanges};
 use crate::drive::DriveChain;
 use crate::math::Complex;
 
@@ -16,11 +16,13 @@ pub enum DriveSignal {
     Motor,
     /// Tension of the cable at the platform [N]; an output.
     Tension,
+    /// Tension of the cable at the drum, or without a winch at the anchor [N]; an output.
+    DrumTension,
 }
 
 impl DriveSignal {
     /// All quantities.
-    pub const ALL: [Self; 4] = [Self::Length, Self::Drum, Self::Motor, Self::Tension];
+    pub const ALL: [Self; 5] = [Self::Length, Self::Drum, Self::Motor, Self::Tension, Self::DrumTension];
 
     /// Name before the name of the cable, as in `length:3`.
     pub fn name(self) -> &'static str {
@@ -29,12 +31,18 @@ impl DriveSignal {
             Self::Drum => "drum",
             Self::Motor => "motor",
             Self::Tension => "tension",
+            Self::DrumTension => "drum-tension",
         }
     }
 
     /// True if it can be an input.
     pub fn is_input(self) -> bool {
-        self != Self::Tension
+        !self.is_tension()
+    }
+
+    /// True for a tension.
+    pub fn is_tension(self) -> bool {
+        matches!(self, Self::Tension | Self::DrumTension)
     }
 
     /// True if it can be an output.
@@ -58,53 +66,111 @@ impl CatenaryDynamicEnd {
     /// Vector of a signal at ω [rad/s] in (e, n, b): the force on the held platform end per unit of an input, and by
     /// reciprocity the output per motion of the platform end. `None` if the cable has no such signal.
     pub(crate) fn signal_vector(&self, signal: DriveSignal, omega: f64) -> Option<[Complex; 3]> {
-        let zero = Complex::new(0.0, 0.0);
         if signal == DriveSignal::Tension {
             let k = self.damped(omega);
             let [h, v] = self.directions.from_platform;
-            return Some([-(k.axial * h + k.coupling * v), -(k.coupling * h + k.normal * v), zero]);
+            let [along, normal] = k.across;
+            return Some([
+                -(k.axial * h + k.coupling * v),
+                -(k.coupling * h + k.normal * v),
+                -(along * h + normal * v),
+            ]);
         }
-        let square = self.square(omega);
         let Some(chain) = self.chain() else {
-            // The drum is rigid and holds the far end: the cable that is paid out moves it towards the platform.
-            let ([h, v], family) = (self.directions.to_platform, &self.cable.in_plane);
-            let towards =
-                |i: usize| -self.directions.stretch * (family.entry(i, 2, square) * h + family.entry(i, 3, square) * v);
-            return (signal == DriveSignal::Length).then(|| [towards(0), towards(1), zero]);
+            return match signal {
+                // The drum is rigid and holds the far end: the cable that is paid out moves it towards the platform.
+                DriveSignal::Length => self.at_held_end(omega).map(|row| row.map(|k| self.directions.stretch * k)),
+                DriveSignal::DrumTension => self.at_held_end(omega),
+                DriveSignal::Drum | DriveSignal::Motor | DriveSignal::Tension => None,
+            };
         };
 
-        let force = self.forces_of(chain, signal, omega)?;
+        // By reciprocity the row of an output is also the force of an input.
+        let row = match signal {
+            DriveSignal::DrumTension => self.drum_tension_row(chain, omega)?,
+            _ => self.forces_of(chain, signal, omega)?,
+        };
         let (motions, losses) = self.motions_with_losses(omega)?;
-        let moved = motions.moved(&losses.values_along());
-        let sum = |s: usize| (0..force.len()).map(|j| moved[j][s] * force[j]).sum();
-        Some([sum(0), sum(1), zero])
+        let moved = motions.moved(&losses.values());
+        Some(std::array::from_fn(|s| row.iter().zip(&moved).map(|(row, moved)| moved[s] * row).sum()))
+    }
+
+    /// Tension at a far end that is held per motion (e, n, b) of the platform end, or the force on that one per motion of
+    /// the far end towards the platform [N/m]. `None` for an end that couples the families.
+    fn at_held_end(&self, omega: f64) -> Option<[Complex; 3]> {
+        let (square, [h, v], family) = (self.square(omega), self.directions.to_platform, &self.cable.in_plane);
+        let towards = |i: usize| -(family.entry(i, 2, square) * h + family.entry(i, 3, square) * v);
+        self.cable.coupled.is_none().then(|| [towards(0), towards(1), Complex::new(0.0, 0.0)])
+    }
+
+    /// Tension at the drum per motion of the drive [N/m]; `None` without a drum side.
+    fn drum_tension_row(&self, chain: &DriveChain, omega: f64) -> Option<Vec<Complex>> {
+        let (end, square) = (chain.drum_end.as_ref()?, self.square(omega));
+        Some(end.by_motion.iter().map(|(k, mass)| (square * *mass - k) * end.ratio).collect())
+    }
+
+    /// Row of an output over the motions of the drive.
+    pub(super) fn output_row(&self, chain: &DriveChain, output: DriveSignal, omega: f64) -> Option<Vec<Complex>> {
+        match output {
+            DriveSignal::DrumTension => self.drum_tension_row(chain, omega),
+            _ => self.forces_of(chain, output, omega),
+        }
+    }
+
+    /// Tension at the drum when the ends of the drum side move, the motions of the drive held: its end at the drum and
+    /// that at the wheel, both towards the platform, and the whole drum side along itself. Zero without a drum side.
+    pub(super) fn drum_tension_of_ends(&self, [at_drum, at_wheel, whole]: [f64; 3], omega: f64) -> Complex {
+        let Some(end) = self.chain().and_then(|chain| chain.drum_end.as_ref()) else { return Complex::new(0.0, 0.0) };
+        let square = self.square(omega);
+        let force = |(k, mass): (f64, f64), motion: f64| (square * mass - k) * motion;
+        let carried = square * (end.own.1 + end.by_wheel.1) * whole;
+        (force(end.own, at_drum) + force(end.by_wheel, at_wheel) + carried) * end.ratio
     }
 
     /// Output per input of signals of this cable, its platform end held, at ω [rad/s]. `None` if the cable has no such
     /// signals.
     pub(crate) fn signal_response(&self, input: DriveSignal, output: DriveSignal, omega: f64) -> Option<Complex> {
         if output == DriveSignal::Tension {
-            let [h, v] = self.directions.from_platform;
-            let [x, y, _] = self.signal_vector(input, omega)?;
-            return Some(x * h + y * v);
+            return Some(self.tension_of(&self.signal_vector(input, omega)?));
         }
-        let chain = self.chain()?;
-        let (force, row) = (self.forces_of(chain, input, omega)?, self.forces_of(chain, output, omega)?);
+        let Some(chain) = self.chain() else {
+            // The far end moves along itself.
+            let ([h, v], square) = (self.directions.to_platform, self.square(omega));
+            let of = |i: usize, j: usize| self.cable.in_plane.entry(i, j, square);
+            let own = (of(2, 2) * h + of(2, 3) * v) * h + (of(3, 2) * h + of(3, 3) * v) * v;
+            let known =
+                self.cable.coupled.is_none() && (input, output) == (DriveSignal::Length, DriveSignal::DrumTension);
+            return known.then(|| own * -self.directions.stretch);
+        };
+        let (force, row) = (self.forces_of(chain, input, omega)?, self.output_row(chain, output, omega)?);
         let (motions, losses) = self.motions_with_losses(omega)?;
-        let free: Vec<Complex> =
-            (0..force.len()).map(|i| (0..force.len()).map(|j| motions.receptance[(i, j)] * force[j]).sum()).collect();
-        let held = motions.freed(&losses.values_along(), &free);
-        Some(row.iter().zip(&held).map(|(row, moved)| row * moved).sum())
+        let count = losses.0.len();
+        let free: Vec<Complex> = (0..count)
+            .map(|i| force.iter().enumerate().map(|(j, force)| motions.receptance[(i, j)] * force).sum())
+            .collect();
+        let held = motions.freed(&losses.values(), &free);
+        let through: Complex = row.iter().zip(&held).map(|(row, moved)| row * moved).sum();
+
+        // A length that a drum pays out which is held moves the end of the drum side.
+        let direct = (input, output) == (DriveSignal::Length, DriveSignal::DrumTension) && chain.drum.is_none();
+        let paid_out = if direct { self.directions.stretch } else { 0.0 };
+        Some(through + self.drum_tension_of_ends([paid_out, 0.0, 0.0], omega))
     }
 
-    fn motions_with_losses(&self, omega: f64) -> Option<(DriveAt<2>, DriveLosses)> {
-        let motions = self.drive_at(self.square(omega), &(0..0, 0..0))?;
-        Some((motions.along, self.beyond_undamped(omega.into(), 1.0)))
+    /// Tension at the platform for a force on the held platform end in (e, n, b).
+    pub(super) fn tension_of(&self, [x, y, _]: &[Complex; 3]) -> Complex {
+        let [h, v] = self.directions.from_platform;
+        x * h + y * v
+    }
+
+    pub(super) fn motions_with_losses(&self, omega: f64) -> Option<(DriveAt, DriveLosses)> {
+        let motions = self.drive_at(self.square(omega), &NearRanges::default())?;
+        Some((motions, self.beyond_undamped(omega.into(), 1.0)))
     }
 
     /// Forces on the motions of the drive per unit of an input [N/m or 1]; for drum and motor also the row of their
     /// motion.
-    fn forces_of(&self, chain: &DriveChain, signal: DriveSignal, omega: f64) -> Option<Vec<Complex>> {
+    pub(super) fn forces_of(&self, chain: &DriveChain, signal: DriveSignal, omega: f64) -> Option<Vec<Complex>> {
         Some(DriveForce::of(chain, signal)?.at(omega, self.square(omega)))
     }
 }
@@ -145,7 +211,7 @@ impl DriveForce {
             (DriveSignal::Length, None) => {
                 (force.still, force.square) = chain.by_length.iter().copied().unzip();
             }
-            (DriveSignal::Tension, _) => return None,
+            (DriveSignal::Tension | DriveSignal::DrumTension, _) => return None,
         }
         Some(force)
     }

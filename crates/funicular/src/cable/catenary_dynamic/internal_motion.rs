@@ -1,6 +1,6 @@
 //! Motion of the points along a cable, from the motion of its ends and the amplitudes of its clamped modes.
 
-use super::{CatenaryDynamic, PoleResidue};
+use super::{CatenaryDynamic, Family, PoleResidue};
 use crate::math::{Complex, DMat};
 
 /// Displacement of stations along a catenary-dynamic cable (D components per point) by motions of its ends (N = 2D
@@ -22,9 +22,16 @@ pub struct Stations {
     pub in_plane: Displacements<2, 4>,
     /// Displacements out of plane: one component.
     pub out_of_plane: Displacements<1, 2>,
+    /// Displacements (horizontal, up, out of plane) of a cable whose end couples the families.
+    pub coupled: Displacements<3, 6>,
 }
 
 impl<const D: usize, const N: usize> Displacements<D, N> {
+    /// No stations and no modes.
+    pub(super) fn none() -> Self {
+        Self { still: Vec::new(), modes: Vec::new() }
+    }
+
     /// Keeps the first `count` clamped modes and replaces all others by a few combinations with the given weights; see
     /// [`PoleResidue::compressed`].
     pub(crate) fn compress(&mut self, count: usize, weights: &DMat) {
@@ -96,29 +103,41 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
     }
 }
 
-/// Motion of a cable whose start moves and whose end is held.
+/// Motion along a cable whose ends move.
 pub(crate) struct InternalMotion {
     /// Motions of both ends in plane (horizontal, up) and out of plane.
     pub(super) in_plane_ends: [Complex; 4],
     pub(super) out_of_plane_ends: [Complex; 2],
-    /// Amplitudes of the clamped modes [m √kg].
+    /// Amplitudes of the clamped modes [m √kg], by families.
     pub(crate) in_plane: Vec<Complex>,
     pub(crate) out_of_plane: Vec<Complex>,
+    pub(crate) coupled: Vec<Complex>,
 }
 
 impl InternalMotion {
     /// Motion that follows from the start's (horizontal towards the end, up, out of plane) at the complex square ω_c²
     /// [rad²/s²].
     pub(crate) fn new(cable: &CatenaryDynamic, start: [Complex; 3], square: Complex) -> Self {
-        let held = Complex::new(0.0, 0.0);
-        let (in_plane_ends, out_of_plane_ends) = ([start[0], start[1], held, held], [start[2], held]);
-        let in_plane = cable.in_plane.amplitudes(&in_plane_ends, square);
-        let out_of_plane = cable.out_of_plane.amplitudes(&out_of_plane_ends, square);
-        Self { in_plane_ends, out_of_plane_ends, in_plane, out_of_plane }
+        Self::between(cable, start, [Complex::new(0.0, 0.0); 3], square)
     }
-}
 
-impl InternalMotion {
+    /// Motion that follows from those of both ends (horizontal, up, out of plane) at the complex square ω_c² [rad²/s²].
+    pub(crate) fn between(cable: &CatenaryDynamic, start: [Complex; 3], end: [Complex; 3], square: Complex) -> Self {
+        let mut motion = Self {
+            in_plane_ends: [start[0], start[1], end[0], end[1]],
+            out_of_plane_ends: [start[2], end[2]],
+            in_plane: Vec::new(),
+            out_of_plane: Vec::new(),
+            coupled: Vec::new(),
+        };
+        motion.in_plane = cable.in_plane.amplitudes(&motion.in_plane_ends, square);
+        motion.out_of_plane = cable.out_of_plane.amplitudes(&motion.out_of_plane_ends, square);
+        if let Some(coupled) = &cable.coupled {
+            motion.coupled = coupled.amplitudes(&motion.ends(), square);
+        }
+        motion
+    }
+
     /// Motion with the ends held and a force along (horizontal, up, out of plane) at station `loaded`.
     pub(crate) fn under_force(
         cable: &CatenaryDynamic,
@@ -127,14 +146,32 @@ impl InternalMotion {
         square: Complex,
     ) -> Self {
         let held = Complex::new(0.0, 0.0);
+        let along = |mode: &[f64], force: &[f64]| -> f64 { mode.iter().zip(force).map(|(phi, f)| phi * f).sum() };
         let in_plane = cable.in_plane.poles.iter().zip(&stations.in_plane.modes);
         let out_of_plane = cable.out_of_plane.poles.iter().zip(&stations.out_of_plane.modes);
-        let along = |mode: &[[f64; 2]]| mode[loaded][0] * force[0] + mode[loaded][1] * force[1];
+        let coupled = cable.coupled_poles().iter().zip(&stations.coupled.modes);
         Self {
             in_plane_ends: [held; 4],
             out_of_plane_ends: [held; 2],
-            in_plane: in_plane.map(|(pole, mode)| along(mode) / (*pole - square)).collect(),
-            out_of_plane: out_of_plane.map(|(pole, mode)| mode[loaded][0] * force[2] / (*pole - square)).collect(),
+            in_plane: in_plane.map(|(pole, mode)| along(&mode[loaded], &force[..2]) / (*pole - square)).collect(),
+            out_of_plane: (out_of_plane.map(|(pole, mode)| along(&mode[loaded], &force[2..]) / (*pole - square)))
+                .collect(),
+            coupled: coupled.map(|(pole, mode)| along(&mode[loaded], &force) / (*pole - square)).collect(),
+        }
+    }
+
+    /// Motions (horizontal, up, out of plane) of the start, then of the end.
+    pub(super) fn ends(&self) -> [Complex; 6] {
+        let ([a, b, d, e], [c, f]) = (self.in_plane_ends, self.out_of_plane_ends);
+        [a, b, c, d, e, f]
+    }
+
+    /// Amplitudes of the clamped modes of a family [m √kg].
+    pub(crate) fn amplitudes(&mut self, family: Family) -> &mut Vec<Complex> {
+        match family {
+            Family::InPlane => &mut self.in_plane,
+            Family::OutOfPlane => &mut self.out_of_plane,
+            Family::Coupled => &mut self.coupled,
         }
     }
 }
@@ -142,6 +179,9 @@ impl InternalMotion {
 impl Stations {
     /// Displacement (horizontal, up, out of plane) of station `at`.
     pub(crate) fn displacement(&self, at: usize, motion: &InternalMotion) -> [Complex; 3] {
+        if !self.coupled.still.is_empty() {
+            return self.coupled.at(at, &motion.ends(), &motion.coupled);
+        }
         let [horizontal, up] = self.in_plane.at(at, &motion.in_plane_ends, &motion.in_plane);
         let [out_of_plane] = self.out_of_plane.at(at, &motion.out_of_plane_ends, &motion.out_of_plane);
         [horizontal, up, out_of_plane]

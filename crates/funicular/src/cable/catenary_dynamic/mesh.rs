@@ -146,9 +146,9 @@ impl<'a> Mesh<'a> {
         self.elements.iter().map(|e| e.degree).collect()
     }
 
-    /// Number of inner unknowns in plane.
-    pub(super) fn unknowns(&self) -> usize {
-        2 * self.inner_functions(self.free_end)
+    /// Number of inner unknowns with this number of components per function.
+    pub(super) fn unknowns(&self, components: usize) -> usize {
+        components * self.inner_functions(self.free_end)
     }
 
     /// C at arc length s [N]: its entries in plane (hh, hv, vv) and the one out of plane.
@@ -230,9 +230,12 @@ impl<'a> Mesh<'a> {
             0 => ends.push((0, 0)),
             _ => inner.push((0, e - 1)),
         }
-        match e {
-            _ if e == last && !moves => ends.push((1, 1)),
-            _ => inner.push((1, e)),
+        if e == last {
+            ends.push((1, 1));
+        }
+        // The motions at an end that moves are relative to what carries it, whose motion is that of the end function.
+        if e < last || moves {
+            inner.push((1, e));
         }
 
         // Bubbles up to the degree, and those beyond it.
@@ -248,20 +251,20 @@ impl<'a> Mesh<'a> {
         (s > from || e == 0) && (s <= to || e + 1 == self.elements.len())
     }
 
-    /// Stiffness per entry of C (hh, hv, vv, or one out of plane) and mass of an element over its hats and bubbles,
+    /// Stiffness per entry of C (hh, hv, vv; one out of plane; or all four) and mass of an element over its hats and bubbles,
     /// [`BEYOND`] included.
     fn element_matrices<const D: usize>(&self, element: &Element, table: &ElementTable) -> (Vec<DMat>, DMat) {
         let half = 0.5 * (element.to - element.from);
         let middle = 0.5 * (element.to + element.from);
         let ElementTable { rule, slopes } = table;
 
-        // C at the points of the rule.
-        let entries = 2 * D - 1;
-        let mut weights = vec![vec![0.0; rule.len()]; entries];
+        // C at the points of the rule: its entries in plane, and the one out of plane.
+        let entries = if D == 1 { 3..4 } else { 0..D + 1 };
+        let mut weights = vec![vec![0.0; rule.len()]; entries.len()];
         for (q, (xi, weight)) in rule.iter().enumerate() {
-            let (in_plane, out_of_plane) = self.tangent_at(middle + half * xi);
-            for (entry, weights) in weights.iter_mut().enumerate() {
-                weights[q] = weight / half * if D == 1 { out_of_plane } else { in_plane[entry] };
+            let ([hh, hv, vv], out_of_plane) = self.tangent_at(middle + half * xi);
+            for (entry, weights) in [hh, hv, vv, out_of_plane][entries.clone()].iter().zip(&mut weights) {
+                weights[q] = weight / half * entry;
             }
         }
 

@@ -46,17 +46,24 @@ pub(super) struct Partition<const D: usize, const N: usize> {
     values_at_ends: Vec<[f64; 2]>,
 }
 
-/// Motions at the end of a cable: the first moves the end along a direction, the others lie behind it.
+/// Motions at the end of a cable, some of which move the end; the others lie behind these.
 pub(super) struct Guide<const D: usize> {
-    pub(super) direction: [f64; D],
+    /// Motions that move the end, at most D of them: each with the displacement of the end.
+    pub(super) directions: Vec<(usize, [f64; D])>,
     /// Stiffness [N/m] and mass [kg] over the motions, symmetric.
     pub(super) stiffness: DMat,
     pub(super) mass: DMat,
 }
 
-/// All pairs of components (row, column).
-fn components<const D: usize>() -> impl Iterator<Item = (usize, usize)> {
-    (0..D).flat_map(|column| (0..D).map(move |row| (row, column)))
+/// Pairs of components (row, column) that the tangent C couples, with the number of the entry of C: out of plane its only
+/// one, in plane hh, hv, vv, with all components together these and then the one out of plane.
+fn components<const D: usize>() -> impl Iterator<Item = ((usize, usize), usize)> {
+    let entry = |row: usize, column: usize| match (row, column) {
+        (2, 2) => Some(3),
+        (2, _) | (_, 2) => None,
+        (row, column) => Some(row + column),
+    };
+    (0..D).flat_map(move |column| (0..D).filter_map(move |row| Some(((row, column), entry(row, column)?))))
 }
 
 impl<const D: usize, const N: usize> Partition<D, N> {
@@ -77,13 +84,13 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         }
     }
 
-    /// Adds an element's contribution to K_ii and M_ii. `stiffness` has one matrix for each sum of two components'
-    /// numbers (hh, hv, vv in plane, one out of plane); all components have the same mass.
+    /// Adds an element's contribution to K_ii and M_ii. `stiffness` has one matrix for each entry of C, in the order of
+    /// [`components`]; all components have the same mass.
     pub(super) fn add_inner(&mut self, functions: &Functions, stiffness: &[DMat], mass: &DMat) {
         for &(b, column) in &functions.inner {
             for &(a, row) in &functions.inner {
-                for (i, j) in components::<D>() {
-                    self.stiffness[(D * column + j) * self.unknowns + D * row + i] += stiffness[i + j][(a, b)];
+                for ((i, j), entry) in components::<D>() {
+                    self.stiffness[(D * column + j) * self.unknowns + D * row + i] += stiffness[entry][(a, b)];
                 }
                 for d in 0..D {
                     self.mass[(D * column + d) * self.unknowns + D * row + d] += mass[(a, b)];
@@ -96,8 +103,8 @@ impl<const D: usize, const N: usize> Partition<D, N> {
     pub(super) fn add_columns(&mut self, functions: &Functions, stiffness: &[DMat], mass: &DMat) {
         for (b, column) in functions.outer() {
             for &(a, row) in &functions.inner {
-                for (i, j) in components::<D>() {
-                    self.rows[(D * row + i) * self.row_length + D * column + j] += stiffness[i + j][(a, b)];
+                for ((i, j), entry) in components::<D>() {
+                    self.rows[(D * row + i) * self.row_length + D * column + j] += stiffness[entry][(a, b)];
                 }
                 for d in 0..D {
                     self.rows[(D * row + d) * self.row_length + self.outer + D * column + d] += mass[(a, b)];
@@ -120,8 +127,8 @@ impl<const D: usize, const N: usize> Partition<D, N> {
     /// Sets the diagonal entries of an element's functions beyond the degree.
     pub(super) fn set_beyond(&mut self, functions: &Functions, stiffness: &[DMat], mass: &DMat) {
         for &(a, number) in &functions.beyond {
-            for d in 0..D {
-                self.beyond[D * number + d] = (stiffness[2 * d][(a, a)], mass[(a, a)]);
+            for ((d, _), entry) in components::<D>().filter(|((i, j), _)| i == j) {
+                self.beyond[D * number + d] = (stiffness[entry][(a, a)], mass[(a, a)]);
             }
         }
     }
@@ -138,36 +145,46 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         }
     }
 
-    /// Restricts the inner function `node` to motion along a direction and adds the motions behind it: an end on a guide.
-    /// Its D unknowns become one, and the others of the guide follow all unknowns. Each motion is a station of its own,
-    /// in its first component, from `first_station` on.
+    /// Restricts the inner function `node`, the end of the cable, to the motions of a guide. The motions that move it take
+    /// the places of its D unknowns, the others follow all unknowns. Each motion is a station of its own, in its first
+    /// component, from `first_station` on.
     pub(super) fn guide(&mut self, node: usize, guide: &Guide<D>, first_station: usize) {
-        let Guide { direction, stiffness, mass } = guide;
+        let Guide { directions, stiffness, mass } = guide;
         let (n, first) = (self.unknowns, D * node);
-        let kept: Vec<usize> = (0..n).filter(|i| !(first + 1..first + D).contains(i)).collect();
-        let (inside, all) = (kept.len(), kept.len() + stiffness.nrows() - 1);
 
-        // The square matrices: unknowns that stay, the one along the direction, then the others of the guide.
-        let at = kept.iter().position(|&row| row == first).unwrap_or(0);
-        let place = |motion: usize| if motion == 0 { at } else { inside + motion - 1 };
+        // Every new unknown as a sum of the earlier ones, and the place of every motion.
+        let mut unknowns: Vec<Vec<(usize, f64)>> = Vec::with_capacity(n + mass.nrows());
+        let mut places = vec![0; mass.nrows()];
+        for old in (0..n).filter(|old| !(first + 1..first + D).contains(old)) {
+            if old != first {
+                unknowns.push(vec![(old, 1.0)]);
+                continue;
+            }
+            for (motion, direction) in directions {
+                places[*motion] = unknowns.len();
+                unknowns.push(direction.iter().enumerate().map(|(i, part)| (first + i, *part)).collect());
+            }
+        }
+        for motion in (0..mass.nrows()).filter(|motion| directions.iter().all(|(moving, _)| moving != motion)) {
+            places[motion] = unknowns.len();
+            unknowns.push(Vec::new());
+        }
+
+        // The square matrices.
+        let all = unknowns.len();
         let restrict = |matrix: &[f64], added: &DMat| -> Vec<f64> {
-            let entry = |row: usize, column: usize| -> f64 {
-                let (rows, columns) = (if row == first { D } else { 1 }, if column == first { D } else { 1 });
-                let factor = |count: usize, i: usize| if count == 1 { 1.0 } else { direction[i] };
-                (0..rows)
-                    .flat_map(|i| (0..columns).map(move |j| (i, j)))
-                    .map(|(i, j)| factor(rows, i) * factor(columns, j) * matrix[(column + j) * n + row + i])
-                    .sum()
-            };
             let mut restricted = vec![0.0; all * all];
-            for (c, &column) in kept.iter().enumerate() {
-                for (r, &row) in kept.iter().enumerate() {
-                    restricted[c * all + r] = entry(row, column);
+            for (c, columns) in unknowns.iter().enumerate() {
+                for (r, rows) in unknowns.iter().enumerate() {
+                    let product =
+                        |(row, f): &(usize, f64), (column, g): &(usize, f64)| f * g * matrix[column * n + row];
+                    restricted[c * all + r] =
+                        rows.iter().flat_map(|row| columns.iter().map(move |column| product(row, column))).sum();
                 }
             }
             for j in 0..added.ncols() {
                 for i in 0..added.nrows() {
-                    restricted[place(j) * all + place(i)] += added[(i, j)];
+                    restricted[places[j] * all + places[i]] += added[(i, j)];
                 }
             }
             restricted
@@ -178,15 +195,14 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         // Rows of the outer unknowns and of the stations.
         let length = self.row_length;
         let mut rows = vec![0.0; all * length];
-        for (row, &from) in rows.chunks_exact_mut(length).zip(&kept) {
-            let factors: &[f64] = if from == first { direction } else { &[1.0] };
-            for (i, factor) in factors.iter().enumerate() {
-                let old = &self.rows[(from + i) * length..(from + i + 1) * length];
+        for (row, sources) in rows.chunks_exact_mut(length).zip(&unknowns) {
+            for (old, factor) in sources {
+                let old = &self.rows[old * length..(old + 1) * length];
                 row.iter_mut().zip(old).for_each(|(entry, old)| *entry += factor * old);
             }
         }
-        for motion in 0..stiffness.nrows() {
-            rows[place(motion) * length + 2 * self.outer + D * (first_station + motion)] = 1.0;
+        for (motion, place) in places.iter().enumerate() {
+            rows[place * length + 2 * self.outer + D * (first_station + motion)] = 1.0;
         }
         (self.rows, self.unknowns) = (rows, all);
     }
@@ -281,4 +297,11 @@ pub(super) struct Condensed<const D: usize, const N: usize, const E: usize> {
     /// Estimated relative error of the clamped frequencies below the limit.
     pub(super) error: f64,
     pub(super) stations: Displacements<D, N>,
+}
+
+impl<const D: usize, const N: usize, const E: usize> Condensed<D, N, E> {
+    /// No stiffness and no stations.
+    pub(super) fn none() -> Self {
+        Self { ends: PoleResidue::none(), error: 0.0, stations: Displacements::none() }
+    }
 }

@@ -21,8 +21,9 @@ pub struct PoleResidue<const N: usize, const E: usize> {
     residues: [Vec<f64>; E],
 }
 
-/// Entries of the start's block of a symmetric matrix: out of plane only the first exists, in plane all three.
-const ENTRIES: [(usize, usize); 3] = [(0, 0), (0, 1), (1, 1)];
+/// Entries of the start's block of a symmetric matrix: out of plane only the first exists, in plane the first three, with
+/// both families together all six.
+const ENTRIES: [(usize, usize); 6] = [(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)];
 
 /// Entries of the start's block of a symmetric matrix over both ends.
 #[inline(always)]
@@ -34,6 +35,11 @@ fn at_start<const N: usize, const E: usize>(matrix: &[[f64; N]; N]) -> [f64; E] 
 }
 
 impl<const N: usize, const E: usize> PoleResidue<N, E> {
+    /// Stiffness zero, without poles.
+    pub(super) fn none() -> Self {
+        Self::new([[0.0; N]; N], [[0.0; N]; N], Vec::new(), Vec::new())
+    }
+
     /// Stiffness from K_s, M_s, the ascending ω_k², and g_k.
     pub(super) fn new(
         stiffness: [[f64; N]; N],

@@ -6,7 +6,7 @@ use std::array::from_fn;
 use std::ops::{Add, AddAssign, Div, Mul, Sub, SubAssign};
 
 /// Eight complex numbers side by side, real and imaginary parts in one lane each.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Complexes {
     pub(crate) re: Lane,
     pub(crate) im: Lane,

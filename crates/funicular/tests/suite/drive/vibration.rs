@@ -5,9 +5,9 @@ use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::cable::{CableModel, EndStiffness};
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::math::{Complex, Mat3, Vec3};
+use funicular::math::{Complex, Vec3};
 use funicular::modes::{self, Kind};
-use funicular::response::{self, Port, Quantity, Signal};
+use funicular::response::{self, FrameInput, Port, Quantity, Signal};
 use funicular::robot::{Control, DrumSide, Pose, Robot, Servo, WinchMode};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
@@ -38,23 +38,28 @@ const WINCH: &str = "drum_radius_m = 0.1\nstiffness_n_per_m = 1e4\ndrum_inertia_
                      motor_inertia_kg_m2 = 0.005\ngear_ratio = 3\ndamping_n_m_s_per_rad = 0.2\ncontrol = \"position\"\n\
                      position_gain_n_m_per_rad = 60\nspeed_gain_n_m_s_per_rad = 2.5\ndelay_s = 0.004\n";
 
-/// Impedance at the exit point along the cable and sideways [N/m], from the series of theory (68), (75) and (76).
-fn impedances(rest: &Equilibrium, omega: f64, xi: f64, is_rod: bool) -> (Complex, Complex) {
-    let (ea, tension, i): (f64, f64, Complex) = (2e4, 100.0, Complex::i());
-    let stretch = 1.0 + tension / ea;
-    let drive = rest.cables[0].drive.as_ref().unwrap();
-    let wrap = drive.contact.unwrap().wrap;
-
+/// Impedance of drum, shaft and motor of [`WINCH`] at the drum [N/m], from theory (76) and (78).
+fn at_drum(omega: f64) -> Complex {
+    let i = Complex::i();
     let (drum, motor, shaft, gain, speed) = (3.0, 0.5 * 9.0, 1e4, 60.0 / 0.01, 2.5 / 0.01);
     let control = (gain + i * omega * speed) * (-i * omega * 0.004).exp();
     let at_motor = control - omega * omega * motor + i * omega * 0.2 / 0.01;
-    let at_drum = -omega * omega * drum + 1.0 / (1.0 / shaft + 1.0 / at_motor);
+    -omega * omega * drum + 1.0 / (1.0 / shaft + 1.0 / at_motor)
+}
+
+/// Impedance at the exit point along the cable and sideways [N/m], from the series of theory (68), (75) and (76).
+fn impedances(rest: &Equilibrium, omega: f64, xi: f64, is_rod: bool) -> (Complex, Complex) {
+    let (ea, tension): (f64, f64) = (2e4, 100.0);
+    let stretch = 1.0 + tension / ea;
+    let drive = rest.cables[0].drive.as_ref().unwrap();
+    let wrap = drive.contact.unwrap().wrap;
 
     // The drum side: a spring, or a rod of the length at which it has the same static stiffness.
     let compliance = 0.4 * wrap / (ea * stretch.powi(3)) + drive.drum_side_length / (ea * stretch * stretch);
     let spring = 1.0 / (stretch * stretch * compliance);
     let kappa = omega * (0.1 / ea * Complex::new(1.0, -2.0 * xi)).sqrt();
-    let behind = if is_rod { rod(ea, kappa, ea / spring, at_drum) } else { 1.0 / (1.0 / spring + 1.0 / at_drum) };
+    let behind =
+        if is_rod { rod(ea, kappa, ea / spring, at_drum(omega)) } else { 1.0 / (1.0 / spring + 1.0 / at_drum(omega)) };
 
     let distance = 0.8 * (0.5 * wrap).sin().powi(2);
     let swivel = tension / 0.4 / (0.5 * wrap).tan() - omega * omega * 0.2 / (distance * distance);
@@ -77,12 +82,7 @@ fn a_weightless_cable_ends_in_the_impedance_of_its_drive() {
         for hz in [0.5, 1.3, 7.0, 23.0, 61.0, 103.0] {
             let omega = hz * TAU;
             let k = cable.damped(omega);
-            let real = |part: fn(&Complex) -> f64| -> Mat3 {
-                let entries = [&k.axial, &k.coupling, &k.normal, &k.out_of_plane].map(part);
-                let [axial, coupling, normal, out_of_plane] = entries;
-                funicular::cable::LocalStiffness { axial, coupling, normal, out_of_plane }.in_world(cable.axes())
-            };
-            let (re, im) = (real(|z| z.re), real(|z| z.im));
+            let (re, im) = (k.map(|z| z.re).in_world(cable.axes()), k.map(|z| z.im).in_world(cable.axes()));
             let along = Complex::new(e.dot(&(re * e)), e.dot(&(im * e)));
             let out = Complex::new(re[(1, 1)], im[(1, 1)]);
 
@@ -346,4 +346,33 @@ fn delays_destabilise_and_strong_gains_stop_ringing() {
 
     let (found, caveat) = partners(12_000.0, 0.0);
     assert!(found.unwrap().overdamped > 0 && caveat.unwrap().contains("do not ring"));
+}
+
+/// The tension at the drum moves drum, shaft and motor: theory (76) at any frequency, whatever lies before the drum.
+#[test]
+fn the_tension_at_the_drum_is_the_impedance_of_the_winch_times_its_motion() {
+    for drum_side in ["massless", "rod"] {
+        let (robot, rest) = weightless(0.01, &format!("{WINCH}drum_side = \"{drum_side}\"\n"));
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 120.0).unwrap();
+        let drive = |signal: DriveSignal| Signal::Drive { cable: 0, signal };
+        let along = |direction_w: Vec3| Signal::Along { direction_w, point_p: Vec3::zeros() };
+        let moved = Signal::Frame(FrameInput::Anchor { cable: 0, direction_w: Vec3::new(0.3, 0.1, 0.8) });
+        let base = Signal::Frame(FrameInput::BaseAlong(Vec3::new(0.3, 0.1, 0.8)));
+        let inputs = [along(Vec3::x()), along(Vec3::z()), drive(DriveSignal::Drum), moved, base];
+        let inputs = Port::all(&robot, &rest, &dynamics, &inputs, false).unwrap();
+        let outputs = [drive(DriveSignal::DrumTension), drive(DriveSignal::Drum)];
+        let outputs = Port::all(&robot, &rest, &dynamics, &outputs, false).unwrap();
+        let outputs: Vec<(Port, Quantity)> = outputs.into_iter().map(|port| (port, Quantity::Displacement)).collect();
+
+        for hz in [0.5, 7.0, 23.0, 103.0] {
+            let found = response::matrix(&dynamics, &[hz], &inputs, &outputs).unwrap();
+            for input in 0..inputs.len() {
+                let (tension, motion) = (found[input][0], found[inputs.len() + input][0]);
+                let on_drum = if input == 2 { 1.0 } else { 0.0 };
+                let expected = at_drum(hz * TAU) * motion - on_drum;
+                let size = tension.norm().max(on_drum);
+                assert!((tension - expected).norm() < 1e-8 * size, "{drum_side} {hz} Hz {input}: {tension} {expected}");
+            }
+        }
+    }
 }

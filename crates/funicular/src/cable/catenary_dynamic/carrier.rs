@@ -1,0 +1,122 @@
+//! Forces of a cable on its platform end when the carrier of its other end moves: the anchor, with pulley and winch or
+//! without the winch (docs/theory.md, equations (83) to (85)).
+
+use super::{CatenaryDynamicEnd, DriveAt, DriveLosses, DriveSignal};
+use crate::math::Complex;
+
+/// Given motion of the carrier of a cable's end, harmonic.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CarrierMotion {
+    /// Displacement of the exit point with the carrier in the axes (e, n, b) of the cable.
+    pub(crate) displacement: [f64; 3],
+    /// Generalised force on the swivelling wheel that turns with the carrier [N].
+    pub(crate) on_swivel: f64,
+    /// Displacement of the entry point along the drum side, towards the platform.
+    pub(crate) along_drum_side: f64,
+    /// True if the drum moves with the carrier, false if it stays where it is.
+    pub(crate) with_drum: bool,
+}
+
+impl CatenaryDynamicEnd {
+    /// Force on the held platform end in (e, n, b) for a motion of the carrier at ω [rad/s].
+    pub(crate) fn force_by_carrier(&self, motion: &CarrierMotion, omega: f64) -> [Complex; 3] {
+        let square = self.square(omega);
+        let mut force = [Complex::new(0.0, 0.0); 3];
+
+        // The undamped model of the drive.
+        let [e, n, b] = motion.displacement;
+        if let Some(family) = self.coupled() {
+            for (i, force) in force.iter_mut().enumerate() {
+                *force -=
+                    [e, n, b].iter().enumerate().map(|(j, c)| family.entry(i, 3 + j, square) * c).sum::<Complex>();
+            }
+        } else {
+            for (i, force) in force.iter_mut().enumerate().take(2) {
+                *force -= self.in_plane().entry(i, 2, square) * e + self.in_plane().entry(i, 3, square) * n;
+            }
+            if let Some(family) = self.out_of_plane() {
+                force[2] -= family.entry(0, 1, square) * b;
+            }
+        }
+
+        // Forces on the motions of the drive: those of its losses, and those that the carrier brings about.
+        if let Some((motions, losses, free, given)) = self.drive_under_carrier(motion, omega) {
+            let delta = losses.values();
+            let lost = motions.forces(&delta, &free);
+            let moved = motions.moved(&delta);
+            for (s, force) in force.iter_mut().enumerate() {
+                *force -= lost.iter().zip(&motions.transfer).map(|(lost, row)| row[s] * lost).sum::<Complex>();
+                *force += given.iter().zip(&moved).map(|(given, row)| row[s] * given).sum::<Complex>();
+            }
+        }
+        force
+    }
+
+    /// Output of the cable's drive, or its tension, for a motion of the carrier at ω [rad/s], the platform end held.
+    /// `None` if the cable has no such signal.
+    pub(crate) fn response_to_carrier(
+        &self,
+        motion: &CarrierMotion,
+        output: DriveSignal,
+        omega: f64,
+    ) -> Option<Complex> {
+        if output == DriveSignal::Tension {
+            return Some(self.tension_of(&self.force_by_carrier(motion, omega)));
+        }
+        let Some(chain) = self.chain() else {
+            return (output == DriveSignal::DrumTension).then(|| self.tension_at_moved_end(motion, omega)).flatten();
+        };
+        let row = self.output_row(chain, output, omega)?;
+        let (motions, losses, mut free, given) = self.drive_under_carrier(motion, omega)?;
+        let count = free.len();
+        for (i, free) in free.iter_mut().enumerate() {
+            *free += (0..count).map(|j| motions.receptance[(i, j)] * given[j]).sum::<Complex>();
+        }
+        let moved = motions.freed(&losses.values(), &free);
+        let through: Complex = row.iter().zip(&moved).map(|(row, moved)| row * moved).sum();
+        if output != DriveSignal::DrumTension {
+            return Some(through);
+        }
+        let along = motion.along_drum_side;
+        let ends = if motion.with_drum { [0.0, 0.0, along] } else { [0.0, along, 0.0] };
+        Some(through + self.drum_tension_of_ends(ends, omega))
+    }
+
+    /// Tension at a far end without a drive, which moves with its carrier; `None` if the end couples the families.
+    fn tension_at_moved_end(&self, motion: &CarrierMotion, omega: f64) -> Option<Complex> {
+        let ([h, v], square, [e, n, _]) = (self.directions.to_platform, self.square(omega), motion.displacement);
+        let of = |i: usize, j: usize| self.in_plane().entry(i, j, square);
+        let force = |i: usize| of(i, 2) * e + of(i, 3) * n;
+        self.coupled().is_none().then(|| -(force(2) * h + force(3) * v))
+    }
+
+    /// Motions of the drive at ω [rad/s], what its losses add, the motions by the carrier alone, and the forces on them
+    /// [N] that the carrier brings about. `None` without a drive.
+    fn drive_under_carrier(
+        &self,
+        motion: &CarrierMotion,
+        omega: f64,
+    ) -> Option<(DriveAt, DriveLosses, Vec<Complex>, Vec<Complex>)> {
+        let drive = self.cable.drive.as_ref()?;
+        let (motions, losses) = self.motions_with_losses(omega)?;
+        let (count, square) = (losses.0.len(), self.square(omega));
+        let free = DriveAt::by_carrier(&self.cable, drive, count, square);
+        let free = free.iter().map(|row| row.iter().zip(motion.displacement).map(|(t, c)| t * c).sum()).collect();
+
+        // The drum side, whose mass is carried along or which is stretched, and the swivel.
+        let mut given = vec![Complex::new(0.0, 0.0); count];
+        let along = motion.along_drum_side;
+        for (given, side) in given.iter_mut().zip(self.chain().map_or(&[][..], |chain| &chain.drum_side)) {
+            *given = if motion.with_drum {
+                square * (side.carried_mass * along)
+            } else {
+                (square * side.mass - side.stiffness) * along
+            };
+        }
+        let (slip, _) = self.cable.end.as_ref()?.counts();
+        for force in &mut given[slip..] {
+            *force += motion.on_swivel;
+        }
+        Some((motions, losses, free, given))
+    }
+}
