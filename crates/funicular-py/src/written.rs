@@ -7,6 +7,7 @@ use crate::errors;
 use crate::interrupt::{interruptible, interruptible_in_steps};
 use crate::request::{model, named, points, share};
 use funicular::math::DMat;
+use funicular::reduced_model::StateSpace;
 use funicular_files::mat::{self, Value, Variable};
 use funicular_study::analyses;
 use funicular_study::analyses::reduce::MAX_ORDER;
@@ -17,7 +18,7 @@ use funicular_study::request;
 use funicular_study::wording::{Words, worded};
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::{PyBytes, PyDict, PyTuple};
 use serde_json::Map;
 use std::convert::Infallible;
 use std::path::PathBuf;
@@ -91,20 +92,28 @@ pub(crate) fn reduce(py: Python<'_>, of: &PyEquilibrium, keywords: ReduceKeyword
     let found = found.map_err(|error| errors::study(&error))?;
 
     let matrices = PyDict::new(py);
-    let (second, space) = (&found.model, found.model.state_space());
+    let (second, space) = (&found.model, found.model.state_space().ok());
     for (name, matrix) in [
         ("mass", &second.mass),
         ("damping", &second.damping),
         ("stiffness", &second.stiffness),
         ("input", &second.input),
         ("output", &second.output),
-        ("a", &space.a),
-        ("b", &space.b),
-        ("c", &space.c),
-        ("d", &space.d),
     ] {
         matrices.set_item(name, array(matrix))?;
     }
+    for (name, all) in [
+        ("input_rates", &second.input_rates[..]),
+        ("output_rates", &second.output_rates[..]),
+        ("feedthrough", &second.feedthrough[..]),
+    ] {
+        matrices.set_item(name, PyTuple::new(py, all.iter().map(array))?)?;
+    }
+    let of_space = |of: fn(&StateSpace) -> &DMat| space.as_ref().map(|space| array(of(space)));
+    matrices.set_item("a", of_space(|space| &space.a))?;
+    matrices.set_item("b", of_space(|space| &space.b))?;
+    matrices.set_item("c", of_space(|space| &space.c))?;
+    matrices.set_item("d", of_space(|space| &space.d))?;
     let description = answers::plain(py, &found)?;
     let made = py.import("funicular._results")?.call_method1("reduced", (description.0, matrices))?;
     Ok(ReducedObject(made.unbind()))

@@ -118,12 +118,8 @@ impl CableStations {
                 })?;
                 if !loaded {
                     // Take the cable of `dynamics`, with as many clamped modes as it has kept.
-                    if let Some([in_plane, out_of_plane, coupled]) = end.kept {
-                        stations.in_plane.compress(in_plane, &cable.in_plane.compressed(in_plane, 2).1);
-                        stations.out_of_plane.compress(out_of_plane, &cable.out_of_plane.compressed(out_of_plane, 1).1);
-                        if let Some(family) = &cable.coupled {
-                            stations.coupled.compress(coupled, &family.compressed(coupled, 3).1);
-                        }
+                    if let Some(kept) = &end.kept {
+                        kept.compress(&mut stations.in_plane, &mut stations.out_of_plane, &mut stations.coupled);
                     }
                     cable = end.cable.clone();
                 }

@@ -78,6 +78,8 @@ pub(crate) use nalgebra::Scalar;
 
 /// Matrix of any size.
 pub type DMat = nalgebra::DMatrix<f64>;
+/// Vector whose length is known at run time.
+pub(crate) type DVec = nalgebra::DVector<f64>;
 /// Complex matrix of any size.
 pub type CDMat = nalgebra::DMatrix<Complex>;
 

@@ -8,6 +8,7 @@
 
 mod candidates;
 mod control_model;
+mod expansion;
 mod reference;
 mod selection;
 mod steps;
@@ -21,13 +22,16 @@ pub use control_model::{
 pub use selection::Size;
 
 use crate::cable::DynamicCable;
+use crate::cable::catenary_dynamic::{DriveSignal, InPowersOfS};
 use crate::cable_motion::CableMotionError;
-use crate::dynamics::{CableBlocks, Dynamics, PlatformBlocks};
-use crate::math::{CDMat, Complex, DMat, Vec6, symmetric_part};
+use crate::dynamics::{CableBlocks, CableRow, Dynamics, PlatformBlocks};
+use crate::math::{CDMat, Complex, DMat, DVec, Vec6, symmetric_part};
 use crate::modes;
 use crate::response::{self, Port, Quantity, ResponseError, Signal};
 use crate::robot::{Damping, Robot};
 use crate::statics::Equilibrium;
+use expansion::Expansion;
+use std::array::from_fn;
 use std::f64::consts::TAU;
 use std::ops::Range;
 use steps::Steps;
@@ -59,7 +63,7 @@ pub enum Coordinate {
     /// Coordinate of the platform's motion about its origin ([m] or [rad]), in the order of
     /// [`coordinate_names`](crate::robot::PlatformMotion::coordinate_names); for a rigid body δp and δθ in world axes.
     Platform(usize),
-    /// Amplitude of a clamped mode of a cable, of unit modal mass [m √kg].
+    /// Amplitude of a clamped mode of a cable with its drive, of unit modal mass [m √kg].
     Clamped {
         /// Index of the cable, in the order of the file.
         cable: usize,
@@ -79,10 +83,19 @@ pub struct SecondOrder {
     pub damping: DMat,
     /// Stiffness matrix K, symmetric, n×n.
     pub stiffness: DMat,
-    /// Input matrix B, n×inputs.
+    /// Input matrix B, n×inputs: generalised force per unit of each input.
     pub input: DMat,
-    /// Output matrix L, outputs×n: displacements and rotations.
+    /// Matrices B₁ and B₂, n×inputs: generalised force per rate and per acceleration of each input. They are zero except
+    /// for a commanded length.
+    pub input_rates: [DMat; 2],
+    /// Output matrix L, outputs×n: displacements, rotations and tensions.
     pub output: DMat,
+    /// Matrices L₁ and L₂, outputs×n: outputs per velocity and per acceleration of the coordinates. They are zero except
+    /// for the tension of a cable.
+    pub output_rates: [DMat; 2],
+    /// Matrices D₀, D₁ and D₂, outputs×inputs: outputs per input, its rate and its acceleration with all coordinates at
+    /// rest. They are zero except for signals of the drive of one cable.
+    pub feedthrough: [DMat; 3],
     /// Quantity of each output: displacement, velocity or acceleration.
     pub quantities: Vec<Quantity>,
     /// Meaning of the n coordinates.
@@ -121,18 +134,38 @@ pub enum ReductionError {
          `catenary-dynamic`, or a model without vibration"
     )]
     Model,
-    /// A drive has inertia, or its motor a control.
+    /// The control of a motor has a delay.
     #[error(
-        "cable \"{cable}\" runs to a drive with inertia or control: the reduced model exists for drives that are \
-         springs; use `frf` and `modes`, or hold the motors (winches clamped) and leave inertias out"
+        "the control of the motor of cable \"{cable}\" has a delay of {delay_s} s, which no second-order model and no \
+         state space can have: set `delay_s = 0` in its winch and put the delay into the controller as a Padé approximation, \
+         or compute responses with `frf`, which has the delay"
     )]
-    Drive {
+    Delay {
+        /// Name of the cable.
+        cable: String,
+        /// Delay [s].
+        delay_s: f64,
+    },
+    /// A part of a drive has losses and no mass.
+    #[error(
+        "the motor of cable \"{cable}\" has damping or a speed gain, but no inertia: a second-order model needs the \
+         inertia; give `motor_inertia_kg_m2`, or leave damping and speed gain out"
+    )]
+    Massless {
         /// Name of the cable.
         cable: String,
     },
-    /// A signal belongs to a drive.
-    #[error("the reduced model has no signals of drives: use `frf` for them")]
-    DriveSignal,
+    /// An output follows the rate of an input.
+    #[error(
+        "output {output} contains the rate of change of input {input}, which the state space of the second-order model \
+         cannot have: use its matrices, or take the state space of few states (form `state-space`)"
+    )]
+    Improper {
+        /// Number of the output, from 1.
+        output: usize,
+        /// Number of the input, from 1.
+        input: usize,
+    },
     /// A signal is a motion of the frame.
     #[error("the reduced model has no motions of the base or of anchors: use `frf` for them")]
     FrameSignal,
@@ -189,27 +222,38 @@ pub enum ReductionError {
     },
 }
 
-/// Checks that no signal is one of a drive or a motion of the frame.
-fn check_signals<'a>(signals: impl Iterator<Item = &'a Signal>) -> Result<(), ReductionError> {
-    for signal in signals {
-        match signal {
-            Signal::Drive { .. } => return Err(ReductionError::DriveSignal),
-            Signal::Frame(_) => return Err(ReductionError::FrameSignal),
-            Signal::Along { .. } | Signal::About { .. } | Signal::OnCable { .. } => {}
+/// Fraction of its static response above which a part of a drive has no mass; rounding leaves 1e-9.
+const MASSLESS: f64 = 1e-6;
+
+/// Checks that no signal is a motion of the frame.
+fn check_signals(inputs: &[Signal]) -> Result<(), ReductionError> {
+    let of_frame = inputs.iter().any(|signal| matches!(signal, Signal::Frame(_)));
+    if of_frame { Err(ReductionError::FrameSignal) } else { Ok(()) }
+}
+
+/// Checks that all cables are catenary-dynamic and that the losses of their drives have a second-order form.
+fn check_cables(robot: &Robot, dynamics: &Dynamics) -> Result<(), ReductionError> {
+    let name = |cable: usize| robot.cables[cable].name.clone();
+    for term in dynamics.terms() {
+        let DynamicCable::CatenaryDynamic(form) = term.form() else { return Err(ReductionError::Model) };
+        let delay_s = form.delay();
+        if delay_s > 0.0 {
+            return Err(ReductionError::Delay { cable: name(term.cable()), delay_s });
+        }
+    }
+    for blocks in dynamics.cable_blocks() {
+        if blocks.drive.iter().any(|part| part.damping > 0.0 && part.massless > MASSLESS) {
+            return Err(ReductionError::Massless { cable: name(blocks.cable) });
         }
     }
     Ok(())
 }
 
-/// Checks that all cables are catenary-dynamic and end at fixed points or at springs.
-fn check_cables(robot: &Robot, dynamics: &Dynamics) -> Result<(), ReductionError> {
-    for term in dynamics.terms() {
-        let DynamicCable::CatenaryDynamic(form) = term.form() else { return Err(ReductionError::Model) };
-        if form.has_drive_mass() || form.has_drive_losses() {
-            return Err(ReductionError::Drive { cable: robot.cables[term.cable()].name.clone() });
-        }
-    }
-    Ok(())
+/// Signals of drives: index of the cable, and quantity.
+fn drive_signals(inputs: &[Signal], outputs: &[(Signal, Quantity)]) -> Vec<(usize, DriveSignal)> {
+    let all = inputs.iter().chain(outputs.iter().map(|(signal, _)| signal));
+    all.filter_map(|signal| if let Signal::Drive { cable, signal } = signal { Some((*cable, *signal)) } else { None })
+        .collect()
 }
 
 impl ReductionError {
@@ -253,7 +297,7 @@ pub fn reduce(
 ) -> Result<SecondOrder, ReductionError> {
     let mut steps = Steps::new(report);
     check_cables(robot, dynamics)?;
-    check_signals(inputs.iter().chain(outputs.iter().map(|(signal, _)| signal)))?;
+    check_signals(inputs)?;
 
     // The response of a cable to a force on itself has a kink, which the kept modes cannot represent.
     let loaded = inputs.iter().any(|signal| matches!(signal, Signal::OnCable { .. }));
@@ -269,12 +313,14 @@ pub fn reduce(
     let reference = full.responses(dynamics, &frequencies).ok();
 
     // As few clamped modes as the tolerance allows.
+    let drives = drive_signals(inputs, outputs);
+    let kinds = pair_kinds(inputs, outputs);
     for (tried, ratio) in KEPT.into_iter().enumerate() {
         steps.reached(&TRIED, tried, KEPT.len())?;
-        let cut = dynamics.with_poles_below(ratio * requested.below_hz * TAU);
+        let cut = dynamics.with_poles_below(ratio * requested.below_hz * TAU, &drives);
         let truncation_error = reference.as_ref().and_then(|reference| {
             let of_cut = Channels::new(robot, equilibrium, &cut, inputs, outputs, false).ok()?;
-            Some(largest_difference(reference, &of_cut.responses(&cut, &frequencies).ok()?))
+            Some(largest_difference(reference, &of_cut.responses(&cut, &frequencies).ok()?, &kinds))
         });
 
         let reduced = modes::below(&cut, requested.below_hz * (1.0 + 1e-9));
@@ -287,7 +333,7 @@ pub fn reduce(
             (model.frequency_error, model.truncation_error) = (frequency_error, truncation_error);
             model.damping_error = match requested.damping_at {
                 _ if !cut.has_damping_ratios() => Some(0.0),
-                _ => damping_error(&model, &cut, &channels, &natural, &mut steps)?,
+                _ => damping_error(&model, &cut, &channels, &kinds, &natural, &mut steps)?,
             };
             return Ok(model);
         }
@@ -304,16 +350,29 @@ fn relative_error(natural: &[f64], others: &[modes::Mode]) -> f64 {
     natural.iter().zip(others).map(|(a, b)| (b.frequency_hz / a - 1.0).abs()).fold(0.0, f64::max)
 }
 
-/// Maximum difference of the responses over all frequencies, at each frequency relative to the largest entry there.
-fn largest_difference(reference: &[Vec<Complex>], others: &[Vec<Complex>]) -> f64 {
+/// Kind of each response, the pairs of the first output with all inputs first. Responses of one kind have comparable
+/// sizes: motion or tension, per force or per commanded length.
+fn pair_kinds(inputs: &[Signal], outputs: &[(Signal, Quantity)]) -> Vec<usize> {
+    let is =
+        |signal: &Signal, of: fn(DriveSignal) -> bool| matches!(signal, Signal::Drive { signal, .. } if of(*signal));
+    let kind = |input: &Signal, output: &Signal| {
+        2 * usize::from(is(output, DriveSignal::is_tension)) + usize::from(is(input, |of| of == DriveSignal::Length))
+    };
+    outputs.iter().flat_map(|(output, _)| inputs.iter().map(move |input| kind(input, output))).collect()
+}
+
+/// Maximum difference of the responses over all frequencies, at each frequency relative to the largest entry of its kind
+/// there.
+fn largest_difference(reference: &[Vec<Complex>], others: &[Vec<Complex>], kinds: &[usize]) -> f64 {
     let count = reference.first().map_or(0, Vec::len);
-    (0..count)
-        .map(|k| {
-            let size = reference.iter().map(|entry| entry[k].norm()).fold(0.0, f64::max);
-            let gap = reference.iter().zip(others).map(|(a, b)| (a[k] - b[k]).norm()).fold(0.0, f64::max);
-            if size > 0.0 { gap / size } else { 0.0 }
-        })
-        .fold(0.0, f64::max)
+    let of_kind = |kind: usize, k: usize| {
+        let pairs = || reference.iter().zip(others).zip(kinds).filter(|(_, of)| **of == kind).map(|(pair, _)| pair);
+        let size = pairs().map(|(entry, _)| entry[k].norm()).fold(0.0, f64::max);
+        let gap = pairs().map(|(a, b)| (a[k] - b[k]).norm()).fold(0.0, f64::max);
+        if size > 0.0 { gap / size } else { 0.0 }
+    };
+    let last = kinds.iter().copied().max().unwrap_or(0);
+    (0..count).flat_map(|k| (0..=last).map(move |kind| (kind, k))).map(|(kind, k)| of_kind(kind, k)).fold(0.0, f64::max)
 }
 
 /// Ports of the inputs and outputs on the linearised robot.
@@ -339,31 +398,59 @@ impl Channels {
 
     /// Displacement of every output per force at every input, at all frequencies.
     fn responses(&self, dynamics: &Dynamics, frequencies_hz: &[f64]) -> Result<Vec<Vec<Complex>>, ResponseError> {
-        let pairs = self.outputs.iter().flat_map(|output| self.inputs.iter().map(move |input| (input, output)));
-        pairs
-            .map(|(input, output)| response::between(dynamics, frequencies_hz, input, output, Quantity::Displacement))
-            .collect()
+        let outputs: Vec<_> = self.outputs.iter().map(|port| (port.clone(), Quantity::Displacement)).collect();
+        response::matrix(dynamics, frequencies_hz, &self.inputs, &outputs)
     }
 
-    /// Row of a port over the coordinates.
-    fn row(port: &Port, dynamics: &Dynamics, layout: &Layout) -> Vec<f64> {
-        let mut row = vec![0.0; layout.coordinates.len()];
+    /// Row of a port over the coordinates, in powers of s.
+    fn row(port: &Port, dynamics: &Dynamics, layout: &Layout) -> InPowersOfS<Vec<f64>> {
+        let zeros = || vec![0.0; layout.coordinates.len()];
+        let mut row = [zeros(), zeros(), zeros()];
         let coordinates = |vector: &Vec6| dynamics.coordinates().motion().reduced(vector);
         match port {
             Port::Platform(vector) => {
-                row[..layout.dof].copy_from_slice(&coordinates(vector).as_slice()[..layout.dof]);
+                row[0][..layout.dof].copy_from_slice(&coordinates(vector).as_slice()[..layout.dof]);
             }
-            Port::Drive { .. } | Port::Frame(_) => unreachable!("signals of drives and of the frame are refused"),
+            Port::Drive { term, signal, .. } => {
+                let Some(powers) = dynamics.drive_signal_row(*term, *signal) else {
+                    unreachable!("a port has a signal of its drive")
+                };
+                for (row, of_cable) in row.iter_mut().zip(&powers) {
+                    layout.add_row(of_cable, *term, 1.0, row);
+                }
+            }
+            Port::Frame(_) => unreachable!("motions of the frame are refused"),
             Port::Cable { stations, station, direction_w } => {
                 let (platform, term, amplitudes) = stations.row(dynamics, *station, direction_w);
-                row[..layout.dof].copy_from_slice(&coordinates(&platform).as_slice()[..layout.dof]);
+                row[0][..layout.dof].copy_from_slice(&coordinates(&platform).as_slice()[..layout.dof]);
                 if let Some(term) = term {
                     let from = layout.first_of_term[term];
-                    row[from..from + amplitudes.len()].copy_from_slice(&amplitudes);
+                    row[0][from..from + amplitudes.len()].copy_from_slice(&amplitudes);
                 }
             }
         }
         row
+    }
+
+    /// Matrices of ports by powers of s, one row per port.
+    fn rows(ports: &[Port], dynamics: &Dynamics, layout: &Layout) -> InPowersOfS<DMat> {
+        let rows: Vec<_> = ports.iter().map(|port| Self::row(port, dynamics, layout)).collect();
+        from_fn(|power| DMat::from_fn(ports.len(), layout.coordinates.len(), |i, j| rows[i][power][j]))
+    }
+
+    /// Outputs per inputs with all coordinates at rest, in powers of s, outputs×inputs. Input and output of the drive of
+    /// one cable have such a part.
+    fn direct(&self, dynamics: &Dynamics) -> InPowersOfS<DMat> {
+        let entry = |output: &Port, input: &Port| match (input, output) {
+            (Port::Drive { term, signal: input, .. }, Port::Drive { term: of_output, signal: output, .. })
+                if term == of_output =>
+            {
+                dynamics.direct_drive_signal(*term, *input, *output).unwrap_or_default()
+            }
+            _ => [0.0; 3],
+        };
+        let size = (self.outputs.len(), self.inputs.len());
+        from_fn(|power| DMat::from_fn(size.0, size.1, |o, i| entry(&self.outputs[o], &self.inputs[i])[power]))
     }
 }
 
@@ -388,6 +475,13 @@ impl Layout {
         }
         Self { dof, first_of_term, coordinates }
     }
+
+    /// Adds `factor` times a row of a cable, given by its index among the terms, to a row over all coordinates.
+    fn add_row(&self, of_cable: &CableRow, term: usize, factor: f64, row: &mut [f64]) {
+        let at_modes = &mut row[self.first_of_term[term]..][..of_cable.modes.len()];
+        at_modes.iter_mut().zip(&of_cable.modes).for_each(|(sum, entry)| *sum += factor * entry);
+        row.iter_mut().zip(&of_cable.platform).for_each(|(sum, entry)| *sum += factor * entry);
+    }
 }
 
 /// Matrices over all coordinates.
@@ -398,6 +492,10 @@ struct Matrices {
     /// Damping of cables with a constant damping ratio: the coefficient R of the damping `2ωR`.
     ratio: DMat,
     stiffness: DMat,
+    /// Mass of the drives; part of `mass`.
+    drives: DMat,
+    /// Motions of drives on which losses act.
+    lossy: Vec<Vec<f64>>,
 }
 
 impl Matrices {
@@ -414,13 +512,16 @@ impl Matrices {
             damping: at_corner(&platform.damping),
             ratio: DMat::zeros(n, n),
             stiffness: at_corner(&platform.stiffness),
+            drives: DMat::zeros(n, n),
+            lossy: Vec::new(),
         }
     }
 
-    /// Adds a cable; the coordinates of its clamped modes start at index `from`.
-    fn add_cable(&mut self, cable: &CableBlocks, from: usize) {
+    /// Adds a cable, given by its index among the terms.
+    fn add_cable(&mut self, cable: &CableBlocks, term: usize, layout: &Layout) {
         let f = cable.end_mass.nrows();
         let n = self.mass.nrows();
+        let from = layout.first_of_term[term];
 
         // Stiffness of the end, and ω_k² of each clamped mode.
         let mut at_end = self.stiffness.view_mut((0, 0), (f, f));
@@ -441,10 +542,25 @@ impl Matrices {
             }
         }
 
-        // Damping acts where the mass is.
+        // The drive: its mass, which is part of that of the modes, and its losses.
+        let mut rope = mass.clone();
+        for part in &cable.drive {
+            let mut row = vec![0.0; n];
+            layout.add_row(&part.row, term, 1.0, &mut row);
+            let row = DVec::from_vec(row);
+            let product = &row * row.transpose();
+            rope -= &product * part.mass;
+            self.drives += &product * part.mass;
+            if part.damping > 0.0 {
+                self.damping += product * part.damping;
+                self.lossy.push(row.as_slice().to_vec());
+            }
+        }
+
+        // Damping of the rope acts where its mass is.
         match cable.damping {
-            Damping::Viscous(c) => self.damping += &mass * (c / cable.mass_per_length),
-            Damping::Ratio(xi) => self.ratio += &mass * xi,
+            Damping::Viscous(c) => self.damping += &rope * (c / cable.mass_per_length),
+            Damping::Ratio(xi) => self.ratio += &rope * xi,
         }
         self.mass += mass;
     }
@@ -465,16 +581,10 @@ fn matrices(dynamics: &Dynamics) -> (Layout, Matrices) {
     let layout = Layout::new(dynamics.dof(), &cables);
 
     let mut matrices = Matrices::of_platform(&dynamics.platform_blocks(), layout.coordinates.len());
-    for (cable, from) in cables.iter().zip(&layout.first_of_term) {
-        matrices.add_cable(cable, *from);
+    for (term, cable) in cables.iter().enumerate() {
+        matrices.add_cable(cable, term, &layout);
     }
     (layout, matrices)
-}
-
-/// Damping matrix without that of constant ratios, and the coefficient R of the damping `2ωR` by these.
-fn viscous_damping_and_ratios(dynamics: &Dynamics) -> (DMat, DMat) {
-    let (_, Matrices { damping, ratio, .. }) = matrices(dynamics);
-    (damping, ratio)
 }
 
 /// Reduced model from a linearised robot whose cables have only the poles to be kept.
@@ -485,16 +595,13 @@ fn assembled(
     requested: RequestedModel,
 ) -> Result<SecondOrder, ReductionError> {
     let (layout, mut matrices) = matrices(dynamics);
-    let n = layout.coordinates.len();
     if dynamics.has_damping_ratios() {
         matrices.damping = matrices.all_damping(requested.damping_at)?;
     }
 
-    let rows = |ports: &[Port]| {
-        let all: Vec<f64> = ports.iter().flat_map(|port| Channels::row(port, dynamics, &layout)).collect();
-        DMat::from_row_slice(ports.len(), n, &all)
-    };
-    let (input, output) = (rows(&channels.inputs).transpose(), rows(&channels.outputs));
+    let [input, input_rate, input_acceleration] =
+        Channels::rows(&channels.inputs, dynamics, &layout).map(|rows| rows.transpose());
+    let [output, output_rate, output_acceleration] = Channels::rows(&channels.outputs, dynamics, &layout);
 
     let Matrices { mass, damping, stiffness, .. } = matrices;
     if mass.clone().cholesky().is_none() {
@@ -505,7 +612,10 @@ fn assembled(
         damping,
         stiffness,
         input,
+        input_rates: [input_rate, input_acceleration],
         output,
+        output_rates: [output_rate, output_acceleration],
+        feedthrough: channels.direct(dynamics),
         quantities: outputs.iter().map(|(_, quantity)| *quantity).collect(),
         coordinates: layout.coordinates,
         below_hz: requested.below_hz,
@@ -543,6 +653,7 @@ fn damping_error(
     model: &SecondOrder,
     dynamics: &Dynamics,
     channels: &Channels,
+    kinds: &[usize],
     natural: &[f64],
     steps: &mut Steps<'_>,
 ) -> Result<Option<f64>, ReductionError> {
@@ -566,52 +677,52 @@ fn damping_error(
             list.push(receptance[at]);
         }
     }
-    Ok(Some(largest_difference(&reference, &of_model)))
+    Ok(Some(largest_difference(&reference, &of_model, kinds)))
 }
 
 impl SecondOrder {
-    /// Receptance `L (K + iωC − ω²M)⁻¹ B` of displacements at ω [rad/s]; `None` at an undamped resonance.
+    /// Inputs in powers of s: B, B₁ and B₂.
+    pub(crate) fn inputs(&self) -> InPowersOfS<&DMat> {
+        [&self.input, &self.input_rates[0], &self.input_rates[1]]
+    }
+
+    /// Outputs in powers of s: L, L₁ and L₂.
+    pub(crate) fn outputs(&self) -> InPowersOfS<&DMat> {
+        [&self.output, &self.output_rates[0], &self.output_rates[1]]
+    }
+
+    /// Response `L (K + iωC − ω²M)⁻¹ B` of displacements at ω [rad/s], with B, L and the feedthrough as polynomials of
+    /// iω; `None` at an undamped resonance.
     pub fn receptance(&self, omega: f64) -> Option<CDMat> {
         let d = self
             .stiffness
             .zip_zip_map(&self.damping, &self.mass, |k, c, m| Complex::new(k - omega * omega * m, omega * c));
-        let complex = |matrix: &DMat| matrix.map(Complex::from);
-        Some(complex(&self.output) * d.lu().solve(&complex(&self.input))?)
+        let s = Complex::new(0.0, omega);
+        let [direct, by_rate, by_acceleration] = &self.feedthrough;
+        let solved = d.lu().solve(&polynomial(&self.inputs(), s))?;
+        Some(polynomial(&self.outputs(), s) * solved + polynomial(&[direct, by_rate, by_acceleration], s))
     }
 
     /// State space of the model, with outputs of displacement, velocity or acceleration as in
-    /// [`quantities`](Self::quantities).
-    pub fn state_space(&self) -> StateSpace {
-        let (n, inputs, outputs) = (self.mass.nrows(), self.input.ncols(), self.output.nrows());
-
-        let factor = self.mass.clone().cholesky().expect("checked when it was made");
-        let (by_motion, by_velocity) = (-factor.solve(&self.stiffness), -factor.solve(&self.damping));
-        let by_force = factor.solve(&self.input);
-
-        // State.
-        let mut a = DMat::zeros(2 * n, 2 * n);
-        a.view_mut((0, n), (n, n)).fill_with_identity();
-        a.view_mut((n, 0), (n, n)).copy_from(&by_motion);
-        a.view_mut((n, n), (n, n)).copy_from(&by_velocity);
-
-        // Input.
-        let mut b = DMat::zeros(2 * n, inputs);
-        b.view_mut((n, 0), (n, inputs)).copy_from(&by_force);
-
-        // Outputs.
-        let (mut c, mut d) = (DMat::zeros(outputs, 2 * n), DMat::zeros(outputs, inputs));
-        for (i, quantity) in self.quantities.iter().enumerate() {
-            let row = self.output.rows(i, 1);
-            match quantity {
-                Quantity::Displacement => c.view_mut((i, 0), (1, n)).copy_from(&row),
-                Quantity::Velocity => c.view_mut((i, n), (1, n)).copy_from(&row),
-                Quantity::Acceleration => {
-                    c.view_mut((i, 0), (1, n)).copy_from(&(row * &by_motion));
-                    c.view_mut((i, n), (1, n)).copy_from(&(row * &by_velocity));
-                    d.view_mut((i, 0), (1, inputs)).copy_from(&(row * &by_force));
-                }
-            }
+    /// [`quantities`](Self::quantities). With inputs that act by their rates the first states are the coordinates
+    /// without the part that follows the input at once.
+    ///
+    /// # Errors
+    /// [`ReductionError::Improper`] if an output contains the rate of an input, such as the acceleration of the platform
+    /// by the commanded length of a motor with a speed gain.
+    pub fn state_space(&self) -> Result<StateSpace, ReductionError> {
+        let expansion = Expansion::of(self);
+        if let Some((output, input)) = expansion.improper() {
+            return Err(ReductionError::Improper { output: output + 1, input: input + 1 });
         }
-        StateSpace { a, b, c, d }
+        let Expansion { a, b, c, direct, .. } = expansion;
+        let d = direct.into_iter().next().unwrap_or_else(|| DMat::zeros(c.nrows(), b.ncols()));
+        Ok(StateSpace { a, b, c, d })
     }
+}
+
+/// Value of a polynomial with matrix coefficients at s.
+fn polynomial(coefficients: &InPowersOfS<&DMat>, s: Complex) -> CDMat {
+    let [constant, by_rate, by_acceleration] = coefficients;
+    constant.zip_zip_map(by_rate, by_acceleration, |c, r, a| c + s * r + s * s * a)
 }

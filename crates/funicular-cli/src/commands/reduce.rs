@@ -261,8 +261,9 @@ impl ModelFile {
         let matrices: &[(&str, &DMat)] = match reduced {
             ReducedForm::StateSpace(found) => &state_space(&found.model.space),
             ReducedForm::SecondOrder(found) => {
-                space = found.model.state_space();
-                &second_order(&found.model, &space)
+                // A warning says so if there is none.
+                space = found.model.state_space().ok();
+                &second_order(&found.model, space.as_ref())
             }
         };
         match self {
@@ -280,19 +281,35 @@ fn state_space(space: &StateSpace) -> [(&'static str, &DMat); 4] {
     [("A", &space.a), ("B", &space.b), ("C", &space.c), ("D", &space.d)]
 }
 
-/// Matrices by name: first those of the second-order model, then those of its state space.
-fn second_order<'a>(model: &'a SecondOrder, space: &'a StateSpace) -> [(&'static str, &'a DMat); 9] {
-    [
+/// Matrices by name: first those of the second-order model, then those of its state space. Rates of inputs and outputs
+/// and the feedthrough are there if a signal of a drive needs them.
+fn second_order<'a>(model: &'a SecondOrder, space: Option<&'a StateSpace>) -> Vec<(&'static str, &'a DMat)> {
+    let mut matrices = vec![
         ("M", &model.mass),
         ("C", &model.damping),
         ("K", &model.stiffness),
         ("B", &model.input),
         ("L", &model.output),
-        ("ss_A", &space.a),
-        ("ss_B", &space.b),
-        ("ss_C", &space.c),
-        ("ss_D", &space.d),
-    ]
+    ];
+
+    let [by_rate, by_acceleration] = &model.input_rates;
+    let [of_rate, of_acceleration] = &model.output_rates;
+    let [direct, direct_rate, direct_acceleration] = &model.feedthrough;
+    let of_drives = [
+        ("B1", by_rate),
+        ("B2", by_acceleration),
+        ("L1", of_rate),
+        ("L2", of_acceleration),
+        ("D0", direct),
+        ("D1", direct_rate),
+        ("D2", direct_acceleration),
+    ];
+    matrices.extend(of_drives.into_iter().filter(|(_, matrix)| matrix.iter().any(|entry| *entry != 0.0)));
+
+    if let Some(space) = space {
+        matrices.extend([("ss_A", &space.a), ("ss_B", &space.b), ("ss_C", &space.c), ("ss_D", &space.d)]);
+    }
+    matrices
 }
 
 fn texts(channels: &[ChannelRow]) -> Value<'_> {

@@ -151,3 +151,42 @@ fn a_reduced_model_is_read_by_others_as_it_was_made() {
     assert_eq!(refused.status.code(), Some(2));
     assert!(stderr(&refused).contains("choose the cable model `catenary-dynamic`"), "{}", stderr(&refused));
 }
+
+/// Winches with a position control: their commanded lengths are inputs, tensions outputs.
+#[test]
+fn winches_with_a_control_are_actuators_of_the_model() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let servo = |name: &str, delay: &str| {
+        let text = std::fs::read_to_string(robot("cogiro-winches.toml")).unwrap();
+        let keys = format!("gear_ratio = 3\ncontrol = \"position\"\nbandwidth_hz = 3\n{delay}");
+        std::fs::write(place(name), text.replace("gear_ratio = 3\n", &keys)).unwrap();
+        place(name)
+    };
+    let file = servo("robot.toml", "");
+    let asked = ["reduce", &file, "--below-hz", "2.5", "--input", "length:1", "--output", "tension:1"];
+
+    let found = json(&[&asked[..], &["--tolerance", "0.02"]].concat());
+    assert!(number(&found["error"]) <= 0.02);
+    assert_eq!((&found["inputs"][0]["unit"], &found["outputs"][0]["unit"]), (&"m".into(), &"N".into()));
+    assert_eq!(found["responses"][0]["unit"], "N/m");
+    let ratios = found["states"].as_array().unwrap().iter().map(|row| number(&row["damping_ratio"]));
+    let strongest = ratios.fold(0.0, f64::max);
+    assert!(strongest > 0.3, "{strongest}");
+
+    // The second-order form has matrices for rates, and says that it has no state space.
+    let matrices = place("second");
+    let second = ["--form", "second-order", "--tolerance", "0.01", "--matrices", &matrices];
+    let found = json(&[&asked[..], &second].concat());
+    let warning = found["warnings"][0].as_str().unwrap();
+    assert!(warning.contains("output 1 contains the rate of change of input 1"), "{warning}");
+    let is_written = |name: &str| std::path::Path::new(&matrices).join(format!("{name}.csv")).exists();
+    assert!(["M", "C", "K", "B", "L", "B1", "L2", "D0"].into_iter().all(is_written));
+    assert!(!["B2", "ss_A", "ss_D"].into_iter().any(is_written));
+
+    // A delay has no second-order form.
+    let delayed = servo("delayed.toml", "delay_s = 0.002\n");
+    let output = run(&["reduce", &delayed, "--below-hz", "2.5"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("cable \"1\" has a delay of 0.002 s"), "{}", stderr(&output));
+}

@@ -359,7 +359,10 @@ def state_space(found: dict[str, Any], matrices: dict[str, NDArray[np.float64]])
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ReducedModel(_ArrayFields):
-    """Second-order model M x'' + C x' + K x = B f, y = L x, and its state space; made by `Equilibrium.reduce`."""
+    """Second-order model M x'' + C x' + K x = B f, y = L x, and its state space; made by `Equilibrium.reduce`.
+
+    Signals of drives may act by their rates: M x'' + C x' + K x = B f + B₁ f' + B₂ f'' and
+    y = L x + L₁ x' + L₂ x'' + D₀ f + D₁ f' + D₂ f''."""
 
     mass: NDArray[np.float64]
     """M, (n, n)."""
@@ -370,15 +373,23 @@ class ReducedModel(_ArrayFields):
     input: NDArray[np.float64]
     """B, (n, inputs)."""
     output: NDArray[np.float64]
-    """L, (outputs, n): displacements and rotations, also for outputs that measure velocities or accelerations."""
-    a: NDArray[np.float64]
-    """A of the state space x' = A x + B f, y = C x + D f, whose state is motion and velocity."""
-    b: NDArray[np.float64]
-    """B of the state space."""
-    c: NDArray[np.float64]
-    """C of the state space."""
-    d: NDArray[np.float64]
-    """D of the state space."""
+    """L, (outputs, n): displacements, rotations and tensions, also for outputs that measure velocities or
+    accelerations."""
+    input_rates: NDArray[np.float64]
+    """B₁ and B₂, (2, n, inputs); zero except for commanded lengths."""
+    output_rates: NDArray[np.float64]
+    """L₁ and L₂, (2, outputs, n); zero except for tensions."""
+    feedthrough: NDArray[np.float64]
+    """D₀, D₁ and D₂, (3, outputs, inputs); zero except for signals of the drive of one cable."""
+    a: NDArray[np.float64] | None
+    """A of the state space x' = A x + B f, y = C x + D f, whose state is motion and velocity. None if an output
+    contains the rate of an input, which no state space has; `warnings` then says which."""
+    b: NDArray[np.float64] | None
+    """B of the state space, or None."""
+    c: NDArray[np.float64] | None
+    """C of the state space, or None."""
+    d: NDArray[np.float64] | None
+    """D of the state space, or None."""
     inputs: tuple[str, ...]
     """Names of the inputs."""
     outputs: tuple[str, ...]
@@ -400,7 +411,11 @@ class ReducedModel(_ArrayFields):
         return tuple(self.found["warnings"])
 
     def state_space(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """Returns A, B, C, D of x' = A x + B f, y = C x + D f."""
+        """Returns A, B, C, D of x' = A x + B f, y = C x + D f.
+
+        Raises ValueError if there is no state space: an output contains the rate of an input."""
+        if self.a is None or self.b is None or self.c is None or self.d is None:
+            raise ValueError("; ".join(self.warnings))
         return self.a, self.b, self.c, self.d
 
     def to_scipy(self) -> Any:
@@ -414,7 +429,14 @@ class ReducedModel(_ArrayFields):
     def save(self, path: str | PathLike[str]) -> None:
         """Writes the matrices with the names of the program's `--matrices`: `.npz` for NumPy, `.mat` for MATLAB."""
         matrices = {"M": self.mass, "C": self.damping, "K": self.stiffness, "B": self.input, "L": self.output}
-        matrices |= {"ss_A": self.a, "ss_B": self.b, "ss_C": self.c, "ss_D": self.d}
+        of_drives = zip(
+            ("B1", "B2", "L1", "L2", "D0", "D1", "D2"),
+            (*self.input_rates, *self.output_rates, *self.feedthrough),
+            strict=True,
+        )
+        matrices |= {name: matrix for name, matrix in of_drives if matrix.any()}
+        if self.a is not None:
+            matrices |= dict(zip(("ss_A", "ss_B", "ss_C", "ss_D"), self.state_space(), strict=True))
         _save(path, matrices, self.inputs, self.outputs, self.found)
 
     def to_dict(self) -> dict[str, Any]:
@@ -426,8 +448,10 @@ class ReducedModel(_ArrayFields):
         return f"<ReducedModel: {size}, below {self.below_hz:g} Hz>"
 
 
-def reduced(found: dict[str, Any], matrices: dict[str, NDArray[np.float64]]) -> ReducedModel:
+def reduced(found: dict[str, Any], matrices: dict[str, Any]) -> ReducedModel:
     """Makes a model from its description and its matrices."""
+    for several in ("input_rates", "output_rates", "feedthrough"):
+        matrices[several] = np.stack(matrices[several])
     return ReducedModel(
         inputs=tuple(of["name"] for of in found["inputs"]),
         outputs=tuple(of["name"] for of in found["outputs"]),

@@ -243,6 +243,10 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest, watch: &mut dyn
         ));
     }
 
+    if let Err(error) = reduced.model.state_space() {
+        reduced.warnings.push(format!("the state space of this model is left out: {error}"));
+    }
+
     Ok(reduced)
 }
 
@@ -284,10 +288,9 @@ fn output_rows(outputs: &[(Output, Signal)]) -> Vec<ChannelRow> {
 
 fn unit(output: &Output) -> &'static str {
     match (output.is_rotation(), output.quantity) {
-        (false, Quantity::Displacement) => "m",
+        (_, Quantity::Displacement) => output.unit(),
         (false, Quantity::Velocity) => "m/s",
         (false, Quantity::Acceleration) => "m/s²",
-        (true, Quantity::Displacement) => "rad",
         (true, Quantity::Velocity) => "rad/s",
         (true, Quantity::Acceleration) => "rad/s²",
     }

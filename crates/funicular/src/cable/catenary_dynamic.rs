@@ -14,6 +14,7 @@
 //! pole. Derivation: docs/theory.md, section 9.
 
 mod carrier;
+mod drive_forms;
 mod drive_motion;
 mod drive_signals;
 mod internal_motion;
@@ -23,6 +24,7 @@ mod partition;
 mod poles;
 
 pub(crate) use carrier::CarrierMotion;
+pub(crate) use drive_forms::{DriveForm, DrivePart, InPowersOfS};
 pub use drive_motion::DriveMotion;
 pub(crate) use drive_motion::{DriveAt, DriveLosses};
 pub use drive_signals::DriveSignal;
@@ -112,10 +114,33 @@ pub struct CatenaryDynamicEnd {
     pub mass_per_length: f64,
     /// Leave out the stiffness out of plane, as the paper does.
     pub in_plane_only: bool,
-    /// Numbers of original poles of each family, if the other poles have been compressed.
-    pub(crate) kept: Option<[usize; 3]>,
+    /// Poles that have been compressed, if some have been.
+    pub(crate) kept: Option<Box<KeptModes>>,
     /// Directions of the cable at its ends.
     directions: EndDirections,
+}
+
+/// Clamped modes that a cable has kept, and the modes that replace the others: per family the number of modes that are
+/// kept, and the weights of the others in the modes that replace them, by columns.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct KeptModes {
+    in_plane: (usize, DMat),
+    out_of_plane: (usize, DMat),
+    coupled: (usize, DMat),
+}
+
+impl KeptModes {
+    /// Compresses displacements by all clamped modes in the same way. A family without displacements stays empty.
+    pub(crate) fn compress(
+        &self,
+        in_plane: &mut Displacements<2, 4>,
+        out_of_plane: &mut Displacements<1, 2>,
+        coupled: &mut Displacements<3, 6>,
+    ) {
+        in_plane.compress(self.in_plane.0, &self.in_plane.1);
+        out_of_plane.compress(self.out_of_plane.0, &self.out_of_plane.1);
+        coupled.compress(self.coupled.0, &self.coupled.1);
+    }
 }
 
 impl CatenaryDynamicEnd {
@@ -152,17 +177,31 @@ impl CatenaryDynamicEnd {
     }
 
     /// Copy that keeps the poles below x and has a few poles in place of the others: see [`PoleResidue::compressed`].
-    pub(crate) fn with_poles_below(&self, x: f64) -> Self {
+    /// These represent the losses of the drive and its `signals`, too.
+    pub(crate) fn with_poles_below(&self, x: f64, signals: &[DriveSignal]) -> Self {
         let mut cut = self.clone();
-        let kept = [
-            self.cable.in_plane.poles_below(x),
-            self.cable.out_of_plane.poles_below(x),
-            self.cable.coupled.as_ref().map_or(0, |family| family.poles_below(x)),
-        ];
-        cut.cable.in_plane = self.cable.in_plane.compressed(kept[0], 2).0;
-        cut.cable.out_of_plane = self.cable.out_of_plane.compressed(kept[1], 1).0;
-        cut.cable.coupled = self.cable.coupled.as_ref().map(|family| Box::new(family.compressed(kept[2], 3).0));
-        cut.kept = Some(kept);
+        let [of_plane, of_normal, of_coupled] = self.forces_on_modes(signals);
+        let CatenaryDynamic { in_plane, out_of_plane, coupled, .. } = &self.cable;
+        let below = [in_plane.poles_below(x), out_of_plane.poles_below(x)];
+        let (poles, weights) = in_plane.compressed(below[0], 2, &of_plane);
+        let (poles_out_of_plane, weights_out_of_plane) = out_of_plane.compressed(below[1], 1, &of_normal);
+        let mut kept = KeptModes {
+            in_plane: (below[0], weights),
+            out_of_plane: (below[1], weights_out_of_plane),
+            coupled: (0, DMat::zeros(0, 0)),
+        };
+        (cut.cable.in_plane, cut.cable.out_of_plane) = (poles, poles_out_of_plane);
+        if let Some(family) = coupled {
+            let count = family.poles_below(x);
+            let (poles, weights) = family.compressed(count, 3, &of_coupled);
+            cut.cable.coupled = Some(Box::new(poles));
+            kept.coupled = (count, weights);
+        }
+
+        if let Some(drive) = &mut cut.cable.drive {
+            kept.compress(&mut drive.along, &mut drive.sideways, &mut drive.coupled);
+        }
+        cut.kept = Some(Box::new(kept));
         cut
     }
 

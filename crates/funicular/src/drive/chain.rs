@@ -400,6 +400,16 @@ impl DriveChain {
         })
     }
 
+    /// Viscous damping of each motion [N s/m]: that of the motor, and the speed gain of its control. A delay is left out.
+    pub(crate) fn viscous_damping(&self) -> Vec<f64> {
+        let mut damping = vec![0.0; self.len()];
+        if let Some(motor) = &self.motor {
+            let Place { motion, factor } = motor.place;
+            damping[motion] = factor * factor * (motor.damping + motor.servo.map_or(0.0, |servo| servo.speed_gain));
+        }
+        damping
+    }
+
     /// Static response of all motions to a unit force on σ, if the cable adds the stiffness `held` [N/m] to it: the
     /// inverse of the chain's stiffness, n×n [m/N]. `None` if nothing holds the chain.
     pub(crate) fn flexibility(&self, held: f64) -> Option<DMat> {

@@ -10,7 +10,7 @@
 
 use super::{DynamicCableAt, Dynamics};
 use crate::cable::DynamicCable;
-use crate::cable::catenary_dynamic::CatenaryDynamic;
+use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveForm, DrivePart, DriveSignal, InPowersOfS};
 use crate::math::{DMat, Mat3, Mat6, Vec6};
 use crate::robot::Damping;
 
@@ -36,6 +36,27 @@ pub(crate) struct CableBlocks {
     pub(crate) damping: Damping,
     /// Mass per unstrained length [kg/m].
     pub(crate) mass_per_length: f64,
+    /// Parts of the drive with mass of their own or losses.
+    pub(crate) drive: Vec<DrivePartBlock>,
+}
+
+/// Part of a drive that moves with a cable.
+pub(crate) struct DrivePartBlock {
+    /// Row of its motion.
+    pub(crate) row: CableRow,
+    /// Mass [kg], on which the damping of the rope does not act.
+    pub(crate) mass: f64,
+    /// Viscous damping [N s/m].
+    pub(crate) damping: f64,
+    /// Fraction of the static response that the modes cannot represent: above zero for a part without mass.
+    pub(crate) massless: f64,
+}
+
+/// Row over the platform's coordinates and the amplitudes of the clamped modes of a cable.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CableRow {
+    pub(crate) platform: Vec<f64>,
+    pub(crate) modes: Vec<f64>,
 }
 
 /// Clamped mode of unit modal mass.
@@ -58,15 +79,46 @@ impl Dynamics {
     /// Matrices of every catenary-dynamic cable, not scaled, in the order of [`terms`](Self::terms).
     pub(crate) fn cable_blocks(&self) -> impl Iterator<Item = CableBlocks> {
         self.terms.iter().filter_map(|term| match &term.form {
-            DynamicCable::CatenaryDynamic(end) => Some(self.blocks_of(term, &end.cable)),
+            DynamicCable::CatenaryDynamic(end) => Some(self.blocks_of(term, end)),
             DynamicCable::ShallowDynamic(_) => None,
         })
     }
 
-    fn blocks_of(&self, term: &DynamicCableAt, cable: &CatenaryDynamic) -> CableBlocks {
+    /// Row of a signal of the drive of a cable, given by its index among the terms. `None` if it has no such signal.
+    pub(crate) fn drive_signal_row(&self, term: usize, signal: DriveSignal) -> Option<InPowersOfS<CableRow>> {
+        let term = &self.terms[term];
+        let DynamicCable::CatenaryDynamic(end) = &term.form else { return None };
+        Some(end.signal_form(signal)?.map(|form| self.row(term, form)))
+    }
+
+    /// Output per input of signals of the drive of one cable with all coordinates at rest; `None` without such signals.
+    pub(crate) fn direct_drive_signal(
+        &self,
+        term: usize,
+        input: DriveSignal,
+        output: DriveSignal,
+    ) -> Option<InPowersOfS<f64>> {
+        let DynamicCable::CatenaryDynamic(end) = &self.terms[term].form else { return None };
+        end.direct_signal(input, output)
+    }
+
+    fn row(&self, term: &DynamicCableAt, form: DriveForm) -> CableRow {
+        CableRow { platform: self.unscaled_row(&term.vector(form.end)), modes: form.modes }
+    }
+
+    fn blocks_of(&self, term: &DynamicCableAt, end: &CatenaryDynamicEnd) -> CableBlocks {
+        let cable = &end.cable;
         let with_out_of_plane = !self.linearisation.in_plane_only;
         let (plane, normal) = (&cable.in_plane, &cable.out_of_plane);
         let (damping, mass_per_length) = self.damping[term.cable];
+
+        // The drive.
+        let part = |part: DrivePart| {
+            let DrivePart { motion, mass, damping, massless } = part;
+            DrivePartBlock { row: self.row(term, motion), mass, damping, massless }
+        };
+        let drive: Vec<DrivePartBlock> = end.drive_parts().into_iter().map(part).collect();
+
         if let Some(coupled) = &cable.coupled {
             let at_end =
                 |matrix: &[[f64; 6]; 6]| self.unscaled_block(&term.congruent(&Mat3::from_fn(|i, j| matrix[i][j])));
@@ -82,6 +134,7 @@ impl Dynamics {
                 modes: modes.collect(),
                 damping,
                 mass_per_length,
+                drive,
             };
         }
 
@@ -108,7 +161,7 @@ impl Dynamics {
             .chain(out_of_plane.map(|(direction, pole)| mode(direction, pole, true)))
             .collect();
 
-        CableBlocks { cable: term.cable, end_stiffness, end_mass, modes, damping, mass_per_length }
+        CableBlocks { cable: term.cable, end_stiffness, end_mass, modes, damping, mass_per_length, drive }
     }
 
     /// Removes the scaling from a matrix over the platform's coordinates.

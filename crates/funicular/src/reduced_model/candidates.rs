@@ -6,9 +6,9 @@
 //! with viscous damping are the starts of those with constant damping ratios (docs/theory.md, section 13).
 
 use super::reference::Reference;
-use super::{ReductionError, SecondOrder};
+use super::{InPowersOfS, Matrices, ReductionError, SecondOrder, polynomial};
 use crate::math::eigenvectors::upper_eigen;
-use crate::math::{CDMat, Complex, DMat, order};
+use crate::math::{CDMat, Complex, DMat, DVec, order};
 
 /// Maximum number of modes that are chosen from: the eigenvalue problem has twice as many rows. A controller for more
 /// is not made.
@@ -29,25 +29,29 @@ pub(super) struct ModalModel {
     omega: Vec<f64>,
     /// Damping `ΦᵀCΦ` [1/s].
     damping: DMat,
-    /// Input `ΦᵀB`, modes×inputs.
-    input: DMat,
-    /// Output `LΦ`, outputs×modes.
-    output: DMat,
+    /// Inputs `ΦᵀB` in powers of s, modes×inputs.
+    input: InPowersOfS<DMat>,
+    /// Outputs `LΦ` in powers of s, outputs×modes.
+    output: InPowersOfS<DMat>,
+    /// Motions of the drives on which losses act, modes×motions: they couple the modes.
+    lossy: DMat,
     /// Viscous part of the damping [1/s].
     viscous: DMat,
     /// Constant damping ratios `Ξ = ΦᵀRΦ`, which act as `2ω²Ξ`.
     ratios: DMat,
     /// Form of the platform's kinetic energy, `ΦᵀM_pΦ`.
     platform: DMat,
+    /// Form of the drives' kinetic energy.
+    drives: DMat,
     /// True for a motion that replaces higher modes.
     residual: Vec<bool>,
 }
 
 impl ModalModel {
-    /// Modes of a model; `None` if its stiffness is not positive definite. `viscous` is its damping without
-    /// that of constant ratios, whose matrix R is `ratios`; `platform_mass` is the mass matrix of the platform alone,
-    /// over the first coordinates.
-    pub(super) fn new(model: &SecondOrder, viscous: &DMat, ratios: &DMat, platform_mass: &DMat) -> Option<Self> {
+    /// Modes of a model; `None` if its stiffness is not positive definite. `parts` has its damping without that of
+    /// constant ratios and the matrix R of these; `platform_mass` is the mass matrix of the platform alone, over the
+    /// first coordinates.
+    pub(super) fn new(model: &SecondOrder, parts: &Matrices, platform_mass: &DMat) -> Option<Self> {
         // K is factored and not M: the low frequencies then are the largest eigenvalues and keep all their digits.
         let factor = model.stiffness.clone().cholesky()?.l();
         let half = factor.solve_lower_triangular(&model.mass)?;
@@ -67,13 +71,16 @@ impl ModalModel {
         let phi = factor.transpose().solve_upper_triangular(&sorted)?;
 
         let at_platform = phi.rows(0, platform_mass.nrows());
+        let lossy = DMat::from_fn(n, parts.lossy.len(), |i, k| parts.lossy[k][i]);
         Some(Self {
             damping: phi.transpose() * &model.damping * &phi,
-            viscous: phi.transpose() * viscous * &phi,
-            ratios: phi.transpose() * ratios * &phi,
-            input: phi.transpose() * &model.input,
-            output: &model.output * &phi,
+            viscous: phi.transpose() * &parts.damping * &phi,
+            ratios: phi.transpose() * &parts.ratio * &phi,
+            input: model.inputs().map(|input| phi.transpose() * input),
+            output: model.outputs().map(|output| output * &phi),
+            lossy: phi.transpose() * lossy,
             platform: at_platform.transpose() * platform_mass * at_platform,
+            drives: phi.transpose() * &parts.drives * &phi,
             residual: vec![false; n],
             omega,
         })
@@ -103,30 +110,35 @@ impl ModalModel {
             damping: basis.transpose() * &self.damping * &basis,
             viscous: basis.transpose() * &self.viscous * &basis,
             ratios: basis.transpose() * &self.ratios * &basis,
-            input: basis.transpose() * &self.input,
-            output: &self.output * &basis,
+            input: self.input.each_ref().map(|input| basis.transpose() * input),
+            output: self.output.each_ref().map(|output| output * &basis),
+            lossy: basis.transpose() * &self.lossy,
             platform: basis.transpose() * &self.platform * &basis,
+            drives: basis.transpose() * &self.drives * &basis,
             residual: (0..basis.ncols()).map(|k| k >= seen.len()).collect(),
             omega,
         }
     }
 
-    /// The first modes, `below` in number, without those that no input and output see.
+    /// The first modes, `below` in number, without those that no input and output see. Losses of drives couple the modes,
+    /// so that all of them count.
     fn seen(&self, below: usize, reference: &Reference, tolerance: f64) -> Vec<usize> {
         let last_hz = reference.frequencies_hz.last().expect("there are frequencies");
         let limit = last_hz * std::f64::consts::TAU;
 
         // Height of each mode's peak relative to the peak of a pair, the largest over all pairs.
-        let outputs = self.output.nrows();
+        let outputs = self.output[0].nrows();
         let mut sized: Vec<(f64, usize)> = (0..below)
             .map(|k| {
                 let (omega, loss) = (self.omega[k], self.damping[(k, k)]);
                 let at = omega.min(limit);
                 let amplification = 1.0 / ((omega * omega - at * at).hypot(at * loss)).max(f64::MIN_POSITIVE);
                 let height = |pair: usize| {
-                    let product = self.output[(pair % outputs, k)] * self.input[(k, pair / outputs)];
+                    let s = Complex::new(0.0, at);
+                    let product = at_entry(&self.output, s, (pair % outputs, k)).norm()
+                        * at_entry(&self.input, s, (k, pair / outputs)).norm();
                     let derivatives = super::reference::derivatives(reference.quantity(pair)).cast_signed();
-                    product.abs() * amplification * at.powi(derivatives) / reference.sizes[pair]
+                    product * amplification * at.powi(derivatives) / reference.sizes[pair]
                 };
                 ((0..reference.pairs()).map(height).fold(0.0, f64::max), k)
             })
@@ -137,7 +149,7 @@ impl ModalModel {
         let mut sum = 0.0;
         while let Some((size, _)) = sized.last() {
             sum += size;
-            if sum > NEGLIGIBLE * tolerance {
+            if sum > NEGLIGIBLE * tolerance || self.lossy.ncols() > 0 {
                 break;
             }
             sized.pop();
@@ -151,22 +163,30 @@ impl ModalModel {
     /// that are modes among themselves.
     fn residual_motions(&self, below: usize, reference: &Reference) -> DMat {
         let count = self.omega.len() - below;
-        let (inputs, outputs) = (self.input.ncols(), self.output.nrows());
         if count == 0 {
             return DMat::zeros(0, 0);
         }
 
-        let motions = DMat::from_fn(count, inputs + outputs, |j, k| {
-            let mode = below + j;
-            let by = if k < inputs {
-                self.input[(mode, k)] / reference.input_scale[k]
-            } else {
-                self.output[(k - inputs, mode)] / reference.output_scale[k - inputs]
-            };
-            by / (self.omega[mode] * self.omega[mode])
-        });
+        // Forces on the modes by inputs and outputs, in each power of s at the highest frequency, and by losses.
+        let last_hz = reference.frequencies_hz.last().copied().unwrap_or_default();
+        let highest = last_hz * std::f64::consts::TAU;
+        let powers = || [1.0, highest, highest * highest].into_iter().enumerate();
+        let mut forces: Vec<DVec> = Vec::new();
+        for (power, factor) in powers() {
+            let scaled = self.input[power].column_iter().zip(&reference.input_scale);
+            forces.extend(scaled.map(|(column, scale)| column.rows(below, count) / *scale * factor));
+        }
+        for (power, factor) in powers() {
+            let scaled = self.output[power].row_iter().zip(&reference.output_scale);
+            forces.extend(scaled.map(|(row, scale)| row.columns(below, count).transpose() / *scale * factor));
+        }
+        forces.extend(self.lossy.column_iter().map(|column| column.rows(below, count).into_owned()));
+
+        let still =
+            |force: &DVec| DVec::from_fn(count, |j, _| force[j] / (self.omega[below + j] * self.omega[below + j]));
+        let motions: Vec<DVec> = forces.iter().map(still).collect();
         // Each input and each output counts as much as any other.
-        let equal: Vec<_> = motions.column_iter().filter(|m| m.norm() > 0.0).map(|m| m.normalize()).collect();
+        let equal: Vec<_> = motions.iter().filter(|m| m.norm() > 0.0).map(DVec::normalize).collect();
         if equal.is_empty() {
             return DMat::zeros(count, 0);
         }
@@ -237,17 +257,21 @@ impl ModalModel {
 
         let slope = self.slope(found);
         let weights = (motions.transpose() * slope * &motions).lu();
-        let row = weights.solve(&(motions.transpose() * self.input.map(Complex::from)))?;
-        let residue = self.output.map(Complex::from) * &motions * row;
+        let row = weights.solve(&(motions.transpose() * polynomial(&self.input.each_ref(), found)))?;
+        let residue = polynomial(&self.output.each_ref(), found) * &motions * row;
 
         // Kinetic energy of the platform and of the motions that replace higher modes, over all of it.
         let all = motions.norm_squared().max(f64::MIN_POSITIVE);
-        let platform = (motions.adjoint() * self.platform.map(Complex::from) * &motions).trace().re;
+        let energy = |form: &DMat| {
+            let energy = (motions.adjoint() * form.map(Complex::from) * &motions).trace().re;
+            (energy / all).clamp(0.0, 1.0)
+        };
         let residual: f64 = (0..p).filter(|i| self.residual[*i]).map(|i| motions.row(i).norm_squared()).sum();
         Some(DampedPair {
             value: stable(found),
             residue,
-            platform: (platform / all).clamp(0.0, 1.0),
+            platform: energy(&self.platform),
+            drives: energy(&self.drives),
             is_residual: residual > RESIDUAL_SHARE * all,
         })
     }
@@ -310,6 +334,11 @@ impl ModalModel {
     }
 }
 
+/// Value at s of an entry of a polynomial.
+fn at_entry(powers: &InPowersOfS<DMat>, s: Complex, at: (usize, usize)) -> Complex {
+    powers[0][at] + s * (powers[1][at] + s * powers[2][at])
+}
+
 /// Eigenvalue with a decay. Rounding may take it from motions above the limit that hardly have damping.
 fn stable(value: Complex) -> Complex {
     const MIN_RATIO: f64 = 1e-9;
@@ -324,6 +353,8 @@ pub(super) struct DampedPair {
     pub(super) residue: CDMat,
     /// Fraction of the kinetic energy that the platform has.
     pub(super) platform: f64,
+    /// Fraction that the drives have.
+    pub(super) drives: f64,
     /// True for a motion that replaces modes above the limit.
     pub(super) is_residual: bool,
 }
@@ -344,6 +375,7 @@ pub(super) fn joined(pairs: &[DampedPair], width: f64) -> Vec<DampedPair> {
                 let share = if a + b > 0.0 { b / (a + b) } else { 0.5 };
                 last.value += (pair.value - last.value) * share;
                 last.platform += (pair.platform - last.platform) * share;
+                last.drives += (pair.drives - last.drives) * share;
                 last.residue += &pair.residue;
             }
             _ => joined.push((pair.clone(), pair.value)),

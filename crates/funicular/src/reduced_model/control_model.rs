@@ -6,13 +6,14 @@
 //! against the full model. Derivation: docs/theory.md, section 13.
 
 use super::candidates::{DampedPair, MULTIPLE, ModalModel, joined};
+use super::expansion::Expansion;
 use super::reference::{Maximum, Reference};
 use super::selection::{RemainingDifference, Size, chosen};
 use super::steps::{STEPS, Steps};
 use super::terms::{RealBlock, Term, terms};
 use super::{
-    Channels, KEPT, Quantity, ReductionError, RequestedModel, StateSpace, assembled, check_cables, check_signals,
-    viscous_damping_and_ratios,
+    Channels, KEPT, Quantity, ReductionError, RequestedModel, SecondOrder, StateSpace, assembled, check_cables,
+    check_signals, drive_signals, matrices,
 };
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, DMat};
@@ -171,7 +172,7 @@ pub fn control_model(
 ) -> Result<ControlModel, ReductionError> {
     let mut steps = Steps::new(report);
     check_cables(robot, dynamics)?;
-    check_signals(inputs.iter().chain(outputs.iter().map(|(signal, _)| signal)))?;
+    check_signals(inputs)?;
     let RequestedStateSpace { below_hz, size, damping_at } = requested;
     let tolerance = match size {
         Size::Order(_) => MAX_TOLERANCE,
@@ -193,18 +194,16 @@ pub fn control_model(
     }
 
     // The second-order model and its modes.
-    let cut = cut(robot, equilibrium, inputs, outputs, &reference, tolerance, &mut steps)?;
-    let channels = Channels::new(robot, equilibrium, &cut, inputs, outputs, false)?;
     let of_second_order = RequestedModel { below_hz, tolerance, damping_at };
-    let second_order = assembled(&cut, &channels, outputs, of_second_order)?;
+    let (cut, second_order) = cut(robot, equilibrium, inputs, outputs, &reference, of_second_order, &mut steps)?;
     steps.reached(&MODES, 1, 2)?;
     let complete_order = 2 * second_order.mass.nrows();
-    let (viscous, ratios) = match damping_at {
-        DampingAt::NaturalFrequencies => viscous_damping_and_ratios(&cut),
+    let mut parts = matrices(&cut).1;
+    if let DampingAt::Hz(_) = damping_at {
         // Viscous damping as it was requested.
-        DampingAt::Hz(_) => (second_order.damping.clone(), &second_order.damping * 0.0),
-    };
-    let modal = ModalModel::new(&second_order, &viscous, &ratios, &cut.platform_blocks().mass);
+        (parts.damping, parts.ratio) = (second_order.damping.clone(), &second_order.damping * 0.0);
+    }
+    let modal = ModalModel::new(&second_order, &parts, &cut.platform_blocks().mass);
     let modal = modal.ok_or(ReductionError::Unstable)?;
 
     // Sets of modes to choose from, and the error with all modes that matter.
@@ -274,26 +273,29 @@ fn part(phase: &Range<usize>, i: usize, parts: usize) -> Range<usize> {
 /// Damping ratio below which a peak is not finite in practice.
 const MIN_DAMPING: f64 = 1e-9;
 
-/// Copy of the robot with as few clamped modes of the cables as the tolerance allows.
+/// Copy of the robot with as few clamped modes of the cables as the tolerance allows, and its second-order model.
 fn cut(
     robot: &Robot,
     equilibrium: &Equilibrium,
     inputs: &[Signal],
     outputs: &[(Signal, Quantity)],
     reference: &Reference,
-    tolerance: f64,
+    requested: RequestedModel,
     steps: &mut Steps<'_>,
-) -> Result<Dynamics, ReductionError> {
+) -> Result<(Dynamics, SecondOrder), ReductionError> {
     let below_hz = reference.frequencies_hz.last().expect("there are frequencies");
+    let allowed = OMITTED * requested.tolerance;
+    let drives = drive_signals(inputs, outputs);
     for (tried, ratio) in KEPT.into_iter().enumerate() {
         steps.reached(&TRIED, tried, KEPT.len())?;
-        let cut = reference.dynamics.with_poles_below(ratio * below_hz * TAU);
+        let cut = reference.dynamics.with_poles_below(ratio * below_hz * TAU, &drives);
+        let channels = Channels::new(robot, equilibrium, &cut, inputs, outputs, false)?;
+        let model = || assembled(&cut, &channels, outputs, requested);
         if ratio.is_infinite() {
-            return Ok(cut);
+            return Ok((cut.clone(), model()?));
         }
 
         // A constant difference of displacements becomes feedthrough.
-        let channels = Channels::new(robot, equilibrium, &cut, inputs, outputs, false)?;
         let Ok(values) = reference.of_other(&cut, &channels) else { continue };
         let differences: Vec<Complex> = values.iter().zip(&reference.values).map(|(a, b)| a - b).collect();
         let pairs = reference.pairs();
@@ -310,9 +312,24 @@ fn cut(
                 (difference - constant).norm() / reference.sizes[pair]
             })
             .fold(0.0, f64::max);
-        if error <= OMITTED * tolerance {
-            return Ok(cut);
+        if error > allowed {
+            continue;
         }
+
+        // Few modes leave a part of the response to a commanded length that follows its rate, which no mode has.
+        let model = model()?;
+        if !drives.is_empty() {
+            let expansion = Expansion::of(&model);
+            let beside = |pair: usize| {
+                let at = (pair % outputs.len(), pair / outputs.len());
+                let no_feedthrough = reference.quantity(pair) == Quantity::Velocity && !reference.has_drive_losses;
+                expansion.beside_modes(below_hz * TAU, at, no_feedthrough) / reference.sizes[pair]
+            };
+            if (0..pairs).map(beside).fold(0.0, f64::max) > requested.tolerance {
+                continue;
+            }
+        }
+        return Ok((cut, model));
     }
     unreachable!("the last ratio keeps all modes")
 }
@@ -390,7 +407,7 @@ impl Chosen {
                 states: size,
                 frequency_hz: term.value.norm() / TAU,
                 damping_ratio: -term.value.re / term.value.norm(),
-                kind: (!term.is_residual).then(|| Kind::of(term.platform, 0.0)),
+                kind: (!term.is_residual).then(|| Kind::of(term.platform, term.drives)),
                 platform_energy_fraction: term.platform,
                 contribution: term.size,
             });

@@ -53,6 +53,8 @@ pub(super) struct Reference<'a> {
     /// Scales of outputs and inputs; divided by both, every peak is at most 1.
     pub(super) output_scale: Vec<f64>,
     pub(super) input_scale: Vec<f64>,
+    /// True if drives have losses: modes may be damped so strongly that the real parts of their residues count.
+    pub(super) has_drive_losses: bool,
 }
 
 impl<'a> Reference<'a> {
@@ -76,6 +78,7 @@ impl<'a> Reference<'a> {
             sizes: Vec::new(),
             output_scale: Vec::new(),
             input_scale: Vec::new(),
+            has_drive_losses: dynamics.cable_blocks().any(|cable| cable.drive.iter().any(|part| part.damping > 0.0)),
         };
 
         let displacement = displacements(dynamics, &[STATIC * below_hz], channels)?;

@@ -24,6 +24,7 @@ pub(super) struct Term {
     /// Feedthrough of all pairs.
     pub(super) constants: Vec<f64>,
     pub(super) platform: f64,
+    pub(super) drives: f64,
     pub(super) is_residual: bool,
     /// Maximum of the term relative to the peaks.
     pub(super) size: f64,
@@ -103,6 +104,8 @@ fn term(pair: &DampedPair, mut column: Vec<Complex>, row: Vec<Complex>, referenc
         let residue = column[at % outputs] * row[at / outputs];
         *constant = match reference.quantity(at) {
             Quantity::Displacement => twice * (residue / value).re,
+            // A constant input gives no velocity. Without strong damping the residue is imaginary.
+            Quantity::Velocity if reference.has_drive_losses => twice * residue.re,
             Quantity::Velocity => 0.0,
             Quantity::Acceleration => twice * (residue * value).re,
         };
@@ -112,8 +115,8 @@ fn term(pair: &DampedPair, mut column: Vec<Complex>, row: Vec<Complex>, referenc
     }
 
     let residues = row.iter().flat_map(|b| column.iter().map(move |c| c * b)).collect();
-    let (platform, is_residual) = (pair.platform, pair.is_residual);
-    let mut term = Term { value, column, row, residues, constants, platform, is_residual, size: 0.0 };
+    let DampedPair { platform, drives, is_residual, .. } = *pair;
+    let mut term = Term { value, column, row, residues, constants, platform, drives, is_residual, size: 0.0 };
     let mut responses = vec![Complex::from(0.0); reference.pairs()];
     for frequency_hz in &reference.frequencies_hz {
         responses.fill(0.0.into());

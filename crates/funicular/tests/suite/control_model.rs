@@ -490,7 +490,7 @@ fn the_complete_second_order_model_has_the_responses_of_a_state_space_with_a_sma
     let model = case.model(&[z], &outputs, Size::Tolerance(1e-4)).unwrap();
     let requested = RequestedModel { below_hz: 5.0, tolerance: 1e-6, damping_at: DampingAt::NaturalFrequencies };
     let complete = reduce(&case.robot, &case.rest, &case.dynamics, &[z], &outputs, requested, &mut |_| true);
-    let complete = complete.unwrap().state_space();
+    let complete = complete.unwrap().state_space().unwrap();
     println!("{} states of {}", model.space.a.nrows(), complete.a.nrows());
     assert!(model.space.a.nrows() * 2 < complete.a.nrows());
     for frequency_hz in [0.3, 1.1, 2.7, 4.4] {

@@ -202,7 +202,7 @@ impl DriveLosses {
 
 impl DriveMotion {
     /// Motions in the clamped mode with this index of a family [1/√kg]; zero for motions that it does not contain.
-    fn in_mode(&self, family: Family, index: usize) -> Vec<f64> {
+    pub(super) fn in_mode(&self, family: Family, index: usize) -> Vec<f64> {
         let mut motions = vec![0.0; self.flexibility.nrows()];
         let sideways = self.along.still.len();
         match family {
@@ -289,7 +289,7 @@ impl CatenaryDynamicEnd {
     }
 
     /// Number of motions at its end that count: without motion out of plane only those along the cable.
-    fn motions(&self) -> usize {
+    pub(super) fn motions(&self) -> usize {
         let (along, all) = self.cable.end.as_ref().map_or((0, 0), MovingEnd::counts);
         if self.in_plane_only { along } else { all }
     }
@@ -301,8 +301,13 @@ impl CatenaryDynamicEnd {
 
     /// True if the control of its motor has a delay.
     pub(crate) fn has_delay(&self) -> bool {
+        self.delay() > 0.0
+    }
+
+    /// Delay of the control of its motor [s].
+    pub(crate) fn delay(&self) -> f64 {
         let servo = self.chain().and_then(|chain| chain.motor).and_then(|motor| motor.servo);
-        servo.is_some_and(|servo| servo.delay > 0.0)
+        servo.map_or(0.0, |servo| servo.delay)
     }
 
     /// True if wheel, swivel, drum or motor has mass.

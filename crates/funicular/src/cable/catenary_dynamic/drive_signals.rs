@@ -1,7 +1,7 @@
 //! Signals of the drive of a cable: commanded length, force of the motor, motions of drum and motor, tension.
 
 use super::{CatenaryDynamicEnd, DriveAt, DriveLosses, NearRanges};
-use crate::drive::{DriveChain, Place};
+use crate::drive::DriveChain;
 use crate::math::Complex;
 
 /// Quantity of a cable's drive in a response.
@@ -171,23 +171,55 @@ impl CatenaryDynamicEnd {
     /// Forces on the motions of the drive per unit of an input [N/m or 1]; for drum and motor also the row of their
     /// motion.
     pub(super) fn forces_of(&self, chain: &DriveChain, signal: DriveSignal, omega: f64) -> Option<Vec<Complex>> {
-        let mut force = vec![Complex::new(0.0, 0.0); chain.len()];
-        let mut at = |place: Place, factor: Complex| force[place.motion] += factor * place.factor;
-        match signal {
-            DriveSignal::Drum => at(chain.drum?, 1.0.into()),
-            DriveSignal::Motor => at(chain.motor?.place, 1.0.into()),
-            DriveSignal::Tension | DriveSignal::DrumTension => return None,
-            DriveSignal::Length => {
-                if let Some(motor) = &chain.motor {
-                    at(motor.place, motor.servo?.control(omega.into()).0 * chain.stretch_drum);
-                } else {
-                    let square = self.square(omega);
-                    for (force, (still, moving)) in force.iter_mut().zip(&chain.by_length) {
-                        *force = still + square * *moving;
-                    }
-                }
+        Some(DriveForce::of(chain, signal)?.at(omega, self.square(omega)))
+    }
+}
+
+/// Force on the motions of a drive per unit of an input, or the row of the motion of drum or motor:
+/// `(still + iω rate) e^{−iωτ} + ω_c² square`.
+pub(super) struct DriveForce {
+    /// Constant part [N/m or 1].
+    pub(super) still: Vec<f64>,
+    /// Force per rate of the input, by the speed gain of a control [N s/m].
+    pub(super) rate: Vec<f64>,
+    /// Force by the mass of a cable whose end is moved [kg].
+    pub(super) square: Vec<f64>,
+    /// Delay τ of the control [s].
+    delay: f64,
+}
+
+impl DriveForce {
+    /// Force of a signal on a chain; `None` without such a signal.
+    pub(super) fn of(chain: &DriveChain, signal: DriveSignal) -> Option<Self> {
+        let zeros = || vec![0.0; chain.len()];
+        let mut force = Self { still: zeros(), rate: zeros(), square: zeros(), delay: 0.0 };
+        match (signal, &chain.motor) {
+            (DriveSignal::Drum, _) => {
+                let drum = chain.drum?;
+                force.still[drum.motion] = drum.factor;
             }
+            (DriveSignal::Motor, motor) => {
+                let place = (*motor)?.place;
+                force.still[place.motion] = place.factor;
+            }
+            (DriveSignal::Length, Some(motor)) => {
+                let (servo, place) = (motor.servo?, motor.place);
+                force.still[place.motion] = servo.position_gain * chain.stretch_drum * place.factor;
+                force.rate[place.motion] = servo.speed_gain * chain.stretch_drum * place.factor;
+                force.delay = servo.delay;
+            }
+            (DriveSignal::Length, None) => {
+                (force.still, force.square) = chain.by_length.iter().copied().unzip();
+            }
+            (DriveSignal::Tension | DriveSignal::DrumTension, _) => return None,
         }
         Some(force)
+    }
+
+    /// Force at ω [rad/s] with `square` = ω_c².
+    fn at(&self, omega: f64, square: Complex) -> Vec<Complex> {
+        let delayed = Complex::from_polar(1.0, -omega * self.delay);
+        let parts = self.still.iter().zip(&self.rate).zip(&self.square);
+        parts.map(|((still, rate), moved)| Complex::new(*still, omega * rate) * delayed + square * *moved).collect()
     }
 }

@@ -165,9 +165,10 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
     /// Keeps the first `count` poles and replaces all others by a few.
     ///
     /// The modes beyond `count` may move only in the shapes W = P⁻¹ G of their response to slow motion of the first
-    /// `moving` end components (Rayleigh and Ritz). So `Gᵀ (P − x)⁻¹ G` keeps its value and its slope at x = 0. The
-    /// second result has the weights of the modes beyond `count` in each new mode, by columns of unit modal mass.
-    pub(crate) fn compressed(&self, count: usize, moving: usize) -> (Self, DMat) {
+    /// `moving` end components, and to slow `forces` on the modes (Rayleigh and Ritz). So `Gᵀ (P − x)⁻¹ G` keeps its
+    /// value and its slope at x = 0, and the forces have their static response. The second result has the weights of the
+    /// modes beyond `count` in each new mode, by columns of unit modal mass.
+    pub(crate) fn compressed(&self, count: usize, moving: usize, forces: &[Vec<f64>]) -> (Self, DMat) {
         let beyond = self.poles.len() - count;
         let g = DMat::from_fn(beyond, N, |k, i| self.participation[count + k][i]);
         let pole = |k: usize| self.poles[count + k];
@@ -175,7 +176,9 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
         let mut kept = self.participation[..count].to_vec();
 
         // W: response of each mode to slow motion, normalised by columns.
-        let mut columns = DMat::from_fn(beyond, moving, |k, i| g[(k, i)] / pole(k));
+        let shapes = moving + forces.len();
+        let weight = |k: usize, i: usize| if i < moving { g[(k, i)] } else { forces[i - moving][count + k] };
+        let mut columns = DMat::from_fn(beyond, shapes, |k, i| weight(k, i) / pole(k));
         for mut column in columns.column_iter_mut() {
             let size = column.norm();
             if size > 0.0 {
@@ -185,7 +188,7 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
 
         // Leave out motions that hardly differ from the others.
         let gram = (columns.transpose() * &columns).symmetric_eigen();
-        let free: Vec<usize> = (0..moving).filter(|&i| gram.eigenvalues[i] > MIN_INDEPENDENT).collect();
+        let free: Vec<usize> = (0..shapes).filter(|&i| gram.eigenvalues[i] > MIN_INDEPENDENT).collect();
         if free.is_empty() {
             return (Self::new(self.stiffness, self.mass, poles, kept), DMat::zeros(beyond, 0));
         }

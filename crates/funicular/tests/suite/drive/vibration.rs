@@ -264,29 +264,6 @@ fn a_rod_on_the_drum_side_lowers_frequencies_a_little() {
     assert!(rod.iter().zip(&massless).any(|(rod, massless)| *rod < massless * (1.0 - 1e-6)));
 }
 
-#[test]
-fn reduced_models_refuse_drives_with_inertia() {
-    let (robot, rest) = driven(servo(5e4, 0.0));
-    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0).unwrap();
-    let along = |direction_w: Vec3| funicular::response::Signal::Along { direction_w, point_p: Vec3::zeros() };
-    let requested = funicular::reduced_model::RequestedModel {
-        below_hz: 5.0,
-        tolerance: 0.01,
-        damping_at: funicular::reduced_model::DampingAt::NaturalFrequencies,
-    };
-    let outputs = [(along(Vec3::z()), funicular::response::Quantity::Displacement)];
-    let error = funicular::reduced_model::reduce(
-        &robot,
-        &rest,
-        &dynamics,
-        &[along(Vec3::z())],
-        &outputs,
-        requested,
-        &mut |_| true,
-    );
-    assert!(error.unwrap_err().to_string().contains("runs to a drive with inertia"));
-}
-
 /// A commanded length moves the platform at rest as forward statics does; with fixed anchors and with winches. A force of
 /// a motor moves its drum, and the drum's motion answers to a force on the platform by the same number.
 #[test]

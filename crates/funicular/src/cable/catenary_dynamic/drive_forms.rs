@@ -1,0 +1,296 @@
+//! Motions, losses and signals of a drive as linear forms over the platform end and the amplitudes of the clamped modes.
+//!
+//! A second-order model has these as its coordinates. There the losses of a drive are a damping matrix, and a signal is a
+//! row that is a polynomial of s = iω (docs/theory.md, equations (45a) to (45d)).
+
+use super::drive_signals::DriveForce;
+use super::{CatenaryDynamicEnd, DriveSignal, Family, MovingEnd};
+use crate::math::DMat;
+use crate::robot::Damping;
+use std::array::from_fn;
+
+/// Linear form over the displacement (e, n, b) of the platform end and the amplitudes of the clamped modes, in plane and
+/// then out of plane.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct DriveForm {
+    pub(crate) end: [f64; 3],
+    pub(crate) modes: Vec<f64>,
+}
+
+impl DriveForm {
+    /// Adds `factor` times another form.
+    fn add(&mut self, factor: f64, other: &Self) {
+        self.end.iter_mut().zip(other.end).for_each(|(sum, entry)| *sum += factor * entry);
+        self.modes.iter_mut().zip(&other.modes).for_each(|(sum, entry)| *sum += factor * entry);
+    }
+}
+
+/// Part of a drive that has mass of its own or losses.
+pub(crate) struct DrivePart {
+    /// Motion.
+    pub(crate) motion: DriveForm,
+    /// Mass [kg]. The damping of the cable does not act on it.
+    pub(crate) mass: f64,
+    /// Viscous damping [N s/m].
+    pub(crate) damping: f64,
+    /// Static response of the motion to a force on it that the clamped modes do not have, relative to its static
+    /// response: zero unless the part has no mass.
+    pub(crate) massless: f64,
+}
+
+/// Relative size below which the difference of two static responses is rounding; the modes leave about 1e-10.
+const ROUNDING: f64 = 1e-8;
+
+/// Coefficients of 1, s and s² of a polynomial of s = iω.
+pub(crate) type InPowersOfS<T> = [T; 3];
+
+impl CatenaryDynamicEnd {
+    /// Poles of the clamped modes: in plane and, unless these are left out, out of plane; or both together, for an end that
+    /// couples them.
+    fn mode_poles(&self) -> impl Iterator<Item = f64> + '_ {
+        let out_of_plane = self.out_of_plane().map_or(&[][..], |family| &family.poles);
+        let coupled = self.coupled().map_or(&[][..], |family| &family.poles);
+        self.in_plane().poles.iter().chain(out_of_plane).chain(coupled).copied()
+    }
+
+    fn zero_form(&self) -> DriveForm {
+        DriveForm { end: [0.0; 3], modes: vec![0.0; self.mode_poles().count()] }
+    }
+
+    /// Motions of the drive: those along the cable, then that sideways if there is one.
+    fn motion_forms(&self) -> Vec<DriveForm> {
+        let Some(drive) = &self.cable.drive else { return Vec::new() };
+        let mut forms = vec![self.zero_form(); self.motions()];
+
+        // Slow motion with the platform end.
+        let along = drive.along.still.len();
+        for (form, still) in forms.iter_mut().zip(&drive.along.still) {
+            form.end = [still[0][0], still[0][1], 0.0];
+        }
+        for (form, still) in forms.iter_mut().skip(along).zip(&drive.sideways.still) {
+            form.end = [0.0, 0.0, still[0][0]];
+        }
+        for (form, still) in forms.iter_mut().zip(&drive.coupled.still) {
+            form.end = [still[0][0], still[0][1], still[0][2]];
+        }
+
+        // Clamped modes.
+        let indices = |family: Family, poles: usize| (0..poles).map(move |index| (family, index));
+        let out_of_plane = self.out_of_plane().map_or(0, |family| family.poles.len());
+        let modes = indices(Family::InPlane, self.in_plane().poles.len())
+            .chain(indices(Family::OutOfPlane, out_of_plane))
+            .chain(indices(Family::Coupled, self.coupled().map_or(0, |family| family.poles.len())));
+        for (k, (family, index)) in modes.enumerate() {
+            for (form, motion) in forms.iter_mut().zip(drive.in_mode(family, index)) {
+                form.modes[k] = motion;
+            }
+        }
+        forms
+    }
+
+    /// Static response of the motions to forces on them that the clamped modes do not have: that of motions without mass
+    /// [m/N].
+    fn massless_flexibility(&self, motions: &[DriveForm]) -> DMat {
+        let Some(drive) = &self.cable.drive else { return DMat::zeros(0, 0) };
+        let poles: Vec<f64> = self.mode_poles().collect();
+        DMat::from_fn(motions.len(), motions.len(), |i, j| {
+            let products = motions[i].modes.iter().zip(&motions[j].modes).zip(&poles);
+            let left = drive.flexibility[(i, j)] - products.map(|((a, b), pole)| a * b / pole).sum::<f64>();
+
+            // Rounding is no motion without mass.
+            let size = (drive.flexibility[(i, i)] * drive.flexibility[(j, j)]).sqrt();
+            if left.abs() < ROUNDING * size { 0.0 } else { left }
+        })
+    }
+
+    /// Parts of the drive that have mass of their own or losses; a delay of the control is left out.
+    pub(crate) fn drive_parts(&self) -> Vec<DrivePart> {
+        let Some(drive) = &self.cable.drive else { return Vec::new() };
+        let motions = self.motion_forms();
+        let rest = self.massless_flexibility(&motions);
+
+        // Mass and viscous damping of each motion.
+        let of_chain = self.chain().map_or_else(Vec::new, |chain| {
+            chain.mass.diagonal().iter().copied().zip(chain.viscous_damping()).collect()
+        });
+        let swivel = self.cable.end.as_ref().map_or(0.0, MovingEnd::swivel_mass);
+        let all = of_chain.into_iter().chain([(swivel, 0.0)]);
+
+        let massless = |j: usize| rest[(j, j)] / drive.flexibility[(j, j)];
+        (motions.into_iter().zip(all).enumerate())
+            .filter(|(_, (_, (mass, damping)))| *mass > 0.0 || *damping > 0.0)
+            .map(|(j, (motion, (mass, damping)))| DrivePart { motion, mass, damping, massless: massless(j) })
+            .collect()
+    }
+
+    /// Rate c/m of a viscous damping of the cable [1/s]: `ω_c² = −s² − s c/m`. Zero for a constant ratio, whose loss a
+    /// polynomial of s cannot have.
+    fn viscous_rate(&self) -> f64 {
+        match self.damping {
+            Damping::Viscous(c) if self.mass_per_length > 0.0 => c / self.mass_per_length,
+            Damping::Viscous(_) | Damping::Ratio(_) => 0.0,
+        }
+    }
+
+    /// Coefficients of `still + s rate + ω_c² square` in powers of s.
+    fn in_powers(&self, still: Vec<f64>, rate: &[f64], square: &[f64]) -> InPowersOfS<Vec<f64>> {
+        let by_rate = rate.iter().zip(square).map(|(rate, square)| rate - self.viscous_rate() * square).collect();
+        [still, by_rate, square.iter().map(|square| -square).collect()]
+    }
+
+    /// Force on the motions of the chain per unit of an input, or row of an output over them. `None` without such a
+    /// signal.
+    fn row_in_powers(&self, signal: DriveSignal) -> Option<InPowersOfS<Vec<f64>>> {
+        let chain = self.chain()?;
+        if signal == DriveSignal::DrumTension {
+            let end = chain.drum_end.as_ref()?;
+            let (still, square): (Vec<f64>, Vec<f64>) =
+                end.by_motion.iter().map(|(k, mass)| (-k * end.ratio, mass * end.ratio)).unzip();
+            return Some(self.in_powers(still, &vec![0.0; square.len()], &square));
+        }
+        let DriveForce { still, rate, square, .. } = DriveForce::of(chain, signal)?;
+        Some(self.in_powers(still, &rate, &square))
+    }
+
+    /// Row of a signal: generalised force on platform end and amplitudes per unit of an input, and the output per
+    /// coordinate. `None` if the cable has no such signal.
+    pub(crate) fn signal_form(&self, signal: DriveSignal) -> Option<InPowersOfS<DriveForm>> {
+        if signal == DriveSignal::Tension {
+            return Some(self.tension_form());
+        }
+        if self.chain().is_none() {
+            return match signal {
+                DriveSignal::Length => self.held_end_form(self.directions.stretch),
+                DriveSignal::DrumTension => self.held_end_form(1.0),
+                DriveSignal::Drum | DriveSignal::Motor | DriveSignal::Tension => None,
+            };
+        }
+        let motions = self.motion_forms();
+        Some(self.row_in_powers(signal)?.map(|force| {
+            let mut sum = self.zero_form();
+            force.iter().zip(&motions).for_each(|(force, motion)| sum.add(*force, motion));
+            sum
+        }))
+    }
+
+    /// Form of `still + s rate + s² acceleration + ω_c² square`, in powers of s.
+    fn form_in_powers(
+        &self,
+        still: DriveForm,
+        mut rate: DriveForm,
+        mut acceleration: DriveForm,
+        square: &DriveForm,
+    ) -> InPowersOfS<DriveForm> {
+        rate.add(-self.viscous_rate(), square);
+        acceleration.add(-1.0, square);
+        [still, rate, acceleration]
+    }
+
+    /// Tension at the platform: minus the force along the cable that holds its platform end.
+    fn tension_form(&self) -> InPowersOfS<DriveForm> {
+        let [h, v] = self.directions.from_platform;
+        let (mut still, mut rate, mut acceleration, mut square) =
+            (self.zero_form(), self.zero_form(), self.zero_form(), self.zero_form());
+
+        // The cable: K_s, and −ω_c² times the rows of its mass.
+        let (stiffness, mass): ([f64; 3], [f64; 3]) = if let Some(family) = self.coupled() {
+            let row = |matrix: &[[f64; 6]; 6]| from_fn(|j| matrix[0][j] * h + matrix[1][j] * v);
+            (row(&family.stiffness), row(&family.mass))
+        } else {
+            let family = self.in_plane();
+            let row =
+                |matrix: &[[f64; 4]; 4]| from_fn(|j| if j < 2 { matrix[0][j] * h + matrix[1][j] * v } else { 0.0 });
+            (row(&family.stiffness), row(&family.mass))
+        };
+        still.end = stiffness.map(|entry| -entry);
+        square.end = mass;
+        let in_plane = self.in_plane().participation.iter().map(|g| g[0] * h + g[1] * v);
+        let out_of_plane = self.out_of_plane().map_or(0, |family| family.poles.len());
+        let coupled = self.coupled().into_iter().flat_map(|family| &family.participation);
+        let participations =
+            in_plane.chain(std::iter::repeat_n(0.0, out_of_plane)).chain(coupled.map(|g| g[0] * h + g[1] * v));
+        square.modes.iter_mut().zip(participations).for_each(|(entry, g)| *entry = g);
+
+        // Parts of the drive, which move with ω² instead and have losses.
+        for part in self.drive_parts() {
+            let along = part.motion.end[0] * h + part.motion.end[1] * v;
+            square.add(-along * part.mass, &part.motion);
+            acceleration.add(-along * part.mass, &part.motion);
+            rate.add(-along * part.damping, &part.motion);
+        }
+        self.form_in_powers(still, rate, acceleration, &square)
+    }
+
+    /// Tension at a far end that is held, and force on platform and amplitudes if it moves by `factor` towards the
+    /// platform. `None` for an end that couples the families.
+    fn held_end_form(&self, factor: f64) -> Option<InPowersOfS<DriveForm>> {
+        if self.cable.coupled.is_some() {
+            return None;
+        }
+        let ([h, v], family) = (self.directions.to_platform, self.in_plane());
+        let moved = |matrix: &[[f64; 4]; 4], i: usize| factor * (matrix[i][2] * h + matrix[i][3] * v);
+        let (mut still, mut square) = (self.zero_form(), self.zero_form());
+        still.end = [-moved(&family.stiffness, 0), -moved(&family.stiffness, 1), 0.0];
+        square.end = [moved(&family.mass, 0), moved(&family.mass, 1), 0.0];
+        for (amplitude, g) in square.modes.iter_mut().zip(&family.participation) {
+            *amplitude = factor * (g[2] * h + g[3] * v);
+        }
+        Some(self.form_in_powers(still, self.zero_form(), self.zero_form(), &square))
+    }
+
+    /// Output per input of signals of this cable with all coordinates at rest. `None` without such signals.
+    pub(crate) fn direct_signal(&self, input: DriveSignal, output: DriveSignal) -> Option<InPowersOfS<f64>> {
+        if output == DriveSignal::Tension {
+            // The force of the input on the platform end, along the cable.
+            let [h, v] = self.directions.from_platform;
+            return Some(self.signal_form(input)?.map(|form| form.end[0] * h + form.end[1] * v));
+        }
+        // A length that is paid out by a drum that is held moves an end whose own tension is the output.
+        let pays_out = (input, output) == (DriveSignal::Length, DriveSignal::DrumTension);
+        let in_powers = |still: f64, square: f64| [still, -self.viscous_rate() * square, -square];
+        let Some(chain) = self.chain() else {
+            let ([h, v], family) = (self.directions.to_platform, self.in_plane());
+            let own = |matrix: &[[f64; 4]; 4]| {
+                (matrix[2][2] * h + matrix[2][3] * v) * h + (matrix[3][2] * h + matrix[3][3] * v) * v
+            };
+            let stretch = self.directions.stretch;
+            return pays_out.then(|| in_powers(-stretch * own(&family.stiffness), stretch * own(&family.mass)));
+        };
+
+        // Motions without mass follow at once. A product with ω_c² on both sides belongs to rods, which have mass.
+        let rest = self.massless_flexibility(&self.motion_forms());
+        let (rows, forces) = (self.row_in_powers(output)?, self.row_in_powers(input)?);
+        let product = |row: &[f64], force: &[f64]| -> f64 {
+            let moved = |i: usize| force.iter().enumerate().map(|(j, force)| rest[(i, j)] * force).sum::<f64>();
+            row.iter().enumerate().map(|(i, row)| if *row == 0.0 { 0.0 } else { row * moved(i) }).sum()
+        };
+        let mut direct: InPowersOfS<f64> =
+            from_fn(|power| (0..=power).map(|i| product(&rows[i], &forces[power - i])).sum());
+        if let Some(end) = chain.drum_end.as_ref().filter(|_| pays_out && chain.drum.is_none()) {
+            let by_length = self.directions.stretch * end.ratio;
+            let own = in_powers(-end.own.0 * by_length, end.own.1 * by_length);
+            direct.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+        }
+        Some(direct)
+    }
+
+    /// Weights of the clamped modes of each family in the forces of lossy parts and of signals: what modes that replace
+    /// others have to represent beside the platform end.
+    pub(super) fn forces_on_modes(&self, signals: &[DriveSignal]) -> [Vec<Vec<f64>>; 3] {
+        let in_plane = self.in_plane().poles.len();
+        let coupled = self.mode_poles().count() - self.coupled().map_or(0, |family| family.poles.len());
+        let parts = self.drive_parts().into_iter().map(|part| part.motion);
+        let of_signals = signals.iter().filter_map(|signal| self.signal_form(*signal)).flatten();
+
+        let mut families = [Vec::new(), Vec::new(), Vec::new()];
+        for form in parts.chain(of_signals) {
+            let ranges = [&form.modes[..in_plane], &form.modes[in_plane..coupled], &form.modes[coupled..]];
+            for (family, modes) in families.iter_mut().zip(ranges) {
+                if modes.iter().any(|entry| *entry != 0.0) {
+                    family.push(modes.to_vec());
+                }
+            }
+        }
+        families
+    }
+}
