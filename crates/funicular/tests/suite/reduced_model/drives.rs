@@ -58,7 +58,7 @@ impl Case {
         }
         // The drum side is not part of the cables.
         let State::Lengths(lengths) = &mut robot.state else { panic!("its file gives lengths") };
-        for length in &mut lengths {
+        for length in lengths.iter_mut() {
             *length -= 3.0;
         }
         Self::at_rest("fixed", robot)
