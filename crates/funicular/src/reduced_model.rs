@@ -8,6 +8,7 @@
 
 mod candidates;
 mod control_model;
+mod error;
 mod expansion;
 mod reference;
 mod selection;
@@ -19,11 +20,11 @@ pub use steps::STEPS;
 pub use control_model::{
     ControlModel, ModalStates, PointwiseError, RequestedStateSpace, ResponseOfPair, control_model,
 };
+pub use error::ReductionError;
 pub use selection::Size;
 
 use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::{DriveSignal, InPowersOfS};
-use crate::cable_motion::CableMotionError;
 use crate::dynamics::{CableBlocks, CableRow, Dynamics, PlatformBlocks};
 use crate::math::{CDMat, Complex, DMat, DVec, Vec6, symmetric_part};
 use crate::modes;
@@ -35,7 +36,6 @@ use std::array::from_fn;
 use std::f64::consts::TAU;
 use std::ops::Range;
 use steps::Steps;
-use thiserror::Error;
 
 /// Viscous replacement of constant damping ratios, which no matrix C can represent at every frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,111 +125,14 @@ pub struct StateSpace {
     pub d: DMat,
 }
 
-/// Reason for which there is no reduced model.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum ReductionError {
-    /// A cable is in the shallow-dynamic model.
-    #[error(
-        "the reduced model consists of the modes of catenary-dynamic cables: choose the cable model \
-         `catenary-dynamic`, or a model without vibration"
-    )]
-    Model,
-    /// The control of a motor has a delay.
-    #[error(
-        "the control of the motor of cable \"{cable}\" has a delay of {delay_s} s, which no second-order model and no \
-         state space can have: set `delay_s = 0` in its winch and put the delay into the controller as a Padé approximation, \
-         or compute responses with `frf`, which has the delay"
-    )]
-    Delay {
-        /// Name of the cable.
-        cable: String,
-        /// Delay [s].
-        delay_s: f64,
-    },
-    /// A part of a drive has losses and no mass.
-    #[error(
-        "the motor of cable \"{cable}\" has damping or a speed gain, but no inertia: a second-order model needs the \
-         inertia; give `motor_inertia_kg_m2`, or leave damping and speed gain out"
-    )]
-    Massless {
-        /// Name of the cable.
-        cable: String,
-    },
-    /// An output follows the rate of an input.
-    #[error(
-        "output {output} contains the rate of change of input {input}, which the state space of the second-order model \
-         cannot have: use its matrices, or take the state space of few states (form `state-space`)"
-    )]
-    Improper {
-        /// Number of the output, from 1.
-        output: usize,
-        /// Number of the input, from 1.
-        input: usize,
-    },
-    /// A signal is a motion of the frame.
-    #[error("the reduced model has no motions of the base or of anchors: use `frf` for them")]
-    FrameSignal,
-    /// The motion of a point on a cable is not known.
-    #[error(transparent)]
-    CableMotion(#[from] CableMotionError),
-    /// The full model has no response to compare with.
-    #[error(transparent)]
-    Response(#[from] ResponseError),
-    /// The mass matrix is not positive definite.
-    #[error(
-        "the mass matrix of the reduced model is not positive definite: check masses and inertia of the robot file"
-    )]
-    Mass,
-    /// A mode has no damping, so that its peak is not finite.
-    #[error(
-        "the natural frequency {frequency_hz} Hz has no damping: a response has no peak to which an error could be \
-         related; give the ropes or the platform damping, or take the second-order form"
-    )]
-    Undamped {
-        /// Frequency [Hz].
-        frequency_hz: f64,
-    },
-    /// The equilibrium is unstable.
-    #[error(
-        "the equilibrium is unstable, so that it has no stable state space; choose another state, or take the \
-         second-order form"
-    )]
-    Unstable,
-    /// No input moves any output.
-    #[error("no input moves any output below the limit: choose other inputs or outputs")]
-    NoResponse,
-    /// The eigenvalues of the damped modes are not found.
-    #[error("the eigenvalues of the damped modes cannot be computed: choose a lower frequency limit")]
-    Eigenvalues,
-    /// Too few states for any mode.
-    #[error("{0} states hold no mode: a mode needs two")]
-    Order(usize),
-    /// The observer has stopped the work.
-    #[error("stopped before the end")]
-    Stopped,
-    /// No choice of modes keeps the tolerance.
-    #[error(
-        "no state space has an error of at most {requested:e} of the peaks: {order} states reach {reached:.2e}, because a \
-         constant damping ratio has no exact state space or because of modes that are left out; choose a larger tolerance"
-    )]
-    Tolerance {
-        /// Requested error.
-        requested: f64,
-        /// Smallest error.
-        reached: f64,
-        /// Number of states with this error.
-        order: usize,
-    },
-}
-
-/// Fraction of its static response above which a part of a drive has no mass; rounding leaves 1e-9.
-const MASSLESS: f64 = 1e-6;
-
 /// Checks that no signal is a motion of the frame.
 fn check_signals(inputs: &[Signal]) -> Result<(), ReductionError> {
     let of_frame = inputs.iter().any(|signal| matches!(signal, Signal::Frame(_)));
     if of_frame { Err(ReductionError::FrameSignal) } else { Ok(()) }
 }
+
+/// Fraction of its static response above which a part of a drive has no mass; rounding leaves 1e-9.
+const MASSLESS: f64 = 1e-6;
 
 /// Checks that all cables are catenary-dynamic and that the losses of their drives have a second-order form.
 fn check_cables(robot: &Robot, dynamics: &Dynamics) -> Result<(), ReductionError> {
@@ -254,16 +157,6 @@ fn drive_signals(inputs: &[Signal], outputs: &[(Signal, Quantity)]) -> Vec<(usiz
     let all = inputs.iter().chain(outputs.iter().map(|(signal, _)| signal));
     all.filter_map(|signal| if let Signal::Drive { cable, signal } = signal { Some((*cable, *signal)) } else { None })
         .collect()
-}
-
-impl ReductionError {
-    /// True if the request is valid, but the robot has no such model.
-    pub fn is_no_solution(&self) -> bool {
-        matches!(
-            self,
-            Self::Undamped { .. } | Self::Unstable | Self::NoResponse | Self::Eigenvalues | Self::Tolerance { .. }
-        )
-    }
 }
 
 /// Ratios to the limit up to which clamped modes are kept unchanged, tried in turn until the error is small enough.

@@ -55,7 +55,7 @@ pub(crate) struct OnDrumSide {
 pub(crate) struct DrumEnd {
     /// Between that end and each motion.
     pub(crate) by_motion: Vec<(f64, f64)>,
-    /// Of that end itself; it moves by the stretch at the exit point times a length that is paid out by a drum that is
+    /// Between that end and itself; it moves by the stretch at the exit point times a length that is paid out by a drum that is
     /// held.
     pub(crate) own: (f64, f64),
     /// Between that end and the end at the wheel.
@@ -205,7 +205,7 @@ impl Assembly {
 /// Slip of the cable on the wheel: the first motion of every chain.
 const SLIP: Place = Place { motion: 0, factor: 1.0 };
 
-/// What a chain is made of.
+/// Parts from which a chain is built.
 struct Parts<'a> {
     winch: Option<&'a Winch>,
     /// Control of the motor in the requested mode of winches.

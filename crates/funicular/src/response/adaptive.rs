@@ -270,7 +270,7 @@ impl Search {
         all.extend(self.gaps.iter().flat_map(|(low, high)| [(*low, true), (*high, true)]));
 
         all.retain(|(hz, _)| (first..=last).contains(hz) && !self.in_gap(*hz));
-        // Of equal frequencies, the one that is kept comes first.
+        // Among equal frequencies the one that is kept comes first.
         order::sort_descending(&mut all, |(_, kept)| f64::from(*kept));
         order::sort_ascending(&mut all, |(hz, _)| *hz);
         // Two frequencies may differ by rounding alone: the one that is kept stays.
@@ -402,7 +402,7 @@ fn with_maxima<E>(
             Some(row) => samples.push(Sample::new(maximum.hz(), &row, 0, true)),
         }
     }
-    // Of equal frequencies, the one that is kept comes first.
+    // Among equal frequencies the one that is kept comes first.
     order::sort_descending(&mut samples, |sample| f64::from(sample.kept));
     order::sort_ascending(&mut samples, |sample| sample.hz);
     samples.dedup_by(|b, a| b.hz - a.hz <= 0.0);

@@ -202,7 +202,7 @@ fn constant_force_w(
     };
     let mut force_w = stiffness * anchor.exit_w;
 
-    // What the drive adds: a drum side that is stretched, and a swivel that turns.
+    // The drive adds the forces of a drum side that is stretched and of a swivel that turns.
     if let (Some(drive), Some(span)) = (&state.drive, &state.hanging) {
         let held: Mat3 = span.tangent_w();
         let axes = LocalAxes::of_cable(robot, i, state);

@@ -207,7 +207,7 @@ fn a_tilted_axis_couples_the_motions_in_plane_and_out_of_plane() {
     let size = still.map(funicular::math::Complex::norm).amax();
     assert!((dynamic - still).map(funicular::math::Complex::norm).amax() < 1e-6 * size, "{dynamic} {still}");
 
-    // What exists for one plane is refused.
+    // Models of a single plane are refused.
     let in_plane = Linearisation { in_plane_only: true, ..Default::default() };
     let error = Dynamics::about(&inclined, &rest, in_plane, 10.0).unwrap_err();
     assert!(error.to_string().contains("swivel axis of its pulley is not parallel"), "{error}");
