@@ -82,7 +82,7 @@ fn at_rest_the_platform_follows_the_frame_as_forward_statics_say() {
     let signals: Vec<Signal> = inputs.iter().map(|input| Signal::Frame(*input)).collect();
     let tensions = [DriveSignal::Tension, DriveSignal::DrumTension].map(|signal| Signal::Drive { cable: 3, signal });
 
-    // With inclined axes the stiffness is exact to the square of the kink.
+    // Differences over 2e-5 m are exact to 2e-6 here; with inclined axes the stiffness is exact to the square of the kink.
     for (incline, tolerance) in [(0.0, 2e-6), (0.4, 2e-5)] {
         let (robot, rest) = at_rest(incline);
         for cable_model in [CableModel::CatenaryDynamic, CableModel::CatenaryStatic] {
@@ -190,7 +190,7 @@ fn the_far_end_of_a_cable_moves_with_its_anchor() {
 #[test]
 fn shallow_cables_transmit_the_motion_of_the_base_as_catenaries_do() {
     let mut robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();
-    // Light cables hardly sag, so that both models agree to the square of the sag, 1e-4 of the length.
+    // Light cables hardly sag.
     for cable in &mut robot.cables {
         cable.material.mass_per_length *= 0.2;
     }
@@ -202,11 +202,12 @@ fn shallow_cables_transmit_the_motion_of_the_base_as_catenaries_do() {
             Dynamics::about(&robot, &rest, Linearisation { cable_model, ..Default::default() }, 30.0).unwrap();
         responses(&robot, &rest, &dynamics, hz, &inputs, &motions())
     };
-    for hz in [0.5, 2.0, 11.0] {
+    // The shallow model has no inertia along the chord, whose effect grows with the square of the frequency.
+    for (hz, tolerance) in [(0.5, 1e-3), (2.0, 1e-3), (11.0, 1e-2)] {
         let (shallow, exact) = (of(CableModel::ShallowDynamic, hz), of(CableModel::CatenaryDynamic, hz));
         let size = exact.iter().flatten().map(|x| x.norm()).fold(0.0, f64::max);
         for (shallow, exact) in shallow.iter().flatten().zip(exact.iter().flatten()) {
-            assert!((shallow - exact).norm() < 2e-2 * size, "{hz} Hz: {shallow} {exact} of {size}");
+            assert!((shallow - exact).norm() < tolerance * size, "{hz} Hz: {shallow} {exact} of {size}");
         }
     }
 }
