@@ -11,6 +11,7 @@ pub mod shallow_dynamic;
 pub mod shallow_static;
 pub mod spring;
 
+use crate::catenary::space::HangingCable;
 use crate::drive::DriveChain;
 use crate::math::{Complex, Mat3, Vec3, any_normal};
 use crate::robot::{Robot, WinchMode};
@@ -357,6 +358,20 @@ impl EndStiffness {
                 Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable)))
             }
         })
+    }
+}
+
+/// Static stiffness of the free span of cable `i` in a model, its far end held; 3×3, world axes [N/m]. `None` for a rigid
+/// cable in a catenary model.
+pub(crate) fn span_stiffness(robot: &Robot, i: usize, state: &CableState, model: CableModel) -> Option<Mat3> {
+    let straight = |stiffness: fn(&Sag) -> LocalStiffness<f64>| {
+        stiffness(&Sag::of(robot, i, state)).in_world(&LocalAxes::of_cable(robot, i, state))
+    };
+    match model {
+        CableModel::Spring if state.is_slack() => Some(Mat3::zeros()),
+        CableModel::Spring => Some(straight(spring::stiffness)),
+        CableModel::ShallowStatic => Some(straight(shallow_static::stiffness)),
+        _ => state.hanging.as_ref().map(HangingCable::tangent_w),
     }
 }
 

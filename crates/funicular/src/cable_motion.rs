@@ -39,6 +39,12 @@ pub enum CableMotionError {
         /// Name of the cable.
         cable: String,
     },
+    /// The signal does not exist for robots on flexible supports.
+    #[error("{signal} are not known for a robot with flexible supports: choose forces on and motions of the platform")]
+    Supports {
+        /// Signals that were requested.
+        signal: &'static str,
+    },
     /// The cable has no catenary-dynamic stiffness.
     #[error("cable \"{cable}\": {reason}")]
     CatenaryDynamic {

@@ -22,6 +22,7 @@ mod mesh;
 mod moving_end;
 mod partition;
 mod poles;
+mod two_ended;
 
 pub(crate) use carrier::CarrierMotion;
 pub(crate) use drive_forms::{DriveForm, DrivePart, InPowersOfS};
@@ -34,6 +35,7 @@ pub use internal_motion::{Displacements, Stations};
 pub(crate) use mesh::{ellipse, has_tension};
 pub use moving_end::{EndAlong, EndSideways, MovingEnd};
 pub use poles::PoleResidue;
+pub(crate) use two_ended::{ENDS, TwoEnded};
 
 use super::{LocalAxes, LocalStiffness};
 use crate::catenary::Catenary;

@@ -32,6 +32,8 @@ pub struct DriveChain {
     pub(crate) by_length: Vec<(f64, f64)>,
     /// Drum side as each motion feels it; empty if the drum is at the exit point.
     pub(crate) drum_side: Vec<OnDrumSide>,
+    /// Mass of a drum side with mass [kg]; zero for one without.
+    pub(crate) drum_side_mass: f64,
     /// End of the drum side at the drum; `None` if the drum is at the exit point.
     pub(crate) drum_end: Option<DrumEnd>,
     /// Stretch λ_E between entry point and drum.
@@ -373,6 +375,7 @@ impl DriveChain {
             motor,
             by_length: by_length(&parts, &layout, &drum_end),
             drum_side,
+            drum_side_mass: if parts.is_rod() { parts.mass_per_length * parts.rod_length() } else { 0.0 },
             drum_end: parts.has_rope().then_some(drum_end),
             stretch_drum,
         })

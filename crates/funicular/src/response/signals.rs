@@ -113,6 +113,8 @@ impl Port {
         signals: &[Signal],
         loaded: bool,
     ) -> Result<Vec<Self>, CableMotionError> {
+        refuse_on_supports(dynamics, signals)?;
+
         // Points of each cable; cables in the order of first appearance.
         let mut points: Vec<(usize, Vec<f64>)> = Vec::new();
         for signal in signals {
@@ -210,4 +212,21 @@ impl Port {
             }
         }
     }
+}
+
+/// Refuses motions of the frame as inputs of a robot with flexible supports.
+fn refuse_on_supports(dynamics: &Dynamics, signals: &[Signal]) -> Result<(), CableMotionError> {
+    if dynamics.supports().is_none() {
+        return Ok(());
+    }
+    for signal in signals {
+        let signal = match signal {
+            Signal::Along { .. } | Signal::About { .. } => continue,
+            Signal::OnCable { .. } => "points of cables",
+            Signal::Drive { .. } => "signals of drives",
+            Signal::Frame(_) => "motions of base and anchors",
+        };
+        return Err(CableMotionError::Supports { signal });
+    }
+    Ok(())
 }
