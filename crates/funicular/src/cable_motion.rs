@@ -25,7 +25,8 @@ pub enum CableMotionError {
     /// The cable has no such signal of its drive.
     #[error(
         "cable \"{cable}\" has no signal `{signal}`: `length` needs a motor that holds its angle or a position control, \
-         `drum` a drum and `motor` a motor that can move, all the model `catenary-dynamic` and a cable with mass"
+         `drum` a drum and `motor` a motor that can move, all a cable with mass and the model `catenary-dynamic`, or \
+         `shallow-dynamic` with a winch"
     )]
     NoDriveSignal {
         /// Name of the cable.
@@ -98,9 +99,11 @@ impl CableStations {
         let chord_w = state.chord_w();
 
         let (model, axes) = match term.map(|at| (at, dynamics.terms()[at].form())) {
-            Some((_, DynamicCable::ShallowDynamic(_))) => {
+            // Shallow spans with a drive have poles and residues, too, but no shape of the catenary.
+            Some(_) if dynamics.linearisation.cable_model == CableModel::ShallowDynamic => {
                 return Err(CableMotionError::Model(CableModel::ShallowDynamic));
             }
+            Some((_, DynamicCable::ShallowDynamic(_))) => unreachable!("the model is shallow-dynamic"),
             Some((term, DynamicCable::CatenaryDynamic(end))) => {
                 let hanging = state.hanging.as_ref().expect("a catenary-dynamic cable hangs");
                 let (m, limit) = (end.mass_per_length, end.cable.limit);

@@ -62,7 +62,7 @@ pub struct Linearisation {
 /// Reason for which a robot cannot be linearised.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum DynamicsError {
-    /// A cable has no catenary-dynamic stiffness.
+    /// A cable has no stiffness by poles and residues: a catenary-dynamic one, or a shallow one with a drive.
     #[error("cable \"{cable}\": {reason}")]
     CatenaryDynamic {
         /// Name of the cable.
@@ -76,17 +76,6 @@ pub enum DynamicsError {
          are taut, or the model `spring` or `catenary-static`"
     )]
     NoTension {
-        /// Name of the cable.
-        cable: String,
-        /// Requested model.
-        model: CableModel,
-    },
-    /// A cable runs over a pulley or to a winch.
-    #[error(
-        "cable \"{cable}\" runs over a pulley or to a winch: the {model} model exists for cables that end at fixed \
-         points; use the model `catenary-dynamic`"
-    )]
-    Drive {
         /// Name of the cable.
         cable: String,
         /// Requested model.
@@ -107,7 +96,7 @@ impl DynamicsError {
         match self {
             Self::NoTension { .. } => true,
             Self::CatenaryDynamic { reason, .. } => *reason == CatenaryDynamicError::NoTension,
-            Self::Rigid | Self::Drive { .. } => false,
+            Self::Rigid => false,
         }
     }
 
@@ -117,7 +106,6 @@ impl DynamicsError {
         match reason {
             NoStiffness::Rigid => Self::Rigid,
             NoStiffness::NoTension => Self::NoTension { cable, model },
-            NoStiffness::Drive => Self::Drive { cable, model },
             NoStiffness::CatenaryDynamic(reason) => Self::CatenaryDynamic { cable, reason },
         }
     }

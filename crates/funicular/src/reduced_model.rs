@@ -23,8 +23,8 @@ pub use control_model::{
 pub use error::ReductionError;
 pub use selection::Size;
 
-use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::{DriveSignal, InPowersOfS};
+use crate::cable::{CableModel, DynamicCable};
 use crate::dynamics::{CableBlocks, CableRow, Dynamics, PlatformBlocks};
 use crate::math::{CDMat, Complex, DMat, DVec, Vec6, symmetric_part};
 use crate::modes;
@@ -139,6 +139,9 @@ fn check_cables(robot: &Robot, dynamics: &Dynamics) -> Result<(), ReductionError
     let name = |cable: usize| robot.cables[cable].name.clone();
     for term in dynamics.terms() {
         let DynamicCable::CatenaryDynamic(form) = term.form() else { return Err(ReductionError::Model) };
+        if dynamics.linearisation.cable_model == CableModel::ShallowDynamic {
+            return Err(ReductionError::Model);
+        }
         let delay_s = form.delay();
         if delay_s > 0.0 {
             return Err(ReductionError::Delay { cable: name(term.cable()), delay_s });

@@ -2,6 +2,7 @@
 //! cables at rest have their tests in the source; the comparisons with other programs are in the validation.
 
 mod frame;
+mod shallow;
 mod vibration;
 
 use funicular::cable::{CableModel, EndStiffness};
@@ -211,9 +212,6 @@ fn a_tilted_axis_couples_the_motions_in_plane_and_out_of_plane() {
     let in_plane = Linearisation { in_plane_only: true, ..Default::default() };
     let error = Dynamics::about(&inclined, &rest, in_plane, 10.0).unwrap_err();
     assert!(error.to_string().contains("swivel axis of its pulley is not parallel"), "{error}");
-    let shallow = Linearisation { cable_model: CableModel::ShallowDynamic, ..Default::default() };
-    let error = Dynamics::about(&inclined, &rest, shallow, 10.0).unwrap_err();
-    assert!(error.to_string().contains("runs over a pulley or to a winch"), "{error}");
 }
 
 #[test]

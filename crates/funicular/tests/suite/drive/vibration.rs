@@ -128,7 +128,7 @@ fn points_of_a_weightless_cable_move_with_the_drive_behind_it() {
 }
 
 /// CoGiRo over pulleys, with inertia and a control in all its winches.
-fn driven(control: Control) -> (Robot, Equilibrium) {
+pub(super) fn driven(control: Control) -> (Robot, Equilibrium) {
     let mut robot = cogiro(0.06);
     for cable in &mut robot.cables {
         let winch = cable.anchor.winch.as_mut().unwrap();
@@ -141,7 +141,7 @@ fn driven(control: Control) -> (Robot, Equilibrium) {
     (robot, rest)
 }
 
-fn servo(position_gain: f64, speed_gain: f64) -> Control {
+pub(super) fn servo(position_gain: f64, speed_gain: f64) -> Control {
     Control::Position(Servo { position_gain, speed_gain, integral: true, delay: 0.0 })
 }
 
