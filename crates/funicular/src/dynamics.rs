@@ -10,7 +10,7 @@ mod null_vectors;
 pub(crate) use blocks::{CableBlocks, CableRow, PlatformBlocks};
 pub(crate) use null_vectors::NullVector;
 
-use crate::cable::catenary_dynamic::{CatenaryDynamicError, DriveSignal};
+use crate::cable::catenary_dynamic::{CatenaryDynamicError, EndSignal};
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness};
 use crate::math::{CMat6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6, order};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
@@ -222,12 +222,12 @@ impl Dynamics {
     }
 
     /// Copy in which a few modes replace the clamped modes of catenary-dynamic cables from ω [rad/s] on. They represent
-    /// the `signals` of drives (index of the cable in the order of the file, quantity), too.
-    pub(crate) fn with_poles_below(&self, omega: f64, signals: &[(usize, DriveSignal)]) -> Self {
+    /// the `signals` at the far ends of cables (index of the cable in the order of the file, signal), too.
+    pub(crate) fn with_poles_below(&self, omega: f64, signals: &[(usize, EndSignal)]) -> Self {
         let mut cut = self.clone();
         for term in &mut cut.terms {
             if let DynamicCable::CatenaryDynamic(end) = &mut term.form {
-                let own: Vec<DriveSignal> =
+                let own: Vec<EndSignal> =
                     signals.iter().filter(|(cable, _)| *cable == term.cable).map(|(_, signal)| *signal).collect();
                 **end = end.with_poles_below(omega * omega, &own);
             }

@@ -26,7 +26,7 @@ mod poles;
 mod shallow_span;
 
 pub(crate) use carrier::CarrierMotion;
-pub(crate) use drive_forms::{DriveForm, DrivePart, InPowersOfS};
+pub(crate) use drive_forms::{DriveForm, DrivePart, EndSignal, InPowersOfS};
 pub use drive_motion::DriveMotion;
 pub(crate) use drive_motion::{DriveAt, DriveLosses};
 pub use drive_signals::DriveSignal;
@@ -202,7 +202,7 @@ impl CatenaryDynamicEnd {
 
     /// Copy that keeps the poles below x and has a few poles in place of the others: see [`PoleResidue::compressed`].
     /// These represent the losses of the drive and its `signals`, too.
-    pub(crate) fn with_poles_below(&self, x: f64, signals: &[DriveSignal]) -> Self {
+    pub(crate) fn with_poles_below(&self, x: f64, signals: &[EndSignal]) -> Self {
         let mut cut = self.clone();
         let [of_plane, of_normal, of_coupled] = self.forces_on_modes(signals);
         let CatenaryDynamic { in_plane, out_of_plane, coupled, .. } = &self.cable;
@@ -499,6 +499,15 @@ impl CatenaryDynamic {
             Family::InPlane => &self.in_plane.participation[index],
             Family::OutOfPlane => &self.out_of_plane.participation[index],
             Family::Coupled => self.coupled.as_ref().map_or(&[], |of| &of.participation[index]),
+        }
+    }
+
+    /// Poles of a family.
+    pub(crate) fn poles_of(&self, family: Family) -> &[f64] {
+        match family {
+            Family::InPlane => &self.in_plane.poles,
+            Family::OutOfPlane => &self.out_of_plane.poles,
+            Family::Coupled => self.coupled_poles(),
         }
     }
 

@@ -29,6 +29,8 @@ pub enum RobotPart {
     Pulley,
     /// A winch; its name is the second key of the path.
     Winch,
+    /// A guide wheel; its name is the second key of the path.
+    GuideWheel,
     /// The cable at this index in file order, from 0.
     Cable(usize),
     /// The load on the platform.
@@ -493,7 +495,12 @@ fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
     if let Some(DeValue::Table(platform)) = root.get("platform").map(Spanned::get_ref) {
         table(RobotPart::Platform, "[platform]", &["platform"], platform);
     }
-    let named = [("materials", RobotPart::Material), ("pulleys", RobotPart::Pulley), ("winches", RobotPart::Winch)];
+    let named = [
+        ("materials", RobotPart::Material),
+        ("pulleys", RobotPart::Pulley),
+        ("winches", RobotPart::Winch),
+        ("guide_wheels", RobotPart::GuideWheel),
+    ];
     for (kind, part) in named {
         let Some(DeValue::Table(tables)) = root.get(kind).map(Spanned::get_ref) else { continue };
         for (name, entry) in tables {

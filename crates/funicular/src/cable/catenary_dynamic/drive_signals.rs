@@ -148,7 +148,7 @@ impl CatenaryDynamicEnd {
         let Some(end) = self.chain().and_then(|chain| chain.drum_end.as_ref()) else { return Complex::new(0.0, 0.0) };
         let square = self.square(omega);
         let force = |(k, mass): (f64, f64), motion: f64| (square * mass - k) * motion;
-        let carried = square * (end.own.1 + end.by_wheel.1) * whole;
+        let carried = square * end.carried_mass * whole;
         (force(end.own, at_drum) + force(end.by_wheel, at_wheel) + carried) * end.ratio
     }
 

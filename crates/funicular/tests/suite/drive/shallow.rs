@@ -10,7 +10,7 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, DMat, Mat3, Vec3};
 use funicular::modes::{self, Kind};
 use funicular::response::{self, FrameInput, Port, Quantity, Signal};
-use funicular::robot::{Control, Damping, Pose, Robot, Servo, WinchMode};
+use funicular::robot::{Control, Damping, GuideWheel, Pose, Robot, Servo, WinchMode};
 use funicular::statics::{self, CableState, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
 
@@ -45,22 +45,38 @@ fn both_ends(sag: &Sag, square: Complex) -> CDMat {
     k
 }
 
-/// Drive of the robots of this file over (σ, v, w): rigid winches of 60 kg with this control, wheels and swivels with mass.
+/// Drive of the robots of this file over (σ, v, w), or (σ, v, w, g) with a guide wheel: rigid winches of 60 kg with this
+/// control, wheels and swivels with mass. The guide wheel divides the drum side, from 5 m, at its distance.
 fn of_drive(robot: &Robot, state: &CableState, control: Complex, omega: f64) -> CDMat {
     let (anchor, drive) = (&robot.cables[0].anchor, state.drive.as_ref().unwrap());
     let ea = robot.cables[0].material.axial_stiffness;
-    let ratio = (1.0 + state.tension_anchor / ea) / (1.0 + drive.tension_drum / ea);
-    let spring = drive.end.force_by_length / (1.0 + state.tension_anchor / ea);
+    let (lambda, at_drum) = (1.0 + state.tension_anchor / ea, 1.0 + drive.tension_drum / ea);
+    let ratio = lambda / at_drum;
+    let spring = drive.end.force_by_length / lambda;
     let [[slip, coupling], [_, swivel]] = drive.end.stiffness;
     let (pulley, x) = (anchor.pulley.as_ref().unwrap(), omega * omega);
     let distance = drive.contact.unwrap().distance_from_axis();
 
-    let mut z = CDMat::zeros(3, 3);
-    z[(0, 0)] = (slip - x * pulley.inertia / pulley.radius.powi(2)).into();
+    let wheel = anchor.winch.as_ref().unwrap().guide_wheels.first();
+    let mut z = CDMat::zeros(3 + usize::from(wheel.is_some()), 3 + usize::from(wheel.is_some()));
+    z[(0, 0)] = (slip - spring - x * pulley.inertia / pulley.radius.powi(2)).into();
     z[(1, 1)] = (swivel - x * pulley.swivel_inertia / distance.powi(2)).into();
-    z[(2, 2)] = spring * ratio * ratio + control - 60.0 * x;
-    for (i, j, entry) in [(0, 1, coupling), (0, 2, -spring * ratio)] {
-        (z[(i, j)], z[(j, i)]) = (entry.into(), entry.into());
+    z[(2, 2)] = control - 60.0 * x;
+    (z[(0, 1)], z[(1, 0)]) = (coupling.into(), coupling.into());
+    let mut add = |spring: f64, (i, a): (usize, f64), (j, b): (usize, f64)| {
+        for (i, j, product) in [(i, i, a * a), (i, j, -a * b), (j, i, -a * b), (j, j, b * b)] {
+            z[(i, j)] += spring * product;
+        }
+    };
+    if let Some(wheel) = wheel {
+        // Unstrained lengths over EA: pieces of the drum side from the drum to the wheel, and the rest with the arc.
+        let to_drum = drive.drum_side_length * (1.0 - wheel.distance / 5.0) / (ea * at_drum.powi(2));
+        let behind = 1.0 / (lambda.powi(2) * to_drum);
+        add(1.0 / (1.0 / spring - 1.0 / behind), (0, 1.0), (3, ratio));
+        add(behind, (3, ratio), (2, ratio));
+        z[(3, 3)] -= wheel.mass * x;
+    } else {
+        add(spring, (0, 1.0), (2, ratio));
     }
     z
 }
@@ -71,30 +87,28 @@ fn with_drive(robot: &Robot, state: &CableState, square: Complex, drive: &CDMat)
     let end = &state.drive.as_ref().unwrap().end;
     let local = |direction: Vec3| [axes.e, axes.n, axes.b].map(|axis| axis.dot(&direction));
     let (t, v) = (local(end.along_w.unwrap()), local(end.sideways_w.unwrap()));
-    let w = CDMat::from_fn(3, 3, |i, j| {
-        Complex::from(if j == 0 {
-            t[i]
-        } else if j == 1 {
-            v[i]
-        } else {
-            0.0
-        })
-    });
+    let columns = [t, v];
+    let w = CDMat::from_fn(3, drive.nrows(), |i, j| columns.get(j).map_or(0.0, |column| column[i]).into());
     let k = both_ends(&Sag::of(robot, 0, state), square);
     let block = |i: usize, j: usize| k.view((i, j), (3, 3)).into_owned();
     let y = w.transpose() * block(3, 3) * &w + drive;
     (block(0, 0), block(0, 3) * w, y)
 }
 
-/// Robots with upright and with tilted swivel axes.
-fn robots(control: Control) -> [(Robot, Equilibrium); 2] {
+/// Robots with upright and with tilted swivel axes; the second has guide wheels.
+fn robots(control: Control) -> [(Robot, Equilibrium); 3] {
     let (robot, rest) = driven(control);
+    let mut guided = robot.clone();
+    for cable in &mut guided.cables {
+        let wheel = GuideWheel { name: "post".to_owned(), distance: 1.7, mass: 9.0 };
+        cable.anchor.winch.as_mut().unwrap().guide_wheels.push(wheel);
+    }
     let mut tilted = robot.clone();
     for cable in &mut tilted.cables {
         cable.anchor.pulley.as_mut().unwrap().entry_direction_w = Vec3::new(0.3, 0.1, 1.0).normalize();
     }
     let inclined = statics::inverse(&tilted, &rest.pose, StaticModel::Catenary).unwrap();
-    [(robot, rest), (tilted, inclined)]
+    [(robot, rest.clone()), (guided, rest), (tilted, inclined)]
 }
 
 fn dynamic(robot: &Robot, state: &CableState, up_to_hz: f64) -> DynamicCable {
