@@ -11,7 +11,7 @@ mod supports;
 pub(crate) use blocks::{CableBlocks, CableRow, PlatformBlocks};
 pub(crate) use null_vectors::NullVector;
 
-use crate::cable::catenary_dynamic::{CatenaryDynamicError, DriveSignal};
+use crate::cable::catenary_dynamic::{CatenaryDynamicError, EndSignal};
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, span_stiffness};
 use crate::math::{CMat6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6, order};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
@@ -65,7 +65,7 @@ pub struct Linearisation {
 /// Reason for which a robot cannot be linearised.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum DynamicsError {
-    /// A cable has no catenary-dynamic stiffness.
+    /// A cable has no stiffness by poles and residues: a catenary-dynamic one, or a shallow one with a drive.
     #[error("cable \"{cable}\": {reason}")]
     CatenaryDynamic {
         /// Name of the cable.
@@ -79,17 +79,6 @@ pub enum DynamicsError {
          are taut, or the model `spring` or `catenary-static`"
     )]
     NoTension {
-        /// Name of the cable.
-        cable: String,
-        /// Requested model.
-        model: CableModel,
-    },
-    /// A cable runs over a pulley or to a winch.
-    #[error(
-        "cable \"{cable}\" runs over a pulley or to a winch: the {model} model exists for cables that end at fixed \
-         points; use the model `catenary-dynamic`"
-    )]
-    Drive {
         /// Name of the cable.
         cable: String,
         /// Requested model.
@@ -121,7 +110,7 @@ impl DynamicsError {
         match self {
             Self::NoTension { .. } => true,
             Self::CatenaryDynamic { reason, .. } => *reason == CatenaryDynamicError::NoTension,
-            Self::Rigid | Self::Drive { .. } | Self::Support { .. } => false,
+            Self::Rigid | Self::Support { .. } => false,
         }
     }
 
@@ -131,7 +120,6 @@ impl DynamicsError {
         match reason {
             NoStiffness::Rigid => Self::Rigid,
             NoStiffness::NoTension => Self::NoTension { cable, model },
-            NoStiffness::Drive => Self::Drive { cable, model },
             NoStiffness::CatenaryDynamic(reason) => Self::CatenaryDynamic { cable, reason },
         }
     }
@@ -266,12 +254,12 @@ impl Dynamics {
     }
 
     /// Copy in which a few modes replace the clamped modes of catenary-dynamic cables from ω [rad/s] on. They represent
-    /// the `signals` of drives (index of the cable in the order of the file, quantity), too.
-    pub(crate) fn with_poles_below(&self, omega: f64, signals: &[(usize, DriveSignal)]) -> Self {
+    /// the `signals` at the far ends of cables (index of the cable in the order of the file, signal), too.
+    pub(crate) fn with_poles_below(&self, omega: f64, signals: &[(usize, EndSignal)]) -> Self {
         let mut cut = self.clone();
         for term in &mut cut.terms {
             if let DynamicCable::CatenaryDynamic(end) = &mut term.form {
-                let own: Vec<DriveSignal> =
+                let own: Vec<EndSignal> =
                     signals.iter().filter(|(cable, _)| *cable == term.cable).map(|(_, signal)| *signal).collect();
                 **end = end.with_poles_below(omega * omega, &own);
             }

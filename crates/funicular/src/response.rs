@@ -65,13 +65,6 @@ pub enum ResponseError {
          points among the same loaded stations"
     )]
     SameCable,
-    /// The output is a point of a cable that runs over a pulley or to a winch that yields, and the input a motion of its
-    /// anchor.
-    #[error(
-        "the motion of a point of a cable by a motion of its anchor is not known for a cable that runs over a pulley or \
-         to a winch that yields: choose an output on the platform"
-    )]
-    FrameAndCable,
     /// Input and output are the drive of a cable and a point on the same cable.
     #[error("the drive of a cable and a point on the same cable do not go together as input and output")]
     DriveAndCable,
@@ -213,7 +206,6 @@ impl<'a> OwnResponse<'a> {
                 Ok(Some(Self::DriveByFrame { term: *term, to: *signal, from }))
             }
             (Port::Frame(from), Port::Cable { stations, station, direction_w }) => {
-                frame_motion::check_stations(dynamics, stations)?;
                 Ok(Some(Self::PointByFrame { stations, to: (*station, direction_w), from }))
             }
             _ => Ok(None),

@@ -21,7 +21,7 @@ pub use friction::PulleyFriction;
 pub use motion::{OutOfPlane, Plane, PlatformMotion};
 pub use pulley::{Pulley, PulleyContact};
 pub use support::{DrumPlace, Support};
-pub use winch::{Control, DrumSide, Servo, Winch, WinchMode};
+pub use winch::{Control, DrumSide, GuideWheel, Servo, Winch, WinchMode};
 pub use wind::{LineLoad, Wind};
 
 use crate::math::{Mat3, Rotation, Vec3, rotation};

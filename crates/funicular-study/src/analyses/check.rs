@@ -4,7 +4,8 @@ use super::found;
 use crate::text::{short, vector};
 use funicular::math::rotation;
 use funicular::robot::{
-    Cable, Control, Damping, Load, PlatformMotion, Pulley, PulleyFriction, Robot, State, TensionLimits, Winch, Wind,
+    Cable, Control, Damping, GuideWheel, Load, PlatformMotion, Pulley, PulleyFriction, Robot, State, TensionLimits,
+    Winch, Wind,
 };
 use funicular::statics::{self, CableState, StaticModel};
 use funicular::warnings::plausibility;
@@ -242,6 +243,9 @@ pub struct CheckedWinch {
     pub drum_mass_kg: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motor_mass_kg: Option<f64>,
+    /// Guide wheels, the nearest to the anchor first; absent without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub guide_wheels: Vec<CheckedGuideWheel>,
     /// Control of the motor; absent if it holds its angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub control: Option<&'static str>,
@@ -250,6 +254,16 @@ pub struct CheckedWinch {
     pub position_gain_n_per_m: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_gain_n_s_per_m: Option<f64>,
+}
+
+/// Guide wheel of a winch.
+#[derive(Serialize)]
+pub struct CheckedGuideWheel {
+    pub name: String,
+    /// Length of the cable from its anchor to the wheel.
+    pub distance_m: f64,
+    /// Mass that the wheel adds at the cable.
+    pub mass_kg: f64,
 }
 
 impl CheckedPulley {
@@ -266,7 +280,11 @@ impl CheckedPulley {
 
 impl CheckedWinch {
     fn of(winch: &Winch) -> Self {
-        let Winch { name, drum_side_length, stiffness, drum_mass, motor_mass, .. } = winch;
+        let Winch { name, drum_side_length, stiffness, drum_mass, motor_mass, guide_wheels, .. } = winch;
+        let guide_wheel = |wheel: &GuideWheel| {
+            let GuideWheel { name, distance, mass } = wheel;
+            CheckedGuideWheel { name: name.clone(), distance_m: *distance, mass_kg: *mass }
+        };
         let servo = if let Control::Position(servo) = winch.control { Some(servo) } else { None };
         let control = match winch.control {
             Control::Ideal => None,
@@ -279,13 +297,14 @@ impl CheckedWinch {
             stiffness_n_per_m: stiffness.is_finite().then_some(*stiffness),
             drum_mass_kg: Some(*drum_mass).filter(|mass| *mass > 0.0),
             motor_mass_kg: Some(*motor_mass).filter(|mass| *mass > 0.0),
+            guide_wheels: guide_wheels.iter().map(guide_wheel).collect(),
             control,
             position_gain_n_per_m: servo.map(|servo| servo.position_gain),
             speed_gain_n_s_per_m: servo.map(|servo| servo.speed_gain),
         }
     }
 
-    /// Motion of its drum in one phrase; `None` for a motor that holds its angle and has no inertia.
+    /// Motion of its drum and guide wheels in one phrase; `None` for a motor that holds its angle where nothing has inertia.
     pub fn drive_text(&self) -> Option<String> {
         let mass = self.drum_mass_kg.unwrap_or(0.0) + self.motor_mass_kg.unwrap_or(0.0);
         let inertia = (mass > 0.0).then(|| format!("{} kg", short(mass, 4)));
@@ -294,8 +313,10 @@ impl CheckedWinch {
             (Some(control), None) => Some(format!("constant {control}")),
             (None, _) => inertia.is_some().then(|| "motor held".to_owned()),
         };
-        (inertia.is_some() || control.is_some())
-            .then(|| inertia.into_iter().chain(control).collect::<Vec<_>>().join(", "))
+        let guides: f64 = self.guide_wheels.iter().map(|wheel| wheel.mass_kg).sum();
+        let guides = (guides > 0.0).then(|| format!("guide wheels {} kg", short(guides, 4)));
+        let parts: Vec<String> = inertia.into_iter().chain(control).chain(guides).collect();
+        (!parts.is_empty()).then(|| parts.join(", "))
     }
 }
 

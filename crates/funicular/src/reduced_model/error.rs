@@ -45,9 +45,6 @@ pub enum ReductionError {
         /// Number of the input, from 1.
         input: usize,
     },
-    /// A signal is a motion of the frame.
-    #[error("the reduced model has no motions of the base or of anchors: use `frf` for them")]
-    FrameSignal,
     /// The motion of a point on a cable is not known.
     #[error(transparent)]
     CableMotion(#[from] CableMotionError),

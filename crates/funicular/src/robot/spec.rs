@@ -10,6 +10,7 @@
 
 mod cables;
 mod drives;
+mod guide_wheels;
 mod issue;
 pub mod key;
 mod limits;
@@ -54,6 +55,13 @@ const ROOT: &[Key] = &[
         .without(Absent::Means("no pulleys")),
     Key::other("winches", "[winches.drum]", KeyValue::NamedTables, "winches that cables refer to, each with a name")
         .without(Absent::Means("no winches: all cables end at their anchors")),
+    Key::other(
+        "guide_wheels",
+        "[guide_wheels.post]",
+        KeyValue::NamedTables,
+        "guide wheels with inertia between winches and entry points, each with a name",
+    )
+    .without(Absent::Means("guide wheels without inertia: their effect is that of the length of the drum side")),
     Key::other(
         "supports",
         "[supports.post]",
@@ -161,6 +169,7 @@ pub const TABLES: &[Table] = &[
     Table { header: "[materials.NAME]", keys: materials::KEYS },
     Table { header: "[pulleys.NAME]", keys: drives::PULLEY },
     Table { header: "[winches.NAME]", keys: winches::WINCH },
+    Table { header: "[guide_wheels.NAME]", keys: guide_wheels::GUIDE_WHEEL },
     Table { header: "[supports.NAME]", keys: supports::SUPPORT },
     Table { header: "[[cables]]", keys: cables::KEYS },
     Table { header: "[loads]", keys: LOADS },

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 /// Drive behind the cables of a robot of these tests.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Behind {
+enum Behind {
     /// Fixed ends.
     Nothing,
     /// Pulleys and drums on the supports.
@@ -26,7 +26,7 @@ impl Behind {
 }
 
 /// CoGiRo on four posts with two cables each.
-pub fn cogiro(behind: Behind) -> Robot {
+fn cogiro(behind: Behind) -> Robot {
     let mut text = funicular_robots::COGIRO.to_owned();
     for (name, post) in ["1", "2", "3", "4", "5", "6", "7", "8"].into_iter().zip("aabbccdd".chars()) {
         let drive = if behind == Behind::Nothing { "" } else { "pulley = \"wheel\"\nwinch = \"drum\"\n" };
@@ -54,7 +54,7 @@ fn lengths(rest: &Equilibrium) -> Vec<f64> {
 }
 
 /// The robot at rest at a pose, from the lengths that hold it there.
-pub fn at_rest(robot: &Robot) -> Equilibrium {
+fn at_rest(robot: &Robot) -> Equilibrium {
     let pose = Pose::new([1.0, 2.0, 1.5], [2.0, 1.0, 5.0]);
     let held = statics::inverse(robot, &pose, StaticModel::Catenary).unwrap();
     statics::forward(robot, &lengths(&held), StaticModel::Catenary, Some(&held.pose)).unwrap()

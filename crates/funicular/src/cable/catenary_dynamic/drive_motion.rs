@@ -151,6 +151,13 @@ impl DriveAt {
         (0..count).map(|i| std::array::from_fn(|s| moved(i, s))).collect()
     }
 
+    /// Adds the motions `R p` by forces p on the motions to `motions`.
+    pub(super) fn add_motion_by(&self, forces: &[Complex], motions: &mut [Complex]) {
+        for (i, motion) in motions.iter_mut().enumerate() {
+            *motion += forces.iter().enumerate().map(|(j, force)| self.receptance[(i, j)] * force).sum::<Complex>();
+        }
+    }
+
     /// Forces `Δ (1 + R Δ)⁻¹ z` of the additional stiffness `delta` of the drive [N/m], whose motion without them is
     /// `free`.
     pub(super) fn forces(&self, delta: &[Complex], free: &[Complex]) -> Vec<Complex> {
@@ -208,6 +215,14 @@ impl DriveLosses {
 }
 
 impl DriveMotion {
+    /// Slow motion of all motions with the carrier of the end, the platform end held: per component (e, n, b).
+    pub(super) fn with_carrier(&self) -> Vec<[f64; 3]> {
+        let along = self.along.still.iter().map(|[[_, _, e, n], _]| [*e, *n, 0.0]);
+        let sideways = self.sideways.still.iter().map(|[[_, b]]| [0.0, 0.0, *b]);
+        let coupled = self.coupled.still.iter().map(|[[_, _, _, e, n, b], ..]| [*e, *n, *b]);
+        along.chain(sideways).chain(coupled).collect()
+    }
+
     /// Motions in the clamped mode with this index of a family [1/√kg]; zero for motions that it does not contain.
     pub(super) fn in_mode(&self, family: Family, index: usize) -> Vec<f64> {
         let mut motions = vec![0.0; self.flexibility.nrows()];
@@ -250,12 +265,8 @@ impl InternalMotion {
 
         // The clamped modes under these forces.
         for family in Family::ALL {
-            let (amplitudes, poles) = match family {
-                Family::InPlane => (&mut self.in_plane, &cable.in_plane.poles[..]),
-                Family::OutOfPlane => (&mut self.out_of_plane, &cable.out_of_plane.poles[..]),
-                Family::Coupled => (&mut self.coupled, cable.coupled_poles()),
-            };
-            for (index, (amplitude, pole)) in amplitudes.iter_mut().zip(poles).enumerate() {
+            for (index, (amplitude, pole)) in self.amplitudes(family).iter_mut().zip(cable.poles_of(family)).enumerate()
+            {
                 let force: Complex =
                     drive.in_mode(family, index).iter().zip(&forces).map(|(phi, force)| force * *phi).sum();
                 *amplitude -= force / (*pole - square);

@@ -16,6 +16,7 @@ const RIGID: Winch = Winch {
     name: String::new(),
     drum_side_length: 5.0,
     drum_side: DrumSide::Massless,
+    guide_wheels: Vec::new(),
     stiffness: f64::INFINITY,
     drum_mass: 0.0,
     motor_mass: 0.0,
