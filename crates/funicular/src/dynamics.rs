@@ -13,7 +13,7 @@ pub(crate) use null_vectors::NullVector;
 
 use crate::cable::catenary_dynamic::{CatenaryDynamicError, EndSignal};
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, span_stiffness};
-use crate::math::{CMat6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6, order};
+use crate::math::{CMat6, CVec6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6, order};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
 use crate::robot::{Damping, PlatformMotion, Robot, WinchMode};
 use crate::statics::{CableState, Equilibrium};
@@ -232,9 +232,6 @@ impl Dynamics {
             }
         }
 
-        // Supports without mass are springs.
-        let (supports, lost) = supports.map_or_else(|| (None, Mat6::zeros()), SupportsBuilder::finish);
-
         // Static forces on their lever arms.
         if assembly == Assembly::Consistent {
             constant += static_terms(&settled, equilibrium);
@@ -243,11 +240,11 @@ impl Dynamics {
         Ok(Self {
             coordinates,
             // Symmetric to rounding at an equilibrium; the methods below need exact symmetry.
-            constant: coordinates.reduce_symmetric(&constant) - lost,
+            constant: coordinates.reduce_symmetric(&constant),
             mass: coordinates.reduce_matrix(&mass_matrix(&robot.platform, &equilibrium.pose)),
             platform_damping: coordinates.reduce_matrix(&damping_matrix(&robot.platform, &equilibrium.pose)),
             terms,
-            supports: supports.map(Box::new),
+            supports: supports.map(|supports| Box::new(supports.finish())),
             linearisation,
             damping: robot.cables.iter().map(|c| (c.material.damping, c.material.mass_per_length)).collect(),
         })
@@ -341,6 +338,15 @@ impl Dynamics {
                 re.zip_map(&im, Complex::new)
             }
         }
+    }
+
+    /// Vector about the platform origin, world axes [N, N·m], of a scaled one over the platform's coordinates.
+    pub(crate) fn unscaled_vector(&self, vector: &CVec6) -> CVec6 {
+        let scale = self.scale();
+        let expanded =
+            |part: fn(&Complex) -> f64| self.coordinates.motion().expanded(&vector.map(|entry| part(&entry)));
+        let (re, im) = (expanded(|entry| entry.re), expanded(|entry| entry.im));
+        CVec6::from_fn(|i, _| Complex::new(re[i], im[i]) * scale[i])
     }
 
     /// Matrix over motions in world axes [m, rad] of a scaled one over the platform's coordinates.

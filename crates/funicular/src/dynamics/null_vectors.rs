@@ -91,6 +91,7 @@ impl Dynamics {
         let x = omega * omega;
         let pencil = BorderedPencil::at(self, x);
         let (a, m) = pencil.matrices(self.dof(), x);
+        let (a, m, still) = without_massless(a, m, self.dof() + pencil.near.len());
 
         // The mass of platform and cables is positive definite, because the motions are independent.
         let Some(factor) = m.cholesky() else { return Vec::new() };
@@ -102,7 +103,8 @@ impl Dynamics {
         nearest_zero(all.eigenvalues.as_slice(), several)
             .map(|k| {
                 let v = l.tr_solve_lower_triangular(&all.eigenvectors.column(k)).expect("the factor is regular");
-                pencil.null_vector(self, omega, v.as_slice(), all.eigenvalues[k].abs() / x)
+                let v = still.as_ref().map_or_else(|| v.as_slice().to_vec(), |still| still.completed(v.as_slice()));
+                pencil.null_vector(self, omega, &v, all.eigenvalues[k].abs() / x)
             })
             .collect()
     }
@@ -270,6 +272,41 @@ impl BorderedPencil {
             residual,
         }
     }
+}
+
+/// Coordinates without mass, which follow the others.
+struct Still {
+    /// Places of the coordinates with mass, and of those without.
+    moving: Vec<usize>,
+    still: Vec<usize>,
+    /// Coordinates without mass per coordinate with mass.
+    follow: DMat,
+}
+
+impl Still {
+    /// Vector over all coordinates from one over those with mass.
+    fn completed(&self, moving: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; self.moving.len() + self.still.len()];
+        self.moving.iter().zip(moving).for_each(|(place, value)| all[*place] = *value);
+        for (row, place) in self.follow.row_iter().zip(&self.still) {
+            all[*place] = row.iter().zip(moving).map(|(follow, value)| follow * value).sum();
+        }
+        all
+    }
+}
+
+/// Matrices without the coordinates of supports that have no mass, which begin at `first`; `None` if all have some.
+fn without_massless(a: DMat, m: DMat, first: usize) -> (DMat, DMat, Option<Still>) {
+    let (still, moving): (Vec<usize>, Vec<usize>) = (0..a.nrows()).partition(|i| *i >= first && m[(*i, *i)] == 0.0);
+    if still.is_empty() {
+        return (a, m, None);
+    }
+    let block = |of: &DMat, rows: &[usize], columns: &[usize]| of.select_rows(rows).select_columns(columns);
+    let held = block(&a, &still, &still).lu().solve(&block(&a, &still, &moving));
+    let follow = -held.unwrap_or_else(|| DMat::zeros(still.len(), moving.len()));
+    let reduced = block(&a, &moving, &moving) + block(&a, &moving, &still) * &follow;
+    let mass = block(&m, &moving, &moving);
+    (reduced, mass, Some(Still { moving, still, follow }))
 }
 
 /// Indices of the `several` values of smallest magnitude, in ascending order of magnitude.

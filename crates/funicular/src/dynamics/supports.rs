@@ -11,7 +11,7 @@
 //! (docs/theory.md, equations (91) and (92)).
 
 use super::{DynamicCableAt, Dynamics};
-use crate::cable::catenary_dynamic::{ENDS, NearPole, NearRanges, TwoEnded};
+use crate::cable::catenary_dynamic::{CarrierMotion, ENDS, NearPole, NearRanges, TwoEnded};
 use crate::cable::{DynamicCable, LocalAxes};
 use crate::math::{CDMat, CMat6, Complex, DMat, DVec, Mat3, Mat6, Vec3, Vec6};
 use crate::platform::{Coordinates, wrench_columns};
@@ -31,13 +31,15 @@ pub(crate) struct Supports {
     loss: DMat,
     /// Cables on supports, per cable whose stiffness depends on frequency.
     carried: Vec<Option<Carried>>,
-    /// Names of the supports.
-    names: Vec<String>,
+    /// First coordinate of the support of each cable of the robot; `None` for a rigid anchor.
+    of_cable: Vec<Option<usize>>,
 }
 
 /// Cable on a support, whose stiffness depends on frequency.
 #[derive(Debug, Clone, PartialEq)]
 struct Carried {
+    /// True if its drum stays on the ground.
+    from_ground: bool,
     /// First coordinate of its support.
     first: usize,
     /// Stiffness of both ends.
@@ -99,7 +101,7 @@ impl<'a> SupportsBuilder<'a> {
             mass: DMat::zeros(count, count),
             loss: DMat::zeros(count, count),
             carried: Vec::new(),
-            names: Vec::new(),
+            of_cable: robot.cables.iter().map(|cable| Some(3 * cable.anchor.support?)).collect(),
         };
         for (i, support) in robot.supports.iter().enumerate() {
             let block = |matrix: &mut DMat, value: &Mat3| matrix.view_mut((3 * i, 3 * i), (3, 3)).copy_from(value);
@@ -133,7 +135,12 @@ impl<'a> SupportsBuilder<'a> {
         let still = Vec3::zeros();
         let directions_w = [still, still, still, e, n, b, side.direction_w];
         let both = TwoEnded::new(end, side.from_ground);
-        self.supports.carried.push(Some(Carried { first: 3 * support, both, directions_w }));
+        self.supports.carried.push(Some(Carried {
+            from_ground: side.from_ground,
+            first: 3 * support,
+            both,
+            directions_w,
+        }));
 
         // The tension of a drum side from the ground, and the mass of one that moves with the support.
         let mut stiffness = self.supports.stiffness.view_mut((3 * support, 3 * support), (3, 3));
@@ -146,39 +153,8 @@ impl<'a> SupportsBuilder<'a> {
         }
     }
 
-    /// Supports with mass, or with cables that have some. The others have no motion of their own: the stiffness that the
-    /// platform loses by them is the second result; scaled [N/m].
-    pub(super) fn finish(self) -> (Option<Supports>, Mat6) {
-        let Supports { stiffness, coupling, mass, loss, mut carried, .. } = self.supports;
-        let moves =
-            |first: usize| mass[(first, first)] > 0.0 || carried.iter().flatten().any(|carried| carried.first == first);
-        let (kept, still): (Vec<usize>, Vec<usize>) = (0..self.robot.supports.len()).partition(|i| moves(3 * i));
-
-        let mut lost = Mat6::zeros();
-        for i in still {
-            let columns = coupling.columns(3 * i, 3).into_owned();
-            if let Some(solved) = stiffness.view((3 * i, 3 * i), (3, 3)).into_owned().lu().solve(&columns.transpose()) {
-                lost += Mat6::from_fn(|r, c| (columns.row(r) * solved.column(c))[0]);
-            }
-        }
-        if kept.is_empty() {
-            return (None, lost);
-        }
-
-        let places: Vec<usize> = kept.iter().flat_map(|i| 3 * i..3 * i + 3).collect();
-        let block = |matrix: &DMat| DMat::from_fn(places.len(), places.len(), |i, j| matrix[(places[i], places[j])]);
-        for carried in carried.iter_mut().flatten() {
-            carried.first = 3 * kept.iter().position(|i| 3 * i == carried.first).unwrap_or_default();
-        }
-        let supports = Supports {
-            stiffness: block(&stiffness),
-            coupling: coupling.select_columns(&places),
-            mass: block(&mass),
-            loss: block(&loss),
-            carried,
-            names: kept.iter().map(|i| self.robot.supports[*i].name.clone()).collect(),
-        };
-        (Some(supports), lost)
+    pub(super) fn finish(self) -> Supports {
+        self.supports
     }
 }
 
@@ -261,6 +237,25 @@ impl Supports {
             row
         };
         Some(carried.both.drive(x, left_out).into_iter().map(by_supports).collect())
+    }
+
+    /// Motion of the carrier of a cable's end per displacement of its support along each axis of the world, with the first
+    /// coordinate of that support. The cable is given by its index among the terms; `None` for a rigid anchor.
+    pub(crate) fn carrier_motions(&self, term: usize) -> Option<(usize, [CarrierMotion; 3])> {
+        let carried = self.carried[term].as_ref()?;
+        let [.., e, n, b, along] = carried.directions_w;
+        let motion = |k: usize| CarrierMotion {
+            displacement: [e[k], n[k], b[k]],
+            on_swivel: 0.0,
+            along_drum_side: along[k],
+            with_drum: !carried.from_ground,
+        };
+        Some((carried.first, [0, 1, 2].map(motion)))
+    }
+
+    /// First coordinate of the support of a cable of the robot; `None` for a rigid anchor.
+    pub(crate) fn of_cable(&self, cable: usize) -> Option<usize> {
+        self.of_cable[cable]
     }
 
     /// Motion of both ends of a cable by the supports alone; `None` for a rigid anchor.
@@ -369,6 +364,15 @@ impl Dynamics {
     /// finite at a frequency at which undamped supports vibrate with the platform at rest.
     pub(super) fn damped_loss(&self, supports: &Supports, omega: f64) -> CMat6 {
         lost(&self.damped_rows(supports, omega))
+    }
+
+    /// Y⁻¹ B ᵀ and Y⁻¹ at ω [rad/s] with all damping: displacements of supports, less their sign, per scaled motion of the
+    /// platform, and per force on them. `None` on a rigid frame.
+    pub(crate) fn support_response(&self, omega: f64) -> Option<(CDMat, CDMat)> {
+        let rows = self.damped_rows(self.supports()?, omega);
+        let count = rows.own.0.nrows();
+        let free = rows.own.0.try_inverse().unwrap_or_else(|| CDMat::repeat(count, count, f64::INFINITY.into()));
+        Some((&free * rows.coupling.0.transpose(), free))
     }
 
     /// Stiffness of [`damped_loss`](Self::damped_loss); zero on a rigid frame.

@@ -1,10 +1,13 @@
 //! Robots whose anchors are on flexible supports: equilibria against robots with rigid, displaced anchors, and stiffness
 //! against differences.
 
-use funicular::cable::CableModel;
+use funicular::cable::catenary_dynamic::DriveSignal;
+use funicular::cable::{CableModel, LocalAxes};
+use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Mat3, Vec3};
 use funicular::modes::{self, Kind};
+use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::{Control, DrumPlace, DrumSide, Pose, Robot, Servo};
 use funicular::statics::{self, CableState, Equilibrium, StaticModel, TensionRule};
 use nalgebra::{DMatrix, Matrix3};
@@ -445,6 +448,96 @@ fn drives_on_supports_are_part_of_the_count() {
         assert_eq!(stiff.len(), frame.len());
         for (stiff, frame) in stiff.iter().zip(&frame) {
             assert!((stiff / frame - 1.0).abs() < 1e-5, "{behind:?}: {stiff} and {frame}");
+        }
+    }
+}
+
+/// Signals of drives and points of cables: at rest the derivatives of forward statics, and reciprocal at any frequency.
+#[test]
+fn responses_include_the_supports() {
+    for behind in Behind::ALL {
+        let robot = cogiro(behind);
+        let rest = at_rest(&robot);
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 6.0).unwrap();
+        let along = |direction_w: Vec3| Signal::Along { direction_w, point_p: Vec3::zeros() };
+        let drive = |cable: usize, signal: DriveSignal| Signal::Drive { cable, signal };
+        let responses = |hz: f64, inputs: &[Signal], outputs: &[Signal], loaded: bool| {
+            let inputs = Port::all(&robot, &rest, &dynamics, inputs, loaded).unwrap();
+            let outputs = Port::all(&robot, &rest, &dynamics, outputs, loaded).unwrap();
+            let outputs: Vec<(Port, Quantity)> = outputs.into_iter().map(|p| (p, Quantity::Displacement)).collect();
+            response::matrix(&dynamics, &[hz], &inputs, &outputs).unwrap().iter().map(|row| row[0]).collect::<Vec<_>>()
+        };
+
+        // A length that is paid out: motion of the platform, and tensions of cables on this support and others.
+        let outputs = [
+            along(Vec3::x()),
+            along(Vec3::z()),
+            drive(1, DriveSignal::Tension),
+            drive(0, DriveSignal::DrumTension),
+            drive(1, DriveSignal::DrumTension),
+            drive(6, DriveSignal::Tension),
+        ];
+        let found = responses(1e-4, &[drive(0, DriveSignal::Length)], &outputs, false);
+        let step = 1e-6;
+        let [ahead, back] = [step, -step].map(|amount| {
+            let mut lengths = lengths(&rest);
+            lengths[0] += amount;
+            statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&rest.pose)).unwrap()
+        });
+        let measured = |at: &Equilibrium| {
+            let (p, cables) = (at.pose.position_w, &at.cables);
+            let tensions = [cables[1].tension_platform, cables[0].tension_drum(), cables[1].tension_drum()];
+            [p.x, p.z, tensions[0], tensions[1], tensions[2], cables[6].tension_platform]
+        };
+        for (k, (found, (ahead, back))) in found.iter().zip(measured(&ahead).iter().zip(measured(&back))).enumerate() {
+            let difference = (ahead - back) / (2.0 * step);
+            // Rounding of the equilibria over the step; a bent cable adds its linearised turn to the tension.
+            assert!(
+                (found.re - difference).abs() < 2e-5 * difference.abs().max(1.0),
+                "{behind:?}, {k}: {found} {difference}"
+            );
+        }
+
+        // Reciprocity between the platform, points of cables on one support and on two, and lengths.
+        let point = |cable: usize| Signal::OnCable { cable, fraction: 0.4, direction_w: Vec3::new(0.3, 0.2, 1.0) };
+        let ports = [along(Vec3::y()), point(0), point(1), point(5)];
+        let both = Port::all(&robot, &rest, &dynamics, &ports, true).unwrap();
+        let outputs: Vec<(Port, Quantity)> = both.iter().map(|p| (p.clone(), Quantity::Displacement)).collect();
+        let all = response::matrix(&dynamics, &[3.7], &both, &outputs).unwrap();
+        for i in 0..4 {
+            for j in 0..4 {
+                let (one, other) = (all[4 * i + j][0], all[4 * j + i][0]);
+                assert!((one - other).norm() < 1e-9 * one.norm(), "{behind:?}, {i} {j}: {one} {other}");
+            }
+        }
+    }
+}
+
+/// In a mode, the far end of a cable moves as its support does, and the points between follow without a jump.
+#[test]
+fn cables_follow_their_supports_in_modes() {
+    for behind in Behind::ALL {
+        let robot = cogiro(behind);
+        let rest = at_rest(&robot);
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 9.0).unwrap();
+        let found = modes::below(&dynamics, 9.0);
+        let mode = &found.modes[found.first_platform(0.5).unwrap()];
+        let fractions: Vec<f64> = (0..=200).map(|k| f64::from(k) / 200.0).collect();
+        let [first, second] = [0, 1].map(|cable| {
+            let stations = CableStations::new(&robot, &rest, &dynamics, cable, &fractions, false).unwrap();
+            let moved = stations.in_mode(&dynamics, mode);
+            let LocalAxes { e, n, b } = stations.axes;
+            let points_w: Vec<Vec3> = moved.iter().map(|[x, y, z]| e * *x + n * *y + b * *z).collect();
+            for pair in points_w.windows(2) {
+                assert!((pair[0] - pair[1]).norm() < 0.3);
+            }
+            points_w[200]
+        });
+        // Without drives, both cables of a post end at one displacement.
+        let size = first.norm();
+        assert!(size > 1e-4, "{behind:?}: {size}");
+        if behind == Behind::Nothing {
+            assert!((first - second).norm() < 1e-9 * size, "{first:?} {second:?}");
         }
     }
 }

@@ -5,7 +5,7 @@
 //! moves with the support. For that motion a clamped mode has the participation `μ − κ/ω_k²`, κ and μ being its work on the
 //! stiffness and the mass between drum side and drive (docs/theory.md, equation (92)).
 
-use super::{CatenaryDynamicEnd, DriveMotion, Family, NearRanges, PoleResidue};
+use super::{CatenaryDynamic, CatenaryDynamicEnd, DriveMotion, Family, InternalMotion, NearRanges, PoleResidue};
 use crate::math::{Complex, DMat};
 
 /// Number of motions at the ends.
@@ -109,7 +109,7 @@ impl TwoEnded {
     fn add_drum_side(&mut self, end: &CatenaryDynamicEnd, from_ground: bool) {
         let Some((chain, drive)) = end.chain().zip(end.cable.drive.as_ref()) else { return };
         // A motion of the entry point, where the stretch is that at the drum, as one of the end of the drum side.
-        let ratio = chain.drum_end.as_ref().map_or(1.0, |end| end.ratio);
+        let ratio = end.drum_side_ratio();
         let work = |motion: usize| match chain.drum_side.get(motion) {
             Some(side) if from_ground => (ratio * side.stiffness, ratio * side.mass),
             Some(side) => (0.0, side.carried_mass),
@@ -199,16 +199,34 @@ impl TwoEnded {
         let found = self.modes.iter().find(|mode| mode.family == family && mode.index == index);
         found.map_or([0.0; ENDS], |mode| mode.participation)
     }
+}
 
-    /// Amplitudes of the clamped modes of a family for a motion of the entry point along the drum side, at x = ω_c².
-    pub(crate) fn by_drum_side(
-        &self,
-        family: Family,
-        along: Complex,
-        x: Complex,
-    ) -> impl Iterator<Item = Complex> + '_ {
-        let of_family = self.modes.iter().filter(move |mode| mode.family == family);
-        of_family.map(move |mode| (x * mode.on_drum_side.1 - mode.on_drum_side.0) / (mode.pole - x) * along)
+impl InternalMotion {
+    /// Adds the motion by a support, which moves the far end, to one that follows from the platform end alone. `ends` is the
+    /// motion of the ends by the support, at x = ω_c².
+    pub(crate) fn add_carrier(&mut self, cable: &CatenaryDynamic, both: &TwoEnded, ends: [Complex; ENDS], x: Complex) {
+        let [_, _, _, e, n, b, along] = ends;
+        let still = Complex::new(0.0, 0.0);
+        let by_end = Self::between(cable, [still; 3], [e, n, b], x);
+        for (sum, moved) in self.in_plane_ends.iter_mut().zip(by_end.in_plane_ends) {
+            *sum += moved;
+        }
+        for (sum, moved) in self.out_of_plane_ends.iter_mut().zip(by_end.out_of_plane_ends) {
+            *sum += moved;
+        }
+        let families = [
+            (&mut self.in_plane, by_end.in_plane, Family::InPlane),
+            (&mut self.out_of_plane, by_end.out_of_plane, Family::OutOfPlane),
+            (&mut self.coupled, by_end.coupled, Family::Coupled),
+        ];
+        for (amplitudes, by_end, family) in families {
+            amplitudes.iter_mut().zip(by_end).for_each(|(sum, moved)| *sum += moved);
+            // The forces of the drum side on the drive.
+            for mode in both.modes.iter().filter(|mode| mode.family == family) {
+                let (stiff, heavy) = mode.on_drum_side;
+                amplitudes[mode.index] += (x * heavy - stiff) / (mode.pole - x) * along;
+            }
+        }
     }
 }
 
