@@ -32,6 +32,14 @@ pub enum DrumPlace {
 }
 
 impl DrumPlace {
+    /// Name in a robot file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::OnSupport => "on-support",
+            Self::OnGround => "on-ground",
+        }
+    }
+
     /// Values in a robot file with their meanings.
     pub(super) const WORDS: &[(&str, &str)] = &[
         ("on-support", "the drums move with the support"),

@@ -46,7 +46,7 @@ pub(crate) fn displacements(robot: &Robot, cables: &[CableState]) -> Vec<Vec3> {
 
 impl Equilibrium {
     /// Robot with rigid supports where they are at this equilibrium; the robot itself if its supports are rigid.
-    pub(crate) fn settled<'a>(&self, robot: &'a Robot) -> Cow<'a, Robot> {
+    pub fn settled<'a>(&self, robot: &'a Robot) -> Cow<'a, Robot> {
         if robot.has_supports() {
             Cow::Owned(robot.displaced(&displacements(robot, &self.cables)))
         } else {
