@@ -4,23 +4,19 @@
 //! the waves of a drum side with mass, the drum and the motor, as motions of the cable there towards the wheel. What cannot
 //! move has no motion: a rigid winch is a wall (docs/theory.md, equations (75) to (79)).
 
-use super::{AnchorEnd, DriveAtRest};
-use crate::math::{Complex, DMat, legendre};
-use crate::robot::{Anchor, Control, DrumSide, GuideWheel, Servo, Winch, WinchMode};
-use std::ops::Range;
+mod parts;
 
-/// Polynomial degree of a drum side with mass per radian of an axial wave's phase, and its degrees besides. A wave needs
-/// 0.5 degrees per radian; the rest is margin. The stiffness is then exact to 1e-10, which a test checks up to 50 radians;
-/// with 0.5 it is 4e-10 there.
-const DEGREE_PER_RADIAN: f64 = 0.7;
-const BASE_DEGREE: f64 = 8.0;
+use super::DriveAtRest;
+use crate::math::{Complex, DMat, legendre};
+use crate::robot::{Anchor, Servo, WinchMode};
+use parts::{Layout, Parts};
 
 /// Motions behind the exit point of a cable, as a chain from the wheel to the motor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriveChain {
     /// Stiffness over the motions, with the position gain of a control [N/m]; symmetric.
     pub stiffness: DMat,
-    /// Mass of wheel, drum and motor over the motions [kg]; diagonal.
+    /// Mass of wheel, guide wheels, drum and motor over the motions [kg]; diagonal.
     pub mass: DMat,
     /// Mass of the cable between drum and exit point over the motions [kg]; symmetric.
     pub cable_mass: DMat,
@@ -155,8 +151,8 @@ impl Assembly {
             ratio: parts.stretch / parts.stretch_drum,
         };
         let mut carried = vec![0.0; layout.count];
-        let (nodes, last) = (layout.nodes(), parts.pieces.len());
-        for (piece, ends) in nodes.windows(2).enumerate() {
+        let last = parts.pieces.len();
+        for (piece, ends) in layout.nodes.windows(2).enumerate() {
             let (spring, at_drum) = (parts.spring(piece), piece + 1 == last);
             let both: Vec<Place> = ends[0].into_iter().chain(ends[1].map(|end| end.times(-1.0))).collect();
             self.spring(spring, &both);
@@ -232,184 +228,6 @@ impl DrumEnd {
 
 /// Slip of the cable on the wheel: the first motion of every chain.
 const SLIP: Place = Place { motion: 0, factor: 1.0 };
-
-/// Parts from which a chain is built.
-struct Parts<'a> {
-    winch: Option<&'a Winch>,
-    /// Control of the motor in the requested mode of winches.
-    control: Control,
-    /// Mechanical stiffness of the winch at the cable [N/m]; infinite for a rigid one.
-    shaft: f64,
-    /// EA [N] and mass per length [kg/m] of the cable.
-    axial_stiffness: f64,
-    mass_per_length: f64,
-    /// Stretch at the exit point, and at the drum.
-    stretch: f64,
-    stretch_drum: f64,
-    /// Compliance of each piece of arc and drum side [m/N], from the exit point on; the arc belongs to the first. Empty if the
-    /// drum is at the exit point.
-    pieces: Vec<f64>,
-    /// Masses of the guide wheels between the pieces [kg].
-    guides: Vec<f64>,
-}
-
-/// Compliance of each piece of arc and drum side between guide wheels with mass [m/N], and the masses of these wheels [kg].
-fn pieces(anchor: &Anchor, drive: &DriveAtRest, axial_stiffness: f64) -> (Vec<f64>, Vec<f64>) {
-    let whole = drive.end.rope_compliance;
-    if whole <= 0.0 {
-        return (Vec::new(), Vec::new());
-    }
-    let heavy = |winch: &Winch| winch.guide_wheels.iter().filter(|wheel| wheel.mass > 0.0).cloned().collect();
-    let guides: Vec<GuideWheel> = anchor.winch.as_ref().map_or_else(Vec::new, heavy);
-    if guides.is_empty() {
-        return (vec![whole], Vec::new());
-    }
-
-    // The drum side is uniform; the rest of the compliance is that of the arc.
-    let straight = drive.drum_side_length / (axial_stiffness * drive.end.stretch_drum.powi(2));
-    let length = anchor.drum_side_length();
-    let ends: Vec<f64> = [0.0].into_iter().chain(guides.iter().map(|wheel| wheel.distance)).chain([length]).collect();
-    let mut pieces: Vec<f64> = ends.windows(2).map(|ends| straight * (ends[1] - ends[0]) / length).collect();
-    pieces[0] += whole - straight;
-    (pieces, guides.iter().map(|wheel| wheel.mass).collect())
-}
-
-impl<'a> Parts<'a> {
-    /// Parts behind an end; `None` if nothing of them moves.
-    fn of(
-        anchor: &'a Anchor,
-        drive: &DriveAtRest,
-        (axial_stiffness, mass_per_length): (f64, f64),
-        mode: WinchMode,
-    ) -> Option<Self> {
-        let winch = anchor.winch.as_ref();
-        let control = match (mode, winch) {
-            (WinchMode::Stuck, _) => return None,
-            (WinchMode::Clamped, _) | (_, None) => Control::Ideal,
-            (WinchMode::Torque, Some(_)) => Control::Torque,
-            (WinchMode::AsGiven, Some(winch)) => winch.control,
-        };
-        let (pieces, guides) = pieces(anchor, drive, axial_stiffness);
-        let AnchorEnd { stretch, stretch_drum, .. } = drive.end;
-        let parts = Self {
-            winch,
-            control,
-            shaft: winch.map_or(f64::INFINITY, |winch| winch.stiffness),
-            axial_stiffness,
-            mass_per_length,
-            stretch,
-            stretch_drum,
-            pieces,
-            guides,
-        };
-        (parts.has_rope() || parts.drum_moves()).then_some(parts)
-    }
-
-    /// True if there is cable between exit point and drum.
-    fn has_rope(&self) -> bool {
-        !self.pieces.is_empty()
-    }
-
-    fn motor_moves(&self) -> bool {
-        self.control != Control::Ideal
-    }
-
-    fn drum_moves(&self) -> bool {
-        self.motor_moves() || self.shaft.is_finite()
-    }
-
-    fn servo(&self) -> Option<Servo> {
-        if let Control::Position(servo) = self.control { Some(servo) } else { None }
-    }
-
-    /// Stiffness of a piece of arc and drum side on σ [N/m]; that of all pieces is k_r of equation (75).
-    fn spring(&self, piece: usize) -> f64 {
-        1.0 / (self.stretch * self.stretch * self.pieces[piece])
-    }
-
-    /// Mass of a drum side that is a rod [kg]; zero for one without mass.
-    fn rod_mass(&self) -> f64 {
-        let length: f64 = (0..self.pieces.len()).map(|piece| self.rod_length(piece)).sum();
-        if self.is_rod() { self.mass_per_length * length } else { 0.0 }
-    }
-
-    /// Length of the uniform rod with the stiffness of a piece [m].
-    fn rod_length(&self, piece: usize) -> f64 {
-        self.axial_stiffness / self.spring(piece)
-    }
-
-    /// True if the mass of the cable between exit point and drum counts.
-    fn is_rod(&self) -> bool {
-        let wanted = self.winch.is_some_and(|winch| winch.drum_side == DrumSide::Rod);
-        wanted && self.has_rope() && self.mass_per_length > 0.0
-    }
-}
-
-/// Order of the motions: σ, guide wheels, waves of the drum side, drum, motor.
-struct Layout {
-    count: usize,
-    /// Guide wheels, as motions of the cable there.
-    guides: Vec<Place>,
-    /// Ratio of the stretch at the exit point to that at the drum: motion of σ per motion of the cable on the drum side.
-    ratio: f64,
-    /// Motions that are waves of each piece of the drum side.
-    waves: Vec<Range<usize>>,
-    /// Places of drum and motor, if they move. A drum at the exit point moves with σ, a rigid shaft with its motor.
-    drum: Option<Place>,
-    motor: Option<Place>,
-}
-
-impl Layout {
-    fn of(parts: &Parts, limit: f64) -> Self {
-        let mut count = 1;
-        let mut another = || {
-            count += 1;
-            Place { motion: count - 1, factor: 1.0 }
-        };
-        let guides: Vec<Place> = parts.guides.iter().map(|_| another()).collect();
-        let waves = (0..parts.pieces.len())
-            .map(|piece| {
-                let first = count;
-                if parts.is_rod() {
-                    let slowness = (parts.mass_per_length / parts.axial_stiffness).sqrt();
-                    let phase = limit * slowness * parts.rod_length(piece);
-                    count += (DEGREE_PER_RADIAN * phase + BASE_DEGREE).ceil() as usize - 1;
-                }
-                first..count
-            })
-            .collect();
-
-        let ratio = parts.stretch / parts.stretch_drum;
-        let mut another = || {
-            count += 1;
-            Place { motion: count - 1, factor: 1.0 }
-        };
-        let drum = parts.drum_moves().then(|| if parts.has_rope() { another() } else { SLIP.times(1.0 / ratio) });
-        let motor = match drum {
-            Some(drum) if parts.motor_moves() => Some(if parts.shaft.is_finite() { another() } else { drum }),
-            _ => None,
-        };
-        Self { count, guides, ratio, waves, drum, motor }
-    }
-
-    /// Ends of the pieces of the drum side from σ to the drum, as parts of their elongation: the motion of the cable there but
-    /// for the stretch. `None` for a drum that is held; empty if the drum is at the exit point.
-    fn nodes(&self) -> Vec<Option<Place>> {
-        if self.waves.is_empty() {
-            return Vec::new();
-        }
-        let guides = self.guides.iter().map(|guide| Some(guide.times(self.ratio)));
-        [Some(SLIP)].into_iter().chain(guides).chain([self.drum.map(|drum| drum.times(self.ratio))]).collect()
-    }
-
-    /// Place of a function of a piece of the drum side: its end towards the exit point, that towards the drum, then its waves.
-    fn place(&self, piece: usize, function: usize) -> Option<Place> {
-        match function {
-            0 | 1 => self.nodes()[piece + function],
-            wave => Some(Place { motion: self.waves[piece].start + wave - 2, factor: 1.0 }),
-        }
-    }
-}
 
 /// Force on the motions per unstrained length that is paid out: see [`DriveChain::by_length`].
 fn by_length(parts: &Parts, layout: &Layout, drum_end: &DrumEnd) -> Vec<(f64, f64)> {
@@ -540,6 +358,7 @@ impl DriveChain {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::robot::{Control, DrumSide, Winch};
 
     /// A rod whose end is held: its condensed stiffness is EA κ cot κs, up to the highest frequency that it is made for.
     #[test]
