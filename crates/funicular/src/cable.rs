@@ -344,7 +344,7 @@ impl EndStiffness {
                 Self::Constant(without_b(in_series(shallow_static::stiffness(&sag).in_world(&axes))))
             }
             CableModel::CatenaryStatic => Self::Constant(without_b(state.tangent_w().ok_or(NoStiffness::Rigid)?)),
-            CableModel::ShallowDynamic if drive.is_some() => {
+            CableModel::ShallowDynamic if robot.has_moving_ends() => {
                 let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
                 let limit = up_to_hz * TAU;
                 let end = moving_end(robot, i, state, &axes, winches, limit);

@@ -86,14 +86,11 @@ pub enum DynamicsError {
     },
     /// The anchor of a cable is on a flexible support.
     #[error(
-        "the anchor of cable \"{cable}\" is on a flexible support: {option} does not go with it; use the model \
-         `catenary-dynamic` with all terms"
+        "the anchor of cable \"{cable}\" is on a flexible support, which moves in all directions: leave `in-plane-only` out"
     )]
     Support {
         /// Name of the cable.
         cable: String,
-        /// Model or option that does not exist for it.
-        option: &'static str,
     },
     /// An equilibrium with ideal cables has no tangent stiffness.
     #[error(
@@ -479,15 +476,13 @@ impl Dynamics {
     }
 }
 
-/// Refuses options that do not exist for anchors on flexible supports.
+/// Refuses the option that does not exist for anchors on flexible supports.
 fn refuse_on_supports(robot: &Robot, linearisation: &Linearisation) -> Result<(), DynamicsError> {
     let Some(cable) = robot.cables.iter().find(|cable| cable.anchor.support.is_some()) else { return Ok(()) };
-    let option = match linearisation {
-        Linearisation { cable_model: CableModel::ShallowDynamic, .. } => "the model `shallow-dynamic`",
-        Linearisation { in_plane_only: true, .. } => "`in-plane-only`",
-        _ => return Ok(()),
-    };
-    Err(DynamicsError::Support { cable: cable.name.clone(), option })
+    if linearisation.in_plane_only {
+        return Err(DynamicsError::Support { cable: cable.name.clone() });
+    }
+    Ok(())
 }
 
 /// Estimated relative error of the clamped frequencies up to which a catenary-dynamic cable counts as resolved.

@@ -140,7 +140,7 @@ impl AnchorEnd {
     /// the stiffness of the span.
     ///
     /// # References
-    /// docs/theory.md, equation (89).
+    /// docs/theory.md, equation (91).
     pub(super) fn with_drum_on_ground(&self, held: &Mat3, side: &DrumSideAtRest) -> OnSupport {
         let total = self.in_series_with(held);
         let Some(by_length_w) = self.force_by_length_w(held) else { return OnSupport::moving_together(total) };

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! D_ext has the poles of single cables only, those with both ends held. So counts and modes are those of D_ext
-//! (docs/theory.md, equations (91) and (92)).
+//! (docs/theory.md, equations (92) and (93)).
 
 use super::{DynamicCableAt, Dynamics};
 use crate::cable::catenary_dynamic::{CarrierMotion, ENDS, NearPole, NearRanges, TwoEnded};

@@ -1,7 +1,7 @@
 //! Flexible support of anchors: a post, a mast or a part of the frame that yields to the cables.
 //!
 //! All anchors on one support move together, by one displacement e ∈ R³. The points of a robot file are those without
-//! forces of cables: at rest the support yields to them (docs/theory.md, section 19).
+//! forces of cables: at rest the support yields to them (docs/theory.md, section 18).
 
 use super::{Anchor, Robot};
 use crate::math::{Mat3, Vec3};
@@ -58,12 +58,11 @@ impl Support {
 }
 
 impl Robot {
-    /// This robot with rigid supports, which have been displaced [m, world axes], one displacement per support: the anchors
-    /// and, for drums on the ground, the lengths of the drum sides.
+    /// This robot with rigid anchors where its supports have been displaced [m, world axes], one displacement per support: the
+    /// anchors and, for drums on the ground, the lengths of the drum sides.
     #[must_use]
     pub(crate) fn displaced(&self, displacements_w: &[Vec3]) -> Self {
         let mut robot = self.clone();
-        robot.supports.clear();
         for cable in &mut robot.cables {
             let Some(support) = cable.anchor.support.take() else { continue };
             cable.anchor.displace(&self.supports[support], &displacements_w[support]);
@@ -71,9 +70,15 @@ impl Robot {
         robot
     }
 
+    /// True if the far end of a cable may move in vibration: over a pulley, to a winch or on a flexible support. Also true for
+    /// a robot whose supports are held.
+    pub(crate) fn has_moving_ends(&self) -> bool {
+        !self.supports.is_empty() || self.cables.iter().any(|cable| !cable.anchor.is_fixed())
+    }
+
     /// True if an anchor is on a support that yields.
     pub fn has_supports(&self) -> bool {
-        !self.supports.is_empty()
+        self.cables.iter().any(|cable| cable.anchor.support.is_some())
     }
 }
 

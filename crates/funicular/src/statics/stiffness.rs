@@ -16,7 +16,7 @@ use crate::robot::{Pose, Robot};
 /// antisymmetric half of a moment's stiffness is left out: such a moment has no energy.
 ///
 /// # References
-/// docs/theory.md, equations (14) and (90).
+/// docs/theory.md, equations (14) and (91).
 pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
     let parts: Option<Vec<_>> = equilibrium
         .cables

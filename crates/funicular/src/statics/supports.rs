@@ -2,7 +2,7 @@
 //!
 //! With the platform held, the energy of the cables and of one support is a function of its displacement e alone. So a
 //! support settles by Newton's method in three unknowns, and to the platform a cable on a support has still an energy, whose
-//! second derivative is the stiffness below (docs/theory.md, equations (87) to (90)).
+//! second derivative is the stiffness below (docs/theory.md, equations (90) and (91)).
 
 use super::equilibrium::{CableState, Equilibrium};
 use super::error::StaticsError;

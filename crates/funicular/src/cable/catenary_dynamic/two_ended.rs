@@ -3,7 +3,7 @@
 //! The seven motions are those of the platform end and of the exit point, both in (e, n, b), and the motion of the entry
 //! point along the drum side: it stretches a drum side whose drum stays on the ground, and carries one along whose drum
 //! moves with the support. For that motion a clamped mode has the participation `μ − κ/ω_k²`, κ and μ being its work on the
-//! stiffness and the mass between drum side and drive (docs/theory.md, equation (92)).
+//! stiffness and the mass between drum side and drive (docs/theory.md, equation (93)).
 
 use super::{CatenaryDynamic, CatenaryDynamicEnd, DriveMotion, Family, InternalMotion, NearRanges, PoleResidue};
 use crate::math::{Complex, DMat};
