@@ -40,10 +40,10 @@ pub enum CableMotionError {
         /// Name of the cable.
         cable: String,
     },
-    /// Motions of the frame are inputs of a robot with flexible supports.
+    /// The base of a robot with flexible supports turns, or an anchor on a support is moved.
     #[error(
-        "motions of base and anchors are not known for a robot with flexible supports: choose inputs on the platform, on \
-         cables or at drives"
+        "for a robot with flexible supports, rotations of the base and motions of anchors on supports are not known: choose \
+         `base-x`, `base-y` or `base-z`, or an input on the platform, on a cable or at a drive"
     )]
     FrameAndSupports,
     /// The cable has no catenary-dynamic stiffness.

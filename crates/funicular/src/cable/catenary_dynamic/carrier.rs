@@ -167,8 +167,14 @@ impl CatenaryDynamicEnd {
         self.drum_tension_of_ends(motion.of_drum_side(ratio), omega) / ratio
     }
 
+    /// Mass between a motion of the chain and a motion of the whole drum side along itself [kg].
+    pub(crate) fn carried_mass(&self, motion: usize) -> f64 {
+        let side = self.chain().and_then(|chain| chain.drum_side.get(motion));
+        side.map_or(0.0, |side| side.carried_mass)
+    }
+
     /// Stretch at the exit point over that at the drum; 1 without a drum side.
-    pub(super) fn drum_side_ratio(&self) -> f64 {
+    pub(crate) fn drum_side_ratio(&self) -> f64 {
         self.chain().and_then(|chain| chain.drum_end.as_ref()).map_or(1.0, |end| end.ratio)
     }
 
