@@ -344,7 +344,7 @@ impl EndStiffness {
                 Self::Constant(without_b(in_series(shallow_static::stiffness(&sag).in_world(&axes))))
             }
             CableModel::CatenaryStatic => Self::Constant(without_b(state.tangent_w().ok_or(NoStiffness::Rigid)?)),
-            CableModel::ShallowDynamic if drive.is_some() => {
+            CableModel::ShallowDynamic if robot.has_moving_ends() => {
                 let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
                 let limit = up_to_hz * TAU;
                 let end = moving_end(robot, i, state, &axes, winches, limit);
@@ -375,6 +375,20 @@ impl EndStiffness {
                 Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable)))
             }
         })
+    }
+}
+
+/// Static stiffness of the free span of cable `i` in a model, its far end held; 3×3, world axes [N/m]. `None` for a rigid
+/// cable in a catenary model.
+pub(crate) fn span_stiffness(robot: &Robot, i: usize, state: &CableState, model: CableModel) -> Option<Mat3> {
+    let straight = |stiffness: fn(&Sag) -> LocalStiffness<f64>| {
+        stiffness(&Sag::of(robot, i, state)).in_world(&LocalAxes::of_cable(robot, i, state))
+    };
+    match model {
+        CableModel::Spring if state.is_slack() => Some(Mat3::zeros()),
+        CableModel::Spring => Some(straight(spring::stiffness)),
+        CableModel::ShallowStatic => Some(straight(shallow_static::stiffness)),
+        _ => state.hanging.as_ref().map(HangingCable::tangent_w),
     }
 }
 

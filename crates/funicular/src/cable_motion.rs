@@ -42,6 +42,12 @@ pub enum CableMotionError {
         /// Name of the cable.
         cable: String,
     },
+    /// Motions of the frame are inputs of a robot with flexible supports.
+    #[error(
+        "motions of base and anchors are not known for a robot with flexible supports: choose inputs on the platform, on \
+         cables or at drives"
+    )]
+    FrameAndSupports,
     /// The cable has no catenary-dynamic stiffness.
     #[error("cable \"{cable}\": {reason}")]
     CatenaryDynamic {
@@ -161,13 +167,20 @@ impl CableStations {
                 let end_w = Vec3::new(shape[0], shape[1], shape[2])
                     + Vec3::new(shape[3], shape[4], shape[5]).cross(&self.lever_w);
                 let LocalAxes { e, n, b } = self.axes;
-                fractions.iter().map(|fraction| [e, n, b].map(|axis| fraction * axis.dot(&end_w))).collect()
+                let anchor_w = self.support_motion_w(dynamics, &motion.supports) * scale;
+                let at_w = |fraction: &f64| end_w * *fraction + anchor_w * (1.0 - fraction);
+                fractions.iter().map(|fraction| [e, n, b].map(|axis| axis.dot(&at_w(fraction)))).collect()
             }
             StationModel::CatenaryDynamic { cable, stations, term } => {
                 let of = &dynamics.terms()[*term];
                 let start = of.axes().map(|axis| Complex::from(axis.dot(&motion.platform)));
                 let square = (mode.frequency_hz * std::f64::consts::TAU).powi(2);
                 let mut motion_along = internal_motion(dynamics, cable, start, square.into());
+                let carried =
+                    dynamics.supports().and_then(|of| of.both_ends(*term).zip(of.ends(*term, &motion.supports)));
+                if let Some((both, ends)) = carried {
+                    motion_along.add_carrier(cable, both, ends.map(Complex::from), square.into());
+                }
                 let DynamicCable::CatenaryDynamic(end) = of.form() else { unreachable!("made of this term") };
 
                 // Clamped modes whose poles lie near the frequency have their amplitudes in the mode.
@@ -349,6 +362,13 @@ impl CableStations {
     /// True if [`own_receptance`](Self::own_receptance) is known.
     pub(crate) fn has_own_receptance(&self) -> bool {
         matches!(self.model, StationModel::CatenaryDynamic { .. })
+    }
+
+    /// Motion of the support of the cable, world axes; zero for a rigid anchor.
+    fn support_motion_w(&self, dynamics: &Dynamics, supports: &[f64]) -> Vec3 {
+        let first = dynamics.supports().and_then(|of| of.of_cable(self.cable));
+        let moved = first.and_then(|first| supports.get(first..first + 3));
+        moved.map_or_else(Vec3::zeros, Vec3::from_column_slice)
     }
 
     /// Components (e, n, b) of a direction in world axes.

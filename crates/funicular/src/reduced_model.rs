@@ -130,6 +130,9 @@ const MASSLESS: f64 = 1e-6;
 
 /// Checks that all cables are catenary-dynamic and that the losses of their drives have a second-order form.
 fn check_cables(robot: &Robot, dynamics: &Dynamics) -> Result<(), ReductionError> {
+    if dynamics.supports().is_some() {
+        return Err(ReductionError::Supports);
+    }
     let name = |cable: usize| robot.cables[cable].name.clone();
     for term in dynamics.terms() {
         let DynamicCable::CatenaryDynamic(form) = term.form() else { return Err(ReductionError::Model) };

@@ -4,12 +4,13 @@ use super::found;
 use crate::text::{short, vector};
 use funicular::math::rotation;
 use funicular::robot::{
-    Cable, Control, Damping, GuideWheel, Load, PlatformMotion, Pulley, PulleyFriction, Robot, State, TensionLimits,
-    Winch, Wind,
+    Cable, Control, Damping, GuideWheel, Load, PlatformMotion, Pulley, PulleyFriction, Robot, State, Support,
+    TensionLimits, Winch, Wind,
 };
 use funicular::statics::{self, CableState, StaticModel};
 use funicular::warnings::plausibility;
 use serde::Serialize;
+use std::f64::consts::TAU;
 
 /// Results of `check`: the robot as it was read.
 #[derive(Serialize)]
@@ -27,6 +28,9 @@ pub struct Checked {
     pub wind: Option<WindRow>,
     pub materials: Vec<CheckedRope>,
     pub cables: Vec<CheckedCable>,
+    /// Flexible supports; absent on a rigid frame.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub supports: Vec<CheckedSupport>,
     /// `lengths`, `pose` or `none`.
     pub state: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -146,6 +150,9 @@ pub struct CheckedCable {
     /// Winch behind the anchor; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub winch: Option<CheckedWinch>,
+    /// Name of the flexible support of its anchor; absent for a rigid anchor.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub support: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unstrained_length_m: Option<f64>,
     /// Parts of the unstrained length of a cable over a pulley or to a winch; absent for other cables, and if the lengths
@@ -256,6 +263,35 @@ pub struct CheckedWinch {
     pub speed_gain_n_s_per_m: Option<f64>,
 }
 
+/// Flexible support of anchors.
+#[derive(Serialize)]
+pub struct CheckedSupport {
+    pub name: String,
+    pub stiffness_n_per_m: [[f64; 3]; 3],
+    pub mass_kg: f64,
+    pub damping_ratio: f64,
+    /// `on-support` or `on-ground`.
+    pub drums: &'static str,
+    /// Lowest frequency of the support alone; absent without mass.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first_frequency_hz: Option<f64>,
+}
+
+impl CheckedSupport {
+    fn of(support: &Support) -> Self {
+        let Support { name, stiffness_w, mass, damping_ratio, drum } = support;
+        let softest = stiffness_w.symmetric_eigenvalues().min();
+        Self {
+            name: name.clone(),
+            stiffness_n_per_m: std::array::from_fn(|i| std::array::from_fn(|j| stiffness_w[(i, j)])),
+            mass_kg: *mass,
+            damping_ratio: *damping_ratio,
+            drums: drum.name(),
+            first_frequency_hz: (*mass > 0.0).then(|| (softest / mass).sqrt() / TAU),
+        }
+    }
+}
+
 /// Guide wheel of a winch.
 #[derive(Serialize)]
 pub struct CheckedGuideWheel {
@@ -358,6 +394,7 @@ pub fn run(robot: Robot) -> Checked {
         load: LoadRow::of(&robot.load),
         wind: WindRow::of(&robot.wind),
         materials,
+        supports: robot.supports.iter().map(CheckedSupport::of).collect(),
         cables,
         state,
         pose,
@@ -407,6 +444,7 @@ fn cables(robot: &Robot) -> Vec<CheckedCable> {
         attachment_m: cable.attachment_p.into(),
         pulley: cable.anchor.pulley.as_ref().map(CheckedPulley::of),
         winch: cable.anchor.winch.as_ref().map(CheckedWinch::of),
+        support: cable.anchor.support.map(|support| robot.supports[support].name.clone()),
         unstrained_length_m: lengths.map(|lengths| lengths[i]),
         length_parts: rest.as_ref().and_then(|rest| LengthParts::of(cable, &rest.cables[i])),
         limits: CheckedLimits::of(cable.limits()),

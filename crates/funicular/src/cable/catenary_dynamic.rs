@@ -24,6 +24,7 @@ mod moving_end;
 mod partition;
 mod poles;
 mod shallow_span;
+mod two_ended;
 
 pub(crate) use carrier::CarrierMotion;
 pub(crate) use drive_forms::{DriveForm, DrivePart, EndSignal, InPowersOfS};
@@ -36,6 +37,7 @@ pub use internal_motion::{Displacements, Stations};
 pub(crate) use mesh::{ellipse, has_tension};
 pub use moving_end::{EndAlong, EndSideways, MovingEnd};
 pub use poles::PoleResidue;
+pub(crate) use two_ended::{ENDS, TwoEnded};
 
 use super::{LocalAxes, LocalStiffness, Sag};
 use crate::catenary::Catenary;

@@ -29,6 +29,8 @@ pub struct DriveChain {
     pub(crate) by_length: Vec<(f64, f64)>,
     /// Drum side as each motion feels it; empty if the drum is at the exit point.
     pub(crate) drum_side: Vec<OnDrumSide>,
+    /// Mass of a drum side with mass [kg]; zero for one without.
+    pub(crate) drum_side_mass: f64,
     /// End of the drum side at the drum; `None` if the drum is at the exit point.
     pub(crate) drum_end: Option<DrumEnd>,
     /// Stretch λ_E between entry point and drum.
@@ -284,6 +286,7 @@ impl DriveChain {
             motor,
             by_length: by_length(&parts, &layout, &drum_end),
             drum_side,
+            drum_side_mass: parts.rod_mass(),
             drum_end: parts.has_rope().then_some(drum_end),
             stretch_drum,
         })

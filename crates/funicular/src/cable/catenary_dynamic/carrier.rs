@@ -4,6 +4,7 @@
 use super::{
     CatenaryDynamic, CatenaryDynamicEnd, DriveAt, DriveLosses, DriveSignal, Family, InternalMotion, NearRanges,
 };
+use crate::drive::DriveChain;
 use crate::math::Complex;
 
 /// Given motion of the carrier of a cable's end, harmonic.
@@ -22,8 +23,10 @@ pub(crate) struct CarrierMotion {
 impl CarrierMotion {
     /// Motions of the ends of the drum side with the carrier, the motions of the drive held: its end at the drum, that at
     /// the wheel, and the whole drum side along itself.
-    pub(super) fn of_drum_side(&self) -> [f64; 3] {
-        if self.with_drum { [0.0, 0.0, self.along_drum_side] } else { [0.0, self.along_drum_side, 0.0] }
+    ///
+    /// The elongation of the drum side is measured with the stretch at the exit point, `ratio` times that at the entry point.
+    pub(super) fn of_drum_side(&self, ratio: f64) -> [f64; 3] {
+        if self.with_drum { [0.0, 0.0, self.along_drum_side] } else { [0.0, ratio * self.along_drum_side, 0.0] }
     }
 }
 
@@ -34,13 +37,13 @@ impl CatenaryDynamicEnd {
     /// # References
     /// docs/theory.md, equation (85).
     pub(super) fn forces_by_carrier(&self, motion: &CarrierMotion) -> Vec<(f64, f64)> {
-        let along = motion.along_drum_side;
+        let [_, at_wheel, whole] = motion.of_drum_side(self.drum_side_ratio());
         let mut forces: Vec<(f64, f64)> = (self.chain().map_or(&[][..], |chain| &chain.drum_side).iter())
             .map(|side| {
                 if motion.with_drum {
-                    (0.0, side.carried_mass * along)
+                    (0.0, side.carried_mass * whole)
                 } else {
-                    (-side.stiffness * along, side.mass * along)
+                    (-side.stiffness * at_wheel, side.mass * at_wheel)
                 }
             })
             .collect();
@@ -184,15 +187,53 @@ impl CatenaryDynamicEnd {
         let Some(chain) = self.chain() else {
             return (output == DriveSignal::DrumTension).then(|| self.tension_at_moved_end(motion, omega)).flatten();
         };
-        let row = self.output_row(chain, output, omega)?;
-        let (motions, losses, mut free, given) = self.drive_under_carrier(motion, omega)?;
-        motions.add_motion_by(&given, &mut free);
-        let moved = motions.freed(&losses.values(), &free);
-        let through: Complex = row.iter().zip(&moved).map(|(row, moved)| row * moved).sum();
+        let through = self.through_drive(chain, motion, output, omega)?;
         if output != DriveSignal::DrumTension {
             return Some(through);
         }
-        Some(through + self.drum_tension_of_ends(motion.of_drum_side(), omega))
+        Some(through + self.drum_tension_of_ends(motion.of_drum_side(self.drum_side_ratio()), omega))
+    }
+
+    /// Row of a signal times the motions of the drive for a motion of the carrier.
+    fn through_drive(
+        &self,
+        chain: &DriveChain,
+        motion: &CarrierMotion,
+        signal: DriveSignal,
+        omega: f64,
+    ) -> Option<Complex> {
+        let row = self.output_row(chain, signal, omega)?;
+        let (motions, losses, mut free, given) = self.drive_under_carrier(motion, omega)?;
+        motions.add_motion_by(&given, &mut free);
+        let moved = motions.freed(&losses.values(), &free);
+        Some(row.iter().zip(&moved).map(|(row, moved)| row * moved).sum())
+    }
+
+    /// Force on a motion of the carrier per displacement of the drum side's end at the drum towards the platform.
+    fn drum_side_by_carrier(&self, motion: &CarrierMotion, omega: f64) -> Complex {
+        let ratio = self.drum_side_ratio();
+        self.drum_tension_of_ends(motion.of_drum_side(ratio), omega) / ratio
+    }
+
+    /// Stretch at the exit point over that at the drum; 1 without a drum side.
+    pub(super) fn drum_side_ratio(&self) -> f64 {
+        self.chain().and_then(|chain| chain.drum_end.as_ref()).map_or(1.0, |end| end.ratio)
+    }
+
+    /// Force on the carrier along a motion per unit of an input, the platform end held, at ω [rad/s]; by reciprocity the output
+    /// of such a motion. `None` if the cable has no such signal.
+    pub(crate) fn signal_by_carrier(&self, motion: &CarrierMotion, signal: DriveSignal, omega: f64) -> Option<Complex> {
+        if signal != DriveSignal::Length {
+            return self.response_to_carrier(motion, signal, omega);
+        }
+        let Some(chain) = self.chain() else {
+            // The far end moves by the length that is paid out.
+            return self.tension_at_moved_end(motion, omega).map(|tension| tension * self.directions.stretch);
+        };
+        let through = self.through_drive(chain, motion, signal, omega)?;
+        // A length that a drum pays out which is held moves the end of the drum side.
+        let held = if chain.drum.is_none() { self.drum_side_by_carrier(motion, omega) } else { Complex::new(0.0, 0.0) };
+        Some(through + held * self.directions.stretch)
     }
 
     /// Tension at a far end without a drive, which moves with its carrier; `None` if the end couples the families.

@@ -338,7 +338,7 @@ impl CatenaryDynamicEnd {
 
         // The ends of the drum side.
         if let (DriveSignal::DrumTension, Some(end)) = (output, &chain.drum_end) {
-            let [_, at_wheel, whole] = motion.of_drum_side();
+            let [_, at_wheel, whole] = motion.of_drum_side(self.drum_side_ratio());
             let mass = end.by_wheel.1 * at_wheel + end.carried_mass * whole;
             let own = in_powers(-end.by_wheel.0 * at_wheel * end.ratio, mass * end.ratio);
             direct.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);

@@ -6,7 +6,9 @@
 //! (81)).
 
 use super::moving_end::MovingEnd;
-use super::{CatenaryDynamic, CatenaryDynamicEnd, Displacements, Family, InternalMotion, NearRanges, PoleResidue};
+use super::{
+    CatenaryDynamic, CatenaryDynamicEnd, Displacements, ENDS, Family, InternalMotion, NearRanges, PoleResidue, TwoEnded,
+};
 use crate::cable::LocalStiffness;
 use crate::drive::DriveChain;
 use crate::math::{CDMat, Complex, DMat};
@@ -160,6 +162,11 @@ impl DriveAt {
     /// `free`.
     pub(super) fn forces(&self, delta: &[Complex], free: &[Complex]) -> Vec<Complex> {
         self.freed(delta, free).iter().zip(delta).map(|(moved, delta)| moved * delta).collect()
+    }
+
+    /// Forces `Δ (1 + R Δ)⁻¹ z` of losses.
+    pub(crate) fn forces_by(&self, losses: &DriveLosses, free: &[Complex]) -> Vec<Complex> {
+        self.forces(&losses.values(), free)
     }
 
     /// Motion `(1 + R Δ)⁻¹ z` of the drive, whose motion without the additional stiffness `delta` [N/m] is `free`.
@@ -328,8 +335,14 @@ impl CatenaryDynamicEnd {
 
     /// Kinetic energy of the drive over ω²/2 [kg m²], and the work of its losses, by which its damping grows [N m], in
     /// a motion of the platform end (e, n, b) at the undamped ω [rad/s]. `near` has the amplitudes of the clamped modes
-    /// that are unknowns of their own.
-    pub(crate) fn drive_share(&self, omega: f64, end: [f64; 3], near: &[(usize, Family, f64)]) -> (f64, f64) {
+    /// that are unknowns of their own, `carrier` both ends and their motion by a support.
+    pub(crate) fn drive_share(
+        &self,
+        omega: f64,
+        end: [f64; 3],
+        near: &[(usize, Family, f64)],
+        carrier: Option<(&TwoEnded, [f64; ENDS])>,
+    ) -> (f64, f64) {
         let x = omega * omega;
         let left_out = |family: Family| {
             let mut indices = near.iter().filter(|near| near.1 == family).map(|near| near.0);
@@ -345,6 +358,11 @@ impl CatenaryDynamicEnd {
         // Motions by the platform end, and in the near modes.
         let by_end = |row: &[Complex; 3]| row.iter().zip(end).map(|(transfer, u)| transfer.re * u).sum();
         let mut motion: Vec<f64> = motions.transfer.iter().map(by_end).collect();
+        if let Some((both, ends)) = carrier {
+            for (motion, (row, _)) in motion.iter_mut().zip(both.drive(x.into(), &left_out)) {
+                *motion += row.iter().zip(ends).map(|(transfer, u)| transfer.re * u).sum::<f64>();
+            }
+        }
         for (index, family, amplitude) in near {
             let of_mode = self.drive_in_mode(*index, *family);
             motion.iter_mut().zip(&of_mode).for_each(|(sum, phi)| *sum += phi * amplitude);

@@ -105,6 +105,12 @@ impl<'a> Parts<'a> {
         1.0 / (self.stretch * self.stretch * self.pieces[piece])
     }
 
+    /// Mass of a drum side that is a rod [kg]; zero for one without mass.
+    pub(super) fn rod_mass(&self) -> f64 {
+        let length: f64 = (0..self.pieces.len()).map(|piece| self.rod_length(piece)).sum();
+        if self.is_rod() { self.mass_per_length * length } else { 0.0 }
+    }
+
     /// Length of the uniform rod with the stiffness of a piece [m].
     pub(super) fn rod_length(&self, piece: usize) -> f64 {
         self.axial_stiffness / self.spring(piece)

@@ -260,5 +260,5 @@ pub(super) fn anchor(reader: &mut Reader, cable: &Section, drives: &Drives) -> O
             Some(Pulley { name, radius, entry_direction_w, inertia, swivel_inertia, friction })
         }
     };
-    Some(Anchor { point_w: Vec3::from(point?), pulley, winch: winch? })
+    Some(Anchor { point_w: Vec3::from(point?), pulley, winch: winch?, support: None })
 }
