@@ -648,3 +648,62 @@ fn the_paper_has_no_supports() {
         "the anchor of cable \"1\" is on a flexible support, which moves in all directions: leave `in-plane-only` out"
     );
 }
+
+#[test]
+fn the_reader_says_what_is_wrong_with_a_support() {
+    let file = |support: &str, reference: &str| {
+        format!(
+            "name = \"mast\"\n[platform]\nmass_kg = 10.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = \
+             1e5\nmass_kg_per_m = 0.0\n[supports.mast]\n{support}\n[[cables]]\nname = \"1\"\nmaterial = \"rope\"\nsupport = \
+             \"{reference}\"\nanchor_m = [0, 0, 3]\nunstrained_length_m = 2.0\n"
+        )
+    };
+    let message = |support: &str, reference: &str| {
+        let error = Robot::from_toml(&file(support, reference)).unwrap_err();
+        let help = error.issues()[0].help.clone().unwrap_or_default();
+        format!("{}; {help}", error.issues()[0].message)
+    };
+    let good = "stiffness_n_per_m = [1e5, 2e5, 3e5]";
+    assert!(message("mass_kg = 2", "mast").contains("has no `stiffness_n_per_m`"));
+    assert!(message("stiffness_n_per_m = -1e5", "mast").contains("must be positive"));
+    assert_eq!(
+        message("stiffness_n_per_m = [[1e5, 2e5, 0], [2e5, 1e5, 0], [0, 0, 1e5]]", "mast"),
+        "`stiffness_n_per_m` is not positive definite: its principal values are -100000, 100000 and 300000 N/m; a support \
+         has to resist displacements in all directions; a rigid direction has a large number"
+    );
+    assert!(message("stiffness_n_per_m = [[1e5, 1, 0], [0, 1e5, 0], [0, 0, 1e5]]", "mast").contains("not symmetric"));
+    assert!(message(&format!("{good}\nmass_kg = -1"), "mast").contains("must not be negative"));
+    assert_eq!(
+        message(&format!("{good}\ndamping_ratio = 2"), "mast"),
+        "`damping_ratio` is 2, it must be below 1; it is a fraction of the critical damping, not per cent: structures have \
+         0.005 to 0.05"
+    );
+    assert!(message(&format!("{good}\ndrums = \"ground\""), "mast").contains("did you mean \"on-ground\"?"));
+    assert_eq!(message(good, "mats"), "there is no support \"mats\"; did you mean \"mast\"? the file has \"mast\"");
+    assert!(Robot::from_toml(&file(good, "mast")).unwrap().has_supports());
+}
+
+/// Supports and cables without mass are springs: the mast of a massless rope swings with the platform alone.
+#[test]
+fn a_mast_without_mass_is_a_spring() {
+    let robot = Robot::from_toml(
+        "name = \"mast\"\n[platform]\nmass_kg = 10.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = 1e5\n\
+         mass_kg_per_m = 0.0\n[supports.mast]\nstiffness_n_per_m = 2e4\n[[cables]]\nname = \"1\"\nmaterial = \"rope\"\n\
+         support = \"mast\"\nanchor_m = [0, 0, 3]\nunstrained_length_m = 2.0\n",
+    )
+    .unwrap();
+    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0).unwrap();
+    let found = modes::below(&dynamics, 20.0);
+    assert!(found.certified && found.modes.len() == 3);
+    let (weight, ea, k) = (98.1_f64, 1e5, 2e4);
+    let chord = 2.0 * (1.0 + weight / ea);
+    let series = |a: f64, b: f64| a * b / (a + b);
+    let hz = |stiffness: f64| (stiffness / 10.0).sqrt() / TAU;
+    for (mode, exact) in
+        found.modes.iter().zip([series(weight / chord, k), series(weight / chord, k), series(ea / 2.0, k)])
+    {
+        assert!((mode.frequency_hz / hz(exact) - 1.0).abs() < 1e-9, "{} {}", mode.frequency_hz, hz(exact));
+        assert_eq!(mode.support_energy_fractions, [0.0]);
+    }
+}

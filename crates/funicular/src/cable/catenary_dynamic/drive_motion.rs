@@ -6,9 +6,7 @@
 //! (81)).
 
 use super::moving_end::MovingEnd;
-use super::{
-    CatenaryDynamic, CatenaryDynamicEnd, Displacements, ENDS, Family, InternalMotion, NearRanges, PoleResidue, TwoEnded,
-};
+use super::{CatenaryDynamic, CatenaryDynamicEnd, Displacements, Family, InternalMotion, NearRanges, PoleResidue};
 use crate::cable::LocalStiffness;
 use crate::drive::DriveChain;
 use crate::math::{CDMat, Complex, DMat};
@@ -335,13 +333,13 @@ impl CatenaryDynamicEnd {
 
     /// Kinetic energy of the drive over ω²/2 [kg m²], and the work of its losses, by which its damping grows [N m], in
     /// a motion of the platform end (e, n, b) at the undamped ω [rad/s]. `near` has the amplitudes of the clamped modes
-    /// that are unknowns of their own, `carrier` both ends and their motion by a support.
+    /// that are unknowns of their own; `by_support` gives the motions of the drive by a support at x = ω², without some poles.
     pub(crate) fn drive_share(
         &self,
         omega: f64,
         end: [f64; 3],
         near: &[(usize, Family, f64)],
-        carrier: Option<(&TwoEnded, [f64; ENDS])>,
+        by_support: Option<&dyn Fn(f64, &NearRanges) -> Vec<f64>>,
     ) -> (f64, f64) {
         let x = omega * omega;
         let left_out = |family: Family| {
@@ -358,10 +356,8 @@ impl CatenaryDynamicEnd {
         // Motions by the platform end, and in the near modes.
         let by_end = |row: &[Complex; 3]| row.iter().zip(end).map(|(transfer, u)| transfer.re * u).sum();
         let mut motion: Vec<f64> = motions.transfer.iter().map(by_end).collect();
-        if let Some((both, ends)) = carrier {
-            for (motion, (row, _)) in motion.iter_mut().zip(both.drive(x.into(), &left_out)) {
-                *motion += row.iter().zip(ends).map(|(transfer, u)| transfer.re * u).sum::<f64>();
-            }
+        if let Some(by_support) = by_support {
+            motion.iter_mut().zip(by_support(x, &left_out)).for_each(|(sum, moved)| *sum += moved);
         }
         for (index, family, amplitude) in near {
             let of_mode = self.drive_in_mode(*index, *family);

@@ -194,6 +194,12 @@ impl TwoEnded {
         rows
     }
 
+    /// Motions of the drive for a motion of the ends at x = ω² without the poles `left_out`.
+    pub(crate) fn drive_by(&self, x: f64, left_out: &NearRanges, ends: &[f64; ENDS]) -> Vec<f64> {
+        let rows = self.drive(x.into(), left_out);
+        rows.into_iter().map(|(row, _)| row.iter().zip(ends).map(|(transfer, u)| transfer.re * u).sum()).collect()
+    }
+
     /// Participation of the ends in a clamped mode [√kg].
     pub(crate) fn participation(&self, family: Family, index: usize) -> [f64; ENDS] {
         let found = self.modes.iter().find(|mode| mode.family == family && mode.index == index);

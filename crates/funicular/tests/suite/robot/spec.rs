@@ -498,8 +498,11 @@ fn the_table_of_keys_says_which_keys_are_required() {
         + "[loads]\nforce_n = [0, 0, 1]\nmoment_n_m = [0, 0, 1]\npoint_m = [0, 0, 1]\n\
            [wind]\nvelocity_m_s = [1, 0, 0]\nair_density_kg_m3 = 1.2\n\
            [pulleys.fibre]\nradius_m = 0.01\nentry_direction = [0, 0, 1]\n\
-           [winches.fibre]\ndrum_side_length_m = 2\nshaft_stiffness_n_m_per_rad = 800\ndrum_radius_m = 0.05\n";
-    let file = file.replacen("[[cables]]\n", "[[cables]]\npulley = \"fibre\"\nwinch = \"fibre\"\n", 1);
+           [winches.fibre]\ndrum_side_length_m = 2\nshaft_stiffness_n_m_per_rad = 800\ndrum_radius_m = 0.05\n\
+           [guide_wheels.fibre]\nwinch = \"fibre\"\ndistance_m = 1\nradius_m = 0.05\ninertia_kg_m2 = 0.001\n\
+           [supports.fibre]\nstiffness_n_per_m = 1e6\nmass_kg = 20\n";
+    let behind = "pulley = \"fibre\"\nwinch = \"fibre\"\nsupport = \"fibre\"\n";
+    let file = file.replacen("[[cables]]\n", &format!("[[cables]]\n{behind}"), 1);
     Robot::from_toml(&file).unwrap();
     let mut tried = 0;
     for table in TABLES {
