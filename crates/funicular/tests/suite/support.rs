@@ -678,7 +678,7 @@ fn the_reader_says_what_is_wrong_with_a_support() {
         "`damping_ratio` is 2, it must be below 1; it is a fraction of the critical damping, not per cent: structures have \
          0.005 to 0.05"
     );
-    assert!(message(&format!("{good}\ndrums = \"ground\""), "mast").contains("did you mean \"on-ground\"?"));
+    assert!(message(&format!("{good}\ndrums = \"on-grund\""), "mast").contains("did you mean \"on-ground\"?"));
     assert_eq!(message(good, "mats"), "there is no support \"mats\"; did you mean \"mast\"? the file has \"mast\"");
     assert!(Robot::from_toml(&file(good, "mast")).unwrap().has_supports());
 }
