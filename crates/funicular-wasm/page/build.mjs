@@ -65,5 +65,5 @@ const bytes = (pattern) => Object.entries(outputs).reduce((sum, [path, { bytesIn
 const editor = (bytes(/@codemirror|@lezer|style-mod|crelt|w3c-keyname|@marijn|editor\.js/) / script.length) * compressed(script);
 const all = packed.length + compressed(script) + compressed(style) + compressed(inFolder);
 const kb = (size) => `${Math.round(size / 1000)} kB`;
-console.log(`compressed: ${kb(all)} (core ${kb(packed.length)}, script ${kb(compressed(script))}, of it the editor ${kb(editor)}); funicular.html ${kb(alone.length)}`);
-writeFileSync(join(folder, "sizes.json"), JSON.stringify({ all, withoutEditor: Math.round(all - editor), file: alone.length }));
+console.log(`compressed: ${kb(all)} (core ${kb(packed.length)}, script ${kb(compressed(script))}, of it the editor ${kb(editor)}); funicular.html ${kb(Buffer.byteLength(alone))}`);
+writeFileSync(join(folder, "sizes.json"), JSON.stringify({ all, withoutEditor: Math.round(all - editor), file: Buffer.byteLength(alone) }));

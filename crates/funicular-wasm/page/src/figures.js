@@ -1,6 +1,6 @@
 // Figures as SVG: frequency response and slice of the workspace.
 
-import { escaped, short } from "./format.js";
+import { escaped, short, tick } from "./format.js";
 
 /** Ticks of a linear axis: about `count` round numbers. */
 export function ticks(low, high, count) {
@@ -47,7 +47,7 @@ export function response({ curves, peaks, modes, unit, title, log, width }) {
   for (const hz of ofHz) {
     line(x(hz), top, x(hz), top + high, "grid");
     line(x(hz), top + high + gap, x(hz), top + high + gap + low, "grid");
-    text(x(hz), height - bottom + 14, short(hz, 3), "middle");
+    text(x(hz), height - bottom + 14, tick(hz), "middle");
   }
   const every = Math.ceil((most - least) / 6);
   for (let power = least; power <= most; power += every) {
@@ -78,9 +78,14 @@ export function response({ curves, peaks, modes, unit, title, log, width }) {
     parts.push(`<path d="${phases.join("")}" class="${kind}"/>`);
   });
   const highest = [...peaks].sort((a, b) => b.magnitude - a.magnitude).slice(0, 4);
+  const named = [];
   for (const { hz, magnitude } of highest) {
     parts.push(`<circle cx="${x(hz).toFixed(1)}" cy="${y(magnitude).toFixed(1)}" r="3" class="peak"/>`);
     const side = x(hz) > width - 70 ? "end" : "start";
+    if (named.some((other) => Math.abs(other - x(hz)) < 46)) {
+      continue;
+    }
+    named.push(x(hz));
     text(x(hz) + (side === "end" ? -5 : 5), Math.max(top + 9, y(magnitude) - 2), short(hz, 4), side);
   }
   const summary = highest.length
@@ -125,10 +130,10 @@ export function slice({ axes, ranges, cells, here, label, unit, width }) {
     parts.push(`<rect x="${x0.toFixed(2)}" y="${y0.toFixed(2)}" width="${(x1 - x0 + 0.3).toFixed(2)}" height="${(y1 - y0 + 0.3).toFixed(2)}" fill="${color}"/>`);
   }
   for (const u of ticks(u0, u1, 6)) {
-    parts.push(`<line class="axis" x1="${x(u).toFixed(1)}" y1="${top + high}" x2="${x(u).toFixed(1)}" y2="${top + high + 4}"/><text x="${x(u).toFixed(1)}" y="${top + high + 16}" text-anchor="middle">${short(u, 3)}</text>`);
+    parts.push(`<line class="axis" x1="${x(u).toFixed(1)}" y1="${top + high}" x2="${x(u).toFixed(1)}" y2="${top + high + 4}"/><text x="${x(u).toFixed(1)}" y="${top + high + 16}" text-anchor="middle">${tick(u)}</text>`);
   }
   for (const v of ticks(v0, v1, 5)) {
-    parts.push(`<line class="axis" x1="${left - 4}" y1="${y(v).toFixed(1)}" x2="${left}" y2="${y(v).toFixed(1)}"/><text x="${left - 7}" y="${(y(v) + 4).toFixed(1)}" text-anchor="end">${short(v, 3)}</text>`);
+    parts.push(`<line class="axis" x1="${left - 4}" y1="${y(v).toFixed(1)}" x2="${left}" y2="${y(v).toFixed(1)}"/><text x="${left - 7}" y="${(y(v) + 4).toFixed(1)}" text-anchor="end">${tick(v)}</text>`);
   }
   parts.push(`<rect class="frame" x="${left}" y="${top}" width="${inside}" height="${high}"/>`);
   parts.push(`<text x="${left + inside / 2}" y="${top + high + 31}" text-anchor="middle">${axes[0]} [m]</text><text transform="translate(11 ${top + high / 2}) rotate(-90)" text-anchor="middle">${axes[1]} [m]</text>`);

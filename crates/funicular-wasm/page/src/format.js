@@ -22,8 +22,15 @@ export function short(value, digits = 4) {
 const sign = (text) => text.replace("-", "−");
 const superscript = (number) => String(number).replace(/[-0-9]/g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]));
 
-/** Number as one types it: a point, no grouping, at most `digits` significant digits. */
-export const plain = (value, digits = 7) => String(Number(value.toPrecision(digits)));
+/** Number as one types it: a point, no grouping, at most `digits` significant digits, an exponent if it is shorter. */
+export function plain(value, digits = 7) {
+  const number = Number(value.toPrecision(digits));
+  const size = Math.abs(number);
+  return size !== 0 && (size >= 1e7 || size < 1e-3) ? number.toExponential().replace("e+", "e") : String(number);
+}
+
+/** Number at a tick of an axis. */
+export const tick = (value) => sign(String(Number(value.toPrecision(6))));
 
 /** Element of a page by its id. */
 export const $ = (id) => document.getElementById(id);

@@ -26,6 +26,8 @@ const content = {
   start: null, // position and quaternion from which held lengths are solved
   rule: "",
   pinned: [],
+  more: {}, // loads, limits and static model that the page was made with, in the keys of requests
+  model: {}, // cable model and terms of the stiffness
 };
 const shown = { mode: -1, modes: 20, response: null, exaggeration: 1 };
 
@@ -130,11 +132,15 @@ async function compute() {
 
 const requestOf = () => ({
   robot: content.robot,
+  ...content.more,
+  ...content.model,
   ...(content.rule && content.hold !== "lengths" && mayChoose() ? { tension_rule: content.rule } : {}),
 });
 
 /** True if the tensions at a pose leave a choice. */
-const mayChoose = () => content.hold === "pose" && (about ? about.check.cables.length > about.degrees_of_freedom : true);
+const mayChoose = () =>
+  (content.hold === "pose" || (content.hold === "file" && about?.check.state === "pose")) &&
+  (about ? about.check.cables.length > about.degrees_of_freedom : true);
 
 async function readRobot() {
   try {
@@ -144,6 +150,12 @@ async function readRobot() {
     tell(null);
     showRobot(isNew);
     shown.newRobot = false;
+    if (about.check.state === "none" && content.hold === "file") {
+      // A robot file without a state: the middle between the anchors is a place to start from.
+      const pose = [...view.center.toArray().map((value) => Number(value.toPrecision(3))), 0, 0, 0];
+      Object.assign(content, { hold: "pose", pose: allowed(pose) });
+      commit();
+    }
     if (shown.camera) {
       view.camera6 = shown.camera;
       shown.camera = null;
@@ -158,7 +170,10 @@ function stateOf() {
   if (content.hold === "pose") {
     return { kind: 1, state: content.pose };
   }
-  return content.hold === "lengths" ? { kind: 3, state: [...content.start, ...content.lengths] } : { kind: 0, state: [] };
+  if (content.hold === "lengths") {
+    return content.start ? { kind: 3, state: [...content.start, ...content.lengths] } : { kind: 2, state: content.lengths };
+  }
+  return { kind: 0, state: [] };
 }
 
 async function computeFrame() {
@@ -213,6 +228,7 @@ async function computeResponse() {
       unit: found.about.unit,
       milliseconds: found.milliseconds,
       signals: `${output}/${input}`,
+      range: `${from} ${to} ${log}`,
     };
     showResponse();
   } catch (error) {
@@ -234,6 +250,7 @@ function rest() {
     showWords();
     const state = statics();
     const run = (command, more = {}) => (found) => found.call("answer", { request: { command, ...state, ...more } });
+    const ofFrame = frame;
     try {
       await details.run(1, async ([worker]) => {
         settled = { statics: JSON.parse((await run("statics")(worker)).text), payload: null };
@@ -249,8 +266,14 @@ function rest() {
         showKey();
         const { input, output, from, to, log } = shown.response;
         if (from !== null) {
-          const own = { input, output, from_hz: from, to_hz: to, points: RESPONSE_POINTS, log };
-          const { warnings } = JSON.parse((await run("frf", own)(worker)).text);
+          // While the platform rests, the curve has every peak with its height.
+          const own = { input, output, from_hz: from, to_hz: to, log, adaptive: true, ...content.model };
+          const { frequency_hz: hz, real, imag, peaks, warnings } = JSON.parse((await run("frf", own)(worker)).text);
+          if (answered && frame === ofFrame) {
+            const numbers = Float64Array.from({ length: 3 * hz.length }, (_, k) => [hz, real, imag][k % 3][Math.floor(k / 3)]);
+            answered.exact = { numbers, peaks: peaks.map((peak) => ({ hz: peak.frequency_hz, magnitude: peak.magnitude })) };
+            showResponse();
+          }
           put($("caveat"), warnings.filter((text) => !settled.statics.warnings.includes(text)).join(" "));
         }
       });
@@ -264,9 +287,9 @@ function rest() {
   }, REST_MS);
 }
 
-/** Keys of a request for the present state. */
+/** Keys of a request for the present state, without the linearisation. */
 function statics() {
-  const own = requestOf();
+  const own = Object.fromEntries(Object.entries(requestOf()).filter(([key]) => !(key in content.model)));
   if (content.hold === "pose") {
     return { ...own, pose: content.pose };
   }
@@ -347,7 +370,7 @@ function showRobot(isNew) {
 
 /** Another robot: text, and what belongs to the old one goes. */
 async function setRobot(name, text, more = {}) {
-  const next = { robot: { name, text, set: [] }, hold: "file", pose: null, lengths: null, start: null, rule: "", pinned: [], ...more };
+  const next = { robot: { name, text, set: [] }, hold: "file", pose: null, lengths: null, start: null, rule: "", pinned: [], more: {}, model: {}, ...more };
   Object.assign(content, next);
   Object.assign(shown, { mode: -1, newRobot: true, response: more.response ?? null });
   view.setMode(null);
@@ -484,6 +507,9 @@ function allowed(pose) {
   return [...position.map((value, k) => value - off * normal[k]), ...angles];
 }
 
+/** Pose from which the next one is made: the requested one, or that of the equilibrium with few digits. */
+const presentPose = () => (content.hold === "pose" ? [...content.pose] : rounded(frame.position, frame.quaternion));
+
 function setPose(pose) {
   content.hold = "pose";
   content.pose = allowed(pose);
@@ -524,7 +550,7 @@ function showPose(pose) {
   document.querySelectorAll("#pose [data-pose]").forEach((field) => {
     if (document.activeElement !== field || !field.dirty) {
       const k = Number(field.dataset.pose);
-      field.value = plain(k < 3 ? Number(pose[k].toFixed(6)) : Number(pose[k].toFixed(4)) + 0, 8);
+      field.value = String(Number(pose[k].toFixed(k < 3 ? 5 : 3)) + 0);
       field.removeAttribute("aria-invalid");
     }
   });
@@ -787,14 +813,15 @@ function showResponse() {
   if (!answered) {
     return;
   }
-  const curves = [{ numbers: answered.numbers, kind: "now" }];
-  if (before?.response?.signals === answered.signals && before.response.numbers.length === answered.numbers.length) {
-    curves.unshift({ numbers: before.response.numbers, kind: "past" });
+  const { numbers, peaks } = answered.exact ?? answered;
+  const curves = [{ numbers, kind: "now" }];
+  if (before?.response?.signals === answered.signals && before.response.range === answered.range) {
+    curves.unshift({ numbers: (before.response.exact ?? before.response).numbers, kind: "past" });
   }
   const { input, output, log } = shown.response;
   const label = (id, value) => [...$(id).options].find((option) => option.value === value)?.textContent ?? value;
   $("bode").innerHTML = responseFigure({
-    curves, peaks: answered.peaks, modes: frame.modes.map((mode) => mode.hz), unit: answered.unit, log,
+    curves, peaks, modes: frame.modes.map((mode) => mode.hz), unit: answered.unit, log,
     title: `${label("output", output)} per ${label("input", input)}`, width: Math.max(280, $("bode").clientWidth),
   });
 }
@@ -845,10 +872,10 @@ async function saveAs(kind) {
 async function results() {
   const state = statics();
   const ask = async (command, more = {}) => JSON.parse((await engine.call("answer", { request: { command, ...state, ...more } })).text);
-  const own = { statics: await ask("statics"), modes: await ask("modes", { below_hz: frame.belowHz || 20 }) };
+  const own = { statics: await ask("statics"), modes: await ask("modes", { ...content.model, below_hz: frame.belowHz || 20 }) };
   const { input, output, from, to, log } = shown.response;
   if (from !== null) {
-    own.frf = await ask("frf", { input, output, from_hz: from, to_hz: to, points: RESPONSE_POINTS, log });
+    own.frf = await ask("frf", { ...content.model, input, output, from_hz: from, to_hz: to, points: RESPONSE_POINTS, log });
   }
   return own;
 }
@@ -881,9 +908,15 @@ async function restore(state) {
   if (text === undefined) {
     throw new Error(`the library of this page has no robot “${state.robot.name}”`);
   }
-  const { hold, pose, lengths, start, rule, pinned, response } = state;
+  const { hold, pose, lengths, pinned, response, more, model } = state;
+  // Lengths without a pose from which the search starts are solved once as the program solves them.
+  const start = state.start ?? null;
+  const rule = state.rule === "lowest" ? "" : state.rule ?? "";
+  if (rule && ![...$("rule").options].some(({ value }) => value === rule)) {
+    $("rule").append(element("option", { value: rule }, rule));
+  }
   shown.modes = state.modes ?? 20;
-  await setRobot(state.robot.name, text, { robot: { name: state.robot.name, text, set: state.robot.set ?? [] }, hold: hold ?? "file", pose, lengths, start, rule: rule ?? "", pinned: pinned ?? [] });
+  await setRobot(state.robot.name, text, { robot: { name: state.robot.name, text, set: state.robot.set ?? [] }, hold: hold ?? "file", pose: pose ?? null, lengths: lengths ?? null, start, rule, pinned: pinned ?? [], more: more ?? {}, model: model ?? {} });
   shown.response = response ?? null;
   shown.mode = state.mode ?? -1;
   shown.exaggeration = view.exaggeration = state.exaggeration ?? 1;
@@ -1072,7 +1105,7 @@ function listen() {
         return;
       }
       field.removeAttribute("aria-invalid");
-      const pose = content.hold === "pose" ? [...content.pose] : rounded(frame.position, frame.quaternion);
+      const pose = presentPose();
       pose[Number(field.dataset.pose)] = value;
       setPose(pose);
       commit();
@@ -1091,7 +1124,7 @@ function listen() {
       return;
     }
     event.preventDefault();
-    const pose = content.hold === "pose" ? [...content.pose] : rounded(frame.position, frame.quaternion);
+    const pose = presentPose();
     const stepSize = rounding() * (event.shiftKey ? 100 : 10);
     pose[axis[0]] = Number((pose[axis[0]] + axis[1] * stepSize).toPrecision(10));
     setPose(pose);

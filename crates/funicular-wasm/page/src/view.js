@@ -47,7 +47,10 @@ export class View {
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
-    place.append(this.canvas);
+    this.labels = document.createElement("div");
+    this.labels.className = "names";
+    this.labels.setAttribute("aria-hidden", "true");
+    place.append(this.canvas, this.labels);
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 1000);
     this.camera.up.set(0, 0, 1);
@@ -106,8 +109,22 @@ export class View {
         this.showMode(now);
       }
       this.renderer.render(this.scene, this.camera);
+      this.placeLabels();
       if (this.mode?.playing) {
         this.draw();
+      }
+    });
+  }
+
+  /** Puts the names of the cables beside them, at a third of their length from the anchor. */
+  placeLabels() {
+    const { clientWidth: width, clientHeight: height } = this.place;
+    this.frame?.cables.forEach(({ attachment, anchor }, i) => {
+      const point = new Vector3(...[0, 1, 2].map((k) => anchor[k] + 0.3 * (attachment[k] - anchor[k]))).project(this.camera);
+      const label = this.labels.children[i];
+      if (label) {
+        label.hidden = Math.abs(point.x) > 1 || Math.abs(point.y) > 1 || point.z > 1;
+        label.style.transform = `translate(${((point.x + 1) * width) / 2 + 4}px, ${((1 - point.y) * height) / 2 - 8}px)`;
       }
     });
   }
@@ -120,6 +137,7 @@ export class View {
     this.mode = null;
     const { cables } = about.check;
     this.names = cables.map((cable) => cable.name);
+    this.labels.replaceChildren(...this.names.map((name) => Object.assign(document.createElement("span"), { textContent: name })));
     this.attachments = cables.map((cable) => new Vector3(...cable.attachment_m));
     this.motion = about.motion;
 
