@@ -1,6 +1,7 @@
 // Builds the page: a folder for a server, and one file that opens without a server.
 //
-//   node build.mjs FOLDER     FOLDER has funicular.wasm; the page is written into it
+//   node build.mjs FOLDER LICENCES     FOLDER has funicular.wasm; the page is written into it. LICENCES is the file of the
+//                                      licences of all crates in the module
 
 import { build } from "esbuild";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -38,7 +39,7 @@ const libraries = [...new Set(inputs.filter(Boolean))].sort().map((name) => {
   }
   return `${name} ${about.version}\n\n${readFileSync(join(here, "node_modules", name, file), "utf8").trim()}`;
 });
-const licences = libraries.join("\n\n----\n\n");
+const licences = [readFileSync(process.argv[3], "utf8").trim(), ...libraries].join("\n\n----\n\n");
 
 const template = readFileSync(join(here, "index.html"), "utf8");
 const put = (page, name, content) => page.replace(`<!-- ${name} -->`, () => content);

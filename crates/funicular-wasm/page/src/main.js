@@ -1294,6 +1294,7 @@ window.funicular = {
   get content() { return content; },
   get frame() { return frame; },
   get response() { return answered; },
+  get freedoms() { return about.degrees_of_freedom; },
   get asked() { return { response: shown.response }; },
   get times() { return times; },
   get idle() { return !computing && frame !== null; },

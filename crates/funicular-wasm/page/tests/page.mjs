@@ -81,10 +81,11 @@ function native(request) {
 }
 
 // Rounding differs for the reasons that docs/web.md gives: sin, exp and log, and multiply-add with one rounding or two.
-// An equilibrium is accurate to its residual of 1e-10 times the sensitivity of the pose, and so are tensions and
-// frequencies. Observed differences over the library: tensions 1e-12 where the pose is given, frequencies 1e-11.
-const STATICS = 1e-9;
-const FREQUENCY = 1e-9;
+// Observed over the library: lengths and tensions equal bit for bit, frequencies within 7e-13. With fewer cables than
+// degrees of freedom the pose is the result of a longer iteration, whose rounding adds up: tensions within 9e-13 there.
+const STATICS = 1e-12;
+const FREQUENCY = 1e-12;
+const FEW_CABLES = 1e-11;
 
 for (const robot of robots) {
   test(`${robot}: the page shows the numbers of the native program`, async (t) => {
@@ -92,6 +93,8 @@ for (const robot of robots) {
       await choose(robot);
     }
     const found = await frame();
+    const few = await page.evaluate(() => window.funicular.freedoms > window.funicular.frame.cables.length);
+    const [statics, frequency] = few ? [FEW_CABLES, FEW_CABLES] : [STATICS, FREQUENCY];
     const whole = { robot: { name: robot, text: readFileSync(new URL(`${robot}.toml`, library), "utf8") } };
     const rest = native({ command: "statics", ...whole });
     const most = { length: 0, frequency: 0, tension: 0 };
@@ -102,15 +105,15 @@ for (const robot of robots) {
     };
     const largest = Math.max(...rest.cables.map((cable) => cable.tension_platform_n));
     rest.cables.forEach((cable, i) => {
-      compare(found.cables[i].length, cable.unstrained_length_m, STATICS, `length of ${cable.name}`);
+      compare(found.cables[i].length, cable.unstrained_length_m, statics, `length of ${cable.name}`);
       const [a, b] = [found.cables[i].tension, cable.tension_platform_n];
       most.tension = Math.max(most.tension, Math.abs(a - b) / largest);
-      assert.ok(Math.abs(a - b) <= STATICS * largest, `tension of ${cable.name}: ${a} and ${b}`);
+      assert.ok(Math.abs(a - b) <= statics * largest, `tension of ${cable.name}: ${a} and ${b}`);
     });
     const modes = native({ command: "modes", ...whole, below_hz: found.belowHz, damped: false }).modes;
     assert.ok(found.modes.length >= Math.min(20, modes.length), `${found.modes.length} modes`);
     found.modes.forEach((mode, i) => {
-      compare(mode.hz, modes[i].frequency_hz, FREQUENCY, `frequency ${i + 1}`);
+      compare(mode.hz, modes[i].frequency_hz, frequency, `frequency ${i + 1}`);
       // The damping of a mode is the mean of that of its parts, weighed with its shape: of the first order in the error of
       // the shape, which is the rounding divided by the distance to the next frequency.
       near(mode.damping, modes[i].damping_ratio, 1e-6, `damping ${i + 1}`);
@@ -312,8 +315,8 @@ test("a link has the robot and the state", async () => {
 test("a page that `funicular live` has made begins with its robot and state", async () => {
   const text = readFileSync(new URL("caroca.toml", library), "utf8");
   const start = {
-    version: 1, robot: { name: "own.toml", text, set: [{ path: "platform.mass_kg", value: 400 }] }, hold: "pose", pose: [0.5, 0, 1, 0, 0, 0],
-    lengths: null, rule: "middle", more: { force_n: [0, 0, -1000] }, model: { cable_model: "catenary-static" },
+    version: 1, robot: { name: "own.toml", text, set: [{ path: "platform.mass_kg", value: 300 }] }, hold: "pose", pose: [0.5, 0, 1, 0, 0, 0],
+    lengths: null, rule: "middle", more: { force_n: [0, 0, -200] }, model: { cable_model: "catenary-static" },
   };
   const place = '<script id="start" type="application/json">null</script>';
   const whole = readFileSync(join(web, "funicular.html"), "utf8");
@@ -322,7 +325,7 @@ test("a page that `funicular live` has made begins with its robot and state", as
   writeFileSync(file, whole.replace(place, () => place.replace("null", JSON.stringify(start).replaceAll("<", "\\u003c"))));
   const made = await opened(pathToFileURL(file).href);
   const found = await frame(made);
-  const common = { robot: start.robot, pose: start.pose, force_n: [0, 0, -1000], tension_rule: "middle" };
+  const common = { robot: start.robot, pose: start.pose, force_n: [0, 0, -200], tension_rule: "middle" };
   native({ command: "statics", ...common }).cables.forEach((cable, i) => near(found.cables[i].tension, cable.tension_platform_n, STATICS, cable.name));
   const modes = native({ command: "modes", ...common, ...start.model, below_hz: found.belowHz }).modes;
   found.modes.forEach((mode, i) => near(mode.hz, modes[i].frequency_hz, FREQUENCY, `frequency ${i + 1}`));
