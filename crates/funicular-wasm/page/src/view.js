@@ -28,6 +28,15 @@ export function colorOf(fraction) {
   return SCALE[low].clone().lerp(SCALE[low + 1], at - low);
 }
 
+/** True if the browser draws without a graphics card: then smooth edges and fine pixels take longer than a frame. */
+function isSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const about = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = about ? gl.getParameter(about.UNMASKED_RENDERER_WEBGL) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
 export class View {
   /**
    * @param {HTMLElement} place
@@ -43,7 +52,8 @@ export class View {
     this.before = null;
     this.canDrag = true;
 
-    this.renderer = new WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.software = isSoftware();
+    this.renderer = new WebGLRenderer({ antialias: !this.software, alpha: true });
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
@@ -93,7 +103,7 @@ export class View {
     if (width === 0 || height === 0) {
       return;
     }
-    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio || 1));
+    this.renderer.setPixelRatio(this.software ? 1 : Math.min(2, devicePixelRatio || 1));
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
