@@ -21,7 +21,7 @@ use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::DriveSignal;
 use crate::cable_motion::CableStations;
 use crate::dynamics::Dynamics;
-use crate::math::{CMat6, CVec6, Complex, Vec3, Vec6, inverse6};
+use crate::math::{CDMat, CMat6, CVec6, Complex, Vec3, Vec6, inverse6};
 use std::f64::consts::TAU;
 use std::slice;
 use std::sync::Arc;
@@ -65,13 +65,6 @@ pub enum ResponseError {
          points among the same loaded stations"
     )]
     SameCable,
-    /// The output is a point of a cable that runs over a pulley or to a winch that yields, and the input a motion of its
-    /// anchor.
-    #[error(
-        "the motion of a point of a cable by a motion of its anchor is not known for a cable that runs over a pulley or \
-         to a winch that yields: choose an output on the platform"
-    )]
-    FrameAndCable,
     /// Input and output are the drive of a cable and a point on the same cable.
     #[error("the drive of a cable and a point on the same cable do not go together as input and output")]
     DriveAndCable,
@@ -151,12 +144,16 @@ pub fn matrix(
     let mut rows = vec![Vec::with_capacity(frequencies_hz.len()); inputs.len() * outputs.len()];
     for (receptance, frequency_hz) in all.iter().zip(frequencies_hz) {
         let omega = frequency_hz * TAU;
-        let from: Vec<CVec6> = inputs.iter().map(|input| input.vector(dynamics, omega)).collect();
+        let from: Vec<(CVec6, Vec<Complex>)> = inputs.iter().map(|input| input.free_vector(dynamics, omega)).collect();
+        let free_supports = dynamics.support_response(omega).map(|(_, free)| free);
         let mut row = 0;
         for (output, _) in outputs {
-            let to = output.vector(dynamics, omega);
-            for input in &from {
-                let through = (to.transpose() * receptance * input)[0];
+            let (to, to_supports) = output.free_vector(dynamics, omega);
+            for (input, from_supports) in &from {
+                let mut through = (to.transpose() * receptance * input)[0];
+                if let Some(free) = &free_supports {
+                    through += between_supports(free, &to_supports, from_supports);
+                }
                 let added = own[row].as_ref().map(|own| own.at(dynamics, omega));
                 rows[row].push(added.map_or(through, |added| through + added));
                 row += 1;
@@ -170,6 +167,12 @@ pub fn matrix(
         finished(if both { of_platform.next().unwrap_or(row) } else { row }, frequencies_hz, quantity)
     };
     rows.into_iter().zip(pairs()).map(finished).collect()
+}
+
+/// Output through the supports alone: `w_outᵀ Y⁻¹ w_in`.
+fn between_supports(free: &CDMat, to: &[Complex], from: &[Complex]) -> Complex {
+    let row = |i: usize| -> Complex { from.iter().enumerate().map(|(j, from)| free[(i, j)] * from).sum() };
+    to.iter().enumerate().map(|(i, to)| to * row(i)).sum()
 }
 
 /// Motion of a cable under a force on itself, or a motion of its anchor, which adds to the motion through the platform.
@@ -213,7 +216,6 @@ impl<'a> OwnResponse<'a> {
                 Ok(Some(Self::DriveByFrame { term: *term, to: *signal, from }))
             }
             (Port::Frame(from), Port::Cable { stations, station, direction_w }) => {
-                frame_motion::check_stations(dynamics, stations)?;
                 Ok(Some(Self::PointByFrame { stations, to: (*station, direction_w), from }))
             }
             _ => Ok(None),

@@ -3,11 +3,10 @@
 //! Every cable pulls at the platform by the motion of its far end; gravity and loads stay where they are. Derivation:
 //! docs/theory.md, equations (83) to (86).
 
-use super::ResponseError;
 use crate::cable::catenary_dynamic::{CarrierMotion, DriveSignal};
 use crate::cable::{DynamicCable, EndStiffness, LocalAxes};
 use crate::cable_motion::{CableMotionError, CableStations};
-use crate::dynamics::{DynamicCableAt, Dynamics};
+use crate::dynamics::Dynamics;
 use crate::math::{CVec6, Complex, Mat3, Vec3, Vec6};
 use crate::robot::Robot;
 use crate::statics::{CableState, Equilibrium};
@@ -156,19 +155,30 @@ impl FrameMotion {
         (at, direction_w): (usize, &Vec3),
         omega: f64,
     ) -> Complex {
-        stations.by_far_end(dynamics, at, direction_w, &self.displacements_w[stations.cable], omega)
+        let carrier = self.carrier(dynamics, stations.cable);
+        stations.by_far_end(dynamics, (at, direction_w), &self.displacements_w[stations.cable], carrier, omega)
     }
-}
 
-/// Checks that the motion of stations of a cable by the frame is known, the platform held.
-///
-/// # Errors
-/// [`ResponseError::FrameAndCable`]: the cable runs over a pulley or to a winch that yields.
-pub(super) fn check_stations(dynamics: &Dynamics, stations: &CableStations) -> Result<(), ResponseError> {
-    let term = dynamics.terms().iter().find(|term| term.cable() == stations.cable);
-    match term.map(DynamicCableAt::form) {
-        Some(DynamicCable::CatenaryDynamic(form)) if form.cable.end.is_some() => Err(ResponseError::FrameAndCable),
-        _ => Ok(()),
+    /// Displacement of station `at` of a cable along `direction_w`, the platform and the amplitudes of the clamped modes at
+    /// rest.
+    pub(crate) fn still_of_station(&self, stations: &CableStations, at: usize, direction_w: &Vec3) -> f64 {
+        stations.still_by_far_end(at, direction_w, &self.displacements_w[stations.cable])
+    }
+
+    /// Wrench on the platform about its origin by the cables whose stiffness does not depend on frequency.
+    pub(crate) fn constant(&self) -> &Vec6 {
+        &self.constant
+    }
+
+    /// Motions of the carriers of the other cables, each with its index among those whose stiffness depends on frequency.
+    pub(crate) fn carriers(&self) -> impl Iterator<Item = (usize, &CarrierMotion)> {
+        self.cables.iter().map(|moved| (moved.term, &moved.motion))
+    }
+
+    /// Motion of the carrier of a cable, given by its index in the order of the file; `None` if it is at rest or if the
+    /// stiffness of the cable does not depend on frequency.
+    fn carrier(&self, dynamics: &Dynamics, cable: usize) -> Option<&CarrierMotion> {
+        self.carriers().find(|(term, _)| dynamics.terms()[*term].cable() == cable).map(|(_, motion)| motion)
     }
 }
 

@@ -349,7 +349,10 @@ fn class_of(kind: Kind) -> &'static str {
 /// Names of the cables with the largest shares of a mode's energy.
 fn strongest(robot: &Robot, mode: &Mode) -> String {
     let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
-    let named: Vec<String> = modes::strongest(&names, &mode.cable_energy_fractions, &mode.drive_energy_fractions)
+    let supports: Vec<String> = robot.supports.iter().map(|support| support.name.clone()).collect();
+    let of_supports = (&supports[..], &mode.support_energy_fractions[..]);
+    let of_cables = (&mode.cable_energy_fractions, &mode.drive_energy_fractions);
+    let named: Vec<String> = modes::strongest(&names, of_cables.0, of_cables.1, of_supports)
         .iter()
         .map(|(name, share)| format!("{name} ({} %)", fixed(100.0 * share, 0)))
         .collect();

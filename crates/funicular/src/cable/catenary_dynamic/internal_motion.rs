@@ -177,6 +177,18 @@ impl InternalMotion {
 }
 
 impl Stations {
+    /// Displacement (horizontal, up, out of plane) of station `at` for a displacement of the far end, with the start and the
+    /// amplitudes of the clamped modes at rest.
+    pub(crate) fn still_by_far_end(&self, at: usize, [h, v, b]: [Complex; 3]) -> [Complex; 3] {
+        let rest = Complex::new(0.0, 0.0);
+        if !self.coupled.still.is_empty() {
+            return self.coupled.at(at, &[rest, rest, rest, h, v, b], &[]);
+        }
+        let [horizontal, up] = self.in_plane.at(at, &[rest, rest, h, v], &[]);
+        let [out_of_plane] = self.out_of_plane.at(at, &[rest, b], &[]);
+        [horizontal, up, out_of_plane]
+    }
+
     /// Displacement (horizontal, up, out of plane) of station `at`.
     pub(crate) fn displacement(&self, at: usize, motion: &InternalMotion) -> [Complex; 3] {
         if !self.coupled.still.is_empty() {
