@@ -266,7 +266,7 @@ pub fn response(
 /// longer than the responses.
 ///
 /// # Errors
-/// The errors of [`response`].
+/// The errors of [`response()`].
 pub fn values_alone(at_rest: &AtRest, pairs: &Pairs<'_>, frequencies: Vec<f64>) -> Result<Response> {
     let (mut response, dynamics) = Response::without_values(at_rest, pairs, frequencies)?;
     response.compute(&dynamics, &mut Silent)?;
