@@ -7,7 +7,9 @@ mod weighted;
 
 pub use weighted::WeightedMotions;
 
-use crate::cable::catenary_dynamic::{CarrierMotion, CatenaryDynamic, CatenaryDynamicError, InternalMotion, Stations};
+use crate::cable::catenary_dynamic::{
+    CarrierMotion, CatenaryDynamic, CatenaryDynamicError, DriveSignal, InternalMotion, Stations,
+};
 use crate::cable::{CableModel, DynamicCable, LocalAxes};
 use crate::dynamics::{DynamicCableAt, Dynamics};
 use crate::math::{CVec6, Complex, Vec3, Vec6};
@@ -40,10 +42,10 @@ pub enum CableMotionError {
         /// Name of the cable.
         cable: String,
     },
-    /// Motions of the frame are inputs of a robot with flexible supports.
+    /// The base of a robot with flexible supports turns, or an anchor on a support is moved.
     #[error(
-        "motions of base and anchors are not known for a robot with flexible supports: choose inputs on the platform, on \
-         cables or at drives"
+        "for a robot with flexible supports, rotations of the base and motions of anchors on supports are not known: choose \
+         `base-x`, `base-y` or `base-z`, or an input on the platform, on a cable or at a drive"
     )]
     FrameAndSupports,
     /// The cable has no catenary-dynamic stiffness.
@@ -255,17 +257,41 @@ impl CableStations {
         }
     }
 
+    /// Displacement of station `at` along a unit vector per unit of a signal of the drive or tension of the cable, the platform
+    /// held, at ω [rad/s], damped; by reciprocity also the output per force on the station. Zero without such a signal.
+    pub(crate) fn by_signal(
+        &self,
+        dynamics: &Dynamics,
+        (at, direction_w): (usize, &Vec3),
+        signal: DriveSignal,
+        omega: f64,
+    ) -> Complex {
+        let StationModel::CatenaryDynamic { cable, stations, term } = &self.model else { return 0.0.into() };
+        let DynamicCable::CatenaryDynamic(end) = dynamics.terms()[*term].form() else {
+            unreachable!("made of this term")
+        };
+        let Some(motion) = end.motion_by_signal(cable, signal, omega) else { return 0.0.into() };
+        let moved = stations.displacement(at, &motion);
+        moved.iter().zip(self.local(direction_w)).map(|(u, component)| u * component).sum()
+    }
+
     /// Displacement of station `at` along `direction_w` (unit) for a displacement `far_end_w` of the far end, with the platform
     /// and the amplitudes of the clamped modes at rest.
     pub(crate) fn still_by_far_end(&self, at: usize, direction_w: &Vec3, far_end_w: &Vec3) -> f64 {
-        let (stations, towards, far_end) = match &self.model {
-            StationModel::Straight(fractions) => return far_end_w.dot(direction_w) * (1.0 - fractions[at]),
-            StationModel::CatenaryDynamic { stations, .. } => {
-                (stations, self.local(direction_w), self.local(far_end_w).map(Complex::from))
+        match &self.model {
+            StationModel::Straight(fractions) => far_end_w.dot(direction_w) * (1.0 - fractions[at]),
+            StationModel::CatenaryDynamic { .. } => {
+                self.still_by_ends(at, direction_w, [[0.0; 3], self.local(far_end_w)])
             }
-        };
-        let moved = stations.still_by_far_end(at, far_end);
-        moved.iter().zip(towards).map(|(u, component)| u.re * component).sum()
+        }
+    }
+
+    /// Displacement of station `at` along `direction_w` (unit) for displacements (e, n, b) of the platform end and of the far
+    /// end, with the amplitudes of the clamped modes at rest; zero for a cable without mass.
+    pub(crate) fn still_by_ends(&self, at: usize, direction_w: &Vec3, [start, end]: [[f64; 3]; 2]) -> f64 {
+        let StationModel::CatenaryDynamic { stations, .. } = &self.model else { return 0.0 };
+        let moved = stations.still(at, start, end);
+        moved.iter().zip(self.local(direction_w)).map(|(u, component)| u * component).sum()
     }
 
     /// Row of the motion of station `at` along `direction_w` (unit) over the platform's slow motion and the amplitudes

@@ -199,7 +199,7 @@ impl Dynamics {
     ) -> Result<Self, DynamicsError> {
         let Linearisation { cable_model, assembly, in_plane_only, winches } = linearisation;
         let coordinates = Coordinates::of(robot);
-        refuse_on_supports(robot, &linearisation)?;
+        refuse_on_supports(robot, linearisation)?;
         let settled = equilibrium.settled(robot);
         let mut supports = robot.has_supports().then(|| SupportsBuilder::new(robot, &coordinates));
 
@@ -477,7 +477,7 @@ impl Dynamics {
 }
 
 /// Refuses the option that does not exist for anchors on flexible supports.
-fn refuse_on_supports(robot: &Robot, linearisation: &Linearisation) -> Result<(), DynamicsError> {
+fn refuse_on_supports(robot: &Robot, linearisation: Linearisation) -> Result<(), DynamicsError> {
     let Some(cable) = robot.cables.iter().find(|cable| cable.anchor.support.is_some()) else { return Ok(()) };
     if linearisation.in_plane_only {
         return Err(DynamicsError::Support { cable: cable.name.clone() });

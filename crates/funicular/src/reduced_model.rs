@@ -360,6 +360,12 @@ impl Channels {
                 let moved = frame.carriers().find(|(of, _)| of == term);
                 moved.and_then(|(_, motion)| dynamics.direct_by_carrier(*term, motion, *signal)).unwrap_or_default()
             }
+            (Port::Drive { term, signal, .. }, Port::Cable { stations, station, direction_w })
+            | (Port::Cable { stations, station, direction_w }, Port::Drive { term, signal, .. })
+                if dynamics.terms()[*term].cable() == stations.cable =>
+            {
+                [stations.still_by_ends(*station, direction_w, dynamics.ends_of_signal(*term, *signal)), 0.0, 0.0]
+            }
             (Port::Frame(frame), Port::Cable { stations, station, direction_w }) => {
                 [frame.still_of_station(stations, *station, direction_w), 0.0, 0.0]
             }

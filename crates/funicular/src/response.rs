@@ -65,9 +65,6 @@ pub enum ResponseError {
          points among the same loaded stations"
     )]
     SameCable,
-    /// Input and output are the drive of a cable and a point on the same cable.
-    #[error("the drive of a cable and a point on the same cable do not go together as input and output")]
-    DriveAndCable,
 }
 
 /// Response of one output to one input at each frequency [Hz]: displacement per force [m/N], rotation per moment
@@ -181,6 +178,8 @@ enum OwnResponse<'a> {
     Points { stations: &'a CableStations, to: (usize, &'a Vec3), from: (usize, &'a Vec3) },
     /// Between signals of its drive; the cable's index among those whose stiffness depends on frequency.
     Drive { term: usize, to: DriveSignal, from: DriveSignal },
+    /// From a signal of its drive to a point of the cable, or by reciprocity from a force there to that signal.
+    DriveAndPoint { stations: &'a CableStations, point: (usize, &'a Vec3), signal: DriveSignal },
     /// From a motion of the frame to a signal of a drive; the cable's index among those whose stiffness depends on
     /// frequency.
     DriveByFrame { term: usize, to: DriveSignal, from: &'a FrameMotion },
@@ -197,11 +196,11 @@ impl<'a> OwnResponse<'a> {
             {
                 Ok(Some(Self::Drive { term: *term, to: *to, from: *from }))
             }
-            (Port::Drive { term, .. }, Port::Cable { stations, .. })
-            | (Port::Cable { stations, .. }, Port::Drive { term, .. })
+            (Port::Drive { term, signal, .. }, Port::Cable { stations, station, direction_w })
+            | (Port::Cable { stations, station, direction_w }, Port::Drive { term, signal, .. })
                 if dynamics.terms()[*term].cable() == stations.cable =>
             {
-                Err(ResponseError::DriveAndCable)
+                Ok(Some(Self::DriveAndPoint { stations, point: (*station, direction_w), signal: *signal }))
             }
             (
                 Port::Cable { stations, station: loaded, direction_w: force_w },
@@ -225,6 +224,7 @@ impl<'a> OwnResponse<'a> {
     fn at(&self, dynamics: &Dynamics, omega: f64) -> Complex {
         match self {
             Self::Points { stations, to, from } => stations.own_receptance(dynamics, *to, *from, omega),
+            Self::DriveAndPoint { stations, point, signal } => stations.by_signal(dynamics, *point, *signal, omega),
             Self::DriveByFrame { term, to, from } => from.of_drive(dynamics, *term, *to, omega),
             Self::PointByFrame { stations, to, from } => from.of_station(dynamics, stations, *to, omega),
             Self::Drive { term, to, from } => {

@@ -112,6 +112,13 @@ impl Dynamics {
         Some(end.carrier_form(motion).map(|form| self.row(term, form)))
     }
 
+    /// Motions (e, n, b) of the platform end and of the far end of a cable per unit of a signal of its drive; the cable is given by
+    /// its index among the terms.
+    pub(crate) fn ends_of_signal(&self, term: usize, signal: DriveSignal) -> [[f64; 3]; 2] {
+        let DynamicCable::CatenaryDynamic(end) = &self.terms[term].form else { return [[0.0; 3]; 2] };
+        end.ends_of_signal(signal)
+    }
+
     /// Output of the drive of a cable, or its tension, per motion of the carrier of its far end with all coordinates at rest;
     /// `None` without such a signal.
     pub(crate) fn direct_by_carrier(

@@ -275,7 +275,7 @@ impl BorderedPencil {
 }
 
 /// Coordinates without mass, which follow the others.
-struct Still {
+struct Massless {
     /// Places of the coordinates with mass, and of those without.
     moving: Vec<usize>,
     still: Vec<usize>,
@@ -283,7 +283,7 @@ struct Still {
     follow: DMat,
 }
 
-impl Still {
+impl Massless {
     /// Vector over all coordinates from one over those with mass.
     fn completed(&self, moving: &[f64]) -> Vec<f64> {
         let mut all = vec![0.0; self.moving.len() + self.still.len()];
@@ -296,7 +296,7 @@ impl Still {
 }
 
 /// Matrices without the coordinates of supports that have no mass, which begin at `first`; `None` if all have some.
-fn without_massless(a: DMat, m: DMat, first: usize) -> (DMat, DMat, Option<Still>) {
+fn without_massless(a: DMat, m: DMat, first: usize) -> (DMat, DMat, Option<Massless>) {
     let (still, moving): (Vec<usize>, Vec<usize>) = (0..a.nrows()).partition(|i| *i >= first && m[(*i, *i)] == 0.0);
     if still.is_empty() {
         return (a, m, None);
@@ -306,7 +306,7 @@ fn without_massless(a: DMat, m: DMat, first: usize) -> (DMat, DMat, Option<Still
     let follow = -held.unwrap_or_else(|| DMat::zeros(still.len(), moving.len()));
     let reduced = block(&a, &moving, &moving) + block(&a, &moving, &still) * &follow;
     let mass = block(&m, &moving, &moving);
-    (reduced, mass, Some(Still { moving, still, follow }))
+    (reduced, mass, Some(Massless { moving, still, follow }))
 }
 
 /// Indices of the `several` values of smallest magnitude, in ascending order of magnitude.

@@ -11,7 +11,7 @@
 //! (docs/theory.md, equations (92) and (93)).
 
 use super::{DynamicCableAt, Dynamics};
-use crate::cable::catenary_dynamic::{CarrierMotion, ENDS, NearPole, NearRanges, TwoEnded};
+use crate::cable::catenary_dynamic::{CarrierMotion, CatenaryDynamicEnd, ENDS, NearPole, NearRanges, TwoEnded};
 use crate::cable::{DynamicCable, LocalAxes};
 use crate::math::{CDMat, CMat6, Complex, DMat, DVec, Mat3, Mat6, Vec3, Vec6};
 use crate::platform::{Coordinates, wrench_columns};
@@ -251,6 +251,57 @@ impl Supports {
             with_drum: !carried.from_ground,
         };
         Some((carried.first, [0, 1, 2].map(motion)))
+    }
+
+    /// Adds the forces of inertia that act on the displacements of the supports while their feet move.
+    pub(crate) fn add_inertia_of_feet(&self, forces: &mut [Complex], feet_w: &Vec3, omega: f64) {
+        let feet = DVec::from_fn(self.count(), |i, _| feet_w[i % 3]);
+        let inertia = &self.mass * feet * (omega * omega);
+        forces.iter_mut().zip(inertia.iter()).for_each(|(force, inertia)| *force += inertia);
+    }
+
+    /// Adds the forces on the support of a cable, given by its index among the terms, while the base moves with all anchors
+    /// and drums.
+    pub(crate) fn add_forces_by_base(
+        &self,
+        forces: &mut [Complex],
+        (term, form): (usize, &CatenaryDynamicEnd),
+        base: &CarrierMotion,
+        omega: f64,
+        square: Complex,
+    ) {
+        let Some(carried) = &self.carried[term] else { return };
+        let all = NearRanges::default();
+        let (stiffness, _) = carried.both.at(square, &all);
+        let along = if carried.from_ground { 0.0 } else { base.along_drum_side };
+        let [e, n, b] = base.displacement;
+        let moved = [0.0, 0.0, 0.0, e, n, b, along];
+        let mut on_ends: [Complex; ENDS] =
+            std::array::from_fn(|i| -(0..ENDS).map(|j| stiffness[i][j] * moved[j]).sum::<Complex>());
+
+        // The drive: its losses, and the mass of a drum side from the ground, which moves with the base.
+        if let Some(motions) = form.drive_at(square, &all) {
+            let delta = form.beyond_undamped(omega.into(), 1.0);
+            let transfer: Vec<[Complex; ENDS]> =
+                carried.both.drive(square, &all).into_iter().map(|(row, _)| row).collect();
+            let carried_along = if carried.from_ground { base.along_drum_side } else { 0.0 };
+            let given: Vec<Complex> =
+                (0..transfer.len()).map(|i| square * form.carried_mass(i) * carried_along).collect();
+            let mut free: Vec<Complex> =
+                transfer.iter().map(|row| row.iter().zip(moved).map(|(t, u)| t * u).sum()).collect();
+            motions.add_motion_by(&given, &mut free);
+            let lost = motions.forces_by(&delta, &free);
+            for (i, force) in on_ends.iter_mut().enumerate() {
+                *force += (transfer.iter().zip(given.iter().zip(&lost)))
+                    .map(|(row, (given, lost))| row[i] * (given - lost))
+                    .sum::<Complex>();
+            }
+            on_ends[ENDS - 1] += square * form.carried_mass(0) * form.drum_side_ratio() * carried_along;
+        }
+
+        for (direction, force) in carried.directions_w.iter().zip(on_ends) {
+            (0..3).for_each(|k| forces[carried.first + k] += force * direction[k]);
+        }
     }
 
     /// First coordinate of the support of a cable of the robot; `None` for a rigid anchor.

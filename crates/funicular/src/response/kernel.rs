@@ -122,8 +122,8 @@ impl<'a> Prepared<'a> {
     /// Takes off the stiffness that the platform loses because supports yield, lane by lane.
     #[inline(never)]
     fn take_off_supports(&self, d: &mut [Complexes; 21], omega: &Lane) {
-        for lane in 0..LANES {
-            let lost = self.dynamics.stiffness_lost_to_supports(omega[lane]);
+        for (lane, omega) in omega.iter().enumerate() {
+            let lost = self.dynamics.stiffness_lost_to_supports(*omega);
             for j in 0..6 {
                 for i in j..6 {
                     d[at(i, j)].re[lane] -= lost[(i, j)].re;

@@ -113,10 +113,6 @@ impl Port {
         signals: &[Signal],
         loaded: bool,
     ) -> Result<Vec<Self>, CableMotionError> {
-        if dynamics.supports().is_some() && signals.iter().any(|signal| matches!(signal, Signal::Frame(_))) {
-            return Err(CableMotionError::FrameAndSupports);
-        }
-
         // Points of each cable; cables in the order of first appearance.
         let mut points: Vec<(usize, Vec<f64>)> = Vec::new();
         for signal in signals {
@@ -209,7 +205,8 @@ impl Port {
         let supports = dynamics.supports()?;
         let mut forces = vec![Complex::new(0.0, 0.0); supports.count()];
         match self {
-            Self::Platform(_) | Self::Frame(_) => {}
+            Self::Platform(_) => {}
+            Self::Frame(motion) => return Some(motion.on_supports(dynamics, supports, omega)),
             Self::Drive { term, signal, .. } => {
                 let (DynamicCable::CatenaryDynamic(form), Some((first, motions))) =
                     (dynamics.terms()[*term].form(), supports.carrier_motions(*term))

@@ -7,11 +7,12 @@ use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Mat3, Vec3};
 use funicular::modes::{self, Kind};
-use funicular::response::{self, Port, Quantity, Signal};
+use funicular::response::{self, FrameInput, Port, Quantity, Signal};
 use funicular::robot::{Control, DrumPlace, DrumSide, Pose, Robot, Servo};
 use funicular::statics::{self, CableState, Equilibrium, StaticModel, TensionRule};
 use nalgebra::{DMatrix, Matrix3};
 use std::f64::consts::TAU;
+use std::fmt::Write;
 
 /// Drive behind the cables of a robot of these tests.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,7 +44,8 @@ fn cogiro(behind: Behind) -> Robot {
     }
     let drums = if behind == Behind::DrumsOnGround { "drums = \"on-ground\"\n" } else { "" };
     for (post, size) in [("a", 1.0), ("b", 0.7), ("c", 1.3), ("d", 0.5)] {
-        tables += &format!(
+        let _ = write!(
+            tables,
             "[supports.{post}]\nmass_kg = {}\nstiffness_n_per_m = [[{}, 2e4, 0], [2e4, 3e5, -1e4], [0, -1e4, 4e6]]\n{drums}",
             20.0 * size,
             2e5 * size
@@ -262,7 +264,7 @@ fn a_mast_bends_to_a_hanging_weight() {
 
 /// Point mass without gravity on four cables, two of them on one post; straight cables have a closed form.
 fn taut(post: &str) -> Robot {
-    let cables: String = [
+    let cables: Vec<String> = [
         ("1", "[3.0, 0.5, 2.0]", "support = \"post\"\n", 3.55),
         ("2", "[3.0, -0.5, 1.8]", "support = \"post\"\n", 3.45),
         ("3", "[-3.0, 1.0, 1.0]", "support = \"mast\"\n", 3.25),
@@ -276,6 +278,7 @@ fn taut(post: &str) -> Robot {
         )
     })
     .collect();
+    let cables = cables.concat();
     Robot::from_toml(&format!(
         "name = \"taut\"\ngravity_m_s2 = [0, 0, 0]\n[platform]\nmass_kg = 2.0\nmotion = \"point-mass\"\n\
          [materials.rope]\naxial_stiffness_n = 4e4\nmass_kg_per_m = 0.05\ndamping_ratio = 0.01\n[supports.post]\n\
@@ -520,6 +523,90 @@ fn responses_include_the_supports() {
             }
         }
     }
+}
+
+/// The base moves with the feet of all supports: against the closed form of straight cables, and rigidly at rest.
+#[test]
+fn supports_stand_on_the_base() {
+    let robot = taut("damping_ratio = 0.02\n");
+    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 60.0).unwrap();
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let inputs = axes.map(|axis| Signal::Frame(FrameInput::BaseAlong(axis)));
+    let outputs = axes.map(|direction_w| Signal::Along { direction_w, point_p: Vec3::zeros() });
+    for hz in [0.7, 4.1, 11.3, 23.7, 55.0] {
+        let found = platform_responses(&robot, &rest, &dynamics, hz, &inputs, &outputs);
+        let own = Complex::from((hz * TAU).powi(2));
+        let square = own * Complex::new(1.0, -0.02);
+        let all = closed_form(&robot, &rest, own, square, 1.0);
+
+        // Forces by the feet: as if every anchor moved, less the forces of the supports' own stiffness.
+        let mut forces = DMatrix::from_element(9, 3, Complex::new(0.0, 0.0));
+        let anchored = closed_form_of_anchors(&robot, &rest, square);
+        for i in 0..3 {
+            for j in 0..3 {
+                forces[(i, j)] = -anchored[(i, j)];
+                for (k, support) in robot.supports.iter().enumerate() {
+                    let at = 3 + 3 * k;
+                    let spring = support.stiffness_w[(i, j)] * Complex::new(1.0, 2.0 * support.damping_ratio);
+                    forces[(at + i, j)] = spring - all[(at + i, at + j)];
+                }
+            }
+        }
+        let moved = all.lu().solve(&forces).unwrap();
+        let size = moved.view((0, 0), (3, 3)).norm();
+        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+            // The error of the cables' discretisation, near resonances.
+            let gap = (found[3 * i + j] - moved[(i, j)]).norm();
+            assert!(gap < 1e-7 * size, "{hz} Hz, {i} {j}: {} {}", found[3 * i + j], moved[(i, j)]);
+        }
+    }
+
+    for behind in Behind::ALL {
+        let robot = cogiro(behind);
+        let rest = at_rest(&robot);
+        for cable_model in [CableModel::CatenaryStatic, CableModel::CatenaryDynamic] {
+            let linearisation = Linearisation { cable_model, ..Linearisation::default() };
+            let dynamics = Dynamics::about(&robot, &rest, linearisation, 6.0).unwrap();
+            let found = platform_responses(&robot, &rest, &dynamics, 1e-4, &inputs, &outputs);
+            for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+                let rigid = if i == j { 1.0 } else { 0.0 };
+                let gap = (found[3 * i + j] - rigid).norm();
+                assert!(gap < 1e-7, "{behind:?}, {cable_model}, {i} {j}: {}", found[3 * i + j]);
+            }
+        }
+    }
+}
+
+/// Responses of motions of the platform at one frequency [Hz], by rows of outputs.
+fn platform_responses(
+    robot: &Robot,
+    rest: &Equilibrium,
+    dynamics: &Dynamics,
+    hz: f64,
+    inputs: &[Signal],
+    outputs: &[Signal],
+) -> Vec<Complex> {
+    let inputs = Port::all(robot, rest, dynamics, inputs, false).unwrap();
+    let outputs = Port::all(robot, rest, dynamics, outputs, false).unwrap();
+    let outputs: Vec<(Port, Quantity)> = outputs.into_iter().map(|port| (port, Quantity::Displacement)).collect();
+    response::matrix(dynamics, &[hz], &inputs, &outputs).unwrap().iter().map(|row| row[0]).collect()
+}
+
+/// Force on the platform of [`taut`] by a motion of all anchors at the square ω_c², less its sign.
+fn closed_form_of_anchors(robot: &Robot, rest: &Equilibrium, square: Complex) -> Matrix3<Complex> {
+    let of_cable = |(cable, state): (&funicular::robot::Cable, &CableState)| {
+        let (ea, m, length) = (cable.material.axial_stiffness, cable.material.mass_per_length, state.unstrained_length);
+        let across = ea * state.tension_platform / (ea + state.tension_platform);
+        let t = state.chord_w().normalize();
+        let along = (t * t.transpose()).map(Complex::from);
+        let far = |c: f64| {
+            let kappa = (square * (m / c)).sqrt();
+            -c * kappa / (kappa * length).sin()
+        };
+        along * far(ea) + (Matrix3::identity() - along) * far(across)
+    };
+    robot.cables.iter().zip(&rest.cables).map(of_cable).sum()
 }
 
 /// In a mode, the far end of a cable moves as its support does, and the points between follow without a jump.

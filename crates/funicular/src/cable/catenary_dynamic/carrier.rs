@@ -63,17 +63,65 @@ impl CatenaryDynamicEnd {
         motion: &CarrierMotion,
         omega: f64,
     ) -> InternalMotion {
-        let (held, square) = ([Complex::new(0.0, 0.0); 3], self.square(omega));
-        let mut found = InternalMotion::between(cable, held, motion.displacement.map(Complex::from), square);
-        let Some(drive) = &cable.drive else { return found };
+        let square = self.square(omega);
+        let given = self.forces_by_carrier(motion).iter().map(|(still, mass)| *still + square * *mass).collect();
+        self.motion_by_far_end(cable, motion.displacement, given, omega)
+    }
 
-        // Forces on the motions of the drive: those that the carrier brings about, less those of the losses.
+    /// Motion along `cable` per unit of a signal of the drive or tension at ω [rad/s]: by an input, the platform end held, and
+    /// by reciprocity the output per force on a point of the cable. The cable is this one, perhaps in another discretisation.
+    /// `None` if the cable has no such signal.
+    pub(crate) fn motion_by_signal(
+        &self,
+        cable: &CatenaryDynamic,
+        signal: DriveSignal,
+        omega: f64,
+    ) -> Option<InternalMotion> {
+        let [start, far_end] = self.ends_of_signal(signal);
+        if signal == DriveSignal::Tension {
+            let square = self.square(omega);
+            let moved = InternalMotion::new(cable, start.map(Complex::from), square);
+            return Some(moved.with_drive(cable, &self.beyond_undamped(omega.into(), 1.0), square));
+        }
+        let Some(chain) = self.chain() else {
+            return Some(self.motion_by_far_end(cable, far_end, Vec::new(), omega));
+        };
+        let given = self.output_row(chain, signal, omega)?;
+        Some(self.motion_by_far_end(cable, [0.0; 3], given, omega))
+    }
+
+    /// Motions (e, n, b) of the platform end and of the far end per unit of a signal: that of an input, or by reciprocity the
+    /// force on the end that is measured. Zero for signals that act on the motions of a drive.
+    pub(crate) fn ends_of_signal(&self, signal: DriveSignal) -> [[f64; 3]; 2] {
+        let along = |[h, v]: [f64; 2], factor: f64| [factor * h, factor * v, 0.0];
+        let (held, is_far_end) = ([0.0; 3], self.chain().is_none() && self.cable.coupled.is_none());
+        match signal {
+            DriveSignal::Tension => [along(self.directions.from_platform, 1.0), held],
+            DriveSignal::Length if is_far_end => [held, along(self.directions.to_platform, self.directions.stretch)],
+            DriveSignal::DrumTension if is_far_end => [held, along(self.directions.to_platform, 1.0)],
+            _ => [held; 2],
+        }
+    }
+
+    /// Motion along `cable` for a motion of the far end and the forces `given` on the first motions of the drive at ω [rad/s],
+    /// the platform end held.
+    fn motion_by_far_end(
+        &self,
+        cable: &CatenaryDynamic,
+        far_end: [f64; 3],
+        mut given: Vec<Complex>,
+        omega: f64,
+    ) -> InternalMotion {
+        let (held, square) = ([Complex::new(0.0, 0.0); 3], self.square(omega));
+        let mut found = InternalMotion::between(cable, held, far_end.map(Complex::from), square);
+        let Some(drive) = &cable.drive else { return found };
+        given.resize(self.motions(), Complex::new(0.0, 0.0));
+
+        // Forces on the motions of the drive: the given ones less those of the losses.
         let at = DriveAt::at(cable, drive, self.motions(), square, &NearRanges::default());
         let delta = self.beyond_undamped(omega.into(), 1.0).values();
-        let given: Vec<Complex> =
-            self.forces_by_carrier(motion).iter().map(|(still, mass)| *still + square * *mass).collect();
         let mut free: Vec<Complex> = (DriveAt::by_carrier(cable, drive, delta.len(), square).iter())
-            .map(|row| row.iter().zip(motion.displacement).map(|(t, c)| t * c).sum())
+            .map(|row| row.iter().zip(far_end).map(|(t, c)| t * c).sum())
             .collect();
         at.add_motion_by(&given, &mut free);
         let forces: Vec<Complex> =
@@ -167,8 +215,14 @@ impl CatenaryDynamicEnd {
         self.drum_tension_of_ends(motion.of_drum_side(ratio), omega) / ratio
     }
 
+    /// Mass between a motion of the chain and a motion of the whole drum side along itself [kg].
+    pub(crate) fn carried_mass(&self, motion: usize) -> f64 {
+        let side = self.chain().and_then(|chain| chain.drum_side.get(motion));
+        side.map_or(0.0, |side| side.carried_mass)
+    }
+
     /// Stretch at the exit point over that at the drum; 1 without a drum side.
-    pub(super) fn drum_side_ratio(&self) -> f64 {
+    pub(crate) fn drum_side_ratio(&self) -> f64 {
         self.chain().and_then(|chain| chain.drum_end.as_ref()).map_or(1.0, |end| end.ratio)
     }
 

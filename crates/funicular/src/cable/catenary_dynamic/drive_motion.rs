@@ -152,7 +152,7 @@ impl DriveAt {
     }
 
     /// Adds the motions `R p` by forces p on the motions to `motions`.
-    pub(super) fn add_motion_by(&self, forces: &[Complex], motions: &mut [Complex]) {
+    pub(crate) fn add_motion_by(&self, forces: &[Complex], motions: &mut [Complex]) {
         for (i, motion) in motions.iter_mut().enumerate() {
             *motion += forces.iter().enumerate().map(|(j, force)| self.receptance[(i, j)] * force).sum::<Complex>();
         }

@@ -177,16 +177,16 @@ impl InternalMotion {
 }
 
 impl Stations {
-    /// Displacement (horizontal, up, out of plane) of station `at` for a displacement of the far end, with the start and the
+    /// Displacement (horizontal, up, out of plane) of station `at` for displacements of the start and of the far end, with the
     /// amplitudes of the clamped modes at rest.
-    pub(crate) fn still_by_far_end(&self, at: usize, [h, v, b]: [Complex; 3]) -> [Complex; 3] {
-        let rest = Complex::new(0.0, 0.0);
+    pub(crate) fn still(&self, at: usize, start: [f64; 3], end: [f64; 3]) -> [f64; 3] {
+        let ([a, b, c], [d, e, f]) = (start.map(Complex::from), end.map(Complex::from));
         if !self.coupled.still.is_empty() {
-            return self.coupled.at(at, &[rest, rest, rest, h, v, b], &[]);
+            return self.coupled.at(at, &[a, b, c, d, e, f], &[]).map(|u| u.re);
         }
-        let [horizontal, up] = self.in_plane.at(at, &[rest, rest, h, v], &[]);
-        let [out_of_plane] = self.out_of_plane.at(at, &[rest, b], &[]);
-        [horizontal, up, out_of_plane]
+        let [horizontal, up] = self.in_plane.at(at, &[a, b, d, e], &[]);
+        let [out_of_plane] = self.out_of_plane.at(at, &[c, f], &[]);
+        [horizontal.re, up.re, out_of_plane.re]
     }
 
     /// Displacement (horizontal, up, out of plane) of station `at`.

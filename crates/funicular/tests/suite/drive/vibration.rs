@@ -194,6 +194,71 @@ fn points_of_a_weightless_cable_move_with_the_base() {
     }
 }
 
+/// A drive moves the points of its own cable: at rest as forward statics does, and by the same number as a force on a point
+/// moves the drive.
+#[test]
+fn a_drive_moves_the_points_of_its_cable() {
+    let pose = Pose::new([1.0, 2.0, 1.5], [0.0; 3]);
+    let plain = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    for (robot, cable) in [(plain, 2), (cogiro(0.06), 0), (driven(Control::Ideal).0, 5)] {
+        let rest = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0).unwrap();
+        let along = Vec3::new(0.2, -0.4, 1.0).normalize();
+        let (length, tension) = (DriveSignal::Length, DriveSignal::Tension);
+        let drive = |signal: DriveSignal| Signal::Drive { cable, signal };
+        let on_cable = Signal::OnCable { cable, fraction: 0.3, direction_w: along };
+        let ports = Port::all(&robot, &rest, &dynamics, &[drive(length), on_cable, drive(tension)], true).unwrap();
+        let response = |from: usize, to: usize| {
+            response::between(&dynamics, &[1e-5], &ports[from], &ports[to], Quantity::Displacement).unwrap()[0].re
+        };
+
+        // The point keeps its unstrained distance from the platform.
+        let mut lengths: Vec<f64> = rest.cables.iter().map(|cable| cable.unstrained_length).collect();
+        let (before, step) = (lengths[cable], 1e-5);
+        let at = 0.3 * rest.cables[cable].free_length();
+        let mut moved = |by: f64| {
+            lengths[cable] = before + by;
+            let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&rest.pose)).unwrap();
+            rest.cables[cable].hanging.as_ref().unwrap().point_w(at)
+        };
+        let by_statics = (moved(step) - moved(-step)).dot(&along) / (2.0 * step);
+        // The step's square.
+        assert!((response(0, 1) - by_statics).abs() < 1e-5 * by_statics.abs(), "{} {by_statics}", response(0, 1));
+
+        // A point at the platform is the platform: a force there changes the tension by the same number.
+        let end = Signal::OnCable { cable, fraction: 0.0, direction_w: along };
+        let lever = rest.cables[cable].lever_w;
+        let point_p = rest.pose.rot_wp.inverse() * lever;
+        let platform = Signal::Along { direction_w: along, point_p };
+        let ports = Port::all(&robot, &rest, &dynamics, &[end, platform, drive(tension)], true).unwrap();
+        for hz in [0.4, 3.7] {
+            let of = |from: usize| {
+                response::between(&dynamics, &[hz], &ports[from], &ports[2], Quantity::Displacement).unwrap()[0]
+            };
+            // At the end itself the held platform takes the force's component along the cable at once.
+            let h = rest.cables[cable].hanging.as_ref().unwrap().force_on_start_w().normalize().dot(&along);
+            assert!((of(0) - of(1) - h).norm() < 1e-7 * of(1).norm().max(1.0), "{hz}: {} {} {h}", of(0), of(1));
+        }
+    }
+
+    // A force on the motor, or on a point of its cable.
+    let (robot, rest) = driven(servo(5e4, 300.0));
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0).unwrap();
+    let on_cable = Signal::OnCable { cable: 3, fraction: 0.6, direction_w: Vec3::new(0.3, -0.5, 1.0) };
+    let drive = |signal: DriveSignal| Signal::Drive { cable: 3, signal };
+    let signals = [on_cable, drive(DriveSignal::Motor), drive(DriveSignal::Drum)];
+    let ports = Port::all(&robot, &rest, &dynamics, &signals, true).unwrap();
+    for hz in [0.3, 2.0, 4.4] {
+        let response = |from: usize, to: usize| {
+            response::between(&dynamics, &[hz], &ports[from], &ports[to], Quantity::Displacement).unwrap()[0]
+        };
+        for other in [1, 2] {
+            let (there, back) = (response(0, other), response(other, 0));
+            assert!((there - back).norm() < 1e-9 * there.norm(), "{hz} Hz: {there} {back}");
+        }
+    }
+}
+
 /// CoGiRo over pulleys, with inertia and a control in all its winches.
 pub(super) fn driven(control: Control) -> (Robot, Equilibrium) {
     let mut robot = cogiro(0.06);
