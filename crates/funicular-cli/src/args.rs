@@ -178,6 +178,13 @@ pub(crate) enum Command {
         funicular report robots/cogiro.toml -o cogiro.html\n  \
         funicular report robots/yuan2014-4mm.toml --pose 0,0,0.5 --below-hz 10 --input f:1,0,1 --output x")]
     Report(ReportArgs),
+    /// HTML page on which the platform can be dragged, and everything is computed anew
+    ///
+    /// The page contains the program itself, as WebAssembly, and opens in a browser without network. docs/web.md
+    /// describes it.
+    #[command(after_help = "Examples:\n  funicular live robots/cogiro.toml -o cogiro.html\n  \
+        funicular live robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --set platform.mass_kg=150")]
+    Live(LiveArgs),
     /// HTML page with every figure and table of Yuan et al. 2014 beside the results of this program
     #[command(after_help = "Example:\n  funicular paper -o paper.html")]
     Paper(PaperArgs),
@@ -580,6 +587,25 @@ pub(crate) struct ReportArgs {
 
     /// Write the page to FILE, completely or not at all; - is standard output
     #[arg(short, long, value_name = "FILE", default_value = "funicular-report.html", help_heading = "Output")]
+    pub(crate) output_file: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct LiveArgs {
+    /// Robot file (TOML), or - for standard input [default: yuan2014-4mm.toml, which is built into the program]
+    #[arg(value_name = "ROBOT")]
+    pub(crate) robot: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) changes: ChangeArgs,
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+
+    /// Write the page to FILE, completely or not at all; - is standard output
+    #[arg(short, long, value_name = "FILE", default_value = "funicular-live.html", help_heading = "Output")]
     pub(crate) output_file: PathBuf,
 }
 

@@ -481,6 +481,35 @@ impl PyAnalyses {
         Self::at(slf, |rest| written::export(py, rest, to, path, segments, modes_below_hz))
     }
 
+    /// Makes a page in HTML on which the platform can be dragged, which notebooks show.
+    ///
+    /// The page contains the program itself, as WebAssembly, and needs no network.
+    ///
+    /// Parameters
+    /// ----------
+    /// path
+    ///     File to which the page is also written.
+    /// cable_model, assembly, in_plane_only, winches
+    ///     Models, as in `modes`.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     The package was built without the page.
+    #[pyo3(signature = (path=None, *, cable_model=None, assembly="consistent", in_plane_only=false, winches="as-given"))]
+    fn live(
+        slf: &Bound<'_, Self>,
+        py: Python<'_>,
+        path: Option<PathBuf>,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+        winches: &str,
+    ) -> PyResult<written::PageObject> {
+        let model = crate::request::model(cable_model, assembly, in_plane_only, winches)?;
+        Self::at(slf, |rest| written::live(py, rest, path, model))
+    }
+
     /// Makes a page in HTML about the equilibrium and its vibration, which notebooks show.
     ///
     /// Parameters

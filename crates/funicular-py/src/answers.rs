@@ -91,7 +91,7 @@ pub(crate) fn answer(py: Python<'_>, request: &str) -> PyResult<String> {
     String::from_utf8(bytes).map_err(|error| errors::input(error.to_string()))
 }
 
-/// Computes text and caveats of a request of `report`, `paper`, `export`, `new` or `schema`; `call` is the code that
+/// Computes text and caveats of a request of `report`, `live`, `paper`, `export`, `new` or `schema`; `call` is the code that
 /// makes a page again.
 #[pyfunction]
 pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(String, Vec<String>)> {
@@ -102,6 +102,7 @@ pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(
                 let page = pages::report::of_request(of, of.robot.read()?, call)?;
                 (page.html, page.warnings)
             }
+            Request::Live(of) => (pages::live::live(of)?, Vec::new()),
             Request::Paper(_) => (pages::paper::paper(call)?, Vec::new()),
             Request::Export(of) => {
                 export::refuse(of)?;

@@ -13,7 +13,7 @@ use funicular_study::analyses;
 use funicular_study::analyses::reduce::MAX_ORDER;
 use funicular_study::export::{self, MAX_SEGMENTS};
 use funicular_study::names::ModelForm;
-use funicular_study::pages::report;
+use funicular_study::pages::{self, report};
 use funicular_study::request;
 use funicular_study::wording::{Words, worded};
 use pyo3::inspect::PyStaticExpr;
@@ -227,6 +227,21 @@ pub(crate) fn report(
     let page = interruptible(py, move || report::about(&at_rest, &request, &request.robot.name, &text, call))?;
     let page = page.map_err(|error| errors::study(&error))?;
     let made = pages.call_method1("page", (worded(&page.html, Words::Python), in_words(&page.warnings), path))?;
+    Ok(PageObject(made.unbind()))
+}
+
+/// Page on which the robot of an equilibrium can be moved.
+pub(crate) fn live(
+    py: Python<'_>,
+    of: &PyEquilibrium,
+    path: Option<PathBuf>,
+    model: request::Model,
+) -> PyResult<PageObject> {
+    let (robot, state, tensions) = (of.of.get().source.clone(), of.state.clone(), of.tensions.clone());
+    let html = pages::live::live(&request::LiveRequest { robot, state, tensions, model });
+    let html = html.map_err(|error| errors::study(&error))?;
+    let no_warnings: Vec<String> = Vec::new();
+    let made = py.import("funicular._pages")?.call_method1("page", (html, no_warnings, path))?;
     Ok(PageObject(made.unbind()))
 }
 

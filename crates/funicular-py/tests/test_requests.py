@@ -67,6 +67,7 @@ MORE = [
     f"funicular report {ROBOT} --input-point-m 0.1,0,0 --output-point-m 0,0,0.1 {STATE} {MODEL}",
     f"funicular export robots/cogiro.toml --to vtk {TENSIONS} {STATE}",
     f"funicular sweep robots/cogiro.toml --vary platform.mass_kg=200,300 {TENSIONS} {STATE} {MODEL} --up-to-hz 50",
+    f"funicular live robots/cogiro.toml {TENSIONS} {STATE} {MODEL} --hold-lengths-of-pose",
     "funicular paper",
     "funicular new",
     "funicular new --cables 6 --motion planar-xz --name rig --mass-kg 20 --box-m 0.4,0.3,0.2 --rope 7x7 --diameter-m 0.003 --pose 0,0,1.5",
@@ -304,6 +305,18 @@ def test_files_and_pages_are_those_of_the_program(executable: str, folder: Path)
     shown = rows.plot("map.html")
     assert Path("map.html").read_text() == shown.html and "tension" in shown.html
     assert "rows in memory" in robot.map({"x": (-1, 1, 3), "y": 0, "z": 0.5}).plot().html
+
+
+def test_a_live_page_has_the_robot_or_says_how_to_build_with_the_page() -> None:
+    """The page is part of the package only if it was built with FUNICULAR_PAGE, as releases are."""
+    try:
+        page = funicular.Robot.example().equilibrium(pose=[0, 0, 0.5]).live("live.html", cable_model="spring")
+    except funicular.InputError as error:
+        assert "this build does not contain the page: run `scripts/web --no-test`" in str(error)
+    else:
+        assert '"cable_model":"spring"' in page.html
+        assert Path("live.html").read_text() == page.html
+
 
 
 def test_parts_of_a_map_are_one_file(folder: Path) -> None:

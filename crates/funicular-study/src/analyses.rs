@@ -15,6 +15,7 @@ pub mod reduce;
 pub mod shared;
 pub mod statics;
 pub mod stiffness;
+#[cfg(feature = "validation")]
 pub mod validate;
 
 pub use reduce::control_model;

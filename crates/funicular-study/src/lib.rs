@@ -50,6 +50,7 @@ pub mod set_values;
 pub mod signals;
 pub mod sweep;
 pub mod text;
+#[cfg(feature = "validation")]
 pub mod validation;
 pub mod values;
 mod watch;

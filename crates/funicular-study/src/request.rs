@@ -63,6 +63,8 @@ pub enum Request {
     Sweep(SweepRequest),
     /// HTML page about one robot.
     Report(ReportRequest),
+    /// HTML page on which the platform can be dragged.
+    Live(LiveRequest),
     /// HTML page that reproduces Yuan et al. 2014.
     Paper(PaperRequest),
     /// Robot file with starting values.
@@ -395,6 +397,22 @@ pub struct ReportRequest {
     pub model: Model,
 }
 
+/// Request of `live`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LiveRequest {
+    /// Robot file.
+    pub robot: RobotText,
+    /// State and loads.
+    #[serde(flatten)]
+    pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
+    /// Linearisation.
+    #[serde(flatten)]
+    pub model: Model,
+}
+
 /// Request of `paper`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PaperRequest {}
@@ -542,6 +560,7 @@ impl Request {
             Self::Map(_) => "map",
             Self::Sweep(_) => "sweep",
             Self::Report(_) => "report",
+            Self::Live(_) => "live",
             Self::Paper(_) => "paper",
             Self::New(_) => "new",
             Self::Schema(_) => "schema",
@@ -570,6 +589,7 @@ impl Request {
             Self::Map(request) => Some(&request.robot),
             Self::Sweep(request) => Some(&request.robot),
             Self::Report(request) => Some(&request.robot),
+            Self::Live(request) => Some(&request.robot),
             Self::Export(request) => Some(&request.robot),
             Self::New(_)
             | Self::Schema(_)

@@ -194,6 +194,7 @@ fn requests() -> Vec<Value> {
         of("merge", &[&json!({ "parts": ["1.parquet", "2.parquet"] })]),
         of("plot", &[&json!({ "file": "map.parquet" })]),
         of("report", &[&robot, &state, &tensions, &model, &points, &signals, &share, &json!({ "below_hz": 20.0 })]),
+        of("live", &[&robot, &state, &tensions, &model]),
         of("paper", &[]),
         of("import", &[&files, &ropes]),
         of(

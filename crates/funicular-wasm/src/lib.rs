@@ -4,13 +4,24 @@
 //! A caller gets memory from [`funicular_input`], writes the request there as UTF-8, calls [`funicular_answer`], and
 //! reads the text at [`funicular_output`]. `web/funicular.js` does this for JavaScript.
 //!
+//! The commands that write files on a disk return their content here: `import` and `new` a robot file, `schema` the
+//! schema, `map` its rows. [`frame`] has results for animations, as numbers.
+//!
 //! The module has no imports: no disk, no clock, no random numbers, no threads.
 //!
 //! A panic is a mistake in this library. It ends the call with a trap. Afterwards the text says what happened and how
 //! to report it. The instance must not be used again: the caller makes a new one.
 
+pub mod frame;
+mod page_answers;
+
+use anyhow::Result;
+use frame::{Answer, FrameSize, FrameState, Session};
+use funicular_study::request::Request;
+use funicular_study::robot_file::Refused;
 use funicular_study::wording::Words;
-use funicular_study::{Error, ErrorKind, Request, Silent, run};
+use funicular_study::{Error, ErrorKind, Silent, run};
+use serde_json::{Value, json};
 use std::cell::RefCell;
 use std::panic::{self, Location, PanicHookInfo};
 use std::sync::Once;
@@ -30,6 +41,12 @@ pub const INTERRUPTED: u32 = 130;
 thread_local! {
     /// Text of the request before a call of [`funicular_answer`], and of the answer after it.
     static TEXT: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
+
+    /// Numbers of a state before a call of [`funicular_frame`], and of an answer after it.
+    static NUMBERS: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
+
+    /// Robot of the frames.
+    static SESSION: RefCell<Option<Session>> = const { RefCell::new(None) };
 }
 
 /// Allocates memory for a request of `length` bytes and returns its address. The caller writes all of these bytes.
@@ -74,6 +91,125 @@ pub extern "C" fn funicular_output_length() -> usize {
     TEXT.with_borrow(Vec::len)
 }
 
+/// Allocates memory for `length` numbers and returns its address. The caller writes all of them.
+///
+/// The numbers of the previous answer are discarded.
+#[expect(unsafe_code, reason = "a name for other languages")]
+#[unsafe(no_mangle)]
+pub extern "C" fn funicular_numbers(length: usize) -> *mut f64 {
+    NUMBERS.set(vec![0.0; length]);
+    NUMBERS.with_borrow_mut(Vec::as_mut_ptr)
+}
+
+/// Address of the numbers of the last answer. Valid until the next call.
+#[expect(unsafe_code, reason = "a name for other languages")]
+#[unsafe(no_mangle)]
+pub extern "C" fn funicular_numbers_output() -> *const f64 {
+    NUMBERS.with_borrow(Vec::as_ptr)
+}
+
+/// Count of the numbers of the last answer.
+#[expect(unsafe_code, reason = "a name for other languages")]
+#[unsafe(no_mangle)]
+pub extern "C" fn funicular_numbers_length() -> usize {
+    NUMBERS.with_borrow(Vec::len)
+}
+
+/// Reads the robot of the frames from the written text: a request with the keys of `stiffness`. The answer's text
+/// describes the robot. If the robot file is refused, the previous robot is kept, and the text is JSON with the
+/// `message` and the places of the `issues`.
+#[expect(unsafe_code, reason = "a name for other languages")]
+#[unsafe(no_mangle)]
+pub extern "C" fn funicular_robot() -> u32 {
+    let request = TEXT.take();
+    keep(text_of(request).and_then(|text| Session::new(frame::request_of(&text)?)).map(|(session, answer)| {
+        SESSION.set(Some(session));
+        answer
+    }))
+}
+
+/// Computes a frame at a state, whose numbers were written: `kind` 0 is the state of the robot, 1 a pose, 2 unstrained
+/// lengths, 3 a pose at which the search begins, then unstrained lengths. The frame has `modes` natural frequencies and `points` points per cable.
+#[expect(unsafe_code, reason = "a name for other languages")]
+#[unsafe(no_mangle)]
+pub extern "C" fn funicular_frame(kind: u32, modes: usize, points: usize) -> u32 {
+    let numbers = NUMBERS.take();
+    with_session(|session| session.frame(FrameState::of_numbers(kind, &numbers)?, FrameSize { modes, points }))
+}
+
+/// Computes the displacements of `points` points per cable in mode `index` of the last frame.
+#[expect(unsafe_code, reason = "a name for other languages")]
+#[unsafe(no_mangle)]
+pub extern "C" fn funicular_mode(index: usize, points: usize) -> u32 {
+    with_session(|session| session.mode(index, points))
+}
+
+/// Computes the frequency response that was written, a request of `frf` whose robot and state are not used, at the
+/// equilibrium of the last frame.
+#[expect(unsafe_code, reason = "a name for other languages")]
+#[unsafe(no_mangle)]
+pub extern "C" fn funicular_response() -> u32 {
+    let request = TEXT.take();
+    with_session(|session| match frame::request_of(&text_of(request)?)? {
+        Request::Frf(request) => session.response(&request),
+        other => anyhow::bail!("`{}` is not a response: give a request of `frf`", other.command()),
+    })
+}
+
+/// Runs a function on the robot of the frames and keeps its answer. A panic inside leaves no robot, but the instance is
+/// broken anyway.
+fn with_session(work: impl FnOnce(&mut Session) -> Result<Answer>) -> u32 {
+    let mut session = SESSION.take();
+    let answer = match &mut session {
+        Some(session) => work(session),
+        None => Err(anyhow::anyhow!("there is no robot: call funicular_robot first")),
+    };
+    SESSION.set(session);
+    keep(answer)
+}
+
+/// Stores an answer for the caller and returns its status.
+fn keep(answer: Result<Answer>) -> u32 {
+    let (status, Answer { numbers, text }) = match answer {
+        Ok(answer) => (RESULTS, answer),
+        Err(error) => refusal(error),
+    };
+    NUMBERS.set(numbers);
+    TEXT.set(text.into_bytes());
+    status
+}
+
+/// Status and text of an error: JSON with the message and the places in the robot file that it refers to.
+fn refusal(error: anyhow::Error) -> (u32, Answer) {
+    let issues = error.downcast_ref().map_or_else(Vec::new, issues);
+    let error = Error::from(error);
+    let text = json!({ "message": error.message(Words::Json), "issues": issues }).to_string();
+    (status_of(&error), Answer { numbers: Vec::new(), text })
+}
+
+/// Issues of a robot file with their places: lines and columns from 1, bytes of the text from 0.
+fn issues(refused: &Refused) -> Vec<Value> {
+    let of = |issue: &funicular::robot::spec::Issue| {
+        json!({
+            "line": issue.line,
+            "column": issue.column,
+            "from_byte": issue.span.start,
+            "to_byte": issue.span.end,
+            "message": issue.message,
+            "help": issue.help,
+        })
+    };
+    refused.error.issues().iter().map(of).collect()
+}
+
+/// Text of bytes that a caller has written.
+fn text_of(bytes: Vec<u8>) -> Result<String> {
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        anyhow::anyhow!("the request is not valid UTF-8 at byte {}; write the request as JSON in UTF-8", at + 1)
+    })
+}
+
 /// Status and text for a request in JSON.
 pub fn answer(request: Vec<u8>) -> (u32, Vec<u8>) {
     match results(request) {
@@ -83,12 +219,13 @@ pub fn answer(request: Vec<u8>) -> (u32, Vec<u8>) {
 }
 
 fn results(request: Vec<u8>) -> Result<Vec<u8>, (u32, String)> {
-    let request = String::from_utf8(request).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        (BAD_INPUT, format!("the request is not valid UTF-8 at byte {}; write the request as JSON in UTF-8", at + 1))
-    })?;
-    let answered = Request::from_json(&request).and_then(|request| run(&request, &mut Silent)?.to_json(Words::Json));
-    answered.map_err(|error| (status_of(&error), error.message(Words::Json)))
+    let told = |error: Error| (status_of(&error), error.message(Words::Json));
+    let request = text_of(request).map_err(|error| told(error.into()))?;
+    let request = Request::from_json(&request).map_err(told)?;
+    if let Some(content) = page_answers::content(&request) {
+        return content.map_err(|error| told(error.into()));
+    }
+    run(&request, &mut Silent).and_then(|results| results.to_json(Words::Json)).map_err(told)
 }
 
 fn status_of(error: &Error) -> u32 {
@@ -120,6 +257,7 @@ fn message_of(panic: Option<&str>, place: Option<&Location<'_>>) -> String {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "numbers of equal computations are equal bit for bit")]
 mod tests {
     use super::*;
     use serde_json::{Value, json};
@@ -145,7 +283,8 @@ mod tests {
         for (request, status, message) in [
             (json!({ "command": "check", "robot": { "text": "name = 1" } }), BAD_INPUT, "<request>:1:8"),
             (json!({ "command": "statics", "poze": 1 }), BAD_INPUT, "missing field `robot`"),
-            (json!({ "command": "map", "robot": { "text": ROBOT }, "grid": [] }), BAD_INPUT, "`map` writes a file"),
+            (json!({ "command": "paper" }), BAD_INPUT, "`paper` writes a file"),
+            (json!({ "command": "map", "robot": { "text": ROBOT }, "grid": [] }), BAD_INPUT, "a map needs poses"),
             (
                 json!({ "command": "statics", "robot": { "text": ROBOT }, "pose": [50.0, 0.0, 1.0] }),
                 NO_SOLUTION,
@@ -157,6 +296,193 @@ mod tests {
         }
         let (status, text) = answer(vec![b'{', 0xff]);
         assert_eq!((status, text.starts_with(b"the request is not valid UTF-8 at byte 2;")), (BAD_INPUT, true));
+    }
+
+    /// Calls an exported function after writing a text; returns the status, the numbers and the text.
+    fn called(text: &str, call: impl FnOnce() -> u32) -> (u32, Vec<f64>, String) {
+        TEXT.set(text.as_bytes().to_vec());
+        let status = call();
+        (status, NUMBERS.take(), String::from_utf8(TEXT.take()).unwrap())
+    }
+
+    fn robot(more: &Value) -> (u32, Vec<f64>, String) {
+        let mut request = json!({ "command": "stiffness", "robot": { "text": ROBOT } });
+        request.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        called(&request.to_string(), || funicular_robot())
+    }
+
+    fn at(pose: &[f64], modes: usize, points: usize) -> (u32, Vec<f64>, String) {
+        NUMBERS.set(pose.to_vec());
+        called("", || funicular_frame(1, modes, points))
+    }
+
+    #[test]
+    fn a_frame_has_the_numbers_of_statics_and_modes() {
+        assert_eq!(robot(&json!({ "tension_rule": "middle" })).0, RESULTS);
+        let (status, numbers, text) = at(&[1.0, 2.0, 1.5], 20, 33);
+        assert!(status == RESULTS && text.contains("\"tension_rule\":\"middle\""), "{status} {text}");
+        assert_eq!(numbers.len(), frame::HEADER + 8 * (frame::CABLE + 3 * 33) + 20 * (frame::MODE + 8));
+        assert_eq!(numbers[..6], [8.0, 33.0, 20.0, 1.0, 2.0, 1.5]);
+
+        let common = json!({ "robot": { "text": ROBOT }, "pose": [1.0, 2.0, 1.5], "tension_rule": "middle" });
+        let request = |more: &Value| {
+            let mut request = common.clone();
+            request.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+            let (status, text) = answered(&request);
+            assert_eq!(status, RESULTS, "{text}");
+            serde_json::from_str::<Value>(&text).unwrap()
+        };
+        let statics = request(&json!({ "command": "statics" }));
+        for (i, cable) in statics["cables"].as_array().unwrap().iter().enumerate() {
+            let at = frame::HEADER + i * frame::CABLE;
+            for (k, key) in
+                [(0, "unstrained_length_m"), (1, "tension_platform_n"), (2, "tension_anchor_n"), (4, "chord_m")]
+            {
+                assert_eq!(numbers[at + k], cable[key].as_f64().unwrap(), "{key}");
+            }
+        }
+
+        // The list of the program with the limit of the frame has equal modes; only its damping is not of first order.
+        let below_hz = numbers[20];
+        let found = request(&json!({ "command": "modes", "below_hz": below_hz, "damped": false, "stations": 33 }));
+        let modes = found["modes"].as_array().unwrap();
+        let first = frame::HEADER + 8 * (frame::CABLE + 3 * 33);
+        for (i, mode) in modes.iter().take(20).enumerate() {
+            let own = &numbers[first + i * (frame::MODE + 8)..][..frame::MODE + 8];
+            assert_eq!(own[0], mode["frequency_hz"].as_f64().unwrap());
+            assert_eq!(own[2], mode["damping_ratio"].as_f64().unwrap());
+            assert_eq!(own[6], mode["shape"][0].as_f64().unwrap());
+            assert_eq!(own[frame::MODE], mode["cable_energy_fractions"][0].as_f64().unwrap());
+        }
+
+        // Points and displacements along the cables.
+        let point = frame::HEADER + 8 * frame::CABLE + 3 * (33 * 2 + 16);
+        for k in 0..3 {
+            assert_eq!(numbers[point + k], found["stations"][2]["position_m"][16][k].as_f64().unwrap());
+        }
+        let (status, moved, _) = called("", || funicular_mode(3, 33));
+        assert_eq!((status, moved.len()), (RESULTS, 8 * 33 * 3));
+        let size = |three: &[f64]| three.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let shape: Vec<f64> = serde_json::from_value(modes[3]["cable_shapes"][2][16].clone()).unwrap();
+        let ours = &moved[3 * (33 * 2 + 16)..][..3];
+        assert!((size(ours) - size(&shape)).abs() <= 1e-14 * size(&shape), "{ours:?} {shape:?}");
+    }
+
+    #[test]
+    fn frames_that_follow_one_another_equal_frames_alone() {
+        let poses: Vec<[f64; 6]> = (0..6).map(|i| [0.3 * f64::from(i), 0.5, 1.5, 0.0, 2.0, 0.0]).collect();
+        robot(&json!({}));
+        for pose in &poses {
+            let (_, following, _) = at(pose, 20, 9);
+            SESSION.with_borrow_mut(|session| {
+                let request = json!({ "command": "stiffness", "robot": { "text": ROBOT } });
+                let (alone, _) = Session::new(Request::from_value(request).unwrap()).unwrap();
+                let mut alone = alone;
+                let kept = session.take();
+                let state = FrameState::of_numbers(1, pose).unwrap();
+                let numbers = alone.frame(state, FrameSize { modes: 20, points: 9 }).unwrap().numbers;
+                // The limit of the list differs, and with it the number of clamped modes that a cable keeps: 1e-9 is
+                // the accuracy of that reduction in the list of modes.
+                let first = frame::HEADER + 8 * (frame::CABLE + 27);
+                let bits = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
+                assert_eq!(bits(&numbers[..20]), bits(&following[..20]));
+                assert_eq!(bits(&numbers[frame::HEADER..first]), bits(&following[frame::HEADER..first]));
+                for i in 0..20 {
+                    let [a, b] = [&numbers, &following].map(|of| of[first + i * (frame::MODE + 8)]);
+                    assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
+                }
+                *session = kept;
+            });
+        }
+    }
+
+    #[test]
+    fn a_response_of_the_last_frame_equals_that_of_the_program() {
+        robot(&json!({}));
+        at(&[1.0, 2.0, 1.5], 0, 0);
+        let range = json!({
+            "command": "frf", "robot": { "text": ROBOT }, "from_hz": 1.0, "to_hz": 30.0, "points": 400, "input": "fz",
+            "output": "az", "pose": [1.0, 2.0, 1.5],
+        });
+        let (status, numbers, text) = called(&range.to_string(), || funicular_response());
+        assert_eq!(status, RESULTS, "{text}");
+        let expected: Value = serde_json::from_str(&answered(&range).1).unwrap();
+        assert!(text.contains(expected["unit"].as_str().unwrap()), "{text}");
+        for (i, three) in numbers.chunks(3).take(400).enumerate() {
+            for (value, key) in three.iter().zip(["frequency_hz", "real", "imag"]) {
+                assert_eq!(*value, expected[key][i].as_f64().unwrap());
+            }
+        }
+        let peaks = expected["peaks"].as_array().unwrap();
+        assert_eq!(numbers.len(), 3 * (400 + peaks.len()));
+        assert_eq!(numbers[1202], peaks[0]["magnitude"].as_f64().unwrap());
+    }
+
+    #[test]
+    fn held_lengths_lead_back_to_the_pose_and_a_bad_state_keeps_the_frame() {
+        robot(&json!({}));
+        let (_, numbers, _) = at(&[1.0, 2.0, 1.5], 0, 0);
+        let lengths: Vec<f64> = (0..8).map(|i| numbers[frame::HEADER + i * frame::CABLE]).collect();
+        let by_lengths = |lengths: &[f64]| {
+            NUMBERS.set(lengths.to_vec());
+            called("", || funicular_frame(3, 0, 0))
+        };
+        let (status, back, text) = by_lengths(&[&numbers[3..10], &lengths[..]].concat());
+        assert_eq!(status, RESULTS, "{text}");
+        // The residual of an equilibrium moves the pose by less than a nanometre.
+        for k in 3..6 {
+            assert!((back[k] - numbers[k]).abs() < 1e-9);
+        }
+
+        for (status, message, found) in [
+            (BAD_INPUT, "7 unstrained lengths", by_lengths(&[&numbers[3..10], &lengths[1..]].concat())),
+            (BAD_INPUT, "give finite numbers", at(&[1.0, f64::NAN, 1.5], 0, 0)),
+            (BAD_INPUT, "kind 1 of a state does not go with 4 numbers", at(&[1.0, 0.0, 1.5, 0.0], 0, 0)),
+            (BAD_INPUT, "501 modes", at(&[1.0, 2.0, 1.5], 501, 0)),
+            (NO_SOLUTION, "no tensions hold this pose", at(&[50.0, 0.0, 1.0], 0, 0)),
+        ] {
+            assert!(found.0 == status && found.2.contains(message) && found.1.is_empty(), "{} {}", found.0, found.2);
+        }
+        assert_eq!(called("", || funicular_mode(0, 9)).0, BAD_INPUT);
+        assert_eq!(at(&[1.0, 2.0, 1.5], 3, 0).0, RESULTS);
+        assert!(called("", || funicular_mode(99, 9)).2.contains("there is no mode 99: the last frame has"));
+    }
+
+    #[test]
+    fn a_refused_robot_file_has_the_places_of_its_errors() {
+        let text = ROBOT.replace("mass_kg = 91.058", "mass_kg = -91.058");
+        let request = json!({ "command": "stiffness", "robot": { "name": "a.toml", "text": text } });
+        let (status, _, told) = called(&request.to_string(), || funicular_robot());
+        let told: Value = serde_json::from_str(&told).unwrap();
+        let issue = &told["issues"][0];
+        assert_eq!((status, issue["line"].as_u64()), (BAD_INPUT, Some(7)), "{told}");
+        let [from, to] = ["from_byte", "to_byte"].map(|key| usize::try_from(issue[key].as_u64().unwrap()).unwrap());
+        assert_eq!(&text[from..to], "-91.058");
+        assert!(told["message"].as_str().unwrap().contains("a.toml:7:"), "{told}");
+    }
+
+    #[test]
+    fn content_of_files_is_returned_as_json() {
+        let map = json!({
+            "command": "map", "robot": { "text": ROBOT }, "quantities": ["tension-max", "first-frequency"],
+            "poses": [[0.0, 0.0, 1.5, 0.0, 0.0, 0.0], [50.0, 0.0, 1.5, 0.0, 0.0, 0.0]],
+        });
+        let (status, text) = answered(&map);
+        let rows: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!(status, RESULTS, "{text}");
+        assert_eq!(rows["columns"]["feasible"], json!([true, false]));
+        assert!(rows["columns"]["first_frequency_hz"][0].as_f64().unwrap() > 1.0, "{text}");
+        assert_eq!(rows["columns"]["tension_max_n"][1], Value::Null);
+        assert_eq!(rows["columns"]["status"][0], json!("ok"));
+
+        let (status, text) = answered(&json!({ "command": "new", "cables": 6 }));
+        let file = serde_json::from_str::<Value>(&text).unwrap()["text"].as_str().unwrap().to_owned();
+        assert_eq!((status, robot(&json!({ "robot": { "text": file } })).0), (RESULTS, RESULTS), "{text}");
+        let (status, text) = answered(&json!({ "command": "schema" }));
+        assert!(status == RESULTS && text.contains("youngs_modulus_pa"));
+        let bad = json!({ "command": "import", "files": [{ "path": "a.txt", "text": "no" }] });
+        let (status, text) = answered(&bad);
+        assert!(status == BAD_INPUT && text.starts_with("a.txt: it is neither XML"), "{text}");
     }
 
     #[test]

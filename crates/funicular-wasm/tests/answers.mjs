@@ -179,7 +179,8 @@ test("errors are those of the program, with the same status", () => {
   }
   assert.throws(() => funicular.answerText("{"), { name: "RequestError", status: 2, message: /^the request is not valid JSON/ });
   assert.throws(() => funicular.answerText("[".repeat(100000)), { name: "RequestError", status: 2 });
-  assert.throws(() => funicular.answer({ command: "map", grid: [] }, robots.cogiro), { status: 2, message: /writes a file/ });
+  assert.throws(() => funicular.answer({ command: "paper" }), { status: 2, message: /writes a file/ });
+  assert.throws(() => funicular.answer({ command: "validate" }), { status: 2, message: /this build leaves out/ });
 });
 
 test("the module needs nothing from outside", () => {

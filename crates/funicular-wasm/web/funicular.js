@@ -55,26 +55,79 @@ export class Funicular {
 
   /** Answers a request in text and returns the results as text, with every digit that the program prints. */
   answerText(request) {
-    if (this.broken) {
-      throw new BrokenError(this.#broken);
-    }
-    const bytes = new TextEncoder().encode(request);
-    const { funicular_input, funicular_answer, memory } = this.#exports;
-    let status;
-    try {
-      const at = funicular_input(bytes.length) >>> 0;
-      // The view is made now, because older views are empty if the memory has grown.
-      new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
-      status = funicular_answer();
-    } catch (trap) {
-      this.#broken = this.#messageAboutTrap(trap);
-      throw new BrokenError(this.#broken, trap);
-    }
+    const status = this.#call(request, [], (exports) => exports.funicular_answer());
     const text = this.#output();
     if (status !== 0) {
       throw new RequestError(text, status);
     }
     return text;
+  }
+
+  /**
+   * Reads the robot of the frames and returns its description.
+   * @param {object} request keys of `stiffness`: robot, state, loads, tensions, linearisation
+   * @throws RequestError with `issues`, the places of errors in the robot file
+   */
+  robot(request) {
+    return this.#numbers(JSON.stringify({ ...request, command: "stiffness" }), [], (of) => of.funicular_robot()).about;
+  }
+
+  /**
+   * Computes a frame: equilibrium, curves of the cables, and lowest natural frequencies.
+   * @param {number} kind 0: state of the robot; 1: pose, with 3, 6 or 7 numbers; 2: unstrained lengths; 3: pose from
+   *   which the search starts (7 numbers), and unstrained lengths
+   * @param {ArrayLike<number>} state the numbers
+   * @param {number} modes number of frequencies
+   * @param {number} points number of points per cable
+   * @returns {{numbers: Float64Array, about: object}} layout: docs/web.md
+   */
+  frame(kind, state, modes, points) {
+    return this.#numbers("", state, (of) => of.funicular_frame(kind, modes, points));
+  }
+
+  /** Displacements (x, y, z) of points on all cables in a mode of the last frame. */
+  mode(index, points) {
+    return this.#numbers("", [], (of) => of.funicular_mode(index, points)).numbers;
+  }
+
+  /** Response at the equilibrium of the last frame, by a request of `frf`. */
+  response(request) {
+    const whole = { robot: { text: "" }, ...request, command: "frf" };
+    return this.#numbers(JSON.stringify(whole), [], (of) => of.funicular_response());
+  }
+
+  /** Calls a function of frames and returns a copy of its numbers and its text as an object. */
+  #numbers(text, state, call) {
+    const status = this.#call(text, state, call);
+    const answer = this.#output();
+    if (status !== 0) {
+      const { message, issues } = JSON.parse(answer);
+      throw Object.assign(new RequestError(message, status), { issues });
+    }
+    const { funicular_numbers_output, funicular_numbers_length, memory } = this.#exports;
+    const at = funicular_numbers_output() >>> 0;
+    const numbers = new Float64Array(memory.buffer, at, funicular_numbers_length() >>> 0).slice();
+    return { numbers, about: answer === "" ? null : JSON.parse(answer) };
+  }
+
+  /** Writes a text and numbers, and calls an exported function. A trap breaks the instance. */
+  #call(text, numbers, call) {
+    if (this.broken) {
+      throw new BrokenError(this.#broken);
+    }
+    const bytes = new TextEncoder().encode(text);
+    const { funicular_input, funicular_numbers, memory } = this.#exports;
+    try {
+      const at = funicular_input(bytes.length) >>> 0;
+      // Each view is made after the allocation, because older views are empty if the memory has grown.
+      new Uint8Array(memory.buffer, at, bytes.length).set(bytes);
+      const state = funicular_numbers(numbers.length) >>> 0;
+      new Float64Array(memory.buffer, state, numbers.length).set(numbers);
+      return call(this.#exports);
+    } catch (trap) {
+      this.#broken = this.#messageAboutTrap(trap);
+      throw new BrokenError(this.#broken, trap);
+    }
   }
 
   #output() {

@@ -2,9 +2,9 @@
 
 use super::{
     AssemblyName, CableArgs, CableModelName, ChangeArgs, CompareArgs, EachArgs, ExportArgs, ExportFormat, FrfArgs,
-    ImportArgs, LengthUnitName, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, MotionName, NewArgs, PayloadArgs,
-    PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs, ReportArgs, StateArgs, StaticsArgs, StiffnessArgs,
-    SweepArgs, TensionArgs, TensionRuleName, TermArgs, WinchModeName, WireRopeName,
+    ImportArgs, LengthUnitName, LiveArgs, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, MotionName, NewArgs,
+    PayloadArgs, PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs, ReportArgs, StateArgs, StaticsArgs,
+    StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs, WinchModeName, WireRopeName,
 };
 use funicular_files::endings::Kind;
 use funicular_study::import::SourceFile;
@@ -286,6 +286,17 @@ impl ReportArgs {
             input: self.input.as_ref().map(|input| input.name.clone()),
             output: self.output.as_ref().map(|output| output.name.clone()),
             points: self.points.request(),
+            state: self.state.request(),
+            tensions: self.tensions.request(),
+            model: self.model.request(),
+        }
+    }
+}
+
+impl LiveArgs {
+    pub(crate) fn request(&self, robot: RobotText) -> request::LiveRequest {
+        request::LiveRequest {
+            robot,
             state: self.state.request(),
             tensions: self.tensions.request(),
             model: self.model.request(),

@@ -1,4 +1,4 @@
-//! HTML pages: `report`, `paper`, `plot`.
+//! HTML pages: `report`, `live`, `paper`, `plot`.
 
 use crate::args::PlotArgs;
 use crate::errors;
@@ -23,6 +23,20 @@ pub(crate) fn report(request: &Request, robot_path: Option<&Path>, output: &Path
     drop(waiting);
     write(&target, output, &page.html)?;
     page.warnings.iter().for_each(|warning| errors::warn(warning));
+    Ok(())
+}
+
+/// Writes the page on which a robot can be moved.
+pub(crate) fn live(request: &Request, robot_path: Option<&Path>, output: &Path) -> Result<()> {
+    let Request::Live(of) = request else { bail!("this is not a request of `live`") };
+    refuse_page_as_figure(output)?;
+    let target = Target::open(Some(output), Content::PAGE, &mut robot_file::guard(robot_path))?;
+    // The page words its messages itself.
+    let page = pages::live::live(of)?;
+    target.write(page.as_bytes())?;
+    if target.is_file() {
+        errors::note(&format!("wrote {} ({:.1} MB)", output.display(), page.len() as f64 / 1e6));
+    }
     Ok(())
 }
 

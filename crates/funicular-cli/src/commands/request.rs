@@ -54,6 +54,7 @@ pub(crate) fn run(args: &RequestArgs) -> Result<()> {
     match &request {
         Request::Map(_) | Request::Sweep(_) => sweep_run::run(&request, &mut guard, &args.run),
         Request::Report(_) => page::report(&request, Some(&args.file), &place()),
+        Request::Live(_) => page::live(&request, Some(&args.file), &place()),
         Request::Paper(_) => page::paper(&place()),
         Request::New(of) => write_new(of, &mut guard, &place()),
         Request::Schema(_) => write_schema(&mut guard, &place()),

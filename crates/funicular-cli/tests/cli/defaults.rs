@@ -19,7 +19,7 @@ fn shortest() -> Vec<Vec<String>> {
     let imported = project("docs/import/tripod.wcrfx");
     let response = ["--input", "fz", "--output", "z"];
     let range = ["--from-hz", "1", "--to-hz", "2", "--points", "9"];
-    let with_robot: [(&str, &[&str]); 15] = [
+    let with_robot: [(&str, &[&str]); 16] = [
         ("check", &[]),
         ("parameters", &[]),
         ("statics", &[]),
@@ -34,6 +34,7 @@ fn shortest() -> Vec<Vec<String>> {
         ("map", &["--grid", "z=1:2:2"]),
         ("sweep", &["--vary", "platform.mass_kg=90:100:2"]),
         ("report", &[]),
+        ("live", &[]),
         ("export", &["--to", "vtk"]),
     ];
     let mut lines: Vec<Vec<String>> = Vec::new();

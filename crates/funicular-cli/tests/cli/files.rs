@@ -63,6 +63,7 @@ fn an_ending_that_means_another_format_is_refused_by_every_command() {
         ),
         ("reduce ROBOT --below-hz 1", "npz", "would hold text, and .npz means arrays of NumPy"),
         ("report", "csv", "would hold a page, and .csv means CSV; choose a name that ends in .html"),
+        ("live", "csv", "would hold a page, and .csv means CSV; choose a name that ends in .html"),
         ("paper", "pdf", "would hold one figure, but the page has many"),
         ("plot ROWS", "png", "would hold a page, and .png means a picture"),
         (

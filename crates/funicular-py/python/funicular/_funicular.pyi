@@ -162,6 +162,24 @@ class Analyses:
         NoSolutionError
             The equilibrium is indifferent.
         """
+    def live(self, /, path: str | PathLike[str] | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> Page:
+        """
+        Makes a page in HTML on which the platform can be dragged, which notebooks show.
+
+        The page contains the program itself, as WebAssembly, and needs no network.
+
+        Parameters
+        ----------
+        path
+            File to which the page is also written.
+        cable_model, assembly, in_plane_only, winches
+            Models, as in `modes`.
+
+        Raises
+        ------
+        InputError
+            The package was built without the page.
+        """
     def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True, rigid_cables: bool = False) -> Modes:
         """
         Computes all natural frequencies below a limit, and checks by an independent count that none is missing.

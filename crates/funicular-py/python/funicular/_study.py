@@ -149,7 +149,7 @@ def run(request: Mapping[str, Any] | str) -> Any:
 
     Returns
     -------
-    The dictionary of the program's JSON; a `Sweep` for `map` and `sweep`, a `Page` for `report`, `paper` and `plot`, an
+    The dictionary of the program's JSON; a `Sweep` for `map` and `sweep`, a `Page` for `report`, `live`, `paper` and `plot`, an
     `Imported` for `import`, a `NewRobot` for `new`, an `Exported` for `export`.
 
     Raises
@@ -167,7 +167,7 @@ def run(request: Mapping[str, Any] | str) -> Any:
             assert work is not None
             work.run()
             return Sweep(work.finish())
-        case "report" | "paper":
+        case "report" | "live" | "paper":
             return page(*text_of(text, "funicular.run(request)"))
         case "export":
             made, warnings = text_of(text, "")

@@ -2,12 +2,12 @@
 
 use super::found;
 use super::shared::Models;
-use crate::Watch;
 use crate::at_rest::{self, AtRest};
 use crate::error::Cancelled;
 use crate::request;
 use crate::signals::{Input, Output};
 use crate::text::{counted, significant};
+use crate::{Silent, Watch};
 use anyhow::{Result, bail};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Vec3};
@@ -249,28 +249,7 @@ pub fn response(
     if adaptive && !(ascends && frequencies.len() >= 2) {
         bail!("⟪adaptive⟫ needs at least two frequencies in ascending order: they are the range and the first points");
     }
-    let (inputs, outputs) = signals(&at_rest.robot, pairs)?;
-    let linearisation = at_rest::linearisation(&pairs.model, at_rest.equilibrium.model);
-    let highest_hz = frequencies.iter().copied().fold(0.0, f64::max);
-    let (dynamics, warnings) = at_rest.dynamics(linearisation, highest_hz)?;
-
-    // Ports. All points of one cable belong together, whether forces or motions.
-    let all: Vec<Signal> = inputs.iter().map(|of| of.1).chain(outputs.iter().map(|of| of.1)).collect();
-    let mut input_ports = Port::all(&at_rest.robot, &at_rest.equilibrium, &dynamics, &all, true)?;
-    let output_ports = input_ports.split_off(inputs.len());
-    let quantities = outputs.iter().map(|(output, _)| output.quantity);
-    let mut response = Response {
-        output_ports: output_ports.into_iter().zip(quantities).collect(),
-        inputs: inputs.into_iter().map(|of| of.0).collect(),
-        outputs: outputs.into_iter().map(|of| of.0).collect(),
-        input_ports,
-        linearisation,
-        frequencies_hz: frequencies,
-        values: Vec::new(),
-        resolved: None,
-        caveat: None,
-        warnings,
-    };
+    let (mut response, dynamics) = Response::without_values(at_rest, pairs, frequencies)?;
 
     if adaptive {
         response.resolve(&dynamics, watch)?;
@@ -283,7 +262,45 @@ pub fn response(
     Ok(response)
 }
 
+/// Computes the responses of a robot at equilibrium at frequencies [Hz] without the search for missed peaks, which takes
+/// longer than the responses.
+///
+/// # Errors
+/// The errors of [`response()`].
+pub fn values_alone(at_rest: &AtRest, pairs: &Pairs<'_>, frequencies: Vec<f64>) -> Result<Response> {
+    let (mut response, dynamics) = Response::without_values(at_rest, pairs, frequencies)?;
+    response.compute(&dynamics, &mut Silent)?;
+    Ok(response)
+}
+
 impl Response {
+    /// Response whose values are not computed yet, and the linearised robot.
+    fn without_values(at_rest: &AtRest, pairs: &Pairs<'_>, frequencies: Vec<f64>) -> Result<(Self, Dynamics)> {
+        let (inputs, outputs) = signals(&at_rest.robot, pairs)?;
+        let linearisation = at_rest::linearisation(&pairs.model, at_rest.equilibrium.model);
+        let highest_hz = frequencies.iter().copied().fold(0.0, f64::max);
+        let (dynamics, warnings) = at_rest.dynamics(linearisation, highest_hz)?;
+
+        // Ports. All points of one cable belong together, whether forces or motions.
+        let all: Vec<Signal> = inputs.iter().map(|of| of.1).chain(outputs.iter().map(|of| of.1)).collect();
+        let mut input_ports = Port::all(&at_rest.robot, &at_rest.equilibrium, &dynamics, &all, true)?;
+        let output_ports = input_ports.split_off(inputs.len());
+        let quantities = outputs.iter().map(|(output, _)| output.quantity);
+        let response = Self {
+            output_ports: output_ports.into_iter().zip(quantities).collect(),
+            inputs: inputs.into_iter().map(|of| of.0).collect(),
+            outputs: outputs.into_iter().map(|of| of.0).collect(),
+            input_ports,
+            linearisation,
+            frequencies_hz: frequencies,
+            values: Vec::new(),
+            resolved: None,
+            caveat: None,
+            warnings,
+        };
+        Ok((response, dynamics))
+    }
+
     /// Computes the values at the frequencies.
     fn compute(&mut self, dynamics: &Dynamics, watch: &mut dyn Watch) -> Result<()> {
         let total = self.frequencies_hz.len();
@@ -393,6 +410,12 @@ impl Response {
                 significant(worst.read_hz, 6),
             )
         }))
+    }
+
+    /// Unit of the values of row `i`.
+    pub fn unit(&self, i: usize) -> String {
+        let (input, output) = self.pair(i);
+        unit(input, output)
     }
 
     /// Input and output of the pair of row `i`.

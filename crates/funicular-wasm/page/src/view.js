@@ -1,0 +1,440 @@
+// The robot in space: cables with their sag, tension as colour, platform, handles to drag it.
+
+import {
+  AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, EdgesGeometry, GridHelper, Group, LineBasicMaterial,
+  LineDashedMaterial, LineSegments, Mesh, MeshLambertMaterial, Object3D, PerspectiveCamera, Points, PointsMaterial,
+  Quaternion, Scene, SphereGeometry, Vector3, WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { TransformControls } from "three/addons/controls/TransformControls.js";
+import { ConvexGeometry } from "three/addons/geometries/ConvexGeometry.js";
+import { Line2 } from "three/addons/lines/Line2.js";
+import { LineGeometry } from "three/addons/lines/LineGeometry.js";
+import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { rotation } from "./frame.js";
+import { escaped } from "./format.js";
+
+/** Colours of tension from low to high, readable with any colour vision and on both backgrounds. */
+const SCALE = ["#3b6fb6", "#4aa3c8", "#62b78f", "#c9a227", "#d9772b", "#c23b22"].map((hex) => new Color(hex));
+/** Colours of states. */
+export const COLORS = { slack: "#8a8f98", beyond: "#d1249d" };
+const FIELD_OF_VIEW = 35;
+const PERIOD_S = 1.6; // of a mode on the screen
+
+/** Colour of a fraction from 0 to 1. */
+export function colorOf(fraction) {
+  const at = Math.max(0, Math.min(1, fraction)) * (SCALE.length - 1);
+  const low = Math.min(SCALE.length - 2, Math.floor(at));
+  return SCALE[low].clone().lerp(SCALE[low + 1], at - low);
+}
+
+/** True if the browser draws without a graphics card: then smooth edges and fine pixels take longer than a frame. */
+function isSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const about = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = about ? gl.getParameter(about.UNMASKED_RENDERER_WEBGL) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
+export class View {
+  /**
+   * @param {HTMLElement} place
+   * @param {object} tell functions: `drag(position, quaternion)`, `dragEnd()`, `turned()`
+   */
+  constructor(place, tell) {
+    this.place = place;
+    this.tell = tell;
+    this.exaggeration = 1;
+    this.amplitude = 1;
+    this.mode = null;
+    this.lines = [];
+    this.before = null;
+    this.canDrag = true;
+
+    this.software = isSoftware();
+    this.renderer = new WebGLRenderer({ antialias: !this.software, alpha: true });
+    this.canvas = this.renderer.domElement;
+    this.canvas.tabIndex = 0;
+    this.canvas.setAttribute("role", "img");
+    this.labels = document.createElement("div");
+    this.labels.className = "names";
+    this.labels.setAttribute("aria-hidden", "true");
+    place.append(this.canvas, this.labels);
+    this.scene = new Scene();
+    this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 1000);
+    this.camera.up.set(0, 0, 1);
+    this.scene.add(new AmbientLight(0xffffff, 2.2));
+    const sun = new DirectionalLight(0xffffff, 1.6);
+    sun.position.set(0.4, -0.7, 1);
+    this.scene.add(sun);
+
+    this.platform = new Group();
+    this.fixed = new Group();
+    this.cables = new Group();
+    this.remembered = new Group();
+    this.handle = new Object3D();
+    this.scene.add(this.platform, this.fixed, this.cables, this.remembered, this.handle);
+
+    this.orbit = new OrbitControls(this.camera, this.canvas);
+    this.orbit.addEventListener("change", () => this.draw());
+    this.orbit.addEventListener("end", () => tell.turned());
+    this.controls = new TransformControls(this.camera, this.canvas);
+    this.controls.setSize(0.85);
+    this.controls.attach(this.handle);
+    this.scene.add(this.controls.getHelper());
+    this.controls.addEventListener("change", () => this.draw());
+    this.controls.addEventListener("dragging-changed", ({ value }) => {
+      this.dragging = value;
+      this.orbit.enabled = !value;
+      if (!value) {
+        tell.dragEnd();
+      }
+    });
+    this.controls.addEventListener("objectChange", () => {
+      const { x, y, z, w } = this.handle.quaternion;
+      tell.drag(this.handle.position.toArray(), [w, x, y, z]);
+    });
+    new ResizeObserver(() => this.resize()).observe(place);
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.place;
+    if (width === 0 || height === 0) {
+      return;
+    }
+    this.renderer.setPixelRatio(this.software ? 1 : Math.min(2, devicePixelRatio || 1));
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.lines.forEach((line) => line.material.resolution.set(width, height));
+    this.draw();
+  }
+
+  /** Draws at the next frame of the screen. */
+  draw() {
+    this.waiting ??= requestAnimationFrame((now) => {
+      this.waiting = null;
+      if (this.mode) {
+        this.showMode(now);
+      }
+      this.renderer.render(this.scene, this.camera);
+      this.placeLabels();
+      if (this.mode?.playing) {
+        this.draw();
+      }
+    });
+  }
+
+  /** Puts the names of the cables beside them, at a third of their length from the anchor. */
+  placeLabels() {
+    const { clientWidth: width, clientHeight: height } = this.place;
+    this.frame?.cables.forEach(({ attachment, anchor }, i) => {
+      const point = new Vector3(...[0, 1, 2].map((k) => anchor[k] + 0.3 * (attachment[k] - anchor[k]))).project(this.camera);
+      const label = this.labels.children[i];
+      if (label) {
+        label.hidden = Math.abs(point.x) > 1 || Math.abs(point.y) > 1 || point.z > 1;
+        label.style.transform = `translate(${((point.x + 1) * width) / 2 + 4}px, ${((1 - point.y) * height) / 2 - 8}px)`;
+      }
+    });
+  }
+
+  /** Shows another robot. `about` is the description of the reader. */
+  setRobot(about, frame, keepView) {
+    [this.platform, this.fixed, this.cables].forEach((group) => group.clear());
+    this.lines = [];
+    this.frame = null;
+    this.mode = null;
+    const { cables } = about.check;
+    this.names = cables.map((cable) => cable.name);
+    this.labels.replaceChildren(...this.names.map((name) => Object.assign(document.createElement("span"), { textContent: name })));
+    this.attachments = cables.map((cable) => new Vector3(...cable.attachment_m));
+    this.motion = about.motion;
+
+    // Box around the robot: anchors and platform.
+    const anchors = cables.map((cable) => new Vector3(...cable.anchor_m));
+    const box = [...anchors, new Vector3(...(frame?.position ?? about.check.pose?.position_m ?? [0, 0, 0]))];
+    const low = new Vector3(...["x", "y", "z"].map((axis) => Math.min(...box.map((point) => point[axis]))));
+    const high = new Vector3(...["x", "y", "z"].map((axis) => Math.max(...box.map((point) => point[axis]))));
+    this.center = low.clone().add(high).multiplyScalar(0.5);
+    this.size = Math.max(low.distanceTo(high), 1e-3);
+    this.box = [low, high];
+
+    this.addFixed(anchors, low);
+    this.addPlatform();
+    for (const { name } of cables) {
+      const material = new LineMaterial({ linewidth: 2.6, vertexColors: false, dashScale: 60 / this.size });
+      const line = new Line2(new LineGeometry(), material);
+      line.name = name;
+      line.frustumCulled = false;
+      this.lines.push(line);
+      this.cables.add(line);
+    }
+    const { clientWidth: width, clientHeight: height } = this.place;
+    this.lines.forEach((line) => line.material.resolution.set(width, height));
+    this.setHandles(this.controls.mode);
+    if (!keepView) {
+      this.look("oblique");
+    }
+    this.recolor();
+  }
+
+  addFixed(anchors, low) {
+    // A ground of about twenty cells below everything.
+    const step = 10 ** Math.floor(Math.log10(this.size / 8)) * 1;
+    const cells = Math.ceil((1.3 * this.size) / step / 2) * 2;
+    this.grid = new GridHelper(cells * step, cells);
+    this.grid.rotation.x = Math.PI / 2;
+    this.grid.position.set(Math.round(this.center.x / step) * step, Math.round(this.center.y / step) * step, Math.min(0, low.z));
+    this.grid.material.transparent = true;
+    this.grid.material.opacity = 0.35;
+    this.fixed.add(this.grid);
+    const geometry = new BufferGeometry().setFromPoints(anchors);
+    this.anchorMaterial = new PointsMaterial({ size: 8, sizeAttenuation: false });
+    this.fixed.add(new Points(geometry, this.anchorMaterial));
+
+    // Posts from the ground to the anchors show the depth.
+    const posts = anchors.flatMap((anchor) => [anchor, new Vector3(anchor.x, anchor.y, Math.min(0, low.z))]);
+    this.postMaterial = new LineBasicMaterial({ transparent: true, opacity: 0.4 });
+    this.fixed.add(new LineSegments(new BufferGeometry().setFromPoints(posts), this.postMaterial));
+  }
+
+  addPlatform() {
+    const radius = Math.max(...this.attachments.map((point) => point.length()), 0);
+    const thin = Math.max(0.02 * this.size, 0.08 * radius);
+    this.platformMaterial = new MeshLambertMaterial({ transparent: true, opacity: 0.82 });
+    this.edgeMaterial = new LineBasicMaterial();
+    let body;
+    if (this.motion.name === "point-mass" || radius === 0) {
+      body = new SphereGeometry(0.012 * this.size, 24, 16);
+    } else {
+      // Points in one plane get a thickness, so that every platform is a body.
+      const along = this.motion.name === "planar" ? new Vector3(...this.motion.normal) : new Vector3(0, 0, 1);
+      const flat = along.clone().multiplyScalar(0.25 * thin);
+      body = new ConvexGeometry(this.attachments.flatMap((point) => [point.clone().add(flat), point.clone().sub(flat)]));
+    }
+    this.body = new Mesh(body, this.platformMaterial);
+    this.platform.add(this.body);
+    if (radius > 0) {
+      this.platform.add(new LineSegments(new EdgesGeometry(body, 20), this.edgeMaterial));
+    }
+  }
+
+  /** Adapts the colours to the scheme of the page. */
+  recolor() {
+    const style = getComputedStyle(document.documentElement);
+    const color = (name) => new Color(style.getPropertyValue(name).trim());
+    this.grid?.material.color.set(color("--grid"));
+    if (this.grid) {
+      this.grid.material.vertexColors = false;
+      this.grid.material.needsUpdate = true;
+    }
+    this.anchorMaterial?.color.set(color("--ink"));
+    this.postMaterial?.color.set(color("--soft"));
+    this.platformMaterial?.color.set(color("--platform"));
+    this.edgeMaterial?.color.set(color("--ink"));
+    this.draw();
+  }
+
+  /** Chooses the handles: `translate`, `rotate`, or none. */
+  setHandles(kind) {
+    const { name, normal } = this.motion ?? { name: "rigid" };
+    const rigid = name === "rigid";
+    const can = this.canDrag && kind !== "none" && (kind === "translate" || name !== "point-mass");
+    this.controls.enabled = can;
+    this.controls.getHelper().visible = can;
+    if (kind !== "none") {
+      this.controls.setMode(kind);
+    }
+    // A planar platform moves along the axes in its plane and turns about the normal.
+    const along = (k) => name !== "planar" || Math.abs(normal[k]) < 0.99;
+    const shown = (k) => (kind === "rotate" ? rigid || !along(k) : along(k));
+    [this.controls.showX, this.controls.showY, this.controls.showZ] = [shown(0), shown(1), shown(2)];
+    this.draw();
+  }
+
+  /** Shows a frame. `held`: the handle keeps its place, because a person holds it. */
+  setFrame(frame, held) {
+    this.frame = frame;
+    this.platform.position.set(...frame.position);
+    const [w, x, y, z] = frame.quaternion;
+    this.platform.quaternion.set(x, y, z, w);
+    if (!held) {
+      this.handle.position.copy(this.platform.position);
+      this.handle.quaternion.copy(this.platform.quaternion);
+    }
+    this.platformMaterial.opacity = 0.82;
+    const top = Math.max(...frame.cables.map((cable) => cable.highest), 1e-9);
+    frame.cables.forEach((cable, i) => {
+      const line = this.lines[i];
+      line.geometry.setPositions(this.exaggerated(cable));
+      const finite = frame.limited && Number.isFinite(cable.maximum);
+      const part = finite ? (cable.highest - cable.minimum) / (cable.maximum - cable.minimum) : cable.highest / top;
+      const beyond = frame.limited && (cable.highest > cable.maximum * 1.000001 || cable.lowest < cable.minimum * 0.999999);
+      const color = cable.slack ? new Color(COLORS.slack) : beyond ? new Color(COLORS.beyond) : colorOf(part);
+      line.material.color.copy(color);
+      line.material.dashed = Boolean(cable.slack);
+      if (cable.slack) {
+        line.computeLineDistances();
+      }
+    });
+    this.draw();
+  }
+
+  /** Shows a pose without equilibrium: the cables as grey straight lines. */
+  setBroken(position, quaternion) {
+    const r = rotation(quaternion);
+    this.platform.position.set(...position);
+    const [w, x, y, z] = quaternion;
+    this.platform.quaternion.set(x, y, z, w);
+    this.platformMaterial.opacity = 0.3;
+    this.lines.forEach((line, i) => {
+      const own = this.attachments[i].toArray();
+      const at = r.map((row, k) => position[k] + row.reduce((sum, value, j) => sum + value * own[j], 0));
+      const anchor = this.frame?.cables[i].anchor ?? at;
+      line.geometry.setPositions([...at, ...anchor]);
+      line.material.color.set(COLORS.slack);
+    });
+    this.draw();
+  }
+
+  /** Points of a cable with its sag multiplied. */
+  exaggerated({ points, attachment, anchor }) {
+    if (this.exaggeration === 1) {
+      return points;
+    }
+    const last = points.length / 3 - 1;
+    return Float64Array.from(points, (value, at) => {
+      const [i, k] = [Math.floor(at / 3), at % 3];
+      const chord = attachment[k] + ((anchor[k] - attachment[k]) * i) / last;
+      return chord + this.exaggeration * (value - chord);
+    });
+  }
+
+  /** Keeps the curves of a frame as thin lines, for comparison; nothing removes them. */
+  remember(frame) {
+    this.remembered.clear();
+    if (frame) {
+      const material = new LineDashedMaterial({ color: COLORS.slack, dashSize: 0.012 * this.size, gapSize: 0.008 * this.size });
+      for (const { points } of frame.cables) {
+        const pairs = [];
+        for (let i = 0; i + 3 < points.length; i += 3) {
+          pairs.push(points[i], points[i + 1], points[i + 2], points[i + 3], points[i + 4], points[i + 5]);
+        }
+        const geometry = new BufferGeometry();
+        geometry.setAttribute("position", new BufferAttribute(Float32Array.from(pairs), 3));
+        const line = new LineSegments(geometry, material);
+        line.computeLineDistances();
+        this.remembered.add(line);
+      }
+    }
+    this.draw();
+  }
+
+  /** Plays a mode: displacements of the points of the cables and motion of the platform; null ends it. */
+  setMode(mode) {
+    const playing = this.mode?.playing ?? !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.mode = mode && { ...mode, playing: mode.playing ?? playing, start: this.mode?.start ?? performance.now() };
+    if (this.mode) {
+      // The largest displacement is a fixed fraction of the robot.
+      const { cables, shape } = this.mode;
+      let largest = 1e-30;
+      for (let i = 0; i < cables.length; i += 3) {
+        largest = Math.max(largest, Math.hypot(cables[i], cables[i + 1], cables[i + 2]));
+      }
+      const turned = Math.hypot(...shape.slice(3)) * Math.max(...this.attachments.map((point) => point.length()), 0);
+      this.mode.scale = (0.035 * this.size) / Math.max(largest, Math.hypot(...shape.slice(0, 3)), turned);
+    } else if (this.frame) {
+      this.setFrame(this.frame, this.dragging);
+    }
+    this.draw();
+  }
+
+  showMode(now) {
+    const { cables, shape, scale, start, playing } = this.mode;
+    const phase = playing ? Math.sin((2 * Math.PI * (now - start)) / (1000 * PERIOD_S)) : 1;
+    const factor = phase * scale * this.amplitude;
+    let at = 0;
+    this.frame.cables.forEach((cable, i) => {
+      const own = this.exaggerated(cable);
+      const moved = Float64Array.from(own, (value, k) => value + factor * cables[at + k]);
+      at += own.length;
+      this.lines[i].geometry.setPositions(moved);
+    });
+    const [w, x, y, z] = this.frame.quaternion;
+    this.platform.position.set(...this.frame.position.map((value, k) => value + factor * shape[k]));
+    const turn = new Vector3(...shape.slice(3)).multiplyScalar(factor);
+    const angle = turn.length();
+    const extra = new Quaternion().setFromAxisAngle(angle > 0 ? turn.normalize() : new Vector3(0, 0, 1), angle);
+    this.platform.quaternion.copy(extra.multiply(new Quaternion(x, y, z, w)));
+  }
+
+  /** Looks from a named direction. */
+  look(name) {
+    const directions = {
+      oblique: [0.62, -1, 0.42], front: [0, -1, 0.0001], side: [1, 0, 0.0001], top: [0, -0.0001, 1],
+    };
+    const direction = new Vector3(...directions[name]).normalize();
+    const wide = Math.max(1, 1.25 / this.camera.aspect);
+    const distance = (0.44 * this.size * wide) / Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
+    this.camera.near = distance / 200;
+    this.camera.far = distance * 20;
+    this.camera.updateProjectionMatrix();
+    this.orbit.target.copy(this.center);
+    this.camera.position.copy(this.center).addScaledVector(direction, distance);
+    this.orbit.update();
+    this.draw();
+  }
+
+  /** Position and target of the camera, for a link. */
+  get camera6() {
+    return [...this.camera.position.toArray(), ...this.orbit.target.toArray()].map((value) => Number(value.toPrecision(5)));
+  }
+
+  set camera6(numbers) {
+    this.camera.position.set(...numbers.slice(0, 3));
+    this.orbit.target.set(...numbers.slice(3));
+    this.orbit.update();
+  }
+
+  /** Picture of the view as PNG. */
+  png() {
+    this.renderer.render(this.scene, this.camera);
+    return new Promise((done) => this.canvas.toBlob(done, "image/png"));
+  }
+
+  /** Picture of the view as SVG: the same camera, drawn with lines. */
+  svg() {
+    const { clientWidth: width, clientHeight: height } = this.place;
+    const style = getComputedStyle(document.documentElement);
+    const color = (name) => style.getPropertyValue(name).trim();
+    const project = (x, y, z) => {
+      const point = new Vector3(x, y, z).project(this.camera);
+      return `${(((point.x + 1) * width) / 2).toFixed(2)},${(((1 - point.y) * height) / 2).toFixed(2)}`;
+    };
+    const polyline = (points, stroke, more) =>
+      `<polyline fill="none" stroke="${stroke}" ${more} points="${Array.from({ length: points.length / 3 }, (_, i) => project(...points.slice(3 * i, 3 * i + 3))).join(" ")}"/>`;
+    const parts = [];
+    const [low] = this.box;
+    for (const line of [...this.platform.children].filter((child) => child.isLineSegments)) {
+      const position = line.geometry.getAttribute("position");
+      for (let i = 0; i < position.count; i += 2) {
+        const ends = [i, i + 1].flatMap((k) => new Vector3().fromBufferAttribute(position, k).applyMatrix4(line.matrixWorld).toArray());
+        parts.push(polyline(ends, color("--ink"), 'stroke-width="1"'));
+      }
+    }
+    if (this.platform.children.length === 1) {
+      const [x, y] = project(...this.frame.position).split(",");
+      parts.push(`<circle cx="${x}" cy="${y}" r="6" fill="${color("--platform")}"/>`);
+    }
+    this.frame?.cables.forEach((cable, i) => {
+      const { material } = this.lines[i];
+      parts.push(polyline(Array.from(this.exaggerated(cable)), `#${material.color.getHexString()}`, `stroke-width="2" ${material.dashed ? 'stroke-dasharray="5 4"' : ""}`));
+      const anchor = Array.from(cable.anchor);
+      const [x, y] = project(...anchor).split(",");
+      parts.push(polyline([...anchor, anchor[0], anchor[1], Math.min(0, low.z)], color("--line"), 'stroke-width="1"'));
+      parts.push(`<circle cx="${x}" cy="${y}" r="3" fill="${color("--ink")}"/><text x="${x}" y="${Number(y) - 7}" font-size="12" text-anchor="middle" fill="${color("--soft")}">${escaped(this.names[i])}</text>`);
+    });
+    return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="sans-serif"><rect width="100%" height="100%" fill="${color("--paper")}"/>${parts.join("")}</svg>`;
+  }
+}
