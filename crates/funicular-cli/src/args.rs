@@ -88,6 +88,7 @@ pub(crate) enum Command {
     #[command(after_help = "Examples:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20\n  \
         funicular modes robots/yuan2014-4mm.toml --below-hz 5 --input fz --output az\n  \
         funicular modes robots/yuan2014-4mm.toml --below-hz 5 --stations 21 -o modes.json\n  \
+        funicular modes robots/yuan2014-4mm.toml --below-hz 5 -o modes.uff\n  \
         funicular modes robots/cogiro.toml --below-hz 10 --cable-model spring -o modes.csv\n  \
         funicular modes robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --below-hz 8 --platform-share 0.75\n  \
         funicular modes robots/grab-3-cables.toml --static-model ideal --rigid-cables --below-hz 10\n  \
@@ -103,6 +104,8 @@ pub(crate) enum Command {
         --input fz --output ay\n  \
         funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    \
         --input fx --input fz --output x --output cable:3@0.5:az -o frf.json\n  \
+        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 \\\n    \
+        --input fz --output az --output-point-m 0.1,0.08,0.02 -o frf.uff\n  \
         funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    \
         --input fz --output az --figure-width-mm ieee-single -o frf.pdf")]
     Frf(FrfArgs),

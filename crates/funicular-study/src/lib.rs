@@ -39,6 +39,7 @@ pub mod figures;
 pub mod frequency_range;
 pub mod import;
 pub mod json;
+pub mod measurements;
 pub mod names;
 pub mod new_robot;
 #[cfg(feature = "pages")]

@@ -1,0 +1,89 @@
+//! Measured responses, natural frequencies and states as plain data, and the files that hold them.
+//!
+//! Readers take bytes and never touch a disk. A file that is cut off or damaged gives an error with its line, and no
+//! reader reserves memory for a count that the file declares.
+
+mod convert;
+mod csv;
+#[cfg(test)]
+mod tests;
+pub mod uff;
+mod uff_numbers;
+mod uff_writing;
+
+pub use convert::{NodePoint, responses_of_uff};
+pub use csv::{CsvContent, ResponseName, read_csv};
+pub use uff_writing::{frf_file, modes_file};
+
+use anyhow::{Result, bail};
+use serde::{Deserialize, Serialize};
+
+/// Maximum size of a file of measurements [bytes]: a thousand responses of ten thousand lines.
+pub const MAX_BYTES: usize = 256 << 20;
+
+/// Refuses a file that is too large to be read.
+///
+/// # Errors
+/// A message with the limit.
+pub fn check_size(path: &str, size: usize) -> Result<()> {
+    if size > MAX_BYTES {
+        bail!("{path} is larger than {} MiB, the limit for a file of measurements", MAX_BYTES >> 20);
+    }
+    Ok(())
+}
+
+/// Measured frequency response: output per input at each frequency, e^{+iωt}.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeasuredResponse {
+    /// Name in messages, tables and figures.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// Input signal, as `fz`.
+    pub input: String,
+    /// Point where the force acts, platform frame [m].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub input_point_m: Option<[f64; 3]>,
+    /// Output signal, as `ay`.
+    pub output: String,
+    /// Point whose motion is measured, platform frame [m].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub output_point_m: Option<[f64; 3]>,
+    /// Frequencies [Hz].
+    pub frequency_hz: Vec<f64>,
+    /// Real parts, in the SI unit of the output per input.
+    pub real: Vec<f64>,
+    /// Imaginary parts.
+    pub imag: Vec<f64>,
+    /// Standard deviations of the magnitude of the complex noise, √(E|n|²); each part has its half of the variance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub std: Option<Vec<f64>>,
+}
+
+/// Measured natural frequency.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeasuredFrequency {
+    /// Natural frequency [Hz].
+    pub frequency_hz: f64,
+    /// Damping ratio.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damping_ratio: Option<f64>,
+    /// Standard deviation of the frequency [Hz].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub std_hz: Option<f64>,
+    /// Weight: the variance is divided by it; 0 leaves the frequency out of the fit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weight: Option<f64>,
+    /// Number of the mode in the ascending list of the model, from 1, or any name. A frequency without a number is
+    /// assigned to the nearest modes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
+}
+
+impl MeasuredFrequency {
+    /// Number of the mode in the ascending list, from 1, if the label is one.
+    pub fn number(&self) -> Option<usize> {
+        self.label.as_ref()?.trim().parse().ok().filter(|number| *number > 0)
+    }
+}
