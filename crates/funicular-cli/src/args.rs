@@ -2,6 +2,7 @@
 
 mod export;
 mod groups;
+mod identify;
 mod import;
 mod names;
 mod new_robot;
@@ -19,6 +20,7 @@ pub(crate) use groups::{
     ChangeArgs, FigureArgs, LoadArgs, ModelArgs, OutputArgs, PointArgs, RangeArgs, RobotArgs, StateArgs, TensionArgs,
     TermArgs,
 };
+pub(crate) use identify::IdentifyArgs;
 pub(crate) use import::ImportArgs;
 pub(crate) use names::{AssemblyName, CableModelName, ModelFormName, TensionRuleName, WinchModeName};
 pub(crate) use new_robot::{LengthUnitName, MotionName, NewArgs, SchemaArgs, WireRopeName};
@@ -142,6 +144,18 @@ pub(crate) enum Command {
         In Python: m = numpy.load('model.npz'); m['A'], m['B'], m['C'], m['D']\n\
         In MATLAB: load model.mat; sys = ss(A, B, C, D)")]
     Reduce(ReduceArgs),
+    /// Values of the robot file that fit measurements best, with their deviations
+    ///
+    /// Measurements are frequency responses, natural frequencies with damping ratios, poses, tensions and lengths, in one
+    /// or several states. The result says how sure each value is, and which combinations the measurements do not determine.
+    /// docs/identification.md explains files, priors and the result.
+    #[command(after_help = "Examples:\n  \
+        funicular identify robots/yuan2014-4mm.toml --measured test.uff --node 2=0.1,0.08,0.02 --node 1=0.03,-0.02,0.05 \\\n    \
+        --fit platform.mass_kg --fit platform.center_of_mass_m --prior platform.center_of_mass_m=0±0.03 -o fitted.toml\n  \
+        funicular identify robots/cogiro.toml --measured modes.csv --pose 1,2,1.5 --fit platform.mass_kg=200:400\n  \
+        funicular identify robots/grab-4-cables.toml --experiments poses.json --rigid-cables \\\n    \
+        --fit platform.center_of_mass_m --fit platform.inertia_kg_m2 -o result.json --page result.html")]
+    Identify(IdentifyArgs),
     /// Tensions, frequencies, stiffness over the workspace, with one row per pose
     #[command(after_help = "Examples:\n  \
         funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    \

@@ -5,6 +5,7 @@ mod cable;
 mod check;
 mod compare;
 mod frf;
+mod identify;
 mod modes;
 mod page;
 mod parameters;
@@ -75,6 +76,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         Command::Import(args) => import(args),
         Command::Export(args) => export(&request_of(&cli.command)?, args),
         Command::Reduce(args) => reduce(&request_of(&cli.command)?, args),
+        Command::Identify(args) => identify::run(&request_of(&cli.command)?, args),
         Command::Check(args) | Command::Parameters(args) => {
             analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
         }
@@ -125,6 +127,7 @@ fn request_of(command: &Command) -> Result<Request> {
         Command::PoseError(args) => Request::PoseError(args.request(robot(&args.robot)?)),
         Command::Cable(args) => Request::Cable(args.request(robot(&args.robot)?)),
         Command::Reduce(args) => Request::Reduce(args.request(robot(&args.robot)?)),
+        Command::Identify(args) => Request::Identify(identify::request(args, robot(&args.robot)?)?),
         Command::Map(args) => Request::Map(map_request(args, robot(&args.robot)?)?),
         Command::Sweep(args) => Request::Sweep(args.request(robot(&args.robot)?)),
         Command::Merge(args) => Request::Merge(args.request()),
@@ -205,6 +208,7 @@ fn print_results(request: &Request, robot: Option<Robot>, sink: &Sink) -> Result
         Results::PoseError(found) => sink.write(found),
         Results::Cable(found) => sink.write(found),
         Results::Reduce(found) => sink.write(found),
+        Results::Identify(found) => sink.write(&**found),
         Results::Validate(found) => {
             sink.write(found)?;
             Ok(found.verdict()?)

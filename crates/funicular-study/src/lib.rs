@@ -37,6 +37,7 @@ pub mod export;
 #[cfg(feature = "pages")]
 pub mod figures;
 pub mod frequency_range;
+mod identification;
 pub mod import;
 pub mod json;
 pub mod measurements;

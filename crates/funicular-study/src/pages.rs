@@ -4,6 +4,7 @@
 //! on random numbers or on the network: two runs write the same bytes.
 
 pub(crate) mod figure;
+pub mod identify;
 pub mod paper;
 pub mod plot;
 pub mod report;

@@ -5,6 +5,7 @@ use crate::analyses::{
     check::{self, Checked},
     compare::{self, Compared},
     frf,
+    identify::{self, Identified},
     modes::{self, Modes},
     parameters::{self, ParameterList},
     payload::{self, Payload},
@@ -39,6 +40,7 @@ pub enum Results {
     PoseError(PoseErrors),
     Cable(CableResult),
     Reduce(ReducedForm),
+    Identify(Box<Identified>),
     Validate(Validated),
 }
 
@@ -61,6 +63,7 @@ impl Results {
             Self::PoseError(found) => json::of_results(found, words),
             Self::Cable(found) => json::of_results(found, words),
             Self::Reduce(found) => json::of_results(found, words),
+            Self::Identify(found) => json::of_results(&**found, words),
             Self::Validate(found) => json::of_results(found, words),
         }
     }
@@ -94,6 +97,7 @@ pub fn run_on(request: &Request, robot: Option<Robot>, watch: &mut dyn Watch) ->
         Request::PoseError(of) => Results::PoseError(pose_error::run(&robot()?, of, watch)?),
         Request::Cable(of) => Results::Cable(cable::run(robot()?, of)?),
         Request::Reduce(of) => Results::Reduce(reduce::run(robot()?, of, watch)?),
+        Request::Identify(of) => Results::Identify(Box::new(identify::run(of, watch)?)),
         Request::Validate(_) => Results::Validate(validate::run()?),
         other => return Err(anyhow!("`{}` writes a file: run it with the program or in Python", other.command())),
     })
