@@ -150,11 +150,12 @@ pub(crate) enum Command {
     /// or several states. The result says how sure each value is, and which combinations the measurements do not determine.
     /// docs/identification.md explains files, priors and the result.
     #[command(after_help = "Examples:\n  \
-        funicular identify robots/yuan2014-4mm.toml --measured test.uff --node 2=0.1,0.08,0.02 --node 1=0.03,-0.02,0.05 \\\n    \
+        funicular identify docs/quick-start/hall.toml --hold-lengths-of-pose \\\n    \
+        --measured docs/identification/hall-modes.csv --fit platform.mass_kg --prior platform.mass_kg=60±10\n  \
+        funicular identify robot.toml --measured test.uff --node 2=0.1,0.08,0.02 --node 1=0.03,-0.02,0.05 \\\n    \
         --fit platform.mass_kg --fit platform.center_of_mass_m --prior platform.center_of_mass_m=0±0.03 -o fitted.toml\n  \
-        funicular identify robots/cogiro.toml --measured modes.csv --pose 1,2,1.5 --fit platform.mass_kg=200:400\n  \
-        funicular identify robots/grab-4-cables.toml --experiments poses.json --rigid-cables \\\n    \
-        --fit platform.center_of_mass_m --fit platform.inertia_kg_m2 -o result.json --page result.html")]
+        funicular identify robot.toml --experiments poses.json --rigid-cables --fit platform.center_of_mass_m \\\n    \
+        --fit platform.inertia_kg_m2 -o result.json --page result.html")]
     Identify(IdentifyArgs),
     /// Tensions, frequencies, stiffness over the workspace, with one row per pose
     #[command(after_help = "Examples:\n  \

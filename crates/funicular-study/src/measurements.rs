@@ -32,6 +32,71 @@ pub fn check_size(path: &str, size: usize) -> Result<()> {
     Ok(())
 }
 
+/// Facts that a file of measurements may lack.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FileOptions {
+    /// Points of the platform at nodes of a Universal File.
+    #[serde(default)]
+    pub nodes: Vec<NodePoint>,
+    /// Signals of the responses of a table.
+    #[serde(default)]
+    pub responses: Vec<ResponseName>,
+    /// Point where the force acts in all responses of a table, platform frame [m].
+    #[serde(default)]
+    pub input_point_m: Option<[f64; 3]>,
+    /// Point whose motion is measured in all responses of a table, platform frame [m].
+    #[serde(default)]
+    pub output_point_m: Option<[f64; 3]>,
+}
+
+/// Contents of a file of measurements.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Measured {
+    /// Responses.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub responses: Vec<MeasuredResponse>,
+    /// Natural frequencies.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub frequencies: Vec<MeasuredFrequency>,
+    /// Sentences on what was left out.
+    #[serde(skip)]
+    pub notes: Vec<String>,
+}
+
+/// Reads a file of measurements; the ending of its name says what it is.
+///
+/// # Errors
+/// Another ending, or a file that cannot be read; the message names its line.
+///
+/// # Example
+/// ```
+/// use funicular_study::measurements::{FileOptions, read};
+///
+/// let list = b"frequency_hz,damping_ratio\n1.25,0.004\n";
+/// let found = read("modes.csv", list, &FileOptions::default())?;
+/// assert_eq!(found.frequencies[0].damping_ratio, Some(0.004));
+/// # Ok::<(), anyhow::Error>(())
+/// ```
+pub fn read(path: &str, bytes: &[u8], options: &FileOptions) -> Result<Measured> {
+    let ending = path.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
+    match ending.as_deref() {
+        Some("uff" | "unv") => {
+            let file = uff::UffFile::read(path, bytes)?;
+            let (responses, notes) = responses_of_uff(path, &file, &options.nodes)?;
+            Ok(Measured { responses, notes, ..Measured::default() })
+        }
+        Some("csv") => {
+            let points = [options.input_point_m, options.output_point_m];
+            Ok(match read_csv(path, bytes, &options.responses, points)? {
+                CsvContent::Responses(responses) => Measured { responses, ..Measured::default() },
+                CsvContent::Frequencies(frequencies) => Measured { frequencies, ..Measured::default() },
+            })
+        }
+        _ => bail!("{path}: measurements are read from .uff and .unv (Universal File) and from .csv"),
+    }
+}
+
 /// Measured frequency response: output per input at each frequency, e^{+iωt}.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

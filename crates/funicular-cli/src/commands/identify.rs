@@ -9,7 +9,7 @@ use anyhow::{Context, Result, bail};
 
 use funicular_files::endings::Kind;
 use funicular_study::analyses::identify::{self, Identified};
-use funicular_study::measurements::{self, CsvContent, uff::UffFile};
+use funicular_study::measurements::{self, FileOptions};
 use funicular_study::request::{Experiment, FitValue, IdentifyRequest, Pose, Request, RobotText};
 use funicular_study::wording::{Words, worded};
 use std::fs::File;
@@ -133,22 +133,16 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>> {
 fn read_measured(path: &Path, args: &IdentifyArgs, to: &mut Experiment) -> Result<()> {
     let shown = path.display().to_string();
     let bytes = bytes_of(path)?;
-    match Kind::of(path) {
-        Some(Kind::Uff) => {
-            let file = UffFile::read(&shown, &bytes)?;
-            let (responses, notes) = measurements::responses_of_uff(&shown, &file, &args.node)?;
-            notes.iter().for_each(|note| errors::note(note));
-            to.responses.extend(responses);
-        }
-        Some(Kind::Csv) => {
-            let points = [args.points.input_point_m, args.points.output_point_m].map(|point| point.map(Into::into));
-            match measurements::read_csv(&shown, &bytes, &args.response, points)? {
-                CsvContent::Responses(responses) => to.responses.extend(responses),
-                CsvContent::Frequencies(frequencies) => to.frequencies.extend(frequencies),
-            }
-        }
-        _ => bail!("{shown}: measurements are read from .uff and .unv (Universal File) and from .csv"),
-    }
+    let options = FileOptions {
+        nodes: args.node.clone(),
+        responses: args.response.clone(),
+        input_point_m: args.points.input_point_m.map(Into::into),
+        output_point_m: args.points.output_point_m.map(Into::into),
+    };
+    let found = measurements::read(&shown, &bytes, &options)?;
+    found.notes.iter().for_each(|note| errors::note(note));
+    to.responses.extend(found.responses);
+    to.frequencies.extend(found.frequencies);
     Ok(())
 }
 

@@ -8,6 +8,7 @@ use crate::set_values;
 use crate::text::{counted, significant};
 use anyhow::{Result, bail};
 use funicular::math::Complex;
+use funicular::math::least_squares::Ending;
 use funicular::robot::parameters::Parameters;
 use serde::Serialize;
 use std::cell::RefCell;
@@ -40,6 +41,8 @@ pub struct Identified {
     /// Combinations of values that the measurements do not determine.
     pub weak_combinations: Vec<String>,
     pub strong_correlations: Vec<String>,
+    /// True if the last search has ended at a minimum.
+    pub converged: bool,
     pub starts: Vec<StartRow>,
     pub evaluations: usize,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -169,7 +172,8 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
             ));
         }
     }
-    if best.ending != funicular::math::least_squares::Ending::Converged {
+    let converged = best.ending == Ending::Converged;
+    if !converged {
         warnings.push(format!("the search has not ended after {}", counted(best.iterations, "iteration")));
     }
     warnings.extend(judged.weak.iter().cloned());
@@ -204,6 +208,7 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
         singular_values: judged.singular_values,
         weak_combinations: judged.weak,
         strong_correlations: judged.strong,
+        converged,
         starts: searched.starts,
         evaluations: model.evaluations,
         frequency_rms: rms(|row| row.fitted_hz),

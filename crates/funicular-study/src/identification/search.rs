@@ -6,7 +6,8 @@ use crate::error::Cancelled;
 use anyhow::{Result, anyhow};
 use funicular::math::least_squares::{Ending, Minimum, minimise};
 
-/// χ² per degree of freedom below which a start counts as found, and no other one is tried.
+/// χ² per degree of freedom below which a start counts as found, and no other one is tried. With few degrees of freedom
+/// three deviations of χ² above 1 count as found, too.
 const FOUND: f64 = 1.5;
 
 /// Maximum number of iterations of one search.
@@ -79,7 +80,7 @@ pub(crate) fn search(
         if best.as_ref().is_none_or(|(other, _)| per_degree < *other) {
             best = Some((per_degree, found));
         }
-        if per_degree < FOUND {
+        if per_degree < FOUND.max(1.0 + 3.0 * (2.0 / degrees).sqrt()) {
             break;
         }
     }

@@ -3,10 +3,12 @@
 use super::MeasuredResponse;
 use super::uff::{Axis, Function, NodeDirection, UffFile};
 use anyhow::{Result, bail};
+use serde::Deserialize;
 use std::collections::BTreeMap;
 
 /// Node of a file and its point of the platform.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct NodePoint {
     /// Number of the node.
     pub node: i64,

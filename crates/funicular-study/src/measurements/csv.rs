@@ -8,9 +8,11 @@ use super::{MeasuredFrequency, MeasuredResponse, check_size};
 use crate::csv_lines::line_at;
 use crate::values::number;
 use anyhow::{Result, anyhow, bail};
+use serde::Deserialize;
 
 /// Signals of a response of a table.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ResponseName {
     /// Name in the header.
     pub name: String,
