@@ -676,11 +676,11 @@ impl PyRobot {
     /// StaticsError
     ///     The robot has no equilibrium at any start.
     #[pyo3(signature = (
-        fit, experiments, *, starts=None, from_hz=None, to_hz=None, response_noise=None, frequency_noise=None,
-        damping_noise=None, rigid_cables=false, pose=None, lengths_m=None, static_model=None,
+        fit, experiments, *, starts=10, from_hz=None, to_hz=None, response_noise=0.02, frequency_noise=0.01,
+        damping_noise=0.1, rigid_cables=false, pose=None, lengths_m=None, static_model="catenary",
         hold_lengths_of_pose=false, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None, wind_m_s=None,
         cable_load_n_per_m=None, tension_rule=None, target_tension_n=None, min_tension_n=None, max_tension_n=None,
-        cable_model=None, assembly=None, in_plane_only=false, winches=None
+        cable_model=None, assembly="consistent", in_plane_only=false, winches="as-given"
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn identify<'py>(
@@ -688,16 +688,16 @@ impl PyRobot {
         py: Python<'py>,
         fit: Bound<'py, PyAny>,
         experiments: Bound<'py, PyAny>,
-        starts: Option<usize>,
+        starts: usize,
         from_hz: Option<f64>,
         to_hz: Option<f64>,
-        response_noise: Option<f64>,
-        frequency_noise: Option<f64>,
-        damping_noise: Option<f64>,
+        response_noise: f64,
+        frequency_noise: f64,
+        damping_noise: f64,
         rigid_cables: bool,
         pose: Option<Bound<'py, PyAny>>,
         lengths_m: Option<Bound<'py, PyAny>>,
-        static_model: Option<&str>,
+        static_model: &str,
         hold_lengths_of_pose: bool,
         mass_kg: Option<f64>,
         force_n: Option<Bound<'py, PyAny>>,
@@ -710,9 +710,9 @@ impl PyRobot {
         min_tension_n: Option<f64>,
         max_tension_n: Option<f64>,
         cable_model: Option<&str>,
-        assembly: Option<&str>,
+        assembly: &str,
         in_plane_only: bool,
-        winches: Option<&str>,
+        winches: &str,
     ) -> PyResult<IdentifiedObject> {
         let keywords = PyDict::new(py);
         keywords.set_item("starts", starts)?;

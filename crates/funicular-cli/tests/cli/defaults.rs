@@ -19,7 +19,7 @@ fn shortest() -> Vec<Vec<String>> {
     let imported = project("docs/import/tripod.wcrfx");
     let response = ["--input", "fz", "--output", "z"];
     let range = ["--from-hz", "1", "--to-hz", "2", "--points", "9"];
-    let with_robot: [(&str, &[&str]); 15] = [
+    let with_robot: [(&str, &[&str]); 16] = [
         ("check", &[]),
         ("parameters", &[]),
         ("statics", &[]),
@@ -31,6 +31,7 @@ fn shortest() -> Vec<Vec<String>> {
         ("pose-error", &["--mass-kg", "10:20:3"]),
         ("cable", &["--name", "1"]),
         ("reduce", &["--below-hz", "2"]),
+        ("identify", &["--fit", "platform.mass_kg"]),
         ("map", &["--grid", "z=1:2:2"]),
         ("sweep", &["--vary", "platform.mass_kg=90:100:2"]),
         ("report", &[]),
