@@ -21,6 +21,15 @@ use serde::{Deserialize, Serialize};
 /// Maximum size of a file of measurements [bytes]: a thousand responses of ten thousand lines.
 pub const MAX_BYTES: usize = 256 << 20;
 
+/// Standard deviation of each coordinate of a measured position that has none [m].
+pub const POSITION_STD_M: f64 = 1e-3;
+/// Standard deviation of a measured rotation about each axis that has none [degrees].
+pub const ROTATION_STD_DEG: f64 = 0.1;
+/// Standard deviation of measured lengths that have none [m].
+pub const LENGTH_STD_M: f64 = 1e-3;
+/// Standard deviation of measured tensions that have none, relative to the maximum tension.
+pub const TENSION_STD: f64 = 0.01;
+
 /// Refuses a file that is too large to be read.
 ///
 /// # Errors

@@ -1,24 +1,19 @@
 //! Measured numbers as observations, and the residuals of predictions.
 
+use crate::measurements::{LENGTH_STD_M, POSITION_STD_M, ROTATION_STD_DEG, TENSION_STD};
 use crate::request::Experiment;
 use crate::request::IdentifyRequest;
 use anyhow::{Result, anyhow, bail};
 use funicular::math::Complex;
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Minimum relative deviation in the residuals of logarithms (I1): the logarithm of noise has no Gaussian distribution
+/// Minimum relative deviation in the residuals of logarithms (93c): the logarithm of noise has no Gaussian distribution
 /// where the deviation is small against the error of the model.
 const MIN_LOG_DEVIATION: f64 = 0.02;
 
 /// Part of the median magnitude that is added to the deviation of a response without deviations: noise of sensors where the
 /// response is small.
 const NOISE_FLOOR: f64 = 0.003;
-
-/// Default deviations.
-const POSITION_STD_M: f64 = 1e-3;
-const ROTATION_STD_DEG: f64 = 0.1;
-const LENGTH_STD_M: f64 = 1e-3;
-const TENSION_STD: f64 = 0.01;
 
 /// Deviations of an assigned frequency without a label beyond which its residual loses weight.
 const ROBUST: f64 = 5.0;
