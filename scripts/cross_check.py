@@ -16,6 +16,7 @@ from pathlib import Path
 import moordyn
 import moorpy
 import numpy as np
+import pyuff
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
@@ -340,6 +341,35 @@ def check_vtk(robot, folder, table):
     table.row(robot.name, "VTK", "ends of cables in modes against the platform", worst, 1e-6)
 
 
+def check_uff(robot, folder, table):
+    """Compares the Universal Files read by pyuff with the results of funicular."""
+    path = folder / "response.uff"
+    request = ["--cable-model", "spring", "--from-hz", "0.5", "--to-hz", "4.5", "--points", "81", "--input", "fx"]
+    request += ["--output", "ax", "--output", "x"]
+    told = json.loads(robot.run("frf", *request, "--format", "json"))
+    robot.run("frf", *request, "-o", str(path))
+    sets = [found for found in pyuff.UFF(str(path)).read_sets() if found["type"] == 58]
+    worst = abs(len(sets) - len(told["responses"]))
+    for found, pair in zip(sets, told["responses"], strict=False):
+        values = np.array(pair["real"]) + 1j * np.array(pair["imag"])
+        worst = max(worst, np.abs(found["data"] / values - 1.0).max(), np.abs(found["x"] / told["frequency_hz"] - 1.0).max())
+        worst = max(worst, abs(found["rsp_dir"] - 1), abs(found["ref_dir"] - 1))
+    # Abscissae have six digits, ordinates thirteen.
+    table.row(robot.name, "UFF", "responses", worst, 1e-6)
+
+    path = folder / "modes.uff"
+    modes = json.loads(robot.run("modes", "--below-hz", "4", "--format", "json"))["modes"]
+    robot.run("modes", "--below-hz", "4", "-o", str(path))
+    shapes = [found for found in pyuff.UFF(str(path)).read_sets() if found["type"] == 55]
+    worst = abs(len(shapes) - len(modes))
+    for found, mode in zip(shapes, modes, strict=False):
+        # Node 1 is the origin of the platform; the file has platform axes and six digits.
+        shift = robot.rotation.T @ np.array(mode["shape"][:3])
+        written = np.array([found["r1"][0], found["r2"][0], found["r3"][0]])
+        worst = max(worst, np.abs(written - shift).max(), abs(found["freq"] / mode["frequency_hz"] - 1.0))
+    table.row(robot.name, "UFF", "mode shapes", worst, 1e-5)
+
+
 def main():
     program, *options = sys.argv[1:]
     if options not in ([], ["--short"]):
@@ -355,6 +385,8 @@ def main():
             if case.seconds:
                 check_moordyn(robot, folder, table, case.seconds, case.segments)
             check_vtk(robot, folder, table)
+            if robot.components:
+                check_uff(robot, folder, table)
     print(f"{table.failed} outside their limits" if table.failed else "all within their limits")
     sys.exit(1 if table.failed else 0)
 

@@ -2,6 +2,7 @@
 
 mod export;
 mod groups;
+mod identify;
 mod import;
 mod names;
 mod new_robot;
@@ -19,6 +20,7 @@ pub(crate) use groups::{
     ChangeArgs, FigureArgs, LoadArgs, ModelArgs, OutputArgs, PointArgs, RangeArgs, RobotArgs, StateArgs, TensionArgs,
     TermArgs,
 };
+pub(crate) use identify::IdentifyArgs;
 pub(crate) use import::ImportArgs;
 pub(crate) use names::{AssemblyName, CableModelName, ModelFormName, TensionRuleName, WinchModeName};
 pub(crate) use new_robot::{LengthUnitName, MotionName, NewArgs, SchemaArgs, WireRopeName};
@@ -88,6 +90,7 @@ pub(crate) enum Command {
     #[command(after_help = "Examples:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20\n  \
         funicular modes robots/yuan2014-4mm.toml --below-hz 5 --input fz --output az\n  \
         funicular modes robots/yuan2014-4mm.toml --below-hz 5 --stations 21 -o modes.json\n  \
+        funicular modes robots/yuan2014-4mm.toml --below-hz 5 -o modes.uff\n  \
         funicular modes robots/cogiro.toml --below-hz 10 --cable-model spring -o modes.csv\n  \
         funicular modes robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --below-hz 8 --platform-share 0.75\n  \
         funicular modes robots/grab-3-cables.toml --static-model ideal --rigid-cables --below-hz 10\n  \
@@ -103,6 +106,8 @@ pub(crate) enum Command {
         --input fz --output ay\n  \
         funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    \
         --input fx --input fz --output x --output cable:3@0.5:az -o frf.json\n  \
+        funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 \\\n    \
+        --input fz --output az --output-point-m 0.1,0.08,0.02 -o frf.uff\n  \
         funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    \
         --input fz --output az --figure-width-mm ieee-single -o frf.pdf")]
     Frf(FrfArgs),
@@ -140,6 +145,19 @@ pub(crate) enum Command {
         In Python: m = numpy.load('model.npz'); m['A'], m['B'], m['C'], m['D']\n\
         In MATLAB: load model.mat; sys = ss(A, B, C, D)")]
     Reduce(ReduceArgs),
+    /// Values of the robot file that fit measurements best, with their deviations
+    ///
+    /// Measurements are frequency responses, natural frequencies with damping ratios, poses, tensions and lengths, in one
+    /// or several states. The result says how sure each value is, and which combinations the measurements do not determine.
+    /// docs/identification.md explains files, priors and the result.
+    #[command(after_help = "Examples:\n  \
+        funicular identify docs/quick-start/hall.toml --hold-lengths-of-pose \\\n    \
+        --measured docs/identification/hall-modes.csv --fit platform.mass_kg --prior platform.mass_kg=60±10\n  \
+        funicular identify robot.toml --measured test.uff --node 2=0.1,0.08,0.02 --node 1=0.03,-0.02,0.05 \\\n    \
+        --fit platform.mass_kg --fit platform.center_of_mass_m --prior platform.center_of_mass_m=0±0.03 -o fitted.toml\n  \
+        funicular identify robot.toml --experiments poses.json --rigid-cables --fit platform.center_of_mass_m \\\n    \
+        --fit platform.inertia_kg_m2 -o result.json --page result.html")]
+    Identify(IdentifyArgs),
     /// Tensions, frequencies, stiffness over the workspace, with one row per pose
     #[command(after_help = "Examples:\n  \
         funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    \

@@ -5,6 +5,7 @@ mod cable;
 mod check;
 mod compare;
 mod frf;
+mod identify;
 mod modes;
 mod page;
 mod parameters;
@@ -76,6 +77,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         Command::Import(args) => import(args),
         Command::Export(args) => export(&request_of(&cli.command)?, args),
         Command::Reduce(args) => reduce(&request_of(&cli.command)?, args),
+        Command::Identify(args) => identify::run(&request_of(&cli.command)?, args),
         Command::Check(args) | Command::Parameters(args) => {
             analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
         }
@@ -126,6 +128,7 @@ fn request_of(command: &Command) -> Result<Request> {
         Command::PoseError(args) => Request::PoseError(args.request(robot(&args.robot)?)),
         Command::Cable(args) => Request::Cable(args.request(robot(&args.robot)?)),
         Command::Reduce(args) => Request::Reduce(args.request(robot(&args.robot)?)),
+        Command::Identify(args) => Request::Identify(identify::request(args, robot(&args.robot)?)?),
         Command::Map(args) => Request::Map(map_request(args, robot(&args.robot)?)?),
         Command::Sweep(args) => Request::Sweep(args.request(robot(&args.robot)?)),
         Command::Merge(args) => Request::Merge(args.request()),
@@ -159,14 +162,18 @@ fn analyse_or_draw(
     mode: Option<usize>,
     mut guard: Guard,
 ) -> Result<()> {
-    let draws = matches!(request, Request::Statics(_) | Request::Modes(_) | Request::Frf(_) | Request::Compare(_));
+    let others: &[Kind] = match request {
+        Request::Statics(_) | Request::Compare(_) => &[Kind::Svg, Kind::Pdf],
+        Request::Modes(_) | Request::Frf(_) => &[Kind::Svg, Kind::Pdf, Kind::Uff],
+        _ => &[],
+    };
     // Errors of the robot file are reported before errors of the destination.
     let robot = request.robot().map(RobotText::read).transpose()?.map(|file| file.robot);
     // With --format the result is printed, and an ending that means a figure is refused.
-    let path = output.output_file.as_deref().filter(|_| draws && output.format.is_none());
+    let path = output.output_file.as_deref().filter(|_| !others.is_empty() && output.format.is_none());
     let Some(sink) = FigureSink::open(path, figure, &mut guard)? else {
         refuse_without_figure(mode.is_some(), "figure_mode")?;
-        return print_results(request, robot, &Sink::open(output, draws, &mut guard)?);
+        return print_results(request, robot, &Sink::open(output, others, &mut guard)?);
     };
 
     let robot = robot.context("a figure needs a robot")?;
@@ -182,7 +189,7 @@ fn analyse_or_draw(
 /// Runs a request whose results are printed.
 fn analyse(request: &Request, output: &OutputArgs, mut guard: Guard) -> Result<()> {
     let robot = request.robot().map(RobotText::read).transpose()?.map(|file| file.robot);
-    print_results(request, robot, &Sink::open(output, false, &mut guard)?)
+    print_results(request, robot, &Sink::open(output, &[], &mut guard)?)
 }
 
 fn print_results(request: &Request, robot: Option<Robot>, sink: &Sink) -> Result<()> {
@@ -203,6 +210,7 @@ fn print_results(request: &Request, robot: Option<Robot>, sink: &Sink) -> Result
         Results::PoseError(found) => sink.write(found),
         Results::Cable(found) => sink.write(found),
         Results::Reduce(found) => sink.write(found),
+        Results::Identify(found) => sink.write(&**found),
         Results::Validate(found) => {
             sink.write(found)?;
             Ok(found.verdict()?)
@@ -215,7 +223,7 @@ fn reduce(request: &Request, args: &ReduceArgs) -> Result<()> {
     let Request::Reduce(of) = request else { bail!("this is not a request of `reduce`") };
     let robot = of.robot.read()?.robot;
     let mut guard = robot_file::guard(Some(&args.robot.robot));
-    let sink = Sink::open(&args.sink, false, &mut guard)?;
+    let sink = Sink::open(&args.sink, &[], &mut guard)?;
     let file = args.matrices.as_deref().map(|path| ModelFile::open(path, &mut guard)).transpose()?;
 
     let mut watch = TerminalProgress::new();

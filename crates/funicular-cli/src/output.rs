@@ -25,11 +25,19 @@ pub(crate) trait Printed: Found {
 
     /// Rectangular table with a header.
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()>;
+
+    /// Universal File, for results that such a file can hold.
+    ///
+    /// # Errors
+    /// Results that it cannot hold.
+    fn uff(&self) -> Result<Vec<u8>> {
+        bail!("results of `{}` cannot be written as a Universal File", self.command())
+    }
 }
 
 /// Kind of an output file: its name in messages and the endings it may have.
 #[derive(Clone, Copy)]
-pub(crate) struct Content {
+pub(crate) struct Content<'a> {
     /// Name of the output in messages: "the result".
     pub(crate) name: &'static str,
     /// Option that names the file.
@@ -37,10 +45,10 @@ pub(crate) struct Content {
     /// Kind of the file in messages: "a page".
     pub(crate) in_words: &'static str,
     /// File name endings of this kind.
-    pub(crate) fitting: &'static [Kind],
+    pub(crate) fitting: &'a [Kind],
 }
 
-impl Content {
+impl Content<'static> {
     /// HTML page.
     pub(crate) const PAGE: Self = Self { name: "the page", option: "-o", in_words: "a page", fitting: &[Kind::Html] };
 
@@ -134,7 +142,7 @@ impl Target {
     /// # Errors
     /// A destination that cannot be written; a file that the command also reads or writes; or a file whose ending means
     /// another format.
-    pub(crate) fn open(path: Option<&Path>, content: Content, guard: &mut Guard) -> Result<Self> {
+    pub(crate) fn open(path: Option<&Path>, content: Content<'_>, guard: &mut Guard) -> Result<Self> {
         let Some(path) = path.filter(|path| path.as_os_str() != "-") else { return Ok(Self { file: None }) };
         let shown = path.display();
         // A symbolic link is followed: its target is replaced, not the link.
@@ -169,31 +177,41 @@ impl Target {
 
 /// Destination and format of a result.
 pub(crate) struct Sink {
-    format: Format,
+    form: Form,
     target: Target,
+}
+
+/// Forms of a result's bytes: the formats, and the files that only an ending requests.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Form {
+    As(Format),
+    Uff,
 }
 
 impl Sink {
     /// Chooses the requested format, or else the format of the file's ending. Refuses to overwrite a file that the
-    /// guard knows. `draws` is true for a command that also writes figures: messages then name their endings.
-    pub(crate) fn open(args: &OutputArgs, draws: bool, guard: &mut Guard) -> Result<Self> {
+    /// guard knows. `others` are the kinds of files that the command also writes: messages then name their endings.
+    pub(crate) fn open(args: &OutputArgs, others: &[Kind], guard: &mut Guard) -> Result<Self> {
         let path = args.output_file.as_deref();
+        if args.format.is_none() && path.and_then(Kind::of) == Some(Kind::Uff) && others.contains(&Kind::Uff) {
+            let in_words = "a Universal File";
+            let content = Content { name: "the result", option: "-o", in_words, fitting: &[Kind::Uff] };
+            return Ok(Self { form: Form::Uff, target: Target::open(path, content, guard)? });
+        }
         let format = args.format.unwrap_or(match path.and_then(Kind::of) {
             Some(Kind::Json) => Format::Json,
             Some(Kind::Csv) => Format::Csv,
             _ => Format::Text,
         });
+        let all = [&[Kind::Json, Kind::Csv], others, &[Kind::Markdown, Kind::Text]].concat();
         let (in_words, fitting): (_, &[Kind]) = match (args.format, format) {
-            (None, Format::Text) if draws => {
-                ("text", &[Kind::Json, Kind::Csv, Kind::Svg, Kind::Pdf, Kind::Markdown, Kind::Text])
-            }
-            (None, Format::Text) => ("text", &[Kind::Json, Kind::Csv, Kind::Markdown, Kind::Text]),
+            (None, Format::Text) => ("text", &all),
             (_, Format::Text) => ("text", &[Kind::Markdown, Kind::Text]),
             (_, Format::Json) => ("JSON", &[Kind::Json, Kind::Text]),
             (_, Format::Csv) => ("CSV", &[Kind::Csv, Kind::Text]),
         };
         let content = Content { name: "the result", option: "-o", in_words, fitting };
-        Ok(Self { format, target: Target::open(path, content, guard)? })
+        Ok(Self { form: Form::As(format), target: Target::open(path, content, guard)? })
     }
 
     /// Writes the result. Its warnings also go to stderr.
@@ -205,12 +223,16 @@ impl Sink {
 
     fn render<R: Printed>(&self, results: &R) -> Result<Vec<u8>> {
         let mut bytes = Vec::new();
-        match self.format {
-            Format::Json => as_json(&mut bytes, results)?,
-            Format::Text | Format::Csv => {
+        match self.form {
+            Form::Uff => {
+                as_json(&mut Vec::new(), results)?;
+                bytes = results.uff()?;
+            }
+            Form::As(Format::Json) => as_json(&mut bytes, results)?,
+            Form::As(format) => {
                 // Only finite numbers are printed: this check is the same for all formats.
                 as_json(&mut Vec::new(), results)?;
-                if self.format == Format::Text {
+                if format == Format::Text {
                     bytes = results.text().into_bytes();
                     if self.target.is_file() {
                         for warning in in_words(results) {

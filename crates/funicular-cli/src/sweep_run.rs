@@ -156,5 +156,5 @@ fn refuse_output(job: &Job, guard: &mut Guard, path: &Path) -> Result<()> {
 
 /// Destination of a summary.
 fn sink(format: Option<Format>) -> Result<Sink> {
-    Sink::open(&OutputArgs { format, output_file: None }, false, &mut Guard::default())
+    Sink::open(&OutputArgs { format, output_file: None }, &[], &mut Guard::default())
 }

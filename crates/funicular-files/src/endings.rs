@@ -34,12 +34,14 @@ pub enum Kind {
     Npz,
     /// Variables of MATLAB.
     Mat,
+    /// Universal File of measurements.
+    Uff,
     /// Kind that is never written, in words.
     Other(&'static str),
 }
 
 /// All endings with a meaning. A file with any other ending may hold any text.
-const ENDINGS: [(&[&str], Kind); 33] = [
+const ENDINGS: [(&[&str], Kind); 34] = [
     (&["txt", "out", "log", "dat"], Kind::Text),
     (&["md"], Kind::Markdown),
     (&["json"], Kind::Json),
@@ -54,6 +56,7 @@ const ENDINGS: [(&[&str], Kind); 33] = [
     (&["py"], Kind::Python),
     (&["npz"], Kind::Npz),
     (&["mat"], Kind::Mat),
+    (&["uff", "unv"], Kind::Uff),
     (&["partial", "writing"], Kind::Other("rows of an unfinished sweep")),
     (&["jsonl", "ndjson"], Kind::Other("lines of JSON")),
     (&["tsv", "tab"], Kind::Other("a table of tab-separated values")),
@@ -99,6 +102,7 @@ impl Kind {
             Self::Python => "a Python script",
             Self::Npz => "arrays of NumPy",
             Self::Mat => "variables of MATLAB",
+            Self::Uff => "a Universal File",
             Self::Other(words) => words,
         }
     }

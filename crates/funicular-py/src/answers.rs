@@ -137,6 +137,18 @@ pub(crate) fn source_file(path: PathBuf) -> PyResult<String> {
     serde_json::to_string(&file).map_err(|error| errors::input(error.to_string()))
 }
 
+/// Reads a file of measurements as an experiment in JSON.
+#[pyfunction]
+pub(crate) fn measurements_of_file(path: PathBuf, options: &str) -> PyResult<String> {
+    let options: FileOptions =
+        serde_json::from_str(options).map_err(|error| errors::input(format!("the options cannot be read: {error}")))?;
+    let name = path.display().to_string();
+    let bytes =
+        fs::read(&path).map_err(|error| io::Error::new(error.kind(), format!("cannot read {name}: {error}")))?;
+    let experiment = measurements::read(&name, &bytes, &options).map_err(|error| errors::study(&error))?;
+    serde_json::to_string(&experiment).map_err(|error| errors::input(error.to_string()))
+}
+
 /// Computes robot file, assumptions and losses of a request of `import`.
 #[pyfunction]
 pub(crate) fn imported(request: &str) -> PyResult<(String, Vec<String>, Vec<String>)> {

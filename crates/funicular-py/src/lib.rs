@@ -33,7 +33,8 @@ mod _funicular {
     use crate::analyses::PyAnalyses;
     #[pymodule_export]
     use crate::answers::{
-        answer, complete_request, imported, merge_parts, plot_page, source_file, text_of, write_file,
+        answer, complete_request, imported, measurements_of_file, merge_parts, plot_page, source_file, text_of,
+        write_file,
     };
     #[pymodule_export]
     use crate::arrays::{complex_numbers, real_numbers};

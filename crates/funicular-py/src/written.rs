@@ -27,7 +27,7 @@ use std::sync::Arc;
 macro_rules! object {
     ($name:ident, $module:literal, $class:literal) => {
         #[doc = concat!("`", $module, ".", $class, "`.")]
-        pub(crate) struct $name(Py<PyAny>);
+        pub(crate) struct $name(pub(crate) Py<PyAny>);
 
         impl<'py> IntoPyObject<'py> for $name {
             type Target = PyAny;
@@ -47,6 +47,7 @@ macro_rules! object {
 object!(ReducedObject, "funicular._results", "ReducedModel");
 object!(StateSpaceObject, "funicular._results", "StateSpaceModel");
 object!(PageObject, "funicular._pages", "Page");
+object!(IdentifiedObject, "funicular._identify", "Identified");
 
 /// Keywords of `reduce` and `state_space`.
 pub(crate) struct ReduceKeywords<'a> {

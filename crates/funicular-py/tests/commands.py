@@ -96,6 +96,8 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
             keywords["quantities"] = next(rest).split(",")
         elif word == "--poses":
             keywords["poses"] = read_poses(next(rest))
+        elif command == "identify" and word in ("--fit", "--prior", "--measured"):
+            keywords.setdefault(key, []).append(next(rest))
         elif word in LISTS.get(command, ()):
             keywords.setdefault(key, []).append(next(rest))
         elif command == "frf" and key in ("input", "output") and key in keywords:
@@ -103,7 +105,36 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
             keywords[key] = [*([before] if isinstance(before, str) else before), next(rest)]
         else:
             keywords[key] = value(command, word, next(rest))
+    if command == "identify":
+        keywords = identification(keywords)
     return command, files, keywords, changes
+
+
+# Options of `identify` that belong to the request; the others belong to its experiment.
+OF_REQUEST = {"starts", "from_hz", "to_hz", "response_noise", "frequency_noise", "damping_noise", "rigid_cables"}
+OF_REQUEST |= {"tension_rule", "target_tension_n", "min_tension_n", "max_tension_n"}
+OF_REQUEST |= {"cable_model", "assembly", "in_plane_only", "winches"}
+
+
+def identification(keywords: dict[str, Any]) -> dict[str, Any]:
+    """Keywords of a request of `identify` with one experiment."""
+    fit: dict[str, dict[str, Any]] = {}
+    for text in keywords.pop("fit"):
+        path, _, bounds = text.partition("=")
+        low, high = map(float, bounds.split(":")) if bounds else (None, None)
+        fit[path] = {"path": path, "minimum": low, "maximum": high}
+    for text in keywords.pop("prior", []):
+        path, _, prior = text.partition("=")
+        value, deviation = prior.split("±")
+        fit[path] |= {"prior": float(value), "prior_std": float(deviation)}
+    experiment = {key: value for key, value in keywords.items() if key not in OF_REQUEST and key != "measured"}
+    for path in keywords.pop("measured", []):
+        experiment |= funicular.read_measurements(path)
+    return {
+        "fit": [{key: value for key, value in entry.items() if value is not None} for entry in fit.values()],
+        "experiments": [experiment],
+        **{key: value for key, value in keywords.items() if key in OF_REQUEST},
+    }
 
 
 def read_poses(path: str) -> list[list[float]]:

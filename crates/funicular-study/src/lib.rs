@@ -37,8 +37,10 @@ pub mod export;
 #[cfg(feature = "pages")]
 pub mod figures;
 pub mod frequency_range;
+mod identification;
 pub mod import;
 pub mod json;
+pub mod measurements;
 pub mod names;
 pub mod new_robot;
 #[cfg(feature = "pages")]

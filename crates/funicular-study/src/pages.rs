@@ -5,6 +5,7 @@
 //! on random numbers or on the network: two runs write the same bytes.
 
 pub(crate) mod figure;
+pub mod identify;
 pub mod live;
 pub mod paper;
 pub mod plot;

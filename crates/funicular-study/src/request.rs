@@ -4,11 +4,13 @@
 //! every other key is an option with the same name as in the program (`--mass-kg`) and in Python (`mass_kg=`). An
 //! option that is left out has its default.
 
+mod identify;
 mod keys;
 mod parts;
 mod source_file;
 mod steps;
 
+pub use identify::{Experiment, FitValue, IdentifyRequest};
 pub use keys::KEYS;
 pub use parts::{
     Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, OneOrSeveral, Pose,
@@ -57,6 +59,8 @@ pub enum Request {
     Cable(CableRequest),
     /// Model for control design: state space or second-order form.
     Reduce(ReduceRequest),
+    /// Values of the robot file that fit measurements best.
+    Identify(IdentifyRequest),
     /// Quantities over poses.
     Map(MapRequest),
     /// Quantities over values of the robot file.
@@ -557,6 +561,7 @@ impl Request {
             Self::PoseError(_) => "pose-error",
             Self::Cable(_) => "cable",
             Self::Reduce(_) => "reduce",
+            Self::Identify(_) => "identify",
             Self::Map(_) => "map",
             Self::Sweep(_) => "sweep",
             Self::Report(_) => "report",
@@ -586,6 +591,7 @@ impl Request {
             Self::PoseError(request) => Some(&request.robot),
             Self::Cable(request) => Some(&request.robot),
             Self::Reduce(request) => Some(&request.robot),
+            Self::Identify(request) => Some(&request.robot),
             Self::Map(request) => Some(&request.robot),
             Self::Sweep(request) => Some(&request.robot),
             Self::Report(request) => Some(&request.robot),
@@ -634,7 +640,8 @@ impl Request {
         let Value::Object(understood) = request.to_value() else {
             unreachable!("a request is serialised as an object")
         };
-        if let Some(unknown) = given.keys().find(|key| !understood.contains_key(*key)) {
+        let unknown = given.keys().find(|key| !understood.contains_key(*key));
+        if let Some(unknown) = unknown.or_else(|| identify::unknown_key(&given, &understood)) {
             let names: Vec<String> = KEYS.iter().map(|(key, _)| (*key).to_owned()).collect();
             let nearest = suggestion(unknown, &names);
             return Err(anyhow!("a request of `{}` has no key `{unknown}`{nearest}", request.command()).into());

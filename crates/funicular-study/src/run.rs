@@ -7,6 +7,7 @@ use crate::analyses::{
     check::{self, Checked},
     compare::{self, Compared},
     frf,
+    identify::{self, Identified},
     modes::{self, Modes},
     parameters::{self, ParameterList},
     payload::{self, Payload},
@@ -40,6 +41,7 @@ pub enum Results {
     PoseError(PoseErrors),
     Cable(CableResult),
     Reduce(ReducedForm),
+    Identify(Box<Identified>),
     #[cfg(feature = "validation")]
     Validate(Validated),
 }
@@ -63,6 +65,7 @@ impl Results {
             Self::PoseError(found) => json::of_results(found, words),
             Self::Cable(found) => json::of_results(found, words),
             Self::Reduce(found) => json::of_results(found, words),
+            Self::Identify(found) => json::of_results(&**found, words),
             #[cfg(feature = "validation")]
             Self::Validate(found) => json::of_results(found, words),
         }
@@ -97,6 +100,7 @@ pub fn run_on(request: &Request, robot: Option<Robot>, watch: &mut dyn Watch) ->
         Request::PoseError(of) => Results::PoseError(pose_error::run(&robot()?, of, watch)?),
         Request::Cable(of) => Results::Cable(cable::run(robot()?, of)?),
         Request::Reduce(of) => Results::Reduce(reduce::run(robot()?, of, watch)?),
+        Request::Identify(of) => Results::Identify(Box::new(identify::run(of, watch)?)),
         #[cfg(feature = "validation")]
         Request::Validate(_) => Results::Validate(validate::run()?),
         #[cfg(not(feature = "validation"))]

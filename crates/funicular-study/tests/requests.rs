@@ -191,6 +191,38 @@ fn requests() -> Vec<Value> {
         of("map", &[&robot, &point, &json!({ "grid": grid })]),
         of("map", &[&robot, &point, &json!({ "grid": [], "poses": [[0.1, 0.2, 0.3, 1.0, 2.0, 3.0]] })]),
         of("sweep", &[&robot, &point, &json!({ "vary": grid })]),
+        of(
+            "identify",
+            &[
+                &robot,
+                &tensions,
+                &model,
+                &json!({
+                    "fit": [
+                        { "path": "platform.mass_kg", "minimum": 1.0, "maximum": 30.0 },
+                        { "path": "platform.center_of_mass_m.x", "prior": 0.0, "prior_std": 0.03 },
+                    ],
+                    "experiments": [joined(&[
+                        &state,
+                        &json!({
+                            "name": "empty", "cables": ["1", "2"], "position_std_m": 0.002, "rotation_std_deg": 0.2,
+                            "measured_pose": [0.1, 0.2, 0.3, 1.0, 2.0, 3.0], "measured_tensions_n": [1.0, 0.1 + 0.2],
+                            "tension_std_n": 0.5, "measured_lengths_m": [6.9, 6.8], "length_std_m": 1e-3,
+                            "frequencies": [
+                                { "frequency_hz": 1.2, "damping_ratio": 0.01, "std_hz": 0.1, "weight": 2.0, "label": "1" },
+                            ],
+                            "responses": [{
+                                "name": "a1", "input": "fz", "input_point_m": [0.1, 0.0, 0.0], "output": "az",
+                                "output_point_m": [0.0, 0.1, 0.0], "frequency_hz": [1.0, 2.0], "real": [0.1, -0.0],
+                                "imag": [1e-300, 3.0], "std": [0.1, 0.2],
+                            }],
+                        }),
+                    ])],
+                    "from_hz": 0.5, "to_hz": 9.5, "starts": 3, "response_noise": 0.05, "frequency_noise": 0.02, "damping_noise": 0.2,
+                    "rigid_cables": true,
+                }),
+            ],
+        ),
         of("merge", &[&json!({ "parts": ["1.parquet", "2.parquet"] })]),
         of("plot", &[&json!({ "file": "map.parquet" })]),
         of("report", &[&robot, &state, &tensions, &model, &points, &signals, &share, &json!({ "below_hz": 20.0 })]),

@@ -5,6 +5,7 @@
 pub(crate) mod active_set;
 pub(crate) mod eigenvectors;
 pub mod generalized_eigen;
+pub mod least_squares;
 pub mod legendre;
 pub(crate) mod order;
 pub mod roots;

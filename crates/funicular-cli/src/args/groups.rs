@@ -114,7 +114,8 @@ pub(crate) struct TermArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct OutputArgs {
-    /// Format of the result [default: from the ending of FILE, else text]; FILE.svg and FILE.pdf hold a figure
+    /// Format of the result [default: from the ending of FILE, else text]; FILE.svg and FILE.pdf hold a
+    /// figure, and FILE.uff of `frf` and `modes` is a Universal File
     #[arg(long, value_name = "FORMAT", value_enum)]
     pub(crate) format: Option<Format>,
 

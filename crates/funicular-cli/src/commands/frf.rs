@@ -3,6 +3,7 @@
 use crate::output::Printed;
 use crate::table::{Table, counted, decimals, significant, vector};
 use funicular_study::analyses::frf::{Frf, PairRow, PlaceRow};
+use funicular_study::measurements::frf_file;
 
 impl Printed for Frf {
     fn text(&self) -> String {
@@ -45,6 +46,10 @@ impl Printed for Frf {
             }
         }
         Ok(())
+    }
+
+    fn uff(&self) -> anyhow::Result<Vec<u8>> {
+        frf_file(self)
     }
 }
 

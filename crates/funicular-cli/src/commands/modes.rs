@@ -3,6 +3,7 @@
 use crate::output::Printed;
 use crate::table::{self, Table, counted, decimals, short, significant};
 use funicular_study::analyses::modes::{ModeRow, Modes, Participation, RIGID, strongest};
+use funicular_study::measurements::modes_file;
 
 impl Printed for Modes {
     fn text(&self) -> String {
@@ -80,6 +81,10 @@ impl Printed for Modes {
         }
 
         Ok(())
+    }
+
+    fn uff(&self) -> anyhow::Result<Vec<u8>> {
+        Ok(modes_file(self))
     }
 }
 

@@ -91,7 +91,7 @@ fn write(target: &Target, path: &Path, page: &str) -> Result<()> {
 }
 
 /// Command line of this run, quoted for the shell.
-fn command_line() -> Result<String> {
+pub(super) fn command_line() -> Result<String> {
     let arguments: Vec<String> = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
     let words = std::iter::once("funicular").chain(arguments.iter().map(String::as_str));
     shlex::try_join(words).context("the command line cannot be quoted for the page")

@@ -7,6 +7,7 @@ use funicular::robot::Robot;
 use funicular::statics::{StaticModel, TensionRange, TensionRule};
 use funicular_study::analyses::reduce;
 use funicular_study::frequency_range::START_POINTS;
+use funicular_study::measurements;
 use funicular_study::request::RobotText;
 use funicular_study::{Request, at_rest, figures};
 use serde_json::{Map, Value};
@@ -31,6 +32,7 @@ fn shortest() -> Vec<Vec<String>> {
         ("pose-error", &["--mass-kg", "10:20:3"]),
         ("cable", &["--name", "1"]),
         ("reduce", &["--below-hz", "2"]),
+        ("identify", &["--fit", "platform.mass_kg"]),
         ("map", &["--grid", "z=1:2:2"]),
         ("sweep", &["--vary", "platform.mass_kg=90:100:2"]),
         ("report", &[]),
@@ -76,7 +78,7 @@ fn options_that_are_not_given_have_the_defaults_of_the_request() {
         let complete = request_of(&line);
         let given = |key: &str| {
             let option = format!("--{}", key.replace('_', "-"));
-            ["schema", "command", "robot", "files"].contains(&key) || line.contains(&option)
+            ["schema", "command", "robot", "files", "experiments"].contains(&key) || line.contains(&option)
         };
         for key in complete.keys().filter(|key| !given(key)) {
             let mut without = complete.clone();
@@ -201,6 +203,17 @@ fn filled_in() -> Vec<(&'static str, &'static str, Vec<String>)> {
         all.push((command, "figure-width-mm", vec![column.to_owned()]));
         all.push((command, "font-size-pt", vec![literal(&figures::DEFAULT_FONT_SIZE_PT.into())]));
     }
+
+    // Deviations of measurements that have none.
+    for (option, deviation) in [
+        ("position-std-m", measurements::POSITION_STD_M),
+        ("rotation-std-deg", measurements::ROTATION_STD_DEG),
+        ("length-std-m", measurements::LENGTH_STD_M),
+    ] {
+        all.push(("identify", option, vec![deviation.to_string()]));
+    }
+    let of_maximum = format!("{} % of the maximum", 100.0 * measurements::TENSION_STD);
+    all.push(("identify", "tension-std-n", vec![of_maximum]));
 
     // Number of frequencies of an adaptive response.
     all.push(("frf", "points", vec![START_POINTS.to_string()]));

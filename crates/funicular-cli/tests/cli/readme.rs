@@ -53,6 +53,7 @@ fn the_pages_for_new_readers_show_what_the_program_prints() {
     assert!(blocks_are_printed("docs/quick-start.md") >= 5, "check, statics, modes, frf and a message are shown");
     assert!(blocks_are_printed("docs/workspace.md") >= 4);
     assert!(blocks_are_printed("docs/measuring.md") >= 4);
+    assert!(blocks_are_printed("docs/identification.md") >= 1);
 }
 
 /// Commands with the robot of the quick start that a document shows without their output, in its order.

@@ -30,6 +30,7 @@ from funicular._errors import (
 )
 from funicular._executors import ExecutorError
 from funicular._funicular import Analyses, Catenary, Equilibrium, Pose, Robot, __version__, peaks
+from funicular._identify import Identified, read_measurements
 from funicular._pages import Page
 from funicular._results import Equilibria, Modes, ReducedModel, StateSpaceModel
 from funicular._study import Exported, Imported, NewRobot, import_robot, merge, new_robot, paper, run, schema, validate
@@ -45,6 +46,7 @@ __all__ = [
     "ExecutorError",
     "Exported",
     "FileError",
+    "Identified",
     "Imported",
     "InputError",
     "Modes",
@@ -67,6 +69,7 @@ __all__ = [
     "new_robot",
     "paper",
     "peaks",
+    "read_measurements",
     "run",
     "schema",
     "validate",

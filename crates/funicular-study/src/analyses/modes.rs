@@ -9,6 +9,7 @@ use crate::signals::{Input, Output};
 use anyhow::{Result, anyhow, bail};
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
+use funicular::math::Rotation;
 use funicular::modes;
 use funicular::response::{Quantity, Signal};
 use funicular::robot::{Robot, WinchMode};
@@ -43,6 +44,9 @@ pub struct Modes {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub stations: Vec<StationsRow>,
     pub modes: Vec<ModeRow>,
+    /// Points of the platform, for files of mode shapes.
+    #[serde(skip)]
+    pub outline: Outline,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
@@ -62,6 +66,21 @@ impl FirstPlatformMode {
         let index = found.first_platform(share)?;
         let modes::Mode { frequency_hz, platform_energy_fraction, .. } = found.modes[index];
         Some(Self { index, frequency_hz, platform_energy_fraction })
+    }
+}
+
+/// Points of the platform and its orientation.
+pub struct Outline {
+    /// Attachments in the order of the cables, platform frame [m].
+    pub attachments_m: Vec<[f64; 3]>,
+    /// Rotation from the platform frame to the world frame.
+    pub rot_wp: Rotation,
+}
+
+impl Outline {
+    fn of(at_rest: &AtRest) -> Self {
+        let attachments_m = at_rest.robot.cables.iter().map(|cable| cable.attachment_p.into()).collect();
+        Self { attachments_m, rot_wp: at_rest.equilibrium.pose.rot_wp }
     }
 }
 
@@ -193,6 +212,7 @@ fn about_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> Resu
         participation: None,
         stations: Vec::new(),
         modes: found.modes.into_iter().map(ModeRow::from).collect(),
+        outline: Outline::of(at_rest),
         warnings,
     })
 }
@@ -251,6 +271,7 @@ pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes>
         participation,
         stations: stations.iter().map(|of| StationsRow::of(robot, of)).collect(),
         modes: rows,
+        outline: Outline::of(at_rest),
         warnings,
     })
 }

@@ -64,6 +64,20 @@ pub const KEYS: &[(&str, &str)] = &[
          responses due to omitted modes; for `compare` the maximum relative difference of frequency",
     ),
     ("tolerance_mm", "maximum distance between spring pose and catenary pose at which springs are good enough [mm]"),
+    (
+        "fit",
+        "values of the robot file to identify: `path`, and if given `minimum`, `maximum`, `prior` with its deviation \
+         `prior_std`",
+    ),
+    (
+        "experiments",
+        "measurements of the robot, each in a state of its own: `responses`, `frequencies`, `measured_pose`, \
+         `measured_tensions_n`, `measured_lengths_m`",
+    ),
+    ("starts", "number of starts of the search"),
+    ("response_noise", "deviation of measured responses that have none, relative to their magnitude"),
+    ("frequency_noise", "relative deviation of measured natural frequencies that have none"),
+    ("damping_noise", "relative deviation of measured damping ratios"),
     ("damping_at_hz", "frequency at which viscous damping reproduces constant damping ratios [Hz]"),
     ("name", "name of a cable; for `new` the name of the robot"),
     ("grid", "axes of a grid of poses"),

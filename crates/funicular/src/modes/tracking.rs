@@ -111,8 +111,17 @@ fn degenerate_groups(modes: &[Tracked]) -> Vec<std::ops::Range<usize>> {
     degenerate_groups
 }
 
-/// Pairs (row, column) with the maximum sum of values from 0 to 1; their number is that of the shorter side.
-fn best_pairs(values: &[Vec<f64>], columns: usize) -> Vec<(usize, usize)> {
+/// Pairs (row, column) with the maximum sum of values from 0 to 1 (Hungarian method); their number is that of the shorter
+/// side.
+///
+/// # Example
+/// ```
+/// use funicular::modes::tracking::best_pairs;
+///
+/// // The second row has only one good partner, which the first row also likes best.
+/// assert_eq!(best_pairs(&[vec![0.9, 0.8], vec![0.7, 0.1]], 2), [(0, 1), (1, 0)]);
+/// ```
+pub fn best_pairs(values: &[Vec<f64>], columns: usize) -> Vec<(usize, usize)> {
     let rows = values.len();
     let (short, long) = (rows.min(columns), rows.max(columns));
     if short == 0 {

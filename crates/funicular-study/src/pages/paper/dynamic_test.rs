@@ -29,43 +29,25 @@ struct Identified {
     cables: usize,
     mass: f64,
     center_of_mass: [f64; 3],
-    inertia: [f64; 3],
+    /// Inertia tensor, rows.
+    inertia: [[f64; 3]; 3],
     damping_ratio: f64,
     note: &'static str,
 }
 
-const IDENTIFIED: [Identified; 3] = [
-    Identified {
-        name: "A",
-        figure_id: "figure-test-a",
-        cables: 0,
-        mass: 17.2,
-        center_of_mass: [-0.027, 0.015, 0.003],
-        inertia: [0.232, 0.145, 0.198],
-        damping_ratio: 0.027,
-        note: "best fit found to all lists",
-    },
-    Identified {
-        name: "A2",
-        figure_id: "figure-test-a2",
-        cables: 0,
-        mass: 18.2,
-        center_of_mass: [-0.018, 0.019, 0.0],
-        inertia: [0.196, 0.140, 0.201],
-        damping_ratio: 0.027,
-        note: "best fit found to shallow-static and spring; ξ as in A",
-    },
-    Identified {
-        name: "B",
-        figure_id: "figure-test-b",
-        cables: 1,
-        mass: 69.0,
-        center_of_mass: [0.0, 0.0, -0.22],
-        inertia: [2.3, 0.5, 1.8],
-        damping_ratio: 0.018,
-        note: "an earlier search, rounded",
-    },
-];
+/// Set that meets the nine printed frequencies of the two static models. Deviations of ± 0.03 Hz, which the printed tenths
+/// have, leave ± 0.3 kg, ± 2, 2 and 3 mm, and ± 5 % of the radii of gyration; the orientation of the tensor is not
+/// determined.
+const IDENTIFIED: [Identified; 1] = [Identified {
+    name: "4 mm",
+    figure_id: "figure-test",
+    cables: 0,
+    mass: 17.76,
+    center_of_mass: [-0.0169, 0.0194, -0.0039],
+    inertia: [[0.1934, -0.0146, 0.016], [-0.0146, 0.1513, -0.0002], [0.016, -0.0002, 0.1798]],
+    damping_ratio: 0.003,
+    note: "fitted to the nine frequencies of the two static models; ξ is that of the paper's example cable",
+}];
 
 /// Results of one set of parameters.
 pub(crate) struct Outcome {
@@ -93,7 +75,8 @@ fn outcome(robot: &Robot, set: &'static Identified) -> anyhow::Result<Outcome> {
     let mut robot = robot.clone();
     robot.platform.mass = set.mass;
     robot.platform.center_of_mass_p = Vec3::from(set.center_of_mass);
-    robot.platform.inertia_p = Mat3::from_diagonal(&Vec3::from(set.inertia));
+    let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = set.inertia;
+    robot.platform.inertia_p = Mat3::new(xx, xy, xz, yx, yy, yz, zx, zy, zz);
     for cable in &mut robot.cables {
         cable.material.damping = Damping::Ratio(set.damping_ratio);
     }
@@ -169,22 +152,27 @@ pub(crate) fn sag_text(outcomes: &[Outcome]) -> String {
         "partly beyond the limit 1/20 of the model shallow-dynamic: there its lists follow from the formula, but not \
          from a real cable"
     };
-    format!("With these 4 mm sets d/l is {} to {}, {range}.", fixed(minimum, 3), fixed(maximum, 3))
+    format!("With this set d/l is {} to {}, {range}.", fixed(minimum, 3), fixed(maximum, 3))
+}
+
+/// Entries xx, yy, zz, xy, xz, yz of a tensor.
+fn tensor_entries(rows: &[[f64; 3]; 3]) -> [f64; 6] {
+    [rows[0][0], rows[1][1], rows[2][2], rows[0][1], rows[0][2], rows[1][2]]
 }
 
 /// Table of the identified parameters.
 pub(crate) fn parameters(outcomes: &[Outcome]) -> PageTable {
     let mut table = PageTable::new(
         "table-identified",
-        "Parameters of the dynamic test, identified by us and not published. Inertia: principal moments about the \
-         centre of mass along the platform axes; centre of mass relative to the platform origin; sag divided by chord \
-         at the resulting equilibrium.",
+        "Parameters of the dynamic test, identified by us and not published. Inertia: tensor about the centre of mass in \
+         platform axes; centre of mass relative to the platform origin; sag divided by chord at the resulting \
+         equilibrium.",
         &[
             "<set",
             "<cables",
             "mass|kg",
             "centre of mass x, y, z|m",
-            "inertia xx, yy, zz|kg m²",
+            "inertia xx, yy, zz, xy, xz, yz|kg m²",
             "ξ",
             "sag d/l|min to max",
             "cables beyond 1/20",
@@ -197,9 +185,9 @@ pub(crate) fn parameters(outcomes: &[Outcome]) -> PageTable {
         table.row(vec![
             set.name.to_owned(),
             ["4 mm", "8 mm"][set.cables].to_owned(),
-            fixed(set.mass, 1),
-            listed(&set.center_of_mass, 3),
-            listed(&set.inertia, 3),
+            fixed(set.mass, 2),
+            listed(&set.center_of_mass, 4),
+            listed(&tensor_entries(&set.inertia), 4),
             fixed(set.damping_ratio, 3),
             format!("{} to {}", fixed(minimum, 3), fixed(maximum, 3)),
             outcome.sags.iter().filter(|s| **s > SHALLOW_SAG_LIMIT).count().to_string(),
@@ -300,23 +288,19 @@ mod tests {
     use super::*;
     use crate::pages::paper::robots;
 
-    /// Compares with an independent implementation of the same formulas, to the two decimals printed there.
+    /// Every printed frequency of both static models is met to its printed tenth, and there is no other one below 10 Hz.
     #[test]
-    fn set_a_gives_the_lists_it_was_identified_with() {
+    fn the_set_meets_the_nine_frequencies_of_the_static_models() {
         let [small, large] = robots().unwrap();
         let all = outcomes([&small, &large]).unwrap();
-        let close = |ours: &[f64], expected: &[f64]| {
-            assert_eq!(ours.len(), expected.len(), "{ours:?}");
-            for (a, b) in ours.iter().zip(expected) {
-                assert!((a - b).abs() < 0.015, "{ours:?}");
+        let rounds_to = |ours: &[f64], printed: &[f64]| {
+            assert_eq!(ours.len(), printed.len(), "{ours:?}");
+            for (a, b) in ours.iter().zip(printed) {
+                assert!((a - b).abs() <= 0.05, "{ours:?}");
             }
         };
-        close(&frequencies(&all[0].spring), &[2.81, 5.35, 8.00, 9.38]);
-        close(&frequencies(&all[0].static_sag), &[1.58, 2.18, 4.54, 5.85, 7.68]);
-        let peaks = [1.22, 1.41, 1.80, 2.12, 4.24, 4.53, 5.56, 5.90, 6.63, 8.14, 9.46];
-        close(&all[0].peak_frequencies(), &peaks);
-        close(&frequencies(&all[1].spring), &[2.74, 5.58, 8.18, 9.57]);
-        close(&frequencies(&all[1].static_sag), &[1.45, 2.14, 4.58, 6.01, 7.71]);
+        rounds_to(&frequencies(&all[0].spring), &SPRING);
+        rounds_to(&frequencies(&all[0].static_sag), &STATIC_SAG);
         assert!(all.iter().all(|o| o.natural.certified));
     }
 }

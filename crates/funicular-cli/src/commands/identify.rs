@@ -1,0 +1,270 @@
+//! `identify`: files of measurements, text and CSV.
+
+use crate::args::{IdentifyArgs, OutputArgs};
+use crate::output::{Content, Printed, Sink, Target};
+use crate::progress::TerminalProgress;
+use crate::table::{NONE, Table, counted, significant};
+use crate::{errors, robot_file};
+use anyhow::{Context, Result, bail};
+
+use funicular_files::endings::Kind;
+use funicular_study::analyses::identify::{self, Identified};
+use funicular_study::measurements::{self, FileOptions};
+use funicular_study::request::{Experiment, FitValue, IdentifyRequest, Pose, Request, RobotText};
+use funicular_study::wording::{Words, worded};
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// Runs `identify`: prints the values, writes the robot file and the page.
+pub(super) fn run(request: &Request, args: &IdentifyArgs) -> Result<()> {
+    let Request::Identify(of) = request else { bail!("this is not a request of `identify`") };
+    let mut guard = robot_file::guard(Some(&args.robot.robot));
+    for file in args.measured.iter().chain(&args.experiments) {
+        guard.reads("the measurements", file);
+    }
+
+    // -o may name the robot file or the page.
+    let output = args.sink.output_file.as_deref();
+    let kind = output.and_then(Kind::of).filter(|_| args.sink.format.is_none());
+    let [to_robot, to_page] = [Kind::Toml, Kind::Html].map(|wanted| output.filter(|_| kind == Some(wanted)));
+    let given = |option: Option<&Path>, by_ending: Option<&Path>, name: &str| match (option, by_ending) {
+        (Some(_), Some(_)) => bail!("⟪{name}⟫ and -o name a file of the same kind: leave out one of them"),
+        (option, by_ending) => Ok(option.or(by_ending).map(Path::to_owned)),
+    };
+    let fitted = given(args.fitted.as_deref(), to_robot, "fitted")?;
+    let page = given(args.page.as_deref(), to_page, "page")?;
+    let elsewhere = to_robot.is_some() || to_page.is_some();
+    let printed =
+        OutputArgs { format: args.sink.format, output_file: args.sink.output_file.clone().filter(|_| !elsewhere) };
+    let sink = Sink::open(&printed, &[Kind::Toml, Kind::Html], &mut guard)?;
+    let robot =
+        Content { name: "the robot file", option: "--fitted", in_words: "a robot file", fitting: &[Kind::Toml] };
+    let fitted =
+        fitted.map(|path| Ok::<_, anyhow::Error>((Target::open(Some(&path), robot, &mut guard)?, path))).transpose()?;
+    let html = Content { option: "--page", ..Content::PAGE };
+    let page =
+        page.map(|path| Ok::<_, anyhow::Error>((Target::open(Some(&path), html, &mut guard)?, path))).transpose()?;
+
+    let mut watch = TerminalProgress::new();
+    let found = identify::run(of, &mut watch)?;
+    drop(watch);
+    sink.write(&found)?;
+    if let Some((target, path)) = fitted {
+        target.write(found.robot_file.as_bytes())?;
+        errors::note(&format!("wrote {}", path.display()));
+    }
+    if let Some((target, path)) = page {
+        let page = funicular_study::pages::identify::page(&found, super::page::command_line()?)?;
+        target.write(worded(&page, Words::Program).as_bytes())?;
+        errors::note(&format!("wrote {}", path.display()));
+    }
+    Ok(())
+}
+
+/// Request with the measurements of all files.
+pub(super) fn request(args: &IdentifyArgs, robot: RobotText) -> Result<IdentifyRequest> {
+    let mut experiments = match &args.experiments {
+        Some(path) => read_experiments(path)?,
+        None => Vec::new(),
+    };
+    let mut own = Experiment {
+        state: args.state.request(),
+        measured_pose: args.measured_pose.map(|pose| Pose::Angles(pose.0)),
+        position_std_m: args.position_std_m,
+        rotation_std_deg: args.rotation_std_deg,
+        measured_tensions_n: args.measured_tensions_n.as_ref().map(|tensions| tensions.0.clone()),
+        tension_std_n: args.tension_std_n,
+        measured_lengths_m: args.measured_lengths_m.as_ref().map(|lengths| lengths.0.clone()),
+        length_std_m: args.length_std_m,
+        ..Experiment::default()
+    };
+    for path in &args.measured {
+        read_measured(path, args, &mut own)?;
+    }
+    let is_measured = !own.responses.is_empty()
+        || !own.frequencies.is_empty()
+        || own.measured_pose.is_some()
+        || own.measured_tensions_n.is_some()
+        || own.measured_lengths_m.is_some();
+    if is_measured || experiments.is_empty() {
+        experiments.insert(0, own);
+    }
+
+    let mut fit = args.fit.clone();
+    for prior in &args.prior {
+        let Some(value) = fit.iter_mut().find(|value| value.path == prior.path) else {
+            bail!("⟪prior⟫ {}: no ⟪fit⟫ has this path", prior.path);
+        };
+        *value = FitValue { prior: prior.prior, prior_std: prior.prior_std, ..value.clone() };
+    }
+    Ok(IdentifyRequest {
+        robot,
+        fit,
+        experiments,
+        from_hz: args.from_hz,
+        to_hz: args.to_hz,
+        starts: args.starts,
+        response_noise: args.response_noise,
+        frequency_noise: args.frequency_noise,
+        damping_noise: args.damping_noise,
+        rigid_cables: args.rigid_cables,
+        tensions: args.tensions.request(),
+        model: args.model.request(),
+    })
+}
+
+/// Bytes of a file of measurements.
+fn bytes_of(path: &Path) -> Result<Vec<u8>> {
+    let shown = path.display();
+    if path.is_dir() {
+        bail!("cannot read {shown}: it is a directory; name a file in it");
+    }
+    let mut bytes = Vec::new();
+    let file = File::open(path).with_context(|| format!("cannot read the measurements {shown}"))?;
+    // One byte is read beyond the limit, which shows that a file is too large.
+    file.take(measurements::MAX_BYTES as u64 + 1)
+        .read_to_end(&mut bytes)
+        .with_context(|| format!("cannot read the measurements {shown}"))?;
+    Ok(bytes)
+}
+
+/// Adds the measurements of a file.
+fn read_measured(path: &Path, args: &IdentifyArgs, to: &mut Experiment) -> Result<()> {
+    let shown = path.display().to_string();
+    let bytes = bytes_of(path)?;
+    let options = FileOptions {
+        nodes: args.node.clone(),
+        responses: args.response.clone(),
+        input_point_m: args.points.input_point_m.map(Into::into),
+        output_point_m: args.points.output_point_m.map(Into::into),
+    };
+    let found = measurements::read(&shown, &bytes, &options)?;
+    found.notes.iter().for_each(|note| errors::note(note));
+    to.responses.extend(found.responses);
+    to.frequencies.extend(found.frequencies);
+    Ok(())
+}
+
+/// Experiments of a JSON file.
+fn read_experiments(path: &Path) -> Result<Vec<Experiment>> {
+    let shown = path.display().to_string();
+    let bytes = bytes_of(path)?;
+    measurements::check_size(&shown, bytes.len())?;
+    IdentifyRequest::experiments_from_json(&bytes).with_context(|| shown)
+}
+
+impl Printed for Identified {
+    fn text(&self) -> String {
+        let mut table = Table::new(&["value", "unit", "start", "identified", "deviation", "95 % from", "to", ""])
+            .text_columns(&[0, 1, 7]);
+        for row in &self.values {
+            // Two digits of the deviation and as many of the value.
+            let digits = row.deviation.map_or(6, |deviation| digits_for(row.value, deviation));
+            let number = |value: Option<f64>, digits: usize| {
+                value.map_or_else(|| NONE.to_owned(), |value| significant(value, digits))
+            };
+            let mut notes = Vec::new();
+            if let Some(prior) = row.prior.zip(row.prior_deviation) {
+                notes.push(format!("prior {} ± {}", significant(prior.0, 4), significant(prior.1, 2)));
+            }
+            if let Some(bound) = row.at_bound {
+                notes.push(format!("at its {bound}"));
+            }
+            if row.deviation.is_none() {
+                notes.push("not determined".to_owned());
+            }
+            table.row(vec![
+                row.path.clone(),
+                row.unit.to_owned(),
+                significant(row.start, 6),
+                significant(row.value, digits),
+                number(row.deviation, 2),
+                number(row.interval_95.map(|interval| interval[0]), digits),
+                number(row.interval_95.map(|interval| interval[1]), digits),
+                notes.join(", "),
+            ]);
+        }
+
+        let tried = self.starts.len();
+        let mut text = format!(
+            "{}: {} from {}\n\n{table}\n\nχ² = {} for {} degrees of freedom, χ²/n = {}: {}.\n{} tried.\n",
+            self.robot,
+            counted(self.values.len(), "value"),
+            counted(self.residuals, "residual"),
+            significant(self.chi2, 4),
+            self.degrees_of_freedom,
+            significant(self.chi2_per_degree, 3),
+            self.verdict,
+            counted(tried, "start"),
+        );
+        for strong in &self.strong_correlations {
+            text += &format!("{strong}.\n");
+        }
+        if let (Some(before), Some(after)) = (self.frequency_rms_before, self.frequency_rms) {
+            text += &format!(
+                "\n{}: root mean square of the differences {} %, before {} %.\n",
+                counted(self.frequencies.len(), "natural frequency").replace("frequencys", "frequencies"),
+                significant(100.0 * after, 3),
+                significant(100.0 * before, 3)
+            );
+        }
+        if !self.responses.is_empty() {
+            let mut table = Table::new(&["response", "lines", "residual [deviations]"]).text_columns(&[0]);
+            for response in &self.responses {
+                let name = if response.name.is_empty() {
+                    format!("{}/{}", response.output, response.input)
+                } else {
+                    response.name.clone()
+                };
+                table.row(vec![name, response.frequency_hz.len().to_string(), significant(response.residual_rms, 3)]);
+            }
+            text += &format!("\n{table}\n");
+        }
+        if !self.statics.is_empty() {
+            let mut table = Table::new(&["experiment", "quantity", "measured", "fitted", "difference [deviations]"])
+                .text_columns(&[0, 1]);
+            for row in &self.statics {
+                table.row(vec![
+                    row.experiment.clone(),
+                    row.quantity.clone(),
+                    significant(row.measured, 6),
+                    significant(row.fitted, 6),
+                    significant((row.fitted - row.measured) / row.deviation, 3),
+                ]);
+            }
+            text += &format!("\n{table}\n");
+        }
+        text
+    }
+
+    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
+        out.write_record([
+            "path",
+            "unit",
+            "start",
+            "value",
+            "deviation",
+            "interval_95_from",
+            "interval_95_to",
+            "prior",
+            "prior_deviation",
+            "at_bound",
+        ])?;
+        for row in &self.values {
+            out.serialize((
+                (&row.path, row.unit, row.start, row.value),
+                row.deviation,
+                (row.interval_95.map(|interval| interval[0]), row.interval_95.map(|interval| interval[1])),
+                (row.prior, row.prior_deviation, row.at_bound),
+            ))?;
+        }
+        Ok(())
+    }
+}
+
+/// Digits of a value that show two digits of its deviation.
+fn digits_for(value: f64, deviation: f64) -> usize {
+    let ratio = value.abs() / deviation;
+    if ratio.is_finite() && ratio > 0.0 { (ratio.log10().floor() as i64 + 2).clamp(2, 10) as usize } else { 6 }
+}

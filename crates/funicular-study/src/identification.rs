@@ -1,0 +1,18 @@
+//! Identification: the values of a robot file that fit measurements best, and how well the measurements determine them.
+//!
+//! docs/theory.md, section 18a, has the equations.
+
+mod model;
+mod observations;
+mod precision;
+mod resolution;
+mod search;
+mod unknowns;
+
+pub(crate) use model::IdentifiedModel;
+pub(crate) use observations::Kind;
+pub(crate) use precision::judge;
+pub(crate) use resolution::unresolved_peaks;
+pub(crate) use search::StartRow;
+pub(crate) use search::search;
+pub(crate) use unknowns::{Unknown, unknowns};

@@ -1,0 +1,223 @@
+//! Page about a fit: values with deviations, measured and fitted curves, natural frequencies, correlations.
+
+use super::Shell;
+use super::figure::{Figure, axis, colour, line, plain, points, with};
+use super::table::{PageTable, fixed, significant};
+use crate::analyses::identify::{FittedResponse, Identified};
+use crate::text;
+use anyhow::Context as _;
+use askama::Template;
+use serde_json::{Value, json};
+
+const CONTENTS: &[(&str, &str)] =
+    &[("values", "Values"), ("measurements", "Measurements"), ("precision", "Precision"), ("repeat", "How to repeat")];
+
+#[derive(Template)]
+#[template(path = "identify.html")]
+struct IdentifyPage<'a> {
+    shell: Shell,
+    found: &'a Identified,
+    values: PageTable,
+    chi2: String,
+    responses: Vec<Figure>,
+    frequencies: Option<(Figure, PageTable)>,
+    statics: Option<PageTable>,
+    correlations: Figure,
+    command_line: String,
+}
+
+/// Writes the page as HTML; `command_line` is the command that writes it again.
+///
+/// # Errors
+/// A page that cannot be written.
+pub fn page(found: &Identified, command_line: String) -> anyhow::Result<String> {
+    let page = IdentifyPage {
+        shell: Shell::new(format!("{}: values from measurements", found.robot), CONTENTS),
+        found,
+        values: values(found),
+        chi2: format!(
+            "χ² = {} for {} degrees of freedom, χ²/n = {}",
+            significant(found.chi2, 4),
+            found.degrees_of_freedom,
+            significant(found.chi2_per_degree, 3)
+        ),
+        responses: found.responses.iter().enumerate().map(|(i, response)| curves(i, response)).collect(),
+        frequencies: (!found.frequencies.is_empty()).then(|| (differences(found), frequencies(found))),
+        statics: (!found.statics.is_empty()).then(|| statics(found)),
+        correlations: correlations(found),
+        command_line,
+    };
+    page.render().context("the page could not be written as HTML")
+}
+
+fn values(found: &Identified) -> PageTable {
+    let mut table = PageTable::new(
+        "table-values",
+        "Identified values with standard deviations and the intervals that hold them with 95 %.",
+        &["<value", "<unit", "start", "identified", "deviation", "95 % from", "to", "<prior", "<remark"],
+    );
+    for row in &found.values {
+        let number =
+            |value: Option<f64>, digits| value.map_or_else(|| text::NONE.to_owned(), |v| significant(v, digits));
+        let remark = match (row.at_bound, row.deviation) {
+            (Some(bound), _) => format!("at its {bound}"),
+            (None, None) => "not determined".to_owned(),
+            (None, Some(_)) => String::new(),
+        };
+        table.row(vec![
+            row.path.clone(),
+            row.unit.to_owned(),
+            significant(row.start, 6),
+            significant(row.value, 6),
+            number(row.deviation, 2),
+            number(row.interval_95.map(|interval| interval[0]), 6),
+            number(row.interval_95.map(|interval| interval[1]), 6),
+            row.prior.zip(row.prior_deviation).map_or_else(String::new, |(value, deviation)| {
+                format!("{} ± {}", significant(value, 4), significant(deviation, 2))
+            }),
+            remark,
+        ]);
+    }
+    table
+}
+
+/// Figure of a measured response, the response before the fit and the fitted one: magnitude, and phase below.
+fn curves(number: usize, response: &FittedResponse) -> Figure {
+    let polar = |real: &[f64], imag: &[f64]| {
+        let magnitude: Vec<f64> = real.iter().zip(imag).map(|(re, im)| re.hypot(*im)).collect();
+        let phase: Vec<f64> = real.iter().zip(imag).map(|(re, im)| im.atan2(*re).to_degrees()).collect();
+        (magnitude, phase)
+    };
+    let x = &response.frequency_hz;
+    let mut data: Vec<Value> = Vec::new();
+    let (magnitude, phase) = polar(&response.measured_real, &response.measured_imag);
+    let small = json!({"marker": {"size": 4}, "legendgroup": "measured"});
+    data.push(with(points("measured", x, &magnitude, colour::GREY, "circle"), small.clone()));
+    let below = json!({"yaxis": "y2", "showlegend": false});
+    data.push(with(with(points("measured", x, &phase, colour::GREY, "circle"), small), below.clone()));
+    for (name, real, imag, colour, dash) in [
+        ("before the fit", &response.before_real, &response.before_imag, colour::ORANGE, "dot"),
+        ("fitted", &response.fitted_real, &response.fitted_imag, colour::BLUE, "solid"),
+    ] {
+        let (magnitude, phase) = polar(real, imag);
+        data.push(with(line(name, x, &magnitude, colour, dash), json!({"legendgroup": name})));
+        data.push(with(with(line(name, x, &phase, colour, dash), json!({"legendgroup": name})), below.clone()));
+    }
+    let name = if response.name.is_empty() {
+        format!("{}/{}", response.output, response.input)
+    } else {
+        response.name.clone()
+    };
+    Figure::new(
+        format!("figure-response-{}", number + 1),
+        560,
+        format!(
+            "{}, {}: measured and fitted. The residuals have {} times the deviations of the measurement.",
+            response.experiment,
+            name,
+            significant(response.residual_rms, 3)
+        ),
+        &data,
+        json!({
+            "xaxis": axis("frequency [Hz]", json!({"anchor": "y2", "mirror": "all"})),
+            "yaxis": axis(&format!("magnitude [{}]", response.unit), json!({
+                "type": "log", "domain": [0.36, 1.0], "exponentformat": "power", "dtick": 1,
+            })),
+            "yaxis2": axis("phase [°]", json!({"domain": [0.0, 0.3], "range": [-190, 190], "tickvals": [-180, -90, 0, 90, 180]})),
+            "margin": {"l": 78},
+        }),
+    )
+}
+
+/// Figure of the differences of all natural frequencies before and after the fit.
+fn differences(found: &Identified) -> Figure {
+    let x: Vec<f64> = found.frequencies.iter().map(|row| row.measured_hz).collect();
+    let relative = |hz: fn(&crate::analyses::identify::FrequencyRow) -> f64| -> Vec<f64> {
+        found.frequencies.iter().map(|row| 100.0 * (hz(row) / row.measured_hz - 1.0)).collect()
+    };
+    let data = [
+        points("before the fit", &x, &relative(|row| row.before_hz), colour::ORANGE, "circle-open"),
+        points("fitted", &x, &relative(|row| row.fitted_hz), colour::BLUE, "circle"),
+    ];
+    let rms = |value: Option<f64>| value.map_or_else(|| text::NONE.to_owned(), |value| significant(100.0 * value, 3));
+    Figure::new(
+        "figure-differences",
+        340,
+        format!(
+            "Differences of the computed natural frequencies from the measured ones: root mean square {} %, before the fit \
+             {} %.",
+            rms(found.frequency_rms),
+            rms(found.frequency_rms_before)
+        ),
+        &data,
+        json!({
+            "xaxis": axis("measured natural frequency [Hz]", json!({})),
+            "yaxis": axis("computed − measured [%]", json!({"zeroline": true, "zerolinecolor": "#444444"})),
+        }),
+    )
+}
+
+fn frequencies(found: &Identified) -> PageTable {
+    let mut table = PageTable::new(
+        "table-frequencies",
+        "Natural frequencies. The number is that of the mode in the ascending list.",
+        &[
+            "<experiment",
+            "number",
+            "measured|Hz",
+            "before|Hz",
+            "fitted|Hz",
+            "difference|%",
+            "damping measured",
+            "damping fitted",
+        ],
+    );
+    for row in &found.frequencies {
+        let damping = |value: Option<f64>| value.map_or_else(|| text::NONE.to_owned(), |value| significant(value, 3));
+        table.row(vec![
+            row.experiment.clone(),
+            row.number.to_string(),
+            fixed(row.measured_hz, 4),
+            fixed(row.before_hz, 4),
+            fixed(row.fitted_hz, 4),
+            fixed(100.0 * (row.fitted_hz / row.measured_hz - 1.0), 2),
+            damping(row.measured_damping_ratio),
+            damping(row.fitted_damping_ratio),
+        ]);
+    }
+    table
+}
+
+fn statics(found: &Identified) -> PageTable {
+    let mut table = PageTable::new(
+        "table-statics",
+        "Poses (differences from the measured pose), tensions and lengths.",
+        &["<experiment", "<quantity", "measured", "fitted", "difference|deviations"],
+    );
+    for row in &found.statics {
+        table.row(vec![
+            row.experiment.clone(),
+            row.quantity.clone(),
+            significant(row.measured, 6),
+            significant(row.fitted, 6),
+            fixed((row.fitted - row.measured) / row.deviation, 2),
+        ]);
+    }
+    table
+}
+
+/// Figure of all correlations.
+fn correlations(found: &Identified) -> Figure {
+    let names: Vec<String> = found.values.iter().map(|row| plain(&row.path)).collect();
+    let data = [json!({
+        "type": "heatmap", "x": names, "y": names, "z": found.correlations, "zmin": -1, "zmax": 1, "colorscale": "RdBu",
+        "hovertemplate": "%{x}<br>%{y}<br>%{z:.3f}<extra></extra>",
+    })];
+    Figure::new(
+        "figure-correlations",
+        160 + 34 * found.values.len(),
+        "Correlations of the values, priors included.",
+        &data,
+        json!({"margin": {"l": 230, "b": 170}, "yaxis": {"autorange": "reversed"}}),
+    )
+}
