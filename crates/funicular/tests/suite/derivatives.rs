@@ -3,10 +3,12 @@
 use crate::library::library;
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::gradient::{GradientError, Gradients, Hold};
 use funicular::math::{Mat3, Vec3};
-use funicular::modes::{self, Mode, derivatives as frequencies};
+use funicular::modes::{self, Mode};
+use funicular::response::{self, Quantity, Signal};
 use funicular::robot::parameters::Parameters;
-use funicular::robot::{Robot, RobotChange, Wind};
+use funicular::robot::{Cable, Damping, Robot, RobotChange, State, Wind};
 use funicular::statics::derivatives::{StaticDerivativeError, at_held_lengths, at_held_pose};
 use funicular::statics::{self, Equilibrium, StaticModel};
 
@@ -42,6 +44,14 @@ fn changes(robot: &Robot) -> Vec<(&'static str, RobotChange, f64)> {
     if cable.material.mass_per_length > 0.0 {
         of_cable("rope", &|c| c.mass_per_length = 1.0, 1e-3 * cable.material.mass_per_length);
     }
+    if robot.wind.velocity_w != Vec3::zeros() {
+        all.push(("wind", RobotChange { wind_velocity_w: Vec3::new(1.0, -0.3, 0.5), ..none() }, 1e-3));
+        all.push(("density", RobotChange { air_density: 1.0, ..none() }, 1e-3));
+        let mut change = none();
+        change.cables[1].drag_width = 1.0;
+        all.push(("drag", change, 1e-5));
+        all.push(("area", RobotChange { drag_area: 1.0, ..none() }, 1e-4));
+    }
     all
 }
 
@@ -57,6 +67,7 @@ fn loaded() -> Robot {
     robot.load.force_w = Vec3::new(5.0, -3.0, -8.0);
     robot.load.moment_w = Vec3::new(0.3, 0.2, -0.1);
     robot.load.point_p = Vec3::new(0.05, -0.1, 0.08);
+    robot.platform.drag_area = 0.02;
     robot.with_wind(Wind { velocity_w: Vec3::new(12.0, 5.0, 1.0), ..Wind::default() })
 }
 
@@ -173,6 +184,8 @@ fn natural_frequencies_follow_every_number_of_the_robot() {
         for (m, cable_model) in [CableModel::CatenaryDynamic, CableModel::CatenaryStatic].into_iter().enumerate() {
             let below_hz = if m == 0 { 6.0 } else { 12.0 };
             let Some((dynamics, modes)) = list(&robot, &rest, cable_model, below_hz) else { continue };
+            let Ok(gradients) = Gradients::new(&robot, &rest, Hold::Lengths) else { continue };
+            let vibration = gradients.vibration(&dynamics).unwrap();
             // Alone, so that the order of the list is that of the modes while the robot changes.
             let alone = |k: usize| {
                 let gap = |other: Option<&Mode>| {
@@ -181,9 +194,9 @@ fn natural_frequencies_follow_every_number_of_the_robot() {
                 gap(modes.get(k + 1)) && gap(k.checked_sub(1).and_then(|k| modes.get(k)))
             };
             let chosen: Vec<usize> = (0..modes.len().saturating_sub(1)).filter(|k| alone(*k)).take(3).collect();
+            let found: Vec<RobotChange> = chosen.iter().map(|k| vibration.frequency(&modes[*k]).unwrap()).collect();
             // Every other change of every other robot: all kinds occur in both, in half the time.
             for (what, change, step) in changes(&robot).into_iter().skip(r % 2).step_by(2) {
-                let Ok(by) = at_held_lengths(&robot, &rest, &change) else { continue };
                 let differences = extrapolated(step, |h| {
                     let changed = robot.changed(&change, h);
                     let lengths: Vec<f64> = (lengths_of(&rest).iter().zip(&change.cables))
@@ -194,9 +207,9 @@ fn natural_frequencies_follow_every_number_of_the_robot() {
                     (found.len() > *chosen.last()?).then(|| chosen.iter().map(|k| found[*k].frequency_hz).collect())
                 });
                 let Some((differences, added)) = differences else { continue };
-                for (k, difference) in chosen.iter().zip(&differences) {
+                for ((k, difference), gradient) in chosen.iter().zip(&differences).zip(&found) {
                     let mode = &modes[*k];
-                    let found = frequencies::frequency(&robot, &rest, &dynamics, mode, &change, &by).unwrap();
+                    let found = gradient.dot(&change);
                     let error = (found - difference).abs();
                     let allowed = 1e-5 * difference.abs() + added + 2e-11 * mode.frequency_hz / step;
                     assert!(
@@ -210,6 +223,196 @@ fn natural_frequencies_follow_every_number_of_the_robot() {
         }
     }
     assert!(compared.iter().all(|count| *count > 100), "{compared:?}");
+}
+
+/// The reverse pass has the derivatives of the forward one, by every number, whichever is held. Both take the same partial
+/// derivatives and cancel the same stiff terms: 1e-9 of the largest derivative of the kind is rounding of those.
+#[test]
+fn gradients_are_the_transposes_of_derivatives_along_directions() {
+    let mut compared = 0;
+    for (name, robot, rest) in robots() {
+        for hold in Hold::ALL {
+            let Ok(gradients) = Gradients::new(&robot, &rest, hold) else { continue };
+            let kinds = [
+                gradients.pose().to_vec(),
+                gradients.tensions_platform(),
+                gradients.tensions_anchor(),
+                gradients.lengths(),
+            ];
+            let mut all = changes(&robot);
+            if hold == Hold::Pose {
+                all.push((
+                    "position",
+                    RobotChange { position_w: Vec3::new(0.2, 1.0, -0.4), ..RobotChange::none(robot.cables.len()) },
+                    0.0,
+                ));
+                if robot.platform.motion.count() == 6 {
+                    let turned =
+                        RobotChange { rotation_w: Vec3::new(0.2, 1.0, -0.4), ..RobotChange::none(robot.cables.len()) };
+                    all.push(("turn", turned, 0.0));
+                }
+            }
+            for (what, change, _) in all {
+                let along = match hold {
+                    Hold::Lengths => at_held_lengths(&robot, &rest, &change),
+                    Hold::Pose => at_held_pose(&robot, &rest, &change),
+                };
+                // Forward, more cables than degrees of freedom have no rule.
+                let Ok(along) = along else { continue };
+                let tensions =
+                    |of: fn(&statics::derivatives::CableDerivative) -> f64| along.cables.iter().map(of).collect();
+                let forward: [Vec<f64>; 4] = [
+                    along.translation_w.iter().chain(along.rotation_w.iter()).copied().collect(),
+                    tensions(|cable| cable.tension_platform),
+                    tensions(|cable| cable.tension_anchor),
+                    tensions(|cable| cable.unstrained_length),
+                ];
+                for (forward, reverse) in forward.iter().zip(&kinds) {
+                    let reverse: Vec<f64> = reverse.iter().map(|gradient| gradient.dot(&change)).collect();
+                    let (error, size) = distance(&reverse, forward);
+                    assert!(error <= 1e-9 * size, "{name}, {hold:?} held, {what}: {reverse:?} {forward:?}");
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared > 400, "{compared}");
+}
+
+/// Changes of the damping, and some of the other kinds.
+fn changes_with_damping(robot: &Robot) -> Vec<(&'static str, RobotChange, f64)> {
+    let none = || RobotChange::none(robot.cables.len());
+    let mut all = changes(robot);
+    let mut of_rope = none();
+    of_rope.cables.iter_mut().for_each(|cable| cable.damping = 1.0);
+    all.push(("damping of the ropes", of_rope, 1e-4));
+    let of_platform = RobotChange {
+        translational_damping_p: Vec3::new(1.0, 0.5, 0.2),
+        rotational_damping_p: Vec3::new(0.01, 0.02, 0.03),
+        ..none()
+    };
+    all.push(("damping of the platform", of_platform, 1e-2));
+    all
+}
+
+/// A robot in wind and under a load whose platform is damped and whose ropes have a damping ratio, and one with viscous
+/// ropes.
+fn damped_robots() -> [(&'static str, Robot, f64); 2] {
+    let mut with_ratio = loaded();
+    with_ratio.platform.translational_damping_p = Vec3::new(3.0, 1.0, 2.0);
+    with_ratio.platform.rotational_damping_p = Vec3::new(0.02, 0.05, 0.01);
+    with_ratio.cables.iter_mut().for_each(|cable| cable.material.damping = Damping::Ratio(0.01));
+    let mut viscous = with_ratio.clone();
+    viscous.cables.iter_mut().for_each(|cable| cable.material.damping = Damping::Viscous(0.02));
+    [("damping ratio", with_ratio, 3.0), ("viscous", viscous, 3.0)]
+}
+
+const LENGTHS: [f64; 6] = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
+
+/// Equilibrium of a robot changed by a step along a direction, lengths held.
+fn changed_rest(robot: &Robot, rest: &Equilibrium, change: &RobotChange, h: f64) -> Option<(Robot, Equilibrium)> {
+    let changed = robot.changed(change, h);
+    let lengths: Vec<f64> = LENGTHS.iter().zip(&change.cables).map(|(l, c)| l + h * c.unstrained_length).collect();
+    let at = statics::forward(&changed, &lengths, StaticModel::Catenary, Some(&rest.pose)).ok()?;
+    Some((changed, at))
+}
+
+/// Damped frequencies and damping ratios. Their zeros have eleven digits, over steps that change them by 1e-6 to 1e-3.
+#[test]
+fn damped_frequencies_and_damping_ratios_follow_every_number_of_the_robot() {
+    let mut compared = 0;
+    for (name, robot, below_hz) in damped_robots() {
+        let rest = statics::forward(&robot, &LENGTHS, StaticModel::Catenary, None).unwrap();
+        let damped = |robot: &Robot, rest: &Equilibrium| -> Option<(Dynamics, Vec<modes::damped::DampedMode>)> {
+            let dynamics = Dynamics::about(robot, rest, Linearisation::default(), below_hz).ok()?;
+            let undamped = modes::below(&dynamics, below_hz);
+            let found = modes::damped::damped_modes(&dynamics, &undamped);
+            found.certified.then_some((dynamics, found.modes))
+        };
+        let (dynamics, found) = damped(&robot, &rest).unwrap();
+        let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+        let vibration = gradients.vibration(&dynamics).unwrap();
+        let values = |mode: &modes::damped::DampedMode| [mode.frequency_hz(), mode.ringing_hz(), mode.damping_ratio()];
+        for (what, change, step) in changes_with_damping(&robot).into_iter().skip(name.len() % 2).step_by(3) {
+            let differences = extrapolated(step, |h| {
+                let (changed, at) = changed_rest(&robot, &rest, &change, h)?;
+                let (_, list) = damped(&changed, &at)?;
+                (list.len() == found.len()).then(|| list.iter().flat_map(values).collect())
+            });
+            let Some((differences, added)) = differences else { continue };
+            for (k, mode) in found.iter().enumerate().take(8) {
+                let of_mode = vibration.damped(mode).unwrap();
+                let ours = [&of_mode.frequency_hz, &of_mode.ringing_hz, &of_mode.damping_ratio];
+                for (i, gradient) in ours.iter().enumerate() {
+                    let (ours, difference) = (gradient.dot(&change), differences[3 * k + i]);
+                    let allowed = 1e-5 * difference.abs() + added + 1e-10 * values(mode)[i] / step;
+                    let error = (ours - difference).abs();
+                    assert!(error <= allowed, "{name}, mode {k}, value {i}, {what}: {ours} {difference}, {added:e}");
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared > 100, "{compared}");
+}
+
+/// Responses between points of the platform, all kinds of signals and quantities, beside and at the peaks.
+#[test]
+fn responses_follow_every_number_of_the_robot() {
+    let mut compared = 0;
+    let inputs = [
+        Signal::Along { direction_w: Vec3::new(0.2, 0.1, 1.0), point_p: Vec3::new(0.1, 0.05, 0.02) },
+        Signal::About { axis_w: Vec3::new(0.0, 1.0, 0.2) },
+    ];
+    let outputs = [
+        (
+            Signal::Along { direction_w: Vec3::new(1.0, -0.2, 0.3), point_p: Vec3::new(-0.1, 0.0, 0.1) },
+            Quantity::Acceleration,
+        ),
+        (Signal::About { axis_w: Vec3::new(1.0, 0.0, 0.3) }, Quantity::Velocity),
+        (inputs[0], Quantity::Displacement),
+    ];
+    for (name, robot, _) in damped_robots() {
+        let rest = statics::forward(&robot, &LENGTHS, StaticModel::Catenary, None).unwrap();
+        let frequencies_hz = [0.6, 1.3, 2.71];
+        let responses = |robot: &Robot, rest: &Equilibrium| -> Option<Vec<f64>> {
+            let dynamics = Dynamics::about(robot, rest, Linearisation::default(), 3.0).ok()?;
+            let port = |signal: &Signal| response::Port::Platform(signal.platform_vector(&rest.pose).unwrap());
+            let inputs: Vec<_> = inputs.iter().map(port).collect();
+            let outputs: Vec<_> = outputs.iter().map(|(signal, quantity)| (port(signal), *quantity)).collect();
+            let rows = response::matrix(&dynamics, &frequencies_hz, &inputs, &outputs).ok()?;
+            Some(rows.iter().flatten().flat_map(|z| [z.re, z.im]).collect())
+        };
+        let all = changes_with_damping(&robot);
+        let directions: Vec<RobotChange> = all.iter().map(|(_, change, _)| change.clone()).collect();
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 3.0).unwrap();
+        let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+        let vibration = gradients.vibration(&dynamics).unwrap();
+        let found = vibration.responses(&inputs, &outputs, &frequencies_hz, &directions).unwrap();
+        let ours: Vec<f64> = found.iter().flatten().flat_map(|at| [at.value.re, at.value.im]).collect();
+        let values = responses(&robot, &rest).unwrap();
+        let (error, size) = distance(&ours, &values);
+        assert!(error <= 1e-10 * size, "{name}: {error:e} of {size:e}");
+
+        for (d, (what, change, step)) in all.iter().enumerate() {
+            let differences = extrapolated(*step, |h| {
+                let (changed, at) = changed_rest(&robot, &rest, change, h)?;
+                responses(&changed, &at)
+            });
+            let Some((differences, _)) = differences else { continue };
+            let pairs = found.iter().flatten().zip(differences.chunks(2)).zip(values.chunks(2));
+            for (k, ((at, difference), value)) in pairs.enumerate() {
+                let ours = [at.along[d].re, at.along[d].im];
+                let size = value[0].hypot(value[1]);
+                let (error, largest) = distance(&ours, difference);
+                // Third order of the step, which near a peak is the step over its width, and rounding of the values.
+                let allowed = 2e-4 * largest + 1e-11 * size / step;
+                assert!(error <= allowed, "{name}, {k}, {what}: {ours:?} {difference:?}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 400, "{compared}");
 }
 
 /// The parameters of a file change the robot as the file's numbers do.
@@ -253,8 +456,20 @@ fn numbers_of(robot: &Robot) -> Vec<f64> {
     }
     numbers.extend(robot.platform.inertia_p.iter());
     numbers.extend(robot.cables.iter().flat_map(|c| [c.material.axial_stiffness, c.material.mass_per_length]));
-    if let funicular::robot::State::Lengths(lengths) = &robot.state {
-        numbers.extend(lengths);
+    numbers.extend([robot.wind.air_density]);
+    numbers.extend(robot.wind.velocity_w.iter());
+    numbers.extend(robot.platform.translational_damping_p.iter().chain(robot.platform.rotational_damping_p.iter()));
+    for Cable { material, .. } in &robot.cables {
+        let (Damping::Ratio(damping) | Damping::Viscous(damping)) = material.damping;
+        numbers.extend([damping, material.drag_width.unwrap_or(0.0)]);
+    }
+    match &robot.state {
+        State::Lengths(lengths) => numbers.extend(lengths),
+        State::Pose(pose) => {
+            numbers.extend(pose.position_w.iter());
+            numbers.extend(pose.rot_wp.to_rotation_matrix().matrix().iter());
+        }
+        State::Unknown => {}
     }
     numbers
 }
@@ -268,14 +483,15 @@ fn what_has_no_derivative_is_refused() {
         (robot, rest)
     };
     let change = RobotChange::of_mass(&robot);
-    let by = at_held_lengths(&robot, &rest, &change).unwrap();
-    let (dynamics, modes) = list(&robot, &rest, CableModel::ShallowDynamic, 5.0).unwrap();
-    let error = frequencies::frequency(&robot, &rest, &dynamics, &modes[0], &change, &by).unwrap_err().to_string();
+    let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+    let (dynamics, _) = list(&robot, &rest, CableModel::ShallowDynamic, 5.0).unwrap();
+    let error = gradients.vibration(&dynamics).err().unwrap().to_string();
     assert!(error.contains("need the cable model"), "{error}");
+    assert_eq!(gradients.min_stiffness(), Err(GradientError::DragTurns));
 
     let (dynamics, mut modes) = list(&robot, &rest, CableModel::CatenaryDynamic, 5.0).unwrap();
     modes[0].multiplicity = 2;
-    let error = frequencies::frequency(&robot, &rest, &dynamics, &modes[0], &change, &by).unwrap_err().to_string();
+    let error = gradients.vibration(&dynamics).unwrap().frequency(&modes[0]).unwrap_err().to_string();
     assert!(error.contains("2 modes share the frequency"), "{error}");
 
     let ideal = statics::inverse(&robot, &rest.pose, StaticModel::Ideal).unwrap();
