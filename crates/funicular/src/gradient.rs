@@ -179,7 +179,8 @@ impl<'a> Gradients<'a> {
         self.pullback.robot
     }
 
-    fn equilibrium(&self) -> &'a Equilibrium {
+    /// Equilibrium to which the gradients belong.
+    pub fn equilibrium(&self) -> &'a Equilibrium {
         self.pullback.equilibrium
     }
 

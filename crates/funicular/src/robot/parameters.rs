@@ -240,8 +240,13 @@ impl Parameters {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn change(&self, index: usize) -> Option<RobotChange> {
+        self.change_of(index, &self.robot)
+    }
+
+    /// Change per unit of a parameter as [`Self::change`], of a robot that has been changed since it was read, such as by
+    /// another pose.
+    pub fn change_of(&self, index: usize, robot: &Robot) -> Option<RobotChange> {
         let parameter = self.list.get(index)?;
-        let robot = &self.robot;
         let mut change = RobotChange::none(robot.cables.len());
 
         let unit = || -> Option<Vec3> {
@@ -272,7 +277,7 @@ impl Parameters {
             (RobotPart::Platform, "rotational_damping_n_m_s") => change.rotational_damping_p = unit()?,
             (RobotPart::Wind, "velocity_m_s") => change.wind_velocity_w = unit()?,
             (RobotPart::Wind, "air_density_kg_m3") => change.air_density = 1.0,
-            (RobotPart::State, key) => self.pose_change(parameter, key, unit(), &mut change)?,
+            (RobotPart::State, key) => pose_change(robot, parameter, key, unit(), &mut change)?,
             (RobotPart::Load, "force_n") => change.force_w = unit()?,
             (RobotPart::Load, "moment_n_m") => change.moment_w = unit()?,
             (RobotPart::Load, "point_m") => change.point_p = unit()?,
@@ -291,37 +296,6 @@ impl Parameters {
         }
 
         Some(change)
-    }
-
-    /// Change of the pose that the state gives. Motions that the platform does not have are no changes.
-    fn pose_change(
-        &self,
-        parameter: &Parameter,
-        key: &str,
-        unit: Option<Vec3>,
-        change: &mut RobotChange,
-    ) -> Option<()> {
-        match key {
-            "position_m" => change.position_w = unit?,
-            // R = Rz(yaw) Ry(pitch) Rx(roll): each angle turns about the axis of its rotation, after those left of it.
-            "roll_pitch_yaw_deg" => {
-                let [_, pitch, yaw] = self.robot.written_angles_deg;
-                let axis_w = match parameter.component? {
-                    "roll" => rotation::from_roll_pitch_yaw_deg(0.0, pitch, yaw) * Vec3::x(),
-                    "pitch" => rotation::from_roll_pitch_yaw_deg(0.0, 0.0, yaw) * Vec3::y(),
-                    "yaw" => Vec3::z(),
-                    _ => return None,
-                };
-                change.rotation_w = axis_w * 1_f64.to_radians();
-            }
-            _ => return None,
-        }
-
-        let (v, turn) = (change.position_w, change.rotation_w);
-        let motion = Vec6::new(v.x, v.y, v.z, turn.x, turn.y, turn.z);
-        let beyond = motion - self.robot.platform.motion.allowed(&motion);
-        // Rounding of the axes is 1e-16.
-        (beyond.norm() <= 1e-12 * motion.norm()).then_some(())
     }
 
     /// Change of all cables made of a rope.
@@ -371,6 +345,37 @@ impl Parameters {
         }
         Some(())
     }
+}
+
+/// Change of the pose that the state gives. Motions that the platform does not have are no changes.
+fn pose_change(
+    robot: &Robot,
+    parameter: &Parameter,
+    key: &str,
+    unit: Option<Vec3>,
+    change: &mut RobotChange,
+) -> Option<()> {
+    match key {
+        "position_m" => change.position_w = unit?,
+        // R = Rz(yaw) Ry(pitch) Rx(roll): each angle turns about the axis of its rotation, after those left of it.
+        "roll_pitch_yaw_deg" => {
+            let [_, pitch, yaw] = robot.written_angles_deg;
+            let axis_w = match parameter.component? {
+                "roll" => rotation::from_roll_pitch_yaw_deg(0.0, pitch, yaw) * Vec3::x(),
+                "pitch" => rotation::from_roll_pitch_yaw_deg(0.0, 0.0, yaw) * Vec3::y(),
+                "yaw" => Vec3::z(),
+                _ => return None,
+            };
+            change.rotation_w = axis_w * 1_f64.to_radians();
+        }
+        _ => return None,
+    }
+
+    let (v, turn) = (change.position_w, change.rotation_w);
+    let motion = Vec6::new(v.x, v.y, v.z, turn.x, turn.y, turn.z);
+    let beyond = motion - robot.platform.motion.allowed(&motion);
+    // Rounding of the axes is 1e-16.
+    (beyond.norm() <= 1e-12 * motion.norm()).then_some(())
 }
 
 /// Key of the table at the beginning of a path, and the number of the path's keys up to it. The rest of the path names
