@@ -498,8 +498,7 @@ pub(crate) struct GradientArgs {
     #[arg(long, value_name = "STEP", value_enum, default_value_t)]
     pub(crate) per: PerName,
 
-    /// Tolerances PATH=VALUE or PATH=PERCENT%, separated by commas [default: 1 mm for positions and lengths, 0.1° for angles,
-    /// 1 % of other values]
+    /// Tolerances PATH=VALUE or PATH=PERCENT%, separated by commas [default: usual ones, which docs/gradients.md lists]
     #[arg(long, value_name = "TOLERANCES", value_delimiter = ',')]
     pub(crate) tolerances: Vec<String>,
 

@@ -212,9 +212,8 @@ pub struct FrfRequest {
 pub struct GradientRequest {
     /// Robot file.
     pub robot: RobotText,
-    /// Groups of results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`; without any
-    /// the frequencies.
-    #[serde(default)]
+    /// Groups of results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`.
+    #[serde(default = "frequencies")]
     pub of: Vec<String>,
     /// Paths of the numbers of the robot file, in which `*` stands for any key; without any all numbers.
     #[serde(default)]
@@ -556,6 +555,11 @@ fn one() -> f64 {
 
 fn yes() -> bool {
     true
+}
+
+/// Results that are differentiated if a request names none.
+pub fn frequencies() -> Vec<String> {
+    vec!["frequencies".to_owned()]
 }
 
 fn one_per_cent() -> f64 {

@@ -1,10 +1,10 @@
 //! Conversion of arguments to requests. Names and values are copied; no decision is made here.
 
 use super::{
-    AssemblyName, CableArgs, CableModelName, ChangeArgs, CompareArgs, EachArgs, ExportArgs, ExportFormat, FrfArgs, GradientArgs,
-    ImportArgs, LengthUnitName, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, MotionName, NewArgs, PayloadArgs,
-    PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs, ReportArgs, StateArgs, StaticsArgs, StiffnessArgs,
-    SweepArgs, TensionArgs, TensionRuleName, TermArgs, WinchModeName, WireRopeName,
+    AssemblyName, CableArgs, CableModelName, ChangeArgs, CompareArgs, EachArgs, ExportArgs, ExportFormat, FrfArgs,
+    GradientArgs, ImportArgs, LengthUnitName, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, MotionName, NewArgs,
+    PayloadArgs, PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs, ReportArgs, StateArgs, StaticsArgs,
+    StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs, WinchModeName, WireRopeName,
 };
 use funicular_files::endings::Kind;
 use funicular_study::import::SourceFile;

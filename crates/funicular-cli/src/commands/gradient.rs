@@ -14,12 +14,8 @@ impl Printed for GradientTable {
             "tolerance" => "tolerance of each number",
             _ => "unit of each number",
         };
-        let mut out = format!(
-            "{}: derivatives per {step}\n{}\nHeld: {}.\n",
-            self.robot,
-            self.models.line(),
-            self.held_means
-        );
+        let mut out =
+            format!("{}: derivatives per {step}\n{}\nHeld: {}.\n", self.robot, self.models.line(), self.held_means);
         for result in &self.results {
             out += &format!("\n{} = {} {}\n", result.name, significant(result.value, 8), result.unit);
             out += &largest(self, result).to_string();
@@ -43,7 +39,15 @@ impl Printed for GradientTable {
 
     fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
         out.write_record([
-            "result", "result_value", "result_unit", "path", "path_value", "path_unit", "tolerance", "held", "per",
+            "result",
+            "result_value",
+            "result_unit",
+            "path",
+            "path_value",
+            "path_unit",
+            "tolerance",
+            "held",
+            "per",
             "derivative",
         ])?;
         for result in &self.results {
@@ -78,9 +82,8 @@ fn largest(of: &GradientTable, result: &GradientResult) -> Table {
         "tolerance" => result.unit.clone(),
         _ => format!("{} per {}", result.unit, parameter.unit),
     };
-    let mut table =
-        Table::new(&["number", "value", "unit", "derivative", "unit of it", "tolerance", "effect of it"])
-            .text_columns(&[2, 4]);
+    let mut table = Table::new(&["number", "value", "unit", "derivative", "unit of it", "tolerance", "effect of it"])
+        .text_columns(&[2, 4]);
     for (effect, k) in order.into_iter().take(SHOWN) {
         let (parameter, derivative) = (&of.parameters[k], result.derivatives[k]);
         table.row(vec![

@@ -87,7 +87,7 @@ pub struct Refused {
 found!(GradientTable, "gradient");
 
 /// Groups of results, by the names of a request.
-pub const RESULTS: &[&str] = &["pose", "lengths", "tensions", "stiffness-min", "frequencies", "damping", "response"];
+pub const RESULTS: [&str; 7] = ["pose", "lengths", "tensions", "stiffness-min", "frequencies", "damping", "response"];
 
 /// Computes the derivatives.
 ///
@@ -95,20 +95,22 @@ pub const RESULTS: &[&str] = &["pose", "lengths", "tensions", "stiffness-min", "
 /// A request that contradicts itself or the robot, a robot without such an equilibrium, or an equilibrium without
 /// derivatives.
 pub fn run(robot: Robot, request: &GradientRequest) -> Result<GradientTable> {
-    let of = groups(request)?;
-    let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
-    about(&at_rest, &of, request)
+    // A request that has to change is refused before the work.
+    groups(request)?;
+    about(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request)
 }
 
 /// Groups of results of a request, checked.
 fn groups(request: &GradientRequest) -> Result<Vec<&'static str>> {
     let all = request.of.iter().map(|name| {
-        RESULTS.iter().copied().find(|known| known == name).ok_or_else(|| {
-            let names: Vec<String> = RESULTS.iter().map(|name| (*name).to_owned()).collect();
-            anyhow!("⟪of⟫: there is no result `{name}`{}", crate::names::suggestion(name, &names))
+        RESULTS.into_iter().find(|known| known == name).ok_or_else(|| {
+            anyhow!("⟪of⟫: there is no result `{name}`{}", crate::names::suggestion(name, &RESULTS.map(str::to_owned)))
         })
     });
-    let of = if request.of.is_empty() { vec!["frequencies"] } else { all.collect::<Result<_>>()? };
+    let of: Vec<&str> = all.collect::<Result<_>>()?;
+    if of.is_empty() {
+        bail!("⟪of⟫ names no result{}", crate::names::listed(&RESULTS.map(str::to_owned)));
+    }
 
     let needs = |name: &str, key: &str, given: bool| {
         if of.contains(&name) && !given { Err(anyhow!("`{name}` needs ⟪{key}⟫")) } else { Ok(()) }
@@ -127,10 +129,13 @@ fn groups(request: &GradientRequest) -> Result<Vec<&'static str>> {
 ///
 /// # Errors
 /// The errors of [`run`].
-pub fn about(at_rest: &AtRest, of: &[&str], request: &GradientRequest) -> Result<GradientTable> {
+pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTable> {
+    let of = groups(request)?;
     let AtRest { robot, equilibrium, .. } = at_rest;
     let linearisation = at_rest::linearisation(&request.model, equilibrium.model);
-    let Columns { parameters, changes, without_derivative } = Columns::of(at_rest, request)?;
+    let text = RobotText::read(&request.robot)?.text;
+    let columns = Columns::of(at_rest, &text, &request.by, &request.tolerances)?;
+    let Columns { parameters, changes, without_derivative } = columns;
     let gradients = Gradients::new(robot, equilibrium, request.hold).map_err(no_solution)?;
 
     // Results of the equilibrium.
@@ -161,7 +166,7 @@ pub fn about(at_rest: &AtRest, of: &[&str], request: &GradientRequest) -> Result
         warnings = found;
         let vibration = gradients.vibration(&dynamics)?;
         if of.contains(&"frequencies") || of.contains(&"damping") {
-            rows.modes(&dynamics, &vibration, of, request.below_hz.unwrap_or(limit));
+            rows.modes(&dynamics, &vibration, &of, request.below_hz.unwrap_or(limit));
         }
         if of.contains(&"response") {
             rows.response(robot, &vibration, request)?;
@@ -195,7 +200,7 @@ pub fn about(at_rest: &AtRest, of: &[&str], request: &GradientRequest) -> Result
 }
 
 /// Sentence about what is held.
-fn meaning(robot: &Robot, hold: Hold) -> &'static str {
+pub(crate) fn meaning(robot: &Robot, hold: Hold) -> &'static str {
     let redundant = robot.cables.len() > robot.platform.motion.count();
     match hold {
         Hold::Lengths => "the unstrained lengths are held, the pose follows",
@@ -216,18 +221,23 @@ fn no_solution(error: GradientError) -> anyhow::Error {
 }
 
 /// Numbers of the robot file by which results are differentiated.
-struct Columns {
-    parameters: Vec<GradientParameter>,
-    changes: Vec<RobotChange>,
+pub(crate) struct Columns {
+    pub(crate) parameters: Vec<GradientParameter>,
+    /// Change of the robot per unit of each number.
+    pub(crate) changes: Vec<RobotChange>,
+    /// Paths of chosen numbers without derivatives.
     without_derivative: Vec<String>,
 }
 
 impl Columns {
-    fn of(at_rest: &AtRest, request: &GradientRequest) -> Result<Self> {
-        let text = RobotText::read(&request.robot)?.text;
-        let all = Parameters::from_toml(&text).map_err(|error| anyhow!("{error}"))?;
-        let patterns = request.by.iter().map(|text| Pattern::parse("by", text)).collect::<Result<Vec<_>>>()?;
-        let tolerances = request.tolerances.iter().map(|text| Tolerance::parse(text)).collect::<Result<Vec<_>>>()?;
+    /// Numbers of the `text` of a robot file at the paths of `by`, or all, with their tolerances.
+    ///
+    /// # Errors
+    /// A path that no number has, or numbers that all lack derivatives.
+    pub(crate) fn of(at_rest: &AtRest, text: &str, by: &[String], tolerances: &[String]) -> Result<Self> {
+        let all = Parameters::from_toml(text).map_err(|error| anyhow!("{error}"))?;
+        let patterns = by.iter().map(|text| Pattern::parse("by", text)).collect::<Result<Vec<_>>>()?;
+        let tolerances = tolerances.iter().map(|text| Tolerance::parse(text)).collect::<Result<Vec<_>>>()?;
 
         let mut columns = Self { parameters: Vec::new(), changes: Vec::new(), without_derivative: Vec::new() };
         let mut met = vec![false; patterns.len()];
@@ -265,7 +275,8 @@ impl Columns {
 
         let paths: Vec<String> = all.list().iter().map(Parameter::path).collect();
         let unmet = patterns.iter().zip(&met).map(|(pattern, met)| ("by", pattern, *met));
-        let unmet_tolerances = tolerances.iter().zip(&met_tolerances).map(|(of, met)| ("tolerances", &of.pattern, *met));
+        let unmet_tolerances =
+            tolerances.iter().zip(&met_tolerances).map(|(of, met)| ("tolerances", &of.pattern, *met));
         if let Some((key, pattern, _)) = unmet.chain(unmet_tolerances).find(|(.., met)| !met) {
             let nearest = crate::names::suggestion(&pattern.text, &paths);
             bail!("⟪{key}⟫ {}: the robot file has no such number{nearest}", pattern.text);
@@ -379,8 +390,14 @@ impl Rows<'_> {
     }
 
     fn pose(&mut self, gradients: &Gradients) {
-        const NAMES: [(&str, &str); 6] =
-            [("x", "m"), ("y", "m"), ("z", "m"), ("rotation about x", "rad"), ("rotation about y", "rad"), ("rotation about z", "rad")];
+        const NAMES: [(&str, &str); 6] = [
+            ("x", "m"),
+            ("y", "m"),
+            ("z", "m"),
+            ("rotation about x", "rad"),
+            ("rotation about y", "rad"),
+            ("rotation about z", "rad"),
+        ];
         let position: [f64; 3] = gradients.equilibrium().pose.position_w.into();
         for (k, ((name, unit), gradient)) in NAMES.into_iter().zip(gradients.pose()).enumerate() {
             // A rotation is counted from the equilibrium.
@@ -417,7 +434,13 @@ impl Rows<'_> {
                     for (i, row) in vibration.block(&shared).iter().enumerate() {
                         for (j, gradient) in row.iter().enumerate().skip(i) {
                             let entry = [next + i + 1, next + j + 1];
-                            let name = format!("frequencies {} to {}, entry {}, {}", next + 1, next + count, entry[0], entry[1]);
+                            let name = format!(
+                                "frequencies {} to {}, entry {}, {}",
+                                next + 1,
+                                next + count,
+                                entry[0],
+                                entry[1]
+                            );
                             self.add(name, "Hz", value, Some(entry), gradient);
                         }
                     }

@@ -4,7 +4,7 @@ use crate::library::library;
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::{GradientError, Gradients, Hold};
-use funicular::math::{Mat3, Vec3};
+use funicular::math::{DMat, Mat3, Vec3};
 use funicular::modes::{self, Mode};
 use funicular::response::{self, Quantity, Signal};
 use funicular::robot::parameters::Parameters;
@@ -174,14 +174,15 @@ fn list(robot: &Robot, rest: &Equilibrium, cable_model: CableModel, below_hz: f6
     found.certified.then_some((dynamics, found.modes))
 }
 
-/// Frequencies, of both models that have derivatives, with lengths held. Frequencies have twelve digits and steps change
+/// Frequencies, of all models that have derivatives, with lengths held. Frequencies have twelve digits and steps change
 /// them by 1e-6 to 1e-3, so that differences have six digits of the larger changes; a change that is small beside the
 /// frequency times the relative step loses the rest, hence the second term.
 #[test]
 fn natural_frequencies_follow_every_number_of_the_robot() {
-    let mut compared = [0; 2];
+    let mut compared = [0; 3];
     for (r, (name, robot, rest)) in robots().into_iter().enumerate() {
-        for (m, cable_model) in [CableModel::CatenaryDynamic, CableModel::CatenaryStatic].into_iter().enumerate() {
+        let models = [CableModel::CatenaryDynamic, CableModel::CatenaryStatic, CableModel::Spring];
+        for (m, cable_model) in models.into_iter().enumerate() {
             let below_hz = if m == 0 { 6.0 } else { 12.0 };
             let Some((dynamics, modes)) = list(&robot, &rest, cable_model, below_hz) else { continue };
             let Ok(gradients) = Gradients::new(&robot, &rest, Hold::Lengths) else { continue };
@@ -277,6 +278,107 @@ fn gradients_are_the_transposes_of_derivatives_along_directions() {
         }
     }
     assert!(compared > 400, "{compared}");
+}
+
+/// Point mass on four equal cables, whose modes share frequencies: horizontal motions, and vibrations of the cables with
+/// the platform at rest.
+fn symmetric_robot() -> Robot {
+    let cables: String = [("1", "2.0, 0.0"), ("2", "-2.0, 0.0"), ("3", "0.0, 2.0"), ("4", "0.0, -2.0")]
+        .iter()
+        .map(|(name, point)| {
+            format!("[[cables]]\nname = \"{name}\"\nmaterial = \"rope\"\nanchor_m = [{point}, 3.0]\nunstrained_length_m = 2.8\n")
+        })
+        .collect();
+    let text = format!(
+        "name = \"square\"\n[platform]\nmotion = \"point-mass\"\nmass_kg = 10.0\n[materials.rope]\naxial_stiffness_n = 1e5\n\
+         mass_kg_per_m = 0.3\n{cables}"
+    );
+    Robot::from_toml(&text).unwrap()
+}
+
+/// Along a change, the eigenvalues of the block of modes that share a frequency are their one-sided derivatives: also where
+/// the platform is at rest and only cables vibrate, at their poles.
+#[test]
+fn modes_that_share_a_frequency_part_along_a_change_by_the_eigenvalues_of_their_block() {
+    let robot = symmetric_robot();
+    let State::Lengths(lengths) = robot.state.clone() else { panic!("its file gives lengths") };
+    let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
+    let below_hz = 25.0;
+    let (dynamics, modes) = list(&robot, &rest, CableModel::CatenaryDynamic, below_hz).unwrap();
+    let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+    let vibration = gradients.vibration(&dynamics).unwrap();
+
+    let mut change = RobotChange::none(4);
+    change.cables[0].anchor_w = Vec3::new(0.2, 1.0, 0.3);
+    change.cables[2].mass_per_length = 0.05;
+    change.mass = 0.5;
+    let step = 1e-5;
+    let changed = robot.changed(&change, step);
+    let at = statics::forward(&changed, &lengths, StaticModel::Catenary, Some(&rest.pose)).unwrap();
+    let (_, parted) = list(&changed, &at, CableModel::CatenaryDynamic, below_hz).unwrap();
+
+    let (mut next, mut blocks, mut at_rest) = (0, 0, 0);
+    while next < modes.len() {
+        let count = modes[next].multiplicity;
+        let shared: Vec<&Mode> = modes[next..next + count].iter().collect();
+        // Frequencies that only lie near would mix with these.
+        let gap = |k: Option<usize>| {
+            k.and_then(|k| modes.get(k))
+                .is_none_or(|other| (other.frequency_hz / shared[0].frequency_hz - 1.0).abs() > 1e-3)
+        };
+        if count > 1 && gap(next.checked_sub(1)) && gap(Some(next + count)) && next + count < parted.len() {
+            let block = vibration.block(&shared);
+            let matrix = DMat::from_fn(count, count, |i, j| block[i][j].dot(&change));
+            assert!((&matrix - matrix.transpose()).amax() < 1e-9 * matrix.amax());
+            let mut ours: Vec<f64> = matrix.clone().symmetric_eigen().eigenvalues.iter().copied().collect();
+            ours.sort_by(f64::total_cmp);
+            for (ours, mode) in ours.iter().zip(&parted[next..]) {
+                let difference = (mode.frequency_hz - shared[0].frequency_hz) / step;
+                // One-sided: the curvature times the step, and rounding over it.
+                let allowed = 3e-4 * matrix.amax();
+                assert!(
+                    (ours - difference).abs() < allowed,
+                    "mode {next} at {} Hz: {ours} {difference}",
+                    mode.frequency_hz
+                );
+            }
+            blocks += 1;
+            at_rest += usize::from(shared[0].platform_energy_fraction == 0.0);
+        }
+        next += count;
+    }
+    assert!(blocks > 3 && at_rest > 0, "{blocks} {at_rest}");
+}
+
+/// Least stiffness, and entries of the tangent, which a load and all changes of the geometry bend.
+#[test]
+fn stiffness_follows_every_number_of_the_robot() {
+    let mut robot = loaded().with_wind(Wind::default());
+    robot.platform.drag_area = 0.0;
+    let rest = statics::forward(&robot, &LENGTHS, StaticModel::Catenary, None).unwrap();
+    let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+    let values = |robot: &Robot, rest: &Equilibrium| {
+        let tangent = statics::tangent_stiffness(robot, rest).unwrap();
+        let least = rest.stability.min_stiffness().unwrap();
+        vec![least, tangent[(0, 0)], tangent[(1, 4)] + tangent[(4, 1)], tangent[(5, 5)]]
+    };
+    let entry = |i, j| gradients.tangent_entry(i, j).unwrap();
+    let found = [gradients.min_stiffness().unwrap(), entry(0, 0), entry(1, 4), entry(5, 5)];
+    let factors = [1.0, 1.0, 2.0, 1.0];
+    for (what, change, step) in changes(&robot) {
+        let Some((differences, _)) = extrapolated(step, |h| {
+            let (changed, at) = changed_rest(&robot, &rest, &change, h)?;
+            Some(values(&changed, &at))
+        }) else {
+            continue;
+        };
+        for (k, ((gradient, factor), difference)) in found.iter().zip(factors).zip(&differences).enumerate() {
+            let ours = factor * gradient.dot(&change);
+            // Rounding of entries of 1e5 N/m over the step, and the third order.
+            let allowed = 1e-5 * difference.abs() + 1e-8 * values(&robot, &rest)[k].abs() / step;
+            assert!((ours - difference).abs() <= allowed, "{what}, {k}: {ours} {difference}, {allowed:e}");
+        }
+    }
 }
 
 /// Changes of the damping, and some of the other kinds.
