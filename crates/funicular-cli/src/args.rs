@@ -147,6 +147,7 @@ pub(crate) enum Command {
         funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --input fz --output az --matrices model.mat\n  \
         funicular reduce robots/cogiro.toml --below-hz 10 --input fz --output z --order 8 --matrices model.npz\n  \
         funicular reduce robots/cogiro-winches.toml --below-hz 5 --input length:1 --output z --output tension:1\n  \
+        funicular reduce robots/cogiro-winches.toml --below-hz 5 --input base-z --output z --output az\n  \
         funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --form second-order --matrices model\n\n\
         In Python: m = numpy.load('model.npz'); m['A'], m['B'], m['C'], m['D']\n\
         In MATLAB: load model.mat; sys = ss(A, B, C, D)")]

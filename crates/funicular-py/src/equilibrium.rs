@@ -113,6 +113,13 @@ impl PyEquilibrium {
         Matrix::of_rows(cables.iter().flat_map(|cable| cable.anchor_w.iter().copied()).collect(), 3)
     }
 
+    /// Displacements of the flexible supports in world axes [m], one row per support in the order of their names; no rows on
+    /// a rigid frame.
+    #[getter]
+    fn support_displacement_m(&self) -> Matrix {
+        Matrix::of_points(self.at_rest.equilibrium.support_displacements(&self.at_rest.robot).into_iter())
+    }
+
     /// Forces of the cables on the platform in world axes [N], one row per cable.
     #[getter]
     fn force_on_platform_n(&self) -> Matrix {

@@ -30,6 +30,19 @@ pub struct AtRest {
     pub held_pose: Option<Pose>,
 }
 
+impl AtRest {
+    /// This equilibrium with rigid supports where they are; `None` on a rigid frame.
+    pub(crate) fn with_rigid_supports(&self) -> Option<Self> {
+        self.robot.has_supports().then(|| Self {
+            robot: self.equilibrium.settled(&self.robot).into_owned(),
+            equilibrium: self.equilibrium.clone(),
+            requested_pose: self.requested_pose,
+            rule: self.rule.clone(),
+            held_pose: self.held_pose,
+        })
+    }
+}
+
 /// Solves the static problem of a request. `source` is the text from which the robot was read.
 ///
 /// # Errors

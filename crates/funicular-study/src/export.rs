@@ -7,6 +7,7 @@ pub(crate) mod support;
 pub(crate) mod vtk;
 
 use crate::at_rest::AtRest;
+use crate::names::Named;
 use crate::request;
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -39,6 +40,14 @@ pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exporte
     let request::ExportRequest { to, segments, modes_below_hz, .. } = *request;
     refuse(request)?;
     let mut warnings = Vec::new();
+    let rigid = at_rest.with_rigid_supports();
+    if rigid.is_some() {
+        warnings.push(format!(
+            "files of {} have no flexible supports: anchors are fixed where they are at rest",
+            to.name()
+        ));
+    }
+    let at_rest = rigid.as_ref().unwrap_or(at_rest);
     let text = match to {
         ExportFormat::Opensees => opensees::script(at_rest, segments, modes_below_hz, &mut warnings)?,
         ExportFormat::Moordyn => moordyn::input(at_rest, segments, &mut warnings)?,

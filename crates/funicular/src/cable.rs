@@ -11,11 +11,12 @@ pub mod shallow_dynamic;
 pub mod shallow_static;
 pub mod spring;
 
+use crate::catenary::space::HangingCable;
 use crate::drive::DriveChain;
 use crate::math::{Complex, Mat3, Vec3, any_normal};
 use crate::robot::{Robot, WinchMode};
 use crate::statics::CableState;
-use catenary_dynamic::{CatenaryDynamicEnd, MovingEnd};
+use catenary_dynamic::{CatenaryDynamicEnd, EndDirections, MovingEnd};
 use shallow_dynamic::ShallowDynamic;
 use std::f64::consts::TAU;
 use std::fmt;
@@ -80,6 +81,12 @@ impl LocalAxes {
     /// Axes of cable `i` of a robot. Up is opposite to the cable's load per length.
     pub fn of_cable(robot: &Robot, i: usize, state: &CableState) -> Self {
         Self::of_chord(&state.attachment_w, &state.anchor_w, &robot.line_load(i, &state.chord_w()).up_w)
+    }
+
+    /// Axes of a hanging cable: e horizontal towards its end, n against its load.
+    pub(crate) fn of_hanging(hanging: &HangingCable) -> Self {
+        let (e, n) = hanging.axes_w();
+        Self { e, n, b: e.cross(&n) }
     }
 
     /// Axes of the chord from `from_w` to `to_w`; `up_w` is the unit vector opposite to the load.
@@ -226,9 +233,6 @@ pub enum NoStiffness {
     /// The cable carries no tension.
     #[error("it has no tension")]
     NoTension,
-    /// The shallow-dynamic model has no pulleys and winches.
-    #[error("it runs over a pulley or to a winch")]
-    Drive,
     /// The catenary-dynamic model does not exist for the cable.
     #[error(transparent)]
     CatenaryDynamic(#[from] catenary_dynamic::CatenaryDynamicError),
@@ -237,9 +241,9 @@ pub enum NoStiffness {
 /// Cable in a model whose stiffness depends on frequency. Each variant has its own local axes, [`DynamicCable::axes`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum DynamicCable {
-    /// Starossek's closed form for shallow sag.
+    /// Starossek's closed form for shallow sag, the far end held.
     ShallowDynamic(ShallowDynamic),
-    /// Vibration about the elastic catenary.
+    /// Vibration by poles and residues: about the elastic catenary, or that of a shallow span with its pulley and winch.
     CatenaryDynamic(Box<CatenaryDynamicEnd>),
 }
 
@@ -340,7 +344,21 @@ impl EndStiffness {
                 Self::Constant(without_b(in_series(shallow_static::stiffness(&sag).in_world(&axes))))
             }
             CableModel::CatenaryStatic => Self::Constant(without_b(state.tangent_w().ok_or(NoStiffness::Rigid)?)),
-            CableModel::ShallowDynamic if drive.is_some() => return Err(NoStiffness::Drive),
+            CableModel::ShallowDynamic if robot.has_moving_ends() => {
+                let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
+                let limit = up_to_hz * TAU;
+                let end = moving_end(robot, i, state, &axes, winches, limit);
+                // Without any mass the cable and its drive are springs.
+                if sag.mass_per_length == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
+                    let still = shallow_static::stiffness(&sag).in_world(&axes);
+                    return Ok(Self::Constant(without_b(in_series(still))));
+                }
+                let directions = EndDirections::in_axes(hanging, &axes);
+                let (damping, span) = (material.damping, &sag);
+                let cable =
+                    CatenaryDynamicEnd::of_shallow_span(span, (axes, directions), end, damping, in_plane_only, limit)?;
+                Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable)))
+            }
             CableModel::ShallowDynamic => {
                 let cable = ShallowDynamic::new(sag, axes, material.damping, in_plane_only);
                 Self::Dynamic(DynamicCable::ShallowDynamic(cable))
@@ -348,7 +366,7 @@ impl EndStiffness {
             CableModel::CatenaryDynamic => {
                 let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
                 let (m, damping, limit) = (material.mass_per_length, material.damping, up_to_hz * TAU);
-                let end = moving_end(robot, i, state, winches, limit);
+                let end = moving_end(robot, i, state, &LocalAxes::of_hanging(hanging), winches, limit);
                 // Without any mass the cable and its drive are springs.
                 if m == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
                     return Ok(Self::Constant(without_b(in_series(hanging.tangent_w()))));
@@ -360,18 +378,33 @@ impl EndStiffness {
     }
 }
 
-/// End of cable `i` of a robot at its pulley or winch, with the drive behind it, for frequencies up to `limit` [rad/s];
-/// `None` for an end that is held.
+/// Static stiffness of the free span of cable `i` in a model, its far end held; 3×3, world axes [N/m]. `None` for a rigid
+/// cable in a catenary model.
+pub(crate) fn span_stiffness(robot: &Robot, i: usize, state: &CableState, model: CableModel) -> Option<Mat3> {
+    let straight = |stiffness: fn(&Sag) -> LocalStiffness<f64>| {
+        stiffness(&Sag::of(robot, i, state)).in_world(&LocalAxes::of_cable(robot, i, state))
+    };
+    match model {
+        CableModel::Spring if state.is_slack() => Some(Mat3::zeros()),
+        CableModel::Spring => Some(straight(spring::stiffness)),
+        CableModel::ShallowStatic => Some(straight(shallow_static::stiffness)),
+        _ => state.hanging.as_ref().map(HangingCable::tangent_w),
+    }
+}
+
+/// End of cable `i` of a robot at its pulley or winch, with the drive behind it, in the `axes` of the cable's model and for
+/// frequencies up to `limit` [rad/s]; `None` for an end that is held.
 pub(crate) fn moving_end(
     robot: &Robot,
     i: usize,
     state: &CableState,
+    axes: &LocalAxes,
     winches: WinchMode,
     limit: f64,
 ) -> Option<MovingEnd> {
-    let (hanging, drive) = (state.hanging.as_ref()?, state.drive.as_deref()?);
+    let drive = state.drive.as_deref()?;
     let (anchor, material) = (&robot.cables[i].anchor, &robot.cables[i].material);
     let rope = (material.axial_stiffness, material.mass_per_length);
     let chain = DriveChain::of(anchor, drive, rope, winches, limit);
-    MovingEnd::of(hanging, &drive.end, chain, drive.swivel_mass(anchor))
+    MovingEnd::of(axes, &drive.end, chain, drive.swivel_mass(anchor))
 }

@@ -7,7 +7,9 @@ mod weighted;
 
 pub use weighted::WeightedMotions;
 
-use crate::cable::catenary_dynamic::{CatenaryDynamic, CatenaryDynamicError, InternalMotion, Stations};
+use crate::cable::catenary_dynamic::{
+    CarrierMotion, CatenaryDynamic, CatenaryDynamicError, DriveSignal, InternalMotion, Stations,
+};
 use crate::cable::{CableModel, DynamicCable, LocalAxes};
 use crate::dynamics::{DynamicCableAt, Dynamics};
 use crate::math::{CVec6, Complex, Vec3, Vec6};
@@ -25,7 +27,8 @@ pub enum CableMotionError {
     /// The cable has no such signal of its drive.
     #[error(
         "cable \"{cable}\" has no signal `{signal}`: `length` needs a motor that holds its angle or a position control, \
-         `drum` a drum and `motor` a motor that can move, all the model `catenary-dynamic` and a cable with mass"
+         `drum` a drum and `motor` a motor that can move, all a cable with mass and the model `catenary-dynamic`, or \
+         `shallow-dynamic` with a winch"
     )]
     NoDriveSignal {
         /// Name of the cable.
@@ -39,6 +42,12 @@ pub enum CableMotionError {
         /// Name of the cable.
         cable: String,
     },
+    /// The base of a robot with flexible supports turns, or an anchor on a support is moved.
+    #[error(
+        "for a robot with flexible supports, rotations of the base and motions of anchors on supports are not known: choose \
+         `base-x`, `base-y` or `base-z`, or an input on the platform, on a cable or at a drive"
+    )]
+    FrameAndSupports,
     /// The cable has no catenary-dynamic stiffness.
     #[error("cable \"{cable}\": {reason}")]
     CatenaryDynamic {
@@ -98,9 +107,11 @@ impl CableStations {
         let chord_w = state.chord_w();
 
         let (model, axes) = match term.map(|at| (at, dynamics.terms()[at].form())) {
-            Some((_, DynamicCable::ShallowDynamic(_))) => {
+            // Shallow spans with a drive have poles and residues, too, but no shape of the catenary.
+            Some(_) if dynamics.linearisation.cable_model == CableModel::ShallowDynamic => {
                 return Err(CableMotionError::Model(CableModel::ShallowDynamic));
             }
+            Some((_, DynamicCable::ShallowDynamic(_))) => unreachable!("the model is shallow-dynamic"),
             Some((term, DynamicCable::CatenaryDynamic(end))) => {
                 let hanging = state.hanging.as_ref().expect("a catenary-dynamic cable hangs");
                 let (m, limit) = (end.mass_per_length, end.cable.limit);
@@ -156,13 +167,20 @@ impl CableStations {
                 let end_w = Vec3::new(shape[0], shape[1], shape[2])
                     + Vec3::new(shape[3], shape[4], shape[5]).cross(&self.lever_w);
                 let LocalAxes { e, n, b } = self.axes;
-                fractions.iter().map(|fraction| [e, n, b].map(|axis| fraction * axis.dot(&end_w))).collect()
+                let anchor_w = self.support_motion_w(dynamics, &motion.supports) * scale;
+                let at_w = |fraction: &f64| end_w * *fraction + anchor_w * (1.0 - fraction);
+                fractions.iter().map(|fraction| [e, n, b].map(|axis| axis.dot(&at_w(fraction)))).collect()
             }
             StationModel::CatenaryDynamic { cable, stations, term } => {
                 let of = &dynamics.terms()[*term];
                 let start = of.axes().map(|axis| Complex::from(axis.dot(&motion.platform)));
                 let square = (mode.frequency_hz * std::f64::consts::TAU).powi(2);
                 let mut motion_along = internal_motion(dynamics, cable, start, square.into());
+                let carried =
+                    dynamics.supports().and_then(|of| of.both_ends(*term).zip(of.ends(*term, &motion.supports)));
+                if let Some((both, ends)) = carried {
+                    motion_along.add_carrier(cable, both, ends.map(Complex::from), square.into());
+                }
                 let DynamicCable::CatenaryDynamic(end) = of.form() else { unreachable!("made of this term") };
 
                 // Clamped modes whose poles lie near the frequency have their amplitudes in the mode.
@@ -215,27 +233,65 @@ impl CableStations {
         vector
     }
 
-    /// Displacement of station `at` along `direction_w` (unit) for a displacement `far_end_w` of the far end, the platform
-    /// held, at ω [rad/s], damped; for cables whose far end cannot move by itself.
+    /// Displacement of station `at` along a unit vector for a displacement `far_end_w` of the far end, the platform held, at ω
+    /// [rad/s], damped. `carrier` is that motion in the axes of a cable whose stiffness depends on frequency; `None` if it is at
+    /// rest.
     pub(crate) fn by_far_end(
         &self,
         dynamics: &Dynamics,
-        at: usize,
-        direction_w: &Vec3,
+        (at, direction_w): (usize, &Vec3),
         far_end_w: &Vec3,
+        carrier: Option<&CarrierMotion>,
         omega: f64,
     ) -> Complex {
-        match &self.model {
-            StationModel::Straight(fractions) => (far_end_w.dot(direction_w) * (1.0 - fractions[at])).into(),
-            StationModel::CatenaryDynamic { cable, stations, .. } => {
-                let held = [Complex::new(0.0, 0.0); 3];
-                let square = dynamics.cable_square(self.cable, omega);
-                let far_end = self.local(far_end_w).map(Complex::from);
-                let motion_along = InternalMotion::between(cable, held, far_end, square);
-                let moved = stations.displacement(at, &motion_along);
+        match (&self.model, carrier) {
+            (StationModel::Straight(_), _) => self.still_by_far_end(at, direction_w, far_end_w).into(),
+            (StationModel::CatenaryDynamic { .. }, None) => 0.0.into(),
+            (StationModel::CatenaryDynamic { cable, stations, term }, Some(carrier)) => {
+                let DynamicCable::CatenaryDynamic(end) = dynamics.terms()[*term].form() else {
+                    unreachable!("made of this term")
+                };
+                let moved = stations.displacement(at, &end.motion_by_carrier(cable, carrier, omega));
                 moved.iter().zip(self.local(direction_w)).map(|(u, component)| u * component).sum()
             }
         }
+    }
+
+    /// Displacement of station `at` along a unit vector per unit of a signal of the drive or tension of the cable, the platform
+    /// held, at ω [rad/s], damped; by reciprocity also the output per force on the station. Zero without such a signal.
+    pub(crate) fn by_signal(
+        &self,
+        dynamics: &Dynamics,
+        (at, direction_w): (usize, &Vec3),
+        signal: DriveSignal,
+        omega: f64,
+    ) -> Complex {
+        let StationModel::CatenaryDynamic { cable, stations, term } = &self.model else { return 0.0.into() };
+        let DynamicCable::CatenaryDynamic(end) = dynamics.terms()[*term].form() else {
+            unreachable!("made of this term")
+        };
+        let Some(motion) = end.motion_by_signal(cable, signal, omega) else { return 0.0.into() };
+        let moved = stations.displacement(at, &motion);
+        moved.iter().zip(self.local(direction_w)).map(|(u, component)| u * component).sum()
+    }
+
+    /// Displacement of station `at` along `direction_w` (unit) for a displacement `far_end_w` of the far end, with the platform
+    /// and the amplitudes of the clamped modes at rest.
+    pub(crate) fn still_by_far_end(&self, at: usize, direction_w: &Vec3, far_end_w: &Vec3) -> f64 {
+        match &self.model {
+            StationModel::Straight(fractions) => far_end_w.dot(direction_w) * (1.0 - fractions[at]),
+            StationModel::CatenaryDynamic { .. } => {
+                self.still_by_ends(at, direction_w, [[0.0; 3], self.local(far_end_w)])
+            }
+        }
+    }
+
+    /// Displacement of station `at` along `direction_w` (unit) for displacements (e, n, b) of the platform end and of the far
+    /// end, with the amplitudes of the clamped modes at rest; zero for a cable without mass.
+    pub(crate) fn still_by_ends(&self, at: usize, direction_w: &Vec3, [start, end]: [[f64; 3]; 2]) -> f64 {
+        let StationModel::CatenaryDynamic { stations, .. } = &self.model else { return 0.0 };
+        let moved = stations.still(at, start, end);
+        moved.iter().zip(self.local(direction_w)).map(|(u, component)| u * component).sum()
     }
 
     /// Row of the motion of station `at` along `direction_w` (unit) over the platform's slow motion and the amplitudes
@@ -306,6 +362,13 @@ impl CableStations {
     /// True if [`own_receptance`](Self::own_receptance) is known.
     pub(crate) fn has_own_receptance(&self) -> bool {
         matches!(self.model, StationModel::CatenaryDynamic { .. })
+    }
+
+    /// Motion of the support of the cable, world axes; zero for a rigid anchor.
+    fn support_motion_w(&self, dynamics: &Dynamics, supports: &[f64]) -> Vec3 {
+        let first = dynamics.supports().and_then(|of| of.of_cable(self.cable));
+        let moved = first.and_then(|first| supports.get(first..first + 3));
+        moved.map_or_else(Vec3::zeros, Vec3::from_column_slice)
     }
 
     /// Components (e, n, b) of a direction in world axes.

@@ -17,6 +17,7 @@ mod chain;
 mod friction;
 
 pub use anchor_end::AnchorEnd;
+pub(crate) use anchor_end::{DrumSideAtRest, OnSupport};
 pub use chain::{DriveChain, Motor, Place};
 pub use friction::DriveFriction;
 
@@ -139,6 +140,16 @@ impl CableAtRest {
 pub(crate) fn tangent_w(span: &HangingCable, drive: Option<&DriveAtRest>) -> Mat3 {
     let held = span.tangent_w();
     drive.map_or(held, |drive| drive.end.in_series_with(&held))
+}
+
+/// Static stiffness of a cable for a motion of its anchor. `held` is the stiffness of its span; `side` is its drum side, if
+/// its drum stays on the ground.
+pub(crate) fn on_support(held: &Mat3, drive: Option<&DriveAtRest>, side: Option<DrumSideAtRest>) -> OnSupport {
+    match (drive, side) {
+        (None, _) => OnSupport::moving_together(*held),
+        (Some(drive), None) => OnSupport::moving_together(drive.end.in_series_with(held)),
+        (Some(drive), Some(side)) => drive.end.with_drum_on_ground(held, &side),
+    }
 }
 
 /// Derivative of the force of a cable on the platform with respect to its unstrained length [N/m].

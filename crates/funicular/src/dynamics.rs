@@ -6,16 +6,19 @@ mod complex_frequency;
 mod count;
 mod min_stiffness;
 mod null_vectors;
+mod supports;
 
 pub(crate) use blocks::{CableBlocks, CableRow, PlatformBlocks};
 pub(crate) use null_vectors::NullVector;
 
-use crate::cable::catenary_dynamic::{CatenaryDynamicError, DriveSignal};
-use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness};
-use crate::math::{CMat6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6, order};
+use crate::cable::catenary_dynamic::{CatenaryDynamicError, EndSignal};
+use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, span_stiffness};
+use crate::math::{CMat6, CVec6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6, order};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
 use crate::robot::{Damping, PlatformMotion, Robot, WinchMode};
 use crate::statics::{CableState, Equilibrium};
+pub(crate) use supports::Supports;
+use supports::SupportsBuilder;
 use thiserror::Error;
 
 /// Relative distance of ω² to a pole of a catenary-dynamic cable below which the pole's mode is a separate unknown of
@@ -62,7 +65,7 @@ pub struct Linearisation {
 /// Reason for which a robot cannot be linearised.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum DynamicsError {
-    /// A cable has no catenary-dynamic stiffness.
+    /// A cable has no stiffness by poles and residues: a catenary-dynamic one, or a shallow one with a drive.
     #[error("cable \"{cable}\": {reason}")]
     CatenaryDynamic {
         /// Name of the cable.
@@ -81,16 +84,13 @@ pub enum DynamicsError {
         /// Requested model.
         model: CableModel,
     },
-    /// A cable runs over a pulley or to a winch.
+    /// The anchor of a cable is on a flexible support.
     #[error(
-        "cable \"{cable}\" runs over a pulley or to a winch: the {model} model exists for cables that end at fixed \
-         points; use the model `catenary-dynamic`"
+        "the anchor of cable \"{cable}\" is on a flexible support, which moves in all directions: leave `in-plane-only` out"
     )]
-    Drive {
+    Support {
         /// Name of the cable.
         cable: String,
-        /// Requested model.
-        model: CableModel,
     },
     /// An equilibrium with ideal cables has no tangent stiffness.
     #[error(
@@ -107,7 +107,7 @@ impl DynamicsError {
         match self {
             Self::NoTension { .. } => true,
             Self::CatenaryDynamic { reason, .. } => *reason == CatenaryDynamicError::NoTension,
-            Self::Rigid | Self::Drive { .. } => false,
+            Self::Rigid | Self::Support { .. } => false,
         }
     }
 
@@ -117,7 +117,6 @@ impl DynamicsError {
         match reason {
             NoStiffness::Rigid => Self::Rigid,
             NoStiffness::NoTension => Self::NoTension { cable, model },
-            NoStiffness::Drive => Self::Drive { cable, model },
             NoStiffness::CatenaryDynamic(reason) => Self::CatenaryDynamic { cable, reason },
         }
     }
@@ -137,6 +136,8 @@ pub struct Dynamics {
     /// Scaled viscous damping of the platform [N s/m].
     platform_damping: Mat6,
     terms: Vec<DynamicCableAt>,
+    /// Flexible supports; `None` on a rigid frame.
+    supports: Option<Box<Supports>>,
     /// Options with which it was made.
     pub linearisation: Linearisation,
     /// Damping and mass per length [kg/m] of each cable.
@@ -198,16 +199,28 @@ impl Dynamics {
     ) -> Result<Self, DynamicsError> {
         let Linearisation { cable_model, assembly, in_plane_only, winches } = linearisation;
         let coordinates = Coordinates::of(robot);
+        refuse_on_supports(robot, linearisation)?;
+        let settled = equilibrium.settled(robot);
+        let mut supports = robot.has_supports().then(|| SupportsBuilder::new(robot, &coordinates));
 
         // Cables: a constant stiffness is added to the matrix, the others become terms.
         let mut constant = Mat6::zeros();
         let mut terms = Vec::new();
         for (i, state) in equilibrium.cables.iter().enumerate() {
-            let stiffness = EndStiffness::new(robot, i, state, cable_model, in_plane_only, winches, up_to_hz)
+            let stiffness = EndStiffness::new(&settled, i, state, cable_model, in_plane_only, winches, up_to_hz)
                 .map_err(|reason| DynamicsError::of_cable(&robot.cables[i].name, cable_model, reason))?;
             match stiffness {
-                EndStiffness::Constant(k) => add_congruent(&mut constant, &k, &state.lever_w),
+                EndStiffness::Constant(k) => {
+                    add_congruent(&mut constant, &k, &state.lever_w);
+                    if let Some(supports) = &mut supports {
+                        let held = span_stiffness(&settled, i, state, cable_model).unwrap_or(k);
+                        supports.add_constant(i, state, &held);
+                    }
+                }
                 EndStiffness::Dynamic(form) => {
+                    if let Some(supports) = &mut supports {
+                        supports.add_dynamic(i, state, &form);
+                    }
                     let vector = |u: &Vec3| coordinates.reduce_force(u, &state.lever_w);
                     let LocalAxes { e, n, b } = *form.axes();
                     let (along, normal, out) = (vector(&e), vector(&n), vector(&b));
@@ -218,7 +231,7 @@ impl Dynamics {
 
         // Static forces on their lever arms.
         if assembly == Assembly::Consistent {
-            constant += static_terms(robot, equilibrium);
+            constant += static_terms(&settled, equilibrium);
         }
 
         Ok(Self {
@@ -228,18 +241,19 @@ impl Dynamics {
             mass: coordinates.reduce_matrix(&mass_matrix(&robot.platform, &equilibrium.pose)),
             platform_damping: coordinates.reduce_matrix(&damping_matrix(&robot.platform, &equilibrium.pose)),
             terms,
+            supports: supports.map(|supports| Box::new(supports.finish())),
             linearisation,
             damping: robot.cables.iter().map(|c| (c.material.damping, c.material.mass_per_length)).collect(),
         })
     }
 
     /// Copy in which a few modes replace the clamped modes of catenary-dynamic cables from ω [rad/s] on. They represent
-    /// the `signals` of drives (index of the cable in the order of the file, quantity), too.
-    pub(crate) fn with_poles_below(&self, omega: f64, signals: &[(usize, DriveSignal)]) -> Self {
+    /// the `signals` at the far ends of cables (index of the cable in the order of the file, signal), too.
+    pub(crate) fn with_poles_below(&self, omega: f64, signals: &[(usize, EndSignal)]) -> Self {
         let mut cut = self.clone();
         for term in &mut cut.terms {
             if let DynamicCable::CatenaryDynamic(end) = &mut term.form {
-                let own: Vec<DriveSignal> =
+                let own: Vec<EndSignal> =
                     signals.iter().filter(|(cable, _)| *cable == term.cable).map(|(_, signal)| *signal).collect();
                 **end = end.with_poles_below(omega * omega, &own);
             }
@@ -323,6 +337,15 @@ impl Dynamics {
         }
     }
 
+    /// Vector about the platform origin, world axes [N, N·m], of a scaled one over the platform's coordinates.
+    pub(crate) fn unscaled_vector(&self, vector: &CVec6) -> CVec6 {
+        let scale = self.scale();
+        let expanded =
+            |part: fn(&Complex) -> f64| self.coordinates.motion().expanded(&vector.map(|entry| part(&entry)));
+        let (re, im) = (expanded(|entry| entry.re), expanded(|entry| entry.im));
+        CVec6::from_fn(|i, _| Complex::new(re[i], im[i]) * scale[i])
+    }
+
     /// Matrix over motions in world axes [m, rad] of a scaled one over the platform's coordinates.
     fn unscaled(&self, matrix: &CMat6) -> CMat6 {
         let (scale, matrix) = (self.scale(), self.expanded(matrix));
@@ -336,7 +359,10 @@ impl Dynamics {
             let k = term.form.damped(omega);
             add_local(&mut total, term, &k, |z, product| z * product);
         }
-        total
+        match &self.supports {
+            Some(supports) => total - self.damped_loss(supports, omega),
+            None => total,
+        }
     }
 
     /// Scaled dynamic stiffness with all damping, `D = K(ω) + iωC − ω²M` [N/m].
@@ -350,7 +376,21 @@ impl Dynamics {
         for term in &self.terms {
             add_local(&mut total, term, &term.form.undamped(omega), |k, product| k * product);
         }
-        total
+        match &self.supports {
+            Some(supports) => total - self.undamped_loss(supports, omega),
+            None => total,
+        }
+    }
+
+    /// Number with the sign of the determinant of the undamped dynamic stiffness at ω [rad/s], supports included.
+    pub(crate) fn determinant(&self, omega: f64) -> f64 {
+        if let Some(supports) = &self.supports {
+            return self.determinant_with_supports(supports, omega);
+        }
+        let d = self.dynamic_stiffness(omega);
+        // By elimination: in the expansion of a 3×3 determinant the squares of a pole's large term cancel, which loses
+        // the sign.
+        if self.dof() == 6 { d.determinant() } else { d.fixed_view::<3, 3>(0, 0).clone_owned().lu().determinant() }
     }
 
     /// Scaled moving mass of the platform, and of each cable (`−dK/dω²`), for the scaled motion `x` of the platform
@@ -434,6 +474,15 @@ impl Dynamics {
         order::sort_ascending(&mut all, |(omega, _)| *omega);
         all
     }
+}
+
+/// Refuses the option that does not exist for anchors on flexible supports.
+fn refuse_on_supports(robot: &Robot, linearisation: Linearisation) -> Result<(), DynamicsError> {
+    let Some(cable) = robot.cables.iter().find(|cable| cable.anchor.support.is_some()) else { return Ok(()) };
+    if linearisation.in_plane_only {
+        return Err(DynamicsError::Support { cable: cable.name.clone() });
+    }
+    Ok(())
 }
 
 /// Estimated relative error of the clamped frequencies up to which a catenary-dynamic cable counts as resolved.

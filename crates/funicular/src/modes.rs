@@ -30,7 +30,8 @@ pub enum Kind {
     Platform,
     /// The cables have at least three quarters of the energy.
     Cable,
-    /// The drives of the cables have at least three quarters of the energy: wheels, drums and motors.
+    /// The drives of the cables, with flexible supports, have at least three quarters of the energy: wheels, drums, motors
+    /// and posts.
     Drive,
     /// Neither the platform nor the cables nor the drives have three quarters of the energy.
     Mixed,
@@ -85,6 +86,8 @@ pub struct Mode {
     /// Fraction of the kinetic energy that the drive of each cable has: wheel, swivel, drum and motor. Empty if no drive
     /// has inertia.
     pub drive_energy_fractions: Vec<f64>,
+    /// Fraction of the kinetic energy that each flexible support has, in the order of the robot. Empty on a rigid frame.
+    pub support_energy_fractions: Vec<f64>,
     /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1. Zero
     /// if the platform is at rest.
     pub shape: [f64; 6],
@@ -247,7 +250,7 @@ impl List<'_> {
 
     /// Adds a single mode: the zero of det D, which changes its sign once between neighbouring poles.
     fn single(&mut self, low: f64, high: f64) {
-        let determinant = |omega: f64| self.determinant(omega);
+        let determinant = |omega: f64| self.dynamics.determinant(omega);
         let (at_low, at_high) = (determinant(low), determinant(high));
         let mut omega = 0.5 * (low + high);
         let mut motions = Vec::new();
@@ -277,18 +280,6 @@ impl List<'_> {
         0.5 * (low + high)
     }
 
-    /// Determinant of the undamped dynamic stiffness at ω.
-    fn determinant(&self, omega: f64) -> f64 {
-        let d = self.dynamics.dynamic_stiffness(omega);
-        // By elimination: in the expansion of a 3×3 determinant the squares of a pole's large term cancel, which loses
-        // the sign.
-        if self.dynamics.dof() == 6 {
-            d.determinant()
-        } else {
-            d.fixed_view::<3, 3>(0, 0).clone_owned().lu().determinant()
-        }
-    }
-
     /// Adds `several` modes at ω.
     fn multiple(&mut self, omega: f64, several: usize) {
         self.add_all(omega, self.dynamics.null_vectors(omega, several));
@@ -308,7 +299,10 @@ impl List<'_> {
 
     /// Adds one mode from its `motion` with unit modal mass. `shape` is the platform's motion with `modal_mass`.
     fn add(&mut self, omega: f64, several: usize, motion: NullVector, shape: [f64; 6], modal_mass: f64) {
-        let NullVector { platform_energy, ref cable_energies, ref drive_energies, residual, .. } = motion;
+        let NullVector {
+            platform_energy, ref cable_energies, ref drive_energies, ref support_energies, residual, ..
+        } = motion;
+        let beside: f64 = drive_energies.iter().chain(support_energies).sum();
         let by_cables: f64 = (cable_energies.iter().enumerate())
             .map(|(i, fraction)| fraction * self.dynamics.cable_damping_ratio(i, omega))
             .sum();
@@ -317,10 +311,11 @@ impl List<'_> {
             frequency_hz: omega / TAU,
             multiplicity: several,
             damping_ratio: by_cables + by_platform + motion.drive_damping,
-            kind: Kind::of(platform_energy, drive_energies.iter().sum()),
+            kind: Kind::of(platform_energy, beside),
             platform_energy_fraction: platform_energy,
             cable_energy_fractions: cable_energies.clone(),
             drive_energy_fractions: drive_energies.clone(),
+            support_energy_fractions: support_energies.clone(),
             shape,
             modal_mass,
             residual,
@@ -350,6 +345,8 @@ impl List<'_> {
             let still = NullVector {
                 platform: Vec6::zeros(),
                 near: Vec::new(),
+                supports: Vec::new(),
+                support_energies: Vec::new(),
                 platform_energy: 0.0,
                 cable_energies,
                 drive_energies: Vec::new(),
@@ -360,7 +357,8 @@ impl List<'_> {
         }
 
         for motion in motions {
-            self.add(omega, several, NullVector { platform: Vec6::zeros(), ..motion }, [0.0; 6], 1.0);
+            let supports = vec![0.0; motion.supports.len()];
+            self.add(omega, several, NullVector { platform: Vec6::zeros(), supports, ..motion }, [0.0; 6], 1.0);
         }
     }
 }

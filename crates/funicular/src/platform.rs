@@ -9,4 +9,6 @@ mod wrench;
 pub(crate) use coordinates::Coordinates;
 pub(crate) use mass::{damping_matrix, mass_matrix};
 pub(crate) use straight::StraightCable;
-pub(crate) use wrench::{add_congruent, add_lever_term, add_load_terms, balance, load_size, load_wrench, wrench_of};
+pub(crate) use wrench::{
+    add_congruent, add_lever_term, add_load_terms, balance, load_size, load_wrench, wrench_columns, wrench_of,
+};

@@ -23,12 +23,12 @@ pub use control_model::{
 pub use error::ReductionError;
 pub use selection::Size;
 
-use crate::cable::DynamicCable;
-use crate::cable::catenary_dynamic::{DriveSignal, InPowersOfS};
+use crate::cable::catenary_dynamic::{DriveSignal, EndSignal, InPowersOfS};
+use crate::cable::{CableModel, DynamicCable};
 use crate::dynamics::{CableBlocks, CableRow, Dynamics, PlatformBlocks};
 use crate::math::{CDMat, Complex, DMat, DVec, Vec6, symmetric_part};
 use crate::modes;
-use crate::response::{self, Port, Quantity, ResponseError, Signal};
+use crate::response::{self, FrameInput, Port, Quantity, ResponseError, Signal};
 use crate::robot::{Damping, Robot};
 use crate::statics::Equilibrium;
 use expansion::Expansion;
@@ -86,7 +86,7 @@ pub struct SecondOrder {
     /// Input matrix B, n×inputs: generalised force per unit of each input.
     pub input: DMat,
     /// Matrices B₁ and B₂, n×inputs: generalised force per rate and per acceleration of each input. They are zero except
-    /// for a commanded length.
+    /// for a commanded length and a motion of the frame.
     pub input_rates: [DMat; 2],
     /// Output matrix L, outputs×n: displacements, rotations and tensions.
     pub output: DMat,
@@ -94,7 +94,7 @@ pub struct SecondOrder {
     /// for the tension of a cable.
     pub output_rates: [DMat; 2],
     /// Matrices D₀, D₁ and D₂, outputs×inputs: outputs per input, its rate and its acceleration with all coordinates at
-    /// rest. They are zero except for signals of the drive of one cable.
+    /// rest. They are zero except for signals of the drive of one cable, and for outputs on cables by a motion of the frame.
     pub feedthrough: [DMat; 3],
     /// Quantity of each output: displacement, velocity or acceleration.
     pub quantities: Vec<Quantity>,
@@ -125,20 +125,20 @@ pub struct StateSpace {
     pub d: DMat,
 }
 
-/// Checks that no signal is a motion of the frame.
-fn check_signals(inputs: &[Signal]) -> Result<(), ReductionError> {
-    let of_frame = inputs.iter().any(|signal| matches!(signal, Signal::Frame(_)));
-    if of_frame { Err(ReductionError::FrameSignal) } else { Ok(()) }
-}
-
 /// Fraction of its static response above which a part of a drive has no mass; rounding leaves 1e-9.
 const MASSLESS: f64 = 1e-6;
 
 /// Checks that all cables are catenary-dynamic and that the losses of their drives have a second-order form.
 fn check_cables(robot: &Robot, dynamics: &Dynamics) -> Result<(), ReductionError> {
+    if dynamics.supports().is_some() {
+        return Err(ReductionError::Supports);
+    }
     let name = |cable: usize| robot.cables[cable].name.clone();
     for term in dynamics.terms() {
         let DynamicCable::CatenaryDynamic(form) = term.form() else { return Err(ReductionError::Model) };
+        if dynamics.linearisation.cable_model == CableModel::ShallowDynamic {
+            return Err(ReductionError::Model);
+        }
         let delay_s = form.delay();
         if delay_s > 0.0 {
             return Err(ReductionError::Delay { cable: name(term.cable()), delay_s });
@@ -150,13 +150,6 @@ fn check_cables(robot: &Robot, dynamics: &Dynamics) -> Result<(), ReductionError
         }
     }
     Ok(())
-}
-
-/// Signals of drives: index of the cable, and quantity.
-fn drive_signals(inputs: &[Signal], outputs: &[(Signal, Quantity)]) -> Vec<(usize, DriveSignal)> {
-    let all = inputs.iter().chain(outputs.iter().map(|(signal, _)| signal));
-    all.filter_map(|signal| if let Signal::Drive { cable, signal } = signal { Some((*cable, *signal)) } else { None })
-        .collect()
 }
 
 /// Ratios to the limit up to which clamped modes are kept unchanged, tried in turn until the error is small enough.
@@ -190,7 +183,6 @@ pub fn reduce(
 ) -> Result<SecondOrder, ReductionError> {
     let mut steps = Steps::new(report);
     check_cables(robot, dynamics)?;
-    check_signals(inputs)?;
 
     // The response of a cable to a force on itself has a kink, which the kept modes cannot represent.
     let loaded = inputs.iter().any(|signal| matches!(signal, Signal::OnCable { .. }));
@@ -206,11 +198,11 @@ pub fn reduce(
     let reference = full.responses(dynamics, &frequencies).ok();
 
     // As few clamped modes as the tolerance allows.
-    let drives = drive_signals(inputs, outputs);
+    let ends = full.at_far_ends(dynamics);
     let kinds = pair_kinds(inputs, outputs);
     for (tried, ratio) in KEPT.into_iter().enumerate() {
         steps.reached(&TRIED, tried, KEPT.len())?;
-        let cut = dynamics.with_poles_below(ratio * requested.below_hz * TAU, &drives);
+        let cut = dynamics.with_poles_below(ratio * requested.below_hz * TAU, &ends);
         let truncation_error = reference.as_ref().and_then(|reference| {
             let of_cut = Channels::new(robot, equilibrium, &cut, inputs, outputs, false).ok()?;
             Some(largest_difference(reference, &of_cut.responses(&cut, &frequencies).ok()?, &kinds))
@@ -244,13 +236,16 @@ fn relative_error(natural: &[f64], others: &[modes::Mode]) -> f64 {
 }
 
 /// Kind of each response, the pairs of the first output with all inputs first. Responses of one kind have comparable
-/// sizes: motion or tension, per force or per commanded length.
+/// sizes: motion or tension, per force, per commanded length or displacement of the frame, or per rotation of the base.
 fn pair_kinds(inputs: &[Signal], outputs: &[(Signal, Quantity)]) -> Vec<usize> {
-    let is =
-        |signal: &Signal, of: fn(DriveSignal) -> bool| matches!(signal, Signal::Drive { signal, .. } if of(*signal));
-    let kind = |input: &Signal, output: &Signal| {
-        2 * usize::from(is(output, DriveSignal::is_tension)) + usize::from(is(input, |of| of == DriveSignal::Length))
+    let of_input = |signal: &Signal| match signal {
+        Signal::Drive { signal: DriveSignal::Length, .. }
+        | Signal::Frame(FrameInput::BaseAlong(_) | FrameInput::Anchor { .. }) => 1,
+        Signal::Frame(FrameInput::BaseAbout(_)) => 2,
+        Signal::Drive { .. } | Signal::Along { .. } | Signal::About { .. } | Signal::OnCable { .. } => 0,
     };
+    let is_tension = |signal: &Signal| matches!(signal, Signal::Drive { signal, .. } if signal.is_tension());
+    let kind = |input: &Signal, output: &Signal| 3 * usize::from(is_tension(output)) + of_input(input);
     outputs.iter().flat_map(|(output, _)| inputs.iter().map(move |input| kind(input, output))).collect()
 }
 
@@ -312,7 +307,17 @@ impl Channels {
                     layout.add_row(of_cable, *term, 1.0, row);
                 }
             }
-            Port::Frame(_) => unreachable!("motions of the frame are refused"),
+            Port::Frame(frame) => {
+                row[0][..layout.dof].copy_from_slice(&coordinates(frame.constant()).as_slice()[..layout.dof]);
+                for (term, motion) in frame.carriers() {
+                    let Some(powers) = dynamics.carrier_row(term, motion) else {
+                        unreachable!("other models were refused")
+                    };
+                    for (row, of_cable) in row.iter_mut().zip(&powers) {
+                        layout.add_row(of_cable, term, 1.0, row);
+                    }
+                }
+            }
             Port::Cable { stations, station, direction_w } => {
                 let (platform, term, amplitudes) = stations.row(dynamics, *station, direction_w);
                 row[0][..layout.dof].copy_from_slice(&coordinates(&platform).as_slice()[..layout.dof]);
@@ -331,14 +336,38 @@ impl Channels {
         from_fn(|power| DMat::from_fn(ports.len(), layout.coordinates.len(), |i, j| rows[i][power][j]))
     }
 
+    /// Signals at the far ends of cables: index of the cable, and signal.
+    fn at_far_ends(&self, dynamics: &Dynamics) -> Vec<(usize, EndSignal)> {
+        let of_port = |port: &Port| match port {
+            Port::Drive { term, signal, .. } => vec![(*term, EndSignal::Drive(*signal))],
+            Port::Frame(frame) => frame.carriers().map(|(term, motion)| (term, EndSignal::Carrier(*motion))).collect(),
+            Port::Platform(_) | Port::Cable { .. } => Vec::new(),
+        };
+        let all = self.inputs.iter().chain(&self.outputs).flat_map(of_port);
+        all.map(|(term, signal)| (dynamics.terms()[term].cable(), signal)).collect()
+    }
+
     /// Outputs per inputs with all coordinates at rest, in powers of s, outputs×inputs. Input and output of the drive of
-    /// one cable have such a part.
+    /// one cable have such a part, and so has an output on a cable whose far end the input moves.
     fn direct(&self, dynamics: &Dynamics) -> InPowersOfS<DMat> {
         let entry = |output: &Port, input: &Port| match (input, output) {
             (Port::Drive { term, signal: input, .. }, Port::Drive { term: of_output, signal: output, .. })
                 if term == of_output =>
             {
                 dynamics.direct_drive_signal(*term, *input, *output).unwrap_or_default()
+            }
+            (Port::Frame(frame), Port::Drive { term, signal, .. }) => {
+                let moved = frame.carriers().find(|(of, _)| of == term);
+                moved.and_then(|(_, motion)| dynamics.direct_by_carrier(*term, motion, *signal)).unwrap_or_default()
+            }
+            (Port::Drive { term, signal, .. }, Port::Cable { stations, station, direction_w })
+            | (Port::Cable { stations, station, direction_w }, Port::Drive { term, signal, .. })
+                if dynamics.terms()[*term].cable() == stations.cable =>
+            {
+                [stations.still_by_ends(*station, direction_w, dynamics.ends_of_signal(*term, *signal)), 0.0, 0.0]
+            }
+            (Port::Frame(frame), Port::Cable { stations, station, direction_w }) => {
+                [frame.still_of_station(stations, *station, direction_w), 0.0, 0.0]
             }
             _ => [0.0; 3],
         };

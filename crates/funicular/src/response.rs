@@ -21,7 +21,7 @@ use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::DriveSignal;
 use crate::cable_motion::CableStations;
 use crate::dynamics::Dynamics;
-use crate::math::{CMat6, CVec6, Complex, Vec3, Vec6, inverse6};
+use crate::math::{CDMat, CMat6, CVec6, Complex, Vec3, Vec6, inverse6};
 use std::f64::consts::TAU;
 use std::slice;
 use std::sync::Arc;
@@ -65,16 +65,6 @@ pub enum ResponseError {
          points among the same loaded stations"
     )]
     SameCable,
-    /// The output is a point of a cable that runs over a pulley or to a winch that yields, and the input a motion of its
-    /// anchor.
-    #[error(
-        "the motion of a point of a cable by a motion of its anchor is not known for a cable that runs over a pulley or \
-         to a winch that yields: choose an output on the platform"
-    )]
-    FrameAndCable,
-    /// Input and output are the drive of a cable and a point on the same cable.
-    #[error("the drive of a cable and a point on the same cable do not go together as input and output")]
-    DriveAndCable,
 }
 
 /// Response of one output to one input at each frequency [Hz]: displacement per force [m/N], rotation per moment
@@ -151,12 +141,16 @@ pub fn matrix(
     let mut rows = vec![Vec::with_capacity(frequencies_hz.len()); inputs.len() * outputs.len()];
     for (receptance, frequency_hz) in all.iter().zip(frequencies_hz) {
         let omega = frequency_hz * TAU;
-        let from: Vec<CVec6> = inputs.iter().map(|input| input.vector(dynamics, omega)).collect();
+        let from: Vec<(CVec6, Vec<Complex>)> = inputs.iter().map(|input| input.free_vector(dynamics, omega)).collect();
+        let free_supports = dynamics.support_response(omega).map(|(_, free)| free);
         let mut row = 0;
         for (output, _) in outputs {
-            let to = output.vector(dynamics, omega);
-            for input in &from {
-                let through = (to.transpose() * receptance * input)[0];
+            let (to, to_supports) = output.free_vector(dynamics, omega);
+            for (input, from_supports) in &from {
+                let mut through = (to.transpose() * receptance * input)[0];
+                if let Some(free) = &free_supports {
+                    through += between_supports(free, &to_supports, from_supports);
+                }
                 let added = own[row].as_ref().map(|own| own.at(dynamics, omega));
                 rows[row].push(added.map_or(through, |added| through + added));
                 row += 1;
@@ -172,12 +166,20 @@ pub fn matrix(
     rows.into_iter().zip(pairs()).map(finished).collect()
 }
 
+/// Output through the supports alone: `w_outᵀ Y⁻¹ w_in`.
+fn between_supports(free: &CDMat, to: &[Complex], from: &[Complex]) -> Complex {
+    let row = |i: usize| -> Complex { from.iter().enumerate().map(|(j, from)| free[(i, j)] * from).sum() };
+    to.iter().enumerate().map(|(i, to)| to * row(i)).sum()
+}
+
 /// Motion of a cable under a force on itself, or a motion of its anchor, which adds to the motion through the platform.
 enum OwnResponse<'a> {
     /// Between points of the cable.
     Points { stations: &'a CableStations, to: (usize, &'a Vec3), from: (usize, &'a Vec3) },
     /// Between signals of its drive; the cable's index among those whose stiffness depends on frequency.
     Drive { term: usize, to: DriveSignal, from: DriveSignal },
+    /// From a signal of its drive to a point of the cable, or by reciprocity from a force there to that signal.
+    DriveAndPoint { stations: &'a CableStations, point: (usize, &'a Vec3), signal: DriveSignal },
     /// From a motion of the frame to a signal of a drive; the cable's index among those whose stiffness depends on
     /// frequency.
     DriveByFrame { term: usize, to: DriveSignal, from: &'a FrameMotion },
@@ -194,11 +196,11 @@ impl<'a> OwnResponse<'a> {
             {
                 Ok(Some(Self::Drive { term: *term, to: *to, from: *from }))
             }
-            (Port::Drive { term, .. }, Port::Cable { stations, .. })
-            | (Port::Cable { stations, .. }, Port::Drive { term, .. })
+            (Port::Drive { term, signal, .. }, Port::Cable { stations, station, direction_w })
+            | (Port::Cable { stations, station, direction_w }, Port::Drive { term, signal, .. })
                 if dynamics.terms()[*term].cable() == stations.cable =>
             {
-                Err(ResponseError::DriveAndCable)
+                Ok(Some(Self::DriveAndPoint { stations, point: (*station, direction_w), signal: *signal }))
             }
             (
                 Port::Cable { stations, station: loaded, direction_w: force_w },
@@ -213,7 +215,6 @@ impl<'a> OwnResponse<'a> {
                 Ok(Some(Self::DriveByFrame { term: *term, to: *signal, from }))
             }
             (Port::Frame(from), Port::Cable { stations, station, direction_w }) => {
-                frame_motion::check_stations(dynamics, stations)?;
                 Ok(Some(Self::PointByFrame { stations, to: (*station, direction_w), from }))
             }
             _ => Ok(None),
@@ -223,6 +224,7 @@ impl<'a> OwnResponse<'a> {
     fn at(&self, dynamics: &Dynamics, omega: f64) -> Complex {
         match self {
             Self::Points { stations, to, from } => stations.own_receptance(dynamics, *to, *from, omega),
+            Self::DriveAndPoint { stations, point, signal } => stations.by_signal(dynamics, *point, *signal, omega),
             Self::DriveByFrame { term, to, from } => from.of_drive(dynamics, *term, *to, omega),
             Self::PointByFrame { stations, to, from } => from.of_station(dynamics, stations, *to, omega),
             Self::Drive { term, to, from } => {

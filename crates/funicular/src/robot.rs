@@ -11,6 +11,7 @@ mod motion;
 pub mod parameters;
 mod pulley;
 pub mod spec;
+mod support;
 mod winch;
 mod wind;
 
@@ -19,7 +20,8 @@ pub use change::{CableChange, RobotChange};
 pub use friction::PulleyFriction;
 pub use motion::{OutOfPlane, Plane, PlatformMotion};
 pub use pulley::{Pulley, PulleyContact};
-pub use winch::{Control, DrumSide, Servo, Winch, WinchMode};
+pub use support::{DrumPlace, Support};
+pub use winch::{Control, DrumSide, GuideWheel, Servo, Winch, WinchMode};
 pub use wind::{LineLoad, Wind};
 
 use crate::math::{Mat3, Rotation, Vec3, rotation};
@@ -40,6 +42,8 @@ pub struct Robot {
     pub load: Load,
     /// Steady wind on cables and platform.
     pub wind: Wind,
+    /// Flexible supports of anchors, by name.
+    pub supports: Vec<Support>,
     /// The cables, in file order.
     pub cables: Vec<Cable>,
     /// State given by the file: unstrained lengths or a pose.

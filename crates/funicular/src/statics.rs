@@ -31,7 +31,8 @@ mod energy; // potential energy, minimised by forward statics
 mod exit_points; // exit points of cables over pulleys, which follow from the tensions
 mod initial_pose; // start pose from the lengths
 mod loaded_cable; // cable with its load, before its length is known
-mod residual; // residual of the balance at a pose, and its rounding
+mod residual;
+mod supports; // flexible supports, which settle under the forces of their cables // residual of the balance at a pose, and its rounding
 
 // Solvers.
 mod equilibria; // all equilibria of given lengths that a search finds
@@ -67,6 +68,7 @@ pub use obstacle::{Obstacle, OneSidedCause};
 pub use residual::{is_unloaded, wrench};
 pub use solve::{Solution, inverse, solve, solve_at, solve_held, solve_held_at};
 pub use stiffness::tangent_stiffness;
+pub(crate) use supports::{on_support, support_side};
 pub use tension::{
     LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, TensionPlace, TensionRule, distribute_tensions,
     payload_bound,

@@ -58,7 +58,12 @@ impl Printed for Checked {
             None => "none: analyses need --lengths-m or --pose".to_owned(),
         };
         say(format!("  state       {state}"));
-        out += &("\n".to_owned() + &rope_table(self) + "\n" + &cable_table(self) + &drive_table(self));
+        out += &("\n".to_owned()
+            + &rope_table(self)
+            + "\n"
+            + &cable_table(self)
+            + &drive_table(self)
+            + &support_table(self));
         for note in &self.notes {
             let _ = write!(out, "\nNote: {note}.\n");
         }
@@ -153,6 +158,30 @@ fn drive_table(found: &Checked) -> String {
         rows.row(row);
     }
     format!("\n{rows}{}", length_table(found))
+}
+
+/// Flexible supports with the cables that they carry; empty on a rigid frame.
+fn support_table(found: &Checked) -> String {
+    if found.supports.is_empty() {
+        return String::new();
+    }
+    let header = ["support", "cables", "kx, ky, kz [N/m]", "mass [kg]", "damping", "alone [Hz]", "drums"];
+    let mut rows = Table::new(&header).text_columns(&[1, 6]);
+    for support in &found.supports {
+        let carried = found.cables.iter().filter(|cable| cable.support.as_deref() == Some(&support.name));
+        let names: Vec<&str> = carried.map(|cable| cable.name.as_str()).collect();
+        let diagonal: Vec<String> = (0..3).map(|k| short(support.stiffness_n_per_m[k][k], 4)).collect();
+        rows.row(vec![
+            support.name.clone(),
+            names.join(", "),
+            diagonal.join(", "),
+            short(support.mass_kg, 4),
+            short(support.damping_ratio, 4),
+            decimals_or_none(support.first_frequency_hz, 2),
+            support.drums.to_owned(),
+        ]);
+    }
+    format!("\n{rows}")
 }
 
 /// Lengths counted from the drum and to the anchor point; empty without known lengths.

@@ -65,7 +65,8 @@ impl Printed for Modes {
         let drives_move = self.modes.iter().any(|mode| !mode.drive_energy_fractions.is_empty());
         let drives =
             self.cable_names.iter().filter(|_| drives_move).map(|name| format!("energy_fraction_drive_{name}"));
-        out.write_record(fixed.into_iter().map(str::to_owned).chain(cables).chain(drives))?;
+        let supports = self.support_names.iter().map(|name| format!("energy_fraction_support_{name}"));
+        out.write_record(fixed.into_iter().map(str::to_owned).chain(cables).chain(drives).chain(supports))?;
 
         for mode in &self.modes {
             out.serialize((
@@ -74,6 +75,7 @@ impl Printed for Modes {
                 (mode.residual, mode.modal_mass_kg, mode.residue_per_kg, mode.peak),
                 &mode.cable_energy_fractions,
                 &mode.drive_energy_fractions,
+                &mode.support_energy_fractions,
             ))?;
         }
 
@@ -128,7 +130,9 @@ fn first_platform(found: &Modes) -> String {
 
 /// Cables with the most energy, with their fractions of it.
 fn strongest_cables(found: &Modes, mode: &ModeRow) -> String {
-    let shown: Vec<String> = strongest(&found.cable_names, &mode.cable_energy_fractions, &mode.drive_energy_fractions)
+    let supports = (&found.support_names[..], &mode.support_energy_fractions[..]);
+    let of_cables = (&mode.cable_energy_fractions, &mode.drive_energy_fractions);
+    let shown: Vec<String> = strongest(&found.cable_names, of_cables.0, of_cables.1, supports)
         .iter()
         .map(|(name, share)| format!("{name} {}%", decimals(100.0 * share, 0)))
         .collect();

@@ -3,12 +3,12 @@
 use crate::output::Printed;
 use crate::table::{self, Table, decimals, decimals_or_none, short, significant, vector};
 use funicular_study::analyses::statics::{
-    DriveRow, EquilibriumRow, FrictionCableRow, FrictionRow, LimitNumbers, OtherStable, Statics,
+    DriveRow, EquilibriumRow, FrictionCableRow, FrictionRow, LimitNumbers, OtherStable, Statics, SupportRow,
 };
 
 impl Printed for Statics {
     fn text(&self) -> String {
-        let (cables, drives) = (cables_table(self), drives_table(self));
+        let (cables, drives) = (cables_table(self), drives_table(self) + &supports_table(self));
         let friction = self.friction_interval.as_ref().map_or_else(String::new, friction_text);
         let stability = match (self.stable, self.stiffness_min_n_per_m) {
             (Some(true), Some(min)) => format!("Stable, min stiffness {} N/m", significant(min, 4)),
@@ -160,6 +160,18 @@ fn drives_table(found: &Statics) -> String {
             decimals(drive.drum_side_length_m, 4),
             decimals(1e3 * drive.winch_yield_m, 3),
         ]);
+    }
+    format!("{rows}\n")
+}
+
+/// Flexible supports; empty on a rigid frame.
+fn supports_table(found: &Statics) -> String {
+    if found.supports.is_empty() {
+        return String::new();
+    }
+    let mut rows = Table::new(&["support", "displacement [mm]", "force of its cables [N]"]);
+    for SupportRow { name, displacement_m, force_n } in &found.supports {
+        rows.row(vec![name.clone(), vector(&displacement_m.map(|metres| 1e3 * metres), 3), vector(force_n, 2)]);
     }
     format!("{rows}\n")
 }

@@ -76,6 +76,8 @@ class Modes(_ArrayFields):
     """Kinetic energy of each cable over that of the robot, (modes, cables)."""
     drive_energy_fractions: NDArray[np.float64]
     """Kinetic energy of the drive of each cable over that of the robot, (modes, cables); zero without inertia."""
+    support_energy_fractions: NDArray[np.float64]
+    """Kinetic energy of each flexible support over that of the robot, (modes, supports)."""
     shape: NDArray[np.float64]
     """Motion of the platform, translation and rotation about its origin, world axes, (modes, 6).
 
@@ -100,6 +102,8 @@ class Modes(_ArrayFields):
     """True if every mode has its damped partner, by a count; None with `damped=False`."""
     cable_names: tuple[str, ...]
     """Names of the cables, in the order of the file."""
+    support_names: tuple[str, ...]
+    """Names of the flexible supports; empty on a rigid frame."""
     robot: str
     """Name of the robot."""
     static_model: str
@@ -159,6 +163,12 @@ def _drive_energies(rows: list[dict[str, Any]], cables: int) -> NDArray[np.float
     return np.array(energies, dtype=float).reshape(len(rows), cables)
 
 
+def _support_energies(rows: list[dict[str, Any]], supports: int) -> NDArray[np.float64]:
+    """Energy fractions of the flexible supports."""
+    energies = [row.get("support_energy_fractions", [0.0] * supports) for row in rows]
+    return np.array(energies, dtype=float).reshape(len(rows), supports)
+
+
 def modes(found: dict[str, Any]) -> Modes:
     """Makes `Modes` from the results of the program."""
     rows, stations = found["modes"], found.get("stations")
@@ -192,12 +202,14 @@ def modes(found: dict[str, Any]) -> Modes:
         platform_energy_fraction=column("platform_energy_fraction"),
         cable_energy_fractions=table("cable_energy_fractions", len(cables)),
         drive_energy_fractions=_drive_energies(rows, len(cables)),
+        support_energy_fractions=_support_energies(rows, len(found.get("support_names", []))),
         shape=table("shape", 6),
         modal_mass_kg=column("modal_mass_kg"),
         residual=column("residual"),
         first_platform_index=found.get("first_platform_mode", {}).get("index"),
         damped_certified=found.get("damped_certified"),
         cable_names=tuple(cables),
+        support_names=tuple(found.get("support_names", [])),
         input=found.get("input"),
         output=found.get("output"),
         residue_per_kg=column("residue_per_kg") if takes_part else None,

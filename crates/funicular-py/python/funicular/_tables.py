@@ -60,6 +60,9 @@ def _modes(of: Modes) -> Any:
         columns |= {
             f"energy_fraction_drive_{name}": of.drive_energy_fractions[:, i] for i, name in enumerate(of.cable_names)
         }
+    columns |= {
+        f"energy_fraction_support_{name}": of.support_energy_fractions[:, i] for i, name in enumerate(of.support_names)
+    }
     return _pandas().DataFrame(columns)
 
 

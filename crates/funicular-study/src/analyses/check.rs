@@ -4,11 +4,13 @@ use super::found;
 use crate::text::{short, vector};
 use funicular::math::rotation;
 use funicular::robot::{
-    Cable, Control, Damping, Load, PlatformMotion, Pulley, PulleyFriction, Robot, State, TensionLimits, Winch, Wind,
+    Cable, Control, Damping, GuideWheel, Load, PlatformMotion, Pulley, PulleyFriction, Robot, State, Support,
+    TensionLimits, Winch, Wind,
 };
 use funicular::statics::{self, CableState, StaticModel};
 use funicular::warnings::plausibility;
 use serde::Serialize;
+use std::f64::consts::TAU;
 
 /// Results of `check`: the robot as it was read.
 #[derive(Serialize)]
@@ -26,6 +28,9 @@ pub struct Checked {
     pub wind: Option<WindRow>,
     pub materials: Vec<CheckedRope>,
     pub cables: Vec<CheckedCable>,
+    /// Flexible supports; absent on a rigid frame.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub supports: Vec<CheckedSupport>,
     /// `lengths`, `pose` or `none`.
     pub state: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -145,6 +150,9 @@ pub struct CheckedCable {
     /// Winch behind the anchor; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub winch: Option<CheckedWinch>,
+    /// Name of the flexible support of its anchor; absent for a rigid anchor.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub support: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unstrained_length_m: Option<f64>,
     /// Parts of the unstrained length of a cable over a pulley or to a winch; absent for other cables, and if the lengths
@@ -242,6 +250,9 @@ pub struct CheckedWinch {
     pub drum_mass_kg: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motor_mass_kg: Option<f64>,
+    /// Guide wheels, the nearest to the anchor first; absent without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub guide_wheels: Vec<CheckedGuideWheel>,
     /// Control of the motor; absent if it holds its angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub control: Option<&'static str>,
@@ -250,6 +261,45 @@ pub struct CheckedWinch {
     pub position_gain_n_per_m: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_gain_n_s_per_m: Option<f64>,
+}
+
+/// Flexible support of anchors.
+#[derive(Serialize)]
+pub struct CheckedSupport {
+    pub name: String,
+    pub stiffness_n_per_m: [[f64; 3]; 3],
+    pub mass_kg: f64,
+    pub damping_ratio: f64,
+    /// `on-support` or `on-ground`.
+    pub drums: &'static str,
+    /// Lowest frequency of the support alone; absent without mass.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first_frequency_hz: Option<f64>,
+}
+
+impl CheckedSupport {
+    fn of(support: &Support) -> Self {
+        let Support { name, stiffness_w, mass, damping_ratio, drum } = support;
+        let softest = stiffness_w.symmetric_eigenvalues().min();
+        Self {
+            name: name.clone(),
+            stiffness_n_per_m: std::array::from_fn(|i| std::array::from_fn(|j| stiffness_w[(i, j)])),
+            mass_kg: *mass,
+            damping_ratio: *damping_ratio,
+            drums: drum.name(),
+            first_frequency_hz: (*mass > 0.0).then(|| (softest / mass).sqrt() / TAU),
+        }
+    }
+}
+
+/// Guide wheel of a winch.
+#[derive(Serialize)]
+pub struct CheckedGuideWheel {
+    pub name: String,
+    /// Length of the cable from its anchor to the wheel.
+    pub distance_m: f64,
+    /// Mass that the wheel adds at the cable.
+    pub mass_kg: f64,
 }
 
 impl CheckedPulley {
@@ -266,7 +316,11 @@ impl CheckedPulley {
 
 impl CheckedWinch {
     fn of(winch: &Winch) -> Self {
-        let Winch { name, drum_side_length, stiffness, drum_mass, motor_mass, .. } = winch;
+        let Winch { name, drum_side_length, stiffness, drum_mass, motor_mass, guide_wheels, .. } = winch;
+        let guide_wheel = |wheel: &GuideWheel| {
+            let GuideWheel { name, distance, mass } = wheel;
+            CheckedGuideWheel { name: name.clone(), distance_m: *distance, mass_kg: *mass }
+        };
         let servo = if let Control::Position(servo) = winch.control { Some(servo) } else { None };
         let control = match winch.control {
             Control::Ideal => None,
@@ -279,13 +333,14 @@ impl CheckedWinch {
             stiffness_n_per_m: stiffness.is_finite().then_some(*stiffness),
             drum_mass_kg: Some(*drum_mass).filter(|mass| *mass > 0.0),
             motor_mass_kg: Some(*motor_mass).filter(|mass| *mass > 0.0),
+            guide_wheels: guide_wheels.iter().map(guide_wheel).collect(),
             control,
             position_gain_n_per_m: servo.map(|servo| servo.position_gain),
             speed_gain_n_s_per_m: servo.map(|servo| servo.speed_gain),
         }
     }
 
-    /// Motion of its drum in one phrase; `None` for a motor that holds its angle and has no inertia.
+    /// Motion of its drum and guide wheels in one phrase; `None` for a motor that holds its angle where nothing has inertia.
     pub fn drive_text(&self) -> Option<String> {
         let mass = self.drum_mass_kg.unwrap_or(0.0) + self.motor_mass_kg.unwrap_or(0.0);
         let inertia = (mass > 0.0).then(|| format!("{} kg", short(mass, 4)));
@@ -294,8 +349,10 @@ impl CheckedWinch {
             (Some(control), None) => Some(format!("constant {control}")),
             (None, _) => inertia.is_some().then(|| "motor held".to_owned()),
         };
-        (inertia.is_some() || control.is_some())
-            .then(|| inertia.into_iter().chain(control).collect::<Vec<_>>().join(", "))
+        let guides: f64 = self.guide_wheels.iter().map(|wheel| wheel.mass_kg).sum();
+        let guides = (guides > 0.0).then(|| format!("guide wheels {} kg", short(guides, 4)));
+        let parts: Vec<String> = inertia.into_iter().chain(control).chain(guides).collect();
+        (!parts.is_empty()).then(|| parts.join(", "))
     }
 }
 
@@ -337,6 +394,7 @@ pub fn run(robot: Robot) -> Checked {
         load: LoadRow::of(&robot.load),
         wind: WindRow::of(&robot.wind),
         materials,
+        supports: robot.supports.iter().map(CheckedSupport::of).collect(),
         cables,
         state,
         pose,
@@ -386,6 +444,7 @@ fn cables(robot: &Robot) -> Vec<CheckedCable> {
         attachment_m: cable.attachment_p.into(),
         pulley: cable.anchor.pulley.as_ref().map(CheckedPulley::of),
         winch: cable.anchor.winch.as_ref().map(CheckedWinch::of),
+        support: cable.anchor.support.map(|support| robot.supports[support].name.clone()),
         unstrained_length_m: lengths.map(|lengths| lengths[i]),
         length_parts: rest.as_ref().and_then(|rest| LengthParts::of(cable, &rest.cables[i])),
         limits: CheckedLimits::of(cable.limits()),

@@ -123,11 +123,10 @@ pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Comp
     request::check_not_negative("tolerance", request.tolerance)?;
     let platform_share = request.platform.then_some(request.platform_share);
     let criterion = Criterion { tolerance: request.tolerance, platform_share };
-    let driven = at_rest.equilibrium.cables.iter().any(|cable| cable.drive.is_some());
     let linearisation = Linearisation {
         // The number of modes is checked before any work. Warnings of the models follow. The shallow-dynamic model counts
-        // fastest, but has no pulleys and winches.
-        cable_model: if driven { CableModel::CatenaryDynamic } else { CableModel::ShallowDynamic },
+        // fastest.
+        cable_model: CableModel::ShallowDynamic,
         assembly: request.terms.assembly,
         in_plane_only: request.terms.in_plane_only,
         winches: request.terms.winches,

@@ -35,6 +35,9 @@ pub struct Modes {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_platform_mode: Option<FirstPlatformMode>,
     pub cable_names: Vec<String>,
+    /// Names of the flexible supports; absent on a rigid frame.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub support_names: Vec<String>,
     #[serde(flatten)]
     pub participation: Option<Participation>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -95,6 +98,9 @@ pub struct ModeRow {
     /// Kinetic energy of the drive of each cable; absent if no drive has inertia.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub drive_energy_fractions: Vec<f64>,
+    /// Kinetic energy of each flexible support; absent on a rigid frame.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub support_energy_fractions: Vec<f64>,
     pub shape: [f64; 6],
     pub modal_mass_kg: f64,
     pub residual: f64,
@@ -119,6 +125,7 @@ impl From<modes::Mode> for ModeRow {
             platform_energy_fraction: mode.platform_energy_fraction,
             cable_energy_fractions: mode.cable_energy_fractions,
             drive_energy_fractions: mode.drive_energy_fractions,
+            support_energy_fractions: mode.support_energy_fractions,
             // `+ 0.0` makes a negative zero positive.
             shape: mode.shape.map(|x| x + 0.0),
             modal_mass_kg: mode.modal_mass,
@@ -182,6 +189,7 @@ fn about_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> Resu
         platform_share: request.platform_share,
         first_platform_mode: FirstPlatformMode::of(&found, request.platform_share),
         cable_names: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
+        support_names: Vec::new(),
         participation: None,
         stations: Vec::new(),
         modes: found.modes.into_iter().map(ModeRow::from).collect(),
@@ -239,6 +247,7 @@ pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes>
         platform_share: request.platform_share,
         first_platform_mode: FirstPlatformMode::of(&found, request.platform_share),
         cable_names: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
+        support_names: robot.supports.iter().map(|support| support.name.clone()).collect(),
         participation,
         stations: stations.iter().map(|of| StationsRow::of(robot, of)).collect(),
         modes: rows,
@@ -312,14 +321,20 @@ impl StationsRow {
     }
 }
 
-/// Names of the few cables with the most energy in a mode, with their fractions of the energy.
-pub fn strongest(names: &[String], cables: &[f64], drives: &[f64]) -> Vec<(String, f64)> {
+/// Names of the few cables, drives and supports with the most energy in a mode, with their fractions of the energy.
+pub fn strongest(
+    names: &[String],
+    cables: &[f64],
+    drives: &[f64],
+    (supports, of_supports): (&[String], &[f64]),
+) -> Vec<(String, f64)> {
     const SHOWN: usize = 3;
     // A smaller fraction is rounded to zero in the table.
     const MIN_SHARE: f64 = 0.05;
     let of_cables = names.iter().cloned().zip(cables.iter().copied());
     let of_drives = names.iter().map(|name| format!("drive of {name}")).zip(drives.iter().copied());
-    let mut all: Vec<(String, f64)> = of_cables.chain(of_drives).collect();
+    let of_supports = supports.iter().map(|name| format!("support {name}")).zip(of_supports.iter().copied());
+    let mut all: Vec<(String, f64)> = of_cables.chain(of_drives).chain(of_supports).collect();
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
     all.retain(|(_, share)| *share >= MIN_SHARE);
     all.truncate(SHOWN);

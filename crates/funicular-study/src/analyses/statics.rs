@@ -9,7 +9,7 @@ use crate::text::short;
 use anyhow::Result;
 use funicular::cable::Sag;
 use funicular::pose_error::PoseDifference;
-use funicular::robot::{Pose, Robot, State, TensionLimits};
+use funicular::robot::{Pose, Robot, State, Support, TensionLimits};
 use funicular::statics::{
     self, CableFriction, CableState, Candidate, Equilibrium, FrictionInterval, Held, Interval, Limit, MotionInterval,
     TensionMargin, TensionRange,
@@ -42,6 +42,9 @@ pub struct Statics {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tension_rule: Option<&'static str>,
     pub cables: Vec<CableRow>,
+    /// Flexible supports; absent on a rigid frame.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub supports: Vec<SupportRow>,
     pub residual: f64,
     /// True if there are neither loads nor tensions; the residual then has no meaning.
     #[serde(skip)]
@@ -267,6 +270,27 @@ impl DriveRow {
     }
 }
 
+/// Flexible support at the equilibrium.
+#[derive(Serialize)]
+pub struct SupportRow {
+    pub name: String,
+    /// Displacement of its anchors, world axes.
+    pub displacement_m: [f64; 3],
+    /// Force of its cables on it, world axes.
+    pub force_n: [f64; 3],
+}
+
+impl SupportRow {
+    fn all(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Self> {
+        let row = |(support, displacement_w): (&Support, funicular::math::Vec3)| Self {
+            name: support.name.clone(),
+            displacement_m: displacement_w.into(),
+            force_n: (support.stiffness_w * displacement_w).into(),
+        };
+        robot.supports.iter().zip(equilibrium.support_displacements(robot)).map(row).collect()
+    }
+}
+
 /// Tension limits of a cable, and the distance of its tension from them.
 #[derive(Serialize)]
 pub struct LimitNumbers {
@@ -379,6 +403,7 @@ pub fn about(at_rest: &AtRest, extras: Extras) -> Result<Statics> {
         held: at_rest.held_pose.map(|held| HeldRow::of(&held, &equilibrium.pose)),
         tension_rule: rule.as_ref().map(statics::TensionRule::name),
         cables,
+        supports: SupportRow::all(robot, equilibrium),
         residual: equilibrium.residual,
         is_unloaded: statics::is_unloaded(robot, equilibrium),
         iterations: equilibrium.iterations,

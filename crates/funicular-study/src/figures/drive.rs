@@ -24,7 +24,7 @@ impl DriveLines {
     pub(crate) fn of(cable: &Cable, state: &CableState) -> Option<Self> {
         let at_rest = state.drive.as_ref().and_then(|drive| drive.contact);
         let contact = at_rest.or_else(|| cable.anchor.contact(&state.attachment_w))?;
-        let entry_w = cable.anchor.reference_w();
+        let entry_w = cable.anchor.reference_w() + state.displacement_w;
         let rim = |angle: f64| entry_w + contact.offset_w(angle);
 
         let whole = (0..=INTERVALS).map(|k| rim(std::f64::consts::TAU * f64::from(k) / f64::from(INTERVALS)));

@@ -52,6 +52,7 @@ fn held(cube: &Cube, model: &CubeRow) -> Result<(Dynamics, f64)> {
             tension_anchor: hanging.catenary.tension_at_end(),
             hanging: Some(hanging),
             drive: None,
+            displacement_w: Vec3::zeros(),
         });
     }
 

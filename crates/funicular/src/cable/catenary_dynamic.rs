@@ -11,7 +11,8 @@
 //! ```
 //!
 //! K_s and M_s being the static condensation and g_k the participation of the ends in mode k: a few operations per
-//! pole. Derivation: docs/theory.md, section 9.
+//! pole. Derivation: docs/theory.md, section 9. A shallow sagging span with a pulley or a winch takes the same form
+//! (`shallow_span`), so that counts, modes and responses treat both alike.
 
 mod carrier;
 mod drive_forms;
@@ -22,20 +23,23 @@ mod mesh;
 mod moving_end;
 mod partition;
 mod poles;
+mod shallow_span;
+mod two_ended;
 
 pub(crate) use carrier::CarrierMotion;
-pub(crate) use drive_forms::{DriveForm, DrivePart, InPowersOfS};
+pub(crate) use drive_forms::{DriveForm, DrivePart, EndSignal, InPowersOfS};
 pub use drive_motion::DriveMotion;
 pub(crate) use drive_motion::{DriveAt, DriveLosses};
 pub use drive_signals::DriveSignal;
-use drive_signals::EndDirections;
+pub(crate) use drive_signals::EndDirections;
 pub(crate) use internal_motion::InternalMotion;
 pub use internal_motion::{Displacements, Stations};
 pub(crate) use mesh::{ellipse, has_tension, smooth_pieces};
 pub use moving_end::{EndAlong, EndSideways, MovingEnd};
 pub use poles::PoleResidue;
+pub(crate) use two_ended::{ENDS, TwoEnded};
 
-use super::{LocalAxes, LocalStiffness};
+use super::{LocalAxes, LocalStiffness, Sag};
 use crate::catenary::Catenary;
 use crate::catenary::space::HangingCable;
 use crate::math::{Complex, DMat};
@@ -99,14 +103,26 @@ pub enum CatenaryDynamicError {
         /// Unknowns allowed.
         limit: usize,
     },
+    /// The requested frequency needs too fine a discretisation of a shallow span.
+    #[error(
+        "with its pulley or winch, the requested frequency limit needs at least {unknowns} unknowns for one cable, the \
+         maximum is {limit}: lower the frequency limit"
+    )]
+    ShallowTooFine {
+        /// Unknowns needed.
+        unknowns: usize,
+        /// Unknowns allowed.
+        limit: usize,
+    },
 }
 
-/// Platform end of a catenary-dynamic cable, with its axes and its damping.
+/// Platform end of a cable by poles and residues, with its axes and its damping: a catenary-dynamic cable, or a
+/// shallow-dynamic one with a drive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CatenaryDynamicEnd {
     /// Poles and residues of the cable; its start is at the platform.
     pub cable: CatenaryDynamic,
-    /// Local axes: e horizontal towards the anchor, n up, b out of plane.
+    /// Local axes: e horizontal towards the anchor, n up, b out of plane; for a shallow span e along the chord.
     pub axes: LocalAxes,
     /// Damping of the rope.
     pub damping: Damping,
@@ -162,23 +178,33 @@ impl CatenaryDynamicEnd {
         }
         let cable =
             CatenaryDynamic::with_stations(&hanging.catenary, end, mass_per_length, limit, Vec::new(), false)?.0;
-        let (e, n) = hanging.axes_w();
-        let axes = LocalAxes { e, n, b: e.cross(&n) };
-        let catenary = &hanging.catenary;
-        let (h, at_start, at_end) =
-            (catenary.horizontal_force(), catenary.vertical_force_at_start(), catenary.vertical_force_at_end());
-        let (first, last) = (catenary.tension_at_start(), catenary.tension_at_end());
-        let directions = EndDirections {
-            from_platform: [h / first, at_start / first],
-            to_platform: [-h / last, -at_end / last],
-            stretch: 1.0 + last / catenary.rope().axial_stiffness,
-        };
+        let (axes, directions) = (LocalAxes::of_hanging(hanging), EndDirections::of(hanging));
+        Ok(Self { cable, axes, damping, mass_per_length, in_plane_only, kept: None, directions })
+    }
+
+    /// Platform end of a shallow sagging span with a drive, valid up to ω = `limit` [rad/s]. `end` is its end at the pulley
+    /// or the winch, `None` for an end that is held; it and the `directions` are in the `axes` of the chord.
+    ///
+    /// # Errors
+    /// [`CatenaryDynamicError`].
+    pub(crate) fn of_shallow_span(
+        sag: &Sag,
+        (axes, directions): (LocalAxes, EndDirections),
+        end: Option<MovingEnd>,
+        damping: Damping,
+        in_plane_only: bool,
+        limit: f64,
+    ) -> Result<Self, CatenaryDynamicError> {
+        if in_plane_only && end.as_ref().is_some_and(MovingEnd::couples) {
+            return Err(CatenaryDynamicError::Skew);
+        }
+        let (cable, mass_per_length) = (shallow_span::condensed(sag, end, limit)?, sag.mass_per_length);
         Ok(Self { cable, axes, damping, mass_per_length, in_plane_only, kept: None, directions })
     }
 
     /// Copy that keeps the poles below x and has a few poles in place of the others: see [`PoleResidue::compressed`].
     /// These represent the losses of the drive and its `signals`, too.
-    pub(crate) fn with_poles_below(&self, x: f64, signals: &[DriveSignal]) -> Self {
+    pub(crate) fn with_poles_below(&self, x: f64, signals: &[EndSignal]) -> Self {
         let mut cut = self.clone();
         let [of_plane, of_normal, of_coupled] = self.forces_on_modes(signals);
         let CatenaryDynamic { in_plane, out_of_plane, coupled, .. } = &self.cable;
@@ -475,6 +501,15 @@ impl CatenaryDynamic {
             Family::InPlane => &self.in_plane.participation[index],
             Family::OutOfPlane => &self.out_of_plane.participation[index],
             Family::Coupled => self.coupled.as_ref().map_or(&[], |of| &of.participation[index]),
+        }
+    }
+
+    /// Poles of a family.
+    pub(crate) fn poles_of(&self, family: Family) -> &[f64] {
+        match family {
+            Family::InPlane => &self.in_plane.poles,
+            Family::OutOfPlane => &self.out_of_plane.poles,
+            Family::Coupled => self.coupled_poles(),
         }
     }
 

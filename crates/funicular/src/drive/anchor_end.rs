@@ -35,6 +35,33 @@ pub struct AnchorEnd {
     pub(crate) travel_w: Vec3,
 }
 
+/// Drum side whose drum stays on the ground while its entry point moves.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DrumSideAtRest {
+    /// Direction towards the platform, unit vector, world axes.
+    pub(crate) direction_w: Vec3,
+    /// Length [m].
+    pub(crate) length: f64,
+    /// Tension [N].
+    pub(crate) tension: f64,
+}
+
+/// Static stiffness of a cable for a motion of its anchor, 3×3, world axes [N/m].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct OnSupport {
+    /// Force on the platform per displacement of the anchor.
+    pub(crate) force_w: Mat3,
+    /// Resistance of the cable to a displacement of the anchor, symmetric.
+    pub(crate) stiffness_w: Mat3,
+}
+
+impl OnSupport {
+    /// Anchor that moves with everything behind it, from the stiffness at the platform.
+    pub(super) fn moving_together(total: Mat3) -> Self {
+        Self { force_w: total, stiffness_w: total }
+    }
+}
+
 impl AnchorEnd {
     /// End of a span.
     ///
@@ -107,6 +134,32 @@ impl AnchorEnd {
         let (Some(along_w), Some(sideways_w)) = (self.along_w, self.sideways_w) else { return Vec3::zeros() };
         let [_, [b, c]] = self.inverse(held);
         held * (along_w * b + sideways_w * c)
+    }
+
+    /// Stiffness of a cable between platform and anchor for a motion of the anchor whose drum stays on the ground. `held` is
+    /// the stiffness of the span.
+    ///
+    /// # References
+    /// docs/theory.md, equation (91).
+    pub(super) fn with_drum_on_ground(&self, held: &Mat3, side: &DrumSideAtRest) -> OnSupport {
+        let total = self.in_series_with(held);
+        let Some(by_length_w) = self.force_by_length_w(held) else { return OnSupport::moving_together(total) };
+        let by_drum_side_w = by_length_w / self.stretch_drum;
+
+        // Change of the tension at the drum with the length of the drum side, the platform held.
+        let pull = self.force_by_length / self.stretch_drum;
+        let [[slip, _], _] = self.inverse(held);
+        let own = pull * self.stretch / self.stretch_drum - pull * pull * slip;
+
+        let DrumSideAtRest { direction_w, length, tension } = side;
+        let mixed = by_drum_side_w * direction_w.transpose();
+        let across = Mat3::identity() - direction_w * direction_w.transpose();
+        OnSupport {
+            force_w: total - mixed,
+            stiffness_w: total - mixed - mixed.transpose()
+                + direction_w * direction_w.transpose() * own
+                + across * (tension / length),
+        }
     }
 
     /// Inverse of `S + Wᵀ K W`, K being the stiffness of the span and W the directions.

@@ -1,25 +1,22 @@
 //! Motions behind the exit point of a cable, and their stiffness and mass: wheel, drum side, drum, shaft and motor.
 //!
-//! The first motion is the slip σ of the cable on the wheel, towards the platform. Behind it follow the waves of a drum
-//! side with mass, the drum and the motor, both as motion of the cable at the drum towards the wheel. What cannot move
-//! has no motion: a rigid winch is a wall (docs/theory.md, equations (75) to (79)).
+//! The first motion is the slip σ of the cable on the wheel, towards the platform. Behind it follow guide wheels with mass,
+//! the waves of a drum side with mass, the drum and the motor, as motions of the cable there towards the wheel. What cannot
+//! move has no motion: a rigid winch is a wall (docs/theory.md, equations (75) to (79)).
 
-use super::{AnchorEnd, DriveAtRest};
+mod parts;
+
+use super::DriveAtRest;
 use crate::math::{Complex, DMat, legendre};
-use crate::robot::{Anchor, Control, DrumSide, Servo, Winch, WinchMode};
-
-/// Polynomial degree of a drum side with mass per radian of an axial wave's phase, and its degrees besides. A wave needs
-/// 0.5 degrees per radian; the rest is margin. The stiffness is then exact to 1e-10, which a test checks up to 50 radians;
-/// with 0.5 it is 4e-10 there.
-const DEGREE_PER_RADIAN: f64 = 0.7;
-const BASE_DEGREE: f64 = 8.0;
+use crate::robot::{Anchor, Servo, WinchMode};
+use parts::{Layout, Parts};
 
 /// Motions behind the exit point of a cable, as a chain from the wheel to the motor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriveChain {
     /// Stiffness over the motions, with the position gain of a control [N/m]; symmetric.
     pub stiffness: DMat,
-    /// Mass of wheel, drum and motor over the motions [kg]; diagonal.
+    /// Mass of wheel, guide wheels, drum and motor over the motions [kg]; diagonal.
     pub mass: DMat,
     /// Mass of the cable between drum and exit point over the motions [kg]; symmetric.
     pub cable_mass: DMat,
@@ -32,6 +29,8 @@ pub struct DriveChain {
     pub(crate) by_length: Vec<(f64, f64)>,
     /// Drum side as each motion feels it; empty if the drum is at the exit point.
     pub(crate) drum_side: Vec<OnDrumSide>,
+    /// Mass of a drum side with mass [kg]; zero for one without.
+    pub(crate) drum_side_mass: f64,
     /// End of the drum side at the drum; `None` if the drum is at the exit point.
     pub(crate) drum_end: Option<DrumEnd>,
     /// Stretch λ_E between entry point and drum.
@@ -58,8 +57,10 @@ pub(crate) struct DrumEnd {
     /// Between that end and itself; it moves by the stretch at the exit point times a length that is paid out by a drum that is
     /// held.
     pub(crate) own: (f64, f64),
-    /// Between that end and the end at the wheel.
+    /// Between that end and the end at the wheel; zero if guide wheels lie between them.
     pub(crate) by_wheel: (f64, f64),
+    /// Mass between that end and a motion of the whole drum side along itself [kg].
+    pub(crate) carried_mass: f64,
     /// Tension at the drum per force on that end: the ratio of the stretch at the exit point to that at the drum.
     pub(crate) ratio: f64,
 }
@@ -139,43 +140,53 @@ impl Assembly {
         self.mass[(at.motion, at.motion)] += mass * at.factor * at.factor;
     }
 
-    /// Adds the drum side, which stretches between σ and its end at the drum. The result is the end at the drum, and the
-    /// mass of a rod between each motion and a motion of the whole rod [kg].
+    /// Adds the drum side, which stretches between σ, the guide wheels and its end at the drum. The result is the end at the
+    /// drum, and the mass of a rod between each motion and a motion of the whole rod [kg].
     fn drum_side(&mut self, parts: &Parts, layout: &Layout) -> (DrumEnd, Vec<f64>) {
-        let spring = if parts.has_rope() { parts.spring() } else { 0.0 };
         let mut end = DrumEnd {
             by_motion: vec![(0.0, 0.0); layout.count],
-            own: (spring, 0.0),
-            by_wheel: (-spring, 0.0),
+            own: (0.0, 0.0),
+            by_wheel: (0.0, 0.0),
+            carried_mass: 0.0,
             ratio: parts.stretch / parts.stretch_drum,
         };
-        if parts.has_rope() {
-            let ends: Vec<Place> = [SLIP].into_iter().chain(layout.rope_end.map(|end| end.times(-1.0))).collect();
-            self.spring(spring, &ends);
-            for place in ends {
-                end.by_motion[place.motion].0 -= spring * place.factor;
+        let mut carried = vec![0.0; layout.count];
+        let last = parts.pieces.len();
+        for (piece, ends) in layout.nodes.windows(2).enumerate() {
+            let (spring, at_drum) = (parts.spring(piece), piece + 1 == last);
+            let both: Vec<Place> = ends[0].into_iter().chain(ends[1].map(|end| end.times(-1.0))).collect();
+            self.spring(spring, &both);
+            if at_drum {
+                end.own.0 = spring;
+                for place in both {
+                    end.by_motion[place.motion].0 -= spring * place.factor;
+                }
+            }
+            if last == 1 {
+                end.by_wheel.0 = -spring;
+            }
+            if parts.is_rod() {
+                let mass = self.rod(parts, layout, piece, &mut carried);
+                if at_drum {
+                    end.set_mass(&mass, |function| layout.place(piece, function));
+                    end.by_wheel.1 = if last == 1 { mass[(0, 1)] } else { 0.0 };
+                }
             }
         }
+        (end, carried)
+    }
 
-        // Functions of a rod: hats at σ and at the drum, then polynomials that vanish at both.
-        let mut carried = vec![0.0; layout.count];
-        if !parts.is_rod() {
-            return (end, carried);
-        }
-        let half = 0.5 * parts.rod_length();
-        let mass = legendre::element_mass(layout.waves + 1) * (half * parts.mass_per_length);
-        let place = |function: usize| match function {
-            0 => Some(SLIP),
-            1 => layout.rope_end,
-            wave => Some(Place { motion: wave - 1, factor: 1.0 }),
-        };
-        (end.own.1, end.by_wheel.1) = (mass[(1, 1)], mass[(0, 1)]);
-        for row in 0..layout.waves + 2 {
-            let Some(a) = place(row) else { continue };
+    /// Adds the mass of a piece of the drum side that is a rod, and its waves. Functions are hats at both of its ends, then
+    /// polynomials that vanish there. The result is the mass over these functions.
+    fn rod(&mut self, parts: &Parts, layout: &Layout, piece: usize, carried: &mut [f64]) -> DMat {
+        let half = 0.5 * parts.rod_length(piece);
+        let functions = layout.waves[piece].len() + 2;
+        let mass = legendre::element_mass(functions - 1) * (half * parts.mass_per_length);
+        for row in 0..functions {
+            let Some(a) = layout.place(piece, row) else { continue };
             carried[a.motion] += (mass[(row, 0)] + mass[(row, 1)]) * a.factor;
-            end.by_motion[a.motion].1 += mass[(row, 1)] * a.factor;
-            for column in 0..layout.waves + 2 {
-                if let Some(b) = place(column) {
+            for column in 0..functions {
+                if let Some(b) = layout.place(piece, column) {
                     self.cable_mass[(a.motion, b.motion)] += mass[(row, column)] * a.factor * b.factor;
                 }
             }
@@ -184,7 +195,7 @@ impl Assembly {
                 self.stiffness[(a.motion, a.motion)] += parts.axial_stiffness / half;
             }
         }
-        (end, carried)
+        mass
     }
 
     /// Adds drum, shaft and motor.
@@ -202,122 +213,21 @@ impl Assembly {
     }
 }
 
+impl DrumEnd {
+    /// Sets the masses between this end, the second function of the last piece, and the functions of that piece.
+    fn set_mass(&mut self, mass: &DMat, place: impl Fn(usize) -> Option<Place>) {
+        self.own.1 = mass[(1, 1)];
+        self.carried_mass = mass[(1, 1)] + mass[(0, 1)];
+        for function in 0..mass.nrows() {
+            if let Some(at) = place(function) {
+                self.by_motion[at.motion].1 += mass[(function, 1)] * at.factor;
+            }
+        }
+    }
+}
+
 /// Slip of the cable on the wheel: the first motion of every chain.
 const SLIP: Place = Place { motion: 0, factor: 1.0 };
-
-/// Parts from which a chain is built.
-struct Parts<'a> {
-    winch: Option<&'a Winch>,
-    /// Control of the motor in the requested mode of winches.
-    control: Control,
-    /// Mechanical stiffness of the winch at the cable [N/m]; infinite for a rigid one.
-    shaft: f64,
-    /// EA [N] and mass per length [kg/m] of the cable.
-    axial_stiffness: f64,
-    mass_per_length: f64,
-    /// Stretch at the exit point, and at the drum.
-    stretch: f64,
-    stretch_drum: f64,
-    /// Compliance of arc and drum side [m/N]; zero if the drum is at the exit point.
-    rope_compliance: f64,
-}
-
-impl<'a> Parts<'a> {
-    /// Parts behind an end; `None` if nothing of them moves.
-    fn of(
-        anchor: &'a Anchor,
-        end: &AnchorEnd,
-        (axial_stiffness, mass_per_length): (f64, f64),
-        mode: WinchMode,
-    ) -> Option<Self> {
-        let winch = anchor.winch.as_ref();
-        let control = match (mode, winch) {
-            (WinchMode::Stuck, _) => return None,
-            (WinchMode::Clamped, _) | (_, None) => Control::Ideal,
-            (WinchMode::Torque, Some(_)) => Control::Torque,
-            (WinchMode::AsGiven, Some(winch)) => winch.control,
-        };
-        let parts = Self {
-            winch,
-            control,
-            shaft: winch.map_or(f64::INFINITY, |winch| winch.stiffness),
-            axial_stiffness,
-            mass_per_length,
-            stretch: end.stretch,
-            stretch_drum: end.stretch_drum,
-            rope_compliance: end.rope_compliance,
-        };
-        (parts.has_rope() || parts.drum_moves()).then_some(parts)
-    }
-
-    /// True if there is cable between exit point and drum.
-    fn has_rope(&self) -> bool {
-        self.rope_compliance > 0.0
-    }
-
-    fn motor_moves(&self) -> bool {
-        self.control != Control::Ideal
-    }
-
-    fn drum_moves(&self) -> bool {
-        self.motor_moves() || self.shaft.is_finite()
-    }
-
-    fn servo(&self) -> Option<Servo> {
-        if let Control::Position(servo) = self.control { Some(servo) } else { None }
-    }
-
-    /// Stiffness k_r of arc and drum side on σ [N/m], equation (75).
-    fn spring(&self) -> f64 {
-        1.0 / (self.stretch * self.stretch * self.rope_compliance)
-    }
-
-    /// Length of the uniform rod with this stiffness [m].
-    fn rod_length(&self) -> f64 {
-        self.axial_stiffness / self.spring()
-    }
-
-    /// True if the mass of the cable between exit point and drum counts.
-    fn is_rod(&self) -> bool {
-        let wanted = self.winch.is_some_and(|winch| winch.drum_side == DrumSide::Rod);
-        wanted && self.has_rope() && self.mass_per_length > 0.0
-    }
-}
-
-/// Order of the motions: σ, waves of the drum side, drum, motor.
-struct Layout {
-    count: usize,
-    waves: usize,
-    /// Places of drum and motor, if they move. A drum at the exit point moves with σ, a rigid shaft with its motor.
-    drum: Option<Place>,
-    motor: Option<Place>,
-    /// Place of the cable's end at the drum as a part of its elongation: the motion of the drum but for the stretch.
-    rope_end: Option<Place>,
-}
-
-impl Layout {
-    fn of(parts: &Parts, limit: f64) -> Self {
-        let waves = if parts.is_rod() {
-            let phase = limit * (parts.mass_per_length / parts.axial_stiffness).sqrt() * parts.rod_length();
-            (DEGREE_PER_RADIAN * phase + BASE_DEGREE).ceil() as usize - 1
-        } else {
-            0
-        };
-        let mut count = 1 + waves;
-        let mut another = || {
-            count += 1;
-            Place { motion: count - 1, factor: 1.0 }
-        };
-
-        let ratio = parts.stretch / parts.stretch_drum;
-        let drum = parts.drum_moves().then(|| if parts.has_rope() { another() } else { SLIP.times(1.0 / ratio) });
-        let motor = match drum {
-            Some(drum) if parts.motor_moves() => Some(if parts.shaft.is_finite() { another() } else { drum }),
-            _ => None,
-        };
-        Self { count, waves, drum, motor, rope_end: drum.map(|drum| drum.times(ratio)) }
-    }
-}
 
 /// Force on the motions per unstrained length that is paid out: see [`DriveChain::by_length`].
 fn by_length(parts: &Parts, layout: &Layout, drum_end: &DrumEnd) -> Vec<(f64, f64)> {
@@ -343,7 +253,7 @@ impl DriveChain {
         mode: WinchMode,
         limit: f64,
     ) -> Option<Self> {
-        let parts = Parts::of(anchor, &drive.end, (axial_stiffness, mass_per_length), mode)?;
+        let parts = Parts::of(anchor, drive, (axial_stiffness, mass_per_length), mode)?;
         let layout = Layout::of(&parts, limit);
         let mut chain = Assembly::new(layout.count);
 
@@ -351,6 +261,9 @@ impl DriveChain {
         chain.stiffness[(0, 0)] += drive.end.weight;
         if let Some(pulley) = &anchor.pulley {
             chain.heavy(pulley.inertia / (pulley.radius * pulley.radius), SLIP);
+        }
+        for (mass, place) in parts.guides.iter().zip(&layout.guides) {
+            chain.heavy(*mass, *place);
         }
         let (drum_end, carried) = chain.drum_side(&parts, &layout);
         let on_drum_side = |motion: usize| OnDrumSide {
@@ -373,6 +286,7 @@ impl DriveChain {
             motor,
             by_length: by_length(&parts, &layout, &drum_end),
             drum_side,
+            drum_side_mass: parts.rod_mass(),
             drum_end: parts.has_rope().then_some(drum_end),
             stretch_drum,
         })
@@ -444,6 +358,7 @@ impl DriveChain {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::robot::{Control, DrumSide, Winch};
 
     /// A rod whose end is held: its condensed stiffness is EA κ cot κs, up to the highest frequency that it is made for.
     #[test]
@@ -458,7 +373,8 @@ mod tests {
                 mass_per_length: 0.07,
                 stretch: 1.0,
                 stretch_drum: 1.0,
-                rope_compliance: 3.0 / 2e5,
+                pieces: vec![3.0 / 2e5],
+                guides: Vec::new(),
             };
             let layout = Layout::of(&parts, limit);
             let mut chain = Assembly::new(layout.count);

@@ -70,6 +70,7 @@ fn cases(tilt: f64) -> impl Strategy<Value = Case> {
             point_w: Vec3::new(0.0, 0.0, 3.0),
             pulley: Some(pulley(10f64.powf(radius), axis)),
             winch: Some(Winch { stiffness, ..Winch::rigid("winch", drum_side_length) }),
+            support: None,
         };
         let reach_w = start_w - anchor.point_w;
         let across = (reach_w - axis * reach_w.dot(&axis)).norm();

@@ -10,7 +10,9 @@
 
 use super::{DynamicCableAt, Dynamics};
 use crate::cable::DynamicCable;
-use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveForm, DrivePart, DriveSignal, InPowersOfS};
+use crate::cable::catenary_dynamic::{
+    CarrierMotion, CatenaryDynamicEnd, DriveForm, DrivePart, DriveSignal, InPowersOfS,
+};
 use crate::math::{DMat, Mat3, Mat6, Vec6};
 use crate::robot::Damping;
 
@@ -102,6 +104,33 @@ impl Dynamics {
         end.direct_signal(input, output)
     }
 
+    /// Row of a motion of the carrier of a cable's far end; the cable is given by its index among the terms. `None` if it is not
+    /// catenary-dynamic.
+    pub(crate) fn carrier_row(&self, term: usize, motion: &CarrierMotion) -> Option<InPowersOfS<CableRow>> {
+        let term = &self.terms[term];
+        let DynamicCable::CatenaryDynamic(end) = &term.form else { return None };
+        Some(end.carrier_form(motion).map(|form| self.row(term, form)))
+    }
+
+    /// Motions (e, n, b) of the platform end and of the far end of a cable per unit of a signal of its drive; the cable is given by
+    /// its index among the terms.
+    pub(crate) fn ends_of_signal(&self, term: usize, signal: DriveSignal) -> [[f64; 3]; 2] {
+        let DynamicCable::CatenaryDynamic(end) = &self.terms[term].form else { return [[0.0; 3]; 2] };
+        end.ends_of_signal(signal)
+    }
+
+    /// Output of the drive of a cable, or its tension, per motion of the carrier of its far end with all coordinates at rest;
+    /// `None` without such a signal.
+    pub(crate) fn direct_by_carrier(
+        &self,
+        term: usize,
+        motion: &CarrierMotion,
+        output: DriveSignal,
+    ) -> Option<InPowersOfS<f64>> {
+        let DynamicCable::CatenaryDynamic(end) = &self.terms[term].form else { return None };
+        end.direct_by_carrier(motion, output)
+    }
+
     fn row(&self, term: &DynamicCableAt, form: DriveForm) -> CableRow {
         CableRow { platform: self.unscaled_row(&term.vector(form.end)), modes: form.modes }
     }
@@ -114,7 +143,7 @@ impl Dynamics {
 
         // The drive.
         let part = |part: DrivePart| {
-            let DrivePart { motion, mass, damping, massless } = part;
+            let DrivePart { motion, mass, damping, massless, .. } = part;
             DrivePartBlock { row: self.row(term, motion), mass, damping, massless }
         };
         let drive: Vec<DrivePartBlock> = end.drive_parts().into_iter().map(part).collect();

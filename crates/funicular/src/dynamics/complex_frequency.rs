@@ -11,6 +11,7 @@
 //! The motions z of a drive with losses are unknowns, too: the forces Δ z of its losses act on platform and clamped modes
 //! by T and φ_k, and `z = T x + φ_k q_k − R Δ z` (docs/theory.md, equation (82)).
 
+use super::supports::SupportsAt;
 use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
 use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveAt, DriveLosses, Family, NearPole};
 use crate::cable::{DynamicCable, LocalStiffness};
@@ -117,7 +118,8 @@ impl Dynamics {
         // The cables, without the poles near ω.
         let (mut pole_slope, mut pole_phase) = (Complex::new(0.0, 0.0), 0.0);
         let (mut borders, mut drives) = (Vec::new(), Vec::new());
-        for (term, poles) in self.terms.iter().zip(poles) {
+        let (mut squares, mut on_supports) = (Vec::with_capacity(self.terms.len()), Vec::new());
+        for (t, (term, poles)) in self.terms.iter().zip(poles).enumerate() {
             let (damping, mass_per_length) = self.damping[term.cable];
             let (square, square_slope) = damping.times(losses).square_with_slope(omega, mass_per_length);
             let (stiffness, mass, near) = match &term.form {
@@ -127,6 +129,7 @@ impl Dynamics {
                 }
                 DynamicCable::CatenaryDynamic(form) => form.complex_beside_poles(square, NEAR_POLE_FRACTION),
             };
+            squares.push((square, square_slope));
             add_scaled(&mut value, term, &stiffness, Complex::new(1.0, 0.0));
             add_scaled(&mut slope, term, &mass, -square_slope);
 
@@ -142,18 +145,30 @@ impl Dynamics {
                 if let Some(motions) = form.drive_at(square, &left_out).filter(|_| form.has_drive_losses()) {
                     let losses = form.beyond_undamped(omega, losses);
                     let first_border = borders.len();
-                    drives.push(DriveRows::new(term, form, &motions, &losses, (&near, first_border), square_slope));
+                    let mut rows = DriveRows::new(term, form, &motions, &losses, (&near, first_border), square_slope);
+                    if let Some(supports) = &self.supports {
+                        rows.on_supports = supports.drive(t, square, &left_out).unwrap_or_default();
+                        rows.on_supports.iter_mut().flatten().for_each(|(_, slope)| *slope *= square_slope);
+                    }
+                    drives.push(rows);
                 }
+            }
+            if let Some(supports) = &self.supports {
+                on_supports.extend(near.iter().map(|near| supports.participation(t, near)));
             }
             borders.extend(near.iter().map(|near| (term.vector(near.direction), near.pole, square, square_slope)));
         }
 
         // The border: each near pole is a separate unknown.
         let (f, mut first) = (self.dof(), self.dof() + borders.len());
+        let first_support = first;
+        first += self.supports.as_ref().map_or(0, |supports| supports.count());
         let n = first + drives.iter().map(|drive| drive.loss.len()).sum::<usize>();
         let (mut all, mut all_slope) = (CDMat::zeros(n, n), CDMat::zeros(n, n));
         all.view_mut((0, 0), (f, f)).copy_from(&value.view((0, 0), (f, f)));
         all_slope.view_mut((0, 0), (f, f)).copy_from(&slope.view((0, 0), (f, f)));
+        let near_squares: Vec<(Complex, Complex)> =
+            borders.iter().map(|(_, _, square, slope)| (*square, *slope)).collect();
         for (k, (g, pole, square, square_slope)) in borders.into_iter().enumerate() {
             all[(f + k, f + k)] = pole - square;
             all_slope[(f + k, f + k)] = -square_slope;
@@ -164,8 +179,24 @@ impl Dynamics {
                 }
             }
         }
+        if let Some(supports) = &self.supports {
+            let own_square = (omega * omega, 2.0 * omega);
+            let rows =
+                supports.rows(&self.terms, &SupportsAt { squares, own_square, losses, width: NEAR_POLE_FRACTION });
+            add_supports(&mut all, &rows.coupling.0, &rows.own.0, f, first_support);
+            add_supports(&mut all_slope, &rows.coupling.1, &rows.own.1, f, first_support);
+            for (k, (participation, (square, square_slope))) in on_supports.iter().zip(&near_squares).enumerate() {
+                for (j, g) in participation.iter().enumerate() {
+                    for (entry, at) in [(&mut all, -square * *g), (&mut all_slope, -square_slope * *g)] {
+                        entry[(first_support + j, f + k)] = at;
+                        entry[(f + k, first_support + j)] = at;
+                    }
+                }
+            }
+        }
         for drive in drives {
             drive.add(&mut all, &mut all_slope, f, first);
+            drive.add_to_supports(&mut all, &mut all_slope, first_support, first);
             first += drive.loss.len();
         }
         Bordered { value: all, slope: all_slope, pole_slope, pole_phase }
@@ -182,6 +213,8 @@ struct DriveRows {
     loss: Vec<(Complex, Complex)>,
     /// Near poles of the cable: their numbers in the border, and φ_k per motion.
     near: Vec<(usize, Vec<f64>)>,
+    /// T for displacements of supports, per motion; empty for a rigid anchor.
+    on_supports: Vec<Vec<(Complex, Complex)>>,
 }
 
 impl DriveRows {
@@ -209,7 +242,7 @@ impl DriveRows {
             .map(|(k, near)| (first_border + k, form.drive_in_mode(near.index, near.family)))
             .collect();
         let loss = losses.0.clone();
-        Self { transfer, receptance, loss, near }
+        Self { transfer, receptance, loss, near, on_supports: Vec::new() }
     }
 
     /// Adds the rows and columns to a matrix and its derivative: `f` coordinates of the platform, then the border, and
@@ -234,6 +267,34 @@ impl DriveRows {
                 value[(first + i, column)] = r * delta + if i == j { 1.0 } else { 0.0 };
                 slope[(first + i, column)] = r_slope * delta + r * delta_slope;
             }
+        }
+    }
+}
+
+impl DriveRows {
+    /// Adds the entries between these motions, from the row `first` on, and the supports, from the row `first_support` on.
+    fn add_to_supports(&self, value: &mut CDMat, slope: &mut CDMat, first_support: usize, first: usize) {
+        for (j, (row, (delta, delta_slope))) in self.on_supports.iter().zip(&self.loss).enumerate() {
+            let column = first + j;
+            for (k, (t, t_slope)) in row.iter().enumerate() {
+                let at = first_support + k;
+                value[(at, column)] = t * delta;
+                slope[(at, column)] = t_slope * delta + t * delta_slope;
+                value[(column, at)] = -t;
+                slope[(column, at)] = -t_slope;
+            }
+        }
+    }
+}
+
+/// Adds the rows of supports to a matrix over `f` coordinates of the platform and others, from the row `first` on.
+fn add_supports(total: &mut CDMat, coupling: &CDMat, own: &CDMat, f: usize, first: usize) {
+    let count = own.nrows();
+    total.view_mut((first, first), (count, count)).copy_from(own);
+    for j in 0..count {
+        for i in 0..f {
+            total[(i, first + j)] = coupling[(i, j)];
+            total[(first + j, i)] = coupling[(i, j)];
         }
     }
 }

@@ -1,11 +1,35 @@
 //! Number of natural frequencies below a frequency.
 
-use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
+use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, Supports, add_local};
 use crate::cable::shallow_dynamic::{Entire, ShallowDynamic};
 use crate::cable::{DynamicCable, LocalStiffness};
-use crate::math::{Mat6, Vec6, symmetric};
+use crate::math::{DMat, Mat6, Vec6, symmetric};
 
 impl Dynamics {
+    /// Number with the sign of the determinant of the undamped dynamic stiffness of platform and supports at ω [rad/s].
+    pub(super) fn determinant_with_supports(&self, supports: &Supports, omega: f64) -> f64 {
+        let x = omega * omega;
+        let rows = supports.rows(&self.terms, &self.undamped_at(x, 0.0));
+        let mut matrix = self.constant - self.mass * x;
+        for term in &self.terms {
+            add_local(&mut matrix, term, &term.form.undamped(omega), |k, product| k * product);
+        }
+
+        // Entries over their size, so that no product overflows.
+        let (m, count) = (self.dof(), supports.count());
+        let mut all = DMat::zeros(m + count, m + count);
+        all.view_mut((0, 0), (m, m)).copy_from(&matrix.view((0, 0), (m, m)));
+        for j in 0..count {
+            for i in 0..m {
+                let entry = rows.coupling.0[(i, j)].re;
+                (all[(i, m + j)], all[(m + j, i)]) = (entry, entry);
+            }
+            (0..count).for_each(|i| all[(m + i, m + j)] = rows.own.0[(i, j)].re);
+        }
+        let size = all.amax().max(f64::MIN_POSITIVE);
+        (all / size).lu().determinant()
+    }
+
     /// Number of natural frequencies below ω [rad/s], undamped, with multiplicity:
     /// `J(ω) = Σ J0_i(ω) + s{D(ω)}` (Wittrick and Williams 1971). The unstable directions of an equilibrium count as
     /// frequencies below every ω > 0.
@@ -27,7 +51,8 @@ impl Dynamics {
 
         // The matrix without the terms that are large near a pole.
         let mut borders: Vec<(Vec6, f64)> = Vec::new();
-        for term in &self.terms {
+        let mut on_supports: Vec<Vec<f64>> = Vec::new();
+        for (t, term) in self.terms.iter().enumerate() {
             match &term.form {
                 DynamicCable::ShallowDynamic(form) => {
                     let of = Entire::real(omega * omega * form.gamma_by_square);
@@ -42,17 +67,21 @@ impl Dynamics {
                     let (regular, poles) = form.beside_poles(x, NEAR_POLE_FRACTION);
                     add_local(&mut matrix, term, &regular, |k, product| k * product);
                     borders.extend(poles.iter().map(|near| (term.vector(near.direction), (x - near.pole) / (x * x))));
+                    if let Some(supports) = &self.supports {
+                        on_supports.extend(poles.iter().map(|near| supports.participation(t, near)));
+                    }
                 }
             }
         }
 
-        if borders.is_empty() {
+        if borders.is_empty() && self.supports.is_none() {
             return symmetric::negative_eigenvalues(&matrix, self.dof());
         }
 
         // The bordered matrix. The stiffness is divided by its size, so that platform and borders are of similar
         // magnitude.
-        let (m, n) = (self.dof(), self.dof() + borders.len());
+        let (m, first) = (self.dof(), self.dof() + borders.len());
+        let n = first + self.supports.as_ref().map_or(0, |supports| supports.count());
         let size = matrix.amax().max(f64::MIN_POSITIVE);
         let mut a = vec![0.0; n * n];
         for j in 0..m {
@@ -66,6 +95,25 @@ impl Dynamics {
         }
         for (k, (_, inverse)) in borders.iter().enumerate() {
             a[(m + k) * n + m + k] = -inverse * size;
+        }
+
+        // The supports.
+        if let Some(supports) = &self.supports {
+            let rows = supports.rows(&self.terms, &self.undamped_at(omega * omega, NEAR_POLE_FRACTION));
+            for j in 0..supports.count() {
+                for i in 0..m {
+                    let entry = rows.coupling.0[(i, j)].re / size;
+                    a[(first + j) * n + i] = entry;
+                    a[i * n + first + j] = entry;
+                }
+                for (k, participation) in on_supports.iter().enumerate() {
+                    a[(first + j) * n + m + k] = participation[j];
+                    a[(m + k) * n + first + j] = participation[j];
+                }
+                for i in 0..supports.count() {
+                    a[(first + j) * n + first + i] = rows.own.0[(i, j)].re / size;
+                }
+            }
         }
 
         let positive = borders.iter().filter(|(_, inverse)| *inverse > 0.0).count();

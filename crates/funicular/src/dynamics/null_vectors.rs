@@ -11,6 +11,7 @@
 //!
 //! A is regular, and its null vectors contain the motions of both the platform and that cable.
 
+use super::supports::SupportRows;
 use super::{Dynamics, NEAR_POLE_FRACTION, add_local};
 use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::Family;
@@ -36,13 +37,17 @@ pub(crate) struct NullVector {
     pub(crate) platform: Vec6,
     /// Amplitudes of the clamped modes whose poles lie near.
     pub(crate) near: Vec<NearMotion>,
+    /// Displacements of the supports, world axes [m]; empty on a rigid frame.
+    pub(crate) supports: Vec<f64>,
     /// Kinetic energy of the platform as a fraction of the total.
     pub(crate) platform_energy: f64,
     /// Kinetic energy of each cable as a fraction of the total, without its drive.
     pub(crate) cable_energies: Vec<f64>,
     /// Kinetic energy of the drive of each cable as a fraction of the total; empty if no drive has mass.
     pub(crate) drive_energies: Vec<f64>,
-    /// Damping ratio of the drives to first order.
+    /// Kinetic energy of each support as a fraction of the total; empty on a rigid frame.
+    pub(crate) support_energies: Vec<f64>,
+    /// Damping ratio of drives and supports to first order.
     pub(crate) drive_damping: f64,
     /// Residual |vᵀ A v|/x: twice the relative change of the frequency by another Newton step.
     pub(crate) residual: f64,
@@ -69,6 +74,8 @@ impl Dynamics {
                 NullVector {
                     platform: vectors[k] / total.sqrt(),
                     near: Vec::new(),
+                    supports: Vec::new(),
+                    support_energies: Vec::new(),
                     platform_energy: platform / total,
                     cable_energies: cables.iter().map(|mass| mass / total).collect(),
                     drive_energies: Vec::new(),
@@ -84,6 +91,7 @@ impl Dynamics {
         let x = omega * omega;
         let pencil = BorderedPencil::at(self, x);
         let (a, m) = pencil.matrices(self.dof(), x);
+        let (a, m, still) = without_massless(a, m, self.dof() + pencil.near.len());
 
         // The mass of platform and cables is positive definite, because the motions are independent.
         let Some(factor) = m.cholesky() else { return Vec::new() };
@@ -95,7 +103,8 @@ impl Dynamics {
         nearest_zero(all.eigenvalues.as_slice(), several)
             .map(|k| {
                 let v = l.tr_solve_lower_triangular(&all.eigenvectors.column(k)).expect("the factor is regular");
-                pencil.null_vector(self, omega, v.as_slice(), all.eigenvalues[k].abs() / x)
+                let v = still.as_ref().map_or_else(|| v.as_slice().to_vec(), |still| still.completed(v.as_slice()));
+                pencil.null_vector(self, omega, &v, all.eigenvalues[k].abs() / x)
             })
             .collect()
     }
@@ -111,6 +120,8 @@ struct BorderedPencil {
     cable_masses: Vec<Mat6>,
     /// Clamped modes with a pole near x.
     near: Vec<NearMode>,
+    /// Rows of the supports; their derivatives are by x.
+    supports: Option<SupportRows>,
 }
 
 /// Clamped mode with a pole near x.
@@ -119,6 +130,8 @@ struct NearMode {
     motion: NearMotion,
     /// g_k in the platform's coordinates [√kg].
     participation: Vec6,
+    /// g_k over the displacements of the supports [√kg]; empty on a rigid frame.
+    on_supports: Vec<f64>,
     /// ω_k² [rad²/s²].
     pole: f64,
 }
@@ -140,6 +153,7 @@ impl BorderedPencil {
                 near.extend(poles.iter().map(|near| NearMode {
                     motion: NearMotion { term: t, family: near.family, pole: near.index, amplitude: 0.0 },
                     participation: term.vector(near.direction),
+                    on_supports: dynamics.supports().map_or_else(Vec::new, |of| of.participation(t, near)),
                     pole: near.pole,
                 }));
             }
@@ -147,12 +161,15 @@ impl BorderedPencil {
             cable_masses.push(moving);
         }
 
-        Self { stiffness, mass, cable_masses, near }
+        let at = dynamics.undamped_at(x, NEAR_POLE_FRACTION);
+        let supports = dynamics.supports().map(|supports| supports.rows(&dynamics.terms, &at));
+        Self { stiffness, mass, cable_masses, near, supports }
     }
 
     /// A(x) and −dA/dx over the platform's `dof` coordinates and the near modes.
     fn matrices(&self, dof: usize, x: f64) -> (DMat, DMat) {
-        let n = dof + self.near.len();
+        let (first, count) = (dof + self.near.len(), self.supports.as_ref().map_or(0, |rows| rows.own.0.nrows()));
+        let n = first + count;
         let (mut a, mut m) = (DMat::zeros(n, n), DMat::identity(n, n));
         a.view_mut((0, 0), (dof, dof)).copy_from(&self.stiffness.view((0, 0), (dof, dof)));
         m.view_mut((0, 0), (dof, dof)).copy_from(&self.mass.view((0, 0), (dof, dof)));
@@ -163,6 +180,25 @@ impl BorderedPencil {
                 let g = participation[i];
                 (a[(i, at)], a[(at, i)]) = (-x * g, -x * g);
                 (m[(i, at)], m[(at, i)]) = (g, g);
+            }
+        }
+
+        if let Some(SupportRows { coupling, own }) = &self.supports {
+            for j in 0..count {
+                let at = first + j;
+                for i in 0..dof {
+                    (a[(i, at)], a[(at, i)]) = (coupling.0[(i, j)].re, coupling.0[(i, j)].re);
+                    (m[(i, at)], m[(at, i)]) = (-coupling.1[(i, j)].re, -coupling.1[(i, j)].re);
+                }
+                for (k, NearMode { on_supports, .. }) in self.near.iter().enumerate() {
+                    let g = on_supports[j];
+                    (a[(dof + k, at)], a[(at, dof + k)]) = (-x * g, -x * g);
+                    (m[(dof + k, at)], m[(at, dof + k)]) = (g, g);
+                }
+                for i in 0..count {
+                    a[(first + i, at)] = own.0[(i, j)].re;
+                    m[(first + i, at)] = -own.1[(i, j)].re;
+                }
             }
         }
         (a, m)
@@ -178,22 +214,36 @@ impl BorderedPencil {
         for (term, moving) in dynamics.terms.iter().zip(&self.cable_masses) {
             cable_energies[term.cable] = platform.dot(&(moving * platform));
         }
+        let supports = v[dof + self.near.len()..].to_vec();
         let mut near = Vec::with_capacity(self.near.len());
-        for (NearMode { motion, participation, .. }, &amplitude) in self.near.iter().zip(&v[dof..]) {
+        for (NearMode { motion, participation, on_supports, .. }, &amplitude) in self.near.iter().zip(&v[dof..]) {
             let cable = dynamics.terms[motion.term].cable;
-            cable_energies[cable] += amplitude * (amplitude + 2.0 * participation.dot(&platform));
+            let by_supports: f64 = on_supports.iter().zip(&supports).map(|(g, e)| g * e).sum();
+            cable_energies[cable] += amplitude * (amplitude + 2.0 * (participation.dot(&platform) + by_supports));
             near.push(NearMotion { amplitude, ..*motion });
+        }
+
+        // The supports, and what their motion adds to the energies of their cables.
+        let (mut support_energies, mut support_loss) = (Vec::new(), 0.0);
+        if let Some(of) = dynamics.supports() {
+            (support_energies, support_loss) = of.energies(&supports);
+            let at = dynamics.undamped_at(omega * omega, NEAR_POLE_FRACTION);
+            for (term, added) in
+                dynamics.terms.iter().zip(of.added_energies(&dynamics.terms, &at, &platform, &supports))
+            {
+                cable_energies[term.cable] += added;
+            }
         }
 
         // The total is 1 except for rounding; dividing by it makes the sum of the fractions exactly 1.
         let platform_energy = platform.dot(&(dynamics.mass * platform));
-        let total = platform_energy + cable_energies.iter().sum::<f64>();
-        for energy in &mut cable_energies {
+        let total = platform_energy + cable_energies.iter().sum::<f64>() + support_energies.iter().sum::<f64>();
+        for energy in cable_energies.iter_mut().chain(&mut support_energies) {
             *energy /= total;
         }
 
         // Energies and losses of the drives, which the cables contain so far.
-        let (mut drive_energies, mut drive_damping) = (Vec::new(), 0.0);
+        let (mut drive_energies, mut drive_damping) = (Vec::new(), support_loss / (2.0 * omega * omega * total));
         for (t, term) in dynamics.terms.iter().enumerate() {
             let DynamicCable::CatenaryDynamic(form) = &term.form else { continue };
             if !(form.has_drive_mass() || form.has_drive_losses()) {
@@ -203,14 +253,60 @@ impl BorderedPencil {
             let of_cable: Vec<(usize, Family, f64)> = (near.iter().filter(|near| near.term == t))
                 .map(|near| (near.pole, near.family, near.amplitude))
                 .collect();
-            let (mass, loss) = form.drive_share(omega, term.displacement(&platform), &of_cable);
+            let carrier = dynamics.supports().and_then(|of| of.both_ends(t).zip(of.ends(t, &supports)));
+            let (mass, loss) = form.drive_share(omega, term.displacement(&platform), &of_cable, carrier);
             drive_energies[term.cable] = mass / total;
             cable_energies[term.cable] -= mass / total;
             drive_damping += loss / (2.0 * omega * omega * total);
         }
         let platform_energy = platform_energy / total;
-        NullVector { platform, near, platform_energy, cable_energies, drive_energies, drive_damping, residual }
+        NullVector {
+            platform,
+            near,
+            supports,
+            platform_energy,
+            cable_energies,
+            drive_energies,
+            support_energies,
+            drive_damping,
+            residual,
+        }
     }
+}
+
+/// Coordinates without mass, which follow the others.
+struct Massless {
+    /// Places of the coordinates with mass, and of those without.
+    moving: Vec<usize>,
+    still: Vec<usize>,
+    /// Coordinates without mass per coordinate with mass.
+    follow: DMat,
+}
+
+impl Massless {
+    /// Vector over all coordinates from one over those with mass.
+    fn completed(&self, moving: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; self.moving.len() + self.still.len()];
+        self.moving.iter().zip(moving).for_each(|(place, value)| all[*place] = *value);
+        for (row, place) in self.follow.row_iter().zip(&self.still) {
+            all[*place] = row.iter().zip(moving).map(|(follow, value)| follow * value).sum();
+        }
+        all
+    }
+}
+
+/// Matrices without the coordinates of supports that have no mass, which begin at `first`; `None` if all have some.
+fn without_massless(a: DMat, m: DMat, first: usize) -> (DMat, DMat, Option<Massless>) {
+    let (still, moving): (Vec<usize>, Vec<usize>) = (0..a.nrows()).partition(|i| *i >= first && m[(*i, *i)] == 0.0);
+    if still.is_empty() {
+        return (a, m, None);
+    }
+    let block = |of: &DMat, rows: &[usize], columns: &[usize]| of.select_rows(rows).select_columns(columns);
+    let held = block(&a, &still, &still).lu().solve(&block(&a, &still, &moving));
+    let follow = -held.unwrap_or_else(|| DMat::zeros(still.len(), moving.len()));
+    let reduced = block(&a, &moving, &moving) + block(&a, &moving, &still) * &follow;
+    let mass = block(&m, &moving, &moving);
+    (reduced, mass, Some(Massless { moving, still, follow }))
 }
 
 /// Indices of the `several` values of smallest magnitude, in ascending order of magnitude.

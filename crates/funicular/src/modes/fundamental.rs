@@ -121,7 +121,9 @@ pub enum FirstError {
 /// # References
 /// docs/theory.md, section 9, equations (35a) to (35c).
 pub fn first(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstError> {
-    if let Some(found) = RobotPencil::new(robot, equilibrium).and_then(stages::first) {
+    // Flexible supports couple the cables, which the pencil condenses one by one.
+    let pencil = if robot.has_supports() { None } else { RobotPencil::new(robot, equilibrium) };
+    if let Some(found) = pencil.and_then(stages::first) {
         return Ok(found);
     }
     lowest_by_count(robot, equilibrium)

@@ -38,7 +38,7 @@ pub enum RigidCablesError {
 }
 
 /// Natural modes below `below_hz` [Hz] with cables that are straight, without mass and rigid in length, undamped. Winches
-/// are rigid, too, and their motors held; pulleys have no inertia.
+/// and supports are rigid, too, and motors held; pulleys have no inertia.
 ///
 /// There are as many modes and unstable directions as the cables leave motions free: usually the degrees of freedom less
 /// the number of cables. The equilibrium has the static model `ideal` or `spring`. A slack cable holds nothing.
@@ -173,12 +173,15 @@ fn mode(platform: &PlatformTerms, x: Vec6, omega: f64, damping: f64, residual: f
         platform_energy_fraction: 1.0,
         cable_energy_fractions: energies.clone(),
         drive_energy_fractions: Vec::new(),
+        support_energy_fractions: Vec::new(),
         shape,
         modal_mass: (1.0 / largest).powi(2),
         residual,
         motion: NullVector {
             platform: x,
             near: Vec::new(),
+            supports: Vec::new(),
+            support_energies: Vec::new(),
             platform_energy: 1.0,
             cable_energies: energies,
             drive_energies: Vec::new(),

@@ -9,6 +9,11 @@ pub(crate) fn wrench_of(force: &Vec3, lever: &Vec3) -> Vec6 {
     Vec6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
 }
 
+/// Wrenches of the three columns of a matrix of forces at a lever arm.
+pub(crate) fn wrench_columns(forces: &Mat3, lever: &Vec3) -> [Vec6; 3] {
+    std::array::from_fn(|j| wrench_of(&forces.column(j).into_owned(), lever))
+}
+
 /// Wrench of gravity, wind and load on the platform about its origin, at a pose.
 pub(crate) fn load_wrench(robot: &Robot, pose: &Pose) -> Vec6 {
     let Load { force_w, moment_w, point_p } = &robot.load;

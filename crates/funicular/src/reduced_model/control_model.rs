@@ -13,7 +13,7 @@ use super::steps::{STEPS, Steps};
 use super::terms::{RealBlock, Term, terms};
 use super::{
     Channels, KEPT, Quantity, ReductionError, RequestedModel, SecondOrder, StateSpace, assembled, check_cables,
-    check_signals, drive_signals, matrices,
+    matrices,
 };
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, DMat};
@@ -172,7 +172,6 @@ pub fn control_model(
 ) -> Result<ControlModel, ReductionError> {
     let mut steps = Steps::new(report);
     check_cables(robot, dynamics)?;
-    check_signals(inputs)?;
     let RequestedStateSpace { below_hz, size, damping_at } = requested;
     let tolerance = match size {
         Size::Order(_) => MAX_TOLERANCE,
@@ -285,10 +284,10 @@ fn cut(
 ) -> Result<(Dynamics, SecondOrder), ReductionError> {
     let below_hz = reference.frequencies_hz.last().expect("there are frequencies");
     let allowed = OMITTED * requested.tolerance;
-    let drives = drive_signals(inputs, outputs);
+    let ends = reference.channels.at_far_ends(reference.dynamics);
     for (tried, ratio) in KEPT.into_iter().enumerate() {
         steps.reached(&TRIED, tried, KEPT.len())?;
-        let cut = reference.dynamics.with_poles_below(ratio * below_hz * TAU, &drives);
+        let cut = reference.dynamics.with_poles_below(ratio * below_hz * TAU, &ends);
         let channels = Channels::new(robot, equilibrium, &cut, inputs, outputs, false)?;
         let model = || assembled(&cut, &channels, outputs, requested);
         if ratio.is_infinite() {
@@ -316,9 +315,10 @@ fn cut(
             continue;
         }
 
-        // Few modes leave a part of the response to a commanded length that follows its rate, which no mode has.
+        // Few modes leave a part of the response to a commanded length or a motion of the frame that follows its rate, which
+        // no mode has.
         let model = model()?;
-        if !drives.is_empty() {
+        if !ends.is_empty() {
             let expansion = Expansion::of(&model);
             let beside = |pair: usize| {
                 let at = (pair % outputs.len(), pair / outputs.len());

@@ -13,6 +13,12 @@ pub enum ReductionError {
          `catenary-dynamic`, or a model without vibration"
     )]
     Model,
+    /// The robot has flexible supports.
+    #[error(
+        "reduced models do not contain flexible supports: compute responses with `frf`, or leave `support` out of the \
+         cables for a model with rigid anchors"
+    )]
+    Supports,
     /// The control of a motor has a delay.
     #[error(
         "the control of the motor of cable \"{cable}\" has a delay of {delay_s} s, which no second-order model and no \
@@ -45,9 +51,6 @@ pub enum ReductionError {
         /// Number of the input, from 1.
         input: usize,
     },
-    /// A signal is a motion of the frame.
-    #[error("the reduced model has no motions of the base or of anchors: use `frf` for them")]
-    FrameSignal,
     /// The motion of a point on a cable is not known.
     #[error(transparent)]
     CableMotion(#[from] CableMotionError),

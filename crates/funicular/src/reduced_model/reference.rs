@@ -38,7 +38,7 @@ pub(super) struct Maximum {
 pub(super) struct Reference<'a> {
     /// Full model.
     pub(super) dynamics: &'a Dynamics,
-    channels: &'a Channels,
+    pub(super) channels: &'a Channels,
     quantities: &'a [Quantity],
     /// Frequencies [Hz], ascending.
     pub(super) frequencies_hz: Vec<f64>,

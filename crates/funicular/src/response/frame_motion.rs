@@ -3,14 +3,13 @@
 //! Every cable pulls at the platform by the motion of its far end; gravity and loads stay where they are. Derivation:
 //! docs/theory.md, equations (83) to (86).
 
-use super::ResponseError;
 use crate::cable::catenary_dynamic::{CarrierMotion, DriveSignal};
-use crate::cable::{DynamicCable, EndStiffness, LocalAxes};
+use crate::cable::{DynamicCable, EndStiffness, LocalAxes, span_stiffness};
 use crate::cable_motion::{CableMotionError, CableStations};
-use crate::dynamics::{DynamicCableAt, Dynamics};
+use crate::dynamics::{Dynamics, Supports};
 use crate::math::{CVec6, Complex, Mat3, Vec3, Vec6};
 use crate::robot::Robot;
-use crate::statics::{CableState, Equilibrium};
+use crate::statics::{CableState, Equilibrium, on_support};
 
 /// Given motion of the frame of the robot, harmonic, of unit amplitude.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +38,10 @@ pub struct FrameMotion {
     cables: Vec<MovedCable>,
     /// Displacement of the far end of every cable in the world.
     displacements_w: Vec<Vec3>,
+    /// Motion of the feet of flexible supports, world axes.
+    feet_w: Vec3,
+    /// Forces on the supports by the cables whose stiffness does not depend on frequency; empty on a rigid frame.
+    constant_on_supports: Vec<f64>,
 }
 
 /// Cable whose stiffness depends on frequency and whose far end is moved.
@@ -101,7 +104,14 @@ impl FrameMotion {
         dynamics: &Dynamics,
         input: &FrameInput,
     ) -> Result<Self, CableMotionError> {
-        let mut frame = Self { constant: Vec6::zeros(), cables: Vec::new(), displacements_w: Vec::new() };
+        let feet_w = feet_w(robot, dynamics, input)?;
+        let mut frame = Self {
+            constant: Vec6::zeros(),
+            cables: Vec::new(),
+            displacements_w: Vec::new(),
+            feet_w,
+            constant_on_supports: vec![0.0; dynamics.supports().map_or(0, Supports::count)],
+        };
         for (i, state) in equilibrium.cables.iter().enumerate() {
             let Some(anchor) = input.of_anchor(robot, i, &state.anchor_w) else {
                 frame.displacements_w.push(Vec3::zeros());
@@ -114,9 +124,32 @@ impl FrameMotion {
             } else {
                 let force_w = constant_force_w(robot, i, state, dynamics, &anchor)?;
                 frame.constant += wrench(&force_w, &state.lever_w);
+                frame.add_constant_on_support(robot, i, state, dynamics);
             }
         }
         Ok(frame)
+    }
+
+    /// Adds the force on the support of a cable whose stiffness does not depend on frequency.
+    fn add_constant_on_support(&mut self, robot: &Robot, i: usize, state: &CableState, dynamics: &Dynamics) {
+        let Some(first) = dynamics.supports().and_then(|supports| supports.of_cable(i)) else { return };
+        let Some(held) = span_stiffness(robot, i, state, dynamics.linearisation.cable_model) else { return };
+        let Some(stiffness) = on_support(robot, i, state, &held) else { return };
+        let force_w = -stiffness.force_w.transpose() * self.feet_w;
+        (0..3).for_each(|k| self.constant_on_supports[first + k] += force_w[k]);
+    }
+
+    /// Forces on the displacements of the supports at ω [rad/s], the platform and the supports held on their feet.
+    pub(super) fn on_supports(&self, dynamics: &Dynamics, supports: &Supports, omega: f64) -> Vec<Complex> {
+        let mut forces: Vec<Complex> = self.constant_on_supports.iter().map(|force| Complex::from(*force)).collect();
+        supports.add_inertia_of_feet(&mut forces, &self.feet_w, omega);
+        for moved in &self.cables {
+            if let DynamicCable::CatenaryDynamic(form) = dynamics.terms()[moved.term].form() {
+                let square = dynamics.cable_square(dynamics.terms()[moved.term].cable(), omega);
+                supports.add_forces_by_base(&mut forces, (moved.term, form), &moved.motion, omega, square);
+            }
+        }
+        forces
     }
 
     /// Wrench on the platform about its origin at ω [rad/s].
@@ -156,19 +189,30 @@ impl FrameMotion {
         (at, direction_w): (usize, &Vec3),
         omega: f64,
     ) -> Complex {
-        stations.by_far_end(dynamics, at, direction_w, &self.displacements_w[stations.cable], omega)
+        let carrier = self.carrier(dynamics, stations.cable);
+        stations.by_far_end(dynamics, (at, direction_w), &self.displacements_w[stations.cable], carrier, omega)
     }
-}
 
-/// Checks that the motion of stations of a cable by the frame is known, the platform held.
-///
-/// # Errors
-/// [`ResponseError::FrameAndCable`]: the cable runs over a pulley or to a winch that yields.
-pub(super) fn check_stations(dynamics: &Dynamics, stations: &CableStations) -> Result<(), ResponseError> {
-    let term = dynamics.terms().iter().find(|term| term.cable() == stations.cable);
-    match term.map(DynamicCableAt::form) {
-        Some(DynamicCable::CatenaryDynamic(form)) if form.cable.end.is_some() => Err(ResponseError::FrameAndCable),
-        _ => Ok(()),
+    /// Displacement of station `at` of a cable along `direction_w`, the platform and the amplitudes of the clamped modes at
+    /// rest.
+    pub(crate) fn still_of_station(&self, stations: &CableStations, at: usize, direction_w: &Vec3) -> f64 {
+        stations.still_by_far_end(at, direction_w, &self.displacements_w[stations.cable])
+    }
+
+    /// Wrench on the platform about its origin by the cables whose stiffness does not depend on frequency.
+    pub(crate) fn constant(&self) -> &Vec6 {
+        &self.constant
+    }
+
+    /// Motions of the carriers of the other cables, each with its index among those whose stiffness depends on frequency.
+    pub(crate) fn carriers(&self) -> impl Iterator<Item = (usize, &CarrierMotion)> {
+        self.cables.iter().map(|moved| (moved.term, &moved.motion))
+    }
+
+    /// Motion of the carrier of a cable, given by its index in the order of the file; `None` if it is at rest or if the
+    /// stiffness of the cable does not depend on frequency.
+    fn carrier(&self, dynamics: &Dynamics, cable: usize) -> Option<&CarrierMotion> {
+        self.carriers().find(|(term, _)| dynamics.terms()[*term].cable() == cable).map(|(_, motion)| motion)
     }
 }
 
@@ -214,6 +258,19 @@ fn constant_force_w(
         force_w += drive.end.force_by_swivel_w(&held) * motion.on_swivel;
     }
     Ok(force_w)
+}
+
+/// Motion of the feet of flexible supports, world axes; zero on a rigid frame.
+///
+/// # Errors
+/// [`CableMotionError::FrameAndSupports`]: a rotation of the base, or a motion of an anchor on a support.
+fn feet_w(robot: &Robot, dynamics: &Dynamics, input: &FrameInput) -> Result<Vec3, CableMotionError> {
+    match input {
+        _ if dynamics.supports().is_none() => Ok(Vec3::zeros()),
+        FrameInput::BaseAlong(direction_w) => Ok(direction_w.normalize()),
+        FrameInput::Anchor { cable, .. } if robot.cables[*cable].anchor.support.is_none() => Ok(Vec3::zeros()),
+        FrameInput::BaseAbout(_) | FrameInput::Anchor { .. } => Err(CableMotionError::FrameAndSupports),
+    }
 }
 
 /// Wrench of a force at the end of a lever, world axes.

@@ -113,7 +113,24 @@ impl<'a> Prepared<'a> {
                 }
             }
         }
+        if self.dynamics.supports().is_some() {
+            self.take_off_supports(&mut d, omega);
+        }
         d
+    }
+
+    /// Takes off the stiffness that the platform loses because supports yield, lane by lane.
+    #[inline(never)]
+    fn take_off_supports(&self, d: &mut [Complexes; 21], omega: &Lane) {
+        for (lane, omega) in omega.iter().enumerate() {
+            let lost = self.dynamics.stiffness_lost_to_supports(*omega);
+            for j in 0..6 {
+                for i in j..6 {
+                    d[at(i, j)].re[lane] -= lost[(i, j)].re;
+                    d[at(i, j)].im[lane] -= lost[(i, j)].im;
+                }
+            }
+        }
     }
 }
 

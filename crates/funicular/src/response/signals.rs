@@ -199,6 +199,53 @@ impl Port {
         Some(vector)
     }
 
+    /// Forces on the displacements of the supports per unit of an input at ω [rad/s], the platform and all supports held; by
+    /// reciprocity the output per displacement. `None` on a rigid frame.
+    pub(super) fn on_supports(&self, dynamics: &Dynamics, omega: f64) -> Option<Vec<Complex>> {
+        let supports = dynamics.supports()?;
+        let mut forces = vec![Complex::new(0.0, 0.0); supports.count()];
+        match self {
+            Self::Platform(_) => {}
+            Self::Frame(motion) => return Some(motion.on_supports(dynamics, supports, omega)),
+            Self::Drive { term, signal, .. } => {
+                let (DynamicCable::CatenaryDynamic(form), Some((first, motions))) =
+                    (dynamics.terms()[*term].form(), supports.carrier_motions(*term))
+                else {
+                    return Some(forces);
+                };
+                for (force, motion) in forces[first..].iter_mut().zip(&motions) {
+                    *force = form.signal_by_carrier(motion, *signal, omega).unwrap_or_default();
+                }
+            }
+            Self::Cable { stations, station, direction_w } => {
+                let Some(first) = supports.of_cable(stations.cable) else { return Some(forces) };
+                let term = dynamics.terms().iter().position(|term| term.cable() == stations.cable);
+                let motions = term.and_then(|term| supports.carrier_motions(term)).map(|(_, motions)| motions);
+                for (k, force) in forces[first..first + 3].iter_mut().enumerate() {
+                    let mut moved_w = Vec3::zeros();
+                    moved_w[k] = 1.0;
+                    let motion = motions.as_ref().map(|motions| &motions[k]);
+                    *force = stations.by_far_end(dynamics, (*station, direction_w), &moved_w, motion, omega);
+                }
+            }
+        }
+        Some(forces)
+    }
+
+    /// Vector of the port about the platform origin at ω [rad/s], and its forces on the supports; the supports are free in the
+    /// vector.
+    pub(super) fn free_vector(&self, dynamics: &Dynamics, omega: f64) -> (CVec6, Vec<Complex>) {
+        let mut vector = self.vector(dynamics, omega);
+        let Some(on_supports) = self.on_supports(dynamics, omega) else { return (vector, Vec::new()) };
+        let Some((by_platform, _)) = dynamics.support_response(omega) else { return (vector, on_supports) };
+        let mut scaled = CVec6::zeros();
+        for (row, force) in by_platform.row_iter().zip(&on_supports) {
+            row.iter().zip(scaled.iter_mut()).for_each(|(entry, sum)| *sum += entry * force);
+        }
+        vector -= dynamics.unscaled_vector(&scaled);
+        (vector, on_supports)
+    }
+
     /// Vector of the port about the platform origin at ω [rad/s].
     pub(super) fn vector(&self, dynamics: &Dynamics, omega: f64) -> CVec6 {
         match self {

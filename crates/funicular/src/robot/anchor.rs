@@ -34,6 +34,9 @@ pub struct Anchor {
     pub pulley: Option<Pulley>,
     /// Winch behind this point; without it the cable ends here, or on a rigid drum beside it.
     pub winch: Option<Winch>,
+    /// Index of the flexible support that carries this anchor, in [`Robot::supports`](super::Robot::supports); `None` for a
+    /// rigid frame. The point is then its place without forces.
+    pub support: Option<usize>,
 }
 
 impl Anchor {
@@ -95,6 +98,6 @@ impl Anchor {
 impl From<Vec3> for Anchor {
     /// A fixed point: an eye, or a pulley of negligible size.
     fn from(point_w: Vec3) -> Self {
-        Self { point_w, pulley: None, winch: None }
+        Self { point_w, pulley: None, winch: None, support: None }
     }
 }

@@ -29,6 +29,10 @@ pub enum RobotPart {
     Pulley,
     /// A winch; its name is the second key of the path.
     Winch,
+    /// A guide wheel; its name is the second key of the path.
+    GuideWheel,
+    /// A flexible support of anchors; its name is the second key of the path.
+    Support,
     /// The cable at this index in file order, from 0.
     Cable(usize),
     /// The load on the platform.
@@ -384,7 +388,9 @@ fn key_of(path: &[&str]) -> Option<(&'static Key, usize)> {
     (1..=path.len()).rev().find_map(|count| {
         let (header, key) = match path[..count] {
             [key] => (TOP.to_owned(), key),
-            [kind @ ("materials" | "pulleys" | "winches"), _, key] => (format!("[{kind}.NAME]"), key),
+            [kind @ ("materials" | "pulleys" | "winches" | "guide_wheels" | "supports"), _, key] => {
+                (format!("[{kind}.NAME]"), key)
+            }
             ["cables", _, key] => ("[[cables]]".to_owned(), key),
             [table, key] => (format!("[{table}]"), key),
             _ => return None,
@@ -547,7 +553,13 @@ fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
     if let Some(DeValue::Table(platform)) = root.get("platform").map(Spanned::get_ref) {
         table(RobotPart::Platform, "[platform]", &["platform"], platform);
     }
-    let named = [("materials", RobotPart::Material), ("pulleys", RobotPart::Pulley), ("winches", RobotPart::Winch)];
+    let named = [
+        ("materials", RobotPart::Material),
+        ("pulleys", RobotPart::Pulley),
+        ("winches", RobotPart::Winch),
+        ("guide_wheels", RobotPart::GuideWheel),
+        ("supports", RobotPart::Support),
+    ];
     for (kind, part) in named {
         let Some(DeValue::Table(tables)) = root.get(kind).map(Spanned::get_ref) else { continue };
         for (name, entry) in tables {

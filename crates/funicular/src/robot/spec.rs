@@ -10,6 +10,7 @@
 
 mod cables;
 mod drives;
+mod guide_wheels;
 mod issue;
 pub mod key;
 mod limits;
@@ -17,9 +18,11 @@ mod materials;
 mod platform;
 pub(super) mod range;
 mod read;
+mod supports;
+mod tensor;
 mod winches;
 
-use super::{Cable, Load, PlatformMotion, Pose, Robot, State, Wind};
+use super::{Cable, Load, PlatformMotion, Pose, Robot, State, Support, Wind};
 use crate::math::Vec3;
 use cables::CableEntry;
 pub use issue::{Issue, SpecError};
@@ -52,6 +55,20 @@ const ROOT: &[Key] = &[
         .without(Absent::Means("no pulleys")),
     Key::other("winches", "[winches.drum]", KeyValue::NamedTables, "winches that cables refer to, each with a name")
         .without(Absent::Means("no winches: all cables end at their anchors")),
+    Key::other(
+        "guide_wheels",
+        "[guide_wheels.post]",
+        KeyValue::NamedTables,
+        "guide wheels with inertia between winches and entry points, each with a name",
+    )
+    .without(Absent::Means("guide wheels without inertia: their effect is that of the length of the drum side")),
+    Key::other(
+        "supports",
+        "[supports.post]",
+        KeyValue::NamedTables,
+        "flexible supports that the anchors of cables refer to, each with a name",
+    )
+    .without(Absent::Means("rigid supports: all anchors are fixed")),
     Key::other("cables", "[[cables]]", KeyValue::Tables, "cables, one or more"),
     Key::other("loads", "[loads]", KeyValue::Table, "load on the platform besides its weight, fixed in the world")
         .without(Absent::Means("no load")),
@@ -152,6 +169,8 @@ pub const TABLES: &[Table] = &[
     Table { header: "[materials.NAME]", keys: materials::KEYS },
     Table { header: "[pulleys.NAME]", keys: drives::PULLEY },
     Table { header: "[winches.NAME]", keys: winches::WINCH },
+    Table { header: "[guide_wheels.NAME]", keys: guide_wheels::GUIDE_WHEEL },
+    Table { header: "[supports.NAME]", keys: supports::SUPPORT },
     Table { header: "[[cables]]", keys: cables::KEYS },
     Table { header: "[loads]", keys: LOADS },
     Table { header: "[wind]", keys: WIND },
@@ -269,11 +288,13 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let wind = read_wind(reader, &root);
     let materials = materials::read(reader, &root);
     let drives = drives::read(reader, &root);
-    let cables = cables::read(reader, &root, materials.as_ref(), &drives, motion);
+    let supports = supports::read(reader, &root);
+    let cables = cables::read(reader, &root, materials.as_ref(), (&drives, supports.as_ref()), motion);
     let state_and_angles = read_state(reader, &root, cables.as_deref(), motion);
 
-    let cables = cables?.into_iter().map(|entry| entry.cable).collect::<Option<Vec<Cable>>>()?;
+    let cables = cables?.into_iter().map(|entry| Some((entry.cable?, entry.support))).collect::<Option<Vec<_>>>()?;
     let (state, written_angles_deg) = state_and_angles?;
+    let (cables, supports) = on_supports(cables, supports?);
     Some(Robot {
         name: name?,
         source: source?,
@@ -281,10 +302,22 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
         platform: platform?,
         load: load?,
         wind: wind?,
+        supports,
         cables,
         state,
         written_angles_deg,
     })
+}
+
+/// Cables with the supports of their anchors, and the supports by name. A support without anchors is left out.
+fn on_supports(cables: Vec<(Cable, Option<String>)>, named: read::Named<Support>) -> (Vec<Cable>, Vec<Support>) {
+    let is_used = |name: &str| cables.iter().any(|(_, support)| support.as_deref() == Some(name));
+    let supports: Vec<Support> = named.into_values().flatten().filter(|support| is_used(&support.name)).collect();
+    let with_support = |(mut cable, support): (Cable, Option<String>)| {
+        cable.anchor.support = support.and_then(|name| supports.iter().position(|support| support.name == name));
+        cable
+    };
+    (cables.into_iter().map(with_support).collect(), supports)
 }
 
 /// Reads `[loads]`: force, moment and point.

@@ -15,6 +15,8 @@ pub struct Winch {
     pub drum_side_length: f64,
     /// Vibration of the cable between drum and exit point.
     pub drum_side: DrumSide,
+    /// Guide wheels between entry point and drum, the nearest to the entry point first.
+    pub guide_wheels: Vec<GuideWheel>,
     /// Mechanical stiffness of shaft, gear and drum at the cable [N/m]; infinite for a rigid winch.
     pub stiffness: f64,
     /// Mass that the drum adds at the cable [kg].
@@ -25,6 +27,18 @@ pub struct Winch {
     pub damping: f64,
     /// Control of the motor.
     pub control: Control,
+}
+
+/// Wheel with inertia that guides the cable between entry point and drum. It changes vibration alone: at rest the lengths
+/// around guide wheels are part of the drum side.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GuideWheel {
+    /// Name in the robot file.
+    pub name: String,
+    /// Length of the cable from the entry point to the wheel [m].
+    pub distance: f64,
+    /// Mass that the wheel adds at the cable [kg].
+    pub mass: f64,
 }
 
 /// Model of the cable between drum and exit point in vibration. At rest there is no difference.
@@ -106,6 +120,7 @@ impl Winch {
             name: name.to_owned(),
             drum_side_length,
             drum_side: DrumSide::Massless,
+            guide_wheels: Vec::new(),
             stiffness: f64::INFINITY,
             drum_mass: 0.0,
             motor_mass: 0.0,

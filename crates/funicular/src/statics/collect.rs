@@ -6,6 +6,7 @@ use super::model::StaticModel;
 use super::residual::residual_of;
 use super::stiffness::stability;
 use crate::drive::CableAtRest;
+use crate::math::Vec3;
 use crate::robot::{Pose, Robot};
 
 /// Collects an equilibrium from cables that hang at a pose.
@@ -42,6 +43,7 @@ pub(super) fn without_stability(
             tension_anchor: cable.span.catenary.tension_at_end(),
             hanging: Some(cable.span),
             drive: cable.drive,
+            displacement_w: Vec3::zeros(),
         })
         .collect();
 

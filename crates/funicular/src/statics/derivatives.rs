@@ -37,6 +37,12 @@ pub enum StaticDerivativeError {
         /// Name of the cable.
         cable: String,
     },
+    /// Cable whose anchor is on a flexible support.
+    #[error("the anchor of cable \"{cable}\" is on a flexible support: derivatives exist for anchors on a rigid frame")]
+    Support {
+        /// Name of the cable.
+        cable: String,
+    },
     /// Some motion meets no resistance, or some wrench cannot be balanced by a change of the lengths.
     #[error("the equilibrium is indifferent: some small change of the robot moves it without limit")]
     Singular,
@@ -311,6 +317,9 @@ impl CablePartials {
         let hanging = state.hanging.as_ref().ok_or(StaticDerivativeError::Ideal)?;
         if state.drive.is_some() {
             return Err(StaticDerivativeError::Drive { cable: cable.name.clone() });
+        }
+        if cable.anchor.support.is_some() {
+            return Err(StaticDerivativeError::Support { cable: cable.name.clone() });
         }
         if state.is_slack() {
             return Err(StaticDerivativeError::Slack { cable: cable.name.clone() });

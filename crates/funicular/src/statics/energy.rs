@@ -1,6 +1,7 @@
 //! Potential energy of a robot at a pose.
 
 use super::equilibrium::Equilibrium;
+use super::supports;
 use crate::drive::CableAtRest;
 use crate::robot::{Pose, Robot};
 
@@ -21,7 +22,13 @@ pub fn energy(robot: &Robot, equilibrium: &Equilibrium) -> f64 {
     let cables: Vec<CableAtRest> = (equilibrium.cables.iter())
         .filter_map(|cable| Some(CableAtRest { span: cable.hanging.clone()?, drive: cable.drive.clone() }))
         .collect();
-    of_parts(robot, &equilibrium.pose, cables.iter())
+    let of_supports = if robot.has_supports() && cables.len() == robot.cables.len() {
+        let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
+        supports::energy(robot, &cables, &lengths, &equilibrium.support_displacements(robot))
+    } else {
+        0.0
+    };
+    of_parts(robot, &equilibrium.pose, cables.iter()) + of_supports
 }
 
 /// Potential energy [J] of cables that hang at a pose, in equilibrium or not, with platform and load.

@@ -28,6 +28,8 @@ pub struct CableState {
     pub hanging: Option<HangingCable>,
     /// State of pulley, drum side and winch; none for a fixed anchor and for an ideal cable.
     pub drive: Option<Box<DriveAtRest>>,
+    /// Displacement of the anchor with its flexible support, world axes [m]; zero on a rigid frame.
+    pub displacement_w: Vec3,
 }
 
 impl CableState {

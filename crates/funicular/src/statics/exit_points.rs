@@ -10,6 +10,7 @@ use super::equilibrium::{CableState, Equilibrium};
 use super::error::StaticsError;
 use super::limits::TensionRange;
 use super::model::StaticModel;
+use super::supports;
 use crate::catenary::space::HangingCable;
 use crate::drive::{CableAtRest, contact_of_span, tension_at_drum};
 use crate::math::Vec3;
@@ -42,7 +43,7 @@ pub(super) fn equilibrium(
     solve: impl Fn(&Robot, Option<&Equilibrium>) -> Result<Equilibrium, StaticsError>,
 ) -> Result<Equilibrium, StaticsError> {
     let found = if follows(robot, model) {
-        followed(robot, pose, solve, |equilibrium| &mut equilibrium.cables)?
+        followed(robot, pose, model, solve, |equilibrium| &mut equilibrium.cables)?
     } else {
         solve(robot, None)?
     };
@@ -52,13 +53,27 @@ pub(super) fn equilibrium(
 /// True if the exit points or the lengths depend on the tensions. Straight and rigid cables without weight leave their
 /// pulleys as the geometry says.
 pub(super) fn follows(robot: &Robot, model: StaticModel) -> bool {
-    model != StaticModel::Ideal && robot.cables.iter().any(|cable| !cable.anchor.is_fixed())
+    robot.has_supports() || model != StaticModel::Ideal && robot.cables.iter().any(|cable| !cable.anchor.is_fixed())
 }
 
-/// Result of a solver at a pose, with the exit points that belong to it. The solver gets the result of the round before.
-/// `cables` gives access to the cables of a result;
-/// a result without cables is final.
+/// Result of a solver at a pose, with the exit points and the displacements of supports that belong to it. The solver gets
+/// the result of the round before. `cables` gives access to the cables of a result; a result without cables is final.
 pub(super) fn followed<T>(
+    robot: &Robot,
+    pose: &Pose,
+    model: StaticModel,
+    solve: impl Fn(&Robot, Option<&T>) -> Result<T, StaticsError>,
+    cables: impl Fn(&mut T) -> &mut Vec<CableState>,
+) -> Result<T, StaticsError> {
+    // Every round of the supports starts from the exit points of straight cables.
+    let at_rigid = |rigid: &Robot| {
+        if follows(rigid, model) { with_exit_points(rigid, pose, &solve, &cables) } else { solve(rigid, None) }
+    };
+    if robot.has_supports() { supports::settled_in_rounds(robot, at_rigid, &cables) } else { at_rigid(robot) }
+}
+
+/// Result of a solver at a pose with rigid supports, with the exit points that belong to it; see [`followed`].
+fn with_exit_points<T>(
     robot: &Robot,
     pose: &Pose,
     solve: impl Fn(&Robot, Option<&T>) -> Result<T, StaticsError>,

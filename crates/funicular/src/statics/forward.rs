@@ -1,15 +1,16 @@
 //! Forward statics: unstrained lengths to pose.
 
-use super::collect::collect;
+use super::collect::{with_stability, without_stability};
 use super::equilibrium::{Equilibrium, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT};
 use super::error::StaticsError;
 use super::loaded_cable::LoadedCable;
 use super::model::StaticModel;
 use super::residual::{check_lengths, elastic_rounding, scaled_residual};
 use super::stiffness::assembled;
+use super::supports::{self, Settled};
 use super::{energy, ideal, initial_pose};
 use crate::drive::CableAtRest;
-use crate::math::{Mat6, Vec6, symmetric};
+use crate::math::{Mat6, Vec3, Vec6, symmetric};
 use crate::platform::{Coordinates, balance, load_size};
 use crate::robot::{Pose, Robot};
 use std::ops::ControlFlow;
@@ -55,6 +56,10 @@ pub fn forward(
         robot.platform.motion.check(start)?;
     }
     let pose = start.copied().unwrap_or_else(|| initial_pose::pose_from_lengths(robot, lengths));
+    if model == StaticModel::Ideal && robot.has_supports() {
+        let solve = |rigid: &Robot| forward(rigid, lengths, model, Some(&pose));
+        return supports::settled_in_rounds(robot, solve, |found: &mut Equilibrium| &mut found.cables);
+    }
     match model {
         StaticModel::Ideal if cables < dof => ideal::forward_of_few(robot, lengths, pose, |lengths, start| {
             descend_to_equilibrium(robot, lengths, StaticModel::Spring, start)
@@ -68,6 +73,8 @@ pub fn forward(
 pub(super) struct TrialPose {
     pub(super) pose: Pose,
     pub(super) cables: Vec<CableAtRest>,
+    /// Displacements of the supports [m]; empty for a rigid frame.
+    displacements_w: Vec<Vec3>,
     /// Wrench on the platform in its coordinates, scaled.
     pub(super) wrench: Vec6,
     pub(super) residual: f64,
@@ -98,17 +105,35 @@ impl<'a> EnergySearch<'a> {
         Self { robot, lengths, loaded, rounding, coordinates, turns: true }
     }
 
+    /// Search with the drag that the cables have at a trial, with its displaced supports.
+    fn with_drag_of(robot: &'a Robot, lengths: &'a [f64], model: StaticModel, trial: &TrialPose) -> Self {
+        let mut search = Self::new(robot, lengths, model, &trial.pose);
+        if robot.has_supports() {
+            let displaced = robot.displaced(&trial.displacements_w);
+            for (i, loaded) in search.loaded.iter_mut().enumerate() {
+                loaded.load = LoadedCable::at(&displaced, i, &trial.pose, model).load;
+            }
+        }
+        search
+    }
+
     pub(super) fn at(&self, pose: Pose) -> TrialPose {
-        let cables: Vec<CableAtRest> =
-            self.loaded.iter().zip(self.lengths).map(|(cable, &length)| cable.hang(&pose, length)).collect();
+        let (cables, displacements_w): (Vec<CableAtRest>, Vec<Vec3>) = if self.robot.has_supports() {
+            let settled = Settled::at(self.robot, &self.loaded, self.lengths, &pose);
+            (settled.cables, settled.displacements_w)
+        } else {
+            let hung = self.loaded.iter().zip(self.lengths).map(|(cable, &length)| cable.hang(&pose, length));
+            (hung.collect(), Vec::new())
+        };
         let forces = cables.iter().map(|cable| (cable.force_w(), cable.span.start_w - pose.position_w));
         let (wrench, force_scale) = balance(self.robot, &pose, forces);
-        let energy = energy::of_parts(self.robot, &pose, cables.iter());
+        let energy = energy::of_parts(self.robot, &pose, cables.iter())
+            + supports::energy(self.robot, &cables, self.lengths, &displacements_w);
         let wrench = if self.turns { wrench } else { Vec6::from_fn(|i, _| if i < 3 { wrench[i] } else { 0.0 }) };
         let residual = scaled_residual(&self.coordinates, &wrench, force_scale);
         let limit = if force_scale > 0.0 { RESIDUAL_LIMIT.max(self.rounding / force_scale) } else { RESIDUAL_LIMIT };
         let wrench = self.coordinates.reduce(&wrench);
-        TrialPose { pose, cables, wrench, residual, limit, energy }
+        TrialPose { pose, cables, displacements_w, wrench, residual, limit, energy }
     }
 
     /// True if the platform is in equilibrium: to [`RESIDUAL_LIMIT`]; or as well as rounding allows, if that is below
@@ -126,7 +151,10 @@ impl<'a> EnergySearch<'a> {
     /// Equilibrium at a pose that [is an equilibrium](Self::is_equilibrium).
     pub(super) fn collected(&self, trial: TrialPose, model: StaticModel, iterations: usize) -> Equilibrium {
         let nothing = self.is_unloaded(&trial);
-        let mut equilibrium = collect(self.robot, trial.pose, model, trial.cables, self.lengths, iterations);
+        let TrialPose { pose, cables, displacements_w, .. } = trial;
+        let equilibrium = without_stability(self.robot, pose, model, cables, self.lengths, iterations);
+        let mut equilibrium =
+            with_stability(self.robot, supports::displaced(self.robot, equilibrium, &displacements_w));
         if nothing {
             equilibrium.residual = 0.0;
         }
@@ -147,7 +175,14 @@ impl<'a> EnergySearch<'a> {
     /// Symmetric part of the tangent stiffness in the platform's coordinates, scaled; a unit diagonal beyond them.
     pub(super) fn stiffness(&self, trial: &TrialPose) -> Mat6 {
         let parts = trial.cables.iter().map(|c| (c.tangent_w(), c.force_w(), c.span.start_w - trial.pose.position_w));
-        let total = assembled(self.robot, &trial.pose, parts);
+        let mut total = assembled(self.robot, &trial.pose, parts);
+        if self.robot.has_supports() {
+            let carried = trial.cables.iter().zip(self.lengths).enumerate().filter_map(|(i, (cable, length))| {
+                let on_support = supports::on_settled(self.robot, i, cable, *length, &trial.displacements_w)?;
+                Some((i, on_support, cable.span.start_w - trial.pose.position_w))
+            });
+            total -= supports::lost_stiffness(self.robot, carried);
+        }
         let mut total = self.coordinates.reduce_symmetric(&total);
         let motion = self.coordinates.motion();
         for row in (0..6).filter(|&k| k >= motion.count() || !self.turns && motion.is_rotation(k)) {
@@ -192,7 +227,7 @@ pub(super) fn descend_to_equilibrium(
         // difference by the ratio of the drag's turn to the stiffness.
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ROUNDS {
-            search = EnergySearch::new(robot, lengths, model, &here.pose);
+            search = EnergySearch::with_drag_of(robot, lengths, model, &here);
             here = search.at(here.pose);
             if here.residual < CONVERGED || (here.residual < here.limit && here.residual > STALLED_ROUND * last) {
                 break;

@@ -21,6 +21,12 @@ pub enum FrictionError {
          `bearing_friction_coefficient`"
     )]
     NoFriction,
+    /// The robot has flexible supports.
+    #[error(
+        "the interval of friction is not known for a robot with flexible supports: leave `support` out of the cables for \
+         that with rigid anchors"
+    )]
+    Supports,
     /// Some motion meets no resistance.
     #[error("the equilibrium is indifferent: friction may move the platform without limit")]
     Singular,
@@ -156,6 +162,9 @@ pub fn friction_interval(
 ) -> Result<FrictionInterval, FrictionError> {
     if !robot.cables.iter().any(has_friction) {
         return Err(FrictionError::NoFriction);
+    }
+    if robot.has_supports() {
+        return Err(FrictionError::Supports);
     }
     let pairs = robot.cables.iter().zip(&equilibrium.cables);
     let frictions: Vec<Extremes> = pairs.map(|(cable, state)| Extremes::of(cable, state)).collect();

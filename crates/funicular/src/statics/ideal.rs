@@ -215,6 +215,7 @@ pub(super) fn collect(robot: &Robot, pose: Pose, tensions: &[f64], iterations: u
                 tension_anchor: tension,
                 hanging: None,
                 drive: None,
+                displacement_w: Vec3::zeros(),
             }
         })
         .collect();

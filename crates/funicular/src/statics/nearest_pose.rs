@@ -6,6 +6,7 @@
 //! stable equilibrium of the new lengths. The curvature of the surface is learnt from the steps (Broyden, Fletcher,
 //! Goldfarb, Shanno); the first step assumes a flat surface.
 
+use super::collect::with_stability;
 use super::drag::tangent_with_drag;
 use super::equilibrium::{CableState, Equilibrium};
 use super::error::StaticsError;
@@ -14,6 +15,7 @@ use super::ideal;
 use super::limits::TensionRange;
 use super::loaded_cable::LoadedCable;
 use super::model::StaticModel;
+use super::supports;
 use crate::math::{DMat, Mat6, Vec6};
 use crate::platform::{Coordinates, StraightCable, load_wrench, wrench_of};
 use crate::robot::{Cable, Pose, Robot};
@@ -125,6 +127,14 @@ pub fn nearest_equilibrium(
     requested: &Pose,
     model: StaticModel,
 ) -> Result<NearestEquilibrium, StaticsError> {
+    if robot.has_supports() {
+        let solve = |rigid: &Robot| nearest_equilibrium(rigid, requested, model);
+        let mut found =
+            supports::settled_in_rounds(robot, solve, |found: &mut NearestEquilibrium| &mut found.equilibrium.cables)?;
+        found.equilibrium = with_stability(robot, found.equilibrium);
+        return Ok(found);
+    }
+
     let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
     if model == StaticModel::Ideal {
         if cables > dof {

@@ -4,6 +4,7 @@ use super::equilibrium::{CableState, Equilibrium};
 use super::error::StaticsError;
 use super::loaded_cable::LoadedCable;
 use super::model::StaticModel;
+use super::supports::Settled;
 use crate::math::Vec6;
 use crate::platform::{Coordinates, balance, load_size};
 use crate::robot::{Pose, Robot};
@@ -15,6 +16,12 @@ use crate::robot::{Pose, Robot};
 /// [`StaticsError`]: the number of lengths differs from the number of cables, or a length is not positive.
 pub fn wrench(robot: &Robot, pose: &Pose, lengths: &[f64], model: StaticModel) -> Result<Vec6, StaticsError> {
     check_lengths(robot, lengths)?;
+    if robot.has_supports() {
+        let loaded = LoadedCable::all(robot, pose, model);
+        let settled = Settled::at(robot, &loaded, lengths, pose);
+        let forces = settled.cables.iter().map(|cable| (cable.force_w(), cable.span.start_w - pose.position_w));
+        return Ok(balance(robot, pose, forces).0);
+    }
     let forces = lengths.iter().enumerate().map(|(i, &length)| {
         let cable = LoadedCable::at(robot, i, pose, model).hang(pose, length);
         (cable.force_w(), cable.span.start_w - pose.position_w)

@@ -1,6 +1,7 @@
 //! Static stiffness of the platform at an equilibrium, and stability from its eigenvalues.
 
 use super::equilibrium::{Equilibrium, Stability};
+use super::supports;
 use crate::math::{Mat3, Mat6, Vec3, symmetric};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms};
 use crate::robot::{Pose, Robot};
@@ -11,18 +12,25 @@ use crate::robot::{Pose, Robot};
 /// Every load keeps its direction: in wind this is the stiffness with the drag of the equilibrium held. The stiffness
 /// with a drag that turns with the cables is [`tangent_with_drag`].
 ///
-/// `None` for ideal cables, which have no finite stiffness. Zero for motions that the platform does not have. The
+/// Flexible supports yield. `None` for ideal cables, which have no finite stiffness. Zero for motions that the platform does not have. The
 /// antisymmetric half of a moment's stiffness is left out: such a moment has no energy.
 ///
 /// # References
-/// docs/theory.md, equation (14).
+/// docs/theory.md, equations (14) and (91).
 pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
     let parts: Option<Vec<_>> = equilibrium
         .cables
         .iter()
         .map(|cable| Some((cable.tangent_w()?, cable.force_on_platform_w, cable.lever_w)))
         .collect();
-    let whole = assembled(robot, &equilibrium.pose, parts?.into_iter());
+    let mut whole = assembled(robot, &equilibrium.pose, parts?.into_iter());
+    if robot.has_supports() {
+        let carried = equilibrium.cables.iter().enumerate().filter_map(|(i, cable)| {
+            let held = cable.hanging.as_ref()?.tangent_w();
+            Some((i, supports::on_support(robot, i, cable, &held)?, cable.lever_w))
+        });
+        whole -= supports::lost_stiffness(robot, carried);
+    }
     Some(Coordinates::of(robot).allowed_matrix(&whole))
 }
 

@@ -2,6 +2,7 @@
 //! cables at rest have their tests in the source; the comparisons with other programs are in the validation.
 
 mod frame;
+mod shallow;
 mod vibration;
 
 use funicular::cable::{CableModel, EndStiffness};
@@ -211,9 +212,6 @@ fn a_tilted_axis_couples_the_motions_in_plane_and_out_of_plane() {
     let in_plane = Linearisation { in_plane_only: true, ..Default::default() };
     let error = Dynamics::about(&inclined, &rest, in_plane, 10.0).unwrap_err();
     assert!(error.to_string().contains("swivel axis of its pulley is not parallel"), "{error}");
-    let shallow = Linearisation { cable_model: CableModel::ShallowDynamic, ..Default::default() };
-    let error = Dynamics::about(&inclined, &rest, shallow, 10.0).unwrap_err();
-    assert!(error.to_string().contains("runs over a pulley or to a winch"), "{error}");
 }
 
 #[test]
@@ -271,6 +269,33 @@ fn errors_of_pulleys_and_winches_name_place_and_remedy() {
     ];
     for (right, wrong, message) in cases {
         let error = Robot::from_toml(&text.replacen(right, wrong, 1)).unwrap_err().to_string();
+        assert!(error.contains(message), "{wrong}: {error}");
+    }
+
+    let wheel = "[guide_wheels.post]\nwinch = \"drum\"\ndistance_m = 0.5\nradius_m = 0.1\ninertia_kg_m2 = 0.02\n";
+    let guided = text.replacen("[[cables]]", &format!("{wheel}[[cables]]"), 1);
+    let winch = Robot::from_toml(&guided).unwrap().cables[0].anchor.winch.clone().unwrap();
+    assert!(winch.guide_wheels.len() == 1 && (winch.guide_wheels[0].mass - 2.0).abs() < 1e-12);
+    let second = wheel.replace("post", "mast");
+    let cases = [
+        ("winch = \"drum\"\ndistance", "winch = \"drun\"\ndistance", "there is no winch \"drun\""),
+        ("winch = \"drum\"\ndistance", "distance", "[guide_wheels.post] has no `winch`"),
+        ("distance_m = 0.5\n", "", "[guide_wheels.post] has no `distance_m`"),
+        (
+            "distance_m = 0.5",
+            "distance_m = 2.5",
+            "`distance_m` is 2.5, it must be below the `drum_side_length_m` of winch",
+        ),
+        ("distance_m = 0.5", "distance_m = 0", "`distance_m` is 0, it must be positive"),
+        ("inertia_kg_m2 = 0.02", "inertia = 0.02", "unknown key `inertia`"),
+        (
+            "[[cables]]",
+            &format!("{second}[[cables]]"),
+            "`distance_m` is 0.5, where winch \"drum\" has the wheel \"mast\"",
+        ),
+    ];
+    for (right, wrong, message) in cases {
+        let error = Robot::from_toml(&guided.replacen(right, wrong, 1)).unwrap_err().to_string();
         assert!(error.contains(message), "{wrong}: {error}");
     }
 

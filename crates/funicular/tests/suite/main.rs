@@ -22,4 +22,5 @@ mod reduced_model;
 mod response;
 mod robot;
 mod statics;
+mod support;
 mod warnings;

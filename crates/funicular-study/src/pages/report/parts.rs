@@ -10,6 +10,7 @@ use crate::text::NONE;
 use funicular::cable::{SHALLOW_SAG_LIMIT, Sag};
 use funicular::compare::{self, Comparison, Criterion};
 use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::math::Vec3;
 use funicular::modes::{Kind, Mode, Modes};
 use funicular::robot::{Anchor, Robot};
 use funicular::statics::{Equilibrium, StaticModel, drag_stiffness, tangent_with_drag};
@@ -159,11 +160,37 @@ pub(crate) fn drive_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Pa
     Some(table)
 }
 
+/// Table of flexible supports at equilibrium; `None` on a rigid frame.
+pub(crate) fn support_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<PageTable> {
+    if !robot.has_supports() {
+        return None;
+    }
+    let mut table = PageTable::new(
+        "table-supports",
+        "Flexible supports. Displacement: of the anchors from their places without forces, world axes. Force: of all cables on \
+         the support, world axes."
+            .to_owned(),
+        &["<support", "<cables", "<displacement|mm", "<force|N"],
+    );
+    let moved = equilibrium.support_displacements(robot);
+    for (i, (support, displacement_w)) in robot.supports.iter().zip(moved).enumerate() {
+        let carried = robot.cables.iter().filter(|cable| cable.anchor.support == Some(i));
+        let vector = |v: Vec3, digits: usize| [v.x, v.y, v.z].map(|entry| fixed(entry, digits)).join(", ");
+        table.row(vec![
+            support.name.clone(),
+            carried.map(|cable| cable.name.as_str()).collect::<Vec<_>>().join(", "),
+            vector(displacement_w * 1e3, 3),
+            vector(support.stiffness_w * displacement_w, 1),
+        ]);
+    }
+    Some(table)
+}
+
 /// Maximum number of modes in the table with held exit points.
 const MAX_HELD: usize = 10;
 
-/// Table of the first natural frequencies beside those with held exit points; `None` if all cables end at fixed points,
-/// or if there are none with held exit points.
+/// Table of the first natural frequencies beside those with held exit points; `None` if all cables end at fixed points of
+/// a rigid frame, or if there are none with held exit points.
 ///
 /// A cable that cannot slip at its exit point is a robot with more constraints, so that no frequency is lower.
 pub(crate) fn held_table(
@@ -175,11 +202,11 @@ pub(crate) fn held_table(
     let held = modes_with_held_exits(robot, equilibrium, linearisation, found.below_hz)?;
     let mut table = PageTable::new(
         "table-held",
-        "First natural frequencies with pulleys and winches, and at the same equilibrium with the exit points held, so that \
-         the cables neither slip there nor move sideways. Both lists are ascending; the n-th frequency with held exit points \
-         is never lower."
+        "First natural frequencies with pulleys, winches and flexible supports, and at the same equilibrium with the exit \
+         points held, so that the cables neither slip there nor move sideways. Both lists are ascending; the n-th frequency \
+         with held exit points is never lower."
             .to_owned(),
-        &["no.", "with drives|Hz", "exit points held|Hz", "difference|%"],
+        &["no.", "as given|Hz", "exit points held|Hz", "difference|%"],
     );
     for (i, mode) in found.modes.iter().take(MAX_HELD).enumerate() {
         let other = held.get(i);
@@ -201,7 +228,7 @@ fn modes_with_held_exits(
     linearisation: Linearisation,
     below_hz: f64,
 ) -> Option<Vec<f64>> {
-    if equilibrium.cables.iter().all(|state| state.drive.is_none()) {
+    if !robot.has_supports() && equilibrium.cables.iter().all(|state| state.drive.is_none()) {
         return None;
     }
     let (mut robot, mut equilibrium) = (robot.clone(), equilibrium.clone());
@@ -349,7 +376,10 @@ fn class_of(kind: Kind) -> &'static str {
 /// Names of the cables with the largest shares of a mode's energy.
 fn strongest(robot: &Robot, mode: &Mode) -> String {
     let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
-    let named: Vec<String> = modes::strongest(&names, &mode.cable_energy_fractions, &mode.drive_energy_fractions)
+    let supports: Vec<String> = robot.supports.iter().map(|support| support.name.clone()).collect();
+    let of_supports = (&supports[..], &mode.support_energy_fractions[..]);
+    let of_cables = (&mode.cable_energy_fractions, &mode.drive_energy_fractions);
+    let named: Vec<String> = modes::strongest(&names, of_cables.0, of_cables.1, of_supports)
         .iter()
         .map(|(name, share)| format!("{name} ({} %)", fixed(100.0 * share, 0)))
         .collect();

@@ -1,7 +1,10 @@
 //! Forces of a cable on its platform end when the carrier of its other end moves: the anchor, with pulley and winch or
 //! without the winch (docs/theory.md, equations (83) to (85)).
 
-use super::{CatenaryDynamicEnd, DriveAt, DriveLosses, DriveSignal};
+use super::{
+    CatenaryDynamic, CatenaryDynamicEnd, DriveAt, DriveLosses, DriveSignal, Family, InternalMotion, NearRanges,
+};
+use crate::drive::DriveChain;
 use crate::math::Complex;
 
 /// Given motion of the carrier of a cable's end, harmonic.
@@ -17,7 +20,125 @@ pub(crate) struct CarrierMotion {
     pub(crate) with_drum: bool,
 }
 
+impl CarrierMotion {
+    /// Motions of the ends of the drum side with the carrier, the motions of the drive held: its end at the drum, that at
+    /// the wheel, and the whole drum side along itself.
+    ///
+    /// The elongation of the drum side is measured with the stretch at the exit point, `ratio` times that at the entry point.
+    pub(super) fn of_drum_side(&self, ratio: f64) -> [f64; 3] {
+        if self.with_drum { [0.0, 0.0, self.along_drum_side] } else { [0.0, ratio * self.along_drum_side, 0.0] }
+    }
+}
+
 impl CatenaryDynamicEnd {
+    /// Forces on the motions of the drive that a motion of the carrier brings about, those of the chain and then that
+    /// sideways if there is one: constant part [N], and part per ω_c² [kg m].
+    ///
+    /// # References
+    /// docs/theory.md, equation (85).
+    pub(super) fn forces_by_carrier(&self, motion: &CarrierMotion) -> Vec<(f64, f64)> {
+        let [_, at_wheel, whole] = motion.of_drum_side(self.drum_side_ratio());
+        let mut forces: Vec<(f64, f64)> = (self.chain().map_or(&[][..], |chain| &chain.drum_side).iter())
+            .map(|side| {
+                if motion.with_drum {
+                    (0.0, side.carried_mass * whole)
+                } else {
+                    (-side.stiffness * at_wheel, side.mass * at_wheel)
+                }
+            })
+            .collect();
+
+        // A chain without a drum side has no such force; the swivel turns with the carrier.
+        let (slip, _) = self.cable.end.as_ref().map_or((0, 0), super::MovingEnd::counts);
+        forces.resize(slip, (0.0, 0.0));
+        forces.resize(self.motions(), (motion.on_swivel, 0.0));
+        forces
+    }
+
+    /// Motion along `cable` for a motion of the carrier at ω [rad/s], the platform end held. The cable is this one, perhaps in
+    /// another discretisation.
+    pub(crate) fn motion_by_carrier(
+        &self,
+        cable: &CatenaryDynamic,
+        motion: &CarrierMotion,
+        omega: f64,
+    ) -> InternalMotion {
+        let square = self.square(omega);
+        let given = self.forces_by_carrier(motion).iter().map(|(still, mass)| *still + square * *mass).collect();
+        self.motion_by_far_end(cable, motion.displacement, given, omega)
+    }
+
+    /// Motion along `cable` per unit of a signal of the drive or tension at ω [rad/s]: by an input, the platform end held, and
+    /// by reciprocity the output per force on a point of the cable. The cable is this one, perhaps in another discretisation.
+    /// `None` if the cable has no such signal.
+    pub(crate) fn motion_by_signal(
+        &self,
+        cable: &CatenaryDynamic,
+        signal: DriveSignal,
+        omega: f64,
+    ) -> Option<InternalMotion> {
+        let [start, far_end] = self.ends_of_signal(signal);
+        if signal == DriveSignal::Tension {
+            let square = self.square(omega);
+            let moved = InternalMotion::new(cable, start.map(Complex::from), square);
+            return Some(moved.with_drive(cable, &self.beyond_undamped(omega.into(), 1.0), square));
+        }
+        let Some(chain) = self.chain() else {
+            return Some(self.motion_by_far_end(cable, far_end, Vec::new(), omega));
+        };
+        let given = self.output_row(chain, signal, omega)?;
+        Some(self.motion_by_far_end(cable, [0.0; 3], given, omega))
+    }
+
+    /// Motions (e, n, b) of the platform end and of the far end per unit of a signal: that of an input, or by reciprocity the
+    /// force on the end that is measured. Zero for signals that act on the motions of a drive.
+    pub(crate) fn ends_of_signal(&self, signal: DriveSignal) -> [[f64; 3]; 2] {
+        let along = |[h, v]: [f64; 2], factor: f64| [factor * h, factor * v, 0.0];
+        let (held, is_far_end) = ([0.0; 3], self.chain().is_none() && self.cable.coupled.is_none());
+        match signal {
+            DriveSignal::Tension => [along(self.directions.from_platform, 1.0), held],
+            DriveSignal::Length if is_far_end => [held, along(self.directions.to_platform, self.directions.stretch)],
+            DriveSignal::DrumTension if is_far_end => [held, along(self.directions.to_platform, 1.0)],
+            _ => [held; 2],
+        }
+    }
+
+    /// Motion along `cable` for a motion of the far end and the forces `given` on the first motions of the drive at ω [rad/s],
+    /// the platform end held.
+    fn motion_by_far_end(
+        &self,
+        cable: &CatenaryDynamic,
+        far_end: [f64; 3],
+        mut given: Vec<Complex>,
+        omega: f64,
+    ) -> InternalMotion {
+        let (held, square) = ([Complex::new(0.0, 0.0); 3], self.square(omega));
+        let mut found = InternalMotion::between(cable, held, far_end.map(Complex::from), square);
+        let Some(drive) = &cable.drive else { return found };
+        given.resize(self.motions(), Complex::new(0.0, 0.0));
+
+        // Forces on the motions of the drive: the given ones less those of the losses.
+        let at = DriveAt::at(cable, drive, self.motions(), square, &NearRanges::default());
+        let delta = self.beyond_undamped(omega.into(), 1.0).values();
+        let mut free: Vec<Complex> = (DriveAt::by_carrier(cable, drive, delta.len(), square).iter())
+            .map(|row| row.iter().zip(far_end).map(|(t, c)| t * c).sum())
+            .collect();
+        at.add_motion_by(&given, &mut free);
+        let forces: Vec<Complex> =
+            given.iter().zip(at.forces(&delta, &free)).map(|(given, lost)| given - lost).collect();
+
+        // The clamped modes under these forces.
+        for family in Family::ALL {
+            let poles = cable.poles_of(family);
+            for (index, (amplitude, pole)) in found.amplitudes(family).iter_mut().zip(poles).enumerate() {
+                let phi = drive.in_mode(family, index);
+                let force: Complex = phi.iter().zip(&forces).map(|(phi, force)| force * *phi).sum();
+                *amplitude += force / (*pole - square);
+            }
+        }
+        found
+    }
+
     /// Force on the held platform end in (e, n, b) for a motion of the carrier at ω [rad/s].
     pub(crate) fn force_by_carrier(&self, motion: &CarrierMotion, omega: f64) -> [Complex; 3] {
         let square = self.square(omega);
@@ -66,20 +187,59 @@ impl CatenaryDynamicEnd {
         let Some(chain) = self.chain() else {
             return (output == DriveSignal::DrumTension).then(|| self.tension_at_moved_end(motion, omega)).flatten();
         };
-        let row = self.output_row(chain, output, omega)?;
-        let (motions, losses, mut free, given) = self.drive_under_carrier(motion, omega)?;
-        let count = free.len();
-        for (i, free) in free.iter_mut().enumerate() {
-            *free += (0..count).map(|j| motions.receptance[(i, j)] * given[j]).sum::<Complex>();
-        }
-        let moved = motions.freed(&losses.values(), &free);
-        let through: Complex = row.iter().zip(&moved).map(|(row, moved)| row * moved).sum();
+        let through = self.through_drive(chain, motion, output, omega)?;
         if output != DriveSignal::DrumTension {
             return Some(through);
         }
-        let along = motion.along_drum_side;
-        let ends = if motion.with_drum { [0.0, 0.0, along] } else { [0.0, along, 0.0] };
-        Some(through + self.drum_tension_of_ends(ends, omega))
+        Some(through + self.drum_tension_of_ends(motion.of_drum_side(self.drum_side_ratio()), omega))
+    }
+
+    /// Row of a signal times the motions of the drive for a motion of the carrier.
+    fn through_drive(
+        &self,
+        chain: &DriveChain,
+        motion: &CarrierMotion,
+        signal: DriveSignal,
+        omega: f64,
+    ) -> Option<Complex> {
+        let row = self.output_row(chain, signal, omega)?;
+        let (motions, losses, mut free, given) = self.drive_under_carrier(motion, omega)?;
+        motions.add_motion_by(&given, &mut free);
+        let moved = motions.freed(&losses.values(), &free);
+        Some(row.iter().zip(&moved).map(|(row, moved)| row * moved).sum())
+    }
+
+    /// Force on a motion of the carrier per displacement of the drum side's end at the drum towards the platform.
+    fn drum_side_by_carrier(&self, motion: &CarrierMotion, omega: f64) -> Complex {
+        let ratio = self.drum_side_ratio();
+        self.drum_tension_of_ends(motion.of_drum_side(ratio), omega) / ratio
+    }
+
+    /// Mass between a motion of the chain and a motion of the whole drum side along itself [kg].
+    pub(crate) fn carried_mass(&self, motion: usize) -> f64 {
+        let side = self.chain().and_then(|chain| chain.drum_side.get(motion));
+        side.map_or(0.0, |side| side.carried_mass)
+    }
+
+    /// Stretch at the exit point over that at the drum; 1 without a drum side.
+    pub(crate) fn drum_side_ratio(&self) -> f64 {
+        self.chain().and_then(|chain| chain.drum_end.as_ref()).map_or(1.0, |end| end.ratio)
+    }
+
+    /// Force on the carrier along a motion per unit of an input, the platform end held, at ω [rad/s]; by reciprocity the output
+    /// of such a motion. `None` if the cable has no such signal.
+    pub(crate) fn signal_by_carrier(&self, motion: &CarrierMotion, signal: DriveSignal, omega: f64) -> Option<Complex> {
+        if signal != DriveSignal::Length {
+            return self.response_to_carrier(motion, signal, omega);
+        }
+        let Some(chain) = self.chain() else {
+            // The far end moves by the length that is paid out.
+            return self.tension_at_moved_end(motion, omega).map(|tension| tension * self.directions.stretch);
+        };
+        let through = self.through_drive(chain, motion, signal, omega)?;
+        // A length that a drum pays out which is held moves the end of the drum side.
+        let held = if chain.drum.is_none() { self.drum_side_by_carrier(motion, omega) } else { Complex::new(0.0, 0.0) };
+        Some(through + held * self.directions.stretch)
     }
 
     /// Tension at a far end without a drive, which moves with its carrier; `None` if the end couples the families.
@@ -104,19 +264,7 @@ impl CatenaryDynamicEnd {
         let free = free.iter().map(|row| row.iter().zip(motion.displacement).map(|(t, c)| t * c).sum()).collect();
 
         // The drum side, whose mass is carried along or which is stretched, and the swivel.
-        let mut given = vec![Complex::new(0.0, 0.0); count];
-        let along = motion.along_drum_side;
-        for (given, side) in given.iter_mut().zip(self.chain().map_or(&[][..], |chain| &chain.drum_side)) {
-            *given = if motion.with_drum {
-                square * (side.carried_mass * along)
-            } else {
-                (square * side.mass - side.stiffness) * along
-            };
-        }
-        let (slip, _) = self.cable.end.as_ref()?.counts();
-        for force in &mut given[slip..] {
-            *force += motion.on_swivel;
-        }
+        let given = self.forces_by_carrier(motion).iter().map(|(still, mass)| *still + square * *mass).collect();
         Some((motions, losses, free, given))
     }
 }

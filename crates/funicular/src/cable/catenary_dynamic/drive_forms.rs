@@ -4,7 +4,7 @@
 //! row that is a polynomial of s = iω (docs/theory.md, equations (45a) to (45d)).
 
 use super::drive_signals::DriveForce;
-use super::{CatenaryDynamicEnd, DriveSignal, Family, MovingEnd};
+use super::{CarrierMotion, CatenaryDynamicEnd, DriveSignal, Family, MovingEnd};
 use crate::math::DMat;
 use crate::robot::Damping;
 use std::array::from_fn;
@@ -25,10 +25,21 @@ impl DriveForm {
     }
 }
 
+/// Signal at the far end of a cable.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum EndSignal {
+    /// Quantity of the drive.
+    Drive(DriveSignal),
+    /// Given motion of the carrier.
+    Carrier(CarrierMotion),
+}
+
 /// Part of a drive that has mass of its own or losses.
 pub(crate) struct DrivePart {
     /// Motion.
     pub(crate) motion: DriveForm,
+    /// Motion with the carrier of the end (e, n, b), platform end and amplitudes at rest.
+    pub(crate) with_carrier: [f64; 3],
     /// Mass [kg]. The damping of the cable does not act on it.
     pub(crate) mass: f64,
     /// Viscous damping [N s/m].
@@ -117,9 +128,15 @@ impl CatenaryDynamicEnd {
         let all = of_chain.into_iter().chain([(swivel, 0.0)]);
 
         let massless = |j: usize| rest[(j, j)] / drive.flexibility[(j, j)];
-        (motions.into_iter().zip(all).enumerate())
+        (motions.into_iter().zip(drive.with_carrier()).zip(all).enumerate())
             .filter(|(_, (_, (mass, damping)))| *mass > 0.0 || *damping > 0.0)
-            .map(|(j, (motion, (mass, damping)))| DrivePart { motion, mass, damping, massless: massless(j) })
+            .map(|(j, ((motion, with_carrier), (mass, damping)))| DrivePart {
+                motion,
+                with_carrier,
+                mass,
+                damping,
+                massless: massless(j),
+            })
             .collect()
     }
 
@@ -238,6 +255,97 @@ impl CatenaryDynamicEnd {
         Some(self.form_in_powers(still, self.zero_form(), self.zero_form(), &square))
     }
 
+    /// Row of a motion of the carrier: generalised force on platform end and amplitudes per unit of it.
+    ///
+    /// # References
+    /// docs/theory.md, equation (45e).
+    pub(crate) fn carrier_form(&self, motion: &CarrierMotion) -> InPowersOfS<DriveForm> {
+        let (mut still, mut rate, mut acceleration, mut square) =
+            (self.zero_form(), self.zero_form(), self.zero_form(), self.zero_form());
+        let [e, n, b] = motion.displacement;
+
+        // The cable: K_s and −ω_c² times its mass between both ends, and the participations of the far end.
+        let participations: Vec<f64> = if let Some(family) = self.coupled() {
+            let by = |row: &[f64; 6]| row[3] * e + row[4] * n + row[5] * b;
+            still.end = from_fn(|i| -by(&family.stiffness[i]));
+            square.end = from_fn(|i| by(&family.mass[i]));
+            family.participation.iter().map(by).collect()
+        } else {
+            let family = self.in_plane();
+            let by = |row: &[f64; 4]| row[2] * e + row[3] * n;
+            for i in 0..2 {
+                (still.end[i], square.end[i]) = (-by(&family.stiffness[i]), by(&family.mass[i]));
+            }
+            let mut all: Vec<f64> = family.participation.iter().map(by).collect();
+            if let Some(family) = self.out_of_plane() {
+                (still.end[2], square.end[2]) = (-family.stiffness[0][1] * b, family.mass[0][1] * b);
+                all.extend(family.participation.iter().map(|g| g[1] * b));
+            }
+            all
+        };
+        square.modes = participations;
+
+        // Forces on the drive, then those of its masses and losses, which move with the carrier.
+        for (form, (force, mass)) in self.motion_forms().iter().zip(self.forces_by_carrier(motion)) {
+            still.add(force, form);
+            square.add(mass, form);
+        }
+        for part in self.drive_parts() {
+            let along: f64 = part.with_carrier.iter().zip(motion.displacement).map(|(part, c)| part * c).sum();
+            square.add(-along * part.mass, &part.motion);
+            acceleration.add(-along * part.mass, &part.motion);
+            rate.add(-along * part.damping, &part.motion);
+        }
+        self.form_in_powers(still, rate, acceleration, &square)
+    }
+
+    /// Output of the cable's drive, or its tension, per motion of the carrier with all coordinates at rest. `None` without
+    /// such a signal.
+    pub(crate) fn direct_by_carrier(&self, motion: &CarrierMotion, output: DriveSignal) -> Option<InPowersOfS<f64>> {
+        if output == DriveSignal::Tension {
+            // The force of the motion on the platform end, along the cable.
+            let [h, v] = self.directions.from_platform;
+            return Some(self.carrier_form(motion).map(|form| form.end[0] * h + form.end[1] * v));
+        }
+        let in_powers = |still: f64, square: f64| [still, -self.viscous_rate() * square, -square];
+        let Some(chain) = self.chain() else {
+            // The far end itself moves.
+            if output != DriveSignal::DrumTension || self.cable.coupled.is_some() {
+                return None;
+            }
+            let ([h, v], family, [e, n, _]) = (self.directions.to_platform, self.in_plane(), motion.displacement);
+            let along = |matrix: &[[f64; 4]; 4]| {
+                (matrix[2][2] * e + matrix[2][3] * n) * h + (matrix[3][2] * e + matrix[3][3] * n) * v
+            };
+            return Some(in_powers(-along(&family.stiffness), along(&family.mass)));
+        };
+
+        // Motions of the drive with the carrier, and those without mass by the forces that the carrier brings about.
+        let rest = self.massless_flexibility(&self.motion_forms());
+        let rows = self.row_in_powers(output)?;
+        let with_carrier = self.cable.drive.as_ref()?.with_carrier();
+        let (still, square): (Vec<f64>, Vec<f64>) = self.forces_by_carrier(motion).into_iter().unzip();
+        let mut motions = self.in_powers(still, &vec![0.0; square.len()], &square).map(|forces| {
+            let moved = |i: usize| forces.iter().enumerate().map(|(j, force)| rest[(i, j)] * force).sum::<f64>();
+            (0..forces.len()).map(moved).collect::<Vec<f64>>()
+        });
+        for (sum, row) in motions[0].iter_mut().zip(with_carrier) {
+            *sum += row.iter().zip(motion.displacement).map(|(part, c)| part * c).sum::<f64>();
+        }
+        let product = |row: &[f64], motion: &[f64]| row.iter().zip(motion).map(|(row, z)| row * z).sum::<f64>();
+        let mut direct: InPowersOfS<f64> =
+            from_fn(|power| (0..=power).map(|i| product(&rows[i], &motions[power - i])).sum());
+
+        // The ends of the drum side.
+        if let (DriveSignal::DrumTension, Some(end)) = (output, &chain.drum_end) {
+            let [_, at_wheel, whole] = motion.of_drum_side(self.drum_side_ratio());
+            let mass = end.by_wheel.1 * at_wheel + end.carried_mass * whole;
+            let own = in_powers(-end.by_wheel.0 * at_wheel * end.ratio, mass * end.ratio);
+            direct.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+        }
+        Some(direct)
+    }
+
     /// Output per input of signals of this cable with all coordinates at rest. `None` without such signals.
     pub(crate) fn direct_signal(&self, input: DriveSignal, output: DriveSignal) -> Option<InPowersOfS<f64>> {
         if output == DriveSignal::Tension {
@@ -276,11 +384,15 @@ impl CatenaryDynamicEnd {
 
     /// Weights of the clamped modes of each family in the forces of lossy parts and of signals: what modes that replace
     /// others have to represent beside the platform end.
-    pub(super) fn forces_on_modes(&self, signals: &[DriveSignal]) -> [Vec<Vec<f64>>; 3] {
+    pub(super) fn forces_on_modes(&self, signals: &[EndSignal]) -> [Vec<Vec<f64>>; 3] {
         let in_plane = self.in_plane().poles.len();
         let coupled = self.mode_poles().count() - self.coupled().map_or(0, |family| family.poles.len());
         let parts = self.drive_parts().into_iter().map(|part| part.motion);
-        let of_signals = signals.iter().filter_map(|signal| self.signal_form(*signal)).flatten();
+        let of_signal = |signal: &EndSignal| match signal {
+            EndSignal::Drive(signal) => self.signal_form(*signal),
+            EndSignal::Carrier(motion) => Some(self.carrier_form(motion)),
+        };
+        let of_signals = signals.iter().filter_map(of_signal).flatten();
 
         let mut families = [Vec::new(), Vec::new(), Vec::new()];
         for form in parts.chain(of_signals) {

@@ -6,7 +6,9 @@
 //! (81)).
 
 use super::moving_end::MovingEnd;
-use super::{CatenaryDynamic, CatenaryDynamicEnd, Displacements, Family, InternalMotion, NearRanges, PoleResidue};
+use super::{
+    CatenaryDynamic, CatenaryDynamicEnd, Displacements, ENDS, Family, InternalMotion, NearRanges, PoleResidue, TwoEnded,
+};
 use crate::cable::LocalStiffness;
 use crate::drive::DriveChain;
 use crate::math::{CDMat, Complex, DMat};
@@ -149,10 +151,22 @@ impl DriveAt {
         (0..count).map(|i| std::array::from_fn(|s| moved(i, s))).collect()
     }
 
+    /// Adds the motions `R p` by forces p on the motions to `motions`.
+    pub(crate) fn add_motion_by(&self, forces: &[Complex], motions: &mut [Complex]) {
+        for (i, motion) in motions.iter_mut().enumerate() {
+            *motion += forces.iter().enumerate().map(|(j, force)| self.receptance[(i, j)] * force).sum::<Complex>();
+        }
+    }
+
     /// Forces `Δ (1 + R Δ)⁻¹ z` of the additional stiffness `delta` of the drive [N/m], whose motion without them is
     /// `free`.
     pub(super) fn forces(&self, delta: &[Complex], free: &[Complex]) -> Vec<Complex> {
         self.freed(delta, free).iter().zip(delta).map(|(moved, delta)| moved * delta).collect()
+    }
+
+    /// Forces `Δ (1 + R Δ)⁻¹ z` of losses.
+    pub(crate) fn forces_by(&self, losses: &DriveLosses, free: &[Complex]) -> Vec<Complex> {
+        self.forces(&losses.values(), free)
     }
 
     /// Motion `(1 + R Δ)⁻¹ z` of the drive, whose motion without the additional stiffness `delta` [N/m] is `free`.
@@ -201,6 +215,14 @@ impl DriveLosses {
 }
 
 impl DriveMotion {
+    /// Slow motion of all motions with the carrier of the end, the platform end held: per component (e, n, b).
+    pub(super) fn with_carrier(&self) -> Vec<[f64; 3]> {
+        let along = self.along.still.iter().map(|[[_, _, e, n], _]| [*e, *n, 0.0]);
+        let sideways = self.sideways.still.iter().map(|[[_, b]]| [0.0, 0.0, *b]);
+        let coupled = self.coupled.still.iter().map(|[[_, _, _, e, n, b], ..]| [*e, *n, *b]);
+        along.chain(sideways).chain(coupled).collect()
+    }
+
     /// Motions in the clamped mode with this index of a family [1/√kg]; zero for motions that it does not contain.
     pub(super) fn in_mode(&self, family: Family, index: usize) -> Vec<f64> {
         let mut motions = vec![0.0; self.flexibility.nrows()];
@@ -243,12 +265,8 @@ impl InternalMotion {
 
         // The clamped modes under these forces.
         for family in Family::ALL {
-            let (amplitudes, poles) = match family {
-                Family::InPlane => (&mut self.in_plane, &cable.in_plane.poles[..]),
-                Family::OutOfPlane => (&mut self.out_of_plane, &cable.out_of_plane.poles[..]),
-                Family::Coupled => (&mut self.coupled, cable.coupled_poles()),
-            };
-            for (index, (amplitude, pole)) in amplitudes.iter_mut().zip(poles).enumerate() {
+            for (index, (amplitude, pole)) in self.amplitudes(family).iter_mut().zip(cable.poles_of(family)).enumerate()
+            {
                 let force: Complex =
                     drive.in_mode(family, index).iter().zip(&forces).map(|(phi, force)| force * *phi).sum();
                 *amplitude -= force / (*pole - square);
@@ -317,8 +335,14 @@ impl CatenaryDynamicEnd {
 
     /// Kinetic energy of the drive over ω²/2 [kg m²], and the work of its losses, by which its damping grows [N m], in
     /// a motion of the platform end (e, n, b) at the undamped ω [rad/s]. `near` has the amplitudes of the clamped modes
-    /// that are unknowns of their own.
-    pub(crate) fn drive_share(&self, omega: f64, end: [f64; 3], near: &[(usize, Family, f64)]) -> (f64, f64) {
+    /// that are unknowns of their own, `carrier` both ends and their motion by a support.
+    pub(crate) fn drive_share(
+        &self,
+        omega: f64,
+        end: [f64; 3],
+        near: &[(usize, Family, f64)],
+        carrier: Option<(&TwoEnded, [f64; ENDS])>,
+    ) -> (f64, f64) {
         let x = omega * omega;
         let left_out = |family: Family| {
             let mut indices = near.iter().filter(|near| near.1 == family).map(|near| near.0);
@@ -334,6 +358,11 @@ impl CatenaryDynamicEnd {
         // Motions by the platform end, and in the near modes.
         let by_end = |row: &[Complex; 3]| row.iter().zip(end).map(|(transfer, u)| transfer.re * u).sum();
         let mut motion: Vec<f64> = motions.transfer.iter().map(by_end).collect();
+        if let Some((both, ends)) = carrier {
+            for (motion, (row, _)) in motion.iter_mut().zip(both.drive(x.into(), &left_out)) {
+                *motion += row.iter().zip(ends).map(|(transfer, u)| transfer.re * u).sum::<f64>();
+            }
+        }
         for (index, family, amplitude) in near {
             let of_mode = self.drive_in_mode(*index, *family);
             motion.iter_mut().zip(&of_mode).for_each(|(sum, phi)| *sum += phi * amplitude);

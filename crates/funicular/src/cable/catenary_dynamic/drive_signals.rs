@@ -1,6 +1,8 @@
 //! Signals of the drive of a cable: commanded length, force of the motor, motions of drum and motor, tension.
 
 use super::{CatenaryDynamicEnd, DriveAt, DriveLosses, NearRanges};
+use crate::cable::LocalAxes;
+use crate::catenary::space::HangingCable;
 use crate::drive::DriveChain;
 use crate::math::Complex;
 
@@ -54,12 +56,35 @@ impl DriveSignal {
 /// Direction of a cable in its plane and its stretch, at both ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct EndDirections {
-    /// Direction from the platform into the cable: components (horizontal, up).
+    /// Direction from the platform into the cable: components (e, n).
     pub(crate) from_platform: [f64; 2],
     /// Direction at the far end towards the platform.
     pub(crate) to_platform: [f64; 2],
     /// Stretch at the far end.
     pub(crate) stretch: f64,
+}
+
+impl EndDirections {
+    /// Directions of a hanging cable in its own axes.
+    pub(crate) fn of(hanging: &HangingCable) -> Self {
+        let catenary = &hanging.catenary;
+        let (h, at_start, at_end) =
+            (catenary.horizontal_force(), catenary.vertical_force_at_start(), catenary.vertical_force_at_end());
+        let (first, last) = (catenary.tension_at_start(), catenary.tension_at_end());
+        Self {
+            from_platform: [h / first, at_start / first],
+            to_platform: [-h / last, -at_end / last],
+            stretch: 1.0 + last / catenary.rope().axial_stiffness,
+        }
+    }
+
+    /// Directions of a hanging cable in other axes of its plane.
+    pub(crate) fn in_axes(hanging: &HangingCable, axes: &LocalAxes) -> Self {
+        let own = Self::of(hanging);
+        let (level_w, up_w) = hanging.axes_w();
+        let turned = |[h, v]: [f64; 2]| [axes.e, axes.n].map(|axis| axis.dot(&(level_w * h + up_w * v)));
+        Self { from_platform: turned(own.from_platform), to_platform: turned(own.to_platform), stretch: own.stretch }
+    }
 }
 
 impl CatenaryDynamicEnd {
@@ -123,7 +148,7 @@ impl CatenaryDynamicEnd {
         let Some(end) = self.chain().and_then(|chain| chain.drum_end.as_ref()) else { return Complex::new(0.0, 0.0) };
         let square = self.square(omega);
         let force = |(k, mass): (f64, f64), motion: f64| (square * mass - k) * motion;
-        let carried = square * (end.own.1 + end.by_wheel.1) * whole;
+        let carried = square * end.carried_mass * whole;
         (force(end.own, at_drum) + force(end.by_wheel, at_wheel) + carried) * end.ratio
     }
 

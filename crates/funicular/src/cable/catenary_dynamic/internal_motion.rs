@@ -177,6 +177,18 @@ impl InternalMotion {
 }
 
 impl Stations {
+    /// Displacement (horizontal, up, out of plane) of station `at` for displacements of the start and of the far end, with the
+    /// amplitudes of the clamped modes at rest.
+    pub(crate) fn still(&self, at: usize, start: [f64; 3], end: [f64; 3]) -> [f64; 3] {
+        let ([a, b, c], [d, e, f]) = (start.map(Complex::from), end.map(Complex::from));
+        if !self.coupled.still.is_empty() {
+            return self.coupled.at(at, &[a, b, c, d, e, f], &[]).map(|u| u.re);
+        }
+        let [horizontal, up] = self.in_plane.at(at, &[a, b, d, e], &[]);
+        let [out_of_plane] = self.out_of_plane.at(at, &[c, f], &[]);
+        [horizontal.re, up.re, out_of_plane.re]
+    }
+
     /// Displacement (horizontal, up, out of plane) of station `at`.
     pub(crate) fn displacement(&self, at: usize, motion: &InternalMotion) -> [Complex; 3] {
         if !self.coupled.still.is_empty() {

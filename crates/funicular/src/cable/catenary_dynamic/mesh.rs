@@ -79,7 +79,18 @@ const MIN_TENSION: f64 = 1e-9;
 
 /// Number of degrees that the matrices of an element have beyond its own. The response of these additional functions
 /// estimates the error of the discretisation.
-const BEYOND: usize = 2;
+pub(super) const BEYOND: usize = 2;
+
+/// Degree of an element for a wave of this phase over it and a tangent C whose Bernstein ellipse has this size.
+pub(super) fn degree(phase: f64, size: f64) -> usize {
+    let waves = DEGREE_PER_RADIAN * phase + DEGREES_OF_TRANSITION * (0.5 * phase).cbrt();
+    (waves + BASE_DEGREE + DECREASE_OF_TANGENT / size.ln()).ceil().min(MAX_DEGREE) as usize
+}
+
+/// Degree of an element after a refinement.
+pub(super) fn refined(degree: usize) -> usize {
+    degree + degree / REFINED_PART + REFINED_DEGREES
+}
 
 impl<'a> Mesh<'a> {
     /// Mesh for frequencies up to ω = `limit`, with nodes at the arc lengths `cuts`, where the motion has a kink under
@@ -117,9 +128,7 @@ impl<'a> Mesh<'a> {
             let phase = limit * mean * (to - from);
 
             // Degree for the waves, and for the variation of C along the element.
-            let waves = DEGREE_PER_RADIAN * phase + DEGREES_OF_TRANSITION * (0.5 * phase).cbrt();
-            let degree = (waves + BASE_DEGREE + DECREASE_OF_TANGENT / size.ln()).ceil().min(MAX_DEGREE) as usize;
-            elements.push(Element { from, to, degree });
+            elements.push(Element { from, to, degree: degree(phase, size) });
         }
         Ok(Self { catenary, mass_per_length, elements, free_end, refined: 0 })
     }
@@ -127,7 +136,7 @@ impl<'a> Mesh<'a> {
     pub(super) fn refine(&mut self) {
         self.refined += 1;
         for element in &mut self.elements {
-            element.degree += element.degree / REFINED_PART + REFINED_DEGREES;
+            element.degree = refined(element.degree);
         }
     }
 

@@ -8,11 +8,12 @@
 
 use super::CatenaryDynamicError;
 use super::partition::Guide;
-use crate::catenary::space::HangingCable;
+use crate::cable::LocalAxes;
 use crate::drive::{AnchorEnd, DriveChain};
 use crate::math::{DMat, Mat3, Vec3};
 
-/// End of a cable that can move. Directions are unit vectors with the components (horizontal, up, out of plane).
+/// End of a cable that can move. Directions are unit vectors in the axes (e, n, b) of the cable's model: for a hanging
+/// cable horizontal, up and out of plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MovingEnd {
     /// Motion along the cable; `None` if the end is held there.
@@ -49,20 +50,14 @@ pub struct EndSideways {
 const IN_PLANE: f64 = 1e-8;
 
 impl MovingEnd {
-    /// Motion of the end of a hanging cable at its pulley and winch; `None` if it is held. `chain` is the drive behind
-    /// it, and `swivel_mass` the mass that the swivel adds to the motion sideways [kg].
-    pub(crate) fn of(
-        hanging: &HangingCable,
-        end: &AnchorEnd,
-        chain: Option<DriveChain>,
-        swivel_mass: f64,
-    ) -> Option<Self> {
+    /// Motion of the end of a cable at its pulley and winch, in the axes of its model; `None` if it is held. `chain` is the
+    /// drive behind it, and `swivel_mass` the mass that the swivel adds to the motion sideways [kg].
+    pub(crate) fn of(axes: &LocalAxes, end: &AnchorEnd, chain: Option<DriveChain>, swivel_mass: f64) -> Option<Self> {
         if chain.is_none() && end.sideways_w.is_none() {
             return None;
         }
-        let (horizontal_w, up_w) = hanging.axes_w();
-        let out_w = horizontal_w.cross(&up_w);
-        let local = |direction_w: &Vec3| [&horizontal_w, &up_w, &out_w].map(|axis| axis.dot(direction_w));
+        let LocalAxes { e, n, b } = axes;
+        let local = |direction_w: &Vec3| [e, n, b].map(|axis| axis.dot(direction_w));
 
         let [[_, coupling], [_, stiffness]] = end.stiffness;
         let sideways = end.sideways_w.as_ref().map(|direction_w| EndSideways {

@@ -66,7 +66,48 @@ fn components<const D: usize>() -> impl Iterator<Item = ((usize, usize), usize)>
     (0..D).flat_map(move |column| (0..D).filter_map(move |row| Some(((row, column), entry(row, column)?))))
 }
 
+/// Blocks of stiffness and mass from which a [`Partition`] is made at once, symmetric ones by both triangles.
+pub(super) struct Blocks {
+    /// K_ii and M_ii.
+    pub(super) inner: [DMat; 2],
+    /// K_io and M_io; the outer unknowns are those of both ends, then those beyond the degree.
+    pub(super) to_outer: [DMat; 2],
+    /// M_bb.
+    pub(super) end_mass: DMat,
+    /// Diagonal entries of stiffness and mass of each unknown beyond the degree.
+    pub(super) beyond: Vec<(f64, f64)>,
+    /// Inner unknown of each station, which is a motion behind the end.
+    pub(super) stations: Vec<usize>,
+}
+
 impl<const D: usize, const N: usize> Partition<D, N> {
+    /// Partition of these blocks.
+    pub(super) fn of(blocks: &Blocks) -> Self {
+        let Blocks { inner: [stiffness, mass], to_outer, end_mass, beyond, stations } = blocks;
+        let (unknowns, outer) = (stiffness.nrows(), to_outer[0].ncols());
+        let row_length = 2 * outer + D * stations.len();
+        let mut rows = vec![0.0; unknowns * row_length];
+        for (i, row) in rows.chunks_exact_mut(row_length).enumerate() {
+            for j in 0..outer {
+                (row[j], row[outer + j]) = (to_outer[0][(i, j)], to_outer[1][(i, j)]);
+            }
+        }
+        for (station, unknown) in stations.iter().enumerate() {
+            rows[unknown * row_length + 2 * outer + D * station] = 1.0;
+        }
+        Self {
+            unknowns,
+            outer,
+            stiffness: stiffness.as_slice().to_vec(),
+            mass: mass.as_slice().to_vec(),
+            rows,
+            row_length,
+            end_mass: std::array::from_fn(|i| std::array::from_fn(|j| end_mass[(i, j)])),
+            beyond: beyond.clone(),
+            values_at_ends: vec![[0.0; 2]; stations.len()],
+        }
+    }
+
     /// Partition of zeros for the given numbers of inner functions, functions beyond the degree and stations.
     pub(super) fn new(inner: usize, beyond: usize, stations: usize) -> Self {
         let (unknowns, outer) = (D * inner, D * (2 + beyond));

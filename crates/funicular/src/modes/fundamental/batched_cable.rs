@@ -361,6 +361,7 @@ mod tests {
             motor: None,
             by_length: Vec::new(),
             drum_side: Vec::new(),
+            drum_side_mass: 0.0,
             drum_end: None,
             stretch_drum: 1.0,
         };

@@ -3,7 +3,7 @@
 use super::batched_cable::{CableGroup, CableSpan, KeptStiffness};
 use super::lever_axes::{LeverAxes, RobotMotion};
 use crate::cable::catenary_dynamic::MovingEnd;
-use crate::cable::{Sag, moving_end};
+use crate::cable::{LocalAxes, Sag, moving_end};
 use crate::catenary::space::HangingCable;
 use crate::dynamics::{self, PlatformTerms};
 use crate::math::simd::{LANES, Line, Part, sum};
@@ -62,7 +62,8 @@ impl RobotPencil {
 
             let end = state.drive.as_ref().and_then(|_| {
                 let limit = ABOVE_STRING * TAU * Sag::of(robot, i, state).string_frequency_hz();
-                moving_end(robot, i, state, WinchMode::default(), limit)
+                let axes = LocalAxes::of_hanging(hanging);
+                moving_end(robot, i, state, &axes, WinchMode::default(), limit)
             });
             if end.as_ref().is_some_and(MovingEnd::couples) {
                 return None;

@@ -4,10 +4,10 @@ use super::drives::{self, Drives};
 use super::key::{Absent, Key, KeyValue, Shape};
 use super::limits;
 use super::materials::Materials;
-use super::read::{Reader, Section, is_zero, shortened};
+use super::read::{Named, Reader, Section, is_zero, shortened};
 use crate::math::Vec3;
 use crate::robot::parameters::Range as Limits;
-use crate::robot::{Cable, PlatformMotion, Pose};
+use crate::robot::{Cable, PlatformMotion, Pose, Support};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::de::DeValue;
@@ -52,6 +52,13 @@ pub(super) const KEYS: &[Key] = &[
     .without(Absent::Means("that of its pulley")),
     Key::other("winch", r#"winch = "drum""#, KeyValue::Name, "winch of the cable: a NAME of `[winches.NAME]`")
         .without(Absent::Means("no winch: the cable ends at its anchor, or on a rigid drum beside it")),
+    Key::other(
+        "support",
+        r#"support = "post""#,
+        KeyValue::Name,
+        "flexible support of the anchor: a NAME of `[supports.NAME]`; `anchor_m` is then its place without forces",
+    )
+    .without(Absent::Means("a fixed anchor")),
     Key::numeric(
         Shape::Number,
         "minimum_tension_n",
@@ -95,6 +102,8 @@ pub(super) const KEYS: &[Key] = &[
 pub(super) struct CableEntry {
     /// `None` if a value was refused; the issue has been reported.
     pub cable: Option<Cable>,
+    /// Name of the support of its anchor.
+    pub support: Option<String>,
     /// Place of its length, valid or not.
     pub length_span: Option<Range<usize>>,
     label: String,
@@ -109,7 +118,7 @@ pub(super) fn read(
     reader: &mut Reader,
     root: &Section,
     materials: Option<&Materials>,
-    drives: &Drives,
+    parts: (&Drives, Option<&Named<Support>>),
     motion: Option<PlatformMotion>,
 ) -> Option<Vec<CableEntry>> {
     let value = reader.required(root, "cables")?;
@@ -139,7 +148,7 @@ pub(super) fn read(
             _ => format!("[[cables]] number {}", i + 1),
         };
         let section = reader.open(label, value.span(), table, KEYS);
-        entries.push(read_one(reader, &section, materials, drives, motion, &mut names));
+        entries.push(read_one(reader, &section, materials, parts, motion, &mut names));
     }
 
     (entries.len() == array.len()).then_some(entries)
@@ -149,7 +158,7 @@ fn read_one(
     reader: &mut Reader,
     section: &Section,
     materials: Option<&Materials>,
-    drives: &Drives,
+    (drives, supports): (&Drives, Option<&Named<Support>>),
     motion: Option<PlatformMotion>,
     names: &mut BTreeMap<String, Range<usize>>,
 ) -> CableEntry {
@@ -171,7 +180,9 @@ fn read_one(
         reader.reference(section, "material", "materials", materials).flatten()
     });
 
-    let anchor = drives::anchor(reader, section, drives);
+    let support = reader.reference(section, "support", "supports", supports);
+    // The cable is refused with its support.
+    let anchor = drives::anchor(reader, section, drives).filter(|_| support.is_some());
     let attachment = attachment(reader, section, motion);
 
     let own_limits = limits::read(reader, section);
@@ -198,6 +209,7 @@ fn read_one(
 
     CableEntry {
         cable,
+        support: support.flatten().map(|support| support.name),
         label: section.label().to_owned(),
         header: section.span.clone(),
         anchor_span: section.get("anchor_m").map_or(section.span.clone(), toml::Spanned::span),

@@ -1,5 +1,6 @@
-//! `[pulleys.NAME]`: pulleys that cables refer to, and the anchor made of pulley and winch.
+//! `[pulleys.NAME]`: pulleys that cables refer to, and the anchor made of pulley, winch and guide wheels.
 
+use super::guide_wheels;
 use super::key::{Absent, Key, Shape};
 use super::range::Range;
 use super::read::{Named, Reader, Section, Value, is_zero};
@@ -115,10 +116,13 @@ pub(super) fn read(reader: &mut Reader, root: &Section) -> Drives {
         Some(value) => reader.named_tables("pulleys", "pulley", value, PULLEY, read_pulley),
         None => Some(Named::new()),
     };
-    let winches = match root.get("winches") {
+    let mut winches = match root.get("winches") {
         Some(value) => reader.named_tables("winches", "winch", value, WINCH, winches::read),
         None => Some(Named::new()),
     };
+    if let Some(value) = root.get("guide_wheels") {
+        guide_wheels::read(reader, value, &mut winches);
+    }
     Drives { pulleys, winches }
 }
 
@@ -256,5 +260,5 @@ pub(super) fn anchor(reader: &mut Reader, cable: &Section, drives: &Drives) -> O
             Some(Pulley { name, radius, entry_direction_w, inertia, swivel_inertia, friction })
         }
     };
-    Some(Anchor { point_w: Vec3::from(point?), pulley, winch: winch? })
+    Some(Anchor { point_w: Vec3::from(point?), pulley, winch: winch?, support: None })
 }

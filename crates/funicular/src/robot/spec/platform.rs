@@ -3,14 +3,11 @@
 use super::key::{Absent, Key, KeyValue, Shape};
 use super::range::{MAX_NUMBER, MIN_NUMBER, Range};
 use super::read::{Reader, Section, Value, is_zero, known, parsed, shortened};
-use crate::math::{Mat3, Vec3, symmetric_part};
+use super::tensor::{self, rounded};
+use crate::math::{Mat3, Vec3};
 use crate::robot::{Plane, Platform, PlatformMotion};
 use crate::suggest::nearest;
 use toml::de::DeValue;
-
-/// Largest difference of mirrored products of inertia, relative to the largest entry: far above rounding, far below the
-/// digits of any published tensor.
-const SLACK: f64 = 1e-9;
 
 /// Largest excess of a principal moment over the sum of the others, relative to this moment. For a flat body they are
 /// equal, and sources round them: 0.005208333, 0.005208333 and 0.010416667 differ by 1e-7.
@@ -281,11 +278,6 @@ fn attachment(cable: &DeValue) -> Option<[f64; 3]> {
     numbers?.try_into().ok()
 }
 
-/// Value with a number of significant digits.
-fn rounded(value: f64, digits: usize) -> f64 {
-    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
-}
-
 /// Viscous damping along the platform's three axes; zero if the key is absent.
 fn damping(reader: &mut Reader, section: &Section, key: &str) -> Option<Vec3> {
     let Some(value) = section.get(key) else { return Some(Vec3::zeros()) };
@@ -306,57 +298,9 @@ fn planar_inertia(reader: &mut Reader, value: &Value, plane: &Plane) -> Option<M
 
 /// Reads three principal moments or a full tensor, which must be symmetric, positive definite and possible for a body.
 fn inertia(reader: &mut Reader, value: &Value) -> Option<Mat3> {
-    let label = "`inertia_kg_m2`";
-    let rows = reader.three(label, "three numbers or three rows of three, in kg m²", value)?;
-    let full = rows.iter().any(|row| matches!(row.get_ref(), DeValue::Array(_)));
-
-    let tensor = if full {
-        let mut tensor = Mat3::zeros();
-        let mut elements = [[value; 3]; 3];
-        let mut complete = true;
-        for (i, row) in rows.into_iter().enumerate() {
-            let row_label = format!("row {} of {label}", i + 1);
-            let Some(three) = reader.three(&row_label, "three numbers in kg m²", row) else {
-                complete = false;
-                continue;
-            };
-            elements[i] = three;
-            match reader.three_numbers(&row_label, Range::Any, three) {
-                Some(numbers) => (0..3).for_each(|j| tensor[(i, j)] = numbers[j]),
-                None => complete = false,
-            }
-        }
-        if !complete {
-            return None;
-        }
-        symmetric(reader, &tensor, &elements)?
-    } else {
-        Mat3::from_diagonal(&Vec3::from(reader.three_numbers(label, Range::Positive, rows)?))
-    };
-
+    let tensor = tensor::read(reader, "inertia_kg_m2", "kg m²", value)?;
     possible(reader, &tensor, value)?;
     Some(tensor)
-}
-
-/// Symmetric part of the tensor, after a check that the two halves differ by rounding only.
-fn symmetric(reader: &mut Reader, tensor: &Mat3, elements: &[[&Value; 3]; 3]) -> Option<Mat3> {
-    for (i, j) in [(1, 0), (2, 0), (2, 1)] {
-        let [lower, upper] = [tensor[(i, j)], tensor[(j, i)]];
-        if (lower - upper).abs() > SLACK * tensor.amax() {
-            reader
-                .issue(
-                    elements[i][j].span(),
-                    format!(
-                        "`inertia_kg_m2` is not symmetric: row {}, column {} is {lower:e}, its mirror is {upper:e}",
-                        i + 1,
-                        j + 1
-                    ),
-                )
-                .context(elements[j][i].span(), "the mirror");
-            return None;
-        }
-    }
-    Some(symmetric_part(tensor))
 }
 
 /// Checks that a body can have this tensor: principal moments positive, none larger than the sum of the others.
@@ -364,7 +308,12 @@ fn possible(reader: &mut Reader, tensor: &Mat3, value: &Value) -> Option<()> {
     let mut moments: [f64; 3] = tensor.symmetric_eigenvalues().into();
     moments.sort_by(f64::total_cmp);
     let [least, middle, largest] = moments;
-    let shown = format!("its principal moments are {}, {} and {} kg m²", short(least), short(middle), short(largest));
+    let shown = format!(
+        "its principal moments are {}, {} and {} kg m²",
+        tensor::short(least),
+        tensor::short(middle),
+        tensor::short(largest)
+    );
 
     // Below 1e-12 of the largest moment, the sign of the smallest is rounding.
     if least < MIN_NUMBER * largest.max(1.0) {
@@ -384,12 +333,6 @@ fn possible(reader: &mut Reader, tensor: &Mat3, value: &Value) -> Option<()> {
         return None;
     }
     Some(())
-}
-
-/// Value with four significant digits, for a message.
-fn short(value: f64) -> String {
-    let rounded = rounded(value, 4);
-    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
 #[cfg(test)]

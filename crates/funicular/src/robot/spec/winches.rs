@@ -189,6 +189,8 @@ pub(super) fn read(reader: &mut Reader, name: &str, section: &Section) -> Option
         name: name.to_owned(),
         drum_side_length: drum_side_length?,
         drum_side: if drum_side? == "rod" { DrumSide::Rod } else { DrumSide::Massless },
+        // Tables of their own refer to the winch.
+        guide_wheels: Vec::new(),
         stiffness: stiffness?,
         drum_mass,
         motor_mass,

@@ -1,7 +1,7 @@
 //! Plausibility of pulleys and winches: sizes, inertias, stiffness and control.
 
 use super::{Implausible, likely, outside, usual};
-use crate::robot::{Control, Pulley, Robot, Winch};
+use crate::robot::{Control, GuideWheel, Pulley, Robot, Winch};
 use std::f64::consts::TAU;
 
 /// Warnings about all pulleys and winches, each named once.
@@ -104,5 +104,11 @@ fn winch(winch: &Winch, axial_stiffness: f64) -> Vec<Implausible> {
         _ => Vec::new(),
     };
 
-    [drum_side, inertia, stiffness].into_iter().chain(control).flatten().collect()
+    let guide_wheel = |wheel: &GuideWheel| {
+        let what = format!("guide wheel \"{}\": inertia over the square of the radius", wheel.name);
+        (wheel.mass > 0.0).then(|| outside(what, wheel.mass, "kg", usual::WHEEL_MASS, inertia_slip))?
+    };
+    let guide_wheels = winch.guide_wheels.iter().map(guide_wheel);
+
+    [drum_side, inertia, stiffness].into_iter().chain(guide_wheels).chain(control).flatten().collect()
 }

@@ -8,7 +8,7 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Vec3};
 use funicular::modes::{self, Kind};
 use funicular::response::{self, FrameInput, Port, Quantity, Signal};
-use funicular::robot::{Control, DrumSide, Pose, Robot, Servo, WinchMode};
+use funicular::robot::{Control, DrumSide, GuideWheel, Pose, Robot, Servo, Winch, WinchMode};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
 
@@ -47,32 +47,56 @@ fn at_drum(omega: f64) -> Complex {
     -omega * omega * drum + 1.0 / (1.0 / shaft + 1.0 / at_motor)
 }
 
-/// Impedance at the exit point along the cable and sideways [N/m], from the series of theory (68), (75) and (76).
-fn impedances(rest: &Equilibrium, omega: f64, xi: f64, is_rod: bool) -> (Complex, Complex) {
+/// Guide wheels of 0.1 m radius on the drum side of [`weightless`]: distance from the entry point [m] and moment of inertia
+/// [kg m²].
+const GUIDES: [(f64, f64); 2] = [(0.7, 0.02), (1.5, 0.005)];
+
+/// Tables of guide wheels, in another order than the cable runs over them.
+fn guides(wheels: &[(f64, f64)]) -> String {
+    let table = |(i, (distance, inertia)): (usize, &(f64, f64))| {
+        format!(
+            "[guide_wheels.post{i}]\nwinch = \"drum\"\ndistance_m = {distance}\nradius_m = 0.1\ninertia_kg_m2 = {inertia}\n"
+        )
+    };
+    wheels.iter().enumerate().rev().map(table).collect()
+}
+
+/// Impedance at the exit point along the cable and sideways [N/m], from the series of theory (68), (75) and (76): from the
+/// drum towards the exit point, each piece of the drum side and each guide wheel in turn.
+fn impedances(rest: &Equilibrium, wheels: &[(f64, f64)], omega: f64, xi: f64, is_rod: bool) -> (Complex, Complex) {
     let (ea, tension): (f64, f64) = (2e4, 100.0);
     let stretch = 1.0 + tension / ea;
     let drive = rest.cables[0].drive.as_ref().unwrap();
     let wrap = drive.contact.unwrap().wrap;
 
-    // The drum side: a spring, or a rod of the length at which it has the same static stiffness.
-    let compliance = 0.4 * wrap / (ea * stretch.powi(3)) + drive.drum_side_length / (ea * stretch * stretch);
-    let spring = 1.0 / (stretch * stretch * compliance);
+    // Pieces of the drum side: springs, or rods of the length at which they have the same static stiffness.
     let kappa = omega * (0.1 / ea * Complex::new(1.0, -2.0 * xi)).sqrt();
-    let behind =
-        if is_rod { rod(ea, kappa, ea / spring, at_drum(omega)) } else { 1.0 / (1.0 / spring + 1.0 / at_drum(omega)) };
+    let through = |compliance: f64, behind: Complex| {
+        let spring = 1.0 / (stretch * stretch * compliance);
+        if is_rod { rod(ea, kappa, ea / spring, behind) } else { 1.0 / (1.0 / spring + 1.0 / behind) }
+    };
+    let straight = drive.drum_side_length / (ea * stretch * stretch * 2.0);
+    let (mut behind, mut end) = (at_drum(omega), 2.0);
+    for (distance, inertia) in wheels.iter().rev() {
+        behind = through(straight * (end - distance), behind) - omega * omega * inertia / 0.01;
+        end = *distance;
+    }
+    let behind = through(straight * end + 0.4 * wrap / (ea * stretch.powi(3)), behind);
 
     let distance = 0.8 * (0.5 * wrap).sin().powi(2);
     let swivel = tension / 0.4 / (0.5 * wrap).tan() - omega * omega * 0.2 / (distance * distance);
     (behind - omega * omega * 0.05 / 0.16, swivel.into())
 }
 
-/// Wheel, drum, shaft, motor, servo with delay, damped cable: all in one closed form, which shares no code.
+/// Wheel, guide wheels, drum, shaft, motor, servo with delay, damped cable: all in one closed form, which shares no code.
 #[test]
 fn a_weightless_cable_ends_in_the_impedance_of_its_drive() {
     let (ea, m, tension): (f64, f64, f64) = (2e4, 0.1, 100.0);
     let stretch = 1.0 + tension / ea;
-    for (xi, drum_side) in [(0.0, "massless"), (0.02, "massless"), (0.02, "rod")] {
-        let (robot, rest) = weightless(xi, &format!("{WINCH}drum_side = \"{drum_side}\"\n"));
+    let cases = [(0.0, "massless", 0), (0.02, "massless", 0), (0.02, "rod", 0), (0.02, "massless", 1)];
+    for (xi, drum_side, count) in cases.into_iter().chain([(0.0, "massless", 2), (0.02, "rod", 2)]) {
+        let wheels = &GUIDES[..count];
+        let (robot, rest) = weightless(xi, &format!("{WINCH}drum_side = \"{drum_side}\"\n{}", guides(wheels)));
         let state = &rest.cables[0];
         let model = CableModel::CatenaryDynamic;
         let found = EndStiffness::new(&robot, 0, state, model, false, WinchMode::AsGiven, 120.0).unwrap();
@@ -86,14 +110,15 @@ fn a_weightless_cable_ends_in_the_impedance_of_its_drive() {
             let along = Complex::new(e.dot(&(re * e)), e.dot(&(im * e)));
             let out = Complex::new(re[(1, 1)], im[(1, 1)]);
 
-            let (slip, swivel) = impedances(&rest, omega, xi, drum_side == "rod");
+            let (slip, swivel) = impedances(&rest, wheels, omega, xi, drum_side == "rod");
             let kappa = |c: f64| omega * (m / c * Complex::new(1.0, -2.0 * xi)).sqrt();
             let length = state.free_length();
             let axial = rod(ea, kappa(ea), length, slip);
             let transverse = rod(tension / stretch, kappa(tension / stretch), length, swivel);
             for (ours, exact) in [(along, axial), (out, transverse)] {
                 // Rounding of the clamped frequencies near their poles.
-                assert!((ours - exact).norm() < 1e-8 * exact.norm(), "ξ {xi}, {drum_side}, {hz} Hz: {ours} {exact}");
+                let case = format!("ξ {xi}, {drum_side}, {count} wheels");
+                assert!((ours - exact).norm() < 1e-8 * exact.norm(), "{case}, {hz} Hz: {ours} {exact}");
             }
         }
     }
@@ -111,7 +136,7 @@ fn points_of_a_weightless_cable_move_with_the_drive_behind_it() {
         let stations = CableStations::new(&robot, &rest, &dynamics, 0, &fractions, loaded).unwrap();
         for hz in [0.5, 7.0, 61.0] {
             let omega = hz * TAU;
-            let (slip, _) = impedances(&rest, omega, 0.02, false);
+            let (slip, _) = impedances(&rest, &[], omega, 0.02, false);
             let kappa = omega * (0.1 / 2e4 * Complex::new(1.0, -0.04)).sqrt();
             let stiff = 2e4 * kappa;
             let (sin, cos) = ((kappa * length).sin(), (kappa * length).cos());
@@ -127,8 +152,115 @@ fn points_of_a_weightless_cable_move_with_the_drive_behind_it() {
     }
 }
 
+/// Points along the same cable when the base moves with anchor and drum: `u(s) = B sin κs` beside what the platform's motion
+/// brings about, the far end moving by the base and by the drive behind it.
+#[test]
+fn points_of_a_weightless_cable_move_with_the_base() {
+    let (robot, rest) = weightless(0.02, WINCH);
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 120.0).unwrap();
+    let state = &rest.cables[0];
+    let (e, length) = (state.chord_w().normalize(), state.free_length());
+    let tension = 100.0 / (1.0 + 100.0 / 2e4);
+    for loaded in [false, true] {
+        let stations = CableStations::new(&robot, &rest, &dynamics, 0, &[0.2, 0.7], loaded).unwrap();
+        for (along, is_axial) in [(e, true), (Vec3::y(), false)] {
+            let base = Signal::Frame(FrameInput::BaseAlong(along));
+            let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+            let of_axis = |direction_w: Vec3| Signal::Along { direction_w, point_p: Vec3::zeros() };
+            let on_cable = |fraction: f64| Signal::OnCable { cable: 0, fraction, direction_w: along };
+            let signals: Vec<Signal> =
+                [base, on_cable(0.2), on_cable(0.7)].into_iter().chain(axes.map(of_axis)).collect();
+            let ports = Port::all(&robot, &rest, &dynamics, &signals, loaded).unwrap();
+            for hz in [0.5, 7.0, 61.0] {
+                let omega = hz * TAU;
+                let response = |output: &Port| {
+                    response::between(&dynamics, &[hz], &ports[0], output, Quantity::Displacement).unwrap()[0]
+                };
+                let platform: Vec<Complex> = ports[3..].iter().map(response).collect();
+
+                let (slip, swivel) = impedances(&rest, &[], omega, 0.02, false);
+                let (c, end) = if is_axial { (2e4, slip) } else { (tension, swivel) };
+                let kappa = omega * (0.1 / c * Complex::new(1.0, -0.04)).sqrt();
+                let (sin, cos) = ((kappa * length).sin(), (kappa * length).cos());
+                let b = end / (c * kappa * cos + end * sin);
+                for (at, fraction) in [0.2, 0.7].into_iter().enumerate() {
+                    let vector = stations.transmission(&dynamics, at, &along, omega);
+                    let through: Complex = (0..3).map(|k| vector[k] * platform[k]).sum();
+                    let (ours, exact) = (response(&ports[1 + at]) - through, b * (kappa * length * fraction).sin());
+                    assert!((ours - exact).norm() < 1e-8 * b.norm(), "{hz} Hz, {fraction}: {ours} {exact}");
+                }
+            }
+        }
+    }
+}
+
+/// A drive moves the points of its own cable: at rest as forward statics does, and by the same number as a force on a point
+/// moves the drive.
+#[test]
+fn a_drive_moves_the_points_of_its_cable() {
+    let pose = Pose::new([1.0, 2.0, 1.5], [0.0; 3]);
+    let plain = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    for (robot, cable) in [(plain, 2), (cogiro(0.06), 0), (driven(Control::Ideal).0, 5)] {
+        let rest = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0).unwrap();
+        let along = Vec3::new(0.2, -0.4, 1.0).normalize();
+        let (length, tension) = (DriveSignal::Length, DriveSignal::Tension);
+        let drive = |signal: DriveSignal| Signal::Drive { cable, signal };
+        let on_cable = Signal::OnCable { cable, fraction: 0.3, direction_w: along };
+        let ports = Port::all(&robot, &rest, &dynamics, &[drive(length), on_cable, drive(tension)], true).unwrap();
+        let response = |from: usize, to: usize| {
+            response::between(&dynamics, &[1e-5], &ports[from], &ports[to], Quantity::Displacement).unwrap()[0].re
+        };
+
+        // The point keeps its unstrained distance from the platform.
+        let mut lengths: Vec<f64> = rest.cables.iter().map(|cable| cable.unstrained_length).collect();
+        let (before, step) = (lengths[cable], 1e-5);
+        let at = 0.3 * rest.cables[cable].free_length();
+        let mut moved = |by: f64| {
+            lengths[cable] = before + by;
+            let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&rest.pose)).unwrap();
+            rest.cables[cable].hanging.as_ref().unwrap().point_w(at)
+        };
+        let by_statics = (moved(step) - moved(-step)).dot(&along) / (2.0 * step);
+        // The step's square.
+        assert!((response(0, 1) - by_statics).abs() < 1e-5 * by_statics.abs(), "{} {by_statics}", response(0, 1));
+
+        // A point at the platform is the platform: a force there changes the tension by the same number.
+        let end = Signal::OnCable { cable, fraction: 0.0, direction_w: along };
+        let lever = rest.cables[cable].lever_w;
+        let point_p = rest.pose.rot_wp.inverse() * lever;
+        let platform = Signal::Along { direction_w: along, point_p };
+        let ports = Port::all(&robot, &rest, &dynamics, &[end, platform, drive(tension)], true).unwrap();
+        for hz in [0.4, 3.7] {
+            let of = |from: usize| {
+                response::between(&dynamics, &[hz], &ports[from], &ports[2], Quantity::Displacement).unwrap()[0]
+            };
+            // At the end itself the held platform takes the force's component along the cable at once.
+            let h = rest.cables[cable].hanging.as_ref().unwrap().force_on_start_w().normalize().dot(&along);
+            assert!((of(0) - of(1) - h).norm() < 1e-7 * of(1).norm().max(1.0), "{hz}: {} {} {h}", of(0), of(1));
+        }
+    }
+
+    // A force on the motor, or on a point of its cable.
+    let (robot, rest) = driven(servo(5e4, 300.0));
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0).unwrap();
+    let on_cable = Signal::OnCable { cable: 3, fraction: 0.6, direction_w: Vec3::new(0.3, -0.5, 1.0) };
+    let drive = |signal: DriveSignal| Signal::Drive { cable: 3, signal };
+    let signals = [on_cable, drive(DriveSignal::Motor), drive(DriveSignal::Drum)];
+    let ports = Port::all(&robot, &rest, &dynamics, &signals, true).unwrap();
+    for hz in [0.3, 2.0, 4.4] {
+        let response = |from: usize, to: usize| {
+            response::between(&dynamics, &[hz], &ports[from], &ports[to], Quantity::Displacement).unwrap()[0]
+        };
+        for other in [1, 2] {
+            let (there, back) = (response(0, other), response(other, 0));
+            assert!((there - back).norm() < 1e-9 * there.norm(), "{hz} Hz: {there} {back}");
+        }
+    }
+}
+
 /// CoGiRo over pulleys, with inertia and a control in all its winches.
-fn driven(control: Control) -> (Robot, Equilibrium) {
+pub(super) fn driven(control: Control) -> (Robot, Equilibrium) {
     let mut robot = cogiro(0.06);
     for cable in &mut robot.cables {
         let winch = cable.anchor.winch.as_mut().unwrap();
@@ -141,7 +273,7 @@ fn driven(control: Control) -> (Robot, Equilibrium) {
     (robot, rest)
 }
 
-fn servo(position_gain: f64, speed_gain: f64) -> Control {
+pub(super) fn servo(position_gain: f64, speed_gain: f64) -> Control {
     Control::Position(Servo { position_gain, speed_gain, integral: true, delay: 0.0 })
 }
 
@@ -186,7 +318,11 @@ fn frequencies_interlace_in_the_position_gain() {
 
 #[test]
 fn energies_of_platform_cables_and_drives_add_up() {
-    let (robot, rest) = driven(servo(5e4, 0.0));
+    let (mut robot, rest) = driven(servo(5e4, 0.0));
+    for cable in robot.cables.iter_mut().take(3) {
+        let wheel = GuideWheel { name: "post".to_owned(), distance: 2.0, mass: 3.0 };
+        cable.anchor.winch.as_mut().unwrap().guide_wheels.push(wheel);
+    }
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 12.0).unwrap();
     let found = modes::below(&dynamics, 12.0);
     for mode in &found.modes {
@@ -205,6 +341,7 @@ fn energies_of_platform_cables_and_drives_add_up() {
         let winch = cable.anchor.winch.as_mut().unwrap();
         winch.drum_mass *= 1.0 + step;
         winch.motor_mass *= 1.0 + step;
+        winch.guide_wheels.iter_mut().for_each(|wheel| wheel.mass *= 1.0 + step);
         let pulley = cable.anchor.pulley.as_mut().unwrap();
         pulley.inertia *= 1.0 + step;
         pulley.swivel_inertia *= 1.0 + step;
@@ -215,6 +352,44 @@ fn energies_of_platform_cables_and_drives_add_up() {
         // The square of the step, larger where frequencies are close.
         assert!((change - share(mode)).abs() < 1e-3, "{} Hz: {change} {}", mode.frequency_hz, share(mode));
     }
+}
+
+/// Guide wheels without inertia change nothing, and each one with inertia lowers every frequency, down to those of a drum
+/// in its place that does not turn.
+#[test]
+fn guide_wheels_lie_between_no_wheel_and_a_drum_in_their_place() {
+    let (robot, rest) = driven(servo(5e4, 0.0));
+    let with = |mass: f64, mode: WinchMode| {
+        let mut robot = robot.clone();
+        for cable in &mut robot.cables {
+            let wheel = |name: &str, distance: f64| GuideWheel { name: name.to_owned(), distance, mass };
+            let winch = cable.anchor.winch.as_mut().unwrap();
+            winch.guide_wheels = vec![wheel("upper", 1.5), wheel("lower", 4.2)];
+        }
+        listed(&robot, &rest, mode, 9.0)
+    };
+    let without = listed(&robot, &rest, WinchMode::AsGiven, 9.0);
+    assert_eq!(with(0.0, WinchMode::AsGiven), without);
+    let light = with(1e-7, WinchMode::AsGiven);
+    assert!(light.len() == without.len() && light.iter().zip(&without).all(|(a, b)| (a / b - 1.0).abs() < 1e-7));
+    let mut lower = without;
+    for mass in [0.5, 20.0, 500.0] {
+        let found = with(mass, WinchMode::AsGiven);
+        assert!(found.len() >= lower.len() && lower.iter().zip(&found).all(|(a, b)| *b <= a * (1.0 + 1e-9)), "{mass}");
+        lower = found;
+    }
+
+    // Wheels that cannot turn hold the cable; beside the first of them there are modes of the others and of the drums.
+    let heavy = with(1e9, WinchMode::Clamped);
+    let mut held = robot.clone();
+    for cable in &mut held.cables {
+        *cable.anchor.winch.as_mut().unwrap() = Winch::rigid("wheel", 1.5);
+    }
+    let rest_of_held = statics::inverse(&held, &rest.pose, StaticModel::Catenary).unwrap();
+    let held = listed(&held, &rest_of_held, WinchMode::AsGiven, 9.0);
+    // Two wheels per cable have frequencies of nearly zero; the ratio of the masses is 1e-8.
+    let heavy = &heavy[2 * robot.cables.len()..];
+    assert!(heavy.len() == held.len() && heavy.iter().zip(&held).all(|(a, b)| (a / b - 1.0).abs() < 1e-6));
 }
 
 /// A servo's weak speed gain damps to first order as its loss in the undamped mode; a strong one is found, counted, and
@@ -351,8 +526,9 @@ fn delays_destabilise_and_strong_gains_stop_ringing() {
 /// The tension at the drum moves drum, shaft and motor: theory (76) at any frequency, whatever lies before the drum.
 #[test]
 fn the_tension_at_the_drum_is_the_impedance_of_the_winch_times_its_motion() {
-    for drum_side in ["massless", "rod"] {
-        let (robot, rest) = weightless(0.01, &format!("{WINCH}drum_side = \"{drum_side}\"\n"));
+    for (drum_side, count) in [("massless", 0), ("rod", 0), ("massless", 2), ("rod", 2)] {
+        let wheels = guides(&GUIDES[..count]);
+        let (robot, rest) = weightless(0.01, &format!("{WINCH}drum_side = \"{drum_side}\"\n{wheels}"));
         let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 120.0).unwrap();
         let drive = |signal: DriveSignal| Signal::Drive { cable: 0, signal };
         let along = |direction_w: Vec3| Signal::Along { direction_w, point_p: Vec3::zeros() };

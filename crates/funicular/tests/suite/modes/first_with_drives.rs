@@ -5,7 +5,7 @@ use crate::random::campaign::robots::{self, Kind, Layout};
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes::{self, FirstError};
-use funicular::robot::{Control, DrumSide, Pose, Pulley, Robot, Servo, Winch};
+use funicular::robot::{Control, DrumSide, GuideWheel, Pose, Pulley, Robot, Servo, Winch};
 use funicular::statics::{self, Equilibrium, Stability, StaticModel};
 use proptest::prelude::*;
 
@@ -16,6 +16,7 @@ const RIGID: Winch = Winch {
     name: String::new(),
     drum_side_length: 5.0,
     drum_side: DrumSide::Massless,
+    guide_wheels: Vec::new(),
     stiffness: f64::INFINITY,
     drum_mass: 0.0,
     motor_mass: 0.0,
@@ -53,6 +54,11 @@ fn at(robot: &Robot, position: [f64; 3]) -> Equilibrium {
     statics::inverse(robot, &Pose::new(position, [0.0, 0.0, 2.0]), StaticModel::Catenary).unwrap()
 }
 
+/// Two guide wheels of this mass [kg] on the drum side.
+fn guides(mass: f64) -> Vec<GuideWheel> {
+    [1.2, 4.0].map(|distance| GuideWheel { name: String::new(), distance, mass }).to_vec()
+}
+
 /// Winches of all kinds, each with the kind of its first mode at the centre of the workspace.
 #[test]
 fn every_kind_of_drive_has_the_first_frequency_of_the_whole_list() {
@@ -78,6 +84,11 @@ fn every_kind_of_drive_has_the_first_frequency_of_the_whole_list() {
         (
             "very heavy motor",
             Some(Winch { control: servo(1e4), stiffness: 1e6, drum_mass: 5.0, motor_mass: 1e4, ..RIGID }),
+        ),
+        ("guide wheels", Some(Winch { guide_wheels: guides(2.0), ..RIGID })),
+        (
+            "heavy guide wheels, torque, rod",
+            Some(Winch { control: Control::Torque, drum_side: rod, guide_wheels: guides(500.0), ..heavy.clone() }),
         ),
         ("drum at the pulley", Some(Winch { control: servo(5e4), drum_side_length: 0.0, ..heavy })),
     ];

@@ -8,7 +8,7 @@ use funicular::reduced_model::{
     ControlModel, DampingAt, ReductionError, RequestedModel, RequestedStateSpace, SecondOrder, Size, StateSpace,
     control_model, reduce,
 };
-use funicular::response::{self, Port, Quantity, Signal};
+use funicular::response::{self, FrameInput, Port, Quantity, Signal};
 use funicular::robot::{Control, Damping, DrumSide, Robot, Servo, State, Winch};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
@@ -167,7 +167,7 @@ fn transfer(space: &StateSpace, frequency_hz: f64) -> CDMat {
 fn with_all_modes_every_signal_of_every_drive_is_exact() {
     use DriveSignal::{Drum, DrumTension, Length, Motor, Tension};
     let viscous = Damping::Viscous(0.02);
-    let on_cable = Signal::OnCable { cable: 0, fraction: 0.4, direction_w: Vec3::z() };
+    let on_cable = Signal::OnCable { cable: 1, fraction: 0.4, direction_w: Vec3::z() };
     // A swivel axis that is not vertical couples the motions in plane and out of plane.
     let inclined = TWO_CABLES.replace("entry_direction = [0, 0, 1]", "entry_direction = [0, 0.3, 1]");
     let cases: [(Case, &[DriveSignal], &[DriveSignal]); 7] = [
@@ -211,6 +211,81 @@ fn check_matrices(model: &SecondOrder, name: &str) {
     assert!(model.mass.clone().cholesky().is_some(), "{name}");
     let least = |matrix: &DMat| matrix.clone().symmetric_eigenvalues().min() / matrix.amax();
     assert!(least(&model.damping) > -1e-10, "{name}: {}", least(&model.damping));
+}
+
+/// Motions of the base and of an anchor.
+fn motions_of_the_frame() -> Vec<Signal> {
+    let tilted = Vec3::new(0.4, -0.2, 1.0);
+    let anchor = FrameInput::Anchor { cable: 1, direction_w: Vec3::new(0.3, 0.5, 1.0) };
+    [FrameInput::BaseAlong(tilted), FrameInput::BaseAbout(tilted), anchor].map(Signal::Frame).to_vec()
+}
+
+/// With all clamped modes the second-order model is the full model for motions of the frame, too.
+#[test]
+fn with_all_modes_motions_of_the_frame_are_exact() {
+    use DriveSignal::{Drum, DrumTension, Motor, Tension};
+    let viscous = Damping::Viscous(0.02);
+    // A swivel axis that is not vertical couples the motions in plane and out of plane.
+    let inclined = TWO_CABLES.replace("entry_direction = [0, 0, 1]", "entry_direction = [0, 0.3, 1]");
+    let cases: [(Case, &[DriveSignal]); 4] = [
+        (Case::new("servo", viscous, servo), &[Drum, DrumTension]),
+        (Case::new("rods", viscous, rods), &[Tension, DrumTension]),
+        (Case::fixed(viscous), &[Tension, DrumTension]),
+        (Case::of("inclined", &inclined, viscous, servo), &[Motor, Tension]),
+    ];
+    for (case, to) in cases {
+        let inputs = motions_of_the_frame();
+        let on_cable = Signal::OnCable { cable: 1, fraction: 0.4, direction_w: Vec3::new(0.2, 0.5, 1.0) };
+        let outputs: Vec<_> = [along(Vec3::new(0.3, 1.0, 0.2)), on_cable]
+            .into_iter()
+            .chain(to.iter().map(|s| drive(1, *s)))
+            .map(|signal| (signal, Quantity::Displacement))
+            .collect();
+        let model = case.second_order(&inputs, &outputs, 0.0).unwrap();
+        assert!(model.truncation_error.unwrap() < 1e-9, "{}: {:?}", case.name, model.truncation_error);
+
+        let frequencies = elsewhere(7);
+        let full = case.full(&inputs, &outputs, &frequencies);
+        for (full, f) in full.iter().zip(&frequencies) {
+            let ours = model.receptance(f * TAU).unwrap();
+            for (at, (a, b)) in full.iter().zip(ours.iter()).enumerate() {
+                // An anchor does not move the tension of another cable but through the platform.
+                let size = full.row(at % outputs.len()).camax();
+                assert!((a - b).norm() < 1e-7 * size, "{} at {f} Hz: {full} {ours}", case.name);
+            }
+        }
+    }
+}
+
+/// Small models of a moving frame keep the errors that they state, and carry the platform along at rest.
+#[test]
+fn small_models_follow_the_frame() {
+    let inputs = [Signal::Frame(FrameInput::BaseAlong(Vec3::z())), motions_of_the_frame()[2]];
+    let outputs = [
+        (along(Vec3::z()), Quantity::Displacement),
+        (along(Vec3::z()), Quantity::Acceleration),
+        (drive(1, DriveSignal::Tension), Quantity::Displacement),
+    ];
+    for (name, change) in [("servo", servo as fn(&mut Winch)), ("ideal", |_: &mut Winch| ())] {
+        let case = Case::new(name, Damping::Ratio(0.005), change);
+        let model = case.control_model(&inputs, &outputs, 0.02).unwrap();
+        assert!(model.error <= 0.02 && model.space.a.nrows() < 60, "{name}: {}", model.space.a.nrows());
+        check_stated_errors(&case, &inputs, &outputs, &model);
+        let gain = transfer(&model.space, 0.0);
+        assert!((gain[(0, 0)] - 1.0).norm() < 1e-6 && gain[(1, 0)].norm() < 1e-6, "{name}: {gain}");
+    }
+
+    // The second-order form, and its state space for a displacement: the tension contains the acceleration of the input.
+    let case = Case::new("servo", Damping::Viscous(0.02), servo);
+    let model = case.second_order(&inputs, &outputs, 1e-3).unwrap();
+    assert!(model.truncation_error.unwrap() <= 1e-3 && model.mass.nrows() < 60, "{}", model.mass.nrows());
+    assert!(matches!(model.state_space(), Err(ReductionError::Improper { output: 2 | 3, .. })));
+    let model = case.second_order(&inputs, &outputs[..1], 1e-3).unwrap();
+    let space = model.state_space().unwrap();
+    for f in [0.31, 2.2] {
+        let (ours, other) = (model.receptance(f * TAU).unwrap(), transfer(&space, f));
+        assert!((&ours - &other).camax() < 1e-8 * ours.camax(), "{f} Hz: {ours} {other}");
+    }
 }
 
 /// A small second-order model keeps the error that it states, at frequencies that its measurement did not use.

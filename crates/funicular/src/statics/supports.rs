@@ -1,0 +1,381 @@
+//! Flexible supports at rest: each yields until its stiffness balances the forces of its cables.
+//!
+//! With the platform held, the energy of the cables and of one support is a function of its displacement e alone. So a
+//! support settles by Newton's method in three unknowns, and to the platform a cable on a support has still an energy, whose
+//! second derivative is the stiffness below (docs/theory.md, equations (90) and (91)).
+
+use super::equilibrium::{CableState, Equilibrium};
+use super::error::StaticsError;
+use super::loaded_cable::LoadedCable;
+use crate::catenary::space::HangingCable;
+use crate::drive::{self, CableAtRest, DriveAtRest, DrumSideAtRest, OnSupport};
+use crate::math::{Mat3, Mat6, Vec3, Vec6};
+use crate::platform::wrench_columns;
+use crate::robot::{Anchor, Pose, Robot, Support};
+use std::borrow::Cow;
+
+/// Maximum number of steps in which a support settles, a guard: two to six are usual.
+const MAX_STEPS: usize = 60;
+
+/// Maximum number of halvings of a step that does not reduce the imbalance.
+const MAX_HALVINGS: usize = 30;
+
+/// Maximum number of rounds in which supports follow the forces at a pose, a guard. A round reduces the motion by the ratio
+/// of the tension over the length of a cable to the stiffness of its support.
+pub(super) const MAX_ROUNDS: usize = 60;
+
+/// Motion of a support from one round to the next, over the length of the cables, at which the rounds end: rounding of the
+/// forces leaves 1e-16 of the displacement.
+pub(super) const STILL: f64 = 1e-15;
+
+/// Imbalance of a support over the forces on it at which it has settled, and below which a step without gain shows that
+/// rounding allows no better balance: rounding of the chords leaves 1e-16 times the stiffness over the tensions.
+const SETTLED: f64 = 1e-15;
+const NEARLY_SETTLED: f64 = 1e-9;
+
+/// Displacements of all supports of a robot at an equilibrium, in the order of [`Robot::supports`] [m].
+pub(crate) fn displacements(robot: &Robot, cables: &[CableState]) -> Vec<Vec3> {
+    let mut all = vec![Vec3::zeros(); robot.supports.len()];
+    for (cable, state) in robot.cables.iter().zip(cables) {
+        if let Some(support) = cable.anchor.support {
+            all[support] = state.displacement_w;
+        }
+    }
+    all
+}
+
+impl Equilibrium {
+    /// Robot with rigid supports where they are at this equilibrium; the robot itself if its supports are rigid.
+    pub fn settled<'a>(&self, robot: &'a Robot) -> Cow<'a, Robot> {
+        if robot.has_supports() {
+            Cow::Owned(robot.displaced(&displacements(robot, &self.cables)))
+        } else {
+            Cow::Borrowed(robot)
+        }
+    }
+
+    /// Displacement of each support of a robot at this equilibrium, in the order of [`Robot::supports`], world axes [m].
+    pub fn support_displacements(&self, robot: &Robot) -> Vec<Vec3> {
+        displacements(robot, &self.cables)
+    }
+}
+
+/// Cable on a support, at rest.
+struct Carried<'a> {
+    anchor: &'a Anchor,
+    support: &'a Support,
+    displacement_w: Vec3,
+    force_on_platform_w: Vec3,
+    /// Weight of the cable that the support carries, with other loads along the cable [N].
+    load_w: Vec3,
+    tension_drum: f64,
+}
+
+impl<'a> Carried<'a> {
+    fn new(
+        (anchor, support): (&'a Anchor, &'a Support),
+        displacement_w: Vec3,
+        force_on_platform_w: Vec3,
+        (span, drive): (Option<&HangingCable>, Option<&DriveAtRest>),
+        unstrained_length: f64,
+    ) -> Self {
+        // The weight of a drum side that comes from the ground is not the support's.
+        let from_ground = support.drum_side_from_ground(anchor).map_or(0.0, |_| anchor.drum_side_length());
+        let load_w = span.map_or_else(Vec3::zeros, HangingCable::load_w) * (unstrained_length - from_ground);
+        let tension_drum = drive.map_or_else(|| force_on_platform_w.norm(), |drive| drive.tension_drum);
+        Self { anchor, support, displacement_w, force_on_platform_w, load_w, tension_drum }
+    }
+
+    /// Cable of a robot at rest on its support; `None` if its anchor is rigid.
+    fn of_state(robot: &'a Robot, i: usize, state: &CableState) -> Option<Self> {
+        let anchor = &robot.cables[i].anchor;
+        let support = &robot.supports[anchor.support?];
+        let parts = (state.hanging.as_ref(), state.drive.as_deref());
+        let force_w = state.force_on_platform_w;
+        Some(Self::new((anchor, support), state.displacement_w, force_w, parts, state.unstrained_length))
+    }
+
+    /// Drum side, if the drum is on the ground.
+    fn drum_side(&self) -> Option<DrumSideAtRest> {
+        let side_w = self.support.drum_side_from_ground(self.anchor)? * self.anchor.drum_side_length();
+        let (length, tension) = ((side_w + self.displacement_w).norm(), self.tension_drum);
+        Some(DrumSideAtRest { direction_w: (side_w + self.displacement_w) / length, length, tension })
+    }
+
+    /// Force of the cable on its support [N].
+    fn force_w(&self) -> Vec3 {
+        let at_drum = self.drum_side().map_or_else(Vec3::zeros, |side| side.direction_w * side.tension);
+        self.load_w - self.force_on_platform_w - at_drum
+    }
+}
+
+/// Equilibrium with the displacements of its supports [m]; none for a rigid frame.
+pub(super) fn displaced(robot: &Robot, mut equilibrium: Equilibrium, displacements_w: &[Vec3]) -> Equilibrium {
+    displace(robot, &mut equilibrium.cables, displacements_w);
+    equilibrium
+}
+
+/// Gives the states of cables the displacements of their supports [m]; none for a rigid frame.
+pub(super) fn displace(robot: &Robot, cables: &mut [CableState], displacements_w: &[Vec3]) {
+    for (state, cable) in cables.iter_mut().zip(&robot.cables) {
+        if let Some(displacement_w) = cable.anchor.support.and_then(|support| displacements_w.get(support)) {
+            state.displacement_w = *displacement_w;
+        }
+    }
+}
+
+/// Next displacement of each support, and the largest change of one [m], from the forces of cables at displacements.
+pub(super) fn followed(robot: &Robot, cables: &[CableState], displacements_w: &[Vec3]) -> (Vec<Vec3>, f64) {
+    let next: Vec<Vec3> = (robot.supports.iter().zip(forces(robot, cables)))
+        .map(|(support, force_w)| support.stiffness_w.try_inverse().unwrap_or_else(Mat3::zeros) * force_w)
+        .collect();
+    let moved = next.iter().zip(displacements_w).map(|(next, here)| (next - here).norm()).fold(0.0, f64::max);
+    (next, moved)
+}
+
+/// Result of a solver for rigid supports, with settled supports: each round holds them where the forces of the round
+/// before move them. `cables` gives access to the cables of a result.
+///
+/// # Errors
+/// Those of the solver; no convergence.
+pub(super) fn settled_in_rounds<T>(
+    robot: &Robot,
+    solve: impl Fn(&Robot) -> Result<T, StaticsError>,
+    cables: impl Fn(&mut T) -> &mut Vec<CableState>,
+) -> Result<T, StaticsError> {
+    let mut displacements_w = vec![Vec3::zeros(); robot.supports.len()];
+    let (mut moved, mut at_w) = (f64::INFINITY, Vec3::zeros());
+
+    for _ in 0..MAX_ROUNDS {
+        // Solve with rigid supports.
+        let mut found = solve(&robot.displaced(&displacements_w))?;
+        let states = cables(&mut found);
+        displace(robot, states, &displacements_w);
+
+        // The displacements that follow; the rounds end where rounding moves the supports.
+        let before = moved;
+        let next;
+        (next, moved) = followed(robot, states, &displacements_w);
+        let size = states.iter().map(CableState::chord).fold(0.0, f64::max);
+        at_w = states.first().map_or(at_w, |state| state.attachment_w);
+        if moved <= STILL * size || (moved < STILL.sqrt() * size && moved >= before) {
+            return Ok(found);
+        }
+        displacements_w = next;
+    }
+    Err(not_settled(moved, &at_w))
+}
+
+/// Error of rounds in which supports do not come to rest.
+pub(super) fn not_settled(moved: f64, at_w: &Vec3) -> StaticsError {
+    let (iterations, residual, limit) = (MAX_ROUNDS, moved, STILL);
+    StaticsError::NotConverged { iterations, residual, limit, x: at_w.x, y: at_w.y, z: at_w.z }
+}
+
+/// Force of all cables on each support of a robot [N].
+pub(super) fn forces(robot: &Robot, cables: &[CableState]) -> Vec<Vec3> {
+    let mut all = vec![Vec3::zeros(); robot.supports.len()];
+    for (i, state) in cables.iter().enumerate() {
+        if let (Some(support), Some(carried)) = (robot.cables[i].anchor.support, Carried::of_state(robot, i, state)) {
+            all[support] += carried.force_w();
+        }
+    }
+    all
+}
+
+/// Static stiffness of cable `i` for a motion of its support; `None` if its anchor is rigid. `held` is the stiffness of its
+/// span.
+pub(crate) fn on_support(robot: &Robot, i: usize, state: &CableState, held: &Mat3) -> Option<OnSupport> {
+    let carried = Carried::of_state(robot, i, state)?;
+    Some(drive::on_support(held, state.drive.as_deref(), carried.drum_side()))
+}
+
+/// Drum side of a cable on a support, as vibrations meet it.
+pub(crate) struct SupportSide {
+    /// Direction in which the entry point moves along the drum side, unit vector, world axes; zero without a drum side.
+    pub(crate) direction_w: Vec3,
+    /// True if the drum stays on the ground.
+    pub(crate) from_ground: bool,
+    /// Stiffness of the tension of a drum side from the ground against a sideways motion of the entry point [N/m].
+    pub(crate) sideways_w: Mat3,
+}
+
+/// Drum side of cable `i` of a robot at rest; `None` if its anchor is rigid.
+pub(crate) fn support_side(robot: &Robot, i: usize, state: &CableState) -> Option<SupportSide> {
+    if let Some(DrumSideAtRest { direction_w, length, tension }) = Carried::of_state(robot, i, state)?.drum_side() {
+        let sideways_w = (Mat3::identity() - direction_w * direction_w.transpose()) * (tension / length);
+        return Some(SupportSide { direction_w, from_ground: true, sideways_w });
+    }
+    let along = |drive: &DriveAtRest| drive.contact.as_ref().map_or(drive.end.travel_w, |contact| contact.axis_w);
+    let direction_w = state.drive.as_deref().map_or_else(Vec3::zeros, along);
+    Some(SupportSide { direction_w, from_ground: false, sideways_w: Mat3::zeros() })
+}
+
+/// Stiffness that the platform loses because supports yield, at rest: 6×6 about the platform origin, world axes. Each cable
+/// has its stiffness for a motion of its support, its index and its lever arm.
+pub(super) fn lost_stiffness(robot: &Robot, cables: impl Iterator<Item = (usize, OnSupport, Vec3)>) -> Mat6 {
+    let mut own: Vec<Mat3> = robot.supports.iter().map(|support| support.stiffness_w).collect();
+    let mut columns = vec![[Vec6::zeros(); 3]; own.len()];
+    for (i, cable, lever_w) in cables {
+        let Some(support) = robot.cables[i].anchor.support else { continue };
+        own[support] += cable.stiffness_w;
+        for (column, add) in columns[support].iter_mut().zip(wrench_columns(&cable.force_w, &lever_w)) {
+            *column += add;
+        }
+    }
+
+    let mut lost = Mat6::zeros();
+    for (own, columns) in own.iter().zip(&columns) {
+        // An equilibrium has no support that its cables make unstable.
+        let Some(compliance) = own.try_inverse() else { continue };
+        for (i, a) in columns.iter().enumerate() {
+            for (j, b) in columns.iter().enumerate() {
+                lost += a * b.transpose() * compliance[(i, j)];
+            }
+        }
+    }
+    lost
+}
+
+/// Stiffness for a motion of its support of cable `i`, which hangs with a settled support; `None` if its anchor is rigid.
+pub(super) fn on_settled(
+    robot: &Robot,
+    i: usize,
+    cable: &CableAtRest,
+    unstrained_length: f64,
+    displacements_w: &[Vec3],
+) -> Option<OnSupport> {
+    let anchor = &robot.cables[i].anchor;
+    let support = anchor.support?;
+    let (parts, of) = ((Some(&cable.span), cable.drive.as_deref()), (anchor, &robot.supports[support]));
+    let carried = Carried::new(of, displacements_w[support], cable.force_w(), parts, unstrained_length);
+    Some(drive::on_support(&cable.span.tangent_w(), parts.1, carried.drum_side()))
+}
+
+/// Cables of a robot at a pose with settled supports: the cables, and the displacement of each support.
+pub(super) struct Settled {
+    pub(super) cables: Vec<CableAtRest>,
+    pub(super) displacements_w: Vec<Vec3>,
+}
+
+impl Settled {
+    /// Hangs all cables, whose unstrained lengths are known, at a pose.
+    pub(super) fn at(robot: &Robot, loaded: &[LoadedCable], lengths: &[f64], pose: &Pose) -> Self {
+        let mut displacements_w = vec![Vec3::zeros(); robot.supports.len()];
+        for (support, displacement_w) in displacements_w.iter_mut().enumerate() {
+            let members: Vec<usize> =
+                (0..robot.cables.len()).filter(|i| robot.cables[*i].anchor.support == Some(support)).collect();
+            *displacement_w = Settling { robot, loaded, lengths, pose, support, members: &members }.displacement_w();
+        }
+        let cables = (0..robot.cables.len())
+            .map(|i| {
+                let displacement_w = robot.cables[i].anchor.support.map_or_else(Vec3::zeros, |of| displacements_w[of]);
+                hang(robot, loaded, lengths, pose, i, &displacement_w)
+            })
+            .collect();
+        Self { cables, displacements_w }
+    }
+}
+
+/// Cable `i` at a pose with its support displaced.
+fn hang(
+    robot: &Robot,
+    loaded: &[LoadedCable],
+    lengths: &[f64],
+    pose: &Pose,
+    i: usize,
+    displacement_w: &Vec3,
+) -> CableAtRest {
+    let Some(support) = robot.cables[i].anchor.support else { return loaded[i].hang(pose, lengths[i]) };
+    let mut cable = robot.cables[i].clone();
+    cable.anchor.displace(&robot.supports[support], displacement_w);
+    LoadedCable { cable: &cable, ..loaded[i] }.hang(pose, lengths[i])
+}
+
+/// One support with its cables at a pose.
+struct Settling<'a> {
+    robot: &'a Robot,
+    loaded: &'a [LoadedCable<'a>],
+    lengths: &'a [f64],
+    pose: &'a Pose,
+    support: usize,
+    /// Indices of its cables.
+    members: &'a [usize],
+}
+
+/// Support at one displacement.
+struct Trial {
+    displacement_w: Vec3,
+    /// Force of its cables less that of its own stiffness [N].
+    imbalance_w: Vec3,
+    /// Sum of all forces on it [N].
+    size: f64,
+    /// Resistance to a displacement [N/m].
+    stiffness_w: Mat3,
+}
+
+impl Settling<'_> {
+    fn at(&self, displacement_w: Vec3) -> Trial {
+        let support = &self.robot.supports[self.support];
+        let own_w = support.stiffness_w * displacement_w;
+        let mut trial =
+            Trial { displacement_w, imbalance_w: -own_w, size: own_w.norm(), stiffness_w: support.stiffness_w };
+        for &i in self.members {
+            let cable = hang(self.robot, self.loaded, self.lengths, self.pose, i, &displacement_w);
+            let anchor = &self.robot.cables[i].anchor;
+            let parts = (Some(&cable.span), cable.drive.as_deref());
+            let carried = Carried::new((anchor, support), displacement_w, cable.force_w(), parts, self.lengths[i]);
+            let force_w = carried.force_w();
+            trial.imbalance_w += force_w;
+            trial.size += force_w.norm() + carried.load_w.norm();
+            trial.stiffness_w +=
+                drive::on_support(&cable.span.tangent_w(), cable.drive.as_deref(), carried.drum_side()).stiffness_w;
+        }
+        trial
+    }
+
+    /// Displacement at which the support is balanced.
+    fn displacement_w(&self) -> Vec3 {
+        let mut here = self.at(Vec3::zeros());
+        for _ in 0..MAX_STEPS {
+            if here.imbalance_w.norm() <= SETTLED * here.size {
+                break;
+            }
+            // A step of Newton's method, shortened until it is a gain.
+            let Some(factor) = here.stiffness_w.cholesky() else { break };
+            let mut step_w = factor.solve(&here.imbalance_w);
+            let mut next = self.at(here.displacement_w + step_w);
+            let halvings = if here.imbalance_w.norm() <= NEARLY_SETTLED * here.size { 0 } else { MAX_HALVINGS };
+            for _ in 0..halvings {
+                if next.imbalance_w.norm() < here.imbalance_w.norm() {
+                    break;
+                }
+                step_w *= 0.5;
+                next = self.at(here.displacement_w + step_w);
+            }
+            // Rounding allows no better balance.
+            if next.imbalance_w.norm() >= here.imbalance_w.norm() {
+                break;
+            }
+            here = next;
+        }
+        here.displacement_w
+    }
+}
+
+/// Potential energy of all supports, and of the weight of cables over pulleys that they lift [J].
+pub(super) fn energy(robot: &Robot, cables: &[CableAtRest], lengths: &[f64], displacements_w: &[Vec3]) -> f64 {
+    let of_supports: f64 =
+        (robot.supports.iter().zip(displacements_w)).map(|(support, e)| 0.5 * e.dot(&(support.stiffness_w * e))).sum();
+    let lifted: f64 = (robot.cables.iter().zip(cables).zip(lengths))
+        .filter(|((_, at_rest), _)| at_rest.drive.is_some())
+        .filter_map(|((cable, at_rest), length)| {
+            let support = cable.anchor.support?;
+            let parts = (Some(&at_rest.span), at_rest.drive.as_deref());
+            let of = (&cable.anchor, &robot.supports[support]);
+            let carried = Carried::new(of, displacements_w[support], at_rest.force_w(), parts, *length);
+            Some(carried.load_w.dot(&displacements_w[support]))
+        })
+        .sum();
+    of_supports - lifted
+}
