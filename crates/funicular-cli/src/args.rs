@@ -22,7 +22,9 @@ pub(crate) use groups::{
 };
 pub(crate) use identify::IdentifyArgs;
 pub(crate) use import::ImportArgs;
-pub(crate) use names::{AssemblyName, CableModelName, ModelFormName, TensionRuleName, WinchModeName};
+pub(crate) use names::{
+    AssemblyName, CableModelName, HoldName, ModelFormName, PerName, TensionRuleName, WinchModeName,
+};
 pub(crate) use new_robot::{LengthUnitName, MotionName, NewArgs, SchemaArgs, WireRopeName};
 use std::path::PathBuf;
 pub(crate) use sweep::{EachArgs, MapArgs, MergeArgs, PlotArgs, RunArgs, SweepArgs};
@@ -116,6 +118,16 @@ pub(crate) enum Command {
         funicular compare robots/cogiro.toml --below-hz 15 --platform --tolerance 0.05\n  \
         funicular compare robots/yuan2014-4mm.toml --below-hz 5 -o models.svg")]
     Compare(CompareArgs),
+    /// Derivatives of poses, tensions, frequencies, damping ratios and responses by every number of the robot file
+    ///
+    /// All derivatives come from the solution itself, without perturbing a number; docs/gradients.md explains the tables.
+    /// The text shows the ten largest of each result, JSON and CSV all of them.
+    #[command(after_help = "Examples:\n  funicular gradient robots/yuan2014-4mm.toml --below-hz 2\n  \
+        funicular gradient robots/cogiro.toml --pose 1,2,1.5 --of tensions,stiffness-min --by cables.*.anchor_m --hold pose\n  \
+        funicular gradient robots/yuan2014-4mm.toml --of frequencies,damping --below-hz 1.5 --per percent -o gradients.csv\n  \
+        funicular gradient robots/yuan2014-4mm.toml --of response --at-hz 1.1 --input fz --output az \\\n    \
+        --by platform,materials --per tolerance --tolerances platform.mass_kg=2%")]
+    Gradient(GradientArgs),
     /// Minimum and maximum payload at a pose, with the cables and ends whose tension limits bind
     ///
     /// The payload is held by any tensions within the limits, not only by those of a tension rule.
@@ -487,6 +499,61 @@ pub(crate) struct CompareArgs {
     pub(crate) output: OutputArgs,
     #[command(flatten)]
     pub(crate) figure: FigureArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct GradientArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+
+    /// Results: pose, lengths, tensions, stiffness-min, frequencies, damping, response; separated by commas
+    #[arg(long, value_name = "RESULTS", value_delimiter = ',', default_value = "frequencies")]
+    pub(crate) of: Vec<String>,
+
+    /// Numbers of the robot file, by paths as `parameters` lists them, separated by commas; * stands for any key, and a path
+    /// to a table or vector for all numbers in it [default: all]
+    #[arg(long, value_name = "PATHS", value_delimiter = ',')]
+    pub(crate) by: Vec<String>,
+
+    /// What stays while a number changes; with the pose held, the tensions parallel to the chords of more cables than
+    /// degrees of freedom change least
+    #[arg(long, value_name = "WHAT", value_enum, default_value_t)]
+    pub(crate) hold: HoldName,
+
+    /// Step that the derivatives are for
+    #[arg(long, value_name = "STEP", value_enum, default_value_t)]
+    pub(crate) per: PerName,
+
+    /// Tolerances PATH=VALUE or PATH=PERCENT%, separated by commas [default: usual ones, which docs/gradients.md lists]
+    #[arg(long, value_name = "TOLERANCES", value_delimiter = ',')]
+    pub(crate) tolerances: Vec<String>,
+
+    /// Upper limit of the frequencies [Hz]; for frequencies and damping
+    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) below_hz: Option<f64>,
+
+    /// Frequency of the response [Hz]
+    #[arg(long, value_name = "HZ", value_parser = values::not_negative, allow_hyphen_values = true)]
+    pub(crate) at_hz: Option<f64>,
+
+    /// Input of the response, on the platform (see `frf`)
+    #[arg(long, value_name = "INPUT", value_parser = Input::parse)]
+    pub(crate) input: Option<Input>,
+
+    /// Output of the response, on the platform (see `frf`)
+    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse)]
+    pub(crate) output: Option<Output>,
+    #[command(flatten)]
+    pub(crate) points: PointArgs,
+
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) sink: OutputArgs,
 }
 
 #[derive(Debug, Args)]

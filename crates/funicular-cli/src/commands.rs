@@ -5,6 +5,7 @@ mod cable;
 mod check;
 mod compare;
 mod frf;
+mod gradient;
 mod identify;
 mod modes;
 mod page;
@@ -100,6 +101,9 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
             let guard = robot_file::guard(Some(&args.robot.robot));
             analyse_or_draw(&request_of(&cli.command)?, &args.output, args.figure, None, guard)
         }
+        Command::Gradient(args) => {
+            analyse(&request_of(&cli.command)?, &args.sink, robot_file::guard(Some(&args.robot.robot)))
+        }
         Command::Payload(args) => {
             analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
         }
@@ -124,6 +128,7 @@ fn request_of(command: &Command) -> Result<Request> {
         Command::Modes(args) => Request::Modes(args.request(robot(&args.robot)?)),
         Command::Frf(args) => Request::Frf(args.request(robot(&args.robot)?)),
         Command::Compare(args) => Request::Compare(args.request(robot(&args.robot)?)),
+        Command::Gradient(args) => Request::Gradient(args.request(robot(&args.robot)?)),
         Command::Payload(args) => Request::Payload(args.request(robot(&args.robot)?)),
         Command::PoseError(args) => Request::PoseError(args.request(robot(&args.robot)?)),
         Command::Cable(args) => Request::Cable(args.request(robot(&args.robot)?)),
@@ -206,6 +211,7 @@ fn print_results(request: &Request, robot: Option<Robot>, sink: &Sink) -> Result
         Results::Modes(found) => sink.write(found),
         Results::Frf(found) => sink.write(found),
         Results::Compare(found) => sink.write(found),
+        Results::Gradient(found) => sink.write(found),
         Results::Payload(found) => sink.write(found),
         Results::PoseError(found) => sink.write(found),
         Results::Cable(found) => sink.write(found),

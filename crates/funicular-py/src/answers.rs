@@ -7,6 +7,7 @@ use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::{SweepFile, merge};
 use funicular_study::analyses::Found;
 use funicular_study::import::{self, SourceFile};
+use funicular_study::measurements::{self, FileOptions};
 use funicular_study::new_robot;
 use funicular_study::pages;
 use funicular_study::request::Request;

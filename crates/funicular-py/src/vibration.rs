@@ -126,6 +126,51 @@ pub(crate) struct CompareKeywords<'a> {
     pub(crate) winches: &'a str,
 }
 
+/// Keywords of `gradient`.
+pub(crate) struct GradientKeywords<'a> {
+    pub(crate) of: Option<Vec<String>>,
+    pub(crate) by: Option<Vec<String>>,
+    pub(crate) hold: &'a str,
+    pub(crate) per: &'a str,
+    pub(crate) tolerances: Option<Vec<String>>,
+    pub(crate) below_hz: Option<Number>,
+    pub(crate) at_hz: Option<Number>,
+    pub(crate) input: Option<String>,
+    pub(crate) output: Option<String>,
+    pub(crate) input_point_m: Option<Numbers>,
+    pub(crate) output_point_m: Option<Numbers>,
+    pub(crate) cable_model: Option<&'a str>,
+    pub(crate) assembly: &'a str,
+    pub(crate) in_plane_only: bool,
+    pub(crate) winches: &'a str,
+}
+
+pub(crate) fn gradient<'py>(
+    py: Python<'py>,
+    of: &PyEquilibrium,
+    keywords: GradientKeywords<'_>,
+) -> PyResult<TextKeyed<'py>> {
+    let request = request::GradientRequest {
+        robot: of.of.get().source.clone(),
+        of: keywords.of.unwrap_or_else(request::frequencies),
+        by: keywords.by.unwrap_or_default(),
+        hold: named("hold", keywords.hold)?,
+        per: named("per", keywords.per)?,
+        tolerances: keywords.tolerances.unwrap_or_default(),
+        below_hz: keywords.below_hz.map(|hz| hz.value("below_hz")).transpose()?,
+        at_hz: keywords.at_hz.map(|hz| hz.not_negative("at_hz")).transpose()?,
+        input: keywords.input,
+        output: keywords.output,
+        points: points(keywords.input_point_m, keywords.output_point_m)?,
+        state: of.state.clone(),
+        tensions: of.tensions.clone(),
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
+    };
+    let at_rest = Arc::clone(&of.at_rest);
+    let found = interruptible(py, move || analyses::gradient::about(&at_rest, &request))?;
+    answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
+}
+
 pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<'_>) -> PyResult<ModesObject> {
     let stations = |count: Count| {
         let max = request::MAX_STATIONS;

@@ -65,6 +65,8 @@ def steps(text: str) -> Any:
 def value(command: str, option: str, text: str) -> Any:
     if (command, option) == ("pose-error", "--mass-kg"):
         return steps(text)
+    if option in ("--of", "--by", "--tolerances"):
+        return text.split(",")
     if option in ("--input", "--output", "--name", "--rope") or re.search("[a-z]{2}", text):
         return text
     found = numbers(text)

@@ -24,6 +24,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "modes": ("`robot.equilibrium(…).modes(…)`", [Robot.equilibrium, Equilibrium.modes]),
     "frf": ("`robot.equilibrium(…).frf(…)`, `funicular.peaks(…)`", [Robot.equilibrium, Equilibrium.frf, funicular.peaks]),
     "compare": ("`robot.equilibrium(…).compare(…)`", [Robot.equilibrium, Equilibrium.compare]),
+    "gradient": ("`robot.equilibrium(…).gradient(…)`", [Robot.equilibrium, Equilibrium.gradient]),
     "payload": ("`robot.payload(…)`", [Robot.payload]),
     "pose-error": ("`robot.pose_error(…)`", [Robot.pose_error]),
     "identify": ("`robot.identify(fit, experiments, …)`", [Robot.identify]),

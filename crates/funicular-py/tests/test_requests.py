@@ -33,6 +33,9 @@ MORE = [
     f"funicular frf {ROBOT} --from-hz 0.5 --to-hz 2 --adaptive --input fz --input fx --output z --output rx",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",
+    f"funicular gradient {ROBOT} --of frequencies,damping,tensions --below-hz 2 --per percent {LENGTHS}",
+    f"funicular gradient robots/cogiro.toml {TENSIONS} --hold pose --of lengths,stiffness-min --by platform,cables.*.anchor_m",
+    f"funicular gradient {ROBOT} --of response --at-hz 1.5 --input fz --output az --per tolerance --tolerances platform=2%",
     f"funicular payload robots/cogiro.toml {TENSIONS} {STATE} --payload-center-m 0,0,-0.2",
     "funicular payload robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250",
     f"funicular statics robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --set platform.mass_kg=200",
@@ -150,7 +153,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
-    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "payload", "pose-error", "cable"),
+    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "pose-error", "cable"),
     "reduce",
 )
 
@@ -200,6 +203,8 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
             assert matrix.real.tolist() == theirs["real"] and matrix.imag.tolist() == theirs["imag"]
         case "modes":
             assert rest.modes(**own).to_dict() == theirs
+        case "gradient":
+            assert plain(rest.gradient(**own)) == theirs
         case "compare":
             assert plain(rest.compare(**own)) == theirs
         case "reduce":

@@ -7,6 +7,7 @@ pub mod cable;
 pub mod check;
 pub mod compare;
 pub mod frf;
+pub mod gradient;
 pub mod identify;
 pub mod modes;
 pub mod parameters;

@@ -2,6 +2,7 @@
 
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
+use funicular::gradient::Hold;
 use funicular::robot::WinchMode;
 use funicular::statics::{StaticModel, TensionRule};
 use funicular::suggest::nearest;
@@ -146,6 +147,40 @@ impl Named for ModelForm {
         match self {
             Self::StateSpace => "state-space",
             Self::SecondOrder => "second-order",
+        }
+    }
+}
+
+impl Named for Hold {
+    const WHAT: &'static str = "choice of what is held";
+    const ALL: &'static [Self] = &Hold::ALL;
+
+    fn name(self) -> &'static str {
+        Hold::name(self)
+    }
+}
+
+/// Step of a number that derivatives are for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Per {
+    /// Unit of the number.
+    #[default]
+    Unit,
+    /// Percent of its value.
+    Percent,
+    /// Tolerance of the number.
+    Tolerance,
+}
+
+impl Named for Per {
+    const WHAT: &'static str = "step of derivatives";
+    const ALL: &'static [Self] = &[Self::Unit, Self::Percent, Self::Tolerance];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Unit => "unit",
+            Self::Percent => "percent",
+            Self::Tolerance => "tolerance",
         }
     }
 }

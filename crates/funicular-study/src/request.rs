@@ -22,10 +22,11 @@ pub use steps::{Steps, digits};
 pub(crate) use parts::{check, check_vector};
 
 use crate::error::Error;
-use crate::names::{ExportFormat, LengthUnit, ModelForm, NewMotion, WireRope, suggestion};
+use crate::names::{ExportFormat, LengthUnit, ModelForm, NewMotion, Per, WireRope, suggestion};
 use crate::signals::{Input, Output};
 use crate::values::{fraction, not_negative, positive};
 use anyhow::{anyhow, bail};
+use funicular::gradient::Hold;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -51,6 +52,8 @@ pub enum Request {
     Frf(FrfRequest),
     /// Comparison of all cable models.
     Compare(CompareRequest),
+    /// Derivatives of results by numbers of the robot file.
+    Gradient(GradientRequest),
     /// Minimum and maximum payload at a pose.
     Payload(PayloadRequest),
     /// Distances between the poses of ideal, spring and catenary cables over platform mass.
@@ -199,6 +202,52 @@ pub struct FrfRequest {
     /// Minimum height of a peak above the valleys beside it [dB].
     #[serde(default = "one")]
     pub prominence_db: f64,
+    /// State and loads.
+    #[serde(flatten)]
+    pub state: State,
+    /// Rule and limits of tensions.
+    #[serde(flatten)]
+    pub tensions: Tensions,
+    /// Linearisation.
+    #[serde(flatten)]
+    pub model: Model,
+}
+
+/// Request of `gradient`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GradientRequest {
+    /// Robot file.
+    pub robot: RobotText,
+    /// Groups of results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`.
+    #[serde(default = "frequencies")]
+    pub of: Vec<String>,
+    /// Paths of the numbers of the robot file, in which `*` stands for any key; without any all numbers.
+    #[serde(default)]
+    pub by: Vec<String>,
+    /// What stays while a number changes.
+    #[serde(default, with = "crate::names")]
+    pub hold: Hold,
+    /// Step that the derivatives are for.
+    #[serde(default, with = "crate::names")]
+    pub per: Per,
+    /// Tolerances of numbers, as `PATH=VALUE` or `PATH=PERCENT%`; numbers without one have the usual tolerance.
+    #[serde(default)]
+    pub tolerances: Vec<String>,
+    /// Upper limit of the frequencies [Hz]; for frequencies and damping.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub below_hz: Option<f64>,
+    /// Frequency of the response [Hz].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_hz: Option<f64>,
+    /// Input of the response.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub input: Option<String>,
+    /// Output of the response.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub output: Option<String>,
+    /// Points of the response.
+    #[serde(flatten)]
+    pub points: ResponsePoints,
     /// State and loads.
     #[serde(flatten)]
     pub state: State,
@@ -530,6 +579,11 @@ fn yes() -> bool {
     true
 }
 
+/// Results that are differentiated if a request names none.
+pub fn frequencies() -> Vec<String> {
+    vec!["frequencies".to_owned()]
+}
+
 fn one_per_cent() -> f64 {
     funicular::compare::TOLERANCE
 }
@@ -557,6 +611,7 @@ impl Request {
             Self::Modes(_) => "modes",
             Self::Frf(_) => "frf",
             Self::Compare(_) => "compare",
+            Self::Gradient(_) => "gradient",
             Self::Payload(_) => "payload",
             Self::PoseError(_) => "pose-error",
             Self::Cable(_) => "cable",
@@ -587,6 +642,7 @@ impl Request {
             Self::Modes(request) => Some(&request.robot),
             Self::Frf(request) => Some(&request.robot),
             Self::Compare(request) => Some(&request.robot),
+            Self::Gradient(request) => Some(&request.robot),
             Self::Payload(request) => Some(&request.robot),
             Self::PoseError(request) => Some(&request.robot),
             Self::Cable(request) => Some(&request.robot),

@@ -10,6 +10,7 @@ mod driven;
 mod drives;
 mod dynamics;
 mod exact;
+mod gradients;
 mod independent;
 mod markdown;
 mod measured;
@@ -112,6 +113,7 @@ pub fn sections() -> Result<Vec<Section>> {
         exact::section(&published, &reference::exact()?, &independent)?,
         damped::section(&reference::damped()?, &independent)?,
         drives::section(&of_drives, driven::comparisons(&of_drives)?)?,
+        gradients::section(&reference::gradients()?)?,
         measured::section(&reference::measured()?.grab)?,
         dynamics::section(&published),
         cube::section(&published)?,

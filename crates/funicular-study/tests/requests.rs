@@ -121,6 +121,21 @@ fn requests() -> Vec<Value> {
         ),
         of("payload", &[&robot, &state, &tensions, &center]),
         of(
+            "gradient",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &model,
+                &points,
+                &json!({
+                    "of": ["frequencies", "response"], "by": ["platform", "cables.*.anchor_m"], "hold": "pose",
+                    "per": "tolerance", "tolerances": ["platform.mass_kg=1%"], "below_hz": 5.0, "at_hz": 1.2, "input": "fz",
+                    "output": "az",
+                }),
+            ],
+        ),
+        of(
             "pose-error",
             &[&robot, &tensions, &json!({ "mass_kg": [10.55, 86.35, 100], "pose": [1.0, 2.0, 1.5, 0.0, 3.0, 0.5] })],
         ),

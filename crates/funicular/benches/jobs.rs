@@ -5,9 +5,11 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use funicular::cable::CableModel;
 use funicular::catenary::{Catenary, Rope};
 use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::gradient::{Gradients, Hold};
 use funicular::math::Vec3;
-use funicular::response::{self, Quantity};
-use funicular::robot::{Robot, State, TensionLimits};
+use funicular::response::{self, Quantity, Signal};
+use funicular::robot::parameters::Parameters;
+use funicular::robot::{Robot, RobotChange, State, TensionLimits};
 use funicular::statics::{self, StaticModel, TensionRule};
 use funicular::{modes, robot::Pose};
 use std::hint::black_box;
@@ -219,9 +221,40 @@ fn catenary_dynamic_cables(c: &mut Criterion) {
     });
 }
 
+/// Gradients of all modes and of a response by every number of the robot file, and by ten of them.
+fn gradients(c: &mut Criterion) {
+    let parameters = Parameters::from_toml(funicular_robots::YUAN2014_4MM).expect("the library's robot");
+    let (robot, lengths) = robot();
+    let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).expect("converges");
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0).expect("taut");
+    let found = modes::below(&dynamics, 20.0).modes;
+    let changes: Vec<RobotChange> = (0..parameters.list().len()).filter_map(|i| parameters.change(i)).collect();
+
+    c.bench_function("gradients: 147 modes by every number of the file", |b| {
+        b.iter(|| {
+            let gradients = Gradients::new(&robot, &rest, Hold::Lengths).expect("taut");
+            let vibration = gradients.vibration(black_box(&dynamics)).expect("catenaries");
+            let all = found.iter().map(|mode| vibration.frequency(mode).expect("simple"));
+            all.map(|gradient| changes.iter().map(|change| gradient.dot(change)).sum::<f64>()).sum::<f64>()
+        });
+    });
+
+    let frequencies: Vec<f64> = (0..100).map(|i| 0.2 * f64::from(i + 1)).collect();
+    let z = Signal::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() };
+    let gradients = Gradients::new(&robot, &rest, Hold::Lengths).expect("taut");
+    let vibration = gradients.vibration(&dynamics).expect("catenaries");
+    c.bench_function("gradients: response at 100 frequencies by 10 numbers", |b| {
+        b.iter(|| {
+            vibration
+                .responses(&[z], &[(z, Quantity::Acceleration)], black_box(&frequencies), &changes[..10])
+                .expect("damped")
+        });
+    });
+}
+
 criterion_group! {
     name = jobs;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
-    targets = one_catenary, statics_both_ways, tension_distribution, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables
+    targets = one_catenary, statics_both_ways, tension_distribution, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables, gradients
 }
 criterion_main!(jobs);

@@ -52,6 +52,7 @@ pub mod catenary;
 pub mod compare;
 pub mod drive;
 pub mod dynamics;
+pub mod gradient;
 pub mod math;
 pub mod modes;
 mod platform;

@@ -6,7 +6,6 @@
 
 mod certificate;
 pub mod damped;
-pub mod derivatives;
 mod fundamental;
 mod lowest;
 mod mac;

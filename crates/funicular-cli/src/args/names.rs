@@ -3,9 +3,10 @@
 use clap::ValueEnum;
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
+use funicular::gradient::Hold;
 use funicular::robot::WinchMode;
 use funicular::statics::StaticModel;
-use funicular_study::names::ModelForm;
+use funicular_study::names::{ModelForm, Per};
 
 /// Tension rules by name; see [`funicular::statics::TensionRule`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -84,6 +85,47 @@ impl From<ModelFormName> for ModelForm {
         match name {
             ModelFormName::StateSpace => Self::StateSpace,
             ModelFormName::SecondOrder => Self::SecondOrder,
+        }
+    }
+}
+
+/// What is held by name; see [`Hold`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum HoldName {
+    /// The unstrained lengths; the pose follows
+    #[default]
+    Lengths,
+    /// The pose; the unstrained lengths follow
+    Pose,
+}
+
+impl From<HoldName> for Hold {
+    fn from(name: HoldName) -> Self {
+        match name {
+            HoldName::Lengths => Self::Lengths,
+            HoldName::Pose => Self::Pose,
+        }
+    }
+}
+
+/// Step of derivatives by name; see [`Per`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum PerName {
+    /// Unit of the number
+    #[default]
+    Unit,
+    /// Percent of its value
+    Percent,
+    /// Tolerance of the number
+    Tolerance,
+}
+
+impl From<PerName> for Per {
+    fn from(name: PerName) -> Self {
+        match name {
+            PerName::Unit => Self::Unit,
+            PerName::Percent => Self::Percent,
+            PerName::Tolerance => Self::Tolerance,
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use super::{
     AssemblyName, CableArgs, CableModelName, ChangeArgs, CompareArgs, EachArgs, ExportArgs, ExportFormat, FrfArgs,
-    ImportArgs, LengthUnitName, LiveArgs, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, MotionName, NewArgs,
-    PayloadArgs, PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs, ReportArgs, StateArgs, StaticsArgs,
-    StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs, WinchModeName, WireRopeName,
+    GradientArgs, ImportArgs, LengthUnitName, LiveArgs, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, MotionName,
+    NewArgs, PayloadArgs, PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs, ReportArgs, StateArgs,
+    StaticsArgs, StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs, WinchModeName, WireRopeName,
 };
 use funicular_files::endings::Kind;
 use funicular_study::import::SourceFile;
@@ -185,6 +185,27 @@ impl CompareArgs {
             state: self.state.request(),
             tensions: self.tensions.request(),
             terms: self.terms.request(),
+        }
+    }
+}
+
+impl GradientArgs {
+    pub(crate) fn request(&self, robot: RobotText) -> request::GradientRequest {
+        request::GradientRequest {
+            robot,
+            of: self.of.clone(),
+            by: self.by.clone(),
+            hold: self.hold.into(),
+            per: self.per.into(),
+            tolerances: self.tolerances.clone(),
+            below_hz: self.below_hz,
+            at_hz: self.at_hz,
+            input: self.input.as_ref().map(|input| input.name.clone()),
+            output: self.output.as_ref().map(|output| output.name.clone()),
+            points: self.points.request(),
+            state: self.state.request(),
+            tensions: self.tensions.request(),
+            model: self.model.request(),
         }
     }
 }

@@ -140,7 +140,7 @@ fn the_robot_file_is_never_overwritten() {
 }
 
 /// Every command that writes, with `OUT` for the file that it writes to.
-const WRITERS: [&str; 19] = [
+const WRITERS: [&str; 20] = [
     "check ROBOT -o OUT",
     "parameters ROBOT -o OUT",
     "statics ROBOT -o OUT",
@@ -148,6 +148,7 @@ const WRITERS: [&str; 19] = [
     "modes ROBOT --below-hz 1 -o OUT",
     "frf ROBOT --from-hz 1 --to-hz 2 --points 2 --input fz --output z -o OUT",
     "compare ROBOT --below-hz 1 -o OUT",
+    "gradient ROBOT --of pose -o OUT",
     "pose-error ROBOT --mass-kg 10:20:2 -o OUT",
     "cable ROBOT --name 1 --from-hz 1 --to-hz 2 --points 2 -o OUT",
     "reduce ROBOT --below-hz 1 -o OUT",

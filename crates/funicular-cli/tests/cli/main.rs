@@ -8,6 +8,7 @@ mod export;
 mod figures;
 mod files;
 mod frf;
+mod gradient;
 mod identify;
 mod import;
 mod links;

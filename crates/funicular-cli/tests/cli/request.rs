@@ -5,7 +5,7 @@ use super::{robot, run, run_with, stderr, stdout, succeed};
 /// Command lines that print their result.
 fn command_lines() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
-    let lines: [&[&str]; 17] = [
+    let lines: [&[&str]; 18] = [
         &["check", &cogiro],
         &["parameters", &cogiro, "--set", "platform.center_of_mass_m.x=0.1"],
         &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],
@@ -44,6 +44,7 @@ fn command_lines() -> Vec<Vec<String>> {
             "x",
         ],
         &["compare", &cogiro, "--below-hz", "3", "--assembly", "without-geometric-stiffness"],
+        &["gradient", "ROBOT", "--of", "pose,tensions", "--by", "platform,cables.*.anchor_m.z", "--per", "tolerance"],
         &["pose-error", "ROBOT", "--mass-kg", "10.55:86.35:4", "--tolerance-mm", "5"],
         &["cable", "ROBOT", "--name", "1", "--from-hz", "0.1", "--to-hz", "5", "--points", "9"],
         &[

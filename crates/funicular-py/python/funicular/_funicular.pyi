@@ -162,23 +162,46 @@ class Analyses:
         NoSolutionError
             The equilibrium is indifferent.
         """
-    def live(self, /, path: str | PathLike[str] | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> Page:
+    def gradient(self, /, of: SupportsGetItem[int, str] | None = None, *, by: SupportsGetItem[int, str] | None = None, hold: str = "lengths", per: str = "unit", tolerances: SupportsGetItem[int, str] | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> dict[str, Any]:
         """
-        Makes a page in HTML on which the platform can be dragged, which notebooks show.
-
-        The page contains the program itself, as WebAssembly, and needs no network.
+        Computes derivatives of results by numbers of the robot file, without perturbing any.
 
         Parameters
         ----------
-        path
-            File to which the page is also written.
+        of
+            Groups of results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`; the
+            frequencies if not given.
+        by
+            Paths of the numbers, as `Robot.parameters` lists them; `*` stands for any key, as in `cables.*.anchor_m`, and a
+            path to a table or vector for all numbers in it. All numbers if not given.
+        hold
+            What stays while a number changes: the unstrained `lengths`, so that the pose follows, or the `pose`, so that the
+            lengths follow. Of more cables than degrees of freedom the tensions parallel to the chords then change least.
+        per
+            Step that the derivatives are for: `unit` of the number, `percent` of its value, or its `tolerance`.
+        tolerances
+            Tolerances, as `platform.mass_kg=1%` or `cables.*.anchor_m=0.002`. If not given: 1 mm for positions and lengths,
+            0.1° for angles, 1 % of other values.
+        below_hz
+            Limit of the frequencies [Hz], for `frequencies` and `damping`.
+        at_hz, input, output, input_point_m, output_point_m
+            Frequency [Hz], signals and points of the `response`, as in `frf`; signals on the platform.
         cable_model, assembly, in_plane_only, winches
-            Models, as in `modes`.
+            Models, as in `stiffness`.
+
+        Returns
+        -------
+        The keys of the program's JSON. `parameters` lists the numbers, each with `path`, `value`, `unit` and `tolerance`;
+        `results` the results, each with `name`, `unit`, `value` and the array `derivatives` (parameters,). `held_means` says
+        what is held. Modes that share a frequency have a block, `block_entry`. `refused` has the results without a
+        gradient and the reasons. Theory, section 17.
 
         Raises
         ------
         InputError
-            The package was built without the page.
+            The robot has drives or ideal cables, or a path that no number has.
+        NoSolutionError
+            A cable is slack, or the equilibrium indifferent: it has no derivatives.
         """
     def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True, rigid_cables: bool = False) -> Modes:
         """

@@ -1,5 +1,6 @@
 //! Report of one robot at one state: statics, stiffness, modes, response and comparison of cable models on one page.
 
+mod gradients;
 mod of_request;
 mod parts;
 
@@ -77,6 +78,7 @@ struct ReportPage<'a> {
     shapes: Result<Shapes, String>,
     modes_table: PageTable,
     held_table: Option<PageTable>,
+    gradients: Result<Figure, String>,
     response_figure: Figure,
     peaks_table: PageTable,
     response_notes: Vec<String>,
@@ -138,6 +140,8 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
         shapes: shapes_of(robot, equilibrium, &dynamics, &found),
         modes_table: parts::modes_table(robot, &found),
         held_table: parts::held_table(robot, equilibrium, linearisation, &found),
+        gradients: gradients::first_frequencies(at_rest, input.robot_text, &dynamics, &found)
+            .map_err(|reason| prose(&format!("Derivatives of the first frequencies are not shown: {reason}."))),
         response_figure,
         peaks_table,
         response_notes,

@@ -459,6 +459,41 @@ pub(super) fn library(name: &str) -> Result<(Robot, Vec<f64>)> {
     })
 }
 
+/// Content of gradients.json.
+pub(super) fn gradients() -> Result<GradientReference> {
+    serde_json::from_str(include_str!("../../reference/gradients.json")).context("gradients.json")
+}
+
+/// Content of gradients.json.
+#[derive(Deserialize)]
+pub(super) struct GradientReference {
+    pub(super) source: String,
+    pub(super) robots: Vec<GradientRobot>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct GradientRobot {
+    pub(super) id: String,
+    pub(super) toml: String,
+    pub(super) position_m: [f64; 3],
+    pub(super) frequency_hz: Vec<f64>,
+    pub(super) lengths_held: Vec<GradientRow>,
+    pub(super) pose_held: Vec<GradientRow>,
+}
+
+/// Derivatives of all results by one number of the robot.
+#[derive(Deserialize)]
+pub(super) struct GradientRow {
+    pub(super) path: String,
+    /// Translation and rotation vector, with the lengths held.
+    pub(super) pose: Option<Vec<f64>>,
+    /// Unstrained lengths, with the pose held.
+    pub(super) lengths: Option<Vec<f64>>,
+    pub(super) tension_platform: Vec<f64>,
+    pub(super) tension_anchor: Vec<f64>,
+    pub(super) frequency_hz: Vec<f64>,
+}
+
 /// Content of drives.json.
 pub(super) fn drives() -> Result<Drives> {
     serde_json::from_str(include_str!("../../reference/drives.json")).context("drives.json")

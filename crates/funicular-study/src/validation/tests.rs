@@ -1,7 +1,7 @@
 //! Tests of each section: every comparison passes and has a source.
 
 use super::*;
-use crate::validation::reference::{damped, drives, exact, independent, published};
+use crate::validation::reference::{self, damped, drives, exact, independent, published};
 
 /// Fails with the rows that do not pass, in the form of docs/validation.md.
 fn check(section: Result<Section>) {
@@ -40,6 +40,11 @@ fn exact_cables_vibrate_as_those_of_the_independent_program() {
 #[test]
 fn damped_modes_shapes_and_points_on_cables_are_those_of_the_independent_program() {
     check(damped::section(&damped().unwrap(), &independent().unwrap()));
+}
+
+#[test]
+fn gradients_are_those_of_a_complex_step_through_a_separate_program() {
+    check(gradients::section(&reference::gradients().unwrap()));
 }
 
 #[test]

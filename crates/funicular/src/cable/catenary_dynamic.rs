@@ -34,7 +34,7 @@ pub use drive_signals::DriveSignal;
 pub(crate) use drive_signals::EndDirections;
 pub(crate) use internal_motion::InternalMotion;
 pub use internal_motion::{Displacements, Stations};
-pub(crate) use mesh::{ellipse, has_tension};
+pub(crate) use mesh::{ellipse, has_tension, smooth_pieces};
 pub use moving_end::{EndAlong, EndSideways, MovingEnd};
 pub use poles::PoleResidue;
 pub(crate) use two_ended::{ENDS, TwoEnded};

@@ -31,6 +31,18 @@ impl Damping {
         }
     }
 
+    /// Derivatives of `ω_c²` at a complex ω by the mass per length [kg/m], and by the damping ratio or the viscous damping
+    /// per length.
+    pub(crate) fn square_by_values(self, omega: Complex, mass_per_length: f64) -> [Complex; 2] {
+        match self {
+            Self::Ratio(_) => [Complex::new(0.0, 0.0), omega * omega * Complex::new(0.0, -2.0)],
+            Self::Viscous(c) => {
+                let by_damping = omega * Complex::new(0.0, -over_mass(1.0, mass_per_length));
+                [by_damping * -over_mass(c, mass_per_length), by_damping]
+            }
+        }
+    }
+
     /// Complex ω [rad/s] at which `ω_c²` is the square of an undamped frequency; its real or imaginary part is
     /// positive.
     pub(crate) fn zero(self, undamped: f64, mass_per_length: f64) -> Complex {

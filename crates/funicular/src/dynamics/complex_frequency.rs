@@ -13,9 +13,9 @@
 
 use super::supports::SupportsAt;
 use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
-use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveAt, DriveLosses, NearPole};
+use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveAt, DriveLosses, Family, NearPole};
 use crate::cable::{DynamicCable, LocalStiffness};
-use crate::math::{CDMat, CMat6, Complex};
+use crate::math::{CDMat, CMat6, CVec6, Complex, order};
 
 /// Dynamic stiffness at a complex frequency, bordered by near poles, and its derivative.
 struct Bordered {
@@ -27,7 +27,60 @@ struct Bordered {
     pole_phase: f64,
 }
 
+/// Motion at a zero of the damped dynamic stiffness.
+pub(crate) struct DampedMotion {
+    /// Motion of the platform, scaled, in its coordinates.
+    pub(crate) platform: CVec6,
+    /// Amplitudes of the clamped modes whose poles lie near: index of the cable among those whose stiffness depends on
+    /// frequency, family, index of the mode, amplitude.
+    pub(crate) near: Vec<(usize, Family, usize, Complex)>,
+    /// Derivative of the quadratic form of the motion with respect to ω.
+    pub(crate) slope: Complex,
+}
+
+/// Second smallest singular value over the largest below which a zero is shared: rounding leaves 1e-15.
+const SHARED_ZERO: f64 = 1e-13;
+
 impl Dynamics {
+    /// Motion at a simple zero ω [rad/s], for catenary-dynamic cables without drives; of size one.
+    pub(crate) fn damped_motion(&self, omega: Complex) -> Option<DampedMotion> {
+        let no_poles = vec![Vec::new(); self.terms.len()];
+        let Bordered { value, slope, .. } = self.bordered(omega, 1.0, &no_poles);
+        // Amplitudes of clamped modes in the unit of the platform's motion, so that all entries have one size.
+        let stiffest = (0..self.dof()).map(|k| value[(k, k)].norm()).fold(0.0, f64::max);
+        let unit = |k: usize| if k < self.dof() { 1.0 } else { stiffest.sqrt() / omega.norm() };
+        let scaled = CDMat::from_fn(value.nrows(), value.ncols(), |r, c| value[(r, c)] * (unit(r) * unit(c)));
+        let svd = scaled.svd(false, true);
+        let mut values: Vec<(f64, usize)> = svd.singular_values.iter().copied().zip(0..).collect();
+        order::sort_ascending(&mut values, |(value, _)| *value);
+        if values.get(1).is_some_and(|(second, _)| *second <= SHARED_ZERO * values[values.len() - 1].0) {
+            return None;
+        }
+        let row = svd.v_t?;
+        let motion: Vec<Complex> = row.row(values[0].1).iter().enumerate().map(|(k, z)| z.conj() * unit(k)).collect();
+
+        let product = |r: usize| -> Complex { (0..motion.len()).map(|c| slope[(r, c)] * motion[c]).sum() };
+        let slope = (0..motion.len()).map(|r| motion[r] * product(r)).sum();
+        let mut near = Vec::new();
+        for (t, term) in self.terms.iter().enumerate() {
+            let DynamicCable::CatenaryDynamic(form) = &term.form else { return None };
+            let (damping, mass_per_length) = self.damping[term.cable];
+            let (square, _) = damping.square_with_slope(omega, mass_per_length);
+            let (.., poles) = form.complex_beside_poles(square, NEAR_POLE_FRACTION);
+            for pole in poles {
+                near.push((t, pole.family, pole.index, motion[self.dof() + near.len()]));
+            }
+        }
+        let platform = CVec6::from_fn(|i, _| if i < self.dof() { motion[i] } else { Complex::new(0.0, 0.0) });
+        Some(DampedMotion { platform, near, slope })
+    }
+
+    /// Square ω_c² of cable `i` at a complex ω [rad/s], and its derivatives by the mass per length and by the damping.
+    pub(crate) fn square_by_damping(&self, i: usize, omega: Complex) -> (Complex, [Complex; 2]) {
+        let (damping, mass_per_length) = self.damping[i];
+        (damping.square_with_slope(omega, mass_per_length).0, damping.square_by_values(omega, mass_per_length))
+    }
+
     /// Squares of the clamped frequencies below ω [rad/s] of each cable whose stiffness depends on frequency.
     pub(crate) fn poles_below(&self, omega: f64) -> Vec<Vec<f64>> {
         self.terms.iter().map(|term| term.form.poles_below(omega)).collect()

@@ -1,11 +1,14 @@
 //! Direction of change of a robot: the rate of each of its numbers with respect to one parameter.
 
-use super::{Robot, State};
+use super::{Damping, Robot, State};
 use crate::math::{Mat3, Vec3};
 
 /// Rates of change of a robot's numbers with respect to one parameter: a direction in the space of all robots with the
 /// same number of cables. Derivatives of results are taken along this direction. The units are those of the robot's
 /// fields divided by the unit of the parameter.
+///
+/// Also the gradient of a result, [`crate::gradient`]: every field is then the derivative of the result with respect to
+/// this number, and [`Self::dot`] with a direction the derivative along it.
 ///
 /// # Example
 /// ```
@@ -34,6 +37,18 @@ pub struct RobotChange {
     pub moment_w: Vec3,
     /// Point of the load, platform frame.
     pub point_p: Vec3,
+    /// Velocity of the air, world axes.
+    pub wind_velocity_w: Vec3,
+    /// Density of the air.
+    pub air_density: f64,
+    /// Viscous damping of the platform's translation, platform axes.
+    pub translational_damping_p: Vec3,
+    /// Viscous damping of the platform's rotation, platform axes.
+    pub rotational_damping_p: Vec3,
+    /// Position of a pose that is given, world axes.
+    pub position_w: Vec3,
+    /// Rotation vector by which a pose that is given turns, world axes.
+    pub rotation_w: Vec3,
     /// The cables, in file order.
     pub cables: Vec<CableChange>,
 }
@@ -53,6 +68,24 @@ pub struct CableChange {
     pub mass_per_length: f64,
     /// Dead load per unstrained length besides the weight, world axes.
     pub load_per_length_w: Vec3,
+    /// Drag coefficient times diameter.
+    pub drag_width: f64,
+    /// Damping: the ratio, or the viscous damping per length, whichever the rope has.
+    pub damping: f64,
+}
+
+impl CableChange {
+    /// Sum of the products of all numbers with those of another one.
+    fn dot(&self, other: &Self) -> f64 {
+        self.anchor_w.dot(&other.anchor_w)
+            + self.attachment_p.dot(&other.attachment_p)
+            + self.unstrained_length * other.unstrained_length
+            + self.axial_stiffness * other.axial_stiffness
+            + self.mass_per_length * other.mass_per_length
+            + self.load_per_length_w.dot(&other.load_per_length_w)
+            + self.drag_width * other.drag_width
+            + self.damping * other.damping
+    }
 }
 
 impl RobotChange {
@@ -67,6 +100,12 @@ impl RobotChange {
             force_w: Vec3::zeros(),
             moment_w: Vec3::zeros(),
             point_p: Vec3::zeros(),
+            wind_velocity_w: Vec3::zeros(),
+            air_density: 0.0,
+            translational_damping_p: Vec3::zeros(),
+            rotational_damping_p: Vec3::zeros(),
+            position_w: Vec3::zeros(),
+            rotation_w: Vec3::zeros(),
             cables: vec![CableChange::default(); cables],
         }
     }
@@ -75,11 +114,32 @@ impl RobotChange {
     pub fn of_mass(robot: &Robot) -> Self {
         Self { mass: 1.0, ..Self::none(robot.cables.len()) }
     }
+
+    /// Sum of the products of all numbers with those of another one: the derivative of a result along a direction, if
+    /// one of the two is the gradient of the result. Both have the same number of cables.
+    pub fn dot(&self, other: &Self) -> f64 {
+        let cables: f64 = self.cables.iter().zip(&other.cables).map(|(own, other)| own.dot(other)).sum();
+        self.gravity_w.dot(&other.gravity_w)
+            + self.mass * other.mass
+            + self.inertia_p.dot(&other.inertia_p)
+            + self.center_of_mass_p.dot(&other.center_of_mass_p)
+            + self.drag_area * other.drag_area
+            + self.force_w.dot(&other.force_w)
+            + self.moment_w.dot(&other.moment_w)
+            + self.point_p.dot(&other.point_p)
+            + self.wind_velocity_w.dot(&other.wind_velocity_w)
+            + self.air_density * other.air_density
+            + self.translational_damping_p.dot(&other.translational_damping_p)
+            + self.rotational_damping_p.dot(&other.rotational_damping_p)
+            + self.position_w.dot(&other.position_w)
+            + self.rotation_w.dot(&other.rotation_w)
+            + cables
+    }
 }
 
 impl Robot {
-    /// This robot after `step` units of the parameter. Unstrained lengths change if the robot's state gives them. The
-    /// result is not checked: a mass can become negative.
+    /// This robot after `step` units of the parameter. Unstrained lengths change if the robot's state gives them, the
+    /// pose if the state gives that. The result is not checked: a mass can become negative.
     #[must_use]
     pub fn changed(&self, change: &RobotChange, step: f64) -> Self {
         let mut robot = self.clone();
@@ -91,6 +151,10 @@ impl Robot {
         robot.load.force_w += change.force_w * step;
         robot.load.moment_w += change.moment_w * step;
         robot.load.point_p += change.point_p * step;
+        robot.wind.velocity_w += change.wind_velocity_w * step;
+        robot.wind.air_density += change.air_density * step;
+        robot.platform.translational_damping_p += change.translational_damping_p * step;
+        robot.platform.rotational_damping_p += change.rotational_damping_p * step;
 
         for (cable, change) in robot.cables.iter_mut().zip(&change.cables) {
             cable.anchor.point_w += change.anchor_w * step;
@@ -98,12 +162,23 @@ impl Robot {
             cable.material.axial_stiffness += change.axial_stiffness * step;
             cable.material.mass_per_length += change.mass_per_length * step;
             cable.load_per_length_w += change.load_per_length_w * step;
+            if change.drag_width != 0.0 {
+                *cable.material.drag_width.get_or_insert(0.0) += change.drag_width * step;
+            }
+            let (Damping::Ratio(value) | Damping::Viscous(value)) = &mut cable.material.damping;
+            *value += change.damping * step;
         }
 
-        if let State::Lengths(lengths) = &mut robot.state {
-            for (length, change) in lengths.iter_mut().zip(&change.cables) {
-                *length += change.unstrained_length * step;
+        match &mut robot.state {
+            State::Lengths(lengths) => {
+                for (length, change) in lengths.iter_mut().zip(&change.cables) {
+                    *length += change.unstrained_length * step;
+                }
             }
+            State::Pose(pose) => {
+                *pose = pose.moved(&(change.position_w * step), &(change.rotation_w * step));
+            }
+            State::Unknown => {}
         }
         robot
     }

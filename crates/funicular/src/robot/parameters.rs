@@ -7,8 +7,8 @@
 
 use super::spec::key::{Absent, Component, Key, KeyValue, Numeric, Shape};
 use super::spec::{Numbers, SpecError, TABLES, TOP, from_tree, parsed};
-use super::{PlatformMotion, Robot, RobotChange};
-use crate::math::Vec3;
+use super::{PlatformMotion, Robot, RobotChange, RopeSection};
+use crate::math::{Vec3, Vec6, rotation};
 use std::borrow::Cow;
 use thiserror::Error;
 use toml::Spanned;
@@ -230,8 +230,9 @@ impl Parameters {
 
 impl Parameters {
     /// Change of the robot per unit of a parameter, in the unit of the file: the direction for derivatives of results
-    /// with respect to the parameter. A value of a rope changes all its cables. `None` for numbers without derivatives:
-    /// pose, wind, plane, damping and limits.
+    /// with respect to the parameter. A value of a rope changes all its cables, an angle of the pose turns the platform.
+    /// `None` for numbers without derivatives: limits, the plane of a planar platform and angles that leave it, pulleys
+    /// and winches.
     ///
     /// # Example
     /// ```
@@ -243,8 +244,13 @@ impl Parameters {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn change(&self, index: usize) -> Option<RobotChange> {
+        self.change_of(index, &self.robot)
+    }
+
+    /// Change per unit of a parameter as [`Self::change`], of a robot that has been changed since it was read, such as by
+    /// another pose.
+    pub fn change_of(&self, index: usize, robot: &Robot) -> Option<RobotChange> {
         let parameter = self.list.get(index)?;
-        let robot = &self.robot;
         let mut change = RobotChange::none(robot.cables.len());
 
         let unit = || -> Option<Vec3> {
@@ -271,6 +277,11 @@ impl Parameters {
                     change.inertia_p[(j, i)] = 1.0;
                 }
             },
+            (RobotPart::Platform, "translational_damping_n_s_m") => change.translational_damping_p = unit()?,
+            (RobotPart::Platform, "rotational_damping_n_m_s") => change.rotational_damping_p = unit()?,
+            (RobotPart::Wind, "velocity_m_s") => change.wind_velocity_w = unit()?,
+            (RobotPart::Wind, "air_density_kg_m3") => change.air_density = 1.0,
+            (RobotPart::State, key) => pose_change(robot, parameter, key, unit(), &mut change)?,
             (RobotPart::Load, "force_n") => change.force_w = unit()?,
             (RobotPart::Load, "moment_n_m") => change.moment_w = unit()?,
             (RobotPart::Load, "point_m") => change.point_p = unit()?,
@@ -300,8 +311,7 @@ impl Parameters {
         change: &mut RobotChange,
     ) -> Option<()> {
         let name = parameter.keys.get(1)?;
-        let in_wind = self.robot.wind.velocity_w != Vec3::zeros();
-
+        let same_rope = |other: &Parameter| other.part == RobotPart::Material && other.keys.get(1) == Some(name);
         for (i, (cable, change)) in self.robot.cables.iter().zip(&mut change.cables).enumerate() {
             let material = &cable.material;
             if material.name != *name {
@@ -311,9 +321,22 @@ impl Parameters {
             match key {
                 "axial_stiffness_n" => change.axial_stiffness = 1.0,
                 "youngs_modulus_pa" | "area_m2" => change.axial_stiffness = relative,
-                // The drag depends on the diameter, too.
-                "diameter_m" if in_wind && material.drag_width.is_some() => return None,
-                "diameter_m" => change.axial_stiffness = 2.0 * relative,
+                // The drag depends on the diameter, too, unless it has its own.
+                "diameter_m" => {
+                    let own_drag = self.list.iter().any(|other| other.key == "drag_diameter_m" && same_rope(other));
+                    if !own_drag {
+                        change.drag_width = material.drag_width.unwrap_or(0.0) / parameter.value;
+                    }
+                    if matches!(material.dimensions.section, Some(RopeSection::Diameter(_))) {
+                        change.axial_stiffness = 2.0 * relative;
+                    }
+                }
+                "drag_coefficient" => match material.dimensions.drag_diameter {
+                    Some(diameter) => change.drag_width = diameter,
+                    None => return None,
+                },
+                "drag_diameter_m" => change.drag_width = material.drag_width? / parameter.value,
+                "damping_ratio" | "viscous_damping_n_s_m2" => change.damping = 1.0,
                 "mass_kg_per_m" => change.mass_per_length = 1.0,
                 "load_n_per_m" => {
                     let own = |other: &Parameter| other.part == RobotPart::Cable(i) && other.key == "load_n_per_m";
@@ -326,6 +349,37 @@ impl Parameters {
         }
         Some(())
     }
+}
+
+/// Change of the pose that the state gives. Motions that the platform does not have are no changes.
+fn pose_change(
+    robot: &Robot,
+    parameter: &Parameter,
+    key: &str,
+    unit: Option<Vec3>,
+    change: &mut RobotChange,
+) -> Option<()> {
+    match key {
+        "position_m" => change.position_w = unit?,
+        // R = Rz(yaw) Ry(pitch) Rx(roll): each angle turns about the axis of its rotation, after those left of it.
+        "roll_pitch_yaw_deg" => {
+            let [_, pitch, yaw] = robot.written_angles_deg;
+            let axis_w = match parameter.component? {
+                "roll" => rotation::from_roll_pitch_yaw_deg(0.0, pitch, yaw) * Vec3::x(),
+                "pitch" => rotation::from_roll_pitch_yaw_deg(0.0, 0.0, yaw) * Vec3::y(),
+                "yaw" => Vec3::z(),
+                _ => return None,
+            };
+            change.rotation_w = axis_w * 1_f64.to_radians();
+        }
+        _ => return None,
+    }
+
+    let (v, turn) = (change.position_w, change.rotation_w);
+    let motion = Vec6::new(v.x, v.y, v.z, turn.x, turn.y, turn.z);
+    let beyond = motion - robot.platform.motion.allowed(&motion);
+    // Rounding of the axes is 1e-16.
+    (beyond.norm() <= 1e-12 * motion.norm()).then_some(())
 }
 
 /// Key of the table at the beginning of a path, and the number of the path's keys up to it. The rest of the path names

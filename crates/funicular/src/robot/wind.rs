@@ -24,11 +24,27 @@ impl Wind {
         self.velocity_w * (0.5 * self.air_density * self.velocity_w.norm())
     }
 
+    /// Derivative of [`Self::pressure_w`] with respect to the velocity; 3×3, world axes, symmetric [N s/m³].
+    pub(crate) fn pressure_by_velocity_w(&self) -> Mat3 {
+        magnified(&self.velocity_w) * (0.5 * self.air_density)
+    }
+
+    /// This wind in air of density 1 kg/m³: all its forces are proportional to the density.
+    pub(crate) fn at_unit_density(&self) -> Self {
+        Self { air_density: 1.0, ..*self }
+    }
+
     /// Force on a straight cylinder per length, diameter and drag coefficient [N/m²]. Only the wind component normal to
     /// the axis (a unit vector) counts (the cross-flow principle, theory (49)).
     pub fn cross_pressure_w(&self, axis_w: &Vec3) -> Vec3 {
         let across = self.velocity_w - axis_w * axis_w.dot(&self.velocity_w);
         across * (0.5 * self.air_density * across.norm())
+    }
+
+    /// Derivative of [`Self::cross_pressure_w`] with respect to the velocity; 3×3, world axes, symmetric [N s/m³].
+    pub(crate) fn cross_pressure_by_velocity_w(&self, axis_w: &Vec3) -> Mat3 {
+        let normal = Mat3::identity() - axis_w * axis_w.transpose();
+        magnified(&(normal * self.velocity_w)) * normal * (0.5 * self.air_density)
     }
 
     /// Derivative of [`Self::cross_pressure_w`] with respect to a chord of direction `axis_w` (a unit vector) and
@@ -47,6 +63,12 @@ impl Wind {
         let turned = Mat3::identity() - axis_w * axis_w.transpose() + direction * direction.transpose();
         (turned * along + axis_w * across.transpose()) * (-0.5 * self.air_density * speed / chord)
     }
+}
+
+/// Derivative of `|v| v` with respect to v: `|v| I + v vᵀ/|v|`.
+fn magnified(v: &Vec3) -> Mat3 {
+    let size = v.norm();
+    if size == 0.0 { Mat3::zeros() } else { Mat3::identity() * size + v * v.transpose() / size }
 }
 
 impl Default for Wind {

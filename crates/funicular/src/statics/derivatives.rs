@@ -37,6 +37,12 @@ pub enum StaticDerivativeError {
         /// Name of the cable.
         cable: String,
     },
+    /// Cable whose anchor is on a flexible support.
+    #[error("the anchor of cable \"{cable}\" is on a flexible support: derivatives exist for anchors on a rigid frame")]
+    Support {
+        /// Name of the cable.
+        cable: String,
+    },
     /// Some motion meets no resistance, or some wrench cannot be balanced by a change of the lengths.
     #[error("the equilibrium is indifferent: some small change of the robot moves it without limit")]
     Singular,
@@ -115,7 +121,7 @@ pub fn at_held_lengths(
     let coordinates = Coordinates::of(robot);
 
     let jacobian = balance_jacobian(robot, equilibrium).ok_or(StaticDerivativeError::Ideal)?;
-    let motion = solve(coordinates.reduce_matrix(&jacobian), &coordinates, &direct.wrench)?;
+    let motion = solve(&coordinates.reduce_matrix(&jacobian), &coordinates, &direct.wrench)?;
     let motion = coordinates.expand(&motion);
     let translation_w = Vec3::new(motion[0], motion[1], motion[2]);
     let rotation_w = Vec3::new(motion[3], motion[4], motion[5]) / coordinates.ell();
@@ -144,22 +150,28 @@ pub fn at_held_pose(
     change.cables.iter_mut().for_each(|cable| cable.unstrained_length = 0.0);
     let mut direct = Direct::new(robot, equilibrium, &change)?;
 
+    // The wrench by the change, and by the motion from the pose to a changed one.
+    let (translation_w, rotation_w) = (change.position_w, change.rotation_w);
+    let motion = Vec6::from_iterator(translation_w.iter().chain(rotation_w.iter()).copied());
+    let jacobian = balance_jacobian(robot, equilibrium).ok_or(StaticDerivativeError::Ideal)?;
+    let wrench = direct.wrench - jacobian * motion;
+
     let mut by_lengths = Mat6::zeros();
     for (i, (cable, state)) in direct.cables.iter().zip(&equilibrium.cables).enumerate() {
-        by_lengths.set_column(i, &coordinates.reduce_force(&cable.force_by_length_w, &state.lever_w));
+        by_lengths.set_column(i, &coordinates.reduce_force(&cable.partials.force_by_length_w, &state.lever_w));
     }
     // The solution contains lengths, not coordinates of the platform; only their numbers are equal.
-    let lengths = solve(by_lengths, &coordinates, &-direct.wrench)?;
+    let lengths = solve(&by_lengths, &coordinates, &-wrench)?;
     for (cable, length) in direct.cables.iter_mut().zip(lengths.iter()) {
-        cable.force_w += cable.force_by_length_w * *length;
+        cable.force_w += cable.partials.force_by_length_w * *length;
         cable.unstrained_length = *length;
     }
-    Ok(direct.moved(equilibrium, Vec3::zeros(), Vec3::zeros()))
+    Ok(direct.moved(equilibrium, translation_w, rotation_w))
 }
 
 /// Derivative 𝒥 = −∂Φ/∂x of the balance; 6×6, about the platform origin, world axes [N/m, N, N·m]. `None` for ideal
 /// cables.
-pub(super) fn balance_jacobian(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
+pub(crate) fn balance_jacobian(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
     // The tangent contains half of a moment that is fixed in the world, so that it is symmetric; the balance contains
     // none of it.
     let mut jacobian = tangent_with_drag(robot, equilibrium)?;
@@ -169,14 +181,21 @@ pub(super) fn balance_jacobian(robot: &Robot, equilibrium: &Equilibrium) -> Opti
 }
 
 /// Solves for the reduced unknowns; `wrench` is not yet reduced.
-pub(super) fn solve(mut matrix: Mat6, coordinates: &Coordinates, wrench: &Vec6) -> Result<Vec6, StaticDerivativeError> {
+pub(super) fn solve(matrix: &Mat6, coordinates: &Coordinates, wrench: &Vec6) -> Result<Vec6, StaticDerivativeError> {
+    let matrix = regular(matrix, coordinates)?;
+    matrix.lu().solve(&coordinates.reduce(wrench)).ok_or(StaticDerivativeError::Singular)
+}
+
+/// Reduced matrix whose rows beyond the coordinates are regular, too.
+pub(crate) fn regular(matrix: &Mat6, coordinates: &Coordinates) -> Result<Mat6, StaticDerivativeError> {
+    let mut matrix = *matrix;
     let scale = matrix.amax();
     (coordinates.count()..6).for_each(|k| matrix[(k, k)] = scale);
     let singular = matrix.singular_values();
     if singular.min().is_nan() || singular.min() <= SINGULAR * singular.max() {
         return Err(StaticDerivativeError::Singular);
     }
-    matrix.lu().solve(&coordinates.reduce(wrench)).ok_or(StaticDerivativeError::Singular)
+    Ok(matrix)
 }
 
 /// Effect of a change while the platform stays in place.
@@ -186,30 +205,29 @@ struct Direct {
     cables: Vec<DirectCable>,
 }
 
-/// Effect of a change on one cable while the platform stays in place, and the cable's response to its platform end.
+/// Effect of a change on one cable while the platform stays in place.
 struct DirectCable {
+    partials: CablePartials,
     force_w: Vec3,
     lever_w: Vec3,
     load_w: Vec3,
     unstrained_length: f64,
-    force_by_length_w: Vec3,
-    /// Derivative of the force with respect to the chord: stiffness, and the turn of the wind's drag.
-    force_by_chord_w: Mat3,
-    /// Derivative of the load per length with respect to the chord.
-    load_by_chord_w: Mat3,
 }
 
 impl Direct {
     fn new(robot: &Robot, equilibrium: &Equilibrium, change: &RobotChange) -> Result<Self, StaticDerivativeError> {
         let rot = &equilibrium.pose.rot_wp;
-        let platform = &robot.platform;
+        let (platform, wind) = (&robot.platform, &robot.wind);
 
         // Weight and wind at the centre of mass, then the load.
         let centre_w = rot * platform.center_of_mass_p;
         let at_centre_w = robot.force_at_mass_centre_w();
+        let pressure_w = wind.pressure_by_velocity_w() * change.wind_velocity_w
+            + wind.at_unit_density().pressure_w() * change.air_density;
         let weight_w = robot.gravity_w * change.mass
             + change.gravity_w * platform.mass
-            + robot.wind.pressure_w() * change.drag_area;
+            + wind.pressure_w() * change.drag_area
+            + pressure_w * platform.drag_area;
         let mut wrench = wrench_of(&weight_w, &centre_w) + moment(&at_centre_w, &(rot * change.center_of_mass_p));
         let Load { force_w, point_p, .. } = &robot.load;
         wrench += wrench_of(&change.force_w, &(rot * point_p)) + moment(force_w, &(rot * change.point_p));
@@ -218,9 +236,21 @@ impl Direct {
         let mut cables = Vec::with_capacity(robot.cables.len());
         for (i, (state, of_cable)) in equilibrium.cables.iter().zip(&change.cables).enumerate() {
             let lever_w = rot * of_cable.attachment_p;
-            let cable = DirectCable::new(robot, equilibrium.model, i, state, of_cable, lever_w, &change.gravity_w)?;
-            wrench += wrench_of(&cable.force_w, &state.lever_w) + moment(&state.force_on_platform_w, &lever_w);
-            cables.push(cable);
+            let partials = CablePartials::new(robot, equilibrium, i)?;
+            let chord_w = of_cable.anchor_w - lever_w;
+            let load_w = partials.load(change, of_cable, &chord_w);
+            let force_w = partials.stiffness_w * chord_w
+                + partials.force_by_load_w * load_w
+                + partials.force_by_length_w * of_cable.unstrained_length
+                + partials.force_by_stiffness_w * of_cable.axial_stiffness;
+            wrench += wrench_of(&force_w, &state.lever_w) + moment(&state.force_on_platform_w, &lever_w);
+            cables.push(DirectCable {
+                partials,
+                force_w,
+                lever_w,
+                load_w,
+                unstrained_length: of_cable.unstrained_length,
+            });
         }
         Ok(Self { wrench, cables })
     }
@@ -228,12 +258,14 @@ impl Direct {
     /// Derivative including the platform's motion.
     fn moved(self, equilibrium: &Equilibrium, translation_w: Vec3, rotation_w: Vec3) -> EquilibriumDerivative {
         let cables = self.cables.into_iter().zip(&equilibrium.cables).map(|(cable, state)| {
+            let partials = &cable.partials;
             let chord_w = -(translation_w + rotation_w.cross(&state.lever_w));
-            let force_w = cable.force_w + cable.force_by_chord_w * chord_w;
-            let load_w = cable.load_w + cable.load_by_chord_w * chord_w;
+            let turned_w = partials.load_by_chord_w * chord_w;
+            let force_w = cable.force_w + partials.stiffness_w * chord_w + partials.force_by_load_w * turned_w;
+            let load_w = cable.load_w + turned_w;
 
             // The tension at the anchor is the magnitude of N = f − L q, q being the load per length.
-            let at_anchor_w = state.force_on_platform_w - load_of(state) * state.unstrained_length;
+            let at_anchor_w = force_at_anchor(state);
             let change_at_anchor_w =
                 force_w - load_w * state.unstrained_length - load_of(state) * cable.unstrained_length;
             let along = |force_w: &Vec3, change_w: &Vec3| force_w.normalize().dot(change_w);
@@ -250,56 +282,99 @@ impl Direct {
     }
 }
 
-impl DirectCable {
-    fn new(
-        robot: &Robot,
-        model: StaticModel,
-        i: usize,
-        state: &CableState,
-        change: &CableChange,
-        lever_w: Vec3,
-        gravity_w: &Vec3,
-    ) -> Result<Self, StaticDerivativeError> {
+/// Partial derivatives of the force of a cable on the platform, and of its load per length, world axes. Derivatives along
+/// a direction sum them, gradients sum their transposes.
+#[derive(Debug, Clone)]
+pub(crate) struct CablePartials {
+    /// Force by the chord, at a load held: the static stiffness [N/m].
+    pub(crate) stiffness_w: Mat3,
+    /// Force by the load per length [m]; zero for a straight cable, which carries no load along it.
+    pub(crate) force_by_load_w: Mat3,
+    /// Force by the unstrained length [N/m].
+    pub(crate) force_by_length_w: Vec3,
+    /// Force by the axial stiffness [-].
+    pub(crate) force_by_stiffness_w: Vec3,
+    /// Load per length by the chord: the turn of the wind's drag [N/m²].
+    pub(crate) load_by_chord_w: Mat3,
+    /// Load per length by the velocity of the wind [N s/m²].
+    pub(crate) load_by_wind_w: Mat3,
+    /// Load per length by the density of the air [N m²/kg].
+    pub(crate) load_by_density_w: Vec3,
+    /// Load per length by drag coefficient times diameter [N/m²].
+    pub(crate) load_by_drag_width_w: Vec3,
+    /// Load per length by the mass per length, gravity [m/s²]; zero for a straight cable.
+    pub(crate) load_by_mass_w: Vec3,
+    /// Load per length by gravity: the mass per length [kg/m]; zero for a straight cable.
+    pub(crate) load_by_gravity: f64,
+    /// Load per length by the load that the file gives: 1, or 0 for a straight cable.
+    pub(crate) load_by_own: f64,
+}
+
+impl CablePartials {
+    /// Partial derivatives of cable `i`.
+    pub(crate) fn new(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> Result<Self, StaticDerivativeError> {
+        let (state, cable) = (&equilibrium.cables[i], &robot.cables[i]);
         let hanging = state.hanging.as_ref().ok_or(StaticDerivativeError::Ideal)?;
-        let material = &robot.cables[i].material;
         if state.drive.is_some() {
-            return Err(StaticDerivativeError::Drive { cable: robot.cables[i].name.clone() });
+            return Err(StaticDerivativeError::Drive { cable: cable.name.clone() });
+        }
+        if cable.anchor.support.is_some() {
+            return Err(StaticDerivativeError::Support { cable: cable.name.clone() });
         }
         if state.is_slack() {
-            return Err(StaticDerivativeError::Slack { cable: robot.cables[i].name.clone() });
+            return Err(StaticDerivativeError::Slack { cable: cable.name.clone() });
         }
-        let (stiffness, force_by_length_w) = (hanging.tangent_w(), hanging.force_by_length_w());
-
-        // Straight cables carry no load along them.
-        let counts = model == StaticModel::Catenary;
-        let turn = if counts { robot.line_load_by_chord(i, &state.chord_w()) } else { None };
-        let load_by_chord_w = turn.unwrap_or_else(Mat3::zeros);
-        let force_by_load_w = if counts { hanging.force_by_load_w() } else { Mat3::zeros() };
-
-        let chord_w = change.anchor_w - lever_w;
-        let own_w =
-            robot.gravity_w * change.mass_per_length + gravity_w * material.mass_per_length + change.load_per_length_w;
-        let load_w = if counts { own_w + load_by_chord_w * chord_w } else { Vec3::zeros() };
 
         // A stiffer rope is strained less; its mean tension is f − ½ L q.
-        let length = state.unstrained_length;
+        let material = &cable.material;
+        let (stiffness_w, length) = (hanging.tangent_w(), state.unstrained_length);
         let mean_w = state.force_on_platform_w - load_of(state) * (0.5 * length);
-        let by_stiffness_w = stiffness * mean_w * (length / material.axial_stiffness.powi(2));
+        let mut partials = Self {
+            stiffness_w,
+            force_by_load_w: Mat3::zeros(),
+            force_by_length_w: hanging.force_by_length_w(),
+            force_by_stiffness_w: stiffness_w * mean_w * (length / material.axial_stiffness.powi(2)),
+            load_by_chord_w: Mat3::zeros(),
+            load_by_wind_w: Mat3::zeros(),
+            load_by_density_w: Vec3::zeros(),
+            load_by_drag_width_w: Vec3::zeros(),
+            load_by_mass_w: Vec3::zeros(),
+            load_by_gravity: 0.0,
+            load_by_own: 0.0,
+        };
 
-        let force_w = stiffness * chord_w
-            + force_by_load_w * load_w
-            + force_by_length_w * change.unstrained_length
-            + by_stiffness_w * change.axial_stiffness;
-        Ok(Self {
-            force_w,
-            lever_w,
-            load_w,
-            unstrained_length: change.unstrained_length,
-            force_by_length_w,
-            force_by_chord_w: stiffness + force_by_load_w * load_by_chord_w,
-            load_by_chord_w,
-        })
+        // Straight cables carry no load along them.
+        if equilibrium.model == StaticModel::Catenary {
+            let chord_w = state.chord_w();
+            let (axis_w, wind) = (chord_w.normalize(), &robot.wind);
+            let width = material.drag_width.unwrap_or(0.0);
+            partials.force_by_load_w = hanging.force_by_load_w();
+            partials.load_by_chord_w = robot.line_load_by_chord(i, &chord_w).unwrap_or_else(Mat3::zeros);
+            partials.load_by_wind_w = wind.cross_pressure_by_velocity_w(&axis_w) * width;
+            partials.load_by_density_w = wind.at_unit_density().cross_pressure_w(&axis_w) * width;
+            partials.load_by_drag_width_w = wind.cross_pressure_w(&axis_w);
+            partials.load_by_mass_w = robot.gravity_w;
+            partials.load_by_gravity = material.mass_per_length;
+            partials.load_by_own = 1.0;
+        }
+        Ok(partials)
     }
+
+    /// Change of the load per length with the change of a robot, of this cable, and of its chord.
+    fn load(&self, change: &RobotChange, of_cable: &CableChange, chord_w: &Vec3) -> Vec3 {
+        self.load_by_mass_w * of_cable.mass_per_length
+            + change.gravity_w * self.load_by_gravity
+            + of_cable.load_per_length_w * self.load_by_own
+            + self.load_by_chord_w * chord_w
+            + self.load_by_wind_w * change.wind_velocity_w
+            + self.load_by_density_w * change.air_density
+            + self.load_by_drag_width_w * of_cable.drag_width
+    }
+}
+
+/// Tension vector at the anchor, `N = f − L q`, world axes [N].
+pub(crate) fn force_at_anchor(state: &CableState) -> Vec3 {
+    state.force_on_platform_w - load_of(state) * state.unstrained_length
 }
 
 /// Load per unstrained length of a hanging cable, world axes [N/m]; zero for a straight cable.

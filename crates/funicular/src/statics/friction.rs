@@ -234,7 +234,7 @@ fn motions_by_length(robot: &Robot, equilibrium: &Equilibrium) -> Result<Vec<[f6
     let motion = |state: &CableState| {
         let force_w = state.force_by_length_w().unwrap_or_else(Vec3::zeros);
         let wrench = crate::platform::wrench_of(&force_w, &state.lever_w);
-        let found = derivatives::solve(reduced, &coordinates, &wrench).map_err(|_| FrictionError::Singular)?;
+        let found = derivatives::solve(&reduced, &coordinates, &wrench).map_err(|_| FrictionError::Singular)?;
         let scaled = coordinates.expand(&found);
         Ok(std::array::from_fn(|row| if row < 3 { scaled[row] } else { scaled[row] / coordinates.ell() }))
     };

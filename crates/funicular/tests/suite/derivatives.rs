@@ -3,10 +3,12 @@
 use crate::library::library;
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::math::{Mat3, Vec3};
-use funicular::modes::{self, Mode, derivatives as frequencies};
+use funicular::gradient::{GradientError, Gradients, Hold};
+use funicular::math::{DMat, Mat3, Vec3};
+use funicular::modes::{self, Mode};
+use funicular::response::{self, Quantity, Signal};
 use funicular::robot::parameters::Parameters;
-use funicular::robot::{Robot, RobotChange, Wind};
+use funicular::robot::{Cable, Damping, Robot, RobotChange, State, Wind};
 use funicular::statics::derivatives::{StaticDerivativeError, at_held_lengths, at_held_pose};
 use funicular::statics::{self, Equilibrium, StaticModel};
 
@@ -42,6 +44,14 @@ fn changes(robot: &Robot) -> Vec<(&'static str, RobotChange, f64)> {
     if cable.material.mass_per_length > 0.0 {
         of_cable("rope", &|c| c.mass_per_length = 1.0, 1e-3 * cable.material.mass_per_length);
     }
+    if robot.wind.velocity_w != Vec3::zeros() {
+        all.push(("wind", RobotChange { wind_velocity_w: Vec3::new(1.0, -0.3, 0.5), ..none() }, 1e-3));
+        all.push(("density", RobotChange { air_density: 1.0, ..none() }, 1e-3));
+        let mut change = none();
+        change.cables[1].drag_width = 1.0;
+        all.push(("drag", change, 1e-5));
+        all.push(("area", RobotChange { drag_area: 1.0, ..none() }, 1e-4));
+    }
     all
 }
 
@@ -57,6 +67,7 @@ fn loaded() -> Robot {
     robot.load.force_w = Vec3::new(5.0, -3.0, -8.0);
     robot.load.moment_w = Vec3::new(0.3, 0.2, -0.1);
     robot.load.point_p = Vec3::new(0.05, -0.1, 0.08);
+    robot.platform.drag_area = 0.02;
     robot.with_wind(Wind { velocity_w: Vec3::new(12.0, 5.0, 1.0), ..Wind::default() })
 }
 
@@ -163,16 +174,19 @@ fn list(robot: &Robot, rest: &Equilibrium, cable_model: CableModel, below_hz: f6
     found.certified.then_some((dynamics, found.modes))
 }
 
-/// Frequencies, of both models that have derivatives, with lengths held. Frequencies have twelve digits and steps change
+/// Frequencies, of all models that have derivatives, with lengths held. Frequencies have twelve digits and steps change
 /// them by 1e-6 to 1e-3, so that differences have six digits of the larger changes; a change that is small beside the
 /// frequency times the relative step loses the rest, hence the second term.
 #[test]
 fn natural_frequencies_follow_every_number_of_the_robot() {
-    let mut compared = [0; 2];
+    let mut compared = [0; 3];
     for (r, (name, robot, rest)) in robots().into_iter().enumerate() {
-        for (m, cable_model) in [CableModel::CatenaryDynamic, CableModel::CatenaryStatic].into_iter().enumerate() {
+        let models = [CableModel::CatenaryDynamic, CableModel::CatenaryStatic, CableModel::Spring];
+        for (m, cable_model) in models.into_iter().enumerate() {
             let below_hz = if m == 0 { 6.0 } else { 12.0 };
             let Some((dynamics, modes)) = list(&robot, &rest, cable_model, below_hz) else { continue };
+            let Ok(gradients) = Gradients::new(&robot, &rest, Hold::Lengths) else { continue };
+            let vibration = gradients.vibration(&dynamics).unwrap();
             // Alone, so that the order of the list is that of the modes while the robot changes.
             let alone = |k: usize| {
                 let gap = |other: Option<&Mode>| {
@@ -181,9 +195,9 @@ fn natural_frequencies_follow_every_number_of_the_robot() {
                 gap(modes.get(k + 1)) && gap(k.checked_sub(1).and_then(|k| modes.get(k)))
             };
             let chosen: Vec<usize> = (0..modes.len().saturating_sub(1)).filter(|k| alone(*k)).take(3).collect();
+            let found: Vec<RobotChange> = chosen.iter().map(|k| vibration.frequency(&modes[*k]).unwrap()).collect();
             // Every other change of every other robot: all kinds occur in both, in half the time.
             for (what, change, step) in changes(&robot).into_iter().skip(r % 2).step_by(2) {
-                let Ok(by) = at_held_lengths(&robot, &rest, &change) else { continue };
                 let differences = extrapolated(step, |h| {
                     let changed = robot.changed(&change, h);
                     let lengths: Vec<f64> = (lengths_of(&rest).iter().zip(&change.cables))
@@ -194,9 +208,9 @@ fn natural_frequencies_follow_every_number_of_the_robot() {
                     (found.len() > *chosen.last()?).then(|| chosen.iter().map(|k| found[*k].frequency_hz).collect())
                 });
                 let Some((differences, added)) = differences else { continue };
-                for (k, difference) in chosen.iter().zip(&differences) {
+                for ((k, difference), gradient) in chosen.iter().zip(&differences).zip(&found) {
                     let mode = &modes[*k];
-                    let found = frequencies::frequency(&robot, &rest, &dynamics, mode, &change, &by).unwrap();
+                    let found = gradient.dot(&change);
                     let error = (found - difference).abs();
                     let allowed = 1e-5 * difference.abs() + added + 2e-11 * mode.frequency_hz / step;
                     assert!(
@@ -210,6 +224,302 @@ fn natural_frequencies_follow_every_number_of_the_robot() {
         }
     }
     assert!(compared.iter().all(|count| *count > 100), "{compared:?}");
+}
+
+/// The reverse pass has the derivatives of the forward one, by every number, whichever is held. Both take the same partial
+/// derivatives and cancel the same stiff terms: 1e-9 of the largest derivative of the kind is rounding of those.
+#[test]
+fn gradients_are_the_transposes_of_derivatives_along_directions() {
+    let mut compared = 0;
+    for (name, robot, rest) in robots() {
+        for hold in Hold::ALL {
+            let Ok(gradients) = Gradients::new(&robot, &rest, hold) else { continue };
+            let kinds = [
+                gradients.pose().to_vec(),
+                gradients.tensions_platform(),
+                gradients.tensions_anchor(),
+                gradients.lengths(),
+            ];
+            let mut all = changes(&robot);
+            if hold == Hold::Pose {
+                all.push((
+                    "position",
+                    RobotChange { position_w: Vec3::new(0.2, 1.0, -0.4), ..RobotChange::none(robot.cables.len()) },
+                    0.0,
+                ));
+                if robot.platform.motion.count() == 6 {
+                    let turned =
+                        RobotChange { rotation_w: Vec3::new(0.2, 1.0, -0.4), ..RobotChange::none(robot.cables.len()) };
+                    all.push(("turn", turned, 0.0));
+                }
+            }
+            for (what, change, _) in all {
+                let along = match hold {
+                    Hold::Lengths => at_held_lengths(&robot, &rest, &change),
+                    Hold::Pose => at_held_pose(&robot, &rest, &change),
+                };
+                // Forward, more cables than degrees of freedom have no rule.
+                let Ok(along) = along else { continue };
+                let tensions =
+                    |of: fn(&statics::derivatives::CableDerivative) -> f64| along.cables.iter().map(of).collect();
+                let forward: [Vec<f64>; 4] = [
+                    along.translation_w.iter().chain(along.rotation_w.iter()).copied().collect(),
+                    tensions(|cable| cable.tension_platform),
+                    tensions(|cable| cable.tension_anchor),
+                    tensions(|cable| cable.unstrained_length),
+                ];
+                for (forward, reverse) in forward.iter().zip(&kinds) {
+                    let reverse: Vec<f64> = reverse.iter().map(|gradient| gradient.dot(&change)).collect();
+                    let (error, size) = distance(&reverse, forward);
+                    assert!(error <= 1e-9 * size, "{name}, {hold:?} held, {what}: {reverse:?} {forward:?}");
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared > 400, "{compared}");
+}
+
+/// Point mass on four equal cables, whose modes share frequencies: horizontal motions, and vibrations of the cables with
+/// the platform at rest.
+fn symmetric_robot() -> Robot {
+    let cables: String = [("1", "2.0, 0.0"), ("2", "-2.0, 0.0"), ("3", "0.0, 2.0"), ("4", "0.0, -2.0")]
+        .iter()
+        .map(|(name, point)| {
+            format!("[[cables]]\nname = \"{name}\"\nmaterial = \"rope\"\nanchor_m = [{point}, 3.0]\nunstrained_length_m = 2.8\n")
+        })
+        .collect();
+    let text = format!(
+        "name = \"square\"\n[platform]\nmotion = \"point-mass\"\nmass_kg = 10.0\n[materials.rope]\naxial_stiffness_n = 1e5\n\
+         mass_kg_per_m = 0.3\n{cables}"
+    );
+    Robot::from_toml(&text).unwrap()
+}
+
+/// Along a change, the eigenvalues of the block of modes that share a frequency are their one-sided derivatives: also where
+/// the platform is at rest and only cables vibrate, at their poles.
+#[test]
+fn modes_that_share_a_frequency_part_along_a_change_by_the_eigenvalues_of_their_block() {
+    let robot = symmetric_robot();
+    let State::Lengths(lengths) = robot.state.clone() else { panic!("its file gives lengths") };
+    let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
+    let below_hz = 25.0;
+    let (dynamics, modes) = list(&robot, &rest, CableModel::CatenaryDynamic, below_hz).unwrap();
+    let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+    let vibration = gradients.vibration(&dynamics).unwrap();
+
+    let mut change = RobotChange::none(4);
+    change.cables[0].anchor_w = Vec3::new(0.2, 1.0, 0.3);
+    change.cables[2].mass_per_length = 0.05;
+    change.mass = 0.5;
+    let step = 1e-6;
+    let parted = |step: f64| {
+        let changed = robot.changed(&change, step);
+        let at = statics::forward(&changed, &lengths, StaticModel::Catenary, Some(&rest.pose)).unwrap();
+        list(&changed, &at, CableModel::CatenaryDynamic, below_hz).unwrap().1
+    };
+    let (whole, half) = (parted(step), parted(0.5 * step));
+
+    let (mut next, mut blocks, mut at_rest) = (0, 0, 0);
+    while next < modes.len() {
+        let count = modes[next].multiplicity;
+        let shared: Vec<&Mode> = modes[next..next + count].iter().collect();
+        // Frequencies that only lie near would mix with these.
+        let gap = |k: Option<usize>| {
+            k.and_then(|k| modes.get(k))
+                .is_none_or(|other| (other.frequency_hz / shared[0].frequency_hz - 1.0).abs() > 1e-3)
+        };
+        if count > 1 && gap(next.checked_sub(1)) && gap(Some(next + count)) && next + count < whole.len() {
+            let block = vibration.block(&shared);
+            let matrix = DMat::from_fn(count, count, |i, j| block[i][j].dot(&change));
+            assert!((&matrix - matrix.transpose()).amax() < 1e-9 * matrix.amax());
+            let mut ours: Vec<f64> = matrix.clone().symmetric_eigen().eigenvalues.iter().copied().collect();
+            ours.sort_by(f64::total_cmp);
+            for (ours, (whole, half)) in ours.iter().zip(whole[next..].iter().zip(&half[next..])) {
+                // One-sided, with the curvature extrapolated, which neighbours make large.
+                let slope = |mode: &Mode, step: f64| (mode.frequency_hz - shared[0].frequency_hz) / step;
+                let difference = 2.0 * slope(half, 0.5 * step) - slope(whole, step);
+                // Frequencies have 1e-12, at a pole its width, over the step; the third order is below.
+                let allowed = 1e-4 * matrix.amax();
+                assert!(
+                    (ours - difference).abs() < allowed,
+                    "mode {next} at {} Hz: {ours} {difference}",
+                    whole.frequency_hz
+                );
+            }
+            blocks += 1;
+            at_rest += usize::from(shared[0].shape == [0.0; 6]);
+        }
+        next += count;
+    }
+    assert!(blocks > 3 && at_rest > 0, "{blocks} {at_rest}");
+}
+
+/// Least stiffness, and entries of the tangent, which a load and all changes of the geometry bend.
+#[test]
+fn stiffness_follows_every_number_of_the_robot() {
+    let mut robot = loaded().with_wind(Wind::default());
+    robot.platform.drag_area = 0.0;
+    let rest = statics::forward(&robot, &LENGTHS, StaticModel::Catenary, None).unwrap();
+    let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+    let values = |robot: &Robot, rest: &Equilibrium| {
+        let tangent = statics::tangent_stiffness(robot, rest).unwrap();
+        let least = rest.stability.min_stiffness().unwrap();
+        vec![least, tangent[(0, 0)], tangent[(1, 4)] + tangent[(4, 1)], tangent[(5, 5)]]
+    };
+    let entry = |i, j| gradients.tangent_entry(i, j).unwrap();
+    let found = [gradients.min_stiffness().unwrap(), entry(0, 0), entry(1, 4), entry(5, 5)];
+    let factors = [1.0, 1.0, 2.0, 1.0];
+    for (what, change, step) in changes(&robot) {
+        let Some((differences, _)) = extrapolated(step, |h| {
+            let (changed, at) = changed_rest(&robot, &rest, &change, h)?;
+            Some(values(&changed, &at))
+        }) else {
+            continue;
+        };
+        for (k, ((gradient, factor), difference)) in found.iter().zip(factors).zip(&differences).enumerate() {
+            let ours = factor * gradient.dot(&change);
+            // Rounding of entries of 1e5 N/m over the step, and the third order.
+            let allowed = 1e-5 * difference.abs() + 1e-8 * values(&robot, &rest)[k].abs() / step;
+            assert!((ours - difference).abs() <= allowed, "{what}, {k}: {ours} {difference}, {allowed:e}");
+        }
+    }
+}
+
+/// Changes of the damping, and some of the other kinds.
+fn changes_with_damping(robot: &Robot) -> Vec<(&'static str, RobotChange, f64)> {
+    let none = || RobotChange::none(robot.cables.len());
+    let mut all = changes(robot);
+    let mut of_rope = none();
+    of_rope.cables.iter_mut().for_each(|cable| cable.damping = 1.0);
+    all.push(("damping of the ropes", of_rope, 1e-4));
+    let of_platform = RobotChange {
+        translational_damping_p: Vec3::new(1.0, 0.5, 0.2),
+        rotational_damping_p: Vec3::new(0.01, 0.02, 0.03),
+        ..none()
+    };
+    all.push(("damping of the platform", of_platform, 1e-2));
+    all
+}
+
+/// A robot in wind and under a load whose platform is damped and whose ropes have a damping ratio, and one with viscous
+/// ropes.
+fn damped_robots() -> [(&'static str, Robot, f64); 2] {
+    let mut with_ratio = loaded();
+    with_ratio.platform.translational_damping_p = Vec3::new(3.0, 1.0, 2.0);
+    with_ratio.platform.rotational_damping_p = Vec3::new(0.02, 0.05, 0.01);
+    with_ratio.cables.iter_mut().for_each(|cable| cable.material.damping = Damping::Ratio(0.01));
+    let mut viscous = with_ratio.clone();
+    viscous.cables.iter_mut().for_each(|cable| cable.material.damping = Damping::Viscous(0.02));
+    [("damping ratio", with_ratio, 3.0), ("viscous", viscous, 3.0)]
+}
+
+const LENGTHS: [f64; 6] = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
+
+/// Equilibrium of a robot changed by a step along a direction, lengths held.
+fn changed_rest(robot: &Robot, rest: &Equilibrium, change: &RobotChange, h: f64) -> Option<(Robot, Equilibrium)> {
+    let changed = robot.changed(change, h);
+    let lengths: Vec<f64> = LENGTHS.iter().zip(&change.cables).map(|(l, c)| l + h * c.unstrained_length).collect();
+    let at = statics::forward(&changed, &lengths, StaticModel::Catenary, Some(&rest.pose)).ok()?;
+    Some((changed, at))
+}
+
+/// Damped frequencies and damping ratios. Their zeros have eleven digits, over steps that change them by 1e-6 to 1e-3.
+#[test]
+fn damped_frequencies_and_damping_ratios_follow_every_number_of_the_robot() {
+    let mut compared = 0;
+    for (name, robot, below_hz) in damped_robots() {
+        let rest = statics::forward(&robot, &LENGTHS, StaticModel::Catenary, None).unwrap();
+        let damped = |robot: &Robot, rest: &Equilibrium| -> Option<(Dynamics, Vec<modes::damped::DampedMode>)> {
+            let dynamics = Dynamics::about(robot, rest, Linearisation::default(), below_hz).ok()?;
+            let undamped = modes::below(&dynamics, below_hz);
+            let found = modes::damped::damped_modes(&dynamics, &undamped);
+            found.certified.then_some((dynamics, found.modes))
+        };
+        let (dynamics, found) = damped(&robot, &rest).unwrap();
+        let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+        let vibration = gradients.vibration(&dynamics).unwrap();
+        let values = |mode: &modes::damped::DampedMode| [mode.frequency_hz(), mode.ringing_hz(), mode.damping_ratio()];
+        for (what, change, step) in changes_with_damping(&robot).into_iter().skip(name.len() % 2).step_by(3) {
+            let differences = extrapolated(step, |h| {
+                let (changed, at) = changed_rest(&robot, &rest, &change, h)?;
+                let (_, list) = damped(&changed, &at)?;
+                (list.len() == found.len()).then(|| list.iter().flat_map(values).collect())
+            });
+            let Some((differences, added)) = differences else { continue };
+            for (k, mode) in found.iter().enumerate().take(8) {
+                let of_mode = vibration.damped(mode).unwrap();
+                let ours = [&of_mode.frequency_hz, &of_mode.ringing_hz, &of_mode.damping_ratio];
+                for (i, gradient) in ours.iter().enumerate() {
+                    let (ours, difference) = (gradient.dot(&change), differences[3 * k + i]);
+                    let allowed = 1e-5 * difference.abs() + added + 1e-10 * values(mode)[i] / step;
+                    let error = (ours - difference).abs();
+                    assert!(error <= allowed, "{name}, mode {k}, value {i}, {what}: {ours} {difference}, {added:e}");
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared > 100, "{compared}");
+}
+
+/// Responses between points of the platform, all kinds of signals and quantities, beside and at the peaks.
+#[test]
+fn responses_follow_every_number_of_the_robot() {
+    let mut compared = 0;
+    let inputs = [
+        Signal::Along { direction_w: Vec3::new(0.2, 0.1, 1.0), point_p: Vec3::new(0.1, 0.05, 0.02) },
+        Signal::About { axis_w: Vec3::new(0.0, 1.0, 0.2) },
+    ];
+    let outputs = [
+        (
+            Signal::Along { direction_w: Vec3::new(1.0, -0.2, 0.3), point_p: Vec3::new(-0.1, 0.0, 0.1) },
+            Quantity::Acceleration,
+        ),
+        (Signal::About { axis_w: Vec3::new(1.0, 0.0, 0.3) }, Quantity::Velocity),
+        (inputs[0], Quantity::Displacement),
+    ];
+    for (name, robot, _) in damped_robots() {
+        let rest = statics::forward(&robot, &LENGTHS, StaticModel::Catenary, None).unwrap();
+        let frequencies_hz = [0.6, 1.3, 2.71];
+        let responses = |robot: &Robot, rest: &Equilibrium| -> Option<Vec<f64>> {
+            let dynamics = Dynamics::about(robot, rest, Linearisation::default(), 3.0).ok()?;
+            let port = |signal: &Signal| response::Port::Platform(signal.platform_vector(&rest.pose).unwrap());
+            let inputs: Vec<_> = inputs.iter().map(port).collect();
+            let outputs: Vec<_> = outputs.iter().map(|(signal, quantity)| (port(signal), *quantity)).collect();
+            let rows = response::matrix(&dynamics, &frequencies_hz, &inputs, &outputs).ok()?;
+            Some(rows.iter().flatten().flat_map(|z| [z.re, z.im]).collect())
+        };
+        let all = changes_with_damping(&robot);
+        let directions: Vec<RobotChange> = all.iter().map(|(_, change, _)| change.clone()).collect();
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 3.0).unwrap();
+        let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+        let vibration = gradients.vibration(&dynamics).unwrap();
+        let found = vibration.responses(&inputs, &outputs, &frequencies_hz, &directions).unwrap();
+        let ours: Vec<f64> = found.iter().flatten().flat_map(|at| [at.value.re, at.value.im]).collect();
+        let values = responses(&robot, &rest).unwrap();
+        let (error, size) = distance(&ours, &values);
+        assert!(error <= 1e-10 * size, "{name}: {error:e} of {size:e}");
+
+        for (d, (what, change, step)) in all.iter().enumerate() {
+            let differences = extrapolated(*step, |h| {
+                let (changed, at) = changed_rest(&robot, &rest, change, h)?;
+                responses(&changed, &at)
+            });
+            let Some((differences, _)) = differences else { continue };
+            let pairs = found.iter().flatten().zip(differences.chunks(2)).zip(values.chunks(2));
+            for (k, ((at, difference), value)) in pairs.enumerate() {
+                let ours = [at.along[d].re, at.along[d].im];
+                let size = value[0].hypot(value[1]);
+                let (error, largest) = distance(&ours, difference);
+                // Third order of the step, which near a peak is the step over its width, and rounding of the values.
+                let allowed = 2e-4 * largest + 1e-11 * size / step;
+                assert!(error <= allowed, "{name}, {k}, {what}: {ours:?} {difference:?}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 400, "{compared}");
 }
 
 /// The parameters of a file change the robot as the file's numbers do.
@@ -253,8 +563,20 @@ fn numbers_of(robot: &Robot) -> Vec<f64> {
     }
     numbers.extend(robot.platform.inertia_p.iter());
     numbers.extend(robot.cables.iter().flat_map(|c| [c.material.axial_stiffness, c.material.mass_per_length]));
-    if let funicular::robot::State::Lengths(lengths) = &robot.state {
-        numbers.extend(lengths);
+    numbers.extend([robot.wind.air_density]);
+    numbers.extend(robot.wind.velocity_w.iter());
+    numbers.extend(robot.platform.translational_damping_p.iter().chain(robot.platform.rotational_damping_p.iter()));
+    for Cable { material, .. } in &robot.cables {
+        let (Damping::Ratio(damping) | Damping::Viscous(damping)) = material.damping;
+        numbers.extend([damping, material.drag_width.unwrap_or(0.0)]);
+    }
+    match &robot.state {
+        State::Lengths(lengths) => numbers.extend(lengths),
+        State::Pose(pose) => {
+            numbers.extend(pose.position_w.iter());
+            numbers.extend(pose.rot_wp.to_rotation_matrix().matrix().iter());
+        }
+        State::Unknown => {}
     }
     numbers
 }
@@ -268,14 +590,15 @@ fn what_has_no_derivative_is_refused() {
         (robot, rest)
     };
     let change = RobotChange::of_mass(&robot);
-    let by = at_held_lengths(&robot, &rest, &change).unwrap();
-    let (dynamics, modes) = list(&robot, &rest, CableModel::ShallowDynamic, 5.0).unwrap();
-    let error = frequencies::frequency(&robot, &rest, &dynamics, &modes[0], &change, &by).unwrap_err().to_string();
+    let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+    let (dynamics, _) = list(&robot, &rest, CableModel::ShallowDynamic, 5.0).unwrap();
+    let error = gradients.vibration(&dynamics).err().unwrap().to_string();
     assert!(error.contains("need the cable model"), "{error}");
+    assert_eq!(gradients.min_stiffness(), Err(GradientError::DragTurns));
 
     let (dynamics, mut modes) = list(&robot, &rest, CableModel::CatenaryDynamic, 5.0).unwrap();
     modes[0].multiplicity = 2;
-    let error = frequencies::frequency(&robot, &rest, &dynamics, &modes[0], &change, &by).unwrap_err().to_string();
+    let error = gradients.vibration(&dynamics).unwrap().frequency(&modes[0]).unwrap_err().to_string();
     assert!(error.contains("2 modes share the frequency"), "{error}");
 
     let ideal = statics::inverse(&robot, &rest.pose, StaticModel::Ideal).unwrap();

@@ -114,15 +114,10 @@ impl<'a> Mesh<'a> {
         nodes.dedup();
 
         // The last interval is taken first, so that the elements are in ascending order.
-        let mut cuts: Vec<(f64, f64)> = nodes.windows(2).map(|pair| (pair[1], pair[0])).collect();
+        let intervals = nodes.windows(2).map(|pair| (pair[1], pair[0])).collect();
         let mut elements = Vec::new();
-        while let Some((from, to)) = cuts.pop() {
-            let (center, half) = (0.5 * (from + to), 0.5 * (to - from));
-            let size = ellipse(catenary, center, half);
-            if size < SMOOTH_ENOUGH {
-                cuts.extend([(center, to), (from, center)]);
-                continue;
-            }
+        for (from, to, size) in smooth_pieces(catenary, intervals) {
+            let center = 0.5 * (from + to);
 
             // Phase of the transverse wave, the slower of the two waves, over the element (Simpson's rule).
             let slowness = |s: f64| {
@@ -309,6 +304,22 @@ impl Element {
 /// least this factor per degree. Nearer to 1 the degree grows without bound; with a larger value cables with little sag
 /// would be divided.
 const SMOOTH_ENOUGH: f64 = 1.5;
+
+/// Pieces of a cable on which C is smooth, ascending: ends [m], and the size of the Bernstein ellipse. `intervals` are
+/// the parts of the cable to divide, the last one first; a node between two of them stays one.
+pub(crate) fn smooth_pieces(catenary: &Catenary, mut intervals: Vec<(f64, f64)>) -> Vec<(f64, f64, f64)> {
+    let mut pieces = Vec::new();
+    while let Some((from, to)) = intervals.pop() {
+        let (center, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let size = ellipse(catenary, center, half);
+        if size < SMOOTH_ENOUGH {
+            intervals.extend([(center, to), (from, center)]);
+        } else {
+            pieces.push((from, to, size));
+        }
+    }
+    pieces
+}
 
 /// True if every point of the cable has tension.
 pub(crate) fn has_tension(catenary: &Catenary) -> bool {

@@ -1,0 +1,142 @@
+//! `gradient`: derivatives against differences of the program itself, choice of results and numbers, refusals.
+
+use super::{csv, json, number, robot, run, run_with, stderr, succeed, yuan};
+use serde_json::Value;
+
+/// Derivative of a result by the number at a path.
+fn derivative(found: &Value, result: &str, path: &str) -> f64 {
+    let parameters = found["parameters"].as_array().unwrap();
+    let column = parameters.iter().position(|parameter| parameter["path"] == path).unwrap_or_else(|| panic!("{path}"));
+    let results = found["results"].as_array().unwrap();
+    let row = results.iter().find(|row| row["name"] == result).unwrap_or_else(|| panic!("{result}: {results:?}"));
+    number(&row["derivatives"][column])
+}
+
+/// Difference of a value over a step, to second order.
+fn difference(step: f64, at: impl Fn(f64) -> f64) -> f64 {
+    (at(step) - at(-step)) / (2.0 * step)
+}
+
+#[test]
+fn derivatives_are_differences_of_the_program_with_lengths_and_with_the_pose_held() {
+    // Options replace the pose of the file, so the derivatives belong to another state than its own.
+    let pose = ["--pose", "0.1,0,0.5,0,2,3"];
+    let found = json(&[&["gradient", "ROBOT", "--below-hz", "3", "--hold", "pose"], &pose[..]].concat());
+    assert_eq!((found["held"].as_str(), found["per"].as_str()), (Some("pose"), Some("unit")));
+    let frequency = |set: String| {
+        number(
+            &json(&[&["modes", "ROBOT", "--below-hz", "3", "--set", &set], &pose[..]].concat())["modes"][0]["frequency_hz"],
+        )
+    };
+    for (path, value, step) in [
+        ("platform.mass_kg", 10.55, 1e-2),
+        ("cables.2.anchor_m.z", 3.822, 1e-4),
+        ("materials.rope-4mm.mass_kg_per_m", 0.067, 1e-4),
+    ] {
+        let expected = difference(step, |step| frequency(format!("{path}={}", value + step)));
+        let ours = derivative(&found, "frequency 1", path);
+        // Third order of the step: a thousandth of the value at most.
+        assert!((ours - expected).abs() < 1e-5 * expected.abs().max(1e-3), "{path}: {ours} {expected}");
+    }
+
+    let found = json(&["gradient", "ROBOT", "--of", "tensions,pose"]);
+    assert_eq!(found["held"], "lengths");
+    let statics = |step: f64, key: &str| {
+        let set = format!("loads.force_n=[{step},0,0]");
+        number(&json(&["statics", "ROBOT", "--set", &set])["cables"][2][key])
+    };
+    let expected = difference(0.05, |step| statics(step, "tension_anchor_n"));
+    let ours = derivative(&found, "tension of cable \"3\" at the anchor", "loads.force_n.x");
+    assert!((ours - expected).abs() < 1e-4 * expected.abs(), "{ours} {expected}");
+}
+
+#[test]
+fn steps_are_factors_of_the_derivatives_and_patterns_choose_numbers() {
+    let of = |more: &[&str]| {
+        json(&[&["gradient", "ROBOT", "--of", "tensions", "--by", "cables.*.anchor_m.z,platform"], more].concat())
+    };
+    let unit = of(&[]);
+    let paths: Vec<&str> = unit["parameters"].as_array().unwrap().iter().map(|p| p["path"].as_str().unwrap()).collect();
+    assert!(paths.contains(&"platform.mass_kg") && paths.contains(&"cables.6.anchor_m.z"), "{paths:?}");
+    assert!(!paths.iter().any(|path| path.ends_with("anchor_m.x") || path.starts_with("materials")), "{paths:?}");
+
+    let name = "tension of cable \"1\" at the platform";
+    let by_mass = |found: &Value| derivative(found, name, "platform.mass_kg");
+    let percent = of(&["--per", "percent"]);
+    assert!((by_mass(&percent) - 0.1055 * by_mass(&unit)).abs() < 1e-12);
+    let tolerance = of(&["--per", "tolerance", "--tolerances", "platform.mass_kg=2%,cables.*.anchor_m=0.002"]);
+    assert!((by_mass(&tolerance) - 0.211 * by_mass(&unit)).abs() < 1e-12);
+    let [by_unit, by_tolerance] = [&unit, &tolerance].map(|found| derivative(found, name, "cables.6.anchor_m.z"));
+    assert!((by_tolerance - 0.002 * by_unit).abs() < 1e-15, "{by_tolerance} {by_unit}");
+
+    let (header, rows) = csv(&["gradient", "ROBOT", "--of", "tensions", "--by", "platform.mass_kg"]);
+    assert_eq!((header.len(), rows.len()), (10, 12));
+    let text = succeed(&["gradient", "ROBOT", "--of", "stiffness-min,lengths", "--hold", "pose", "--by", "platform"]);
+    assert!(
+        text.contains("Held: the pose is held, the lengths follow.") && text.contains("minimum stiffness = "),
+        "{text}"
+    );
+}
+
+#[test]
+fn modes_that_share_a_frequency_have_a_block_and_a_response_two_rows() {
+    // A point mass on four equal cables: horizontal motions share a frequency.
+    let cables: String = [("1", "2.0, 0.0"), ("2", "-2.0, 0.0"), ("3", "0.0, 2.0"), ("4", "0.0, -2.0")]
+        .iter()
+        .map(|(name, point)| {
+            format!("[[cables]]\nname = \"{name}\"\nmaterial = \"rope\"\nanchor_m = [{point}, 3.0]\nunstrained_length_m = 2.8\n")
+        })
+        .collect();
+    let text = format!(
+        "name = \"square\"\n[platform]\nmotion = \"point-mass\"\nmass_kg = 10.0\n[materials.rope]\naxial_stiffness_n = 1e5\n\
+         mass_kg_per_m = 0.05\n{cables}"
+    );
+    let options = ["gradient", "-", "--cable-model", "catenary-static", "--below-hz", "40", "--format", "json"];
+    let output = run_with(&options, &text);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let entries = found["results"].as_array().unwrap().iter().filter(|row| row["block_entry"].is_array()).count();
+    assert_eq!(entries, 3, "{found}");
+
+    let response =
+        ["--of", "response", "--at-hz", "1.3", "--input", "fz", "--output", "az", "--by", "materials.*.damping_ratio"];
+    let found = json(&[&["gradient", "ROBOT"], &response[..]].concat());
+    assert_eq!(found["results"].as_array().unwrap().len(), 2);
+    assert_eq!(found["results"][0]["unit"], "(m/s²)/N");
+}
+
+#[test]
+fn requests_without_derivatives_are_refused_with_the_reason() {
+    let winches = robot("cogiro-winches.toml");
+    let cogiro = robot("cogiro.toml");
+    for (arguments, expected) in [
+        (&["gradient", "ROBOT"][..], "`frequencies` needs --below-hz"),
+        (&["gradient", "ROBOT", "--of", "tension"], "did you mean `tensions`?"),
+        (
+            &["gradient", "ROBOT", "--of", "pose", "--by", "platform.mas_kg"],
+            "no such number; did you mean `platform.mass_kg`?",
+        ),
+        (&["gradient", "ROBOT", "--of", "pose", "--tolerances", "platform.mass_kg"], "write PATH=VALUE"),
+        (&["gradient", "ROBOT", "--of", "response", "--at-hz", "1"], "`response` needs --input"),
+        (&["gradient", "ROBOT", "--below-hz", "2", "--cable-model", "shallow-dynamic"], "not `shallow-dynamic`"),
+        (&["gradient", "ROBOT", "--below-hz", "2", "--in-plane-only"], "need all terms of the stiffness"),
+        (&["gradient", &winches, "--of", "pose"], "runs over a pulley or to a winch"),
+        (&["gradient", &cogiro, "--of", "pose", "--pose", "0,0,1.5", "--static-model", "ideal"], "need elastic cables"),
+        (
+            &["gradient", "ROBOT", "--of", "response", "--at-hz", "1", "--input", "cable:3@0.5:fz", "--output", "z"],
+            "inputs and outputs on the platform",
+        ),
+    ] {
+        let output = run(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(expected), "{arguments:?}: {}", stderr(&output));
+    }
+
+    // A slack cable without weight begins to pull at its chord: no derivative.
+    let text = yuan()
+        .replace("mass_kg_per_m = 0.067", "mass_kg_per_m = 0")
+        .replace("unstrained_length_m = 6.863", "unstrained_length_m = 9.0");
+    let output = run_with(&["gradient", "-", "--of", "tensions"], &text);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("at the edge of being slack"), "{}", stderr(&output));
+}

@@ -1,0 +1,297 @@
+//! Gradients: derivatives of a result by every number of the robot at once, in reverse.
+//!
+//! Every result is a scalar of the state at rest: forces, lever arms, chords, loads and lengths of the cables, arms and
+//! tensors of the platform. Its coefficients over that state are followed back through the cables' partial derivatives to
+//! the numbers of the robot; what follows a change, pose or lengths, costs one solution of the balance per result, however
+//! many numbers there are. Quantities of vibration get their coefficients from the quadratic form of the dynamic
+//! stiffness, which is stationary in the motion: no mode is differentiated and no number of the robot perturbed
+//! (docs/theory.md, section 17).
+//!
+//! The derivative along one direction is the product with it, [`RobotChange::dot`]; the direction of a number of the robot
+//! file is [`Parameters::change`](crate::robot::parameters::Parameters::change).
+
+mod adjoint;
+mod cable_form;
+mod pullback;
+mod robot_form;
+mod scalar;
+mod vibration;
+
+pub use vibration::{DampedGradient, ResponseDerivatives, VibrationGradients};
+
+use crate::cable::CableModel;
+use crate::cable::catenary_dynamic::CatenaryDynamicError;
+use crate::dynamics::Dynamics;
+use crate::math::{Vec3, symmetric};
+use crate::platform::Coordinates;
+use crate::robot::{Robot, RobotChange};
+use crate::statics::derivatives::{StaticDerivativeError, force_at_anchor, load_of};
+use crate::statics::{Equilibrium, tangent_stiffness};
+use adjoint::Adjoint;
+use pullback::Pullback;
+use robot_form::{At, RobotForm};
+use thiserror::Error;
+
+/// What stays while a number of the robot changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Hold {
+    /// The unstrained lengths stay, apart from their own change, and the pose follows.
+    #[default]
+    Lengths,
+    /// The pose stays, apart from its own change, and the unstrained lengths follow. Of more cables than degrees of freedom
+    /// the tensions parallel to the chords, (10a), change least: the sum of the squares of their changes is minimum.
+    Pose,
+}
+
+impl Hold {
+    /// Both choices.
+    pub const ALL: [Self; 2] = [Self::Lengths, Self::Pose];
+
+    /// Name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lengths => "lengths",
+            Self::Pose => "pose",
+        }
+    }
+}
+
+/// Reason for which a result has no gradient.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum GradientError {
+    /// The equilibrium has none.
+    #[error(transparent)]
+    Static(#[from] StaticDerivativeError),
+    /// The parallel tension of a vertical cable with weight is not differentiated.
+    #[error(
+        "cable \"{cable}\" is parallel to its load: with the pose held, the rule for more cables than degrees of freedom \
+         needs the derivative of its parallel tension, which is not known there; hold the lengths, or choose a pose beside \
+         this one"
+    )]
+    Vertical {
+        /// Name of the cable.
+        cable: String,
+    },
+    /// Gradients are not implemented for this cable model.
+    #[error(
+        "gradients of vibrations need the cable model `spring`, `catenary-static` or `catenary-dynamic`, not `{0}`"
+    )]
+    Model(CableModel),
+    /// Terms of the stiffness are left out.
+    #[error("gradients of vibrations need all terms of the stiffness: assembly `consistent`, in and out of plane")]
+    Terms,
+    /// The minimum stiffness in wind contains the turn of the drag.
+    #[error("the drag of the wind turns with the cables: the stiffness has no gradient there")]
+    DragTurns,
+    /// The minimum stiffness is shared by several motions.
+    #[error("{multiplicity} motions share the minimum stiffness: it has no single derivative")]
+    MultipleStiffness {
+        /// Number of motions.
+        multiplicity: usize,
+    },
+    /// Several modes share the frequency, so that it has several derivatives.
+    #[error(
+        "{multiplicity} modes share the frequency {frequency_hz} Hz: it has no single derivative, but a block of them"
+    )]
+    Multiple {
+        /// Frequency [Hz].
+        frequency_hz: f64,
+        /// Number of modes.
+        multiplicity: usize,
+    },
+    /// The zero of the damped dynamic stiffness is not simple, or the model has no motion.
+    #[error("the damped frequency {frequency_hz} Hz belongs to no single motion: it has no gradient")]
+    NoDampedMotion {
+        /// Frequency [Hz].
+        frequency_hz: f64,
+    },
+    /// An input or output is not on the platform.
+    #[error("gradients of responses need inputs and outputs on the platform")]
+    NotOnPlatform,
+    /// The robot is undamped and the frequency is a natural one.
+    #[error(
+        "the response at {frequency_hz} Hz is not finite: an undamped natural frequency lies there; give the ropes \
+         damping or choose other frequencies"
+    )]
+    Resonance {
+        /// Frequency [Hz].
+        frequency_hz: f64,
+    },
+    /// A cable has no catenary-dynamic stiffness.
+    #[error("cable \"{cable}\": {reason}")]
+    CatenaryDynamic {
+        /// Name of the cable.
+        cable: String,
+        /// Reason.
+        reason: CatenaryDynamicError,
+    },
+}
+
+/// Distance of two stiffnesses, over the maximum, below which they count as one multiple value.
+const MULTIPLE_STIFFNESS: f64 = 1e-9;
+
+/// Gradients of the results of an equilibrium. Each gradient has the derivative of a result by every number of the robot:
+/// units of the result per SI unit of the field.
+///
+/// # Example
+/// ```
+/// use funicular::gradient::{Gradients, Hold};
+/// use funicular::robot::{Robot, parameters::Parameters};
+/// use funicular::statics::{self, StaticModel};
+///
+/// let parameters = Parameters::from_toml(funicular_robots::COGIRO)?;
+/// let robot = parameters.robot();
+/// let rest = statics::solve(robot, StaticModel::Catenary, None)?.equilibrium;
+/// let gradients = Gradients::new(robot, &rest, Hold::Lengths)?;
+///
+/// let tension = &gradients.tensions_platform()[0];
+/// assert!(tension.mass > 0.0); // N/kg
+/// let modulus = parameters.find(&["materials", "rope", "axial_stiffness_n"]);
+/// if let Some(change) = modulus.and_then(|index| parameters.change(index)) {
+///     assert!(tension.dot(&change).is_finite()); // N per N of EA in all cables
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # References
+/// docs/theory.md, equations (60a) to (60h).
+pub struct Gradients<'a> {
+    hold: Hold,
+    pullback: Pullback<'a>,
+}
+
+impl<'a> Gradients<'a> {
+    /// Prepares the gradients of an equilibrium.
+    ///
+    /// # Errors
+    /// [`GradientError::Static`]: ideal or slack cables, drives, an indifferent equilibrium, too few cables to hold the
+    /// pose; [`GradientError::Vertical`].
+    pub fn new(robot: &'a Robot, equilibrium: &'a Equilibrium, hold: Hold) -> Result<Self, GradientError> {
+        Ok(Self { hold, pullback: Pullback::new(robot, equilibrium, hold)? })
+    }
+
+    /// What is held.
+    pub fn hold(&self) -> Hold {
+        self.hold
+    }
+
+    fn robot(&self) -> &'a Robot {
+        self.pullback.robot
+    }
+
+    /// Equilibrium to which the gradients belong.
+    pub fn equilibrium(&self) -> &'a Equilibrium {
+        self.pullback.equilibrium
+    }
+
+    /// Gradient of the scalar whose coefficients `set` writes.
+    fn of(&self, set: impl FnOnce(&mut Adjoint<f64>)) -> RobotChange {
+        let mut scalar = Adjoint::zeros(self.robot().cables.len());
+        set(&mut scalar);
+        self.pullback.gradient(&scalar)
+    }
+
+    /// Gradients of the pose: translation of the origin along the axes of the world [m], then the rotation vector about
+    /// them [rad].
+    pub fn pose(&self) -> [RobotChange; 6] {
+        std::array::from_fn(|k| {
+            self.of(|scalar| {
+                let part = if k < 3 { &mut scalar.translation } else { &mut scalar.rotation };
+                part[k % 3] = 1.0;
+            })
+        })
+    }
+
+    /// Gradients of the unstrained lengths [m], in file order.
+    pub fn lengths(&self) -> Vec<RobotChange> {
+        (0..self.robot().cables.len()).map(|i| self.of(|scalar| scalar.cables[i].length = 1.0)).collect()
+    }
+
+    /// Gradients of the tensions at the platform ends [N], in file order.
+    pub fn tensions_platform(&self) -> Vec<RobotChange> {
+        let states = self.equilibrium().cables.iter().enumerate();
+        states
+            .map(|(i, state)| self.of(|scalar| scalar.cables[i].force = state.force_on_platform_w.normalize().into()))
+            .collect()
+    }
+
+    /// Gradients of the tensions at the anchors [N], in file order: the magnitude of N = f − L q.
+    pub fn tensions_anchor(&self) -> Vec<RobotChange> {
+        let states = self.equilibrium().cables.iter().enumerate();
+        states
+            .map(|(i, state)| {
+                let direction_w: Vec3 = force_at_anchor(state).normalize();
+                self.of(|scalar| {
+                    let cable = &mut scalar.cables[i];
+                    cable.force = direction_w.into();
+                    cable.load = (direction_w * -state.unstrained_length).into();
+                    cable.length = -direction_w.dot(&load_of(state));
+                })
+            })
+            .collect()
+    }
+
+    /// Gradient of an entry of the tangent stiffness about the origin of the platform, world axes [N/m, N, N·m], (14).
+    ///
+    /// # Errors
+    /// [`GradientError`], as for any form.
+    pub fn tangent_entry(&self, row: usize, column: usize) -> Result<RobotChange, GradientError> {
+        let unit = |k: usize| {
+            let mut motion = [[0.0; 3]; 2];
+            motion[k / 3][k % 3] = 1.0;
+            motion
+        };
+        self.of_static_form(unit(row), unit(column), 0.0)
+    }
+
+    /// Gradient of the minimum eigenvalue of the scaled stiffness, the
+    /// [`min_stiffness`](crate::statics::Stability::min_stiffness) [N/m].
+    ///
+    /// # Errors
+    /// [`GradientError::DragTurns`], [`GradientError::MultipleStiffness`].
+    pub fn min_stiffness(&self) -> Result<RobotChange, GradientError> {
+        let (robot, equilibrium) = (self.robot(), self.equilibrium());
+        if robot.wind_turns_with_cables() {
+            return Err(GradientError::DragTurns);
+        }
+        let stiffness = tangent_stiffness(robot, equilibrium).ok_or(StaticDerivativeError::Ideal)?;
+        let coordinates = Coordinates::of(robot);
+        let n = coordinates.count();
+        let (values, vectors) = symmetric::eigen(&coordinates.reduce_symmetric(&stiffness), n);
+        let lowest = (0..n).min_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0);
+        let largest = values.iter().take(n).fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        let near = |value: &&f64| (**value - values[lowest]).abs() <= MULTIPLE_STIFFNESS * largest;
+        let multiplicity = values.iter().take(n).filter(near).count();
+        if multiplicity > 1 {
+            return Err(GradientError::MultipleStiffness { multiplicity });
+        }
+
+        // Rotations are divided by ℓ, which the attachments change.
+        let motion = coordinates.expand(&vectors[lowest]);
+        let ell = coordinates.ell();
+        let translation = [motion[0], motion[1], motion[2]];
+        let scaled = [motion[3], motion[4], motion[5]];
+        let turning: f64 = scaled.iter().map(|turn| turn * turn).sum();
+        let motion = [translation, scaled.map(|turn| turn / ell)];
+        self.of_static_form(motion, motion, -2.0 * values[lowest] * turning / ell)
+    }
+
+    /// Gradient of the static form over two motions (translation, rotation), with a coefficient of ℓ.
+    fn of_static_form(&self, a: [[f64; 3]; 2], b: [[f64; 3]; 2], ell: f64) -> Result<RobotChange, GradientError> {
+        let form = RobotForm::of_statics(self.robot(), self.equilibrium())?;
+        let at = At::undamped(0.0, self.robot().cables.len());
+        let [a, b] = [a, b].map(|[v, theta]| form.motion(v, theta, &at, &[], &[]));
+        Ok(self.of(|scalar| {
+            form.add(scalar, &a, &b, &at, 1.0);
+            scalar.ell = ell;
+        }))
+    }
+
+    /// Prepares gradients of vibrations about this equilibrium.
+    ///
+    /// # Errors
+    /// [`GradientError::Model`], [`GradientError::Terms`], [`GradientError::CatenaryDynamic`].
+    pub fn vibration<'g>(&'g self, dynamics: &'g Dynamics) -> Result<VibrationGradients<'g>, GradientError> {
+        VibrationGradients::new(self, dynamics)
+    }
+}

@@ -1,0 +1,106 @@
+//! Coefficients of a scalar's differential over the state of the equilibrium, before the state is followed back to the
+//! numbers of the robot.
+
+use super::scalar::{Field, Vector};
+
+/// Derivative of a scalar by each quantity of the state at rest, all others held: the coefficients of df, dr, dq and so on
+/// in its differential. World axes.
+#[derive(Debug, Clone)]
+pub(super) struct Adjoint<T> {
+    /// By the motion of the platform: translation of its origin, and rotation vector.
+    pub(super) translation: Vector<T>,
+    pub(super) rotation: Vector<T>,
+    /// By the force at the centre of mass, and by the arm of that centre.
+    pub(super) weight: Vector<T>,
+    pub(super) center: Vector<T>,
+    /// By the force of the load, by the arm of its point, and by its moment.
+    pub(super) force: Vector<T>,
+    pub(super) point: Vector<T>,
+    pub(super) moment: Vector<T>,
+    /// By the mass of the platform as inertia.
+    pub(super) mass: T,
+    /// By the inertia tensor about the centre of mass, symmetric.
+    pub(super) inertia: [Vector<T>; 3],
+    /// By the viscous damping matrices of the platform, symmetric.
+    pub(super) translational_damping: [Vector<T>; 3],
+    pub(super) rotational_damping: [Vector<T>; 3],
+    /// By the mean distance of the attachments from the origin of the platform.
+    pub(super) ell: T,
+    /// The cables, in file order.
+    pub(super) cables: Vec<CableAdjoint<T>>,
+}
+
+/// Coefficients of one cable.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct CableAdjoint<T> {
+    /// By the force on the platform.
+    pub(super) force: Vector<T>,
+    /// By the lever arm.
+    pub(super) lever: Vector<T>,
+    /// By the chord.
+    pub(super) chord: Vector<T>,
+    /// By the load per unstrained length.
+    pub(super) load: Vector<T>,
+    /// By the unstrained length.
+    pub(super) length: T,
+    /// By the axial stiffness.
+    pub(super) stiffness: T,
+    /// By the mass per length as inertia.
+    pub(super) mass: T,
+    /// By the damping ratio, or the viscous damping per length.
+    pub(super) damping: T,
+}
+
+impl<T: Field> Adjoint<T> {
+    /// Coefficients zero for a robot with this number of cables.
+    pub(super) fn zeros(cables: usize) -> Self {
+        let zero = [T::default(); 3];
+        Self {
+            translation: zero,
+            rotation: zero,
+            weight: zero,
+            center: zero,
+            force: zero,
+            point: zero,
+            moment: zero,
+            mass: T::default(),
+            inertia: [zero; 3],
+            translational_damping: [zero; 3],
+            rotational_damping: [zero; 3],
+            ell: T::default(),
+            cables: vec![CableAdjoint::default(); cables],
+        }
+    }
+
+    /// Coefficients of a scalar whose differential is a linear function of this one's: `of` is applied to each.
+    pub(super) fn map<U: Field>(&self, of: impl Fn(T) -> U) -> Adjoint<U> {
+        let vector = |v: &Vector<T>| v.map(&of);
+        let matrix = |m: &[Vector<T>; 3]| m.map(|row| row.map(&of));
+        Adjoint {
+            translation: vector(&self.translation),
+            rotation: vector(&self.rotation),
+            weight: vector(&self.weight),
+            center: vector(&self.center),
+            force: vector(&self.force),
+            point: vector(&self.point),
+            moment: vector(&self.moment),
+            mass: of(self.mass),
+            inertia: matrix(&self.inertia),
+            translational_damping: matrix(&self.translational_damping),
+            rotational_damping: matrix(&self.rotational_damping),
+            ell: of(self.ell),
+            cables: (self.cables.iter())
+                .map(|cable| CableAdjoint {
+                    force: vector(&cable.force),
+                    lever: vector(&cable.lever),
+                    chord: vector(&cable.chord),
+                    load: vector(&cable.load),
+                    length: of(cable.length),
+                    stiffness: of(cable.stiffness),
+                    mass: of(cable.mass),
+                    damping: of(cable.damping),
+                })
+                .collect(),
+        }
+    }
+}

@@ -1,0 +1,312 @@
+//! From the coefficients of a scalar over the state at rest to its gradient over the numbers of the robot.
+//!
+//! Forces follow from chords, lengths, loads and stiffness by the partial derivatives of each cable, arms and tensors turn
+//! with the platform. What is then left is the motion of the platform or the change of the lengths: one multiplier λ of
+//! the balance Φ takes its place, and the coefficients of λ·Φ are added (docs/theory.md, equations (60c) to (60f)).
+
+use super::adjoint::{Adjoint, CableAdjoint};
+use super::{GradientError, Hold};
+use crate::math::{DMat, Mat3, Mat6, Vec3, Vec6, inverse6};
+use crate::platform::Coordinates;
+use crate::robot::{CableChange, Robot, RobotChange};
+use crate::statics::derivatives::{CablePartials, StaticDerivativeError, balance_jacobian, load_of, regular};
+use crate::statics::{CableState, Equilibrium};
+
+/// Sine of the angle between chord and load below which the parallel tension of a cable with weight is not
+/// differentiated: the formula divides by the sine twice.
+const MIN_SINE_OF_CHORD: f64 = 1e-5;
+
+/// Equilibrium with what follows a change of the robot.
+pub(super) struct Pullback<'a> {
+    pub(super) robot: &'a Robot,
+    pub(super) equilibrium: &'a Equilibrium,
+    coordinates: Coordinates,
+    cables: Vec<CablePartials>,
+    follower: Follower,
+}
+
+/// What follows while the rest is held.
+enum Follower {
+    /// The pose follows: inverse of 𝒥, transposed, in reduced coordinates.
+    Pose(Mat6),
+    /// The lengths follow.
+    Lengths {
+        /// Pseudoinverse of the wrenches by lengths or by parallel tensions, transposed; one column per cable.
+        pseudoinverse: DMat,
+        /// Wrenches by lengths or by parallel tensions, reduced; one column per cable.
+        wrenches: DMat,
+        /// Parallel tension of each cable, if the cables are more than the degrees of freedom.
+        tensions: Option<Vec<ParallelTension>>,
+    },
+}
+
+/// Derivatives of the parallel tension τ of a cable, (10a), by length, force, load per length and chord.
+struct ParallelTension {
+    by_length: f64,
+    force_w: Vec3,
+    load_w: Vec3,
+    chord_w: Vec3,
+}
+
+impl ParallelTension {
+    /// τ = |f × q| |d|/|d × q|, or the tension of a cable without load.
+    fn of(robot: &Robot, i: usize, state: &CableState) -> Result<Self, GradientError> {
+        let hanging = state.hanging.as_ref().ok_or(StaticDerivativeError::Ideal)?;
+        let by_length = hanging.catenary.parallel_tension_by_length();
+        let (f, q, d) = (state.force_on_platform_w, load_of(state), state.chord_w());
+        if q == Vec3::zeros() {
+            let zero = Vec3::zeros();
+            return Ok(Self { by_length, force_w: f.normalize(), load_w: zero, chord_w: zero });
+        }
+
+        let (pulled, turned) = (f.cross(&q), d.cross(&q));
+        if turned.norm() < MIN_SINE_OF_CHORD * d.norm() * q.norm() {
+            return Err(GradientError::Vertical { cable: robot.cables[i].name.clone() });
+        }
+        let tau = pulled.norm() * d.norm() / turned.norm();
+        let (a, b) = (pulled.normalize(), turned.normalize());
+        Ok(Self {
+            by_length,
+            force_w: q.cross(&a) * (tau / pulled.norm()),
+            load_w: (a.cross(&f) / pulled.norm() - b.cross(&d) / turned.norm()) * tau,
+            chord_w: (d / d.norm_squared() - q.cross(&b) / turned.norm()) * tau,
+        })
+    }
+}
+
+/// Gradient with the motion of the platform as further coefficients.
+struct Pulled {
+    gradient: RobotChange,
+    translation_w: Vec3,
+    rotation_w: Vec3,
+}
+
+impl<'a> Pullback<'a> {
+    pub(super) fn new(robot: &'a Robot, equilibrium: &'a Equilibrium, hold: Hold) -> Result<Self, GradientError> {
+        let coordinates = Coordinates::of(robot);
+        let cables = (0..robot.cables.len())
+            .map(|i| CablePartials::new(robot, equilibrium, i))
+            .collect::<Result<Vec<_>, _>>()?;
+        let follower = match hold {
+            Hold::Lengths => {
+                let jacobian = balance_jacobian(robot, equilibrium).ok_or(StaticDerivativeError::Ideal)?;
+                let regular = regular(&coordinates.reduce_matrix(&jacobian), &coordinates)?;
+                Follower::Pose(inverse6(&regular).ok_or(StaticDerivativeError::Singular)?.transpose())
+            }
+            Hold::Pose => Follower::of_lengths(robot, equilibrium, &coordinates, &cables)?,
+        };
+        Ok(Self { robot, equilibrium, coordinates, cables, follower })
+    }
+
+    /// Gradient of the scalar with these coefficients.
+    pub(super) fn gradient(&self, scalar: &Adjoint<f64>) -> RobotChange {
+        match &self.follower {
+            Follower::Pose(inverse) => {
+                let direct = self.pulled(scalar);
+                let motion = six(&direct.translation_w, &direct.rotation_w);
+                let multiplier = self.coordinates.expand(&(inverse * self.coordinates.reduce(&motion)));
+                let mut total = scalar.clone();
+                self.add_balance(&mut total, &multiplier);
+                self.pulled(&total).gradient
+            }
+            Follower::Lengths { pseudoinverse, wrenches, tensions } => {
+                let direct = self.pulled(scalar);
+                let n = self.coordinates.count();
+
+                // Coefficients of the lengths, or of the parallel tensions that stand for them.
+                let mut of_lengths = DMat::zeros(self.cables.len(), 1);
+                for (i, cable) in direct.gradient.cables.iter().enumerate() {
+                    let per_unknown = tensions.as_ref().map_or(1.0, |tensions| tensions[i].by_length);
+                    of_lengths[(i, 0)] = cable.unstrained_length / per_unknown;
+                }
+                let solved = pseudoinverse * &of_lengths;
+                let reduced = Vec6::from_fn(|k, _| if k < n { -solved[(k, 0)] } else { 0.0 });
+                let multiplier = self.coordinates.expand(&reduced);
+                let mut total = scalar.clone();
+                self.add_balance(&mut total, &multiplier);
+
+                // Of redundant cables the parallel tensions change least; what is not balance stays with them.
+                if let Some(tensions) = tensions {
+                    let left = -(wrenches.transpose() * -solved + &of_lengths);
+                    for ((cable, tension), left) in total.cables.iter_mut().zip(tensions).zip(left.iter()) {
+                        for k in 0..3 {
+                            cable.force[k] += tension.force_w[k] * left;
+                            cable.load[k] += tension.load_w[k] * left;
+                            cable.chord[k] += tension.chord_w[k] * left;
+                        }
+                    }
+                }
+
+                let Pulled { mut gradient, translation_w, rotation_w } = self.pulled(&total);
+                for (cable, partials) in gradient.cables.iter_mut().zip(&self.cables) {
+                    // No length counts any more, to rounding. A stiffer rope is as a longer one: without the same rounding
+                    // in the derivative by the stiffness, which is small here, that would have few digits.
+                    let (by_stiffness, by_length) = (partials.force_by_stiffness_w, partials.force_by_length_w);
+                    let as_length = by_stiffness.dot(&by_length) / by_length.norm_squared();
+                    cable.axial_stiffness -= as_length * cable.unstrained_length;
+                    cable.unstrained_length = 0.0;
+                }
+                let motion = self.robot.platform.motion.allowed(&six(&translation_w, &rotation_w));
+                gradient.position_w = Vec3::new(motion[0], motion[1], motion[2]);
+                gradient.rotation_w = Vec3::new(motion[3], motion[4], motion[5]);
+                gradient
+            }
+        }
+    }
+
+    /// Adds the coefficients of λ·Φ, the product of a multiplier (moments over ℓ) with the wrench on the platform.
+    fn add_balance(&self, total: &mut Adjoint<f64>, multiplier: &Vec6) {
+        let v = Vec3::new(multiplier[0], multiplier[1], multiplier[2]);
+        let theta = Vec3::new(multiplier[3], multiplier[4], multiplier[5]) / self.coordinates.ell();
+        let put = |sum: &mut [f64; 3], value: Vec3| (0..3).for_each(|k| sum[k] += value[k]);
+        let rot = &self.equilibrium.pose.rot_wp;
+        let (platform, load) = (&self.robot.platform, &self.robot.load);
+
+        put(&mut total.weight, v + theta.cross(&(rot * platform.center_of_mass_p)));
+        put(&mut total.center, self.robot.force_at_mass_centre_w().cross(&theta));
+        put(&mut total.force, v + theta.cross(&(rot * load.point_p)));
+        put(&mut total.point, load.force_w.cross(&theta));
+        put(&mut total.moment, theta);
+        for (cable, state) in total.cables.iter_mut().zip(&self.equilibrium.cables) {
+            put(&mut cable.force, v + theta.cross(&state.lever_w));
+            put(&mut cable.lever, state.force_on_platform_w.cross(&theta));
+        }
+    }
+
+    /// Follows the coefficients to the numbers of the robot and to the motion of the platform.
+    fn pulled(&self, scalar: &Adjoint<f64>) -> Pulled {
+        let (robot, rot) = (self.robot, &self.equilibrium.pose.rot_wp);
+        let (platform, wind) = (&robot.platform, &robot.wind);
+        let mut gradient = RobotChange::none(robot.cables.len());
+        let mut translation_w = Vec3::from(scalar.translation);
+        let mut rotation_w = Vec3::from(scalar.rotation);
+
+        for (i, (cable, partials)) in scalar.cables.iter().zip(&self.cables).enumerate() {
+            let state = &self.equilibrium.cables[i];
+            let (of_cable, chord_w, lever_w) = cable_pulled(cable, partials, state, &mut gradient);
+            translation_w -= chord_w;
+            rotation_w += state.lever_w.cross(&lever_w);
+            gradient.cables[i] = CableChange { attachment_p: rot.inverse() * lever_w, ..of_cable };
+        }
+
+        // The mean distance of the attachments, by which rotations are scaled.
+        if scalar.ell != 0.0 {
+            let count = robot.cables.len() as f64;
+            for (cable, of_cable) in robot.cables.iter().zip(&mut gradient.cables) {
+                let outwards_p = cable.attachment_p.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+                of_cable.attachment_p += outwards_p * (scalar.ell / count);
+            }
+        }
+
+        // Weight and wind at the centre of mass, then the load.
+        let (weight, center) = (Vec3::from(scalar.weight), Vec3::from(scalar.center));
+        gradient.mass += scalar.mass + robot.gravity_w.dot(&weight);
+        gradient.gravity_w += weight * platform.mass;
+        gradient.drag_area += wind.pressure_w().dot(&weight);
+        gradient.wind_velocity_w += wind.pressure_by_velocity_w() * weight * platform.drag_area;
+        gradient.air_density += wind.at_unit_density().pressure_w().dot(&weight) * platform.drag_area;
+        gradient.center_of_mass_p = rot.inverse() * center;
+        rotation_w += (rot * platform.center_of_mass_p).cross(&center);
+
+        let point = Vec3::from(scalar.point);
+        gradient.force_w = scalar.force.into();
+        gradient.moment_w = scalar.moment.into();
+        gradient.point_p = rot.inverse() * point;
+        rotation_w += (rot * robot.load.point_p).cross(&point);
+
+        // Tensors turn with the platform.
+        let matrix = rot.to_rotation_matrix();
+        let mut tensor = |adjoint: &[[f64; 3]; 3], tensor_p: &Mat3| {
+            let adjoint = Mat3::from_fn(|i, j| adjoint[i][j]);
+            let tensor_w = matrix.matrix() * tensor_p * matrix.matrix().transpose();
+            let turning = tensor_w * adjoint - adjoint * tensor_w;
+            rotation_w += Vec3::new(
+                turning[(1, 2)] - turning[(2, 1)],
+                turning[(2, 0)] - turning[(0, 2)],
+                turning[(0, 1)] - turning[(1, 0)],
+            );
+            matrix.matrix().transpose() * adjoint * matrix.matrix()
+        };
+        gradient.inertia_p = tensor(&scalar.inertia, &platform.inertia_p);
+        let translational = Mat3::from_diagonal(&platform.translational_damping_p);
+        let rotational = Mat3::from_diagonal(&platform.rotational_damping_p);
+        gradient.translational_damping_p = tensor(&scalar.translational_damping, &translational).diagonal();
+        gradient.rotational_damping_p = tensor(&scalar.rotational_damping, &rotational).diagonal();
+
+        Pulled { gradient, translation_w, rotation_w }
+    }
+}
+
+/// Follows the coefficients of one cable to its numbers, and to gravity and wind; with those of its chord and of its lever
+/// arm, which contains the chord's.
+fn cable_pulled(
+    cable: &CableAdjoint<f64>,
+    partials: &CablePartials,
+    state: &CableState,
+    gradient: &mut RobotChange,
+) -> (CableChange, Vec3, Vec3) {
+    debug_assert!(state.drive.is_none(), "the partial derivatives refuse drives");
+    let force = Vec3::from(cable.force);
+    let load = Vec3::from(cable.load) + partials.force_by_load_w.transpose() * force;
+    let chord_w = Vec3::from(cable.chord) + partials.stiffness_w * force + partials.load_by_chord_w.transpose() * load;
+    let lever_w = Vec3::from(cable.lever) - chord_w;
+
+    gradient.gravity_w += load * partials.load_by_gravity;
+    gradient.wind_velocity_w += partials.load_by_wind_w.transpose() * load;
+    gradient.air_density += partials.load_by_density_w.dot(&load);
+    let of_cable = CableChange {
+        anchor_w: chord_w,
+        attachment_p: Vec3::zeros(),
+        unstrained_length: cable.length + partials.force_by_length_w.dot(&force),
+        axial_stiffness: cable.stiffness + partials.force_by_stiffness_w.dot(&force),
+        mass_per_length: cable.mass + partials.load_by_mass_w.dot(&load),
+        load_per_length_w: load * partials.load_by_own,
+        drag_width: partials.load_by_drag_width_w.dot(&load),
+        damping: cable.damping,
+    };
+    (of_cable, chord_w, lever_w)
+}
+
+impl Follower {
+    /// Lengths that follow at a held pose.
+    fn of_lengths(
+        robot: &Robot,
+        equilibrium: &Equilibrium,
+        coordinates: &Coordinates,
+        partials: &[CablePartials],
+    ) -> Result<Self, GradientError> {
+        let (cables, degrees_of_freedom) = (partials.len(), coordinates.count());
+        if cables < degrees_of_freedom {
+            return Err(StaticDerivativeError::CableCount { cables, degrees_of_freedom }.into());
+        }
+        let tensions = if cables == degrees_of_freedom {
+            None
+        } else {
+            let states = equilibrium.cables.iter().enumerate();
+            Some(states.map(|(i, state)| ParallelTension::of(robot, i, state)).collect::<Result<Vec<_>, _>>()?)
+        };
+
+        let mut wrenches = DMat::zeros(degrees_of_freedom, cables);
+        for (i, (partials, state)) in partials.iter().zip(&equilibrium.cables).enumerate() {
+            let per_unknown = tensions.as_ref().map_or(1.0, |tensions| tensions[i].by_length);
+            let column = coordinates.reduce_force(&(partials.force_by_length_w / per_unknown), &state.lever_w);
+            (0..degrees_of_freedom).for_each(|k| wrenches[(k, i)] = column[k]);
+        }
+
+        // By columns of size one in the lengths: the pseudoinverse from the orthogonal factors of the transpose.
+        let factors = wrenches.transpose().qr();
+        let (q, r) = (factors.q(), factors.r());
+        let diagonal = (0..degrees_of_freedom).map(|k| r[(k, k)].abs());
+        let (smallest, largest) = diagonal.fold((f64::INFINITY, 0.0_f64), |(low, high), d| (low.min(d), high.max(d)));
+        if smallest.is_nan() || smallest <= 1e-12 * largest {
+            return Err(StaticDerivativeError::Singular.into());
+        }
+        let pseudoinverse = r.solve_upper_triangular(&q.transpose()).ok_or(StaticDerivativeError::Singular)?;
+        Ok(Self::Lengths { pseudoinverse, wrenches, tensions })
+    }
+}
+
+/// Translation and rotation in one vector.
+fn six(translation: &Vec3, rotation: &Vec3) -> Vec6 {
+    Vec6::new(translation.x, translation.y, translation.z, rotation.x, rotation.y, rotation.z)
+}

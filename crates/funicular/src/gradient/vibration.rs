@@ -1,0 +1,286 @@
+//! Gradients of natural frequencies, damped frequencies, damping ratios and responses.
+
+use super::adjoint::Adjoint;
+use super::robot_form::{At, NearAmplitude, RobotForm, RobotMotion};
+use super::scalar::{Vector, add_times, cross, vector};
+use super::{GradientError, Gradients};
+use crate::dynamics::{DynamicCableAt, Dynamics};
+use crate::math::{CVec6, Complex, Vec3, Vec6};
+use crate::modes::Mode;
+use crate::modes::damped::DampedMode;
+use crate::response::{self, Quantity, Signal};
+use crate::robot::RobotChange;
+use std::f64::consts::TAU;
+
+/// Gradients of vibrations about an equilibrium; from [`Gradients::vibration`].
+///
+/// # Example
+/// ```
+/// use funicular::dynamics::{Dynamics, Linearisation};
+/// use funicular::gradient::{Gradients, Hold};
+/// use funicular::modes;
+/// use funicular::robot::{Robot, RobotChange};
+/// use funicular::statics::{self, StaticModel};
+///
+/// let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
+/// let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
+/// let first = |robot: &Robot| -> Result<_, Box<dyn std::error::Error>> {
+///     let rest = statics::forward(robot, &lengths, StaticModel::Catenary, None)?;
+///     let dynamics = Dynamics::about(robot, &rest, Linearisation::default(), 5.0)?;
+///     let mode = modes::below(&dynamics, 5.0).modes.swap_remove(0);
+///     Ok((rest, dynamics, mode))
+/// };
+/// let (rest, dynamics, mode) = first(&robot)?;
+/// let gradients = Gradients::new(&robot, &rest, Hold::Lengths)?;
+/// let by_mass = gradients.vibration(&dynamics)?.frequency(&mode)?.mass; // Hz/kg
+///
+/// let change = RobotChange::of_mass(&robot);
+/// let [lighter, heavier] = [-1e-3, 1e-3].map(|step| first(&robot.changed(&change, step)).map(|found| found.2.frequency_hz));
+/// assert!((by_mass - (heavier? - lighter?) / 2e-3).abs() < 1e-4 * by_mass.abs());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct VibrationGradients<'g> {
+    gradients: &'g Gradients<'g>,
+    dynamics: &'g Dynamics,
+    form: RobotForm,
+    /// Cable of each term whose stiffness depends on frequency.
+    terms: Vec<usize>,
+}
+
+/// Gradients of a damped mode.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DampedGradient {
+    /// Of the natural frequency |ω|/2π [Hz].
+    pub frequency_hz: RobotChange,
+    /// Of the frequency of the decaying vibration Re ω/2π [Hz].
+    pub ringing_hz: RobotChange,
+    /// Of the damping ratio ζ = Im ω/|ω| [-].
+    pub damping_ratio: RobotChange,
+}
+
+/// Response at one frequency and its derivatives along directions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ResponseDerivatives {
+    /// Response.
+    pub value: Complex,
+    /// Derivative of the response along each direction.
+    pub along: Vec<Complex>,
+}
+
+impl<'g> VibrationGradients<'g> {
+    pub(super) fn new(gradients: &'g Gradients<'g>, dynamics: &'g Dynamics) -> Result<Self, GradientError> {
+        let form = RobotForm::of_dynamics(gradients.robot(), gradients.equilibrium(), dynamics)?;
+        let terms = dynamics.terms().iter().map(DynamicCableAt::cable).collect();
+        Ok(Self { gradients, dynamics, form, terms })
+    }
+
+    fn cables(&self) -> usize {
+        self.gradients.robot().cables.len()
+    }
+
+    /// Gradient of a simple natural frequency [Hz], dω = dW/(2ω · modal mass). Modes with the platform at rest have one,
+    /// too.
+    ///
+    /// # Errors
+    /// [`GradientError::Multiple`]: several modes share the frequency; see [`Self::block`].
+    ///
+    /// # References
+    /// docs/theory.md, equation (57).
+    pub fn frequency(&self, mode: &Mode) -> Result<RobotChange, GradientError> {
+        if mode.multiplicity != 1 {
+            let Mode { frequency_hz, multiplicity, .. } = *mode;
+            return Err(GradientError::Multiple { frequency_hz, multiplicity });
+        }
+        let motion = self.motion_of(mode);
+        Ok(self.of_pair((mode, &motion), (mode, &motion)))
+    }
+
+    /// Gradients of modes that share a frequency [Hz]: a symmetric block. Along a direction of change, the eigenvalues of
+    /// the block of the entries' derivatives are the one-sided derivatives of the frequencies. The entries depend on the
+    /// choice of the modes at the shared frequency, these eigenvalues do not.
+    ///
+    /// # References
+    /// docs/theory.md, equation (60g).
+    pub fn block(&self, modes: &[&Mode]) -> Vec<Vec<RobotChange>> {
+        let motions: Vec<_> = modes.iter().map(|mode| self.motion_of(mode)).collect();
+        let entry = |i: usize, j: usize| self.of_pair((modes[i], &motions[i]), (modes[j], &motions[j]));
+        (0..modes.len()).map(|i| (0..modes.len()).map(|j| entry(i, j)).collect()).collect()
+    }
+
+    /// Motion of a mode with unit modal mass.
+    fn motion_of(&self, mode: &Mode) -> RobotMotion<f64> {
+        let (v, theta) = self.platform_motion(&mode.motion.platform);
+        let near: Vec<NearAmplitude<f64>> =
+            mode.motion.near.iter().map(|near| (near.term, near.family, near.pole, near.amplitude)).collect();
+        self.form.motion(v, theta, &At::undamped(mode.frequency_hz * TAU, self.cables()), &self.terms, &near)
+    }
+
+    fn of_pair(&self, a: (&Mode, &RobotMotion<f64>), b: (&Mode, &RobotMotion<f64>)) -> RobotChange {
+        let omega = (a.0.frequency_hz * b.0.frequency_hz).sqrt() * TAU;
+        let at = At::undamped(omega, self.cables());
+        self.gradients.of(|scalar| self.form.add(scalar, a.1, b.1, &at, 1.0 / (2.0 * omega * TAU)))
+    }
+
+    /// Translation and rotation in world axes of a scaled motion in the platform's coordinates.
+    fn platform_motion(&self, reduced: &Vec6) -> (Vector<f64>, Vector<f64>) {
+        let coordinates = self.dynamics.coordinates();
+        let motion = coordinates.expand(reduced);
+        let ell = coordinates.ell();
+        ([motion[0], motion[1], motion[2]], [motion[3] / ell, motion[4] / ell, motion[5] / ell])
+    }
+
+    /// Complex frequency ω at which the form is taken, with all damping.
+    fn at(&self, omega: Complex) -> At<Complex> {
+        let (of_cables, by_damping) = (0..self.cables()).map(|i| self.dynamics.square_by_damping(i, omega)).unzip();
+        At { square: omega * omega, rate: omega * Complex::i(), of_cables, by_damping }
+    }
+
+    /// Gradients of a damped mode, whose zero of the dynamic stiffness is simple.
+    ///
+    /// # Errors
+    /// [`GradientError::NoDampedMotion`]: modes that share a frequency.
+    ///
+    /// # References
+    /// docs/theory.md, equation (60h).
+    pub fn damped(&self, mode: &DampedMode) -> Result<DampedGradient, GradientError> {
+        let omega = mode.omega;
+        let refused = || GradientError::NoDampedMotion { frequency_hz: mode.frequency_hz() };
+        let found = self.dynamics.damped_motion(omega).ok_or_else(refused)?;
+
+        let at = self.at(omega);
+        let [re, im] = [|z: &Complex| z.re, |z: &Complex| z.im].map(|part| found.platform.map(|z| part(&z)));
+        let [re, im] = [re, im].map(|part| self.platform_motion(&part));
+        let join = |re: Vector<f64>, im: Vector<f64>| std::array::from_fn(|k| Complex::new(re[k], im[k]));
+        let motion = self.form.motion(join(re.0, im.0), join(re.1, im.1), &at, &self.terms, &found.near);
+        let mut by_omega = Adjoint::zeros(self.cables());
+        self.form.add(&mut by_omega, &motion, &motion, &at, -found.slope.inv());
+
+        // d|ω|, d Re ω and dζ from dω.
+        let size = omega.norm();
+        let gradient = |of: &dyn Fn(Complex) -> f64| self.gradients.pullback.gradient(&by_omega.map(of));
+        Ok(DampedGradient {
+            frequency_hz: gradient(&|z| (omega.conj() * z).re / (size * TAU)),
+            ringing_hz: gradient(&|z| z.re / TAU),
+            damping_ratio: gradient(&|z| omega.re * (omega.re * z.im - omega.im * z.re) / size.powi(3)),
+        })
+    }
+
+    /// Responses between all pairs of signals on the platform at each frequency [Hz], with their derivatives along
+    /// directions: one row per pair, in the order of [`response::matrix`].
+    ///
+    /// A direction changes the robot; the point and the direction of a signal stay in the robot file's terms: the point
+    /// turns with the platform, the direction stays in the world.
+    ///
+    /// # Errors
+    /// [`GradientError::NotOnPlatform`], [`GradientError::Resonance`].
+    ///
+    /// # Example
+    /// ```
+    /// use funicular::dynamics::{Dynamics, Linearisation};
+    /// use funicular::gradient::{Gradients, Hold};
+    /// use funicular::math::Vec3;
+    /// use funicular::response::{Quantity, Signal};
+    /// use funicular::robot::{Robot, RobotChange};
+    /// use funicular::statics::{self, StaticModel};
+    ///
+    /// let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
+    /// let rest = statics::solve(&robot, StaticModel::Catenary, None)?.equilibrium;
+    /// let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0)?;
+    /// let gradients = Gradients::new(&robot, &rest, Hold::Lengths)?;
+    /// let z = Signal::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() };
+    /// let mass = RobotChange::of_mass(&robot);
+    /// let rows = gradients.vibration(&dynamics)?.responses(&[z], &[(z, Quantity::Acceleration)], &[1.1, 1.2], &[mass])?;
+    /// assert_eq!((rows.len(), rows[0].len(), rows[0][0].along.len()), (1, 2, 1));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # References
+    /// docs/theory.md, equation (60i).
+    pub fn responses(
+        &self,
+        inputs: &[Signal],
+        outputs: &[(Signal, Quantity)],
+        frequencies_hz: &[f64],
+        along: &[RobotChange],
+    ) -> Result<Vec<Vec<ResponseDerivatives>>, GradientError> {
+        let from = inputs.iter().map(|signal| self.place(signal)).collect::<Result<Vec<_>, _>>()?;
+        let to = outputs.iter().map(|(signal, _)| self.place(signal)).collect::<Result<Vec<_>, _>>()?;
+        let receptances = response::receptances(self.dynamics, frequencies_hz).map_err(|reason| match reason {
+            response::ResponseError::Resonance { frequency_hz } => GradientError::Resonance { frequency_hz },
+            _ => GradientError::NotOnPlatform,
+        })?;
+
+        let mut rows = vec![Vec::with_capacity(frequencies_hz.len()); inputs.len() * outputs.len()];
+        for (receptance, frequency_hz) in receptances.iter().zip(frequencies_hz) {
+            let omega = frequency_hz * TAU;
+            let at = self.at(omega.into());
+            let solved = |place: &Place| {
+                let x = receptance * place.vector.map(Complex::from);
+                let (v, theta) = halves(&x);
+                (x, self.form.motion(v, theta, &at, &self.terms, &[]))
+            };
+            let by_input: Vec<_> = from.iter().map(solved).collect();
+            let by_output: Vec<_> = to.iter().map(solved).collect();
+
+            let mut row = rows.iter_mut();
+            for ((output, (x_out, of_output)), (_, quantity)) in to.iter().zip(&by_output).zip(outputs) {
+                let factor = match quantity {
+                    Quantity::Displacement => Complex::new(1.0, 0.0),
+                    Quantity::Velocity => Complex::new(0.0, omega),
+                    Quantity::Acceleration => Complex::new(-(omega * omega), 0.0),
+                };
+                for (input, (x_in, of_input)) in from.iter().zip(&by_input) {
+                    let value: Complex = (0..6).map(|k| x_in[k] * output.vector[k]).sum::<Complex>() * factor;
+                    let mut scalar = Adjoint::zeros(self.cables());
+                    self.form.add(&mut scalar, of_output, of_input, &at, -factor);
+                    output.add_turn(&mut scalar, &halves(x_in).1, factor);
+                    input.add_turn(&mut scalar, &halves(x_out).1, factor);
+                    let along = self.along(&scalar, along);
+                    if let Some(row) = row.next() {
+                        row.push(ResponseDerivatives { value, along });
+                    }
+                }
+            }
+        }
+        Ok(rows)
+    }
+
+    /// Derivatives along directions of the scalar with these coefficients.
+    fn along(&self, scalar: &Adjoint<Complex>, directions: &[RobotChange]) -> Vec<Complex> {
+        let [re, im] = [scalar.map(|z| z.re), scalar.map(|z| z.im)].map(|part| self.gradients.pullback.gradient(&part));
+        directions.iter().map(|direction| Complex::new(re.dot(direction), im.dot(direction))).collect()
+    }
+
+    fn place(&self, signal: &Signal) -> Result<Place, GradientError> {
+        let pose = &self.gradients.equilibrium().pose;
+        let vector = signal.platform_vector(pose).ok_or(GradientError::NotOnPlatform)?;
+        let arm = match signal {
+            Signal::Along { direction_w, point_p } => Some((direction_w.normalize(), pose.rot_wp * point_p)),
+            _ => None,
+        };
+        Ok(Place { vector, arm })
+    }
+}
+
+/// Place of a signal on the platform.
+struct Place {
+    /// Vector about the platform origin.
+    vector: Vec6,
+    /// Direction and arm of its point, world axes.
+    arm: Option<(Vec3, Vec3)>,
+}
+
+impl Place {
+    /// Adds the turn of the arm r with the platform, `((dφ × r) × u)·θ = dφ·(r × (u × θ))`, for a rotation θ.
+    fn add_turn(&self, scalar: &mut Adjoint<Complex>, theta: &Vector<Complex>, factor: Complex) {
+        if let Some((direction, arm)) = &self.arm {
+            let turn = cross(&vector(arm), &cross(&vector(direction), theta));
+            add_times(&mut scalar.rotation, &turn, factor);
+        }
+    }
+}
+
+/// Translation and rotation of a motion.
+fn halves(motion: &CVec6) -> (Vector<Complex>, Vector<Complex>) {
+    ([motion[0], motion[1], motion[2]], [motion[3], motion[4], motion[5]])
+}
