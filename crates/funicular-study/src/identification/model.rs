@@ -3,6 +3,7 @@
 use super::observations::{Kind, Observation, Stage, observations, weights};
 use super::unknowns::Unknown;
 use crate::at_rest::{self, AtRest};
+use crate::measurements::MeasuredFrequency;
 use crate::request::{Experiment, IdentifyRequest};
 use crate::signals::{Input, Output};
 use anyhow::{Result, anyhow, bail};
@@ -386,7 +387,7 @@ impl<'a> Prepared<'a> {
             return Ok(Vec::new());
         }
         let highest = measured.iter().map(|frequency| frequency.frequency_hz).fold(0.0, f64::max);
-        let numbered = measured.iter().filter_map(|frequency| frequency.number()).max().unwrap_or(0);
+        let numbered = measured.iter().filter_map(MeasuredFrequency::number).max().unwrap_or(0);
         let needed = numbered.max(measured.len());
         if rigid {
             let found = modes::with_rigid_cables(&at_rest.robot, &at_rest.equilibrium, f64::MAX)

@@ -192,11 +192,15 @@ pub(super) fn observations(experiment: &Experiment, name: &str, request: &Identi
     if let Some(tensions) = &experiment.measured_tensions_n {
         let largest = tensions.iter().copied().fold(0.0, f64::max);
         let deviation = positive("tension_std_n", tension_std_n.unwrap_or(TENSION_STD * largest))?;
-        tensions.iter().for_each(|tension| add(Kind::Static, (*tension).into(), deviation));
+        for tension in tensions {
+            add(Kind::Static, (*tension).into(), deviation);
+        }
     }
     if let Some(lengths) = &experiment.measured_lengths_m {
         let deviation = positive("length_std_m", length_std_m.unwrap_or(LENGTH_STD_M))?;
-        lengths.iter().for_each(|length| add(Kind::Static, (*length).into(), deviation));
+        for length in lengths {
+            add(Kind::Static, (*length).into(), deviation);
+        }
     }
     for number in found.iter().map(|observation| observation.measured.re) {
         crate::values::finite(number).map_err(|reason| anyhow!("{name}: {reason}"))?;

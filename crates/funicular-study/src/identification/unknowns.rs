@@ -144,7 +144,7 @@ fn unknown(parameters: &Parameters, index: usize, wanted: &FitValue) -> Result<U
     for bound in [wanted.minimum, wanted.maximum, wanted.prior, wanted.prior_std].into_iter().flatten() {
         crate::values::finite(bound).map_err(refuse)?;
     }
-    if !(bounds.0 < bounds.1) {
+    if bounds.0 >= bounds.1 {
         bail!("⟪fit⟫ {path}: the minimum {} is not below the maximum {}", bounds.0, bounds.1);
     }
     if bounds.0 < lowest || bounds.1 > highest {

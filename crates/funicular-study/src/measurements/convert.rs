@@ -160,8 +160,7 @@ impl Response<'_> {
             // Labels of units that are no SI units; without factors nobody would notice.
             let first = label.split(['/', ' ', '*', '(']).next().unwrap_or_default();
             if matches!(first, "g" | "gn" | "mm" | "cm" | "in" | "inch" | "ft" | "lbf" | "lb" | "kn" | "kgf")
-                && units.length == 1.0
-                && units.force == 1.0
+                && !units.converts()
             {
                 bail!(
                     "{} has the unit `{}`, but the file gives no factor to SI units (dataset 164): export it in SI units",

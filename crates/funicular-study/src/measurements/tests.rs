@@ -5,6 +5,7 @@ use super::*;
 use crate::request::Request;
 use crate::{Results, Silent};
 use funicular::math::Complex;
+use std::fmt::Write as _;
 
 /// Ordinates of the test files; the imaginary parts of real files are left out. All are exact as single numbers.
 const VALUES: [(f64, f64, f64); 5] =
@@ -118,7 +119,7 @@ impl Written {
             0.0
         );
         for (kind, unit) in [(18, "Hz"), (12, "m/s^2"), (13, "N"), (0, "NONE")] {
-            out += &format!("{kind:10}{:5}{:5}{:5} {:20} {unit:20}\n", 0, 0, 0, "label");
+            writeln!(out, "{kind:10}{:5}{:5}{:5} {:20} {unit:20}", 0, 0, 0, "label").unwrap();
         }
         let mut out = out.into_bytes();
         out.extend(body);

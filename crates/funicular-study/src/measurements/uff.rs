@@ -41,6 +41,13 @@ pub struct Units {
     pub given: bool,
 }
 
+impl Units {
+    /// True if the factors are not those of SI units.
+    pub fn converts(&self) -> bool {
+        [self.length, self.force].iter().any(|factor| (factor - 1.0).abs() > f64::EPSILON)
+    }
+}
+
 impl Default for Units {
     fn default() -> Self {
         Self { length: 1.0, force: 1.0, given: false }

@@ -145,9 +145,8 @@ mod tests {
     #[test]
     fn fields_are_columns_and_may_touch() {
         let line = Line { bytes: b"  1.00000E+00-2.00000E+00", number: 3 };
-        assert_eq!(line.real(0, 13).unwrap(), 1.0);
-        assert_eq!(line.real(13, 26).unwrap(), -2.0);
-        assert_eq!(line.real(26, 39).unwrap(), 0.0);
+        let fields = [(0, 13), (13, 26), (26, 39)].map(|(from, to)| line.real(from, to).unwrap());
+        assert_eq!(fields, [1.0, -2.0, 0.0]);
         assert!(line.whole(0, 13).unwrap_err().to_string().starts_with("line 3: `1.00000E+00` in columns 1 to 13"));
     }
 }

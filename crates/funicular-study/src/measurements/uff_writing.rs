@@ -29,7 +29,7 @@ pub fn frf_file(found: &Frf) -> Result<Vec<u8>> {
     let mut points: Vec<[f64; 3]> = Vec::new();
     let mut node_of = |place: &PlaceRow| {
         let point = place.point_m.unwrap_or_default();
-        let known = points.iter().position(|known| *known == point);
+        let known = points.iter().position(|known| known.map(f64::to_bits) == point.map(f64::to_bits));
         1 + known.unwrap_or_else(|| {
             points.push(point);
             points.len() - 1
@@ -90,11 +90,11 @@ fn direction(place: &Place, name: &str) -> Result<i64> {
              write .csv or .json"
         );
     };
-    let axis = (0..3).find(|&axis| direction_w[axis].abs() > 0.0 && direction_w.norm() == direction_w[axis].abs());
-    let Some(axis) = axis else {
+    let others_vanish = |axis: usize| (0..3).all(|k| k == axis || direction_w[k].abs() <= 0.0);
+    let Some((axis, number)) = [(0, 1), (1, 2), (2, 3)].into_iter().find(|(axis, _)| others_vanish(*axis)) else {
         bail!("{name} is not along an axis, as a Universal File needs it: choose x, y or z, or write .csv or .json");
     };
-    let number = axis as i64 + if *turns { 4 } else { 1 };
+    let number = number + if *turns { 3 } else { 0 };
     Ok(if direction_w[axis] < 0.0 { -number } else { number })
 }
 
