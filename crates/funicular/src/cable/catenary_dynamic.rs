@@ -29,7 +29,7 @@ mod two_ended;
 pub(crate) use carrier::CarrierMotion;
 pub(crate) use drive_forms::{DriveForm, DrivePart, EndSignal, InPowersOfS};
 pub use drive_motion::DriveMotion;
-pub(crate) use drive_motion::{DriveAt, DriveLosses};
+pub(crate) use drive_motion::{DriveAt, DriveLosses, MotionsOfDrive};
 pub use drive_signals::DriveSignal;
 pub(crate) use drive_signals::EndDirections;
 pub(crate) use internal_motion::InternalMotion;

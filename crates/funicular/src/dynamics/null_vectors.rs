@@ -14,7 +14,7 @@
 use super::supports::SupportRows;
 use super::{Dynamics, NEAR_POLE_FRACTION, add_local};
 use crate::cable::DynamicCable;
-use crate::cable::catenary_dynamic::{Family, NearRanges};
+use crate::cable::catenary_dynamic::{Family, MotionsOfDrive, NearRanges};
 use crate::math::{DMat, Mat6, Vec6, order, symmetric};
 
 /// Amplitude of one clamped mode of one cable.
@@ -256,7 +256,7 @@ impl BorderedPencil {
             let carrier = dynamics.supports().and_then(|of| of.both_ends(t).zip(of.ends(t, &supports)));
             let by_support =
                 carrier.map(|(both, ends)| move |x: f64, left_out: &NearRanges| both.drive_by(x, left_out, &ends));
-            let by_support = by_support.as_ref().map(|of| of as &dyn Fn(f64, &NearRanges) -> Vec<f64>);
+            let by_support = by_support.as_ref().map(|of| of as &MotionsOfDrive);
             let (mass, loss) = form.drive_share(omega, term.displacement(&platform), &of_cable, by_support);
             drive_energies[term.cable] = mass / total;
             cable_energies[term.cable] -= mass / total;

@@ -207,7 +207,7 @@ impl<'g> VibrationGradients<'g> {
         let to = outputs.iter().map(|(signal, _)| self.place(signal)).collect::<Result<Vec<_>, _>>()?;
         let receptances = response::receptances(self.dynamics, frequencies_hz).map_err(|reason| match reason {
             response::ResponseError::Resonance { frequency_hz } => GradientError::Resonance { frequency_hz },
-            _ => GradientError::NotOnPlatform,
+            response::ResponseError::SameCable => GradientError::NotOnPlatform,
         })?;
 
         let mut rows = vec![Vec::with_capacity(frequencies_hz.len()); inputs.len() * outputs.len()];

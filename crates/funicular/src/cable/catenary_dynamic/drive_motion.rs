@@ -25,6 +25,9 @@ pub struct DriveMotion {
     pub(super) flexibility: DMat,
 }
 
+/// Motions of a drive at x = ω² without the poles left out.
+pub(crate) type MotionsOfDrive<'a> = dyn Fn(f64, &NearRanges) -> Vec<f64> + 'a;
+
 /// Motions of a drive at one frequency: those of the chain, then that sideways if there is one.
 pub(crate) struct DriveAt {
     /// T: motion per component (e, n, b) of the platform end, and its derivative by x = ω_c².
@@ -339,7 +342,7 @@ impl CatenaryDynamicEnd {
         omega: f64,
         end: [f64; 3],
         near: &[(usize, Family, f64)],
-        by_support: Option<&dyn Fn(f64, &NearRanges) -> Vec<f64>>,
+        by_support: Option<&MotionsOfDrive>,
     ) -> (f64, f64) {
         let x = omega * omega;
         let left_out = |family: Family| {
