@@ -3,6 +3,7 @@
 use super::uff::UffFile;
 use super::*;
 use crate::request::Request;
+use crate::uff_writing::{frf_file, modes_file};
 use crate::{Results, Silent};
 use funicular::math::Complex;
 use std::fmt::Write as _;
