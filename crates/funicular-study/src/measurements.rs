@@ -5,8 +5,6 @@
 
 mod convert;
 mod csv;
-#[cfg(test)]
-mod tests;
 pub mod uff;
 mod uff_numbers;
 
