@@ -52,6 +52,7 @@ pub mod set_values;
 pub mod signals;
 pub mod sweep;
 pub mod text;
+pub mod uff_writing;
 #[cfg(feature = "validation")]
 pub mod validation;
 pub mod values;

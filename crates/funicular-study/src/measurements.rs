@@ -5,15 +5,12 @@
 
 mod convert;
 mod csv;
-#[cfg(test)]
-mod tests;
 pub mod uff;
 mod uff_numbers;
-mod uff_writing;
 
+pub(crate) use convert::RESPONSE;
 pub use convert::{NodePoint, responses_of_uff};
 pub use csv::{CsvContent, ResponseName, read_csv};
-pub use uff_writing::{frf_file, modes_file};
 
 use anyhow::{Result, bail};
 use serde::{Deserialize, Serialize};

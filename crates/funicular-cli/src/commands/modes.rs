@@ -3,7 +3,7 @@
 use crate::output::Printed;
 use crate::table::{self, Table, counted, decimals, short, significant};
 use funicular_study::analyses::modes::{ModeRow, Modes, Participation, RIGID, strongest};
-use funicular_study::measurements::modes_file;
+use funicular_study::uff_writing::modes_file;
 
 impl Printed for Modes {
     fn text(&self) -> String {

@@ -26,7 +26,7 @@ const GENERAL: i64 = 1;
 const FREQUENCY: i64 = 18;
 
 /// Type of function of a frequency response.
-pub(super) const RESPONSE: i64 = 4;
+pub(crate) const RESPONSE: i64 = 4;
 
 /// Frequency responses of a file, with points by `nodes`, or else by the nodes of the file. Their SI units follow from
 /// dataset 164. The second list names what was left out.

@@ -1,7 +1,8 @@
 //! Readers and writers of measurements: every form of a Universal File, damaged files, tables.
 
-use super::uff::UffFile;
-use super::*;
+use super::{frf_file, modes_file};
+use crate::measurements::uff::UffFile;
+use crate::measurements::*;
 use crate::request::Request;
 use crate::{Results, Silent};
 use funicular::math::Complex;

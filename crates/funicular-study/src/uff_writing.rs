@@ -3,10 +3,13 @@
 //! Nodes have coordinates in the platform frame. Directions of responses are world axes, as everywhere in a response;
 //! mode shapes are in platform axes, as their nodes are, so that programs draw them on the points.
 
-use super::convert::RESPONSE;
+#[cfg(test)]
+mod tests;
+
 use crate::analyses::frf::{Frf, PairRow, PlaceRow};
 use crate::analyses::modes::Modes;
 use crate::error::NoSolution;
+use crate::measurements::RESPONSE;
 use crate::signals::{Input, Output, Place};
 use anyhow::{Result, bail};
 use funicular::math::Vec3;
@@ -200,7 +203,7 @@ fn exponential(value: f64, width: usize, digits: usize) -> String {
 }
 
 #[cfg(test)]
-mod tests {
+mod number_tests {
     use super::*;
 
     #[test]
