@@ -3,6 +3,7 @@
 use crate::output::Printed;
 use crate::table::{Table, significant};
 use funicular_study::analyses::gradient::{GradientParameter, GradientResult, GradientTable};
+use std::fmt::Write as _;
 
 /// Number of derivatives that the text shows for each result.
 const SHOWN: usize = 10;
@@ -17,11 +18,12 @@ impl Printed for GradientTable {
         let mut out =
             format!("{}: derivatives per {step}\n{}\nHeld: {}.\n", self.robot, self.models.line(), self.held_means);
         for result in &self.results {
-            out += &format!("\n{} = {} {}\n", result.name, significant(result.value, 8), result.unit);
+            let _ = write!(out, "\n{} = {} {}\n", result.name, significant(result.value, 8), result.unit);
             out += &largest(self, result).to_string();
         }
         if self.results.iter().any(|result| result.derivatives.len() > SHOWN) {
-            out += &format!(
+            let _ = write!(
+                out,
                 "\nThe {SHOWN} largest of {} numbers are shown, by their effect over the tolerance of each number; JSON and \
                  CSV have all.\n",
                 self.parameters.len()
@@ -32,7 +34,7 @@ impl Printed for GradientTable {
                     frequencies are the eigenvalues of the block.\n";
         }
         for refused in &self.refused {
-            out += &format!("\n{}: {}\n", refused.name, refused.reason);
+            let _ = write!(out, "\n{}: {}\n", refused.name, refused.reason);
         }
         out
     }

@@ -6,6 +6,7 @@ use crate::progress::TerminalProgress;
 use crate::table::{NONE, Table, counted, significant};
 use crate::{errors, robot_file};
 use anyhow::{Context, Result, bail};
+use std::fmt::Write as _;
 
 use funicular_files::endings::Kind;
 use funicular_study::analyses::identify::{self, Identified};
@@ -199,10 +200,11 @@ impl Printed for Identified {
             counted(tried, "start"),
         );
         for strong in &self.strong_correlations {
-            text += &format!("{strong}.\n");
+            let _ = writeln!(text, "{strong}.");
         }
         if let (Some(before), Some(after)) = (self.frequency_rms_before, self.frequency_rms) {
-            text += &format!(
+            let _ = write!(
+                text,
                 "\n{}: root mean square of the differences {} %, before {} %.\n",
                 counted(self.frequencies.len(), "natural frequency").replace("frequencys", "frequencies"),
                 significant(100.0 * after, 3),
@@ -219,7 +221,7 @@ impl Printed for Identified {
                 };
                 table.row(vec![name, response.frequency_hz.len().to_string(), significant(response.residual_rms, 3)]);
             }
-            text += &format!("\n{table}\n");
+            let _ = write!(text, "\n{table}\n");
         }
         if !self.statics.is_empty() {
             let mut table = Table::new(&["experiment", "quantity", "measured", "fitted", "difference [deviations]"])
@@ -233,7 +235,7 @@ impl Printed for Identified {
                     significant((row.fitted - row.measured) / row.deviation, 3),
                 ]);
             }
-            text += &format!("\n{table}\n");
+            let _ = write!(text, "\n{table}\n");
         }
         text
     }

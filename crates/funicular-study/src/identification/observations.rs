@@ -1,6 +1,6 @@
 //! Measured numbers as observations, and the residuals of predictions.
 
-use crate::measurements::{LENGTH_STD_M, POSITION_STD_M, ROTATION_STD_DEG, TENSION_STD};
+use crate::measurements::{LENGTH_STD_M, MeasuredResponse, POSITION_STD_M, ROTATION_STD_DEG, TENSION_STD};
 use crate::request::Experiment;
 use crate::request::IdentifyRequest;
 use anyhow::{Result, anyhow, bail};
@@ -169,6 +169,57 @@ fn around(observations: &[Observation], predicted: &[Complex], at: usize) -> f64
     (sum / count).sqrt()
 }
 
+/// Observations of the lines of a response, the number `series` of its experiment.
+fn of_response(
+    response: &MeasuredResponse,
+    series: usize,
+    name: &str,
+    request: &IdentifyRequest,
+) -> Result<Vec<Observation>> {
+    let mut found = Vec::new();
+    let of = if response.name.is_empty() {
+        format!("{}/{}", response.output, response.input)
+    } else {
+        response.name.clone()
+    };
+    let count = response.frequency_hz.len();
+    if count == 0 || response.real.len() != count || response.imag.len() != count {
+        bail!(
+            "{name}, response {of}: {count} frequencies, {} real and {} imaginary parts: give as many of each, at least \
+             one",
+            response.real.len(),
+            response.imag.len()
+        );
+    }
+    let mut values = Vec::with_capacity(count);
+    for ((hz, re), im) in response.frequency_hz.iter().zip(&response.real).zip(&response.imag) {
+        crate::values::not_negative(*hz).map_err(|reason| anyhow!("{name}, response {of}: {reason}"))?;
+        if !(re.is_finite() && im.is_finite()) {
+            bail!("{name}, response {of}: the value at {hz} Hz is not finite");
+        }
+        values.push(Complex::new(*re, *im));
+    }
+    let mut magnitudes: Vec<f64> = values.iter().map(|value| value.norm()).collect();
+    magnitudes.sort_by(f64::total_cmp);
+    let median = magnitudes[count / 2];
+    if median == 0.0 {
+        bail!("{name}, response {of}: most of its values are zero");
+    }
+    for (i, measured) in values.into_iter().enumerate() {
+        let deviation = match &response.std {
+            Some(std) if std.len() != count => {
+                bail!("{name}, response {of}: {count} frequencies and {} deviations", std.len())
+            }
+            Some(std) => crate::values::positive(std[i]).map_err(|reason| anyhow!("{name}, std: {reason}"))?,
+            None => (request.response_noise * measured.norm()).hypot(NOISE_FLOOR * median),
+        };
+        // The logarithm of zero does not exist; such a line says no more than its deviation.
+        let measured = if measured.norm() == 0.0 { Complex::new(deviation, 0.0) } else { measured };
+        found.push(Observation { kind: Kind::Response, measured, deviation, is_assigned: false, series });
+    }
+    Ok(found)
+}
+
 /// Observations of an experiment, in the order of its predictions.
 ///
 /// # Errors
@@ -237,46 +288,7 @@ pub(super) fn observations(experiment: &Experiment, name: &str, request: &Identi
     }
 
     for (series, response) in experiment.responses.iter().enumerate() {
-        let of = if response.name.is_empty() {
-            format!("{}/{}", response.output, response.input)
-        } else {
-            response.name.clone()
-        };
-        let count = response.frequency_hz.len();
-        if count == 0 || response.real.len() != count || response.imag.len() != count {
-            bail!(
-                "{name}, response {of}: {count} frequencies, {} real and {} imaginary parts: give as many of each, at least \
-                 one",
-                response.real.len(),
-                response.imag.len()
-            );
-        }
-        let mut values = Vec::with_capacity(count);
-        for ((hz, re), im) in response.frequency_hz.iter().zip(&response.real).zip(&response.imag) {
-            crate::values::not_negative(*hz).map_err(|reason| anyhow!("{name}, response {of}: {reason}"))?;
-            if !(re.is_finite() && im.is_finite()) {
-                bail!("{name}, response {of}: the value at {hz} Hz is not finite");
-            }
-            values.push(Complex::new(*re, *im));
-        }
-        let mut magnitudes: Vec<f64> = values.iter().map(|value| value.norm()).collect();
-        magnitudes.sort_by(f64::total_cmp);
-        let median = magnitudes[count / 2];
-        if median == 0.0 {
-            bail!("{name}, response {of}: most of its values are zero");
-        }
-        for (i, measured) in values.into_iter().enumerate() {
-            let deviation = match &response.std {
-                Some(std) if std.len() != count => {
-                    bail!("{name}, response {of}: {count} frequencies and {} deviations", std.len())
-                }
-                Some(std) => positive("std", std[i])?,
-                None => (request.response_noise * measured.norm()).hypot(NOISE_FLOOR * median),
-            };
-            // The logarithm of zero does not exist; such a line says no more than its deviation.
-            let measured = if measured.norm() == 0.0 { Complex::new(deviation, 0.0) } else { measured };
-            found.push(Observation { kind: Kind::Response, measured, deviation, is_assigned: false, series });
-        }
+        found.extend(of_response(response, series, name, request)?);
     }
     if found.is_empty() {
         bail!(

@@ -283,12 +283,13 @@ fn gradients_are_the_transposes_of_derivatives_along_directions() {
 /// Point mass on four equal cables, whose modes share frequencies: horizontal motions, and vibrations of the cables with
 /// the platform at rest.
 fn symmetric_robot() -> Robot {
-    let cables: String = [("1", "2.0, 0.0"), ("2", "-2.0, 0.0"), ("3", "0.0, 2.0"), ("4", "0.0, -2.0")]
+    let cables: Vec<String> = [("1", "2.0, 0.0"), ("2", "-2.0, 0.0"), ("3", "0.0, 2.0"), ("4", "0.0, -2.0")]
         .iter()
         .map(|(name, point)| {
             format!("[[cables]]\nname = \"{name}\"\nmaterial = \"rope\"\nanchor_m = [{point}, 3.0]\nunstrained_length_m = 2.8\n")
         })
         .collect();
+    let cables = cables.concat();
     let text = format!(
         "name = \"square\"\n[platform]\nmotion = \"point-mass\"\nmass_kg = 10.0\n[materials.rope]\naxial_stiffness_n = 1e5\n\
          mass_kg_per_m = 0.3\n{cables}"
@@ -348,7 +349,7 @@ fn modes_that_share_a_frequency_part_along_a_change_by_the_eigenvalues_of_their_
                 );
             }
             blocks += 1;
-            at_rest += usize::from(shared[0].shape == [0.0; 6]);
+            at_rest += usize::from(shared[0].shape.iter().all(|entry| entry.abs() <= 0.0));
         }
         next += count;
     }

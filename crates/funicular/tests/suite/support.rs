@@ -230,7 +230,7 @@ fn every_static_problem_has_supports() {
 
     // Fewer cables than degrees of freedom.
     let mut few = cogiro(Behind::Nothing);
-    few.cables.truncate(4);
+    few.cables = few.cables.into_iter().step_by(2).collect();
     let found =
         statics::nearest_equilibrium(&few, &Pose::new([0.0, 0.0, 1.5], [0.0; 3]), StaticModel::Catenary).unwrap();
     let back =
