@@ -81,12 +81,13 @@ fn steps_are_factors_of_the_derivatives_and_patterns_choose_numbers() {
 #[test]
 fn modes_that_share_a_frequency_have_a_block_and_a_response_two_rows() {
     // A point mass on four equal cables: horizontal motions share a frequency.
-    let cables: String = [("1", "2.0, 0.0"), ("2", "-2.0, 0.0"), ("3", "0.0, 2.0"), ("4", "0.0, -2.0")]
+    let cables: Vec<String> = [("1", "2.0, 0.0"), ("2", "-2.0, 0.0"), ("3", "0.0, 2.0"), ("4", "0.0, -2.0")]
         .iter()
         .map(|(name, point)| {
             format!("[[cables]]\nname = \"{name}\"\nmaterial = \"rope\"\nanchor_m = [{point}, 3.0]\nunstrained_length_m = 2.8\n")
         })
         .collect();
+    let cables = cables.concat();
     let text = format!(
         "name = \"square\"\n[platform]\nmotion = \"point-mass\"\nmass_kg = 10.0\n[materials.rope]\naxial_stiffness_n = 1e5\n\
          mass_kg_per_m = 0.05\n{cables}"
