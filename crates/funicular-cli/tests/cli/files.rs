@@ -39,7 +39,7 @@ fn an_ending_that_means_another_format_is_refused_by_every_command() {
         (
             "modes ROBOT --below-hz 1",
             "xlsx",
-            "and .xlsx means a spreadsheet; choose a name that ends in .json, .csv, .svg, .pdf, .md or .txt",
+            "and .xlsx means a spreadsheet; choose a name that ends in .json, .csv, .svg, .pdf, .uff, .md or .txt",
         ),
         ("modes ROBOT --below-hz 1", "parquet", "would hold text, and .parquet means a Parquet file"),
         ("stiffness ROBOT", "PDF", "would hold text, and .pdf means a figure in PDF"),

@@ -205,8 +205,8 @@ impl NewFile<'_> {
                 if i == 0 { section.value(key, value) } else { section.plain(key, value) }
             }
             if i == 0 {
-                // Pulleys and winches need tables of their own.
-                let drives = ["pulley", "entry_direction", "winch"];
+                // Pulleys, winches and supports need tables of their own.
+                let drives = ["pulley", "entry_direction", "winch", "support"];
                 section.rest(&[&["name", "material", "anchor_m", "attachment_m"][..], &drives[..]].concat());
             }
         }
