@@ -19,6 +19,7 @@ EXCEPTIONS: dict[str, dict[str, str]] = {
     "Equilibrium": {
         "robot": "the robot as an object; its name stands in the key `robot`",
         "held_pose": "the key `pose` of `held`",
+        "support_displacement_m": "`displacement_m` of `supports`, as one array",
     },
     "Equilibria": {
         "status": "the key of rows of `map` and `sweep`",
@@ -66,8 +67,10 @@ def results(program: Program, tmp_path_factory: pytest.TempPathFactory) -> dict[
 
     # Robots with pulleys have the keys of their drives.
     wheel = {"radius_m": 0.05, "entry_direction": [0.0, 0.0, 1.0]}
-    cables = [{**cable, "pulley": "wheel"} for cable in cogiro["cables"]]
-    driven = funicular.Robot.from_dict({**cogiro, "pulleys": {"wheel": wheel}, "cables": cables})
+    cables = [{**cable, "pulley": "wheel", "support": "post"} for cable in cogiro["cables"]]
+    post = {"stiffness_n_per_m": 1e6, "mass_kg": 20.0}
+    tables = {"pulleys": {"wheel": wheel}, "supports": {"post": post}}
+    driven = funicular.Robot.from_dict({**cogiro, **tables, "cables": cables})
     file.write_text(driven.to_toml())
     statics |= keys(program("statics", file, "--pose", "1,2,1.5"))
 
@@ -78,7 +81,8 @@ def results(program: Program, tmp_path_factory: pytest.TempPathFactory) -> dict[
         "Equilibria": (robot.equilibria(poses=[[0, 0, 0.5]]), statics),
         "Modes": (
             robot.modes(2, input="fz", output="az", stations=3),
-            keys(program("modes", path, "--below-hz", 2, *response)),
+            keys(program("modes", path, "--below-hz", 2, *response))
+            | keys(program("modes", file, "--pose", "1,2,1.5", "--below-hz", 3)),
         ),
     }
 

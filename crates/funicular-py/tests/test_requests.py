@@ -36,6 +36,9 @@ MORE = [
     f"funicular gradient {ROBOT} --of frequencies,damping,tensions --below-hz 2 --per percent {LENGTHS}",
     f"funicular gradient robots/cogiro.toml {TENSIONS} --hold pose --of lengths,stiffness-min --by platform,cables.*.anchor_m",
     f"funicular gradient {ROBOT} --of response --at-hz 1.5 --input fz --output az --per tolerance --tolerances platform=2%",
+    f"funicular gradient {ROBOT} --of response --at-hz 1.5 --input fz --output az --input-point-m 0.1,0,0 "
+    f"--output-point-m 0,0,0.1 {STATE} --cable-model catenary-static --assembly consistent --winches clamped",
+    f"funicular gradient robots/cogiro.toml --below-hz 3 {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
     f"funicular payload robots/cogiro.toml {TENSIONS} {STATE} --payload-center-m 0,0,-0.2",
     "funicular payload robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250",
     f"funicular statics robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --set platform.mass_kg=200",
@@ -111,8 +114,9 @@ def test_every_command_that_computes_has_a_line(executable: str) -> None:
     for command in commands.commands(executable):
         if command not in ("request", "merge", "plot", "validate"):
             assert any(line.split()[1] == command for line in found), command
+        # Measurements are files for the program and arrays in Python: test_identify.py compares them.
         for option in commands.options(executable, command):
-            if option not in commands.OUTPUT and command != "plot":
+            if option not in commands.OUTPUT and command not in ("plot", "identify"):
                 of_command = [line for line in found if line.split()[1] == command]
                 used = any(option in line.split() for line in of_command)
                 same = ("--set", "--static-model", "--lengths-m", "--pose", "--in-plane-only")

@@ -5,6 +5,7 @@ Compiled half of `funicular`; import `funicular` instead.
 from _typeshed import SupportsGetItem
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
+from funicular._identify import Identified
 from funicular._pages import Page
 from funicular._results import Equilibria, Modes, ReducedModel, StateSpaceModel
 from funicular._sweeps import Sweep
@@ -14,7 +15,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Final, SupportsFloat, SupportsIndex, final, Literal, overload
 
-__all__ = ["__version__", "Analyses", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "complete_request", "complex_numbers", "imported", "matlab_file", "merge_parts", "peaks", "plot_page", "real_numbers", "robot_of_source", "source_file", "text_of", "write_file"]
+__all__ = ["__version__", "Analyses", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "complete_request", "complex_numbers", "imported", "matlab_file", "measurements_of_file", "merge_parts", "peaks", "plot_page", "real_numbers", "robot_of_source", "source_file", "text_of", "write_file"]
 
 __version__: Final[str]
 
@@ -202,6 +203,24 @@ class Analyses:
             The robot has drives or ideal cables, or a path that no number has.
         NoSolutionError
             A cable is slack, or the equilibrium indifferent: it has no derivatives.
+        """
+    def live(self, /, path: str | PathLike[str] | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> Page:
+        """
+        Makes a page in HTML on which the platform can be dragged, which notebooks show.
+
+        The page contains the program itself, as WebAssembly, and needs no network.
+
+        Parameters
+        ----------
+        path
+            File to which the page is also written.
+        cable_model, assembly, in_plane_only, winches
+            Models, as in `modes`.
+
+        Raises
+        ------
+        InputError
+            The package was built without the page.
         """
     def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True, rigid_cables: bool = False) -> Modes:
         """
@@ -484,6 +503,12 @@ class Equilibrium(Analyses):
         First frequencies of the cables as taut strings [Hz]; NaN for a cable without tension or mass.
         """
     @property
+    def support_displacement_m(self, /) -> NDArray[float64]:
+        """
+        Displacements of the flexible supports in world axes [m], one row per support in the order of their names; no rows on
+        a rigid frame.
+        """
+    @property
     def tension_anchor_n(self, /) -> NDArray[float64]:
         """
         Tensions at the anchor ends [N].
@@ -702,6 +727,39 @@ class Robot(Analyses):
         ------
         RobotFileError
             The text is not a valid robot file; the message shows its lines.
+        """
+    def identify(self, /, fit: Any, experiments: Any, *, starts: SupportsIndex = 10, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex = 0.02, frequency_noise: SupportsFloat | SupportsIndex = 0.01, damping_noise: SupportsFloat | SupportsIndex = 0.1, rigid_cables: bool = False, pose: Any | None = None, lengths_m: Any | None = None, static_model: str = "catenary", hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: Any | None = None, moment_n_m: Any | None = None, load_point_m: Any | None = None, wind_m_s: Any | None = None, cable_load_n_per_m: Any | None = None, tension_rule: str | None = None, target_tension_n: Any | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> Identified:
+        """
+        Finds the values of the robot file that fit measurements best, with their deviations.
+
+        Parameters
+        ----------
+        fit
+            Values to identify: a list of paths, or a mapping from paths to None, to bounds (minimum, maximum), or to a
+            mapping with `minimum`, `maximum`, `prior` and `prior_std`. A vector without a component stands for all its
+            numbers, and * for every name, as in `materials.*.mass_kg_per_m`.
+        experiments
+            One mapping per state of the robot, or a single one: `responses` and `frequencies` as
+            `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m` with
+            their deviations, `cables` with the names of those that were mounted, and the keys of the state.
+        starts
+            Number of starts of the search; the first one that fits ends it.
+        from_hz, to_hz
+            Range of the responses that counts [Hz].
+        response_noise, frequency_noise, damping_noise
+            Relative deviations of measurements that have none.
+        rigid_cables
+            Natural frequencies with cables that are rigid in length; with the static model `ideal`.
+
+        The other parameters are those of `equilibrium` and of `modes`; those of the state belong to every experiment that
+        does not give them itself.
+
+        Raises
+        ------
+        InputError
+            A value, a path or a measurement is wrong.
+        StaticsError
+            The robot has no equilibrium at any start.
         """
     @property
     def lengths_m(self, /) -> NDArray[float64] | None:
@@ -1043,6 +1101,11 @@ def matlab_file(matrices: SupportsGetItem[int, tuple[str, SupportsIndex, Support
     Makes the bytes of a file of MATLAB from matrices (name, number of rows, entries by columns) and columns of texts.
     """
 
+def measurements_of_file(path: str | PathLike[str], options: str) -> str:
+    """
+    Reads a file of measurements as an experiment in JSON.
+    """
+
 def merge_parts(parts: SupportsGetItem[int, str | PathLike[str]], path: str | PathLike[str]) -> int:
     """
     Joins the parts of a map or sweep; returns the number of rows.
@@ -1087,7 +1150,7 @@ def source_file(path: str | PathLike[str]) -> str:
 
 def text_of(request: str, call: str) -> tuple[str, list[str]]:
     """
-    Computes text and caveats of a request of `report`, `paper`, `export`, `new` or `schema`; `call` is the code that
+    Computes text and caveats of a request of `report`, `live`, `paper`, `export`, `new` or `schema`; `call` is the code that
     makes a page again.
     """
 

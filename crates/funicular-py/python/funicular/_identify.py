@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from funicular._errors import InputError
 from funicular._funicular import Robot, answer, complete_request, measurements_of_file
 from funicular._results import with_arrays
+from funicular._study import _plain
 
 File = str | PathLike[str]
 
@@ -89,10 +90,8 @@ def identified(request: Mapping[str, Any]) -> Identified:
 
 def identify_request(robot: str, fit: Any, experiments: Any, keywords: Mapping[str, Any]) -> dict[str, Any]:
     """Request of `Robot.identify`; `robot` is JSON. Keywords of the state belong to experiments that do not give them."""
-    from funicular._study import _plain
-
     given = {key: _plain(key, value) for key, value in keywords.items() if value is not None}
-    own = ("starts", "from_hz", "to_hz", "response_noise", "frequency_noise", "damping_noise", "rigid_cables")
+    own: tuple[str, ...] = ("starts", "from_hz", "to_hz", "response_noise", "frequency_noise", "damping_noise", "rigid_cables")
     own += ("tension_rule", "target_tension_n", "min_tension_n", "max_tension_n")
     own += ("cable_model", "assembly", "in_plane_only", "winches")
     state = {key: value for key, value in given.items() if key not in own}
@@ -133,8 +132,6 @@ def _fit(fit: Any) -> list[dict[str, Any]]:
 
 def _experiment(experiment: Mapping[str, Any]) -> dict[str, Any]:
     """Experiment with lists in place of arrays."""
-    from funicular._study import _plain
-
     def lists(value: Any) -> Any:
         if isinstance(value, Mapping):
             return {key: lists(of_key) for key, of_key in value.items() if of_key is not None}

@@ -1,0 +1,31 @@
+"""Identification: the package and the program find the same values from the same measurements."""
+
+import funicular
+import numpy as np
+import pytest
+from conftest import ROOT, Program
+
+ROBOT, MODES = ROOT / "docs/quick-start/hall.toml", ROOT / "docs/identification/hall-modes.csv"
+
+
+def test_the_package_finds_what_the_program_finds(program: Program) -> None:
+    arguments = ["--hold-lengths-of-pose", "--measured", MODES, "--fit", "platform.mass_kg"]
+    theirs = program("identify", ROBOT, *arguments, "--prior", "platform.mass_kg=60±10")
+
+    robot = funicular.Robot.from_file(ROBOT)
+    fit = {"platform.mass_kg": {"prior": 60, "prior_std": 10}}
+    found = robot.identify(fit, funicular.read_measurements(MODES), hold_lengths_of_pose=True)
+    assert found.success and found.names == ("platform.mass_kg",)
+    assert found.x[0] == theirs["values"][0]["value"] and found.chi2 == theirs["chi2"]
+    assert abs(found.x[0] - 63.86) < 0.05 and 0 < found.deviations[0] < 1
+    assert np.allclose(found.covariance, found.deviations[0] ** 2)
+    assert found.robot.mass_kg == pytest.approx(found.x[0], rel=1e-4)
+
+
+def test_unknown_paths_and_measurements_are_refused() -> None:
+    robot = funicular.Robot.from_file(ROBOT)
+    frequencies = funicular.read_measurements(MODES)
+    with pytest.raises(funicular.InputError, match="platform.weight_kg"):
+        robot.identify(["platform.weight_kg"], frequencies, hold_lengths_of_pose=True)
+    with pytest.raises(funicular.InputError, match="no measurement"):
+        robot.identify(["platform.mass_kg"], {}, hold_lengths_of_pose=True)
