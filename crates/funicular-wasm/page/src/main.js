@@ -927,7 +927,11 @@ async function restore(state) {
   $("play").hidden = $("amplitude-label").hidden = shown.mode < 0;
 }
 
+/** Timer of the note on the last import; the next files end it, so that it does not hide what is told about them. */
+let importNote = 0;
+
 async function openFiles(list) {
+  clearTimeout(importNote);
   const files = await Promise.all([...list].map(async (file) => ({ path: file.name, text: await file.text() })));
   if (files.length === 0) {
     return;
@@ -945,7 +949,7 @@ async function openFiles(list) {
     const told = [...found.assumed.map((line) => `assumed: ${line}`), ...found.lost.map((line) => `left out: ${line}`)];
     if (told.length) {
       shown.imported = `Imported.\n${told.join("\n")}`;
-      setTimeout(() => tell(shown.imported, true), 400);
+      importNote = setTimeout(() => tell(shown.imported, true), 400);
     }
   } catch (error) {
     tell(`${files.map((file) => file.path).join(", ")}: ${error.message}`);
