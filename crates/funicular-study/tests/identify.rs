@@ -58,11 +58,11 @@ fn robot(set: &[(&str, f64)]) -> Value {
     json!({"text": ROBOT, "set": set})
 }
 
-fn results(request: Value) -> Result<Results, Error> {
+fn results(request: &Value) -> Result<Results, Error> {
     run(&Request::from_json(&request.to_string())?, &mut Silent)
 }
 
-fn identified(request: Value) -> Identified {
+fn identified(request: &Value) -> Identified {
     match results(request) {
         Ok(Results::Identify(found)) => *found,
         Ok(_) => panic!("identify was requested"),
@@ -70,7 +70,7 @@ fn identified(request: Value) -> Identified {
     }
 }
 
-fn refused(request: Value) -> String {
+fn refused(request: &Value) -> String {
     match results(request) {
         Err(error) => error.to_string(),
         Ok(_) => panic!("it is refused"),
@@ -83,7 +83,7 @@ const TRUTH: [(&str, f64); 3] =
 
 /// Responses of the robot with these values, as measurements.
 fn responses(set: &[(&str, f64)]) -> Vec<Value> {
-    let found = results(json!({
+    let found = results(&json!({
         "command": "frf", "robot": robot(set), "from_hz": 0.5, "to_hz": 8.0, "points": 151, "input": "fz",
         "output": ["ax", "az"], "input_point_m": [0.1, 0.05, 0.0], "output_point_m": [0.2, 0.1, 0.0],
     }));
@@ -100,7 +100,7 @@ fn responses(set: &[(&str, f64)]) -> Vec<Value> {
 #[test]
 fn values_are_found_again_from_responses() {
     let fit: Vec<Value> = TRUTH.iter().map(|(path, _)| json!({"path": path})).collect();
-    let found = identified(json!({
+    let found = identified(&json!({
         "command": "identify", "robot": robot(&[]), "fit": fit, "starts": 3,
         "experiments": [{"responses": responses(&TRUTH)}],
     }));
@@ -132,7 +132,7 @@ impl Noise {
 /// Modes below a limit of the robot with changes.
 fn frequencies(set: &[(&str, f64)]) -> Vec<f64> {
     let Ok(Results::Modes(found)) =
-        results(json!({"command": "modes", "robot": robot(set), "below_hz": 200.0, "cable_model": "spring"}))
+        results(&json!({"command": "modes", "robot": robot(set), "below_hz": 200.0, "cable_model": "spring"}))
     else {
         panic!("modes were requested")
     };
@@ -157,7 +157,7 @@ fn intervals_hold_as_often_as_they_say() {
             })
             .collect();
         let fit: Vec<Value> = truth.iter().map(|(path, _)| json!({"path": path})).collect();
-        let found = identified(json!({
+        let found = identified(&json!({
             "command": "identify", "robot": robot(&[]), "fit": fit, "starts": 1, "cable_model": "spring",
             "experiments": [{"frequencies": measured}],
         }));
@@ -186,7 +186,7 @@ fn a_common_factor_of_masses_and_stiffness_is_said_to_be_unknown() {
             "experiments": [{"frequencies": measured}],
         })
     };
-    let found = identified(request(&fit));
+    let found = identified(&request(&fit));
     assert!(
         found.weak_combinations.iter().any(|text| text.contains("have a common factor that no frequency")),
         "{:?}",
@@ -195,20 +195,20 @@ fn a_common_factor_of_masses_and_stiffness_is_said_to_be_unknown() {
     assert!(found.values.iter().any(|row| row.deviation.is_none()));
 
     // With the mass held nothing is left of it.
-    let found = identified(request(&fit[1..3]));
+    let found = identified(&request(&fit[1..3]));
     assert!(found.values.iter().all(|row| row.deviation.is_some()), "{:?}", found.weak_combinations);
 }
 
 #[test]
 fn static_measurements_tell_mass_and_center() {
     let Ok(Results::Statics(rest)) = results(
-        json!({"command": "statics", "robot": robot(&[("platform.mass_kg", 26.0), ("platform.center_of_mass_m.y", -0.03)])}),
+        &json!({"command": "statics", "robot": robot(&[("platform.mass_kg", 26.0), ("platform.center_of_mass_m.y", -0.03)])}),
     ) else {
         panic!("statics was requested")
     };
     let tensions: Vec<f64> = rest.cables.iter().map(|cable| cable.tension_platform_n).collect();
     let pose = json!({"position_m": rest.pose.position_m, "quaternion_wxyz": rest.pose.quaternion_wxyz});
-    let found = identified(json!({
+    let found = identified(&json!({
         "command": "identify", "robot": robot(&[]), "starts": 1,
         "fit": [{"path": "platform.mass_kg", "minimum": 5.0, "maximum": 60.0}, {"path": "platform.center_of_mass_m.y", "prior": 0.0, "prior_std": 1e3}],
         "experiments": [{"measured_pose": pose, "measured_tensions_n": tensions}],
@@ -221,7 +221,7 @@ fn static_measurements_tell_mass_and_center() {
     assert_eq!(found.statics.len(), 12);
 
     // A bound that the measurements would leave.
-    let found = identified(json!({
+    let found = identified(&json!({
         "command": "identify", "robot": robot(&[]), "starts": 1,
         "fit": [{"path": "platform.mass_kg", "maximum": 24.0}],
         "experiments": [{"measured_tensions_n": tensions}],
@@ -237,7 +237,7 @@ fn coarse_steps_are_reported() {
         "fit": [{"path": "platform.mass_kg"}],
         "experiments": [{"responses": responses(&[("materials.rope.damping_ratio", 0.001)])}],
     });
-    let found = identified(coarse);
+    let found = identified(&coarse);
     assert!(found.warnings.iter().any(|text| text.contains("more than the half width")), "{:?}", found.warnings);
 }
 
@@ -250,7 +250,7 @@ fn requests_that_cannot_be_answered_say_why() {
     let with = |key: &str, value: Value| {
         let mut request = ok.clone();
         request[key] = value;
-        refused(request)
+        refused(&request)
     };
     for (key, value, says) in [
         ("fit", json!([]), "`fit` is empty"),
