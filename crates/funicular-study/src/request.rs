@@ -224,7 +224,7 @@ pub struct GradientRequest {
     /// Paths of the numbers of the robot file, in which `*` stands for any key; without any all numbers.
     #[serde(default)]
     pub by: Vec<String>,
-    /// What stays while a number changes.
+    /// Quantity that is held while a number changes.
     #[serde(default, with = "crate::names")]
     pub hold: Hold,
     /// Step that the derivatives are for.

@@ -32,7 +32,7 @@ use pullback::Pullback;
 use robot_form::{At, RobotForm};
 use thiserror::Error;
 
-/// What stays while a number of the robot changes.
+/// Quantity that is held while a number of the robot changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Hold {
     /// The unstrained lengths stay, apart from their own change, and the pose follows.

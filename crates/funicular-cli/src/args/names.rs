@@ -89,7 +89,7 @@ impl From<ModelFormName> for ModelForm {
     }
 }
 
-/// What is held by name; see [`Hold`].
+/// Name of the held quantity; see [`Hold`].
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
 pub(crate) enum HoldName {
     /// The unstrained lengths; the pose follows

@@ -48,7 +48,7 @@ fn a_written_response_gives_the_mass_that_it_has() {
     let html = fs::read_to_string(&page).unwrap();
     assert!(html.contains("figure-response-1-plot") && html.contains("platform.mass_kg"));
 
-    // The same curve as a table.
+    // That curve as a table.
     let (header, rows) = super::csv(&[&response[..]].concat());
     assert_eq!(header[..3], ["frequency_hz", "real", "imag"]);
     let lines: Vec<String> = rows.iter().map(|row| row[..3].join(",")).collect();

@@ -31,7 +31,7 @@ pub struct GradientTable {
     pub robot: String,
     #[serde(flatten)]
     pub models: Models,
-    /// What stays while a number changes: `lengths` or `pose`.
+    /// Quantity that is held while a number changes: `lengths` or `pose`.
     pub held: &'static str,
     /// Sentence that says what is held, and by which rule the rest follows.
     pub held_means: &'static str,

@@ -22,11 +22,11 @@ const MAX_HALVINGS: usize = 30;
 
 /// Maximum number of rounds in which supports follow the forces at a pose, a guard. A round reduces the motion by the ratio
 /// of the tension over the length of a cable to the stiffness of its support.
-pub(super) const MAX_ROUNDS: usize = 60;
+const MAX_ROUNDS: usize = 60;
 
 /// Motion of a support from one round to the next, over the length of the cables, at which the rounds end: rounding of the
 /// forces leaves 1e-16 of the displacement.
-pub(super) const STILL: f64 = 1e-15;
+const STILL: f64 = 1e-15;
 
 /// Imbalance of a support over the forces on it at which it has settled, and below which a step without gain shows that
 /// rounding allows no better balance: rounding of the chords leaves 1e-16 times the stiffness over the tensions.
@@ -34,7 +34,7 @@ const SETTLED: f64 = 1e-15;
 const NEARLY_SETTLED: f64 = 1e-9;
 
 /// Displacements of all supports of a robot at an equilibrium, in the order of [`Robot::supports`] [m].
-pub(crate) fn displacements(robot: &Robot, cables: &[CableState]) -> Vec<Vec3> {
+fn displacements(robot: &Robot, cables: &[CableState]) -> Vec<Vec3> {
     let mut all = vec![Vec3::zeros(); robot.supports.len()];
     for (cable, state) in robot.cables.iter().zip(cables) {
         if let Some(support) = cable.anchor.support {
@@ -95,6 +95,20 @@ impl<'a> Carried<'a> {
         Some(Self::new((anchor, support), state.displacement_w, force_w, parts, state.unstrained_length))
     }
 
+    /// Cable that hangs with its support at one of these displacements; `None` if its anchor is rigid.
+    fn of_trial(
+        robot: &'a Robot,
+        i: usize,
+        cable: &CableAtRest,
+        unstrained_length: f64,
+        displacements_w: &[Vec3],
+    ) -> Option<Self> {
+        let anchor = &robot.cables[i].anchor;
+        let support = anchor.support?;
+        let (parts, of) = ((Some(&cable.span), cable.drive.as_deref()), (anchor, &robot.supports[support]));
+        Some(Self::new(of, displacements_w[support], cable.force_w(), parts, unstrained_length))
+    }
+
     /// Drum side, if the drum is on the ground.
     fn drum_side(&self) -> Option<DrumSideAtRest> {
         let side_w = self.support.drum_side_from_ground(self.anchor)? * self.anchor.drum_side_length();
@@ -116,7 +130,7 @@ pub(super) fn displaced(robot: &Robot, mut equilibrium: Equilibrium, displacemen
 }
 
 /// Gives the states of cables the displacements of their supports [m]; none for a rigid frame.
-pub(super) fn displace(robot: &Robot, cables: &mut [CableState], displacements_w: &[Vec3]) {
+fn displace(robot: &Robot, cables: &mut [CableState], displacements_w: &[Vec3]) {
     for (state, cable) in cables.iter_mut().zip(&robot.cables) {
         if let Some(displacement_w) = cable.anchor.support.and_then(|support| displacements_w.get(support)) {
             state.displacement_w = *displacement_w;
@@ -125,7 +139,7 @@ pub(super) fn displace(robot: &Robot, cables: &mut [CableState], displacements_w
 }
 
 /// Next displacement of each support, and the largest change of one [m], from the forces of cables at displacements.
-pub(super) fn followed(robot: &Robot, cables: &[CableState], displacements_w: &[Vec3]) -> (Vec<Vec3>, f64) {
+fn followed(robot: &Robot, cables: &[CableState], displacements_w: &[Vec3]) -> (Vec<Vec3>, f64) {
     let next: Vec<Vec3> = (robot.supports.iter().zip(forces(robot, cables)))
         .map(|(support, force_w)| support.stiffness_w.try_inverse().unwrap_or_else(Mat3::zeros) * force_w)
         .collect();
@@ -163,17 +177,12 @@ pub(super) fn settled_in_rounds<T>(
         }
         displacements_w = next;
     }
-    Err(not_settled(moved, &at_w))
-}
-
-/// Error of rounds in which supports do not come to rest.
-pub(super) fn not_settled(moved: f64, at_w: &Vec3) -> StaticsError {
     let (iterations, residual, limit) = (MAX_ROUNDS, moved, STILL);
-    StaticsError::NotConverged { iterations, residual, limit, x: at_w.x, y: at_w.y, z: at_w.z }
+    Err(StaticsError::NotConverged { iterations, residual, limit, x: at_w.x, y: at_w.y, z: at_w.z })
 }
 
 /// Force of all cables on each support of a robot [N].
-pub(super) fn forces(robot: &Robot, cables: &[CableState]) -> Vec<Vec3> {
+fn forces(robot: &Robot, cables: &[CableState]) -> Vec<Vec3> {
     let mut all = vec![Vec3::zeros(); robot.supports.len()];
     for (i, state) in cables.iter().enumerate() {
         if let (Some(support), Some(carried)) = (robot.cables[i].anchor.support, Carried::of_state(robot, i, state)) {
@@ -245,11 +254,8 @@ pub(super) fn on_settled(
     unstrained_length: f64,
     displacements_w: &[Vec3],
 ) -> Option<OnSupport> {
-    let anchor = &robot.cables[i].anchor;
-    let support = anchor.support?;
-    let (parts, of) = ((Some(&cable.span), cable.drive.as_deref()), (anchor, &robot.supports[support]));
-    let carried = Carried::new(of, displacements_w[support], cable.force_w(), parts, unstrained_length);
-    Some(drive::on_support(&cable.span.tangent_w(), parts.1, carried.drum_side()))
+    let carried = Carried::of_trial(robot, i, cable, unstrained_length, displacements_w)?;
+    Some(drive::on_support(&cable.span.tangent_w(), cable.drive.as_deref(), carried.drum_side()))
 }
 
 /// Cables of a robot at a pose with settled supports: the cables, and the displacement of each support.
@@ -367,15 +373,10 @@ impl Settling<'_> {
 pub(super) fn energy(robot: &Robot, cables: &[CableAtRest], lengths: &[f64], displacements_w: &[Vec3]) -> f64 {
     let of_supports: f64 =
         (robot.supports.iter().zip(displacements_w)).map(|(support, e)| 0.5 * e.dot(&(support.stiffness_w * e))).sum();
-    let lifted: f64 = (robot.cables.iter().zip(cables).zip(lengths))
-        .filter(|((_, at_rest), _)| at_rest.drive.is_some())
-        .filter_map(|((cable, at_rest), length)| {
-            let support = cable.anchor.support?;
-            let parts = (Some(&at_rest.span), at_rest.drive.as_deref());
-            let of = (&cable.anchor, &robot.supports[support]);
-            let carried = Carried::new(of, displacements_w[support], at_rest.force_w(), parts, *length);
-            Some(carried.load_w.dot(&displacements_w[support]))
-        })
+    let lifted: f64 = (cables.iter().zip(lengths).enumerate())
+        .filter(|(_, (cable, _))| cable.drive.is_some())
+        .filter_map(|(i, (cable, length))| Carried::of_trial(robot, i, cable, *length, displacements_w))
+        .map(|carried| carried.load_w.dot(&carried.displacement_w))
         .sum();
     of_supports - lifted
 }

@@ -1,4 +1,4 @@
-//! What moves the first frequencies: their derivatives by the numbers of the robot file, as bars.
+//! Derivatives of the first frequencies by the numbers of the robot file, as bars: what moves them.
 
 use crate::analyses::gradient::{Columns, meaning};
 use crate::at_rest::AtRest;
