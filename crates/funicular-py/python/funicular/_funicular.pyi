@@ -176,7 +176,7 @@ class Analyses:
             Paths of the numbers, as `Robot.parameters` lists them; `*` stands for any key, as in `cables.*.anchor_m`, and a
             path to a table or vector for all numbers in it. All numbers if not given.
         hold
-            Quantity that is held while a number changes: the unstrained `lengths`, so that the pose follows, or the `pose`, so that the
+            Held while a number changes: the unstrained `lengths`, so that the pose follows, or the `pose`, so that the
             lengths follow. Of more cables than degrees of freedom the tensions parallel to the chords then change least.
         per
             Step that the derivatives are for: `unit` of the number, `percent` of its value, or its `tolerance`.
