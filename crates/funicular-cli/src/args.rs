@@ -515,8 +515,8 @@ pub(crate) struct GradientArgs {
     #[arg(long, value_name = "PATHS", value_delimiter = ',')]
     pub(crate) by: Vec<String>,
 
-    /// Quantity that is held while a number changes; with the pose held, the tensions parallel to the chords of more cables than
-    /// degrees of freedom change least
+    /// Quantity that is held while a number changes; with the pose held, the tensions parallel to the chords of more
+    /// cables than degrees of freedom change least
     #[arg(long, value_name = "WHAT", value_enum, default_value_t)]
     pub(crate) hold: HoldName,
 
