@@ -14,6 +14,7 @@ mod anchor_end;
 mod arc;
 mod balance;
 mod chain;
+pub(crate) mod derivatives;
 mod friction;
 
 pub use anchor_end::AnchorEnd;

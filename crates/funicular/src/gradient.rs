@@ -12,6 +12,7 @@
 
 mod adjoint;
 mod cable_form;
+mod end_form;
 mod pullback;
 mod robot_form;
 mod scalar;
@@ -21,6 +22,7 @@ pub use vibration::{DampedGradient, ResponseDerivatives, VibrationGradients};
 
 use crate::cable::CableModel;
 use crate::cable::catenary_dynamic::CatenaryDynamicError;
+use crate::drive::derivatives::end;
 use crate::dynamics::Dynamics;
 use crate::math::{Vec3, symmetric};
 use crate::platform::Coordinates;
@@ -77,6 +79,15 @@ pub enum GradientError {
         "gradients of vibrations need the cable model `spring`, `catenary-static` or `catenary-dynamic`, not `{0}`"
     )]
     Model(CableModel),
+    /// A cable over a pulley or to a winch vibrates.
+    #[error(
+        "cable \"{cable}\" runs over a pulley or to a winch: gradients of its vibration exist in the cable model \
+         `catenary-static`"
+    )]
+    Drive {
+        /// Name of the cable.
+        cable: String,
+    },
     /// Terms of the stiffness are left out.
     #[error("gradients of vibrations need all terms of the stiffness: assembly `consistent`, in and out of plane")]
     Terms,
@@ -164,7 +175,7 @@ impl<'a> Gradients<'a> {
     /// Prepares the gradients of an equilibrium.
     ///
     /// # Errors
-    /// [`GradientError::Static`]: ideal or slack cables, drives, an indifferent equilibrium, too few cables to hold the
+    /// [`GradientError::Static`]: ideal or slack cables, flexible supports, an indifferent equilibrium, too few cables to hold the
     /// pose; [`GradientError::Vertical`].
     pub fn new(robot: &'a Robot, equilibrium: &'a Equilibrium, hold: Hold) -> Result<Self, GradientError> {
         Ok(Self { hold, pullback: Pullback::new(robot, equilibrium, hold)? })
@@ -215,7 +226,8 @@ impl<'a> Gradients<'a> {
             .collect()
     }
 
-    /// Gradients of the tensions at the anchors [N], in file order: the magnitude of N = f − L q.
+    /// Gradients of the tensions at the anchors [N], with a pulley at the exit point, in file order: the magnitude of
+    /// N = f − S q, S being the unstrained length of the free span.
     pub fn tensions_anchor(&self) -> Vec<RobotChange> {
         let states = self.equilibrium().cables.iter().enumerate();
         states
@@ -224,11 +236,22 @@ impl<'a> Gradients<'a> {
                 self.of(|scalar| {
                     let cable = &mut scalar.cables[i];
                     cable.force = direction_w.into();
-                    cable.load = (direction_w * -state.unstrained_length).into();
-                    cable.length = -direction_w.dot(&load_of(state));
+                    cable.load = (direction_w * -state.free_length()).into();
+                    cable.free_length = -direction_w.dot(&load_of(state));
                 })
             })
             .collect()
+    }
+
+    /// Gradients of the tensions at the drums [N], in file order; without a drive those at the anchors.
+    pub fn tensions_drum(&self) -> Vec<RobotChange> {
+        let mut all = self.tensions_anchor();
+        for (i, (gradient, state)) in all.iter_mut().zip(&self.equilibrium().cables).enumerate() {
+            if state.drive.is_some() {
+                *gradient = self.of(|scalar| scalar.cables[i].end[end::TENSION_DRUM] = 1.0);
+            }
+        }
+        all
     }
 
     /// Gradient of an entry of the tangent stiffness about the origin of the platform, world axes [N/m, N, N·m], (14).

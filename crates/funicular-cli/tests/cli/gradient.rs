@@ -107,6 +107,30 @@ fn modes_that_share_a_frequency_have_a_block_and_a_response_two_rows() {
 }
 
 #[test]
+fn tensions_and_poses_follow_pulleys_and_winches() {
+    let winches = robot("cogiro-winches.toml");
+    let found = json(&["gradient", &winches, "--of", "tensions,pose,stiffness-min"]);
+    let statics = |path: &str, value: f64| {
+        let found = json(&["statics", &winches, "--set", &format!("{path}={value}")]);
+        ["tension_platform_n", "tension_drum_n"].map(|key| {
+            number(&found["cables"][0].get(key).map_or_else(|| found["cables"][0]["drive"][key].clone(), Clone::clone))
+        })
+    };
+    for (path, value, step) in [
+        ("pulleys.wheel.radius_m", 0.05, 1e-3),
+        ("pulleys.wheel.entry_direction.x", 0.0, 1e-2),
+        ("winches.drum.drum_side_length_m", 5.4, 1e-3),
+    ] {
+        for (k, end) in ["platform", "drum"].iter().enumerate() {
+            let expected = difference(step, |step| statics(path, value + step)[k]);
+            let ours = derivative(&found, &format!("tension of cable \"1\" at the {end}"), path);
+            // Third order of the step, which is a hundredth of the value at most.
+            assert!((ours - expected).abs() < 1e-3 * expected.abs(), "{path} {end}: {ours} {expected}");
+        }
+    }
+}
+
+#[test]
 fn requests_without_derivatives_are_refused_with_the_reason() {
     let winches = robot("cogiro-winches.toml");
     let cogiro = robot("cogiro.toml");
@@ -121,7 +145,7 @@ fn requests_without_derivatives_are_refused_with_the_reason() {
         (&["gradient", "ROBOT", "--of", "response", "--at-hz", "1"], "`response` needs --input"),
         (&["gradient", "ROBOT", "--below-hz", "2", "--cable-model", "shallow-dynamic"], "not `shallow-dynamic`"),
         (&["gradient", "ROBOT", "--below-hz", "2", "--in-plane-only"], "need all terms of the stiffness"),
-        (&["gradient", &winches, "--of", "pose"], "runs over a pulley or to a winch"),
+        (&["gradient", &winches, "--of", "frequencies", "--below-hz", "3"], "runs over a pulley or to a winch"),
         (&["gradient", &cogiro, "--of", "pose", "--pose", "0,0,1.5", "--static-model", "ideal"], "need elastic cables"),
         (
             &["gradient", "ROBOT", "--of", "response", "--at-hz", "1", "--input", "cable:3@0.5:fz", "--output", "z"],

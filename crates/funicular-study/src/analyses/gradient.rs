@@ -153,6 +153,10 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
         let (platform, anchor) = (values(|cable| cable.tension_platform), values(|cable| cable.tension_anchor));
         rows.of_cables(robot, "tension of cable", " at the platform", "N", &platform, &gradients.tensions_platform());
         rows.of_cables(robot, "tension of cable", " at the anchor", "N", &anchor, &gradients.tensions_anchor());
+        if equilibrium.cables.iter().any(|cable| cable.drive.is_some()) {
+            let drum = values(CableState::tension_drum);
+            rows.of_cables(robot, "tension of cable", " at the drum", "N", &drum, &gradients.tensions_drum());
+        }
     }
     if of.contains(&"stiffness-min") {
         let value = equilibrium.stability.min_stiffness().unwrap_or_default();
@@ -283,7 +287,8 @@ impl Columns {
         }
         if columns.parameters.is_empty() {
             bail!(
-                "⟪by⟫: {} without derivatives: limits, the plane of a planar platform, pulleys and winches have none",
+                "⟪by⟫: {} without derivatives: limits, the plane of a planar platform, friction of pulleys and supports have \
+                 none",
                 columns.without_derivative.join(", ")
             );
         }

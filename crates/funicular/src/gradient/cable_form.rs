@@ -6,10 +6,13 @@
 
 use super::GradientError;
 use super::adjoint::CableAdjoint;
+use super::end_form::EndAtRest;
 use super::scalar::{Field, Vector, add, add_times, cross, dot, times, vector};
 use crate::cable::catenary_dynamic::{CatenaryDynamic, CatenaryDynamicEnd, PoleResidue, Stations, smooth_pieces};
 use crate::catenary::space::HangingCable;
+use crate::drive::derivatives::end;
 use crate::math::{DMat, Vec3, legendre};
+use crate::robot::Anchor;
 use crate::statics::CableState;
 use crate::statics::derivatives::StaticDerivativeError;
 use std::array::from_fn;
@@ -39,6 +42,8 @@ pub(super) struct CableForm {
     /// Integrals over [−1, ξ] from the values at the points of a rule, by rows; one matrix per size.
     rules: Vec<DMat>,
     inertia: Inertia,
+    /// End at the pulley or the winch, if it can move and the cable has no inertia.
+    end: Option<EndAtRest>,
 }
 
 /// Motion of the points of a cable.
@@ -73,17 +78,22 @@ pub(super) struct CableMotion<T> {
     end_force_w: Vector<T>,
     /// Rotation of the platform, world axes.
     theta: Vector<T>,
+    /// Motions along the cable and sideways of an end at rest.
+    end: [T; 2],
 }
 
 impl CableForm {
     /// Cable with the static end stiffness of its catenary. `may_have_mass` for a massless cable in a model with inertia.
-    pub(super) fn at_rest(state: &CableState, may_have_mass: bool) -> Result<Self, GradientError> {
-        let catenary = hanging(state)?.catenary;
-        let pieces = smooth_pieces(&catenary, vec![(0.0, catenary.rope().unstrained_length)]);
+    pub(super) fn at_rest(anchor: &Anchor, state: &CableState, may_have_mass: bool) -> Result<Self, GradientError> {
+        let hanging = hanging(state)?;
+        let catenary = &hanging.catenary;
+        let pieces = smooth_pieces(catenary, vec![(0.0, catenary.rope().unstrained_length)]);
         let count = |size: f64| (DIGITS_OF_REST / (2.0 * size.ln())).ceil() as usize + 4;
         let sizes: Vec<usize> = pieces.iter().map(|(_, _, size)| count(*size)).collect();
         let inertia = if may_have_mass { Inertia::Massless } else { Inertia::None };
-        Self::on_pieces(state, 0.0, &pieces, &sizes, inertia)
+        let mut form = Self::on_pieces(state, 0.0, &pieces, &sizes, inertia)?;
+        form.end = EndAtRest::of(anchor, state.drive.as_deref(), &hanging.tangent_w());
+        Ok(form)
     }
 
     /// Cable that vibrates about its catenary.
@@ -151,6 +161,7 @@ impl CableForm {
             elements,
             rules: of_size.iter().map(|(_, rule)| integrals(rule)).collect(),
             inertia,
+            end: None,
         })
     }
 
@@ -169,7 +180,13 @@ impl CableForm {
 
         let Inertia::Modes(cable, stations) = &self.inertia else {
             // Without mass the tension vector changes by the same amount all along the cable.
-            let force = self.static_force(&end);
+            let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&end_w));
+            let mut elongation = end;
+            if let Some(of) = &self.end {
+                let followed_w = of.displacement(&at_end);
+                (0..3).for_each(|k| elongation[k] += dot(&followed_w, &vector(&self.axes_w[k])) * -1.0);
+            }
+            let force = self.static_force(&elongation);
             let tension = vec![times(&force, T::from(-1.0)); self.points.len()];
             let displacement = match self.inertia {
                 Inertia::Massless => {
@@ -179,7 +196,7 @@ impl CableForm {
                 }
                 _ => Vec::new(),
             };
-            return CableMotion { displacement, tension, end_force_w: self.world(&force), theta: *theta };
+            return CableMotion { displacement, tension, end_force_w: self.world(&force), theta: *theta, end: at_end };
         };
 
         // Momentum: δN(s) = δN(0) − ω_c² m ∫₀ˢ δp ds.
@@ -197,7 +214,8 @@ impl CableForm {
         }
         let force = self.static_force(&moved);
         let tension = gathered.iter().map(|gathered| from_fn(|k| gathered[k] - force[k])).collect();
-        CableMotion { displacement, tension, end_force_w: self.world(&force), theta: *theta }
+        let at_end = [T::default(); 2];
+        CableMotion { displacement, tension, end_force_w: self.world(&force), theta: *theta, end: at_end }
     }
 
     /// Adds `factor` times the coefficients of W(a, b); `damping` has the derivatives of ω_c² by mass per length and by
@@ -245,7 +263,7 @@ impl CableForm {
         add_times(&mut sum.load, &load_w, -(factor * self.length));
         let inertia = square * moved;
         let strained = (work + inertia * self.mass_per_length) * (1.0 / self.length);
-        sum.length += -(factor * (by_load[1] * self.load + strained));
+        sum.free_length += -(factor * (by_load[1] * self.load + strained));
         sum.stiffness += factor * squares * self.axial_stiffness.powi(-2);
         let by_square = -(factor * moved * self.mass_per_length);
         sum.mass += by_square * damping[0] - factor * inertia;
@@ -254,6 +272,17 @@ impl CableForm {
         // The ends turn with their lever arms.
         let turned = add(&cross(&a.end_force_w, &b.theta), &cross(&b.end_force_w, &a.theta));
         add_times(&mut sum.lever, &turned, factor);
+
+        // The far end turns with its directions, and its stiffness changes.
+        if let Some(of) = &self.end {
+            of.add(sum, &a.end, &b.end, factor);
+            for (first, i) in [(end::TRAVEL, 0), (end::SIDEWAYS, 1)] {
+                for k in 0..3 {
+                    let work = a.end_force_w[k] * b.end[i] + b.end_force_w[k] * a.end[i];
+                    sum.end[first + k] += -(factor * work);
+                }
+            }
+        }
     }
 
     /// Strain δp' of a change of the tension vector at a point.

@@ -76,18 +76,25 @@ impl RobotForm {
         let mut cables = Vec::with_capacity(robot.cables.len());
         for (i, state) in equilibrium.cables.iter().enumerate() {
             let term = dynamics.terms().iter().find(|term| term.cable() == i);
+            if state.drive.is_some() && cable_model != CableModel::CatenaryStatic {
+                return Err(GradientError::Drive { cable: robot.cables[i].name.clone() });
+            }
             cables.push(match (cable_model, term.map(DynamicCableAt::form)) {
                 (CableModel::Spring, _) => AnyCable::Spring {
                     chord_w: state.chord_w(),
                     lever_w: state.lever_w,
                     axial_stiffness: robot.cables[i].material.axial_stiffness,
                 },
-                (CableModel::CatenaryStatic, _) => AnyCable::Catenary(Box::new(CableForm::at_rest(state, false)?)),
+                (CableModel::CatenaryStatic, _) => {
+                    AnyCable::Catenary(Box::new(CableForm::at_rest(&robot.cables[i].anchor, state, false)?))
+                }
                 (CableModel::CatenaryDynamic, Some(DynamicCable::CatenaryDynamic(end))) => {
                     let name = &robot.cables[i].name;
                     AnyCable::Catenary(Box::new(CableForm::vibrating(state, end, name)?))
                 }
-                (CableModel::CatenaryDynamic, _) => AnyCable::Catenary(Box::new(CableForm::at_rest(state, true)?)),
+                (CableModel::CatenaryDynamic, _) => {
+                    AnyCable::Catenary(Box::new(CableForm::at_rest(&robot.cables[i].anchor, state, true)?))
+                }
                 (CableModel::ShallowStatic | CableModel::ShallowDynamic, _) => {
                     return Err(GradientError::Model(cable_model));
                 }
@@ -98,8 +105,10 @@ impl RobotForm {
 
     /// Form of the static stiffness.
     pub(super) fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Result<Self, GradientError> {
-        let cables = (equilibrium.cables.iter())
-            .map(|state| Ok(AnyCable::Catenary(Box::new(CableForm::at_rest(state, false)?))))
+        let cables = (equilibrium.cables.iter().enumerate())
+            .map(|(i, state)| {
+                Ok(AnyCable::Catenary(Box::new(CableForm::at_rest(&robot.cables[i].anchor, state, false)?)))
+            })
             .collect::<Result<_, GradientError>>()?;
         Ok(Self::with_cables(robot, equilibrium, cables))
     }
