@@ -12,6 +12,7 @@
 
 mod adjoint;
 mod cable_form;
+mod drive_form;
 mod end_form;
 mod pullback;
 mod robot_form;
@@ -31,7 +32,7 @@ use crate::statics::derivatives::{StaticDerivativeError, force_at_anchor, load_o
 use crate::statics::{Equilibrium, tangent_stiffness};
 use adjoint::Adjoint;
 use pullback::Pullback;
-use robot_form::{At, RobotForm};
+use robot_form::{Driven, RobotForm};
 use thiserror::Error;
 
 /// Quantity that is held while a number of the robot changes.
@@ -79,15 +80,6 @@ pub enum GradientError {
         "gradients of vibrations need the cable model `spring`, `catenary-static` or `catenary-dynamic`, not `{0}`"
     )]
     Model(CableModel),
-    /// A cable over a pulley or to a winch vibrates.
-    #[error(
-        "cable \"{cable}\" runs over a pulley or to a winch: gradients of its vibration exist in the cable model \
-         `catenary-static`"
-    )]
-    Drive {
-        /// Name of the cable.
-        cable: String,
-    },
     /// Terms of the stiffness are left out.
     #[error("gradients of vibrations need all terms of the stiffness: assembly `consistent`, in and out of plane")]
     Terms,
@@ -302,8 +294,8 @@ impl<'a> Gradients<'a> {
     /// Gradient of the static form over two motions (translation, rotation), with a coefficient of ℓ.
     fn of_static_form(&self, a: [[f64; 3]; 2], b: [[f64; 3]; 2], ell: f64) -> Result<RobotChange, GradientError> {
         let form = RobotForm::of_statics(self.robot(), self.equilibrium())?;
-        let at = At::undamped(0.0, self.robot().cables.len());
-        let [a, b] = [a, b].map(|[v, theta]| form.motion(v, theta, &at, &[], &[]));
+        let at = form.undamped(0.0);
+        let [a, b] = [a, b].map(|[v, theta]| form.motion(v, theta, &at, &[], &Driven::NONE));
         Ok(self.of(|scalar| {
             form.add(scalar, &a, &b, &at, 1.0);
             scalar.ell = ell;

@@ -132,7 +132,6 @@ fn tensions_and_poses_follow_pulleys_and_winches() {
 
 #[test]
 fn requests_without_derivatives_are_refused_with_the_reason() {
-    let winches = robot("cogiro-winches.toml");
     let cogiro = robot("cogiro.toml");
     for (arguments, expected) in [
         (&["gradient", "ROBOT"][..], "`frequencies` needs --below-hz"),
@@ -145,7 +144,6 @@ fn requests_without_derivatives_are_refused_with_the_reason() {
         (&["gradient", "ROBOT", "--of", "response", "--at-hz", "1"], "`response` needs --input"),
         (&["gradient", "ROBOT", "--below-hz", "2", "--cable-model", "shallow-dynamic"], "not `shallow-dynamic`"),
         (&["gradient", "ROBOT", "--below-hz", "2", "--in-plane-only"], "need all terms of the stiffness"),
-        (&["gradient", &winches, "--of", "frequencies", "--below-hz", "3"], "runs over a pulley or to a winch"),
         (&["gradient", &cogiro, "--of", "pose", "--pose", "0,0,1.5", "--static-model", "ideal"], "need elastic cables"),
         (
             &["gradient", "ROBOT", "--of", "response", "--at-hz", "1", "--input", "cable:3@0.5:fz", "--output", "z"],

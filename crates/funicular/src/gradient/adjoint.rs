@@ -32,7 +32,7 @@ pub(super) struct Adjoint<T> {
 }
 
 /// Coefficients of one cable.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct CableAdjoint<T> {
     /// By the force on the platform.
     pub(super) force: Vector<T>,
@@ -56,6 +56,28 @@ pub(super) struct CableAdjoint<T> {
     pub(super) end: [T; end::COUNT],
     /// By the numbers of the drive themselves.
     pub(super) drive: DriveAdjoint<T>,
+    /// By the distance and the mass of each guide wheel; none beyond the end.
+    pub(super) guides: Vec<[T; 2]>,
+}
+
+impl<T: Field> CableAdjoint<T> {
+    /// Coefficients of a guide wheel.
+    fn guide(&mut self, wheel: usize) -> &mut [T; 2] {
+        if self.guides.len() <= wheel {
+            self.guides.resize(wheel + 1, [T::default(); 2]);
+        }
+        &mut self.guides[wheel]
+    }
+
+    /// Adds to the coefficient of the distance of a guide wheel.
+    pub(super) fn guide_distance(&mut self, wheel: usize, coefficient: T) {
+        self.guide(wheel)[0] += coefficient;
+    }
+
+    /// Adds to the coefficient of the mass of a guide wheel.
+    pub(super) fn guide_mass(&mut self, wheel: usize, coefficient: T) {
+        self.guide(wheel)[1] += coefficient;
+    }
 }
 
 /// Coefficients of the numbers of a cable's drive that stand in its motion.
@@ -150,6 +172,7 @@ impl<T: Field> Adjoint<T> {
                     damping: of(cable.damping),
                     end: cable.end.map(&of),
                     drive: cable.drive.map(&of),
+                    guides: cable.guides.iter().map(|guide| guide.map(&of)).collect(),
                 })
                 .collect(),
         }

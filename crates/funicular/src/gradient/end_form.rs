@@ -58,7 +58,7 @@ impl EndAtRest {
     }
 
     /// Adds `factor` times the coefficients of the stiffness over two motions.
-    pub(super) fn add<T: Field>(&self, sum: &mut CableAdjoint<T>, a: &[T; 2], b: &[T; 2], factor: T) {
+    pub(super) fn add<T: Field>(&self, sum: &mut CableAdjoint<T>, a: &[T], b: &[T], factor: T) {
         let along = factor * a[0] * b[0];
         sum.end[end::WEIGHT] += along;
         sum.end[end::COUPLING] += factor * (a[0] * b[1] + a[1] * b[0]);

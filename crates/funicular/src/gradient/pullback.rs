@@ -9,7 +9,7 @@ use super::{GradientError, Hold};
 use crate::drive::derivatives::{DriveDerivatives, Row, place};
 use crate::math::{DMat, Mat3, Mat6, Vec3, Vec6, inverse6};
 use crate::platform::Coordinates;
-use crate::robot::{CableChange, PulleyChange, Robot, RobotChange, WinchChange};
+use crate::robot::{CableChange, GuideWheelChange, PulleyChange, Robot, RobotChange, WinchChange};
 use crate::statics::derivatives::{CablePartials, StaticDerivativeError, jacobian_of, load_of, regular};
 use crate::statics::{CableState, Equilibrium};
 
@@ -309,6 +309,11 @@ fn cable_pulled(
         damping: cable.damping,
         pulley,
         winch,
+        guide_wheels: cable
+            .guides
+            .iter()
+            .map(|[distance, mass]| GuideWheelChange { distance: *distance, mass: *mass })
+            .collect(),
     };
     (of_cable, chord_w, lever_w)
 }

@@ -1,9 +1,13 @@
 //! Gradients of natural frequencies, damped frequencies, damping ratios and responses.
 
 use super::adjoint::Adjoint;
-use super::robot_form::{At, NearAmplitude, RobotForm, RobotMotion};
+use super::cable_form::{CableAt, LossesAt};
+use super::drive_form::ControlAt;
+use super::robot_form::{At, Driven, NearAmplitude, RobotForm, RobotMotion};
 use super::scalar::{Vector, add_times, cross, vector};
 use super::{GradientError, Gradients};
+use crate::cable::DynamicCable;
+use crate::cable::catenary_dynamic::{MovingEnd, NearRanges};
 use crate::dynamics::{DynamicCableAt, Dynamics};
 use crate::math::{CVec6, Complex, Vec3, Vec6};
 use crate::modes::Mode;
@@ -112,12 +116,13 @@ impl<'g> VibrationGradients<'g> {
         let (v, theta) = self.platform_motion(&mode.motion.platform);
         let near: Vec<NearAmplitude<f64>> =
             mode.motion.near.iter().map(|near| (near.term, near.family, near.pole, near.amplitude)).collect();
-        self.form.motion(v, theta, &At::undamped(mode.frequency_hz * TAU, self.cables()), &self.terms, &near)
+        let at = self.form.undamped(mode.frequency_hz * TAU);
+        self.form.motion(v, theta, &at, &self.terms, &Driven { near: &near, forces: None })
     }
 
     fn of_pair(&self, a: (&Mode, &RobotMotion<f64>), b: (&Mode, &RobotMotion<f64>)) -> RobotChange {
         let omega = (a.0.frequency_hz * b.0.frequency_hz).sqrt() * TAU;
-        let at = At::undamped(omega, self.cables());
+        let at = self.form.undamped(omega);
         self.gradients.of(|scalar| self.form.add(scalar, a.1, b.1, &at, 1.0 / (2.0 * omega * TAU)))
     }
 
@@ -129,10 +134,29 @@ impl<'g> VibrationGradients<'g> {
         ([motion[0], motion[1], motion[2]], [motion[3] / ell, motion[4] / ell, motion[5] / ell])
     }
 
-    /// Complex frequency ω at which the form is taken, with all damping.
-    fn at(&self, omega: Complex) -> At<Complex> {
-        let (of_cables, by_damping) = (0..self.cables()).map(|i| self.dynamics.square_by_damping(i, omega)).unzip();
-        At { square: omega * omega, rate: omega * Complex::i(), of_cables, by_damping }
+    /// Complex frequency ω at which the form is taken, with all damping. Poles near it are left out of the drives if their
+    /// amplitudes are unknowns; `driven` is a cable with forces on its drive.
+    fn at(&self, omega: Complex, leaves_out: bool, driven: &[usize]) -> At<Complex> {
+        let mut cables: Vec<CableAt<Complex>> = (0..self.cables())
+            .map(|i| {
+                let (square, by_damping) = self.dynamics.square_by_damping(i, omega);
+                CableAt { square, by_damping, ..CableAt::default() }
+            })
+            .collect();
+        for term in self.dynamics.terms() {
+            let DynamicCable::CatenaryDynamic(form) = term.form() else { continue };
+            let at = &mut cables[term.cable()];
+            if let Some(motor) = form.cable.end.as_ref().and_then(MovingEnd::chain).and_then(|chain| chain.motor) {
+                at.control = ControlAt::at(motor.servo.as_ref(), motor.damping, omega);
+            }
+            if form.has_drive_losses() || driven.contains(&term.cable()) {
+                let left_out =
+                    if leaves_out { Dynamics::near_of_border(form, at.square) } else { NearRanges::default() };
+                let losses = form.beyond_undamped(omega, 1.0);
+                at.losses = form.drive_at(at.square, &left_out).map(|motions| LossesAt::of(&motions, &losses));
+            }
+        }
+        At { square: omega * omega, rate: omega * Complex::i(), cables }
     }
 
     /// Gradients of a damped mode, whose zero of the dynamic stiffness is simple.
@@ -147,11 +171,12 @@ impl<'g> VibrationGradients<'g> {
         let refused = || GradientError::NoDampedMotion { frequency_hz: mode.frequency_hz() };
         let found = self.dynamics.damped_motion(omega).ok_or_else(refused)?;
 
-        let at = self.at(omega);
+        let at = self.at(omega, true, &[]);
         let [re, im] = [|z: &Complex| z.re, |z: &Complex| z.im].map(|part| found.platform.map(|z| part(&z)));
         let [re, im] = [re, im].map(|part| self.platform_motion(&part));
         let join = |re: Vector<f64>, im: Vector<f64>| std::array::from_fn(|k| Complex::new(re[k], im[k]));
-        let motion = self.form.motion(join(re.0, im.0), join(re.1, im.1), &at, &self.terms, &found.near);
+        let driven = Driven { near: &found.near, forces: None };
+        let motion = self.form.motion(join(re.0, im.0), join(re.1, im.1), &at, &self.terms, &driven);
         let mut by_omega = Adjoint::zeros(self.cables());
         self.form.add(&mut by_omega, &motion, &motion, &at, -found.slope.inv());
 
@@ -213,11 +238,11 @@ impl<'g> VibrationGradients<'g> {
         let mut rows = vec![Vec::with_capacity(frequencies_hz.len()); inputs.len() * outputs.len()];
         for (receptance, frequency_hz) in receptances.iter().zip(frequencies_hz) {
             let omega = frequency_hz * TAU;
-            let at = self.at(omega.into());
+            let at = self.at(omega.into(), false, &[]);
             let solved = |place: &Place| {
                 let x = receptance * place.vector.map(Complex::from);
                 let (v, theta) = halves(&x);
-                (x, self.form.motion(v, theta, &at, &self.terms, &[]))
+                (x, self.form.motion(v, theta, &at, &self.terms, &Driven::NONE))
             };
             let by_input: Vec<_> = from.iter().map(solved).collect();
             let by_output: Vec<_> = to.iter().map(solved).collect();

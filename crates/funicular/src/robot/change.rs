@@ -54,7 +54,7 @@ pub struct RobotChange {
 }
 
 /// Rates of change of the numbers of one cable.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct CableChange {
     /// Point of the anchor, world axes.
     pub anchor_w: Vec3,
@@ -76,6 +76,17 @@ pub struct CableChange {
     pub pulley: PulleyChange,
     /// Winch behind the anchor.
     pub winch: WinchChange,
+    /// Guide wheels of the winch, in its order; none changes beyond the end of the list.
+    pub guide_wheels: Vec<GuideWheelChange>,
+}
+
+/// Rates of change of the numbers of a guide wheel.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct GuideWheelChange {
+    /// Length of the cable from the entry point to the wheel.
+    pub distance: f64,
+    /// Mass that the wheel adds at the cable.
+    pub mass: f64,
 }
 
 /// Rates of change of the numbers of the pulley of one cable.
@@ -160,6 +171,12 @@ impl WinchChange {
     }
 }
 
+impl GuideWheelChange {
+    fn product((own, other): (&Self, &Self)) -> f64 {
+        own.distance * other.distance + own.mass * other.mass
+    }
+}
+
 impl CableChange {
     /// Sum of the products of all numbers with those of another one.
     fn dot(&self, other: &Self) -> f64 {
@@ -173,6 +190,7 @@ impl CableChange {
             + self.damping * other.damping
             + self.pulley.dot(&other.pulley)
             + self.winch.dot(&other.winch)
+            + self.guide_wheels.iter().zip(&other.guide_wheels).map(GuideWheelChange::product).sum::<f64>()
     }
 }
 
@@ -260,6 +278,10 @@ impl Robot {
             }
             if let Some(winch) = &mut cable.anchor.winch {
                 change.winch.apply(winch, step);
+                for (wheel, change) in winch.guide_wheels.iter_mut().zip(&change.guide_wheels) {
+                    wheel.distance += change.distance * step;
+                    wheel.mass += change.mass * step;
+                }
             }
         }
 

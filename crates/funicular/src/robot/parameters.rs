@@ -7,7 +7,7 @@
 
 use super::spec::key::{Absent, Component, Key, KeyValue, Numeric, Shape};
 use super::spec::{Numbers, SpecError, TABLES, TOP, from_tree, parsed};
-use super::{PlatformMotion, Pulley, Robot, RobotChange, RopeSection};
+use super::{GuideWheelChange, PlatformMotion, Pulley, Robot, RobotChange, RopeSection};
 use crate::math::{Vec3, Vec6, rotation};
 use std::borrow::Cow;
 use std::f64::consts::TAU;
@@ -302,6 +302,7 @@ impl Parameters {
             }
             (RobotPart::Pulley, key) => self.pulley_change(robot, parameter, key, unit(), &mut change)?,
             (RobotPart::Winch, key) => self.winch_change(robot, parameter, key, &mut change)?,
+            (RobotPart::GuideWheel, key) => self.guide_wheel_change(robot, parameter, key, &mut change)?,
             (RobotPart::Material, key) => self.material_change(parameter, key, unit(), &mut change)?,
             _ => return None,
         }
@@ -403,6 +404,35 @@ impl Parameters {
             }
         }
         Some(())
+    }
+
+    /// Change of a guide wheel of all cables to its winch.
+    fn guide_wheel_change(
+        &self,
+        robot: &Robot,
+        parameter: &Parameter,
+        key: &str,
+        change: &mut RobotChange,
+    ) -> Option<()> {
+        let name = parameter.keys.get(1)?;
+        let radius = self.list.iter().find(|other| {
+            other.part == RobotPart::GuideWheel && other.keys.get(1) == Some(name) && other.key == "radius_m"
+        })?;
+        let mut is_known = false;
+        for (cable, change) in robot.cables.iter().zip(&mut change.cables) {
+            let wheels = cable.anchor.winch.as_ref().map_or(&[][..], |winch| &winch.guide_wheels);
+            let Some(index) = wheels.iter().position(|wheel| wheel.name == *name) else { continue };
+            is_known = true;
+            change.guide_wheels.resize(wheels.len(), GuideWheelChange::default());
+            let (wheel, change) = (&wheels[index], &mut change.guide_wheels[index]);
+            match key {
+                "distance_m" => change.distance = 1.0,
+                "radius_m" => change.mass = -2.0 * wheel.mass / radius.value,
+                "inertia_kg_m2" => change.mass = radius.value.powi(-2),
+                _ => return None,
+            }
+        }
+        is_known.then_some(())
     }
 
     /// Change of all cables made of a rope.

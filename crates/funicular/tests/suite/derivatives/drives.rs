@@ -1,9 +1,16 @@
 //! Gradients of robots with pulleys and winches against differences of the program itself, for random robots.
 
 use super::{distance, lengths_of};
+use funicular::cable::CableModel;
+use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::{Gradients, Hold};
 use funicular::math::Vec3;
-use funicular::robot::{CableChange, Control, Pulley, Robot, RobotChange, Servo, Winch, Wind};
+use funicular::modes::{self, Mode};
+use funicular::response::{self, Port, Quantity, Signal};
+use funicular::robot::{
+    CableChange, Control, Damping, DrumSide, GuideWheel, GuideWheelChange, Pulley, Robot, RobotChange, Servo, Winch,
+    WinchMode, Wind,
+};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use proptest::prelude::*;
 
@@ -125,8 +132,9 @@ pub(super) fn changes(robot: &Robot) -> Vec<(&'static str, RobotChange)> {
     all
 }
 
-/// Central differences at a step, at a half and at a quarter of it, extrapolated twice; and how much the last one adds.
-pub(super) fn extrapolated(step: f64, mut at: impl FnMut(f64) -> Option<Vec<f64>>) -> Option<(Vec<f64>, f64)> {
+/// Central differences at a step, at a half and at a quarter of it, extrapolated twice; and how much the last one adds to
+/// each.
+pub(super) fn extrapolated(step: f64, mut at: impl FnMut(f64) -> Option<Vec<f64>>) -> Option<(Vec<f64>, Vec<f64>)> {
     let mut central = |h: f64| -> Option<Vec<f64>> {
         let (low, high) = (at(-h)?, at(h)?);
         Some(low.iter().zip(&high).map(|(low, high)| (high - low) / (2.0 * h)).collect())
@@ -137,7 +145,7 @@ pub(super) fn extrapolated(step: f64, mut at: impl FnMut(f64) -> Option<Vec<f64>
     };
     let (first, second) = (twice(&one, &half, 4.0), twice(&half, &quarter, 4.0));
     let best = twice(&first, &second, 16.0);
-    let added = distance(&best, &second).0;
+    let added = best.iter().zip(&second).map(|(best, second)| (best - second).abs()).collect();
     Some((best, added))
 }
 
@@ -170,7 +178,7 @@ fn values(robot: &Robot, rest: &Equilibrium, from: &Equilibrium) -> Vec<Vec<f64>
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 6, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(ProptestConfig { cases: 5, failure_persistence: None, ..Default::default() })]
 
     /// Pose, tensions and stiffness with lengths held. The forward solver finds an equilibrium to 1e-12 of the forces, over
     /// steps that change them by a hundredth or so; the differences extrapolate two orders of the step.
@@ -201,7 +209,7 @@ proptest! {
             let Some((differences, added)) = flat else { continue };
             // Beside a slack cable or another equilibrium a step is too long.
             let (_, size) = distance(&differences, &differences);
-            if added > 1e-7 * size {
+            if added.iter().any(|added| *added > 1e-7 * size) {
                 continue;
             }
             let mut first = 0;
@@ -217,5 +225,258 @@ proptest! {
             }
         }
         prop_assert!(compared > 30, "{compared}");
+    }
+}
+
+/// Inertias, losses and controls of a random robot, and the mode of its winches.
+#[derive(Debug, Clone)]
+pub(super) struct Moving {
+    wheel: f64,
+    swivel: f64,
+    drum: f64,
+    motor: f64,
+    damping: f64,
+    speed_gain: f64,
+    delay: f64,
+    rod: bool,
+    guides: usize,
+    ratio: f64,
+    pub(super) winches: WinchMode,
+}
+
+pub(super) fn moving() -> impl Strategy<Value = Moving> {
+    let masses = (0.0..0.5_f64, 0.0..2e-3_f64, 0.1..2.0_f64, 0.5..8.0_f64);
+    let losses = (1.0..40.0_f64, 10.0..200.0_f64, prop_oneof![Just(0.0), Just(0.003)]);
+    let winches = prop_oneof![
+        3 => Just(WinchMode::AsGiven), 1 => Just(WinchMode::Clamped), 1 => Just(WinchMode::Torque), 1 => Just(WinchMode::Stuck)
+    ];
+    (masses, losses, any::<bool>(), 0..3_usize, 1e-3..0.02_f64, winches).prop_map(
+        |((wheel, swivel, drum, motor), (damping, speed_gain, delay), rod, guides, ratio, winches)| Moving {
+            wheel,
+            swivel,
+            drum,
+            motor,
+            damping,
+            speed_gain,
+            delay,
+            rod,
+            guides,
+            ratio,
+            winches,
+        },
+    )
+}
+
+/// Gives the drives of a robot their inertias and losses; at rest nothing changes.
+pub(super) fn set_moving(robot: &mut Robot, moving: &Moving) {
+    for (i, cable) in robot.cables.iter_mut().enumerate() {
+        cable.material.damping = Damping::Ratio(moving.ratio);
+        if let Some(pulley) = &mut cable.anchor.pulley {
+            pulley.inertia = moving.wheel * pulley.radius * pulley.radius;
+            pulley.swivel_inertia = moving.swivel;
+        }
+        let Some(winch) = &mut cable.anchor.winch else { continue };
+        winch.drum_mass = moving.drum * (1.0 + 0.1 * i as f64);
+        winch.motor_mass = moving.motor;
+        winch.damping = moving.damping;
+        winch.drum_side = if moving.rod { DrumSide::Rod } else { DrumSide::Massless };
+        if let Control::Position(servo) = &mut winch.control {
+            (servo.speed_gain, servo.delay) = (moving.speed_gain, moving.delay);
+        }
+        let length = winch.drum_side_length;
+        if length > 0.1 {
+            let wheel = |k: usize| GuideWheel {
+                name: format!("{k}"),
+                distance: length * (k + 1) as f64 / (moving.guides + 1) as f64 * (1.0 - 0.03 * i as f64),
+                mass: 0.2 + 0.1 * k as f64,
+            };
+            winch.guide_wheels = (0..moving.guides).map(wheel).collect();
+        }
+    }
+}
+
+/// Changes of the numbers that only count in vibration.
+pub(super) fn changes_of_moving(robot: &Robot) -> Vec<(&'static str, RobotChange)> {
+    let none = || RobotChange::none(robot.cables.len());
+    let mut all = Vec::new();
+    let mut of_cables = |name, set: &dyn Fn(f64, &Robot, usize, &mut CableChange)| {
+        let mut change = none();
+        for (i, cable) in change.cables.iter_mut().enumerate() {
+            set((2.1 * i as f64 + 0.7).sin(), robot, i, cable);
+        }
+        all.push((name, change));
+    };
+    of_cables("wheel", &|x, robot, i, cable| {
+        cable.pulley.inertia = robot.cables[i].anchor.pulley.as_ref().map_or(0.0, |of| 0.2 * x * of.inertia);
+    });
+    of_cables("swivel", &|x, robot, i, cable| {
+        cable.pulley.swivel_inertia =
+            robot.cables[i].anchor.pulley.as_ref().map_or(0.0, |of| 0.2 * x * of.swivel_inertia);
+    });
+    of_cables("drum", &|x, _, _, cable| cable.winch.drum_mass = 0.03 * x);
+    of_cables("motor", &|x, _, _, cable| cable.winch.motor_mass = 0.1 * x);
+    of_cables("motor's damping", &|x, _, _, cable| cable.winch.damping = 0.3 * x);
+    of_cables("speed gain", &|x, _, _, cable| cable.winch.speed_gain = 1.0 * x);
+    of_cables("delay", &|x, _, _, cable| cable.winch.delay = 1e-4 * x);
+    of_cables("guides", &|x, robot, i, cable| {
+        let count = robot.cables[i].anchor.winch.as_ref().map_or(0, |winch| winch.guide_wheels.len());
+        cable.guide_wheels = vec![GuideWheelChange { distance: 0.01 * x, mass: 0.02 }; count];
+    });
+    of_cables("damping", &|x, _, _, cable| cable.damping = 1e-4 * x);
+    all
+}
+
+/// Frequency limit of the lists [Hz].
+const BELOW_HZ: f64 = 4.0;
+
+fn linearised(robot: &Robot, rest: &Equilibrium, winches: WinchMode, cable_model: CableModel) -> Option<Dynamics> {
+    let linearisation = Linearisation { winches, cable_model, ..Linearisation::default() };
+    Dynamics::about(robot, rest, linearisation, BELOW_HZ).ok()
+}
+
+/// True if the error of a derivative is that of the differences: 1e-8 of the largest derivative of the row, what the
+/// extrapolation adds, and rounding of the value over the step.
+fn agrees(ours: f64, (difference, added): (f64, f64), largest: f64, rounding: f64) -> bool {
+    (ours - difference).abs() <= 1e-8 * largest + added + rounding
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 5, failure_persistence: None, ..Default::default() })]
+
+    /// Natural frequencies of robots with drives, of every mode that is alone, in all modes of the winches. They have eleven
+    /// digits; the steps change them by 1e-6 to 1e-3.
+    #[test]
+    fn frequencies_with_drives_follow_every_number(
+        chosen in chosen(),
+        moving in moving(),
+        model in prop_oneof![
+            4 => Just(CableModel::CatenaryDynamic), 1 => Just(CableModel::CatenaryStatic), 1 => Just(CableModel::Spring)
+        ],
+        first in 0..6_usize,
+    ) {
+        let Some((mut robot, rest)) = robot_of(&chosen) else { return Err(TestCaseError::reject("no such rest")) };
+        set_moving(&mut robot, &moving);
+        let Some(dynamics) = linearised(&robot, &rest, moving.winches, model) else {
+            return Err(TestCaseError::reject("the cable runs out"))
+        };
+        let modes = modes::below(&dynamics, BELOW_HZ).modes;
+        let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+        let vibration = gradients.vibration(&dynamics).unwrap();
+        let alone = |k: usize| {
+            let gap = |other: Option<&Mode>| other.is_none_or(|other| (other.frequency_hz / modes[k].frequency_hz - 1.0).abs() > 0.01);
+            gap(modes.get(k + 1)) && gap(k.checked_sub(1).and_then(|k| modes.get(k)))
+        };
+        let chosen: Vec<usize> = (0..modes.len().saturating_sub(1)).filter(|k| alone(*k)).collect();
+        let rows: Vec<RobotChange> = chosen.iter().map(|k| vibration.frequency(&modes[*k]).unwrap()).collect();
+        let mut all = changes(&robot);
+        all.extend(changes_of_moving(&robot));
+        let largest: Vec<f64> = rows.iter().map(|row| all.iter().fold(0.0, |most: f64, (_, change)| most.max(row.dot(change).abs()))).collect();
+
+        for (what, change) in all.into_iter().skip(first).step_by(6) {
+            let step = 0.02;
+            let values = |h: f64| {
+                let (robot, at) = changed(&robot, &rest, &change, h)?;
+                let found = modes::below(&linearised(&robot, &at, moving.winches, model)?, BELOW_HZ).modes;
+                (found.len() > *chosen.last()?).then(|| chosen.iter().map(|k| found[*k].frequency_hz).collect())
+            };
+            let Some((differences, added)) = extrapolated(step, values) else { continue };
+            for (i, k) in chosen.iter().enumerate() {
+                let (ours, value) = (rows[i].dot(&change), modes[*k].frequency_hz);
+                prop_assert!(
+                    agrees(ours, (differences[i], added[i]), largest[i], 3e-11 * value / step),
+                    "{what}, mode {k} at {value} Hz: {ours} {}, largest {}, added {}", differences[i], largest[i], added[i]
+                );
+            }
+        }
+    }
+}
+
+/// Signals on the platform.
+fn signals() -> ([Signal; 2], [(Signal, Quantity); 2]) {
+    let along = |direction_w, point_p| Signal::Along { direction_w, point_p };
+    let first = along(Vec3::new(0.2, 0.1, 1.0), Vec3::new(0.1, 0.05, 0.02));
+    let second = Signal::About { axis_w: Vec3::new(0.0, 1.0, 0.2) };
+    let out = along(Vec3::new(1.0, -0.2, 0.3), Vec3::new(-0.1, 0.0, 0.1));
+    ([first, second], [(out, Quantity::Acceleration), (first, Quantity::Displacement)])
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 5, failure_persistence: None, ..Default::default() })]
+
+    /// Damped frequencies, damping ratios and responses of robots whose drives have losses.
+    #[test]
+    fn losses_of_drives_follow_every_number(chosen in chosen(), moving in moving(), first in 0..7_usize) {
+        let Some((mut robot, rest)) = robot_of(&chosen) else { return Err(TestCaseError::reject("no such rest")) };
+        set_moving(&mut robot, &moving);
+        let Some(dynamics) = linearised(&robot, &rest, moving.winches, CableModel::CatenaryDynamic) else {
+            return Err(TestCaseError::reject("the cable runs out"))
+        };
+        let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+        let vibration = gradients.vibration(&dynamics).unwrap();
+        let damped = |dynamics: &Dynamics| {
+            let found = modes::damped::damped_modes(dynamics, &modes::below(dynamics, BELOW_HZ));
+            found.certified.then_some(found.modes)
+        };
+        let Some(found) = damped(&dynamics) else { return Err(TestCaseError::reject("no certified list")) };
+        let alone = |k: usize| {
+            let distance = |other: usize| (found[other].omega - found[k].omega).norm() / found[k].omega.norm();
+            (0..found.len()).filter(|other| *other != k).all(|other| distance(other) > 3e-3)
+        };
+        let picked: Vec<usize> = (0..found.len()).filter(|k| alone(*k) && found[*k].omega.re > 0.1 * found[*k].omega.norm()).take(6).collect();
+        let mut rows = Vec::new();
+        for k in &picked {
+            let of = vibration.damped(&found[*k]).unwrap();
+            rows.extend([of.frequency_hz, of.damping_ratio]);
+        }
+
+        // The mode of a changed robot is the nearest.
+        let nearest = |list: &[modes::damped::DampedMode], k: usize| -> Option<[f64; 2]> {
+            let distance = |mode: &modes::damped::DampedMode| (mode.omega - found[k].omega).norm();
+            let mode = list.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+            Some([mode.frequency_hz(), mode.damping_ratio()])
+        };
+        let (inputs, outputs) = signals();
+        let frequencies_hz = [0.6, 1.3, 2.71];
+        let responses = |dynamics: &Dynamics, rest: &Equilibrium| -> Option<Vec<f64>> {
+            let port = |signal: &Signal| Port::Platform(signal.platform_vector(&rest.pose).unwrap());
+            let from: Vec<_> = inputs.iter().map(port).collect();
+            let to: Vec<_> = outputs.iter().map(|(signal, quantity)| (port(signal), *quantity)).collect();
+            let rows = response::matrix(dynamics, &frequencies_hz, &from, &to).ok()?;
+            Some(rows.iter().flatten().flat_map(|z| [z.re, z.im]).collect())
+        };
+        let mut all = changes(&robot);
+        all.extend(changes_of_moving(&robot));
+        let directions: Vec<RobotChange> = all.iter().map(|(_, change)| change.clone()).collect();
+        let of_responses = vibration.responses(&inputs, &outputs, &frequencies_hz, &directions).unwrap();
+        let ours: Vec<Vec<f64>> = (0..directions.len()).map(|d| {
+            let modes = rows.iter().map(|row| row.dot(&directions[d]));
+            modes.chain(of_responses.iter().flatten().flat_map(|at| [at.along[d].re, at.along[d].im])).collect()
+        }).collect();
+        let values: Vec<f64> = picked.iter().flat_map(|k| [found[*k].frequency_hz(), found[*k].damping_ratio()])
+            .chain(responses(&dynamics, &rest).unwrap()).collect();
+
+        for (d, (what, change)) in all.iter().enumerate().skip(first).step_by(7) {
+            let step = 0.02;
+            let at = |h: f64| {
+                let (robot, at) = changed(&robot, &rest, change, h)?;
+                let dynamics = linearised(&robot, &at, moving.winches, CableModel::CatenaryDynamic)?;
+                let list = damped(&dynamics)?;
+                let mut values = Vec::new();
+                for k in &picked {
+                    values.extend(nearest(&list, *k)?);
+                }
+                values.extend(responses(&dynamics, &at)?);
+                Some(values)
+            };
+            let Some((differences, added)) = extrapolated(step, at) else { continue };
+            for (i, difference) in differences.iter().enumerate() {
+                let largest = ours.iter().fold(0.0, |most: f64, row| most.max(row[i].abs()));
+                // Zeros have ten digits.
+                prop_assert!(
+                    agrees(ours[d][i], (*difference, added[i]), 10.0 * largest, 3e-10 * values[i].abs() / step),
+                    "{what}, value {i} {}: {} {difference}, largest {largest}, added {}", values[i], ours[d][i], added[i]
+                );
+            }
+        }
     }
 }
