@@ -109,8 +109,19 @@ pub enum GradientError {
         frequency_hz: f64,
     },
     /// An input or output is not on the platform.
-    #[error("gradients of responses need inputs and outputs on the platform")]
+    #[error("gradients of responses need inputs and outputs on the platform, or at a drive: `length`, `motor`, `drum`")]
     NotOnPlatform,
+    /// A cable has no such signal of its drive, or none with gradients.
+    #[error(
+        "cable \"{cable}\" has no gradients of the signal `{signal}`: `length` needs a cable with a drum side or a winch that \
+         yields, `drum` and `motor` one that can move; choose another signal"
+    )]
+    NoDriveSignal {
+        /// Name of the cable.
+        cable: String,
+        /// Name of the signal.
+        signal: &'static str,
+    },
     /// The robot is undamped and the frequency is a natural one.
     #[error(
         "the response at {frequency_hz} Hz is not finite: an undamped natural frequency lies there; give the ropes \

@@ -131,6 +131,41 @@ fn tensions_and_poses_follow_pulleys_and_winches() {
 }
 
 #[test]
+fn vibration_follows_the_control_of_winches() {
+    let text = std::fs::read_to_string(robot("cogiro-winches.toml")).unwrap();
+    let text = text.replace("gear_ratio = 3\n", "gear_ratio = 3\ncontrol = \"position\"\nbandwidth_hz = 5\n");
+    let of = |text: &str, arguments: &[&str]| -> Value {
+        let output = run_with(&[arguments, &["--format", "json"]].concat(), text);
+        serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{arguments:?}: {}", stderr(&output)))
+    };
+    let response = ["--of", "response", "--at-hz", "1.7", "--input", "length:3", "--output", "z"];
+    let modes = ["gradient", "-", "--below-hz", "2.2", "--by", "winches", "--of", "frequencies"];
+    let by_winches = of(&text, &modes);
+    let by_response = of(&text, &[&["gradient", "-", "--by", "winches"], &response[..]].concat());
+    for (key, value, step) in [("bandwidth_hz", 5.0, 0.02), ("gear_ratio", 3.0, 0.01)] {
+        let changed = |step: f64| text.replace(&format!("{key} = {value}"), &format!("{key} = {}", value + step));
+        let path = format!("winches.drum.{key}");
+        for (result, found, arguments) in [
+            ("frequency 3", &by_winches, &modes[..]),
+            (
+                "response at 1.7 Hz, real part",
+                &by_response,
+                &[&["gradient", "-", "--by", "winches"], &response[..]].concat()[..],
+            ),
+        ] {
+            let value = |step: f64| {
+                let found = of(&changed(step), arguments);
+                let results = found["results"].as_array().unwrap();
+                number(&results.iter().find(|row| row["name"] == result).unwrap()["value"])
+            };
+            let (expected, ours) = (difference(step, value), derivative(found, result, &path));
+            // Third order of the step.
+            assert!((ours - expected).abs() < 1e-3 * expected.abs(), "{path}, {result}: {ours} {expected}");
+        }
+    }
+}
+
+#[test]
 fn requests_without_derivatives_are_refused_with_the_reason() {
     let cogiro = robot("cogiro.toml");
     for (arguments, expected) in [

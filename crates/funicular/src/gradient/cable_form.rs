@@ -10,13 +10,13 @@ use super::drive_form::{ControlAt, DriveAtFrequency, DriveForm};
 use super::end_form::EndAtRest;
 use super::scalar::{Field, Vector, add, add_times, cross, dot, times, vector};
 use crate::cable::catenary_dynamic::{
-    CatenaryDynamic, CatenaryDynamicEnd, Displacements, DriveAt, DriveLosses, Family, PoleResidue, Stations,
-    smooth_pieces,
+    CatenaryDynamic, CatenaryDynamicEnd, Displacements, DriveAt, DriveLosses, DriveSignal, Family, PoleResidue,
+    Stations, smooth_pieces,
 };
 use crate::catenary::space::HangingCable;
 use crate::drive::derivatives::end;
 use crate::math::{CDMat, Complex, DMat, Vec3, legendre};
-use crate::robot::{Anchor, Cable, WinchMode};
+use crate::robot::{Anchor, Cable, Servo, WinchMode};
 use crate::statics::CableState;
 use crate::statics::derivatives::StaticDerivativeError;
 use std::array::from_fn;
@@ -374,6 +374,21 @@ impl CableForm {
         let by_square = -(factor * mass);
         sum.mass += by_square * damping[0];
         sum.damping += by_square * damping[1];
+    }
+
+    /// Adds `factor` times the coefficients of the forces of a signal on the drive, over another motion.
+    pub(super) fn add_signal<T: Field>(
+        &self,
+        sum: &mut CableAdjoint<T>,
+        (signal, servo): (DriveSignal, Option<&Servo>),
+        other: &CableMotion<T>,
+        (own_square, at): (T, &CableAt<T>),
+        factor: T,
+    ) {
+        let Inertia::Modes(vibrating) = &self.inertia else { return };
+        let Some(VibratingEnd { form, .. }) = &vibrating.drive else { return };
+        let frequency = DriveAtFrequency { square: own_square, of_rope: at.square, control: at.control };
+        form.add_signal(sum, signal, other.of_drive(), (&frequency, servo, at.by_damping), factor);
     }
 
     /// Adds the coefficients of the directions in which the far end moves: along the cable and sideways, by their places among

@@ -6,6 +6,7 @@
 
 use super::adjoint::CableAdjoint;
 use super::scalar::Field;
+use crate::cable::catenary_dynamic::DriveSignal;
 use crate::drive::derivatives::end;
 use crate::drive::{AnchorEnd, ChainDescription, DriveAtRest, Piece, Place};
 use crate::math::Complex;
@@ -148,8 +149,7 @@ impl DriveForm {
                 sum.guide_mass(*wheel, by_mass);
             }
             self.add_winch(sum, chain, (a, b), at, factor, &mut by_ratio);
-            sum.end[end::STRETCH] += by_ratio * (1.0 / self.stretch_drum);
-            sum.end[end::STRETCH_DRUM] += by_ratio * (-self.stretch * self.stretch_drum.powi(-2));
+            self.add_ratio(sum, by_ratio);
         }
 
         // Sideways with the swivel.
@@ -303,7 +303,101 @@ impl DriveForm {
         }
     }
 
-    /// Motions of the drive under a unit of the signal and the coefficients of that force are in [`super::vibration`].
+    /// Adds `factor` times the coefficients of the forces on the drive per unit of a signal, over the motions `z` on which
+    /// they act; `by_damping` has the derivatives of ω_c².
+    pub(super) fn add_signal<T: Field>(
+        &self,
+        sum: &mut CableAdjoint<T>,
+        signal: DriveSignal,
+        z: &[T],
+        (at, servo, by_damping): (&DriveAtFrequency<T>, Option<&Servo>, [T; 2]),
+        factor: T,
+    ) {
+        let Some(chain) = &self.chain else { return };
+        let mut by_ratio = T::default();
+        // A place at the exit point contains one over the ratio of the stretches.
+        let mut add_place = |place: Place, force: T| {
+            if chain.is_at_exit(place) {
+                by_ratio += factor * force * moved(place, z) * (-1.0 / chain.ratio);
+            }
+        };
+        match (signal, chain.drum, chain.motor) {
+            (DriveSignal::Drum, Some(place), _) | (DriveSignal::Motor, _, Some(place)) => {
+                add_place(place, T::from(1.0))
+            }
+            (DriveSignal::Length, _, Some(motor)) => {
+                // C λ_E at the motor.
+                let (Some(servo), control) = (servo, &at.control) else { return };
+                let force = control.by_position_gain * servo.position_gain + control.by_speed_gain * servo.speed_gain;
+                let work = factor * moved(motor, z);
+                sum.end[end::STRETCH_DRUM] += work * force;
+                sum.drive.position_gain += work * control.by_position_gain * self.stretch_drum;
+                sum.drive.speed_gain += work * control.by_speed_gain * self.stretch_drum;
+                sum.drive.delay += work * control.by_delay * self.stretch_drum;
+                add_place(motor, force * self.stretch_drum);
+            }
+            (DriveSignal::Length, Some(drum), None) => {
+                // k λ_E at the drum.
+                let work = factor * moved(drum, z);
+                sum.end[end::STRETCH_DRUM] += work * chain.shaft;
+                sum.drive.stiffness += work * self.stretch_drum;
+                add_place(drum, T::from(chain.shaft * self.stretch_drum));
+            }
+            (DriveSignal::Length, None, None) => {
+                self.add_held_drum(sum, chain, z, (at, by_damping), factor, &mut by_ratio)
+            }
+            _ => {}
+        }
+        self.add_ratio(sum, by_ratio);
+    }
+
+    /// Adds the coefficients of the force `λ (k + ω_c² M)` of the last piece, whose end at the drum is moved by λ.
+    fn add_held_drum<T: Field>(
+        &self,
+        sum: &mut CableAdjoint<T>,
+        chain: &ChainDescription,
+        z: &[T],
+        (at, by_damping): (&DriveAtFrequency<T>, [T; 2]),
+        factor: T,
+        by_ratio: &mut T,
+    ) {
+        let Some((index, piece)) = chain.pieces.iter().enumerate().next_back() else { return };
+        let start = piece.ends[0].map_or_else(T::default, |place| moved(place, z));
+        let (mut mass, mut mass_of_start) = (T::default(), 0.0);
+        if let Some(matrix) = &piece.mass {
+            let size = 0.5 * self.mass_per_length * self.axial_stiffness / piece.spring;
+            mass = start * (matrix[(0, 1)] * size);
+            mass_of_start = matrix[(0, 1)] * size;
+            for (k, wave) in piece.waves.clone().enumerate() {
+                mass += z[wave] * (matrix[(k + 2, 1)] * size);
+            }
+        }
+
+        let inertia = factor * at.of_rope * mass;
+        let force = factor * start * piece.spring + inertia;
+        sum.end[end::STRETCH] += force;
+        let by_spring = (factor * start - inertia * (1.0 / piece.spring)) * self.stretch;
+        sum.end[end::STRETCH] += by_spring * (-2.0 * piece.spring / self.stretch);
+        self.add_compliance(sum, chain, index, by_spring * (-piece.spring / piece.compliance));
+        if piece.mass.is_some() {
+            sum.mass += inertia * (self.stretch / self.mass_per_length);
+            sum.stiffness += inertia * (self.stretch / self.axial_stiffness);
+            sum.mass += factor * mass * self.stretch * by_damping[0];
+            sum.damping += factor * mass * self.stretch * by_damping[1];
+        }
+        if let (Some(place), true) = (piece.ends[0], piece.by_ratio[0]) {
+            let per_motion = (T::from(piece.spring) + at.of_rope * mass_of_start) * self.stretch;
+            *by_ratio += factor * per_motion * z[place.motion] * (place.factor / chain.ratio);
+        }
+    }
+
+    /// Adds the coefficient of the ratio of the stretches.
+    fn add_ratio<T: Field>(&self, sum: &mut CableAdjoint<T>, by_ratio: T) {
+        sum.end[end::STRETCH] += by_ratio * (1.0 / self.stretch_drum);
+        sum.end[end::STRETCH_DRUM] += by_ratio * (-self.stretch * self.stretch_drum.powi(-2));
+    }
+
+    /// Chain of the motions along the cable.
     pub(super) fn chain(&self) -> Option<&ChainDescription> {
         self.chain.as_ref()
     }

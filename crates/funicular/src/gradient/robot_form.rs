@@ -6,7 +6,7 @@ use super::cable_form::{CableAt, CableForm, CableMotion};
 use super::drive_form::ControlAt;
 use super::end_form::EndAtRest;
 use super::scalar::{Field, Vector, add, add_times, cross, dot, outer, times, vector};
-use crate::cable::catenary_dynamic::{Family, MovingEnd};
+use crate::cable::catenary_dynamic::{DriveSignal, Family, MovingEnd};
 use crate::cable::{CableModel, DynamicCable};
 use crate::drive::derivatives::end;
 use crate::dynamics::{Assembly, DynamicCableAt, Dynamics, Linearisation};
@@ -175,6 +175,21 @@ impl RobotForm {
             }
         };
         RobotMotion { v, theta, cables: self.cables.iter().enumerate().map(of_cable).collect() }
+    }
+
+    /// Adds `factor` times the coefficients of the forces of a drive's signal, over another motion.
+    pub(super) fn add_signal<T: Field>(
+        &self,
+        sum: &mut Adjoint<T>,
+        (i, signal): (usize, DriveSignal),
+        other: &RobotMotion<T>,
+        at: &At<T>,
+        factor: T,
+    ) {
+        if let (AnyCable::Catenary(form), Some(motion)) = (&self.cables[i], other.cable(i)) {
+            let signal = (signal, self.servos[i].as_ref());
+            form.add_signal(&mut sum.cables[i], signal, motion, (at.square, &at.cables[i]), factor);
+        }
     }
 
     /// Adds `factor` times the coefficients of the form over two motions.

@@ -32,7 +32,10 @@ pub enum StaticDerivativeError {
         cable: String,
     },
     /// Cable whose anchor is on a flexible support.
-    #[error("the anchor of cable \"{cable}\" is on a flexible support: derivatives exist for anchors on a rigid frame")]
+    #[error(
+        "the anchor of cable \"{cable}\" is on a flexible support: derivatives exist for anchors on a rigid frame; remove \
+         `support` from the cables"
+    )]
     Support {
         /// Name of the cable.
         cable: String,
