@@ -14,12 +14,12 @@ const MAX_TIMES = 1000;
 
 const details = new Job();
 const dirty = { robot: false, frame: false, mode: false, response: false };
-let computing = false;
+let running = null; // the computation that is at work
 
 /** True if every change so far has its frame. */
-export const isIdle = () => !computing && page.frame !== null;
+export const isIdle = () => running === null && page.frame !== null && page.pending === 0;
 
-/** Notes what has changed and computes it. */
+/** Notes what has changed and computes it; resolves when everything so far is shown. */
 export function change(what) {
   Object.assign(dirty, what);
   if (what.robot || what.frame) {
@@ -27,38 +27,31 @@ export function change(what) {
     emit("outdated");
     dirty.frame = true;
   }
-  compute();
+  running ??= compute().finally(() => { running = null; });
+  return running;
 }
 
 /** Computes until nothing has changed; of several changes of one kind the last one counts. */
 async function compute() {
-  if (computing) {
-    return;
-  }
-  computing = true;
-  try {
-    while (dirty.robot || dirty.frame || dirty.mode || dirty.response) {
-      if (dirty.robot) {
-        dirty.robot = false;
-        await readRobot();
-      } else if (dirty.frame) {
-        dirty.frame = false;
-        await computeFrame();
-      } else if (dirty.mode) {
-        dirty.mode = false;
-        await computeMode();
-      } else {
-        dirty.response = false;
-        await computeResponse();
-      }
-      if (dirty.frame && page.answered?.milliseconds < SLOW_MS && dirty.response) {
-        // While the platform is dragged, the response follows every frame.
-        dirty.response = false;
-        await computeResponse();
-      }
+  while (dirty.robot || dirty.frame || dirty.mode || dirty.response) {
+    if (dirty.robot) {
+      dirty.robot = false;
+      await readRobot();
+    } else if (dirty.frame) {
+      dirty.frame = false;
+      await computeFrame();
+    } else if (dirty.mode) {
+      dirty.mode = false;
+      await computeMode();
+    } else {
+      dirty.response = false;
+      await computeResponse();
     }
-  } finally {
-    computing = false;
+    if (dirty.frame && page.answered?.milliseconds < SLOW_MS && dirty.response) {
+      // While the platform is dragged, the response follows every frame.
+      dirty.response = false;
+      await computeResponse();
+    }
   }
   rest();
 }

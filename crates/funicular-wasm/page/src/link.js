@@ -31,15 +31,12 @@ export async function restore(state) {
   if (rule && ![...$("rule").options].some(({ value }) => value === rule)) {
     $("rule").append(element("option", { value: rule }, rule));
   }
-  shown.modes = state.modes ?? 20;
-  await setRobot(state.robot.name, text, { robot: { name: state.robot.name, text, set: state.robot.set ?? [] }, hold: hold ?? "file", pose: pose ?? null, lengths: lengths ?? null, start, rule, pinned: pinned ?? [], more: more ?? {}, model: model ?? {} });
-  shown.response = response ?? null;
-  shown.mode = state.mode ?? -1;
-  shown.exaggeration = page.view.exaggeration = state.exaggeration ?? 1;
-  $("exaggeration").value = shown.exaggeration;
-  $("count").value = shown.modes;
-  $("rule").value = content.rule;
-  shown.camera = state.camera;
+  const display = { mode: state.mode ?? -1, modes: state.modes ?? 20, response: response ?? null, exaggeration: state.exaggeration ?? 1, camera: state.camera };
+  page.view.exaggeration = display.exaggeration;
+  $("exaggeration").value = display.exaggeration;
+  $("count").value = display.modes;
+  $("rule").value = rule;
+  await setRobot(state.robot.name, text, { robot: { name: state.robot.name, text, set: state.robot.set ?? [] }, hold: hold ?? "file", pose: pose ?? null, lengths: lengths ?? null, start, rule, pinned: pinned ?? [], more: more ?? {}, model: model ?? {} }, display);
   showPlay();
 }
 

@@ -2,7 +2,7 @@
 
 import * as comparison from "./comparison.js";
 import { isIdle, statics } from "./computation.js";
-import { CORES, Engine, prepare } from "./engine.js";
+import { CORES, prepare } from "./engine.js";
 import { $ } from "./format.js";
 import * as history from "./history.js";
 import * as key from "./key.js";
@@ -37,14 +37,10 @@ function setTheme(theme) {
   }
 }
 
-/** WebAssembly from this file, or from beside it. */
-async function coreBytes() {
+/** WebAssembly in this file, or beside it. */
+function core() {
   const own = $("core");
-  if (!own) {
-    return (await fetch("funicular.wasm")).arrayBuffer();
-  }
-  const packedBytes = Uint8Array.from(atob(own.textContent), (c) => c.charCodeAt(0));
-  return new Response(new Blob([packedBytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  return own ? { packed: own.textContent } : { address: new URL("funicular.wasm", location.href).href };
 }
 
 function makeView() {
@@ -91,19 +87,19 @@ async function firstRobot() {
 async function start() {
   setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
   $("version").textContent = VERSION;
-  await prepare(await coreBytes(), WORKER);
-  page.engine = new Engine();
+  page.engine = prepare(WORKER, core());
+  await page.engine.running;
   makeView();
   makeWorkspace();
-  const schema = JSON.parse((await page.engine.call("answer", { request: { command: "schema" } })).text);
 
   // The order of listeners is the order in which a frame is shown: the view first, whose colours the table takes.
-  robot.listen(schema);
+  robot.listen();
   [pose, tensions, modes, key, response, sliders, history, link, saving, comparison].forEach((part) => part.listen());
   on("rested", () => { $("state").dataset.settled = String(Number($("state").dataset.settled ?? 0) + 1); });
   $("remember").addEventListener("click", remember);
   $("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ({ matches }) => setTheme(matches ? "dark" : "light"));
+  performance.mark("ready");
   await firstRobot();
 }
 
@@ -121,4 +117,4 @@ window.funicular = {
   crash: () => page.engine.call("crash"),
 };
 
-start();
+start().catch((error) => tell(`The page cannot start: ${error.message}`));

@@ -6,26 +6,34 @@ import { $, element } from "./format.js";
 import { commit } from "./history.js";
 import { tell, textOf } from "./messages.js";
 import { allowed } from "./pose.js";
-import { pinFirst, readParameters, showSliders } from "./sliders.js";
+import { pinFirst, readParameters } from "./sliders.js";
 import { content, emit, on, page, shown } from "./store.js";
 
 let editor = null;
 
-/** Another robot: text, and what belongs to the old one goes. */
-export async function setRobot(name, text, more = {}) {
+/**
+ * Shows another robot; what belongs to the old one goes.
+ * @param {object} more parts of the content besides the text
+ * @param {object} display parts of what is shown: `mode`, `modes`, `response`, `exaggeration`, `camera`
+ */
+export async function setRobot(name, text, more = {}, display = {}) {
   const next = { robot: { name, text, set: [] }, hold: "file", pose: null, lengths: null, start: null, rule: "", pinned: [], more: {}, model: {}, ...more };
   Object.assign(content, next);
-  Object.assign(shown, { mode: -1, newRobot: true, response: more.response ?? null });
+  Object.assign(shown, { mode: -1, newRobot: true, response: null, ...display });
   page.view.setMode(null);
   page.frame = null;
+  page.parameters = [];
+  $("sliders").replaceChildren();
   emit("forget");
+
+  // The robot is shown first; the panel of its values follows.
+  page.pending += 1;
+  await change({ robot: true });
   await readParameters();
+  page.pending -= 1;
   if (content.pinned.length === 0) {
     pinFirst();
-  } else {
-    showSliders();
   }
-  change({ robot: true });
   commit();
 }
 
@@ -35,8 +43,8 @@ function showRobot(isNew) {
   $("name").textContent = about.name;
   $("source").textContent = check.source || "";
   document.title = `${about.name} – funicular`;
-  editor.text = about.text;
-  editor.issues = [];
+  shown.issues = [];
+  showText(about.text);
   $("issues").replaceChildren();
   view.setRobot(about, frame && !isNew ? frame : null, !isNew);
   if (isNew) {
@@ -59,12 +67,10 @@ function showRobot(isNew) {
 function showRefusal(error) {
   const { issues } = error;
   tell(issues.length ? `The robot file has ${issues.length === 1 ? "an error" : `${issues.length} errors`}: line ${issues[0].line}: ${issues[0].message}` : textOf(error));
-  if (content.robot.set.length === 0) {
-    editor.text = content.robot.text;
-  }
-  editor.issues = issues;
+  shown.issues = issues;
+  showText(content.robot.set.length === 0 ? content.robot.text : null);
   $("issues").replaceChildren(...issues.map((issue) => element("li", {},
-    element("button", { onclick: () => editor.show(issue.from_byte) }, `line ${issue.line}, column ${issue.column}`),
+    element("button", { onclick: () => editor?.show(issue.from_byte) }, `line ${issue.line}, column ${issue.column}`),
     `: ${issue.message}${issue.help ? ` (${issue.help})` : ""}`)));
 }
 
@@ -107,10 +113,23 @@ export function showLibrary() {
   $("library").value = own ? content.robot.name : "";
 }
 
-/** Makes the editor. `schema`: JSON Schema of the robot file, for the completion of keys. */
-function makeEditor(schema) {
+/** Shows the text of the robot in the editor, if it was opened, with its errors; null leaves the text. */
+function showText(text) {
+  if (editor) {
+    if (text !== null) {
+      editor.text = text;
+    }
+    editor.issues = shown.issues;
+  }
+}
+
+/** Makes the editor when its tab is opened for the first time: it is not needed to show a robot. */
+async function openEditor() {
+  if (editor) {
+    return;
+  }
   let typing = 0;
-  editor = new Editor($("editor"), schema, (text) => {
+  editor = new Editor($("editor"), (text) => {
     clearTimeout(typing);
     typing = setTimeout(async () => {
       content.robot = { ...content.robot, text, set: [] };
@@ -120,11 +139,12 @@ function makeEditor(schema) {
       commit();
     }, 300);
   });
+  showText(shown.issues.length && content.robot.set.length === 0 ? content.robot.text : page.about?.text ?? content.robot.text);
+  editor.schema = JSON.parse((await page.engine.call("answer", { request: { command: "schema" } })).text);
 }
 
 /** Listens to the library, files and the tabs of the panel. */
-export function listen(schema) {
-  makeEditor(schema);
+export function listen() {
   on("robot", showRobot);
   on("robot-refused", showRefusal);
   on("restored", showLibrary);
@@ -149,6 +169,9 @@ export function listen(schema) {
     other.setAttribute("aria-selected", String(other === tab));
     other.tabIndex = other === tab ? 0 : -1;
     $(other.getAttribute("aria-controls")).hidden = other !== tab;
+    if (other === tab && tab.id === "tab-file") {
+      openEditor();
+    }
   });
   tabs.forEach((tab, i) => {
     tab.addEventListener("click", () => choose(tab));

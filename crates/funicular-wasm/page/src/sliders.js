@@ -8,12 +8,15 @@ import { content, on, page } from "./store.js";
 
 /** Reads the numbers of the robot file. */
 export async function readParameters() {
+  page.pending += 1;
   try {
     const robot = { ...content.robot, set: [] };
     const { text } = await page.engine.call("answer", { request: { command: "parameters", robot } });
     page.parameters = JSON.parse(text).parameters;
   } catch {
     return; // the reader of the robot tells the error
+  } finally {
+    page.pending -= 1;
   }
   $("paths").replaceChildren(...page.parameters.map(({ path, unit, meaning }) => element("option", { value: path }, `${unit === "1" ? "" : `${unit}: `}${meaning}`)));
   showSliders();

@@ -15,7 +15,7 @@ export const content = {
 };
 
 /** What is shown, without being part of the robot's state. */
-export const shown = { mode: -1, modes: 20, response: null, exaggeration: 1 };
+export const shown = { mode: -1, modes: 20, response: null, exaggeration: 1, issues: [] };
 
 /** Results for the state, and the parts of the page that are made once. */
 export const page = {
@@ -27,6 +27,7 @@ export const page = {
   before: null, // remembered frame, with its response
   answered: null, // last response
   settled: { statics: null, payload: null }, // results of the long computations
+  pending: 0, // readings of parameters without an answer
   times: [], // milliseconds from a request of a frame to its display
 };
 

@@ -28,13 +28,21 @@ export function colorOf(fraction) {
   return SCALE[low].clone().lerp(SCALE[low + 1], at - low);
 }
 
-/** True if the browser draws without a graphics card: then smooth edges and fine pixels take longer than a frame. */
-function isSoftware() {
-  const gl = document.createElement("canvas").getContext("webgl2");
-  const about = gl?.getExtension("WEBGL_debug_renderer_info");
-  const name = about ? gl.getParameter(about.UNMASKED_RENDERER_WEBGL) : "";
-  gl?.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+/** Canvas with its context. Without a graphics card smooth edges and fine pixels take longer than a frame. */
+function drawing() {
+  const made = (antialias) => {
+    const canvas = document.createElement("canvas");
+    const context = canvas.getContext("webgl2", { alpha: true, stencil: false, antialias });
+    return { canvas, context: context ?? undefined };
+  };
+  const smooth = made(true);
+  const about = smooth.context?.getExtension("WEBGL_debug_renderer_info");
+  const name = about ? smooth.context.getParameter(about.UNMASKED_RENDERER_WEBGL) : "";
+  if (!/swiftshader|llvmpipe|software|basic render/i.test(name)) {
+    return { ...smooth, software: false };
+  }
+  smooth.context.getExtension("WEBGL_lose_context")?.loseContext();
+  return { ...made(false), software: true };
 }
 
 export class View {
@@ -52,9 +60,10 @@ export class View {
     this.before = null;
     this.canDrag = true;
 
-    this.software = isSoftware();
-    this.renderer = new WebGLRenderer({ antialias: !this.software, alpha: true });
-    this.canvas = this.renderer.domElement;
+    const { canvas, context, software } = drawing();
+    this.software = software;
+    this.renderer = new WebGLRenderer({ canvas, context, alpha: true });
+    this.canvas = canvas;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
     this.labels = document.createElement("div");
