@@ -94,6 +94,21 @@ export function response({ curves, peaks, modes, unit, title, log, width }) {
   return `<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" aria-label="Frequency response. ${escaped(summary)}" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">${parts.join("")}</svg>`;
 }
 
+/**
+ * Effects as bars from a common zero, the largest first. Elements of HTML, so that long names break into lines.
+ * @param {object} of `rows` (list of {name, path, value}), `label`, `unit`
+ */
+export function bars({ rows, label, unit }) {
+  const most = Math.max(...rows.map(({ value }) => Math.abs(value)));
+  const row = ({ name, path, value }) => {
+    const words = `${value < 0 ? "−" : "+"}${short(Math.abs(value), 3)} ${unit}`;
+    const [from, wide] = [value < 0 ? 50 + (50 * value) / most : 50, (50 * Math.abs(value)) / most];
+    return `<li data-path="${escaped(path)}" role="button" tabindex="0" aria-label="${escaped(`${name}: ${words}. Add a slider`)}"><span>${escaped(name)}</span>`
+      + `<span class="bar-track"><i class="${value < 0 ? "less" : "more"}" style="left:${from.toFixed(1)}%;width:${wide.toFixed(1)}%"></i></span><b>${escaped(words)}</b></li>`;
+  };
+  return `<p class="soft">${escaped(label)}</p><ul class="bars" aria-label="${escaped(label)}">${rows.map(row).join("")}</ul>`;
+}
+
 /** Extremum as a list of one, without spreading long lists into arguments. */
 const finite = (values, of) => [values.length ? values.reduce((a, b) => of(a, b)) : 1];
 

@@ -5,6 +5,7 @@ import { isIdle, statics } from "./computation.js";
 import { CORES, prepare } from "./engine.js";
 import { $ } from "./format.js";
 import * as history from "./history.js";
+import * as influence from "./influence.js";
 import * as key from "./key.js";
 import * as link from "./link.js";
 import { tell } from "./messages.js";
@@ -94,7 +95,8 @@ async function start() {
 
   // The order of listeners is the order in which a frame is shown: the view first, whose colours the table takes.
   robot.listen();
-  [pose, tensions, modes, key, response, sliders, history, link, saving, comparison].forEach((part) => part.listen());
+  const parts = [pose, tensions, modes, key, response, sliders, influence, history, link, saving, comparison];
+  parts.forEach((part) => part.listen());
   on("rested", () => { $("state").dataset.settled = String(Number($("state").dataset.settled ?? 0) + 1); });
   $("remember").addEventListener("click", remember);
   $("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
