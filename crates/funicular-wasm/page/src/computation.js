@@ -136,16 +136,15 @@ async function computeMode() {
     return;
   }
   const { shape, hz } = frame.modes[shown.mode];
-  try {
-    const cables = await modeOf(shown.mode);
-    if (shown.mode >= 0) {
-      view.setMode({ cables, shape, hz });
-    }
-  } catch (error) {
+  const cables = await modeOf(shown.mode).catch((error) => {
     if (!(error instanceof Cancelled)) {
-      // A cable model that describes ends only has no shapes to show.
+      // A cable model that describes ends only has no shapes: straight lines follow the platform.
       tell(error.message, true);
     }
+    return null;
+  });
+  if (shown.mode >= 0) {
+    view.setMode({ cables, shape, hz });
   }
 }
 

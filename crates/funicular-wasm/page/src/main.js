@@ -11,6 +11,7 @@ import * as link from "./link.js";
 import { tell } from "./messages.js";
 import * as modes from "./modes.js";
 import * as pose from "./pose.js";
+import * as release from "./release.js";
 import * as response from "./response.js";
 import * as robot from "./robot.js";
 import * as saving from "./saving.js";
@@ -95,7 +96,7 @@ async function start() {
 
   // The order of listeners is the order in which a frame is shown: the view first, whose colours the table takes.
   robot.listen();
-  const parts = [pose, tensions, modes, key, response, sliders, influence, history, link, saving, comparison];
+  const parts = [pose, tensions, modes, key, response, sliders, influence, release, history, link, saving, comparison];
   parts.forEach((part) => part.listen());
   on("rested", () => { $("state").dataset.settled = String(Number($("state").dataset.settled ?? 0) + 1); });
   $("remember").addEventListener("click", remember);

@@ -8,7 +8,7 @@ import { emit, on, page, shown } from "./store.js";
 const MAX_MODES = 200;
 
 /** Words for the kinds of modes. */
-export const KINDS = { platform: "platform", cable: "cables", drive: "drives", mixed: "platform and cables" };
+export const KINDS = { platform: "platform", cable: "cables", drive: "drives and supports", mixed: "platform and cables" };
 
 function rowOf(i) {
   const row = element("tr", { class: "pick" }, element("td", {}, element("button", { "aria-label": `Show mode ${i + 1}` }, String(i + 1))), element("td"), element("td"), element("td", { class: "left" }),

@@ -17,13 +17,17 @@ function showLegend() {
   const { frame } = page;
   const limits = frame.limited && frame.cables.every((cable) => Number.isFinite(cable.maximum));
   const scale = [0, 0.2, 0.4, 0.6, 0.8, 1].map((at) => `#${colorOf(at).getHexString()}`).join(",");
-  const key = String(limits);
+  const { kinds } = page.view.drives;
+  const key = `${limits} ${Object.values(kinds)}`;
   if ($("legend").dataset.key === key) {
     return;
   }
   $("legend").dataset.key = key;
   $("legend").innerHTML = `<span>Tension: ${limits ? "minimum" : "none"}<i style="background:linear-gradient(90deg,${scale})"></i>${limits ? "maximum" : "highest"}</span>`
-    + `<span><i class="one" style="background:${COLORS.slack}"></i>slack</span><span><i class="one" style="background:${COLORS.beyond}"></i>beyond a limit</span>`;
+    + `<span><i class="one" style="background:${COLORS.slack}"></i>slack</span><span><i class="one" style="background:${COLORS.beyond}"></i>beyond a limit</span>`
+    + (kinds.drums ? '<span><i class="dot drum"></i>drum</span>' : "")
+    + (kinds.pulleys ? `<span><i class="dot wheel"></i>pulley${kinds.guides ? ", guide wheel" : ""}</span>` : "")
+    + (kinds.supports ? '<span><i class="dot support"></i>flexible support</span>' : "");
 }
 
 function rowOf(i) {
