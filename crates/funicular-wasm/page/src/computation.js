@@ -92,11 +92,12 @@ async function readRobot() {
     const isNew = page.about === null || shown.newRobot;
     page.about = found.about;
     tell(null);
-    shown.newRobot = false;
+    shown.newRobot = shown.refused = false;
     emit("robot", isNew);
   } catch (error) {
     dirty.frame = false;
     if (!(error instanceof Cancelled)) {
+      shown.refused = true;
       emit("robot-refused", error);
     }
   }
@@ -199,7 +200,7 @@ export function rest() {
   clearTimeout(waitingForRest);
   waitingForRest = setTimeout(async () => {
     const { frame, view } = page;
-    if (!frame || shown.broken || view.dragging) {
+    if (!frame || shown.broken || shown.refused || view.dragging) {
       return;
     }
     emit("rest");
