@@ -99,12 +99,18 @@ async function start() {
   robot.listen();
   const parts = [pose, tensions, modes, key, response, sliders, influence, release, history, link, embedded, saving, comparison];
   parts.forEach((part) => part.listen());
+  on("frame", () => {
+    if (performance.getEntriesByName("frame").length === 0) {
+      performance.mark("frame");
+    }
+  });
   on("rested", () => { $("state").dataset.settled = String(Number($("state").dataset.settled ?? 0) + 1); });
   $("remember").addEventListener("click", remember);
   $("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ({ matches }) => setTheme(matches ? "dark" : "light"));
   performance.mark("ready");
   await firstRobot();
+  performance.mark("complete");
 }
 
 // For tests: the state and the numbers of the page, as data.
@@ -118,6 +124,11 @@ window.funicular = {
   get idle() { return isIdle(); },
   get view() { return page.view; },
   ask: async (request) => JSON.parse((await page.engine.call("answer", { request })).text),
+  timeOfResponse: async () => {
+    const { input, output, from, to, log } = shown.response;
+    const request = { input, output, from_hz: from, to_hz: to, points: 1000, log };
+    return (await page.engine.call("response", { request })).milliseconds;
+  },
   crash: () => page.engine.call("crash"),
 };
 

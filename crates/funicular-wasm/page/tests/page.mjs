@@ -631,6 +631,30 @@ test("the page is as small as promised", (t) => {
   }
 });
 
+const part = (list, fraction) => [...list].sort((a, b) => a - b)[Math.floor(fraction * (list.length - 1))];
+
+test("the page loads fast enough", { skip: !process.env.FUNICULAR_MEASURE }, async (t) => {
+  const loads = [];
+  for (let i = 0; i < 5; i += 1) {
+    const own = await browser.newContext({ viewport: { width: 1440, height: 900 } });
+    const made = await own.newPage();
+    const tools = await own.newCDPSession(made);
+    await tools.send("Performance.enable", { timeDomain: "threadTicks" });
+    await made.goto(address, { waitUntil: "commit" });
+    await made.waitForFunction(() => performance.getEntriesByName("complete").length > 0 && window.funicular.idle);
+    const marks = await made.evaluate(() => Object.fromEntries(performance.getEntriesByType("mark").map((mark) => [mark.name, mark.startTime])));
+    const { metrics } = await tools.send("Performance.getMetrics");
+    const of = (name) => metrics.find((one) => one.name === name)?.value ?? NaN;
+    loads.push({ ...marks, thread: 1000 * of("TaskDuration"), process: 1000 * of("ProcessTime") });
+    await own.close();
+  }
+  for (const name of ["ready", "frame", "complete"]) {
+    t.diagnostic(`${name}: median ${part(loads.map((one) => one[name]), 0.5).toFixed(0)} ms after the address was opened`);
+  }
+  t.diagnostic(`processor time, median: main thread ${part(loads.map((one) => one.thread), 0.5).toFixed(0)} ms, all threads of the page ${part(loads.map((one) => one.process), 0.5).toFixed(0)} ms`);
+  assert.ok(part(loads.map((one) => one.frame), 0.5) <= 1500);
+});
+
 test("a frame is fast enough to drag", { skip: !process.env.FUNICULAR_MEASURE }, async (t) => {
   const own = await opened(address);
   const times = await own.evaluate(async () => {
@@ -647,12 +671,16 @@ test("a frame is fast enough to drag", { skip: !process.env.FUNICULAR_MEASURE },
       last = performance.now();
     }
     view.dragging = false;
-    return { frames, computed: [...window.funicular.times] };
+    const responses = [];
+    for (let i = 0; i < 30; i += 1) {
+      responses.push(await window.funicular.timeOfResponse());
+    }
+    return { frames, computed: [...window.funicular.times], responses };
   });
-  const part = (list, fraction) => [...list].sort((a, b) => a - b)[Math.floor(fraction * (list.length - 1))];
   for (const [name, list] of Object.entries(times)) {
     t.diagnostic(`${name}: median ${part(list, 0.5).toFixed(1)} ms, 95th percentile ${part(list, 0.95).toFixed(1)} ms of ${list.length}`);
   }
   assert.ok(part(times.computed, 0.5) <= 16 && part(times.computed, 0.95) <= 33);
+  assert.ok(part(times.responses, 0.5) <= 30);
   await own.close();
 });
