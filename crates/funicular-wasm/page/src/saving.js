@@ -9,6 +9,13 @@ import { commands, python } from "./words.js";
 
 const job = new Job();
 
+/** Figures that can be saved: where they are, and what makes them. */
+const FIGURES = {
+  response: ["bode", "There is no frequency response to save at this state."],
+  map: ["map", "There is no slice of the workspace yet: press “Compute” below “Workspace” first."],
+  release: ["release", "There is no release yet: press “Release” below “Release of a payload” first."],
+};
+
 const fileName = () => `${(content.robot.name || page.about?.name || "robot").replace(/^.*[/\\]/, "").replace(/\.toml$/, "").replace(/[^\w.-]+/g, "-").toLowerCase()}.toml`;
 
 function showWords() {
@@ -30,8 +37,13 @@ async function saveAs(kind) {
     save(`${name}.png`, await page.view.png(), "image/png");
   } else if (kind === "svg") {
     save(`${name}.svg`, page.view.svg(), "image/svg+xml");
-  } else if (kind === "response") {
-    save(`${name}-response.svg`, styled($("bode").innerHTML), "image/svg+xml");
+  } else if (FIGURES[kind]) {
+    const figure = $(FIGURES[kind][0]).querySelector("svg");
+    if (figure) {
+      save(`${name}-${kind}.svg`, styled(figure.outerHTML), "image/svg+xml");
+    } else {
+      tell(FIGURES[kind][1], true);
+    }
   } else {
     const own = await results();
     if (kind === "json") {
@@ -46,8 +58,8 @@ async function saveAs(kind) {
 function styled(figure) {
   const style = getComputedStyle(document.documentElement);
   const color = (name) => style.getPropertyValue(name).trim();
-  const rules = `text{fill:${color("--soft")}}.grid{stroke:${color("--line")}}.mode{stroke:#777}.now{fill:none;stroke:${color("--accent")};stroke-width:1.6}.past{fill:none;stroke:#777;stroke-dasharray:4 3}.peak{fill:${color("--accent")}}svg{font:11px sans-serif}`;
-  return figure.replace(/>/, `><style>${rules}</style><rect width="100%" height="100%" fill="${color("--paper")}"/>`);
+  const rules = `.axis{stroke:${color("--soft")}}.frame{fill:none;stroke:${color("--soft")}}.here{fill:none;stroke:#d1249d;stroke-width:2.5}text{fill:${color("--soft")}}.grid{stroke:${color("--line")}}.mode{stroke:#777}.now{fill:none;stroke:${color("--accent")};stroke-width:1.6}.past{fill:none;stroke:#777;stroke-dasharray:4 3}.peak{fill:${color("--accent")}}svg{font:11px sans-serif}`;
+  return figure.replaceAll("var(--none)", color("--none")).replace(/>/, `><style>${rules}</style><rect width="100%" height="100%" fill="${color("--paper")}"/>`);
 }
 
 /** Results of the program for the present state, in its JSON. */

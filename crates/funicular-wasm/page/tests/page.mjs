@@ -396,6 +396,20 @@ test("the keyboard is enough", async () => {
   }
 });
 
+test("a screen reader is told the name of every control, and figures have a text", async () => {
+  await choose("cogiro");
+  await page.click("#tab-file");
+  const tools = await page.context().newCDPSession(page);
+  const { nodes } = await tools.send("Accessibility.getFullAXTree");
+  const controls = ["button", "textbox", "combobox", "slider", "spinbutton", "checkbox", "tab", "link", "image", "progressbar"];
+  const of = nodes.filter(({ ignored, role }) => !ignored && controls.includes(role?.value));
+  assert.ok(of.length > 60, `${of.length} controls`);
+  const nameless = of.filter(({ name }) => !name?.value?.trim());
+  assert.deepEqual(nameless.map(({ role, properties }) => `${role.value} ${JSON.stringify(properties)}`), []);
+  assert.ok(of.some(({ role, name }) => role.value === "image" && /^Frequency response\. Highest peak/.test(name.value)));
+  await page.click("#tab-values");
+});
+
 test("on a phone everything is in one column", async () => {
   const phone = await opened(address, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, colorScheme: "dark" });
   const wide = await phone.evaluate(() => document.documentElement.scrollWidth);
