@@ -123,6 +123,7 @@ window.funicular = {
   get times() { return page.times; },
   get idle() { return isIdle(); },
   get view() { return page.view; },
+  get engine() { return page.engine; },
   ask: async (request) => JSON.parse((await page.engine.call("answer", { request })).text),
   timeOfResponse: async () => {
     const { input, output, from, to, log } = shown.response;

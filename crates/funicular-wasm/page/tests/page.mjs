@@ -630,6 +630,28 @@ test("a mistake in the core is told, and the page lives on", async () => {
   assert.match(told, /mistake in funicular|memory or stack ran out/);
   await choose("caroca");
   assert.equal((await frame()).cables.length, 8);
+
+  // The same instead of a frame: the page shows what happened and how to report it, and the next change is computed.
+  const start = await frame();
+  await page.evaluate(() => {
+    const { engine } = window.funicular;
+    const own = engine.call;
+    engine.call = (name, more) => {
+      if (name !== "frame") {
+        return own.call(engine, name, more);
+      }
+      delete engine.call;
+      return own.call(engine, "crash");
+    };
+  });
+  await page.fill("[data-pose='0']", "0.1");
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => /started again/.test(document.getElementById("message").textContent));
+  assert.match(await text("#message"), /mistake in funicular[\s\S]*please report it with the request[\s\S]*The page has started again with the last robot/);
+  assert.deepEqual((await frame()).position, start.position);
+  await framed(async () => { await page.fill("[data-pose='0']", "0.2"); await page.keyboard.press("Enter"); });
+  assert.equal((await frame()).position[0], 0.2);
+  assert.equal(await page.locator("#message").isVisible(), false);
 });
 
 test("nothing failed on the console, and nothing was requested from a network", () => {
