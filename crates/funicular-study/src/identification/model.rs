@@ -240,17 +240,16 @@ impl<'a> IdentifiedModel<'a> {
             for (k, column) in found.into_iter().enumerate() {
                 columns[k].extend(match column {
                     Some(column) => column,
-                    None => self.differences(x, number, solved, k)?,
+                    None => self.differences(x, number, solved, k, STEP * self.unknowns[k].spread())?,
                 });
             }
         }
         Some(columns)
     }
 
-    /// Derivatives of the predictions of an experiment by a coordinate, by central differences; one-sided ones at a bound
+    /// Derivatives of the predictions of an experiment by a coordinate, by central differences over a step; one-sided ones at a bound
     /// or beside a robot without equilibrium.
-    fn differences(&mut self, x: &[f64], number: usize, here: &Solved, k: usize) -> Option<Vec<Complex>> {
-        let step = STEP * self.unknowns[k].spread();
+    fn differences(&mut self, x: &[f64], number: usize, here: &Solved, k: usize, step: f64) -> Option<Vec<Complex>> {
         let (low, high) = self.unknowns[k].coordinate_bounds();
         let mut at = |shift: f64| -> Option<Vec<Complex>> {
             if !(low..=high).contains(&(x[k] + shift)) {
