@@ -9,8 +9,8 @@ from typing import Any
 import funicular
 
 # Options for the place and the form of a result, which do not change the computation.
-OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--matrices", "--resume", "--discard", "--part", "--threads", "--fitted", "--page"}
-OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode"}
+OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--matrices", "--resume", "--discard", "--part", "--threads"}
+OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--page", "--samples-file"}
 # Options without a value.
 SWITCHES = {
     *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
@@ -66,7 +66,7 @@ def steps(text: str) -> Any:
 def value(command: str, option: str, text: str) -> Any:
     if (command, option) == ("pose-error", "--mass-kg"):
         return steps(text)
-    if option in ("--of", "--by", "--tolerances"):
+    if option in ("--of", "--by", "--tolerances", "--deviations"):
         return text.split(",")
     if option in ("--input", "--output", "--name", "--rope") or re.search("[a-z]{2}", text):
         return text
