@@ -135,7 +135,8 @@ impl Sampling {
             column("reason".to_owned(), "", "reason why the robot has no results", ColumnKind::Text),
         ];
         let results = self.kinds.iter();
-        columns.extend(results.map(|kind| column(kind.column(robot), kind.unit(), &kind.name(robot), ColumnKind::Real)));
+        columns
+            .extend(results.map(|kind| column(kind.column(robot), kind.unit(), &kind.name(robot), ColumnKind::Real)));
         columns
     }
 
