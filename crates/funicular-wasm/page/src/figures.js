@@ -173,7 +173,7 @@ export function slice({ axes, ranges, cells, here, label, unit, width }) {
     const color = Number.isFinite(value) ? mapColor(most > least ? (value - least) / (most - least) : 0.5) : "var(--none)";
     const [x0, x1] = [Math.max(u0, u - du / 2), Math.min(u1, u + du / 2)].map(x);
     const [y0, y1] = [Math.min(v1, v + dv / 2), Math.max(v0, v - dv / 2)].map(y);
-    parts.push(`<rect x="${x0.toFixed(2)}" y="${y0.toFixed(2)}" width="${(x1 - x0 + 0.3).toFixed(2)}" height="${(y1 - y0 + 0.3).toFixed(2)}" fill="${color}"/>`);
+    parts.push(`<rect x="${x0.toFixed(2)}" y="${y0.toFixed(2)}" width="${(x1 - x0 + 0.3).toFixed(2)}" height="${(y1 - y0 + 0.3).toFixed(2)}" fill="${color}" shape-rendering="crispEdges"/>`);
   }
   for (const u of ticks(u0, u1, 6)) {
     parts.push(`<line class="axis" x1="${x(u).toFixed(1)}" y1="${top + high}" x2="${x(u).toFixed(1)}" y2="${top + high + 4}"/><text x="${x(u).toFixed(1)}" y="${top + high + 16}" text-anchor="middle">${tick(u)}</text>`);

@@ -5,6 +5,7 @@ import { statics } from "./computation.js";
 import { Cancelled, Job } from "./engine.js";
 import { bars } from "./figures.js";
 import { $, element, short } from "./format.js";
+import { busy } from "./messages.js";
 import { chooseMode } from "./modes.js";
 import { pin } from "./sliders.js";
 import { content, on, page, shown } from "./store.js";
@@ -35,6 +36,7 @@ async function compute() {
     command: "gradient", ...statics(), ...content.model, of: ["frequencies"], below_hz: mode.hz * (1 + MARGIN),
     hold: $("influence-hold").value, per: $("influence-per").value,
   };
+  const done = busy("Computing the influence of all values", () => { job.cancel(); found = { reason: "Cancelled." }; show(); });
   try {
     const text = await job.run(1, async ([worker]) => (await worker.call("answer", { request })).text);
     found = { table: JSON.parse(text), mode, index: shown.mode };
@@ -43,6 +45,8 @@ async function compute() {
       return;
     }
     found = { reason: error.message };
+  } finally {
+    done();
   }
   place.removeAttribute("aria-busy");
   show();

@@ -4,6 +4,7 @@ import * as comparison from "./comparison.js";
 import { isIdle, statics } from "./computation.js";
 import { CORES, prepare } from "./engine.js";
 import { $ } from "./format.js";
+import * as embedded from "./embedded.js";
 import * as history from "./history.js";
 import * as influence from "./influence.js";
 import * as key from "./key.js";
@@ -96,7 +97,7 @@ async function start() {
 
   // The order of listeners is the order in which a frame is shown: the view first, whose colours the table takes.
   robot.listen();
-  const parts = [pose, tensions, modes, key, response, sliders, influence, release, history, link, saving, comparison];
+  const parts = [pose, tensions, modes, key, response, sliders, influence, release, history, link, embedded, saving, comparison];
   parts.forEach((part) => part.listen());
   on("rested", () => { $("state").dataset.settled = String(Number($("state").dataset.settled ?? 0) + 1); });
   $("remember").addEventListener("click", remember);

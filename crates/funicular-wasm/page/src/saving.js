@@ -2,9 +2,12 @@
 
 import { mayChoose, RESPONSE_POINTS, statics } from "./computation.js";
 import { $, save } from "./format.js";
-import { put, tell } from "./messages.js";
+import { Cancelled, Job } from "./engine.js";
+import { busy, put, tell } from "./messages.js";
 import { content, on, page, shown } from "./store.js";
 import { commands, python } from "./words.js";
+
+const job = new Job();
 
 const fileName = () => `${(content.robot.name || page.about?.name || "robot").replace(/^.*[/\\]/, "").replace(/\.toml$/, "").replace(/[^\w.-]+/g, "-").toLowerCase()}.toml`;
 
@@ -50,13 +53,21 @@ function styled(figure) {
 /** Results of the program for the present state, in its JSON. */
 async function results() {
   const state = statics();
-  const ask = async (command, more = {}) => JSON.parse((await page.engine.call("answer", { request: { command, ...state, ...more } })).text);
-  const own = { statics: await ask("statics"), modes: await ask("modes", { ...content.model, below_hz: page.frame.belowHz || 20 }) };
   const { input, output, from, to, log } = shown.response;
-  if (from !== null) {
-    own.frf = await ask("frf", { ...content.model, input, output, from_hz: from, to_hz: to, points: RESPONSE_POINTS, log });
+  const belowHz = page.frame.belowHz || 20;
+  const done = busy("Computing the results for the file", () => job.cancel());
+  try {
+    return await job.run(1, async ([worker]) => {
+      const ask = async (command, more = {}) => JSON.parse((await worker.call("answer", { request: { command, ...state, ...more } })).text);
+      const own = { statics: await ask("statics"), modes: await ask("modes", { ...content.model, below_hz: belowHz }) };
+      if (from !== null) {
+        own.frf = await ask("frf", { ...content.model, input, output, from_hz: from, to_hz: to, points: RESPONSE_POINTS, log });
+      }
+      return own;
+    });
+  } finally {
+    done();
   }
-  return own;
 }
 
 function csv({ statics: rest, modes, frf }) {
@@ -93,6 +104,10 @@ export async function copy(text, button) {
 /** Listens to the menu of files and the buttons that copy. */
 export function listen() {
   on("rest", showWords);
-  document.querySelectorAll("[data-save]").forEach((button) => button.addEventListener("click", () => saveAs(button.dataset.save).catch((error) => tell(error.message))));
+  document.querySelectorAll("[data-save]").forEach((button) => button.addEventListener("click", () => saveAs(button.dataset.save).catch((error) => {
+    if (!(error instanceof Cancelled)) {
+      tell(error.message);
+    }
+  })));
   document.querySelectorAll("[data-copy]").forEach((button) => button.addEventListener("click", () => copy($(button.dataset.copy).textContent, button)));
 }
