@@ -97,12 +97,14 @@ fn check(experiment: &Value, cable_model: &str, expected_equilibria: usize) {
         // The error of two differences of which one has half the step is of the fourth order in it.
         let step = 0.25 * STEP * unknowns[k].spread();
         let [coarse, fine] = [step, 0.5 * step].map(|step| model.differences(&x, 0, &solved[0], k, step).unwrap());
-        let by_differences: Vec<Complex> = fine.iter().zip(&coarse).map(|(fine, coarse)| (fine * 4.0 - coarse) / 3.0).collect();
+        let by_differences: Vec<Complex> =
+            fine.iter().zip(&coarse).map(|(fine, coarse)| (fine * 4.0 - coarse) / 3.0).collect();
         assert_eq!(column.len(), by_differences.len());
 
         for (i, (own, other)) in column.iter().zip(&by_differences).enumerate() {
             let kind = model.observations[i].kind;
-            let same = by_differences.iter().zip(&model.observations).filter(|(_, observation)| observation.kind == kind);
+            let same =
+                by_differences.iter().zip(&model.observations).filter(|(_, observation)| observation.kind == kind);
             let largest = same.fold(0.0_f64, |largest, (value, _)| largest.max(value.norm()));
             // An equilibrium that is converged to 1e-12 m leaves 1e-7 of a difference over such a step.
             let error = (own - other).norm();
