@@ -1,34 +1,37 @@
 //! Arguments of the program.
 
 mod export;
+mod gradient;
 mod groups;
 mod identify;
 mod import;
 mod names;
 mod new_robot;
+mod pages;
 mod request;
+mod statics;
 mod sweep;
+mod uncertainty;
 pub(crate) mod values;
+mod vibration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(crate) use export::{ExportArgs, ExportFormat};
-use funicular::compare::TOLERANCE;
-use funicular::math::Vec3;
-use funicular::modes::PLATFORM_SHARE;
-use funicular_study::signals::{Input, Output};
+pub(crate) use gradient::GradientArgs;
 pub(crate) use groups::{
     ChangeArgs, FigureArgs, LoadArgs, ModelArgs, OutputArgs, PointArgs, RangeArgs, RobotArgs, StateArgs, TensionArgs,
     TermArgs,
 };
 pub(crate) use identify::IdentifyArgs;
 pub(crate) use import::ImportArgs;
-pub(crate) use names::{
-    AssemblyName, CableModelName, HoldName, ModelFormName, PerName, TensionRuleName, WinchModeName,
-};
+pub(crate) use names::{AssemblyName, CableModelName, TensionRuleName, WinchModeName};
 pub(crate) use new_robot::{LengthUnitName, MotionName, NewArgs, SchemaArgs, WireRopeName};
+pub(crate) use pages::{LiveArgs, PaperArgs, ReportArgs};
+pub(crate) use statics::{CheckArgs, PayloadArgs, PoseErrorArgs, StaticsArgs, StiffnessArgs};
 use std::path::PathBuf;
 pub(crate) use sweep::{EachArgs, MapArgs, MergeArgs, PlotArgs, RunArgs, SweepArgs};
-use values::{Lengths, MassRange, PoseNumbers};
+pub(crate) use uncertainty::UncertaintyArgs;
+pub(crate) use vibration::{CableArgs, CompareArgs, FrfArgs, ModesArgs, ReduceArgs};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
 ///
@@ -128,6 +131,21 @@ pub(crate) enum Command {
         funicular gradient robots/yuan2014-4mm.toml --of response --at-hz 1.1 --input fz --output az \\\n    \
         --by platform,materials --per tolerance --tolerances platform.mass_kg=2%")]
     Gradient(GradientArgs),
+    /// Deviations of results from deviations or tolerances of numbers of the robot file
+    ///
+    /// Results are linear in the deviations where no cable may become slack and no frequencies may cross; elsewhere the
+    /// program computes sampled robots, on all cores. Each result has its deviation, the interval that holds 95 % of all
+    /// robots, and the shares of the numbers; docs/uncertainty.md explains the tables.
+    #[command(
+        after_help = "Examples:\n  funicular uncertainty robots/yuan2014-4mm.toml --deviations platform.mass_kg=1%,cables.*.anchor_m=0.002 \\\n    \
+        --of pose,tensions,frequencies --below-hz 2\n  \
+        funicular uncertainty robots/cogiro.toml --pose 1,2,1.5 --tolerances cables.*.unstrained_length_m=0.0002 -o cogiro.html\n  \
+        funicular uncertainty robots/cogiro.toml --poses trajectory.csv --deviations platform.center_of_mass_m=0.005 \\\n    \
+        --of stiffness-min --hold pose -o stiffness.csv\n  \
+        funicular uncertainty robots/yuan2014-4mm.toml --deviations materials.*.axial_stiffness_n=5%,platform=1% \\\n    \
+        --of frequencies,damping --below-hz 3 --samples 2000 --samples-file robots.parquet"
+    )]
+    Uncertainty(UncertaintyArgs),
     /// Minimum and maximum payload at a pose, with the cables and ends whose tension limits bind
     ///
     /// The payload is held by any tensions within the limits, not only by those of a tension rule.
@@ -255,450 +273,6 @@ pub(crate) enum Command {
         funicular request request.json --format json"
     )]
     Request(RequestArgs),
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct CheckArgs {
-    #[command(flatten)]
-    pub(crate) robot: RobotArgs,
-    #[command(flatten)]
-    pub(crate) output: OutputArgs,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct StaticsArgs {
-    #[command(flatten)]
-    pub(crate) robot: RobotArgs,
-    #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-
-    /// Search for all equilibria of the unstrained lengths, including unstable ones
-    #[arg(long)]
-    pub(crate) all: bool,
-
-    /// Compute the interval in which friction of pulleys leaves pose and tensions
-    ///
-    /// The interval is that of every cable having last run towards the platform or towards its drum. With lengths given,
-    /// or with --hold-lengths-of-pose, pose and tensions vary. With a pose given, the tensions at the drums and the lengths
-    /// vary. Friction is given in [pulleys.NAME] by `friction_coefficient`, `efficiency` or `bearing_friction_coefficient`.
-    #[arg(long)]
-    pub(crate) friction_interval: bool,
-    #[command(flatten)]
-    pub(crate) output: OutputArgs,
-    #[command(flatten)]
-    pub(crate) figure: FigureArgs,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct StiffnessArgs {
-    #[command(flatten)]
-    pub(crate) robot: RobotArgs,
-
-    /// Frequency of the stiffness [Hz]; at 0 Hz the tangent of the static model, unless --cable-model is given
-    #[arg(long, value_name = "HZ", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "0")]
-    pub(crate) at_hz: f64,
-
-    #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
-    #[command(flatten)]
-    pub(crate) output: OutputArgs,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct ModesArgs {
-    #[command(flatten)]
-    pub(crate) robot: RobotArgs,
-
-    /// Upper limit of the frequencies [Hz]
-    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
-    pub(crate) below_hz: f64,
-
-    /// Input of a response (see `frf`): also show the contribution of each mode to this response; needs --output
-    #[arg(long, value_name = "INPUT", value_parser = Input::parse, requires = "output")]
-    pub(crate) input: Option<Input>,
-
-    /// Output of that response; needs --input
-    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse, requires = "input")]
-    pub(crate) output: Option<Output>,
-    #[command(flatten)]
-    pub(crate) points: PointArgs,
-
-    /// Number of points along every cable whose displacements in each mode are listed, ends included; only in JSON
-    #[arg(long, value_name = "N", value_parser = values::stations)]
-    pub(crate) stations: Option<usize>,
-
-    /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform
-    #[arg(long, value_name = "FRACTION", value_parser = values::fraction, allow_hyphen_values = true, default_value_t = PLATFORM_SHARE)]
-    pub(crate) platform_share: f64,
-
-    #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
-
-    /// Modes with cables that are straight, without mass and rigid in length: how a platform swings on fewer cables than
-    /// it has degrees of freedom; with --static-model ideal
-    #[arg(long, help_heading = "Model")]
-    pub(crate) rigid_cables: bool,
-
-    #[command(flatten)]
-    pub(crate) sink: OutputArgs,
-    #[command(flatten)]
-    pub(crate) figure: FigureArgs,
-
-    /// Draw the shape of mode N of the list in the figure [default: the spectrum]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Figure")]
-    pub(crate) figure_mode: Option<usize>,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct FrfArgs {
-    #[command(flatten)]
-    pub(crate) robot: RobotArgs,
-
-    /// First frequency [Hz]
-    #[arg(long, value_name = "HZ", value_parser = values::not_negative, allow_hyphen_values = true)]
-    pub(crate) from_hz: f64,
-
-    /// Last frequency [Hz]
-    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
-    pub(crate) to_hz: f64,
-
-    /// Number of frequencies, 2 to 1000000; with --adaptive the number from which it starts. A figure, FILE.svg or
-    /// FILE.pdf, is --adaptive without it [default with --adaptive: 200]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(2..=1_000_000),
-        allow_hyphen_values = true, required_unless_present_any = ["adaptive", "output_file"])]
-    pub(crate) points: Option<u64>,
-
-    /// Equal ratios between frequencies instead of equal steps
-    #[arg(long)]
-    pub(crate) log: bool,
-
-    /// Add frequencies until every peak has its height (to 0.1 %) and straight lines over the logarithm of the magnitude
-    /// are accurate to 1 %
-    #[arg(long)]
-    pub(crate) adaptive: bool,
-
-    /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; a force on
-    /// a cable, as in cable:3@0.5:fz; the commanded length of a cable, length:3, a force of its motor or on its drum,
-    /// motor:3, drum:3; a motion of the base, base-x to base-rz, or of an anchor, anchor:3:x (repeatable)
-    #[arg(long, value_name = "INPUT", value_parser = Input::parse, required = true)]
-    pub(crate) input: Vec<Input>,
-
-    /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…,
-    /// a:… along a direction, world axes; the motion of a point on a cable (name, fraction of its length from the
-    /// platform), as in cable:3@0.5:az; the motion of a drum or motor, drum:3, motor:3, or the tension at the platform
-    /// or at the drum, tension:3, drum-tension:3 (repeatable)
-    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse, required = true)]
-    pub(crate) output: Vec<Output>,
-    #[command(flatten)]
-    pub(crate) signal_points: PointArgs,
-
-    /// Minimum height of a peak above the valleys beside it [dB]
-    #[arg(long, value_name = "DB", value_parser = values::not_negative, allow_hyphen_values = true, default_value = "1")]
-    pub(crate) prominence_db: f64,
-
-    #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
-    #[command(flatten)]
-    pub(crate) sink: OutputArgs,
-    #[command(flatten)]
-    pub(crate) figure: FigureArgs,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct ReduceArgs {
-    #[command(flatten)]
-    pub(crate) robot: RobotArgs,
-
-    /// Highest frequency for which the model is valid [Hz]
-    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
-    pub(crate) below_hz: f64,
-
-    /// Input signal, see `frf` (repeatable) [default: all forces and moments on the platform]
-    #[arg(long, value_name = "INPUT", value_parser = Input::parse)]
-    pub(crate) input: Vec<Input>,
-
-    /// Output signal, see `frf` (repeatable) [default: all displacements and rotations of the platform]
-    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse)]
-    pub(crate) output: Vec<Output>,
-    #[command(flatten)]
-    pub(crate) points: PointArgs,
-
-    /// Form of the model
-    #[arg(long, value_name = "FORM", value_enum, default_value_t)]
-    pub(crate) form: ModelFormName,
-
-    /// Maximum error of each response, relative to its peak below the limit; the state space has as few states as it
-    /// allows [default: 0.01]. With the second-order form: maximum relative error due to omitted modes [default: 0.001]
-    #[arg(long, value_name = "FRACTION", value_parser = values::not_negative, allow_hyphen_values = true)]
-    pub(crate) tolerance: Option<f64>,
-
-    /// Maximum number of states, instead of a tolerance
-    #[arg(long, value_name = "N")]
-    pub(crate) order: Option<usize>,
-
-    /// Frequency at which viscous damping reproduces constant damping ratios [Hz] [default: every natural frequency]
-    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
-    pub(crate) damping_at_hz: Option<f64>,
-
-    /// Write the matrices to an .npz or .mat file, or as CSV files to a new folder
-    #[arg(long, value_name = "FILE|FOLDER")]
-    pub(crate) matrices: Option<PathBuf>,
-
-    #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
-    #[command(flatten)]
-    pub(crate) sink: OutputArgs,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct CompareArgs {
-    #[command(flatten)]
-    pub(crate) robot: RobotArgs,
-
-    /// Upper limit of the frequencies [Hz]
-    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
-    pub(crate) below_hz: f64,
-
-    /// Compare the modes of the platform alone
-    #[arg(long)]
-    pub(crate) platform: bool,
-
-    /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform
-    #[arg(long, value_name = "FRACTION", value_parser = values::fraction, allow_hyphen_values = true, default_value_t = PLATFORM_SHARE)]
-    pub(crate) platform_share: f64,
-
-    /// Maximum relative difference of frequency for a model that is good enough
-    #[arg(long, value_name = "FRACTION", value_parser = values::not_negative, allow_hyphen_values = true, default_value_t = TOLERANCE)]
-    pub(crate) tolerance: f64,
-
-    #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) terms: TermArgs,
-    #[command(flatten)]
-    pub(crate) output: OutputArgs,
-    #[command(flatten)]
-    pub(crate) figure: FigureArgs,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct GradientArgs {
-    #[command(flatten)]
-    pub(crate) robot: RobotArgs,
-
-    /// Results: pose, lengths, tensions, stiffness-min, frequencies, damping, response; separated by commas
-    #[arg(long, value_name = "RESULTS", value_delimiter = ',', default_value = "frequencies")]
-    pub(crate) of: Vec<String>,
-
-    /// Numbers of the robot file, by paths as `parameters` lists them, separated by commas; * stands for any key, and a path
-    /// to a table or vector for all numbers in it [default: all]
-    #[arg(long, value_name = "PATHS", value_delimiter = ',')]
-    pub(crate) by: Vec<String>,
-
-    /// Quantity that is held while a number changes; with the pose held, the tensions parallel to the chords of more
-    /// cables than degrees of freedom change least
-    #[arg(long, value_name = "WHAT", value_enum, default_value_t)]
-    pub(crate) hold: HoldName,
-
-    /// Step that the derivatives are for
-    #[arg(long, value_name = "STEP", value_enum, default_value_t)]
-    pub(crate) per: PerName,
-
-    /// Tolerances PATH=VALUE or PATH=PERCENT%, separated by commas [default: usual ones, which docs/gradients.md lists]
-    #[arg(long, value_name = "TOLERANCES", value_delimiter = ',')]
-    pub(crate) tolerances: Vec<String>,
-
-    /// Upper limit of the frequencies [Hz]; for frequencies and damping
-    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
-    pub(crate) below_hz: Option<f64>,
-
-    /// Frequency of the response [Hz]
-    #[arg(long, value_name = "HZ", value_parser = values::not_negative, allow_hyphen_values = true)]
-    pub(crate) at_hz: Option<f64>,
-
-    /// Input of the response, on the platform (see `frf`)
-    #[arg(long, value_name = "INPUT", value_parser = Input::parse)]
-    pub(crate) input: Option<Input>,
-
-    /// Output of the response, on the platform (see `frf`)
-    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse)]
-    pub(crate) output: Option<Output>,
-    #[command(flatten)]
-    pub(crate) points: PointArgs,
-
-    #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
-    #[command(flatten)]
-    pub(crate) sink: OutputArgs,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct PayloadArgs {
-    #[command(flatten)]
-    pub(crate) robot: RobotArgs,
-
-    /// Centre of mass of the payload, platform frame [m] [default: that of the platform]
-    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]
-    pub(crate) payload_center_m: Option<Vec3>,
-
-    #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) output: OutputArgs,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct PoseErrorArgs {
-    #[command(flatten)]
-    pub(crate) robot: RobotArgs,
-
-    /// Platform masses [kg]: N masses from A to B in equal steps, as in 10:90:81
-    #[arg(long, value_name = "A:B:N", value_parser = values::mass_range, allow_hyphen_values = true)]
-    pub(crate) mass_kg: MassRange,
-
-    /// Unstrained lengths [m], one per cable in the order of the file [default: from the robot file]
-    #[arg(long, value_name = "L1,L2,…", value_parser = values::lengths, allow_hyphen_values = true)]
-    pub(crate) lengths_m: Option<Lengths>,
-
-    /// Pose x,y,z[,roll,pitch,yaw] [m, degrees]: hold the unstrained lengths with which the robot of the file, without
-    /// --set, rests there [default: the [state] of the robot file]
-    #[arg(long, value_name = "X,Y,Z[,ROLL,PITCH,YAW]", value_parser = values::pose, allow_hyphen_values = true, conflicts_with = "lengths_m")]
-    pub(crate) pose: Option<PoseNumbers>,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-
-    /// Maximum distance between spring pose and catenary pose at which springs are good enough [mm]; reports the masses
-    /// where they are
-    #[arg(long, value_name = "MM", value_parser = values::positive, allow_hyphen_values = true)]
-    pub(crate) tolerance_mm: Option<f64>,
-
-    #[command(flatten)]
-    pub(crate) output: OutputArgs,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct CableArgs {
-    #[command(flatten)]
-    pub(crate) robot: RobotArgs,
-
-    /// Name of the cable in the robot file
-    #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
-    pub(crate) name: String,
-
-    #[command(flatten)]
-    pub(crate) range: RangeArgs,
-    #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-
-    /// Cable model: how the cable responds to motion of its platform end [default: catenary-dynamic; shallow-dynamic
-    /// for static models other than catenary]
-    #[arg(long, value_name = "MODEL", value_enum)]
-    pub(crate) cable_model: Option<CableModelName>,
-
-    /// Leave out the out-of-plane stiffness of the cable, as in Yuan et al. 2014
-    #[arg(long)]
-    pub(crate) in_plane_only: bool,
-
-    /// Winch in vibration, for a cable that runs to a winch
-    #[arg(long, value_name = "MODE", value_enum, default_value_t)]
-    pub(crate) winches: WinchModeName,
-
-    #[command(flatten)]
-    pub(crate) output: OutputArgs,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct ReportArgs {
-    /// Robot file (TOML), or - for standard input [default: yuan2014-4mm.toml, which is built into the program]
-    #[arg(value_name = "ROBOT")]
-    pub(crate) robot: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) changes: ChangeArgs,
-
-    /// Upper limit of the frequencies [Hz]
-    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true, default_value = "20")]
-    pub(crate) below_hz: f64,
-
-    /// Input of the frequency response: fx … mz, or f:ux,uy,uz, m:ux,uy,uz, see `funicular frf` [default: fz; fx if the
-    /// platform cannot move along z]
-    #[arg(long, value_name = "INPUT", value_parser = Input::parse)]
-    pub(crate) input: Option<Input>,
-
-    /// Output of the frequency response: x … arz, or x:ux,uy,uz, v:…, a:…, see `funicular frf` [default: az; ax if the
-    /// platform cannot move along z]
-    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse)]
-    pub(crate) output: Option<Output>,
-    #[command(flatten)]
-    pub(crate) points: PointArgs,
-
-    /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform
-    #[arg(long, value_name = "FRACTION", value_parser = values::fraction, allow_hyphen_values = true, default_value_t = PLATFORM_SHARE)]
-    pub(crate) platform_share: f64,
-
-    #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
-
-    /// Write the page to FILE, completely or not at all; - is standard output
-    #[arg(short, long, value_name = "FILE", default_value = "funicular-report.html", help_heading = "Output")]
-    pub(crate) output_file: PathBuf,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct LiveArgs {
-    /// Robot file (TOML), or - for standard input [default: yuan2014-4mm.toml, which is built into the program]
-    #[arg(value_name = "ROBOT")]
-    pub(crate) robot: Option<PathBuf>,
-    #[command(flatten)]
-    pub(crate) changes: ChangeArgs,
-    #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
-
-    /// Write the page to FILE, completely or not at all; - is standard output
-    #[arg(short, long, value_name = "FILE", default_value = "funicular-live.html", help_heading = "Output")]
-    pub(crate) output_file: PathBuf,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct PaperArgs {
-    /// Write the page to FILE, completely or not at all; - is standard output
-    #[arg(short, long, value_name = "FILE", default_value = "funicular-paper.html")]
-    pub(crate) output_file: PathBuf,
 }
 
 #[derive(Debug, Args)]

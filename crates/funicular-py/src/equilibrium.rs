@@ -5,8 +5,8 @@ use crate::answers::{self, in_words};
 use crate::arrays::{Count, Matrix, PickleParts, Tensor, TextKeyed, Vector};
 use crate::errors;
 use crate::pose::PyPose;
+use crate::request::joined;
 use crate::robot::PyRobot;
-use crate::written;
 use funicular::cable::Sag;
 use funicular::statics;
 use funicular_study::analyses;
@@ -266,7 +266,7 @@ impl PyEquilibrium {
         let py = slf.py();
         let Self { of, state, tensions, .. } = slf.get();
         // The keys of a request are the keywords of `Robot.equilibrium`.
-        let keywords = written::joined(&[&serde_json::to_value(state), &serde_json::to_value(tensions)])?;
+        let keywords = joined(&[&serde_json::to_value(state), &serde_json::to_value(tensions)])?;
         let rebuild = py.import("funicular._rebuild")?.getattr("equilibrium")?;
         Ok((rebuild, (of.clone_ref(py), keywords)))
     }

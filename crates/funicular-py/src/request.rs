@@ -7,6 +7,7 @@ use funicular::modes::PLATFORM_SHARE;
 use funicular_study::names::Named;
 use funicular_study::request::{Load, Model, ResponsePoints, State, Tensions, Terms};
 use pyo3::prelude::*;
+use serde_json::Map;
 
 /// Choice by its name.
 pub(crate) fn named<T: Named>(keyword: &str, name: &str) -> PyResult<T> {
@@ -98,4 +99,17 @@ pub(crate) fn points(input_point_m: Option<Numbers>, output_point_m: Option<Numb
         input_point_m: three(input_point_m, "input_point_m")?,
         output_point_m: three(output_point_m, "output_point_m")?,
     })
+}
+
+/// Keys of several objects as one object in JSON.
+pub(crate) fn joined(parts: &[&serde_json::Result<serde_json::Value>]) -> PyResult<String> {
+    let mut all = Map::new();
+    for part in parts {
+        match part {
+            Ok(serde_json::Value::Object(keys)) => all.extend(keys.clone()),
+            Ok(_) => {}
+            Err(error) => return Err(errors::input(error.to_string())),
+        }
+    }
+    Ok(serde_json::Value::Object(all).to_string())
 }

@@ -5,7 +5,7 @@ use crate::arrays::{Count, Matrix, Number, Numbers};
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::interrupt::{interruptible, interruptible_in_steps};
-use crate::request::{model, named, points, share};
+use crate::request::{joined, model, named, points, share};
 use funicular::math::DMat;
 use funicular::reduced_model::StateSpace;
 use funicular_files::mat::{self, Value, Variable};
@@ -19,7 +19,6 @@ use funicular_study::wording::{Words, worded};
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
-use serde_json::Map;
 use std::convert::Infallible;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -48,6 +47,7 @@ object!(ReducedObject, "funicular._results", "ReducedModel");
 object!(StateSpaceObject, "funicular._results", "StateSpaceModel");
 object!(PageObject, "funicular._pages", "Page");
 object!(IdentifiedObject, "funicular._identify", "Identified");
+object!(UncertaintyObject, "funicular._uncertainty", "Uncertainty");
 
 /// Keywords of `reduce` and `state_space`.
 pub(crate) struct ReduceKeywords<'a> {
@@ -244,17 +244,4 @@ pub(crate) fn live(
     let no_warnings: Vec<String> = Vec::new();
     let made = py.import("funicular._pages")?.call_method1("page", (html, no_warnings, path))?;
     Ok(PageObject(made.unbind()))
-}
-
-/// Keys of several objects as one object in JSON.
-pub(crate) fn joined(parts: &[&serde_json::Result<serde_json::Value>]) -> PyResult<String> {
-    let mut all = Map::new();
-    for part in parts {
-        match part {
-            Ok(serde_json::Value::Object(keys)) => all.extend(keys.clone()),
-            Ok(_) => {}
-            Err(error) => return Err(errors::input(error.to_string())),
-        }
-    }
-    Ok(serde_json::Value::Object(all).to_string())
 }

@@ -60,6 +60,7 @@ pub use friction::{
     CableFriction, FrictionError, FrictionInterval, Held, Interval, MotionInterval, friction_exponents,
     friction_interval,
 };
+pub(crate) use limits::MinimumTension;
 pub use limits::{Limit, LimitViolation, TensionMargin, TensionRange};
 pub use model::StaticModel;
 pub use nearest_pose::{NearestEquilibrium, nearest_equilibrium, pose_distance};

@@ -36,14 +36,19 @@ function keysOf(schema) {
 }
 
 export class Editor {
+  /** Keys of the robot file that the editor completes, from its JSON Schema. */
+  set schema(schema) {
+    this.keys = keysOf(schema);
+  }
+
   /** `changed(text)` is called after each change by a person. */
-  constructor(place, schema, changed) {
+  constructor(place, changed) {
     this.silent = false;
-    const options = keysOf(schema);
+    this.keys = [];
     const complete = (context) => {
       const word = context.matchBefore(/^\s*[a-z_0-9]*/);
       return word && (context.explicit || word.text.trim() !== "")
-        ? { from: word.from + word.text.search(/[a-z_0-9]|$/), options, validFor: /^[a-z_0-9]*$/ }
+        ? { from: word.from + word.text.search(/[a-z_0-9]|$/), options: this.keys, validFor: /^[a-z_0-9]*$/ }
         : null;
     };
     this.view = new EditorView({
