@@ -48,6 +48,7 @@ object!(StateSpaceObject, "funicular._results", "StateSpaceModel");
 object!(PageObject, "funicular._pages", "Page");
 object!(LiveObject, "funicular._live", "Live");
 object!(IdentifiedObject, "funicular._identify", "Identified");
+object!(UncertaintyObject, "funicular._uncertainty", "Uncertainty");
 
 /// Keywords of `reduce` and `state_space`.
 pub(crate) struct ReduceKeywords<'a> {

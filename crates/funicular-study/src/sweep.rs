@@ -332,7 +332,7 @@ fn base(robot: &Robot, request: &MapRequest) -> Result<Option<Pose>> {
 }
 
 /// Refuses poses that the platform cannot have.
-fn check_poses(poses: &[[f64; 6]], robot: &Robot) -> Result<()> {
+pub(crate) fn check_poses(poses: &[[f64; 6]], robot: &Robot) -> Result<()> {
     if poses.is_empty() {
         bail!("⟪poses⟫ has no poses: give at least one");
     }

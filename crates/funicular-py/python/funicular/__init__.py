@@ -36,6 +36,7 @@ from funicular._pages import Page
 from funicular._results import Equilibria, Modes, ReducedModel, StateSpaceModel
 from funicular._study import Exported, Imported, NewRobot, import_robot, merge, new_robot, paper, run, schema, validate
 from funicular._sweeps import Sweep
+from funicular._uncertainty import Uncertainty
 
 __all__ = [
     "Analyses",
@@ -65,6 +66,7 @@ __all__ = [
     "StateSpaceModel",
     "StaticsError",
     "Sweep",
+    "Uncertainty",
     "__version__",
     "import_robot",
     "merge",
