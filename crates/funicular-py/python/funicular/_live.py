@@ -80,7 +80,7 @@ class Live(Page):
             except ImportError as error:
                 raise InputError(f"a widget needs `pip install funicular[live]`: {error}") from error
 
-            class LiveWidget(anywidget.AnyWidget):  # type: ignore[misc]
+            class LiveWidget(anywidget.AnyWidget):
                 _esm = Path(__file__).with_name("_live.js").read_text(encoding="utf-8")
                 state = traitlets.Dict(allow_none=True, default_value=None).tag(sync=True)
 
