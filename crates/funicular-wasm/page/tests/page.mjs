@@ -284,6 +284,25 @@ test("a mode is shown in motion, and “before” is compared", async () => {
   await page.click("#modes tbody tr:nth-child(17) button");
 });
 
+test("the commands in the page run as they stand", async () => {
+  await choose("cogiro");
+  await framed(async () => { await page.fill("[data-number='platform.mass_kg']", "150"); await page.keyboard.press("Enter"); });
+  await framed(async () => { await page.fill("[data-pose='2']", "1.7"); await page.keyboard.press("Enter"); });
+  await page.click("#modes tbody tr:nth-child(1) button");
+  await page.waitForFunction(() => /funicular gradient/.test(document.getElementById("commands").textContent));
+  const lines = (await page.locator("#commands").textContent()).split("\n\n");
+  assert.equal(lines.length, 4);
+  const shown = (await frame()).cables[0].tension;
+  for (const line of lines) {
+    const done = spawnSync("sh", ["-c", line.replace(/^funicular/, `"$PROGRAM"`)], { encoding: "utf8", cwd: new URL(".", library), env: { ...process.env, PROGRAM: program } });
+    assert.equal(done.status, 0, `${line}\n${done.stderr}`);
+    if (line.startsWith("funicular statics")) {
+      assert.ok(done.stdout.includes(shown.toFixed(3)), `${shown} is not in ${done.stdout}`);
+    }
+  }
+  await page.click("#modes tbody tr:nth-child(1) button");
+});
+
 test("the models are compared on demand", async () => {
   await choose("kntu-planar");
   await page.click("#compare-run");
