@@ -2,6 +2,7 @@
 
 import { mayChoose, RESPONSE_POINTS, statics } from "./computation.js";
 import { $, save } from "./format.js";
+import { drawing } from "./drawing.js";
 import { Cancelled, Job } from "./engine.js";
 import { busy, put, tell } from "./messages.js";
 import { content, on, page, shown } from "./store.js";
@@ -43,7 +44,7 @@ async function saveAs(kind) {
   } else if (kind === "png") {
     save(`${name}.png`, await page.view.png(), "image/png");
   } else if (kind === "svg") {
-    save(`${name}.svg`, page.view.svg(), "image/svg+xml");
+    save(`${name}.svg`, drawing(page.view), "image/svg+xml");
   } else if (FIGURES[kind]) {
     const figure = $(FIGURES[kind][0]).querySelector("svg");
     if (figure) {

@@ -555,10 +555,10 @@ test("pulleys, drums, guide wheels and supports stand where they are", async () 
   const drive = modes.indexOf("drive");
   assert.ok(drive >= 0, modes.join());
   await page.click(`#modes tbody tr:nth-child(${drive + 1}) button`);
-  await page.waitForFunction(() => window.funicular.view.mode);
-  await page.waitForTimeout(500);
-  const moved = await page.evaluate(() => window.funicular.view.drives.cables.map(({ body, place }) => body.position.distanceTo(place)));
-  assert.ok(moved[0] > 1e-3 && moved.slice(1).every((distance) => distance === 0), moved.join());
+  await page.waitForFunction(() => {
+    const [first, ...others] = window.funicular.view.drives.cables.map(({ body, place }) => body.position.distanceTo(place));
+    return first > 1e-3 && others.every((distance) => distance === 0);
+  });
   await page.screenshot({ path: join(pictures, "drives.png") });
   await page.click(`#modes tbody tr:nth-child(${drive + 1}) button`);
 });
