@@ -4,6 +4,7 @@
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
+import { createServer } from "node:http";
 import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
@@ -604,6 +605,36 @@ test("a long computation says so and can be cancelled", async () => {
   await framed(async () => { await page.fill("[data-pose='2']", "1.4"); await page.keyboard.press("Enter"); });
   assert.equal((await frame()).position[2], 1.4);
   assert.equal(await page.locator("#message").isVisible(), false);
+});
+
+test("a server needs no settings, and a missing module is told", async () => {
+  // Without types of files, as the plainest servers answer; the second time without the module.
+  for (const withModule of [true, false]) {
+    const asked = [];
+    const server = createServer((request, answer) => {
+      const name = request.url.split("?")[0].slice(1);
+      asked.push(name);
+      if (!["index.html", "page.js", "page.css", "funicular.wasm"].includes(name) || (name === "funicular.wasm" && !withModule)) {
+        answer.writeHead(404).end();
+        return;
+      }
+      answer.writeHead(200, name.endsWith(".html") ? { "content-type": "text/html" } : {}).end(readFileSync(join(web, name)));
+    });
+    await new Promise((done) => server.listen(0, "127.0.0.1", done));
+    const own = await browser.newContext().then((of) => of.newPage());
+    own.setDefaultTimeout(PATIENCE_MS);
+    await own.goto(`http://127.0.0.1:${server.address().port}/index.html`);
+    if (withModule) {
+      await idle(own);
+      assert.equal((await frame(own)).cables.length, 8);
+    } else {
+      await own.waitForFunction(() => !document.getElementById("message").hidden);
+      assert.match(await text("#message", own), /funicular\.wasm is missing: the server answers with 404/);
+    }
+    assert.deepEqual([...new Set(asked)].sort(), ["funicular.wasm", "index.html", "page.css", "page.js"]);
+    await own.close();
+    server.close();
+  }
 });
 
 test("a page around this one is told every change", async () => {
