@@ -107,7 +107,9 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
             analyse(&request_of(&cli.command)?, &args.sink, robot_file::guard(Some(&args.robot.robot)))
         }
         Command::Uncertainty(args) => {
-            let Request::Uncertainty(of) = request_of(&cli.command)? else { bail!("this is not a request of `uncertainty`") };
+            let Request::Uncertainty(of) = request_of(&cli.command)? else {
+                bail!("this is not a request of `uncertainty`")
+            };
             let mut guard = robot_file::guard(Some(&args.robot.robot));
             if let Some(poses) = &args.poses {
                 guard.reads("the poses", poses);

@@ -4,7 +4,8 @@ use super::{
     AssemblyName, CableArgs, CableModelName, ChangeArgs, CompareArgs, EachArgs, ExportArgs, ExportFormat, FrfArgs,
     GradientArgs, ImportArgs, LengthUnitName, LiveArgs, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, MotionName,
     NewArgs, PayloadArgs, PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs, ReportArgs, StateArgs,
-    StaticsArgs, StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs, UncertaintyArgs, WinchModeName, WireRopeName,
+    StaticsArgs, StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs, UncertaintyArgs, WinchModeName,
+    WireRopeName,
 };
 use funicular_files::endings::Kind;
 use funicular_study::import::SourceFile;

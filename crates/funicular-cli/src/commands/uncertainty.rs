@@ -9,7 +9,7 @@ use crate::table::{NONE, Table, counted, digits_for, significant};
 use anyhow::{Result, bail};
 use funicular_files::endings::Kind;
 use funicular_files::{Begin, Guard, UncertaintyOutcome, UncertaintyRun, threads};
-use funicular_study::analyses::uncertainty::{PoseUncertainty, Uncertainties, UncertainResult, UncertaintyStudy};
+use funicular_study::analyses::uncertainty::{PoseUncertainty, UncertainResult, Uncertainties, UncertaintyStudy};
 use funicular_study::request::UncertaintyRequest;
 use funicular_study::wording::{Words, worded};
 use std::fmt::Write as _;
@@ -210,7 +210,7 @@ fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
         row.push(shares(of, result));
         table.row(row);
     }
-    let _ = write!(out, "\n{table}\n");
+    let _ = write!(out, "\n{table}");
 
     // Each doubt once.
     let mut doubts: Vec<&str> = Vec::new();
@@ -219,11 +219,15 @@ fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
             doubts.push(doubt);
         }
     }
+    if !doubts.is_empty() || pose.failed.is_some() {
+        out.push('\n');
+    }
     for doubt in doubts {
         let _ = writeln!(out, "Not linear: {doubt}.");
     }
     if let Some(failed) = &pose.failed {
-        let _ = writeln!(out, "{} without results; the first: {}.", counted(failed.count, "sampled robot"), failed.reason);
+        let _ =
+            writeln!(out, "{} without results; the first: {}.", counted(failed.count, "sampled robot"), failed.reason);
     }
     out
 }

@@ -32,7 +32,7 @@ from funicular._executors import ExecutorError
 from funicular._funicular import Analyses, Catenary, Equilibrium, Pose, Robot, __version__, peaks
 from funicular._identify import Identified, read_measurements
 from funicular._pages import Page
-from funicular._results import Equilibria, Modes, ReducedModel, StateSpaceModel
+from funicular._results import Equilibria, ModeGradients, Modes, ReducedModel, StateSpaceModel
 from funicular._study import Exported, Imported, NewRobot, import_robot, merge, new_robot, paper, run, schema, validate
 from funicular._sweeps import Sweep
 from funicular._uncertainty import Uncertainty
@@ -50,6 +50,7 @@ __all__ = [
     "Identified",
     "Imported",
     "InputError",
+    "ModeGradients",
     "Modes",
     "NewRobot",
     "NoSolutionError",

@@ -237,7 +237,8 @@ impl Columns {
     pub(crate) fn of(at_rest: &AtRest, text: &str, by: &[String], tolerances: &[String]) -> Result<Self> {
         let all = Parameters::from_toml(text).map_err(|error| anyhow!("{error}"))?;
         let patterns = by.iter().map(|text| Pattern::parse("by", text)).collect::<Result<Vec<_>>>()?;
-        let tolerances = tolerances.iter().map(|text| Tolerance::parse("tolerances", text)).collect::<Result<Vec<_>>>()?;
+        let tolerances =
+            tolerances.iter().map(|text| Tolerance::parse("tolerances", text)).collect::<Result<Vec<_>>>()?;
 
         let mut columns = Self { parameters: Vec::new(), changes: Vec::new(), without_derivative: Vec::new() };
         let mut met = vec![false; patterns.len()];

@@ -8,9 +8,7 @@ use crate::names::UncertaintyMethod;
 use crate::request::{self, Pose, Request, UncertaintyRequest};
 use crate::sweep::{Chunk, Record};
 use crate::text::counted;
-use crate::uncertainty::{
-    GROUPS, Inputs, LinearPose, Row, SampleSet, SampleTable, Sampling, Statistics,
-};
+use crate::uncertainty::{GROUPS, Inputs, LinearPose, Row, SampleSet, SampleTable, Sampling, Statistics};
 use crate::watch::Watch;
 use anyhow::{Result, anyhow, bail};
 use funicular::robot::Robot;
@@ -433,18 +431,19 @@ impl SamplePlan<'_> {
         let several = self.poses.len() > 1;
         let values = inputs.values(&self.study.first.1);
         let distributions = inputs.distributions(&values);
-        let input = |((input, value), distribution): ((&crate::uncertainty::Input, f64), crate::uncertainty::Distribution)| {
-            let follows = several && inputs.follows_state(input);
-            UncertainInput {
-                path: input.path.clone(),
-                unit: input.unit,
-                value: Some(value).filter(|_| !(several && input.is_of_state)),
-                distribution: distribution.name(),
-                deviation: Some(distribution.deviation()).filter(|_| !follows),
-                tolerance: distribution.half_width().filter(|_| !follows),
-                group: input.group,
-            }
-        };
+        let input =
+            |((input, value), distribution): ((&crate::uncertainty::Input, f64), crate::uncertainty::Distribution)| {
+                let follows = several && inputs.follows_state(input);
+                UncertainInput {
+                    path: input.path.clone(),
+                    unit: input.unit,
+                    value: Some(value).filter(|_| !(several && input.is_of_state)),
+                    distribution: distribution.name(),
+                    deviation: Some(distribution.deviation()).filter(|_| !follows),
+                    tolerance: distribution.half_width().filter(|_| !follows),
+                    group: input.group,
+                }
+            };
         inputs.list.iter().zip(values).zip(distributions).map(input).collect()
     }
 
@@ -479,11 +478,10 @@ impl SamplePlan<'_> {
         // Shares of single numbers are linear; those of the groups of a sampled result include what is not.
         let contributions = row.contributions(&linear.distributions);
         let total: f64 = contributions.iter().flatten().sum();
-        let shares = contributions.filter(|_| total > 0.0).map(|of| of.iter().map(|part| part / total).collect::<Vec<_>>());
+        let shares =
+            contributions.filter(|_| total > 0.0).map(|of| of.iter().map(|part| part / total).collect::<Vec<_>>());
         let group_shares = match &sampled {
-            Some(found) => {
-                samples.0.shares(&self.sampling, pose, row.kind, inputs.groups.len(), found.deviation)
-            }
+            Some(found) => samples.0.shares(&self.sampling, inputs, (pose, linear), row.kind, found.deviation),
             None => shares.as_ref().map(|shares| {
                 let mut groups = vec![0.0; inputs.groups.len()];
                 inputs.list.iter().zip(shares).for_each(|(input, share)| groups[input.group] += share);
@@ -606,7 +604,10 @@ fn notes(request: &UncertaintyRequest, poses: &[PoseUncertainty]) -> Vec<String>
     }
     let failed: usize = poses.iter().filter_map(|pose| pose.failed.as_ref()).map(|failed| failed.count).sum();
     if failed > 0 {
-        notes.push(format!("{} had no equilibrium or no valid values, and does not count", counted(failed, "sampled robot")));
+        notes.push(format!(
+            "{} had no equilibrium or no valid values, and does not count",
+            counted(failed, "sampled robot")
+        ));
     }
     notes
 }

@@ -3,7 +3,7 @@
 use super::Shell;
 use super::figure::{Figure, axis, colour, plain, rounded};
 use super::table::{PageTable, significant};
-use crate::analyses::uncertainty::{PoseUncertainty, Uncertainties, UncertainResult};
+use crate::analyses::uncertainty::{PoseUncertainty, UncertainResult, Uncertainties};
 use crate::text::{self, short};
 use anyhow::Context as _;
 use askama::Template;
@@ -16,15 +16,8 @@ const CONTENTS: &[(&str, &str)] =
 const MAX_FIGURES: usize = 40;
 
 /// Colours of the groups in bars of shares.
-const COLOURS: [&str; 7] = [
-    colour::BLUE,
-    colour::ORANGE,
-    colour::GREEN,
-    colour::SKY,
-    colour::VERMILION,
-    colour::PURPLE,
-    colour::GREY,
-];
+const COLOURS: [&str; 7] =
+    [colour::BLUE, colour::ORANGE, colour::GREEN, colour::SKY, colour::VERMILION, colour::PURPLE, colour::GREY];
 
 #[derive(Template)]
 #[template(path = "uncertainty.html")]
@@ -133,8 +126,10 @@ fn shares(found: &Uncertainties, pose: &PoseUncertainty) -> Figure {
     let names: Vec<String> = with_shares.iter().map(|result| plain(&result.name)).collect();
     let traces: Vec<Value> = (found.groups.iter().enumerate())
         .map(|(g, group)| {
-            let of_group: Vec<f64> =
-                with_shares.iter().map(|result| result.group_shares.as_ref().map_or(0.0, |all| 100.0 * all[g])).collect();
+            let of_group: Vec<f64> = with_shares
+                .iter()
+                .map(|result| result.group_shares.as_ref().map_or(0.0, |all| 100.0 * all[g]))
+                .collect();
             json!({
                 "type": "bar", "orientation": "h", "name": plain(&group.name), "x": rounded(&of_group), "y": names,
                 "marker": {"color": COLOURS[g % COLOURS.len()]},

@@ -143,7 +143,8 @@ pub(super) fn half_width(normal_variance: f64, half_widths: &[f64]) -> f64 {
 
     // A few uniform terms dominate: their density on a grid, with small ones in the normal term.
     let is_small = |h: &f64| h * h / 3.0 < SMALL_SHARE * variance;
-    let normal = (normal_variance + half_widths.iter().filter(|h| is_small(h)).map(|h| h * h / 3.0).sum::<f64>()).sqrt();
+    let normal =
+        (normal_variance + half_widths.iter().filter(|h| is_small(h)).map(|h| h * h / 3.0).sum::<f64>()).sqrt();
     let large: Vec<f64> = half_widths.iter().copied().filter(|h| !is_small(h)).collect();
     let end = large.iter().sum::<f64>() + 8.0 * normal;
     let step = 2.0 * end / STEPS as f64;

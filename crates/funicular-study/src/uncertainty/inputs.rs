@@ -350,5 +350,9 @@ fn stated(
 
 /// Name as a key of a path.
 fn quoted(name: &str) -> String {
-    if name.contains('\'') { format!("\"{}\"", name.replace('\\', "\\\\").replace('"', "\\\"")) } else { format!("'{name}'") }
+    if name.contains('\'') {
+        format!("\"{}\"", name.replace('\\', "\\\\").replace('"', "\\\""))
+    } else {
+        format!("'{name}'")
+    }
 }

@@ -105,12 +105,7 @@ impl LinearPose {
     ///
     /// # Errors
     /// A robot without such an equilibrium, or too few cables to hold its pose.
-    pub(crate) fn new(
-        request: &UncertaintyRequest,
-        of: &[&str],
-        inputs: &Inputs,
-        at_rest: AtRest,
-    ) -> Result<Self> {
+    pub(crate) fn new(request: &UncertaintyRequest, of: &[&str], inputs: &Inputs, at_rest: AtRest) -> Result<Self> {
         let robot = &at_rest.robot;
         let (cables, degrees_of_freedom) = (robot.cables.len(), robot.platform.motion.count());
         if request.hold != Hold::Lengths && cables < degrees_of_freedom {
@@ -151,10 +146,8 @@ impl LinearPose {
         }
         let rule = held_tensions(&at_rest);
         let is_moved = |k: usize| request.hold != Hold::Lengths && inputs.is_of_pose(k);
-        let pose_changes =
-            changes.into_iter().enumerate().map(|(k, change)| change.filter(|_| is_moved(k))).collect();
-        let limits =
-            TensionLimits { minimum: request.tensions.min_tension_n, maximum: request.tensions.max_tension_n };
+        let pose_changes = changes.into_iter().enumerate().map(|(k, change)| change.filter(|_| is_moved(k))).collect();
+        let limits = TensionLimits { minimum: request.tensions.min_tension_n, maximum: request.tensions.max_tension_n };
         Ok(Self { at_rest, linearisation, input_values, distributions, rows, warnings, limits, rule, pose_changes })
     }
 
@@ -182,6 +175,8 @@ fn rows(kinds: &[ResultKind], at_rest: &AtRest, modes: Option<&NominalModes>) ->
     let value = |kind: ResultKind| match kind {
         ResultKind::Frequency(k) => modes?.found.modes.get(k).map(|mode| mode.frequency_hz),
         ResultKind::Damping(k) => modes?.damped.get(k).map(funicular::modes::damped::DampedMode::damping_ratio),
+        // A rotation is counted from here.
+        ResultKind::Pose(3..) => Some(0.0),
         other => other.static_value(&at_rest.equilibrium, &at_rest.equilibrium.pose),
     };
     let row = |kind: &ResultKind| Some(Row { kind: *kind, value: value(*kind)?, derivatives: None, doubt: None });
@@ -208,11 +203,12 @@ impl Along<'_> {
 
 /// Adds the derivatives of all rows, or the reasons why they have none.
 fn differentiate(rows: &mut [Row], gradients: &Gradients, modes: Option<&NominalModes>, along: &Along) {
-    let put = |row: &mut Row, gradient: Result<RobotChange, GradientError>| {
-        match gradient.map_err(|error| error.to_string()).and_then(|gradient| along.of(&gradient)) {
-            Ok(derivatives) => row.derivatives = Some(derivatives),
-            Err(reason) => row.doubt = Some(reason),
-        }
+    let put = |row: &mut Row, gradient: Result<RobotChange, GradientError>| match gradient
+        .map_err(|error| error.to_string())
+        .and_then(|gradient| along.of(&gradient))
+    {
+        Ok(derivatives) => row.derivatives = Some(derivatives),
+        Err(reason) => row.doubt = Some(reason),
     };
 
     let kinds: Vec<ResultKind> = rows.iter().map(|row| row.kind).collect();
@@ -277,9 +273,8 @@ fn tension_reason(robot: &Robot, i: usize, chosen: bool, reached: f64, distance:
 fn test_frequencies(rows: &mut [Row], modes: &NominalModes, gradients: &Gradients, along: &Along) {
     let Ok(vibration) = gradients.vibration(&modes.dynamics) else { return };
     let list = &modes.found.modes;
-    let derivatives: Vec<Option<Vec<f64>>> = (list.iter().take(modes.count + 1))
-        .map(|mode| along.of(&vibration.frequency(mode).ok()?).ok())
-        .collect();
+    let derivatives: Vec<Option<Vec<f64>>> =
+        (list.iter().take(modes.count + 1)).map(|mode| along.of(&vibration.frequency(mode).ok()?).ok()).collect();
 
     let mut doubts: Vec<Option<String>> = vec![None; modes.count];
     for k in 0..modes.count {

@@ -160,7 +160,8 @@ pub(super) fn static_gradients(
     let has = |wanted: fn(&ResultKind) -> bool| kinds.iter().any(wanted);
     let of_cables = |is_wanted: bool, all: &dyn Fn() -> Vec<RobotChange>| if is_wanted { all() } else { Vec::new() };
     let lengths = of_cables(has(|kind| matches!(kind, ResultKind::Length(_))), &|| gradients.lengths());
-    let anchors = of_cables(has(|kind| matches!(kind, ResultKind::TensionAtAnchor(_))), &|| gradients.tensions_anchor());
+    let anchors =
+        of_cables(has(|kind| matches!(kind, ResultKind::TensionAtAnchor(_))), &|| gradients.tensions_anchor());
     let platform =
         of_cables(has(|kind| matches!(kind, ResultKind::TensionAtPlatform(_))), &|| gradients.tensions_platform());
     let gradient = |kind: &ResultKind| match *kind {
