@@ -97,6 +97,8 @@ pub(crate) enum HoldName {
     Lengths,
     /// The pose; the unstrained lengths follow
     Pose,
+    /// The pose and the rule of --tension-rule; the unstrained lengths follow
+    Rule,
 }
 
 impl From<HoldName> for Hold {
@@ -104,6 +106,7 @@ impl From<HoldName> for Hold {
         match name {
             HoldName::Lengths => Self::Lengths,
             HoldName::Pose => Self::Pose,
+            HoldName::Rule => Self::Rule,
         }
     }
 }

@@ -13,8 +13,8 @@ use funicular::modes;
 use funicular::response::Quantity;
 use funicular::robot::parameters::{Parameter, Parameters, RobotPart};
 use funicular::robot::{Load, Robot, RobotChange};
-use funicular::statics::CableState;
 use funicular::statics::derivatives::StaticDerivativeError;
+use funicular::statics::{CableState, TensionRule};
 use serde::Serialize;
 
 /// Tolerance of a position or length that is not given [m], and of an angle [degrees]: what is usually measured.
@@ -136,7 +136,7 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
     let text = RobotText::read(&request.robot)?.text;
     let columns = Columns::of(at_rest, &text, &request.by, &request.tolerances)?;
     let Columns { parameters, changes, without_derivative } = columns;
-    let gradients = Gradients::new(robot, equilibrium, request.hold).map_err(no_solution)?;
+    let gradients = held(at_rest, request.hold)?;
 
     // Results of the equilibrium.
     let mut rows = Rows { changes: &changes, results: Vec::new(), refused: Vec::new() };
@@ -189,7 +189,7 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
         robot: robot.name.clone(),
         models: Models::of(at_rest, linearisation),
         held: request.hold.name(),
-        held_means: meaning(robot, request.hold),
+        held_means: meaning(at_rest, request.hold),
         per: request.per.name(),
         parameters,
         results,
@@ -199,15 +199,51 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
     })
 }
 
+/// Gradients about an equilibrium with this held.
+///
+/// # Errors
+/// A rule to be held without one that has chosen the tensions, or an equilibrium without derivatives.
+pub(crate) fn held(at_rest: &AtRest, hold: Hold) -> Result<Gradients<'_>> {
+    let AtRest { robot, equilibrium, rule, held_pose, .. } = at_rest;
+    let gradients = match (hold, rule) {
+        (Hold::Rule, _) if held_pose.is_some() => {
+            bail!(
+                "⟪hold⟫ rule: the lengths of a pose are held, which no rule changes; leave out ⟪hold_lengths_of_pose⟫"
+            )
+        }
+        (Hold::Rule, Some(rule)) => Gradients::by_rule(robot, equilibrium, rule),
+        (Hold::Rule, None) if robot.cables.len() > robot.platform.motion.count() => {
+            bail!(
+                "⟪hold⟫ rule needs tensions that a rule has chosen: give ⟪pose⟫, or the robot file a [state] with `position_m`"
+            )
+        }
+        (Hold::Rule, None) => Gradients::new(robot, equilibrium, Hold::Pose),
+        (Hold::Lengths | Hold::Pose, _) => Gradients::new(robot, equilibrium, hold),
+    };
+    gradients.map_err(no_solution)
+}
+
 /// Sentence about what is held.
-pub(crate) fn meaning(robot: &Robot, hold: Hold) -> &'static str {
-    let redundant = robot.cables.len() > robot.platform.motion.count();
-    match hold {
-        Hold::Lengths => "the unstrained lengths are held, the pose follows",
-        Hold::Pose if redundant => {
+pub(crate) fn meaning(at_rest: &AtRest, hold: Hold) -> &'static str {
+    let redundant = at_rest.robot.cables.len() > at_rest.robot.platform.motion.count();
+    match (hold, &at_rest.rule) {
+        (Hold::Lengths, _) => "the unstrained lengths are held, the pose follows",
+        (Hold::Pose, _) if redundant => {
             "the pose is held, the lengths follow such that the tensions parallel to the chords change least"
         }
-        Hold::Pose => "the pose is held, the lengths follow",
+        (Hold::Rule, Some(TensionRule::Lowest)) => {
+            "the pose is held, the lengths follow such that the tensions obey the rule `lowest`"
+        }
+        (Hold::Rule, Some(TensionRule::Closest(_))) => {
+            "the pose is held, the lengths follow such that the tensions obey the rule `closest`"
+        }
+        (Hold::Rule, Some(TensionRule::Middle)) => {
+            "the pose is held, the lengths follow such that the tensions obey the rule `middle`"
+        }
+        (Hold::Rule, Some(TensionRule::Stiffest)) => {
+            "the pose is held, the lengths follow such that the tensions obey the rule `stiffest`"
+        }
+        (Hold::Pose | Hold::Rule, _) => "the pose is held, the lengths follow",
     }
 }
 
@@ -215,7 +251,8 @@ pub(crate) fn meaning(robot: &Robot, hold: Hold) -> &'static str {
 fn no_solution(error: GradientError) -> anyhow::Error {
     match &error {
         GradientError::Static(StaticDerivativeError::Slack { .. } | StaticDerivativeError::Singular)
-        | GradientError::Vertical { .. } => NoSolution(error.to_string()).into(),
+        | GradientError::Vertical { .. }
+        | GradientError::OneSided { .. } => NoSolution(error.to_string()).into(),
         _ => error.into(),
     }
 }

@@ -409,7 +409,7 @@ impl SamplePlan<'_> {
             robot: robot.name.clone(),
             models: Models::of(&first.1, linearisation),
             held: request.hold.name(),
-            held_means: super::gradient::meaning(robot, request.hold),
+            held_means: super::gradient::meaning(&first.1, request.hold),
             inputs: self.inputs(),
             groups: (inputs.groups.iter().enumerate())
                 .map(|(i, group)| InputGroup {

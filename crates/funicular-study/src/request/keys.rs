@@ -61,7 +61,7 @@ pub const KEYS: &[(&str, &str)] = &[
          `response`",
     ),
     ("by", "paths of the numbers of the robot file by which results are differentiated; `*` stands for any key"),
-    ("hold", "what stays while a number changes: `lengths` or `pose`"),
+    ("hold", "what stays while a number changes: `lengths`, `pose`, or `rule`: the pose and the rule of its tensions"),
     ("per", "step that derivatives are for: `unit`, `percent` of the value or `tolerance`"),
     ("deviations", "standard deviations of normally distributed numbers, as `platform.mass_kg=1%`"),
     ("method", "way to the deviations of results: `automatic`, `linear` or `sampled`"),
