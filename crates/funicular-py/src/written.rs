@@ -47,6 +47,7 @@ object!(ReducedObject, "funicular._results", "ReducedModel");
 object!(StateSpaceObject, "funicular._results", "StateSpaceModel");
 object!(PageObject, "funicular._pages", "Page");
 object!(IdentifiedObject, "funicular._identify", "Identified");
+object!(DesignedObject, "funicular._design", "Designed");
 
 /// Keywords of `reduce` and `state_space`.
 pub(crate) struct ReduceKeywords<'a> {
