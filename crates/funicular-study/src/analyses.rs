@@ -18,6 +18,7 @@ pub mod reduce;
 pub mod shared;
 pub mod statics;
 pub mod stiffness;
+pub mod uncertainty;
 #[cfg(feature = "validation")]
 pub mod validate;
 

@@ -237,6 +237,31 @@ impl Named for Per {
     }
 }
 
+/// Way to the deviations of results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum UncertaintyMethod {
+    /// Linear where that holds, otherwise sampled.
+    #[default]
+    Automatic,
+    /// Linear for every result.
+    Linear,
+    /// Sampled for every result.
+    Sampled,
+}
+
+impl Named for UncertaintyMethod {
+    const WHAT: &'static str = "method";
+    const ALL: &'static [Self] = &[Self::Automatic, Self::Linear, Self::Sampled];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Automatic => "automatic",
+            Self::Linear => "linear",
+            Self::Sampled => "sampled",
+        }
+    }
+}
+
 /// Programs that robots can be exported to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExportFormat {

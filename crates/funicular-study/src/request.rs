@@ -15,6 +15,7 @@ mod parts;
 mod source_file;
 mod statics;
 mod steps;
+mod uncertainty;
 mod vibration;
 
 pub use design::{ChangeValue, DesignRequest};
@@ -33,6 +34,7 @@ pub use statics::{
     CheckRequest, ParametersRequest, PayloadRequest, PoseErrorRequest, StaticsRequest, StiffnessRequest,
 };
 pub use steps::{Steps, digits};
+pub use uncertainty::{DEFAULT_SAMPLES, UncertaintyRequest, pose_and_tensions};
 
 pub use vibration::{CableRequest, CompareRequest, FrfRequest, ModesRequest, ReduceRequest};
 
@@ -71,6 +73,8 @@ pub enum Request {
     Compare(CompareRequest),
     /// Derivatives of results by numbers of the robot file.
     Gradient(GradientRequest),
+    /// Deviations of results from deviations of numbers of the robot file.
+    Uncertainty(UncertaintyRequest),
     /// Minimum and maximum payload at a pose.
     Payload(PayloadRequest),
     /// Distances between the poses of ideal, spring and catenary cables over platform mass.
@@ -121,6 +125,7 @@ impl Request {
             Self::Frf(_) => "frf",
             Self::Compare(_) => "compare",
             Self::Gradient(_) => "gradient",
+            Self::Uncertainty(_) => "uncertainty",
             Self::Payload(_) => "payload",
             Self::PoseError(_) => "pose-error",
             Self::Cable(_) => "cable",
@@ -153,6 +158,7 @@ impl Request {
             Self::Frf(request) => Some(&request.robot),
             Self::Compare(request) => Some(&request.robot),
             Self::Gradient(request) => Some(&request.robot),
+            Self::Uncertainty(request) => Some(&request.robot),
             Self::Payload(request) => Some(&request.robot),
             Self::PoseError(request) => Some(&request.robot),
             Self::Cable(request) => Some(&request.robot),

@@ -17,6 +17,7 @@ use crate::analyses::{
     reduce::{self, ReducedForm},
     statics::{self, Statics},
     stiffness::{self, Stiffness},
+    uncertainty::{self, Uncertainties},
 };
 use crate::error::Error;
 use crate::json;
@@ -40,6 +41,7 @@ pub enum Results {
     Frf(frf::Frf),
     Compare(Compared),
     Gradient(GradientTable),
+    Uncertainty(Uncertainties),
     Payload(Payload),
     PoseError(PoseErrors),
     Cable(CableResult),
@@ -66,6 +68,7 @@ impl Results {
             Self::Frf(found) => json::of_results(found, words),
             Self::Compare(found) => json::of_results(found, words),
             Self::Gradient(found) => json::of_results(found, words),
+            Self::Uncertainty(found) => json::of_results(found, words),
             Self::Payload(found) => json::of_results(found, words),
             Self::PoseError(found) => json::of_results(found, words),
             Self::Cable(found) => json::of_results(found, words),
@@ -103,6 +106,7 @@ pub fn run_on(request: &Request, robot: Option<Robot>, watch: &mut dyn Watch) ->
         Request::Frf(of) => Results::Frf(frf::run(robot()?, of, watch)?),
         Request::Compare(of) => Results::Compare(compare::run(robot()?, of)?),
         Request::Gradient(of) => Results::Gradient(gradient::run(robot()?, of)?),
+        Request::Uncertainty(of) => Results::Uncertainty(uncertainty::run(of, watch)?),
         Request::Payload(of) => Results::Payload(payload::run(robot()?, of)?),
         Request::PoseError(of) => Results::PoseError(pose_error::run(&robot()?, of, watch)?),
         Request::Cable(of) => Results::Cable(cable::run(robot()?, of)?),

@@ -136,6 +136,20 @@ fn requests() -> Vec<Value> {
             ],
         ),
         of(
+            "uncertainty",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &model,
+                &json!({
+                    "of": ["pose", "frequencies"], "deviations": ["platform.mass_kg=1%"],
+                    "tolerances": ["cables.*.anchor_m=0.001"], "hold": "pose", "method": "sampled", "samples": 50,
+                    "seed": 3, "below_hz": 5.0, "poses": [[0.0, 0.0, 0.5, 0.0, 0.0, 0.0]],
+                }),
+            ],
+        ),
+        of(
             "pose-error",
             &[&robot, &tensions, &json!({ "mass_kg": [10.55, 86.35, 100], "pose": [1.0, 2.0, 1.5, 0.0, 3.0, 0.5] })],
         ),

@@ -6,7 +6,7 @@ use funicular::dynamics::Assembly;
 use funicular::gradient::Hold;
 use funicular::robot::WinchMode;
 use funicular::statics::StaticModel;
-use funicular_study::names::{DesignGoal, ModelForm, Per};
+use funicular_study::names::{DesignGoal, ModelForm, Per, UncertaintyMethod};
 
 /// Tension rules by name; see [`funicular::statics::TensionRule`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -157,6 +157,28 @@ impl From<PerName> for Per {
             PerName::Unit => Self::Unit,
             PerName::Percent => Self::Percent,
             PerName::Tolerance => Self::Tolerance,
+        }
+    }
+}
+
+/// Way to the deviations of results by name; see [`UncertaintyMethod`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum UncertaintyMethodName {
+    /// Linear where tensions and frequencies allow it, otherwise sampled
+    #[default]
+    Automatic,
+    /// Linear for every result
+    Linear,
+    /// Sampled for every result
+    Sampled,
+}
+
+impl From<UncertaintyMethodName> for UncertaintyMethod {
+    fn from(name: UncertaintyMethodName) -> Self {
+        match name {
+            UncertaintyMethodName::Automatic => Self::Automatic,
+            UncertaintyMethodName::Linear => Self::Linear,
+            UncertaintyMethodName::Sampled => Self::Sampled,
         }
     }
 }

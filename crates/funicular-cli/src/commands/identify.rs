@@ -4,7 +4,7 @@ use super::result_files::ResultFiles;
 use crate::args::IdentifyArgs;
 use crate::output::Printed;
 use crate::progress::TerminalProgress;
-use crate::table::{NONE, Table, counted, significant};
+use crate::table::{NONE, Table, counted, digits_for, significant};
 use crate::{errors, robot_file};
 use anyhow::{Context, Result, bail};
 use std::fmt::Write as _;
@@ -236,10 +236,4 @@ impl Printed for Identified {
         }
         Ok(())
     }
-}
-
-/// Digits of a value that show two digits of its deviation.
-fn digits_for(value: f64, deviation: f64) -> usize {
-    let ratio = value.abs() / deviation;
-    if ratio.is_finite() && ratio > 0.0 { (ratio.log10().floor() as i64 + 2).clamp(2, 10) as usize } else { 6 }
 }

@@ -140,7 +140,7 @@ fn the_robot_file_is_never_overwritten() {
 }
 
 /// Every command that writes, with `OUT` for the file that it writes to.
-const WRITERS: [&str; 21] = [
+const WRITERS: [&str; 23] = [
     "check ROBOT -o OUT",
     "parameters ROBOT -o OUT",
     "statics ROBOT -o OUT",
@@ -149,6 +149,8 @@ const WRITERS: [&str; 21] = [
     "frf ROBOT --from-hz 1 --to-hz 2 --points 2 --input fz --output z -o OUT",
     "compare ROBOT --below-hz 1 -o OUT",
     "gradient ROBOT --of pose -o OUT",
+    "uncertainty ROBOT --deviations platform.mass_kg=1% -o OUT",
+    "uncertainty ROBOT --deviations platform.mass_kg=1% --page OUT",
     "pose-error ROBOT --mass-kg 10:20:2 -o OUT",
     "cable ROBOT --name 1 --from-hz 1 --to-hz 2 --points 2 -o OUT",
     "reduce ROBOT --below-hz 1 -o OUT",

@@ -27,6 +27,7 @@ mod results;
 mod statics;
 mod stiffness;
 mod sweeps;
+mod uncertainty;
 mod validate;
 mod wind;
 

@@ -32,10 +32,12 @@ from funicular._errors import (
 from funicular._executors import ExecutorError
 from funicular._funicular import Analyses, Catenary, Equilibrium, Pose, Robot, __version__, peaks
 from funicular._identify import Identified, read_measurements
+from funicular._live import Live
 from funicular._pages import Page
-from funicular._results import Equilibria, Modes, ReducedModel, StateSpaceModel
+from funicular._results import Equilibria, ModeGradients, Modes, ReducedModel, StateSpaceModel
 from funicular._study import Exported, Imported, NewRobot, import_robot, merge, new_robot, paper, run, schema, validate
 from funicular._sweeps import Sweep
+from funicular._uncertainty import Uncertainty
 
 __all__ = [
     "Analyses",
@@ -51,6 +53,8 @@ __all__ = [
     "Identified",
     "Imported",
     "InputError",
+    "Live",
+    "ModeGradients",
     "Modes",
     "NewRobot",
     "NoSolutionError",
@@ -65,6 +69,7 @@ __all__ = [
     "StateSpaceModel",
     "StaticsError",
     "Sweep",
+    "Uncertainty",
     "__version__",
     "import_robot",
     "merge",

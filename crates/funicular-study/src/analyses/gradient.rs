@@ -274,7 +274,8 @@ impl Columns {
     pub(crate) fn of(at_rest: &AtRest, text: &str, by: &[String], tolerances: &[String]) -> Result<Self> {
         let all = Parameters::from_toml(text).map_err(|error| anyhow!("{error}"))?;
         let patterns = by.iter().map(|text| Pattern::parse("by", text)).collect::<Result<Vec<_>>>()?;
-        let tolerances = tolerances.iter().map(|text| Tolerance::parse(text)).collect::<Result<Vec<_>>>()?;
+        let tolerances =
+            tolerances.iter().map(|text| Tolerance::parse("tolerances", text)).collect::<Result<Vec<_>>>()?;
 
         let mut columns = Self { parameters: Vec::new(), changes: Vec::new(), without_derivative: Vec::new() };
         let mut met = vec![false; patterns.len()];
@@ -347,28 +348,48 @@ impl Pattern {
     }
 }
 
-/// Given tolerance of numbers.
-struct Tolerance {
+/// Given tolerance or deviation of numbers.
+pub(crate) struct Tolerance {
     pattern: Pattern,
     value: f64,
     is_percent: bool,
 }
 
 impl Tolerance {
-    fn parse(text: &str) -> Result<Self> {
-        let wrong = || anyhow!("⟪tolerances⟫ {text}: write PATH=VALUE or PATH=PERCENT%, as in platform.mass_kg=1%");
+    /// Tolerance from its text `PATH=VALUE` or `PATH=PERCENT%`; `key` is the option.
+    ///
+    /// # Errors
+    /// A text that is not of this form, or a negative value.
+    pub(crate) fn parse(key: &str, text: &str) -> Result<Self> {
+        let wrong = || anyhow!("⟪{key}⟫ {text}: write PATH=VALUE or PATH=PERCENT%, as in platform.mass_kg=1%");
         let (path, value) = text.rsplit_once('=').ok_or_else(wrong)?;
         let number = value.trim().trim_end_matches('%');
         let parsed: f64 = number.trim().parse().map_err(|_| wrong())?;
         if !(parsed.is_finite() && parsed >= 0.0) {
-            bail!("⟪tolerances⟫ {text}: it must be finite and not negative");
+            bail!("⟪{key}⟫ {text}: it must be finite and not negative");
         }
         let is_percent = value.trim_end().ends_with('%');
-        Ok(Self { pattern: Pattern::parse("tolerances", path)?, value: parsed, is_percent })
+        Ok(Self { pattern: Pattern::parse(key, path)?, value: parsed, is_percent })
     }
 
-    fn of(&self, value: f64) -> f64 {
+    /// Size for a number with this value.
+    pub(crate) fn of(&self, value: f64) -> f64 {
         if self.is_percent { 0.01 * self.value * value.abs() } else { self.value }
+    }
+
+    /// True for a size relative to the value.
+    pub(crate) fn is_percent(&self) -> bool {
+        self.is_percent
+    }
+
+    /// True for a number with these keys.
+    pub(crate) fn matches(&self, keys: &[String]) -> bool {
+        self.pattern.matches(keys)
+    }
+
+    /// Path, as it was written.
+    pub(crate) fn path(&self) -> &str {
+        &self.pattern.text
     }
 }
 
@@ -383,7 +404,7 @@ fn usual_tolerance(parameter: &Parameter, value: f64) -> f64 {
 }
 
 /// Value of a number of the file, or what an option has put in its place.
-fn value_at(at_rest: &AtRest, parameter: &Parameter) -> f64 {
+pub(crate) fn value_at(at_rest: &AtRest, parameter: &Parameter) -> f64 {
     let robot = &at_rest.robot;
     let Load { force_w, moment_w, point_p } = &robot.load;
     let axis = ["x", "y", "z"].iter().position(|axis| Some(*axis) == parameter.component);

@@ -7,6 +7,7 @@ use funicular::gradient::{GradientError, Gradients, Hold};
 use funicular::math::{Rotation, Vec3};
 use funicular::robot::{Pose, Robot, RobotChange, TensionLimits, Wind};
 use funicular::statics::{self, Equilibrium, Limit, StaticModel, TensionRange, TensionRule};
+use std::fmt::Write as _;
 
 /// Robot with more cables than degrees of freedom at a pose.
 struct Case {
@@ -57,9 +58,11 @@ fn random_case(number: u64) -> Case {
         let anchor = [6.0 * around.cos(), 5.0 * around.sin(), z];
         let turned = 2.3 * around + draw.between(-0.5, 0.5);
         let attachment = [0.4 * turned.cos(), 0.4 * turned.sin(), draw.between(-0.3, 0.3)];
-        text += &format!(
-            "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\nattachment_m = {attachment:?}\n"
-        );
+        writeln!(
+            text,
+            "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\nattachment_m = {attachment:?}"
+        )
+        .unwrap();
     }
     let robot = Robot::from_toml(&text).unwrap();
     let position_w = Vec3::from(draw.vector(0.6));
@@ -123,15 +126,14 @@ fn cases() -> Vec<Case> {
             position_w: Vec3::new(1.0, 1.5, 1.2),
             rot_wp: Rotation::from_scaled_axis(Vec3::new(0.05, 0.02, -0.1)),
         };
-        let robot = match minimum {
-            Some(_) => robot.with_tension_limits(TensionLimits { minimum, maximum: Some(2000.0) }),
-            None => {
-                let mut robot = robot.clone();
-                robot.cables.iter_mut().for_each(|cable| {
-                    (cable.material.tension_limits.minimum, cable.tension_limits.minimum) = (None, None);
-                });
-                robot
-            }
+        let robot = if minimum.is_some() {
+            robot.with_tension_limits(TensionLimits { minimum, maximum: Some(2000.0) })
+        } else {
+            let mut robot = robot.clone();
+            robot.cables.iter_mut().for_each(|cable| {
+                (cable.material.tension_limits.minimum, cable.tension_limits.minimum) = (None, None);
+            });
+            robot
         };
         all.push(Case {
             name: format!("in wind, {minimum:?}, {rule:?}"),
