@@ -1,5 +1,6 @@
 """Conversion of command lines to calls of Python: an option's name with _ in place of - is the keyword."""
 
+import json
 import re
 import shlex
 import subprocess
@@ -9,7 +10,7 @@ import funicular
 
 # Options for the place and the form of a result, which do not change the computation.
 OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--matrices", "--resume", "--discard", "--part", "--threads"}
-OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode"}
+OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--designed", "--page", "--samples-file"}
 # Options without a value.
 SWITCHES = {
     *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
@@ -65,8 +66,10 @@ def steps(text: str) -> Any:
 def value(command: str, option: str, text: str) -> Any:
     if (command, option) == ("pose-error", "--mass-kg"):
         return steps(text)
-    if option in ("--of", "--by", "--tolerances"):
+    if option in ("--of", "--by", "--tolerances", "--deviations"):
         return text.split(",")
+    if option in ("--weights", "--avoid-hz"):
+        return [float(part) for part in text.replace(":", ",").split(",")]
     if option in ("--input", "--output", "--name", "--rope") or re.search("[a-z]{2}", text):
         return text
     found = numbers(text)
@@ -98,7 +101,9 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
             keywords["quantities"] = next(rest).split(",")
         elif word == "--poses":
             keywords["poses"] = read_poses(next(rest))
-        elif command == "identify" and word in ("--fit", "--prior", "--measured"):
+        elif command == "design" and word == "--change":
+            keywords.setdefault(key, []).append(chosen(next(rest)))
+        elif command == "identify" and word in ("--fit", "--prior", "--measured", "--node", "--response"):
             keywords.setdefault(key, []).append(next(rest))
         elif word in LISTS.get(command, ()):
             keywords.setdefault(key, []).append(next(rest))
@@ -110,6 +115,15 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
     if command == "identify":
         keywords = identification(keywords)
     return command, files, keywords, changes
+
+
+def chosen(text: str) -> dict[str, Any]:
+    """Value of a design with its bounds, as in a request."""
+    path, _, bounds = text.partition("=")
+    if bounds.startswith("±"):
+        return {"path": path, "plus_minus": float(bounds[1:])}
+    low, high = map(float, bounds.split(":"))
+    return {"path": path, "minimum": low, "maximum": high}
 
 
 # Options of `identify` that belong to the request; the others belong to its experiment.
@@ -129,12 +143,22 @@ def identification(keywords: dict[str, Any]) -> dict[str, Any]:
         path, _, prior = text.partition("=")
         value, deviation = prior.split("±")
         fit[path] |= {"prior": float(value), "prior_std": float(deviation)}
-    experiment = {key: value for key, value in keywords.items() if key not in OF_REQUEST and key != "measured"}
-    for path in keywords.pop("measured", []):
-        experiment |= funicular.read_measurements(path)
+    of_files: dict[str, Any] = {
+        "nodes": {int(text.partition("=")[0]): numbers(text.partition("=")[2]) for text in keywords.pop("node", [])},
+        "responses": dict(text.split("=") for text in keywords.pop("response", [])),
+        **{key: keywords.pop(key) for key in ("input_point_m", "output_point_m") if key in keywords},
+    }
+    measured, states = keywords.pop("measured", []), keywords.pop("experiments", None)
+    experiment = {key: value for key, value in keywords.items() if key not in OF_REQUEST}
+    for path in measured:
+        experiment |= funicular.read_measurements(path, **of_files)
+    experiments = [experiment]
+    if states is not None:
+        with open(states) as file:
+            experiments = json.load(file)
     return {
         "fit": [{key: value for key, value in entry.items() if value is not None} for entry in fit.values()],
-        "experiments": [experiment],
+        "experiments": experiments,
         **{key: value for key, value in keywords.items() if key in OF_REQUEST},
     }
 

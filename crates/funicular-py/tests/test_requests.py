@@ -57,6 +57,13 @@ MORE = [
     "--payload-center-m 0,0,-0.1 --platform-share 0.75 --quantity pose,payload-max",
     f"funicular compare {ROBOT} --below-hz 2 --pose 0,0,0.5 {STATE} --assembly without-geometric-stiffness "
     "--in-plane-only --winches clamped",
+    "funicular design robots/cogiro.toml --poses trajectory.csv --weights 2,1 --change platform.mass_kg=80:120 "
+    "--min-frequency-hz 0.5 --min-stiffness-n-per-m 100 --avoid-hz 2.5:3.2 --max-iterations 3 --goal rope-length",
+    f"funicular design robots/cogiro.toml --change cables.*.anchor_m=±0.1 {TENSIONS} {STATE} {MODEL}",
+    f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1%,materials=2% --of tensions,frequencies,damping --below-hz 1.3 "
+    "--method linear",
+    f"funicular uncertainty robots/cogiro.toml {TENSIONS} {STATE} --tolerances cables.*.anchor_m=0.001 --hold pose --of lengths,stiffness-min",
+    f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1% --method sampled --samples 20 --seed 3 {LENGTHS} {MODEL}",
     f"funicular cable {ROBOT} --name 3 {RANGE}",
     f"funicular cable {ROBOT} --name 3 {RANGE} --log --pose 0,0,0.5 {STATE} --cable-model shallow-dynamic "
     "--in-plane-only --winches stuck",
@@ -74,6 +81,17 @@ MORE = [
     f"funicular export robots/cogiro.toml --to vtk {TENSIONS} {STATE}",
     f"funicular sweep robots/cogiro.toml --vary platform.mass_kg=200,300 {TENSIONS} {STATE} {MODEL} --up-to-hz 50",
     f"funicular live robots/cogiro.toml {TENSIONS} {STATE} {MODEL} --hold-lengths-of-pose",
+    "funicular identify robots/cogiro.toml --fit platform.mass_kg=80:200 --prior platform.mass_kg=93±10 --measured response.csv "
+    "--response a1=az/fz --input-point-m 0.1,0,0 --output-point-m 0,0,0.1 --from-hz 0.5 --to-hz 3 --response-noise 0.03 "
+    f"--starts 1 --pose 1,2,1.5 --hold-lengths-of-pose {MODEL}",
+    f"funicular identify {ROBOT} --fit platform.mass_kg --measured test.uff --node 1=0.1,0,0 --node 2=0,0,0.1 --starts 1 {STATE}",
+    f"funicular identify {ROBOT} --fit platform.center_of_mass_m.x --prior platform.center_of_mass_m.x=0±0.02 {LENGTHS} "
+    "--measured-pose 0.02,0.01,0.45,0.1,2.9,-0.2 --position-std-m 0.002 --rotation-std-deg 0.2 "
+    "--measured-tensions-n 17,36,40,15,50,52 --tension-std-n 2",
+    f"funicular identify robots/cogiro.toml --fit platform.mass_kg {TENSIONS} --length-std-m 0.002 "
+    "--measured-lengths-m 9.1,9.0,7.8,7.6,7.3,7.4,8.3,8.4",
+    "funicular identify robots/grab-4-cables.toml --fit platform.inertia_kg_m2 --experiments states.json --rigid-cables "
+    "--starts 1 --frequency-noise 0.02 --damping-noise 0.2",
     "funicular paper",
     "funicular new",
     "funicular new --cables 6 --motion planar-xz --name rig --mass-kg 20 --box-m 0.4,0.3,0.2 --rope 7x7 --diameter-m 0.003 --pose 0,0,1.5",
@@ -84,6 +102,29 @@ MORE = [
     "funicular import docs/import/tripod.txt --mass-kg 7 --inertia-kg-m2 1,1,1,0,0,0 --center-of-mass-m 0,0,0.1 --diameter-m 0.01",
     "funicular import docs/import/tripod_bodies.xml docs/import/tripod_cables.xml --mass-kg-per-m 0.05 --youngs-modulus-pa 1e11 "
     "--diameter-m 0.005 --pose 0,0,1",
+]
+
+# Response in a Universal File: acceleration along z at node 2 per force along z at node 1, at 1, 1.5 and 2 Hz.
+UNIVERSAL_FILE = """    -1
+    58
+NONE
+NONE
+NONE
+NONE
+NONE
+    4         0    1         0 NONE               2   3 NONE               1   3
+         5         3         1  1.00000E+00  5.00000E-01  0.00000E+00
+        18    0    0    0 Frequency            Hz
+        12    0    0    0 Acceleration         m/s^2
+        13    0    0    0 Force                N
+         0    0    0    0 NONE                 NONE
+ -3.88000E-05 -3.40000E-06  3.78000E-02 -1.71000E-02 -1.63000E-02  0.00000E+00
+    -1
+"""
+# Natural frequencies of a robot with four rigid cables in two states.
+STATES = [
+    {"name": "1", "static_model": "ideal", "pose": [1.08, -0.17, -0.1], "frequencies": [{"frequency_hz": 2.25, "label": "1"}]},
+    {"name": "2", "static_model": "ideal", "pose": [0.57, -0.2, -0.17], "frequencies": [{"frequency_hz": 1.91, "std_hz": 0.02}]},
 ]
 
 
@@ -104,6 +145,9 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (tmp_path / name).symlink_to(ROOT / name)
     poses = "x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0.5,0.25,1.5,0,1,2\n0,0,2,0,0,0\n"
     (tmp_path / "trajectory.csv").write_text(poses)
+    (tmp_path / "response.csv").write_text("frequency_hz,a1_re,a1_im\n1,-5.16e-4,0\n2,-2.55e-3,0\n2.5,-7e-3,2e-4\n")
+    (tmp_path / "test.uff").write_text(UNIVERSAL_FILE)
+    (tmp_path / "states.json").write_text(json.dumps(STATES))
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -114,9 +158,8 @@ def test_every_command_that_computes_has_a_line(executable: str) -> None:
     for command in commands.commands(executable):
         if command not in ("request", "merge", "plot", "validate"):
             assert any(line.split()[1] == command for line in found), command
-        # Measurements are files for the program and arrays in Python: test_identify.py compares them.
         for option in commands.options(executable, command):
-            if option not in commands.OUTPUT and command not in ("plot", "identify"):
+            if option not in commands.OUTPUT and command != "plot":
                 of_command = [line for line in found if line.split()[1] == command]
                 used = any(option in line.split() for line in of_command)
                 same = ("--set", "--static-model", "--lengths-m", "--pose", "--in-plane-only")
@@ -158,7 +201,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
     *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "pose-error", "cable"),
-    "reduce",
+    *("reduce", "identify", "uncertainty"),
 )
 
 
@@ -190,8 +233,14 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
     if command == "pose-error":
         assert plain(robot.pose_error(**keywords)) == theirs
         return
+    if command == "uncertainty":
+        assert robot.uncertainty(**keywords).details == theirs
+        return
     if command == "payload":
         assert plain(robot.payload(**keywords)) == theirs
+        return
+    if command == "identify":
+        assert plain(robot.identify(**keywords).to_dict()) == theirs
         return
     rest = robot.equilibrium(**{key: value for key, value in keywords.items() if key in STATE_KEYS})
     # Python takes frequencies instead of a range, and finds peaks by another function.

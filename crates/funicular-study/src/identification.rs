@@ -2,6 +2,8 @@
 //!
 //! docs/theory.md, section 18a, has the equations.
 
+mod derivatives;
+mod experiment;
 mod model;
 mod observations;
 mod precision;

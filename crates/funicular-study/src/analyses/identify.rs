@@ -3,8 +3,7 @@
 use super::found;
 use crate::Watch;
 use crate::identification::{IdentifiedModel, Kind, StartRow, Unknown, judge, search, unknowns, unresolved_peaks};
-use crate::request::{self, Experiment, IdentifyRequest, RobotText};
-use crate::set_values;
+use crate::request::{self, Experiment, IdentifyRequest};
 use crate::text::{counted, significant};
 use anyhow::{Result, bail};
 use funicular::math::Complex;
@@ -110,8 +109,12 @@ pub struct FittedResponse {
     pub input: String,
     pub output: String,
     pub unit: String,
-    /// Root mean square of the residuals in deviations of the noise; 1 if the fit is perfect.
+    /// Root mean square of the residuals in deviations of the noise, of the values that are not left out; 1 if the fit is
+    /// perfect.
     pub residual_rms: f64,
+    /// Ranges that are left out because the model misses them: first and last frequency of each [Hz].
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub left_out_hz: Vec<[f64; 2]>,
     pub frequency_hz: Vec<f64>,
     pub measured_real: Vec<f64>,
     pub measured_imag: Vec<f64>,
@@ -190,6 +193,7 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
     for ((experiment, name), assigned) in request.experiments.iter().zip(&names).zip(&fitted.assigned) {
         tables.add(&model, experiment, name, assigned, [&fitted.values, &before], &mut at);
     }
+    warnings.splice(0..0, left_out(&model, &tables.responses));
     let rms = |value: fn(&FrequencyRow) -> f64| {
         let squares = tables.frequencies.iter().map(|row| (value(row) / row.measured_hz - 1.0).powi(2));
         (!tables.frequencies.is_empty()).then(|| (squares.sum::<f64>() / tables.frequencies.len() as f64).sqrt())
@@ -216,7 +220,7 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
         frequencies: tables.frequencies,
         responses: tables.responses,
         statics: tables.statics,
-        robot_file: fitted_text(&request.robot, &unknowns, &values)?,
+        robot_file: model.text(&best.x)?,
         warnings,
     })
 }
@@ -263,8 +267,10 @@ fn outliers(model: &IdentifiedModel<'_>, request: &IdentifyRequest) -> Option<St
     let responses = model.observations.iter().zip(model.weights()).filter(|(o, _)| o.kind == Kind::Response);
     let frequencies =
         request.experiments.iter().flat_map(|experiment| &experiment.responses).flat_map(|r| &r.frequency_hz);
-    let mut outside: Vec<f64> =
-        responses.zip(frequencies).filter(|((_, weight), _)| **weight < 1.0).map(|(_, hz)| *hz).collect();
+    let mut outside: Vec<f64> = (responses.zip(frequencies))
+        .filter(|((_, weight), _)| **weight > 0.0 && **weight < 1.0)
+        .map(|(_, hz)| *hz)
+        .collect();
     let total = model.observations.iter().filter(|observation| observation.kind == Kind::Response).count();
     if (outside.len() as f64) < MAX_OUTLIERS * total as f64 || outside.len() < 2 {
         return None;
@@ -279,6 +285,35 @@ fn outliers(model: &IdentifiedModel<'_>, request: &IdentifyRequest) -> Option<St
         at(0.05),
         at(0.95)
     ))
+}
+
+/// Sentence on the ranges of responses that are left out; `None` if there are none.
+fn left_out(model: &IdentifiedModel<'_>, responses: &[FittedResponse]) -> Option<String> {
+    let count = model.left_out.iter().filter(|left_out| **left_out).count();
+    let ranges: Vec<String> = (responses.iter())
+        .filter_map(|response| {
+            let (first, last) = (response.left_out_hz.first()?, response.left_out_hz.last()?);
+            let name = if response.name.is_empty() {
+                format!("{}/{}", response.output, response.input)
+            } else {
+                response.name.clone()
+            };
+            let parts = match response.left_out_hz.len() {
+                1 => String::new(),
+                parts => format!(" in {parts} parts"),
+            };
+            Some(format!("{name} from {} to {} Hz{parts}", significant(first[0], 4), significant(last[1], 4)))
+        })
+        .collect();
+    (!ranges.is_empty()).then(|| {
+        format!(
+            "the model misses ranges of responses by more than the noise, and their {} are left out: {}. Find the reason: a \
+             part that the model does not have, a disturbed measurement, or another robot; ⟪from_hz⟫ and ⟪to_hz⟫ leave a \
+             range out of all responses",
+            counted(count, "value"),
+            ranges.join(", ")
+        )
+    })
 }
 
 /// True if every measurement has its own deviation.
@@ -311,22 +346,12 @@ fn value_row(unknown: &Unknown, value: f64, deviation: Option<f64>) -> ValueRow 
         unit: unknown.unit,
         start: unknown.start,
         value,
-        deviation: deviation.map(|deviation| unknown.value_deviation(value, deviation)),
+        deviation: deviation.map(|deviation| deviation * unknown.rate(value)),
         interval_95: deviation.map(interval),
         prior: unknown.prior.map(|prior| prior.0),
         prior_deviation: unknown.prior.map(|prior| prior.1),
         at_bound,
     }
-}
-
-/// Text of the robot file with the values.
-fn fitted_text(robot: &RobotText, unknowns: &[Unknown], values: &[f64]) -> Result<String> {
-    let mut assignments = Vec::with_capacity(values.len());
-    for (unknown, value) in unknowns.iter().zip(values) {
-        let path = set_values::path(&unknown.path).map_err(|error| anyhow::anyhow!("{error}"))?;
-        assignments.push(path.with("⟪fit⟫", *value));
-    }
-    Ok(set_values::apply(&robot.changed_text()?, &assignments)?)
 }
 
 /// Tables of measured and fitted numbers.
@@ -350,7 +375,8 @@ impl Tables {
     ) {
         let mut next = || {
             *at += 1;
-            (&model.observations[*at - 1], fitted[*at - 1], before[*at - 1])
+            let number = *at - 1;
+            (&model.observations[number], fitted[number], before[number], model.left_out[number])
         };
         // Numbers of the state.
         let mut quantities: Vec<String> = Vec::new();
@@ -368,7 +394,7 @@ impl Tables {
             quantities.extend(cables.iter().filter(|_| is_measured).map(|cable| format!("{quantity}:{cable}")));
         }
         for quantity in quantities {
-            let (observation, fitted, _) = next();
+            let (observation, fitted, ..) = next();
             self.statics.push(StaticRow {
                 experiment: name.to_owned(),
                 quantity,
@@ -381,7 +407,7 @@ impl Tables {
         // Natural frequencies.
         let first = self.frequencies.len();
         for (frequency, number) in experiment.frequencies.iter().zip(assigned) {
-            let (_, fitted, before) = next();
+            let (_, fitted, before, _) = next();
             self.frequencies.push(FrequencyRow {
                 experiment: name.to_owned(),
                 label: frequency.label.clone(),
@@ -406,6 +432,7 @@ impl Tables {
                 output: response.output.clone(),
                 unit: unit(&response.input, &response.output),
                 residual_rms: 0.0,
+                left_out_hz: Vec::new(),
                 frequency_hz: response.frequency_hz.clone(),
                 measured_real: response.real.clone(),
                 measured_imag: response.imag.clone(),
@@ -414,16 +441,24 @@ impl Tables {
                 fitted_real: Vec::new(),
                 fitted_imag: Vec::new(),
             };
-            let mut squares = 0.0;
-            for _ in &response.frequency_hz {
-                let (observation, fitted, before) = next();
-                squares += ((fitted - observation.measured) / observation.deviation).norm_sqr();
+            let (mut squares, mut kept, mut is_open) = (0.0, 0_usize, false);
+            for hz in &response.frequency_hz {
+                let (observation, fitted, before, left_out) = next();
+                match (left_out, is_open, row.left_out_hz.last_mut()) {
+                    (true, true, Some(range)) => range[1] = *hz,
+                    (true, ..) => row.left_out_hz.push([*hz, *hz]),
+                    (false, ..) => {
+                        squares += ((fitted - observation.measured) / observation.deviation).norm_sqr();
+                        kept += 1;
+                    }
+                }
+                is_open = left_out;
                 row.before_real.push(before.re);
                 row.before_imag.push(before.im);
                 row.fitted_real.push(fitted.re);
                 row.fitted_imag.push(fitted.im);
             }
-            row.residual_rms = (squares / response.frequency_hz.len() as f64).sqrt();
+            row.residual_rms = (squares / kept.max(1) as f64).sqrt();
             self.responses.push(row);
         }
     }

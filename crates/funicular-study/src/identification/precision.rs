@@ -49,12 +49,13 @@ pub(crate) struct Judged {
 pub(crate) fn judge(model: &IdentifiedModel<'_>, found: &Minimum, is_noise_given: bool) -> Judged {
     let unknowns = model.unknowns;
     let scales: Vec<f64> = unknowns.iter().map(Unknown::spread).collect();
-    let degrees = degrees_of_freedom(model, found);
+    let count = degrees_of_freedom(model, found);
+    let degrees = count.max(1) as f64;
     let chi2_per_degree = found.chi2() / degrees;
     // χ² has the variance 2 per degree of freedom.
     let tolerance = AGREES * (2.0 / degrees).sqrt();
     let ratio = chi2_per_degree.sqrt();
-    let has_degrees = found.residuals.len() > unknowns.len();
+    let has_degrees = count > 0;
     let (factor, verdict) = match (is_noise_given, has_degrees) {
         (_, false) => (
             1.0,
@@ -138,7 +139,7 @@ pub(crate) fn judge(model: &IdentifiedModel<'_>, found: &Minimum, is_noise_given
         weak,
         strong,
         chi2_per_degree,
-        degrees: found.residuals.len().saturating_sub(n),
+        degrees: count,
         factor,
         verdict,
     }

@@ -13,6 +13,9 @@ const FOUND: f64 = 1.5;
 /// Maximum number of iterations of one search.
 const MAX_ITERATIONS: usize = 60;
 
+/// Maximum number of times that the last stage is repeated with other values left out; two are usual.
+const MAX_ROUNDS: usize = 6;
+
 /// Result of one start.
 #[derive(Debug, Clone, serde::Serialize)]
 pub struct StartRow {
@@ -70,7 +73,7 @@ pub(crate) fn search(
         if found.ending == Ending::Cancelled {
             return Err(Cancelled.into());
         }
-        let degrees = degrees_of_freedom(model, &found);
+        let degrees = degrees_of_freedom(model, &found).max(1) as f64;
         let per_degree = found.chi2() / degrees;
         rows.push(StartRow {
             chi2_per_degree: Some(per_degree),
@@ -92,8 +95,18 @@ pub(crate) fn search(
     if has_responses {
         model.stage = Stage::Complex;
         progress(starts, starts + 1);
-        best = minimise(model, &best.x, &bounds, MAX_ITERATIONS)
-            .ok_or_else(|| anyhow!("the responses at the best start cannot be computed again"))?;
+        let again = |model: &mut IdentifiedModel<'_>, x: &[f64]| {
+            minimise(model, x, &bounds, MAX_ITERATIONS)
+                .ok_or_else(|| anyhow!("the responses at the best start cannot be computed again"))
+        };
+        best = again(model, &best.x)?;
+        // Ranges that the model misses are known at a minimum only, and a minimum without them shows more of them.
+        for _ in 0..MAX_ROUNDS {
+            if best.ending == Ending::Cancelled || !model.leave_out(&best.x) {
+                break;
+            }
+            best = again(model, &best.x)?;
+        }
     }
     if best.ending == Ending::Cancelled {
         return Err(Cancelled.into());
@@ -102,9 +115,11 @@ pub(crate) fn search(
     Ok(Searched { best, starts: rows })
 }
 
-/// Number of residuals less the number of unknowns, at least 1.
-pub(crate) fn degrees_of_freedom(model: &IdentifiedModel<'_>, found: &Minimum) -> f64 {
-    found.residuals.len().saturating_sub(model.unknowns.len()).max(1) as f64
+/// Number of residuals less the number of unknowns. Values that are left out do not count.
+pub(crate) fn degrees_of_freedom(model: &IdentifiedModel<'_>, found: &Minimum) -> usize {
+    // Each of them has a real and an imaginary part.
+    let left_out = 2 * model.left_out.iter().filter(|left_out| **left_out).count();
+    found.residuals.len().saturating_sub(left_out + model.unknowns.len())
 }
 
 /// Start number `number`, at a distance of the spread of each value from the first one. The fixed sequence fills the box

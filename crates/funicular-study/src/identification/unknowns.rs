@@ -70,9 +70,9 @@ impl Unknown {
         }
     }
 
-    /// Deviation of the value for a deviation of the coordinate.
-    pub(crate) fn value_deviation(&self, value: f64, deviation: f64) -> f64 {
-        deviation * if self.is_log { value } else { self.unit_step }
+    /// Derivative of the value by the coordinate, at a value.
+    pub(crate) fn rate(&self, value: f64) -> f64 {
+        if self.is_log { value } else { self.unit_step }
     }
 }
 

@@ -1,0 +1,184 @@
+//! Derivatives of the predictions of an experiment by the values, from the gradients of its robot.
+
+use super::experiment::{Prepared, Solved};
+use super::observations::{Kind, Stage};
+use anyhow::{Result, bail};
+use funicular::gradient::{Gradients, Hold, VibrationGradients};
+use funicular::math::{Complex, Mat3, Vec3, skew};
+use funicular::robot::{Robot, RobotChange, State};
+
+/// Angle [rad] below which the series of (93h) is used: the next term is θ⁴/30240.
+const SMALL_ANGLE: f64 = 1e-2;
+
+impl Prepared<'_> {
+    /// Change of the robot of this experiment, for a change of the robot of the file. `all` is the robot of the file, with
+    /// all cables. What the experiment states itself does not change with the file.
+    pub(super) fn change(&self, mut change: RobotChange, all: &Robot) -> RobotChange {
+        let state = &self.given.state;
+        if let Some(mounted) = &self.given.cables {
+            let mut kept = all.cables.iter().map(|cable| mounted.contains(&cable.name));
+            change.cables.retain(|_| kept.next().unwrap_or(false));
+        }
+        if state.mass_kg.is_some() {
+            change.mass = 0.0;
+        }
+        if state.pose.is_some() || state.hold_lengths_of_pose {
+            (change.position_w, change.rotation_w) = (Vec3::zeros(), Vec3::zeros());
+        }
+
+        let load = &state.load;
+        for (is_given, own) in [
+            (load.force_n.is_some(), &mut change.force_w),
+            (load.moment_n_m.is_some(), &mut change.moment_w),
+            (load.load_point_m.is_some(), &mut change.point_p),
+            (load.wind_m_s.is_some(), &mut change.wind_velocity_w),
+        ] {
+            if is_given {
+                *own = Vec3::zeros();
+            }
+        }
+        for cable in &mut change.cables {
+            if state.lengths_m.is_some() || state.hold_lengths_of_pose {
+                cable.unstrained_length = 0.0;
+            }
+            if load.cable_load_n_per_m.is_some() {
+                cable.load_per_length_w = Vec3::zeros();
+            }
+        }
+        change
+    }
+
+    /// Derivatives of the predictions along changes of the robot of this experiment: one list per change, in the order of
+    /// the predictions.
+    ///
+    /// # Errors
+    /// Predictions that have no gradient. The reason is for developers: the caller takes differences instead.
+    pub(super) fn derivatives(
+        &self,
+        solved: &Solved,
+        stage: Stage,
+        changes: &[RobotChange],
+    ) -> Result<Vec<Vec<Complex>>> {
+        let Solved { at_rest, modes, assigned, of_responses, .. } = solved;
+        let (robot, rest) = (&at_rest.robot, &at_rest.equilibrium);
+        let hold = self.hold(robot);
+        // The rules of tension distribution and the nearest pose have other derivatives than a held pose.
+        if hold == Hold::Pose && (at_rest.requested_pose.is_some() || at_rest.rule.is_some()) {
+            bail!("the pose or the tensions follow from a rule");
+        }
+        let has = |kind: Kind| self.observations.iter().any(|observation| observation.kind == kind);
+        if has(Kind::Damping) && stage != Stage::Statics {
+            // The damping ratio to first order depends on the motion of the mode, which is not differentiated.
+            bail!("a damping ratio to first order has no gradient");
+        }
+        let gradients = Gradients::new(robot, rest, hold)?;
+        let mut columns: Vec<Vec<Complex>> = changes.iter().map(|_| Vec::with_capacity(solved.values.len())).collect();
+
+        // Pose, tensions and lengths.
+        if let Some(pose) = self.given.measured_pose {
+            let measured = pose.to_robot()?;
+            let by_pose = gradients.pose();
+            let turn = (rest.pose.rot_wp * measured.rot_wp.inverse()).scaled_axis();
+            let rate = rate_of_rotation_vector(&turn);
+            for (column, change) in columns.iter_mut().zip(changes) {
+                let motion = by_pose.each_ref().map(|gradient| gradient.dot(change));
+                let turned = rate * Vec3::new(motion[3], motion[4], motion[5]);
+                column.extend(motion[..3].iter().chain(turned.iter()).map(|number| Complex::from(*number)));
+            }
+        }
+        let mut add = |gradient: &RobotChange| {
+            for (column, change) in columns.iter_mut().zip(changes) {
+                column.push(gradient.dot(change).into());
+            }
+        };
+        if self.given.measured_tensions_n.is_some() {
+            gradients.tensions_platform().iter().for_each(&mut add);
+        }
+        if self.given.measured_lengths_m.is_some() {
+            gradients.lengths().iter().for_each(&mut add);
+        }
+        if stage == Stage::Statics {
+            columns.iter_mut().for_each(|column| column.resize(solved.values.len(), Complex::default()));
+            return Ok(columns);
+        }
+
+        // Natural frequencies.
+        if !assigned.is_empty() {
+            let Some(dynamics) = &modes.1 else { bail!("modes of rigid cables have no gradient") };
+            let vibration = gradients.vibration(dynamics)?;
+            for &number in assigned {
+                add(&vibration.frequency(&modes.0[number])?);
+            }
+        }
+        if let Some(dynamics) = of_responses {
+            columns.iter_mut().for_each(|column| column.resize(solved.values.len(), Complex::default()));
+            self.add_responses(&gradients.vibration(dynamics)?, robot, changes, &mut columns)?;
+        }
+        Ok(columns)
+    }
+
+    /// Writes the derivatives of the responses.
+    fn add_responses(
+        &self,
+        vibration: &VibrationGradients,
+        robot: &Robot,
+        changes: &[RobotChange],
+        columns: &mut [Vec<Complex>],
+    ) -> Result<()> {
+        for group in self.groups(robot)? {
+            let found = vibration.responses(&group.inputs, &group.outputs, &group.frequency_hz, changes)?;
+            for (pair, first) in group.rows {
+                for (line, derivatives) in found[pair].iter().enumerate() {
+                    for (column, along) in columns.iter_mut().zip(&derivatives.along) {
+                        column[first + line] = *along;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Quantity that is held while a value changes.
+    fn hold(&self, robot: &Robot) -> Hold {
+        match robot.state {
+            State::Pose(_) if !self.given.state.hold_lengths_of_pose => Hold::Pose,
+            _ => Hold::Lengths,
+        }
+    }
+}
+
+/// Derivative of the rotation vector θ of a rotation by a small turn after it, in world axes: the inverse of the left
+/// Jacobian, (93h).
+fn rate_of_rotation_vector(theta: &Vec3) -> Mat3 {
+    let angle = theta.norm();
+    let square = if angle < SMALL_ANGLE {
+        1.0 / 12.0 + angle * angle / 720.0
+    } else {
+        (1.0 - 0.5 * angle / (0.5 * angle).tan()) / (angle * angle)
+    };
+    let cross = skew(theta);
+    Mat3::identity() - cross * 0.5 + cross * cross * square
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use funicular::math::Rotation;
+
+    #[test]
+    fn the_rate_of_a_rotation_vector_is_its_difference() {
+        for size in [1e-9, 1e-3, 0.009_99, 0.010_01, 0.7, 3.0] {
+            let theta = Vec3::new(0.3, -0.8, 0.5).normalize() * size;
+            let rate = rate_of_rotation_vector(&theta);
+            for axis in [Vec3::x(), Vec3::y(), Vec3::z()] {
+                let step = 1e-6;
+                let [before, after] = [-step, step].map(|step| {
+                    (Rotation::from_scaled_axis(axis * step) * Rotation::from_scaled_axis(theta)).scaled_axis()
+                });
+                // Rounding of the vectors over the step, and the cube of the step.
+                let error = ((after - before) / (2.0 * step) - rate * axis).norm();
+                assert!(error < 2e-9, "{size}: {error:e}");
+            }
+        }
+    }
+}
