@@ -11,7 +11,7 @@ use super::anchor_end::EndNumbers;
 use super::arc::{Beyond, Given};
 use crate::catenary::space::HangingCable;
 use crate::math::dual::{Dual, Real, dot};
-use crate::math::{Matrix, Vec3};
+use crate::math::{Mat3, Matrix, Vec3};
 use crate::robot::{Anchor, Pulley, PulleyContact, Wheel};
 
 /// Number of outer variables of a cable with a drive, and of the inner variables of its end.
@@ -133,130 +133,154 @@ impl DriveDerivatives {
             }),
         };
         let beyond = Beyond::at(&given);
-        let wheel = given.wheel.as_ref();
-
-        // Span: dchord = dreach + doffset, and the force by chord, free length, load and EA.
-        let rope = span.catenary.rope();
-        let (free_length, load_w) = (rope.unstrained_length, span.load_w());
-        let by_chord = span.tangent_w();
-        let by_free_length = span.force_by_length_w();
-        let by_load = span.force_by_load_w();
-        let mean_w = span.force_on_start_w() - load_w * (0.5 * free_length);
-        let by_stiffness = by_chord * mean_w * (free_length / rope.axial_stiffness.powi(2));
-        let offset = wheel.map(|wheel| wheel.offset_w(wheel.wrap));
+        let offset = given.wheel.as_ref().map(|wheel| wheel.offset_w(wheel.wrap));
         let offset_by = |variable: usize| offset.map_or_else(Vec3::zeros, |o| Vec3::from(o.map(|c| c.by[variable])));
 
-        // Unknowns: wrap, swivel angle, free length. Inner variables by these and by the outer variables, as columns of
-        // changes (chord, force on the platform, free length, others).
+        // Changes of the span by the unknowns (wrap, swivel angle, free length) and by the outer variables.
+        let rates = SpanRates::of(span);
         let axis_w = contact.map_or_else(Vec3::zeros, |contact| contact.axis_w);
-        let swivel_by = |of: &dyn Fn(usize) -> f64| (0..3).map(|k| of(TURN + k) * axis_w[k]).sum::<f64>();
-        let column = |chord: Vec3, longer: f64, load: Vec3, stiffness: f64| {
-            let force = by_chord * chord + by_free_length * longer + by_load * load + by_stiffness * stiffness;
-            let at_exit = load_w * longer + load * free_length - force;
-            (chord, force, longer, at_exit)
-        };
         let offset_by_swivel = (0..3).fold(Vec3::zeros(), |sum, k| sum + offset_by(TURN + k) * axis_w[k]);
         let zero = Vec3::zeros();
         let of_unknowns = [
-            column(offset_by(WRAP), 0.0, zero, 0.0),
-            column(offset_by_swivel, 0.0, zero, 0.0),
-            column(zero, 1.0, zero, 0.0),
+            rates.change(offset_by(WRAP), 0.0, zero, 0.0),
+            rates.change(offset_by_swivel, 0.0, zero, 0.0),
+            rates.change(zero, 1.0, zero, 0.0),
         ];
         let unit = |k: usize| Vec3::from_fn(|i, _| f64::from(u8::from(i == k)));
-        let of_variables: [(Vec3, Vec3, f64, Vec3); VARIABLES] = std::array::from_fn(|variable| match variable {
-            REACH..LOAD => column(unit(variable - REACH), 0.0, zero, 0.0),
-            LOAD..AXIAL_STIFFNESS => column(zero, 0.0, unit(variable - LOAD), 0.0),
-            AXIAL_STIFFNESS => column(zero, 0.0, zero, 1.0),
-            LENGTH => column(zero, 0.0, zero, 0.0),
-            _ => column(offset_by(variable), 0.0, zero, 0.0),
+        let of_variables: [SpanChange; VARIABLES] = std::array::from_fn(|variable| match variable {
+            REACH..LOAD => rates.change(unit(variable - REACH), 0.0, zero, 0.0),
+            LOAD..AXIAL_STIFFNESS => rates.change(zero, 0.0, unit(variable - LOAD), 0.0),
+            AXIAL_STIFFNESS => rates.change(zero, 0.0, zero, 1.0),
+            LENGTH => rates.change(zero, 0.0, zero, 0.0),
+            _ => rates.change(offset_by(variable), 0.0, zero, 0.0),
         });
-
-        // Conditions (65) over the unknowns: n·N, ν·N and the lengths.
         let conditions = conditions(&given, &beyond, contact);
-        let by_force =
-            |condition: &Inner, at_exit: &Vec3| (0..3).map(|k| condition.by[FORCE + k] * at_exit[k]).sum::<f64>();
-        let is_swivel_free = contact.is_some_and(|contact| contact.distance_from_axis() > ON_AXIS * contact.radius);
-        let mut matrix = Matrix::<3, 3>::zeros();
-        let mut right = Matrix::<3, VARIABLES>::zeros();
-        for (row, condition) in conditions.iter().enumerate() {
-            let is_of_length = row == 2;
-            for (j, (.., longer, at_exit)) in of_unknowns.iter().enumerate() {
-                let own = match j {
-                    0 => condition.by[WRAP],
-                    1 => swivel_by(&|variable| condition.by[variable]),
-                    _ => {
-                        if is_of_length {
-                            *longer
-                        } else {
-                            0.0
-                        }
-                    }
-                };
-                matrix[(row, j)] = by_force(condition, at_exit) + own;
-            }
-            for (variable, (.., at_exit)) in of_variables.iter().enumerate() {
-                let own = match variable {
-                    REACH..LOAD => 0.0,
-                    LENGTH => {
-                        if is_of_length {
-                            -1.0
-                        } else {
-                            0.0
-                        }
-                    }
-                    _ => condition.by[variable],
-                };
-                right[(row, variable)] = -(by_force(condition, at_exit) + own);
-            }
-        }
-        // What has no effect stays.
-        let mut hold = |unknown: usize| {
-            matrix.row_mut(unknown).fill(0.0);
-            matrix[(unknown, unknown)] = 1.0;
-            right.row_mut(unknown).fill(0.0);
-        };
-        if contact.is_none() {
-            hold(0);
-        }
-        if !is_swivel_free {
-            hold(1);
-        }
-        let solved = matrix.lu().solve(&right)?;
+        let solved = unknowns(&conditions, contact, &of_unknowns, &of_variables)?;
 
         // All that changes, by the outer variables.
         let mut chain = [[0.0; VARIABLES]; VARIABLES];
-        let (mut force_rows, mut chord_rows) = ([[0.0; VARIABLES]; 3], [[0.0; VARIABLES]; 3]);
-        let mut length_row = [0.0; VARIABLES];
-        for (variable, (chord, force, longer, at_exit)) in of_variables.iter().enumerate() {
-            let (mut chord, mut force, mut longer, mut at_exit) = (*chord, *force, *longer, *at_exit);
-            for (j, of) in of_unknowns.iter().enumerate() {
-                let size = solved[(j, variable)];
-                chord += of.0 * size;
-                force += of.1 * size;
-                longer += of.2 * size;
-                at_exit += of.3 * size;
-            }
+        let (mut force_w, mut chord_w) = ([[0.0; VARIABLES]; 3], [[0.0; VARIABLES]; 3]);
+        let mut free_length = [0.0; VARIABLES];
+        for (variable, change) in of_variables.iter().enumerate() {
+            let mut whole = *change;
+            of_unknowns.iter().enumerate().for_each(|(j, of)| whole.add(of, solved[(j, variable)]));
             for k in 0..3 {
-                chain[FORCE + k][variable] = at_exit[k];
+                chain[FORCE + k][variable] = whole.at_exit[k];
                 chain[TURN + k][variable] = axis_w[k] * solved[(1, variable)];
-                force_rows[k][variable] = force[k];
-                chord_rows[k][variable] = chord[k];
+                force_w[k][variable] = whole.force[k];
+                chord_w[k][variable] = whole.chord[k];
             }
             chain[WRAP][variable] = solved[(0, variable)];
-            length_row[variable] = longer;
+            free_length[variable] = whole.longer;
         }
-        for variable in LOAD..LENGTH {
-            chain[variable][variable] += 1.0;
+        for (variable, row) in chain.iter_mut().enumerate().take(LENGTH).skip(LOAD) {
+            row[variable] += 1.0;
         }
 
         let chain = Chain(chain);
-        Some(Self {
-            force_w: force_rows,
-            chord_w: chord_rows,
-            free_length: length_row,
-            end: end_numbers(&given, &beyond).map(|number| chain.row(&number)),
-        })
+        let end = end_numbers(&given, &beyond).map(|number| chain.row(&number));
+        Some(Self { force_w, chord_w, free_length, end })
     }
+}
+
+/// Change of a free span: chord, force on the platform, free length, and force at the exit point towards the platform.
+#[derive(Clone, Copy)]
+struct SpanChange {
+    chord: Vec3,
+    force: Vec3,
+    longer: f64,
+    at_exit: Vec3,
+}
+
+impl SpanChange {
+    /// Adds a multiple of another change.
+    fn add(&mut self, other: &Self, size: f64) {
+        self.chord += other.chord * size;
+        self.force += other.force * size;
+        self.longer += other.longer * size;
+        self.at_exit += other.at_exit * size;
+    }
+}
+
+/// Derivatives of the force of a free span on the platform, (53), with its length and its load.
+struct SpanRates {
+    by_chord: Mat3,
+    by_free_length: Vec3,
+    by_load: Mat3,
+    by_stiffness: Vec3,
+    free_length: f64,
+    load_w: Vec3,
+}
+
+impl SpanRates {
+    fn of(span: &HangingCable) -> Self {
+        let rope = span.catenary.rope();
+        let (free_length, load_w, by_chord) = (rope.unstrained_length, span.load_w(), span.tangent_w());
+        let mean_w = span.force_on_start_w() - load_w * (0.5 * free_length);
+        Self {
+            by_chord,
+            by_free_length: span.force_by_length_w(),
+            by_load: span.force_by_load_w(),
+            by_stiffness: by_chord * mean_w * (free_length / rope.axial_stiffness.powi(2)),
+            free_length,
+            load_w,
+        }
+    }
+
+    /// Change of the span with its chord, its length, its load and its EA. The force at the exit point is S q − f.
+    fn change(&self, chord: Vec3, longer: f64, load: Vec3, stiffness: f64) -> SpanChange {
+        let force =
+            self.by_chord * chord + self.by_free_length * longer + self.by_load * load + self.by_stiffness * stiffness;
+        SpanChange { chord, force, longer, at_exit: self.load_w * longer + load * self.free_length - force }
+    }
+}
+
+/// Derivatives of wrap, swivel angle and free length by the outer variables, from the conditions (65); `None` if these do
+/// not determine them.
+fn unknowns(
+    conditions: &[Inner; 3],
+    contact: Option<&PulleyContact>,
+    of_unknowns: &[SpanChange; 3],
+    of_variables: &[SpanChange; VARIABLES],
+) -> Option<Matrix<3, VARIABLES>> {
+    let mut matrix = Matrix::<3, 3>::zeros();
+    let mut right = Matrix::<3, VARIABLES>::zeros();
+    for (row, condition) in conditions.iter().enumerate() {
+        let is_of_length = f64::from(u8::from(row == 2));
+        let by_force = |change: &SpanChange| (0..3).map(|k| condition.by[FORCE + k] * change.at_exit[k]).sum::<f64>();
+        for (j, change) in of_unknowns.iter().enumerate() {
+            let own = match j {
+                0 => condition.by[WRAP],
+                1 => by_swivel(condition, contact),
+                _ => change.longer * is_of_length,
+            };
+            matrix[(row, j)] = by_force(change) + own;
+        }
+        for (variable, change) in of_variables.iter().enumerate() {
+            let own = match variable {
+                REACH..LOAD => 0.0,
+                LENGTH => -is_of_length,
+                _ => condition.by[variable],
+            };
+            right[(row, variable)] = -(by_force(change) + own);
+        }
+    }
+
+    // What has no effect stays.
+    let is_swivel_free = contact.is_some_and(|contact| contact.distance_from_axis() > ON_AXIS * contact.radius);
+    for (unknown, is_free) in [(0, contact.is_some()), (1, is_swivel_free)] {
+        if !is_free {
+            matrix.row_mut(unknown).fill(0.0);
+            matrix[(unknown, unknown)] = 1.0;
+            right.row_mut(unknown).fill(0.0);
+        }
+    }
+    matrix.lu().solve(&right)
+}
+
+/// Derivative by the swivel angle: the part of the rotation about the axis.
+fn by_swivel(number: &Inner, contact: Option<&PulleyContact>) -> f64 {
+    contact.map_or(0.0, |contact| (0..3).map(|k| number.by[TURN + k] * contact.axis_w[k]).sum())
 }
 
 /// Numbers of the end, in the order of [`end`].
@@ -314,7 +338,7 @@ pub(crate) fn straight_chord(pulley: &Pulley, reach_w: &Vec3) -> Option<[Row; 3]
     let normals = [wheel.exit_normal_w(), wheel.sideways_w];
     let mut matrix = Matrix::<2, 2>::zeros();
     let mut right = Matrix::<2, VARIABLES>::zeros();
-    let swivel_by = |number: &Inner| (0..3).map(|k| number.by[TURN + k] * contact.axis_w[k]).sum::<f64>();
+    let swivel_by = |number: &Inner| by_swivel(number, Some(&contact));
     for (row, normal) in normals.iter().enumerate() {
         let condition = dot(normal, &chord);
         matrix[(row, 0)] = condition.by[WRAP];

@@ -10,7 +10,7 @@ use crate::cable::catenary_dynamic::DriveSignal;
 use crate::drive::derivatives::end;
 use crate::drive::{AnchorEnd, ChainDescription, DriveAtRest, Piece, Place};
 use crate::math::Complex;
-use crate::robot::{Anchor, Servo, WinchMode};
+use crate::robot::{Anchor, PulleyContact, Servo, WinchMode};
 
 /// Form of the drive of one cable.
 pub(super) struct DriveForm {
@@ -104,7 +104,7 @@ impl DriveForm {
             radius: pulley.map_or(0.0, |pulley| pulley.radius),
             inertia: pulley.map_or(0.0, |pulley| pulley.inertia),
             swivel_inertia: pulley.map_or(0.0, |pulley| pulley.swivel_inertia),
-            distance: drive.contact.as_ref().map_or(0.0, |contact| contact.distance_from_axis()),
+            distance: drive.contact.as_ref().map_or(0.0, PulleyContact::distance_from_axis),
             sideways: end.sideways_w.map(|_| along),
             drum_side_length: anchor.drum_side_length(),
             guides: winch.map_or_else(Vec::new, |winch| {
@@ -289,7 +289,7 @@ impl DriveForm {
                 sum.drive.delay += both * control.by_delay;
             }
             sum.drive.damping += both * control.by_damping;
-            if chain.is_at_exit(motor) {
+            if motor.is_at_exit() {
                 for (force, moved) in force.iter_mut().zip([motor_a, motor_b]) {
                     *force += moved * control.force - at.square * moved * self.motor_mass;
                 }
@@ -297,7 +297,7 @@ impl DriveForm {
         }
 
         // A drum at the exit point moves by σ λ_E/λ.
-        if chain.is_at_exit(drum) {
+        if drum.is_at_exit() {
             let per_ratio = -drum.factor / chain.ratio;
             *by_ratio += factor * (a[drum.motion] * force[1] + b[drum.motion] * force[0]) * per_ratio;
         }
@@ -317,13 +317,13 @@ impl DriveForm {
         let mut by_ratio = T::default();
         // A place at the exit point contains one over the ratio of the stretches.
         let mut add_place = |place: Place, force: T| {
-            if chain.is_at_exit(place) {
+            if place.is_at_exit() {
                 by_ratio += factor * force * moved(place, z) * (-1.0 / chain.ratio);
             }
         };
         match (signal, chain.drum, chain.motor) {
             (DriveSignal::Drum, Some(place), _) | (DriveSignal::Motor, _, Some(place)) => {
-                add_place(place, T::from(1.0))
+                add_place(place, T::from(1.0));
             }
             (DriveSignal::Length, _, Some(motor)) => {
                 // C λ_E at the motor.
@@ -344,7 +344,7 @@ impl DriveForm {
                 add_place(drum, T::from(chain.shaft * self.stretch_drum));
             }
             (DriveSignal::Length, None, None) => {
-                self.add_held_drum(sum, chain, z, (at, by_damping), factor, &mut by_ratio)
+                self.add_held_drum(sum, chain, z, (at, by_damping), factor, &mut by_ratio);
             }
             _ => {}
         }

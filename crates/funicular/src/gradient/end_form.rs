@@ -6,7 +6,7 @@ use super::scalar::{Field, Vector, add_times, vector};
 use crate::drive::derivatives::end;
 use crate::drive::{AnchorEnd, DriveAtRest};
 use crate::math::{Mat3, Vec3};
-use crate::robot::Anchor;
+use crate::robot::{Anchor, Winch};
 
 /// End at rest: it slips along the cable and moves sideways until its stiffness S holds it.
 pub(super) struct EndAtRest {
@@ -30,7 +30,7 @@ impl EndAtRest {
         let end: &AnchorEnd = &drive?.end;
         let along_w = end.along_w?;
         let sideways_w = end.sideways_w.unwrap_or_else(Vec3::zeros);
-        let winch_compliance = anchor.winch.as_ref().map_or(0.0, |winch| winch.compliance());
+        let winch_compliance = anchor.winch.as_ref().map_or(0.0, Winch::compliance);
         let spring = end.stiffness[0][0] - end.weight;
         Some(Self {
             directions_w: [along_w, sideways_w],

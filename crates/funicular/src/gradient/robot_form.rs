@@ -263,13 +263,12 @@ impl SpringForm {
     ) {
         let (chord, lever) = (vector(&self.chord_w), vector(&self.lever_w));
         let [end_a, end_b] = [a, b].map(|(v, theta)| add(v, &cross(theta, &lever)));
-        let followed = |start: &Vector<T>| {
+        let followed = |start: &Vector<T>| -> ([T; 2], Vector<T>) {
             let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(start));
             let moved = self.end.as_ref().map_or_else(Default::default, |of| of.displacement(&at_end));
             (at_end, std::array::from_fn(|k| start[k] - moved[k]))
         };
-        let ((far_a, u_a), (far_b, u_b)): (([T; 2], Vector<T>), ([T; 2], Vector<T>)) =
-            (followed(&end_a), followed(&end_b));
+        let [(far_a, u_a), (far_b, u_b)] = [followed(&end_a), followed(&end_b)];
 
         let (l, ea) = (self.chord_w.norm(), self.axial_stiffness);
         let [along_a, along_b] = [dot(&u_a, &chord), dot(&u_b, &chord)];
@@ -284,8 +283,8 @@ impl SpringForm {
         if let Some(end) = &self.end {
             end.add(sum, &far_a, &far_b, factor);
             for (first, i) in [(end::TRAVEL, 0), (end::SIDEWAYS, 1)] {
-                for k in 0..3 {
-                    sum.end[first + k] += -(size * chord[k] * (along_a * far_b[i] + along_b * far_a[i]));
+                for (sum, chord) in sum.end[first..].iter_mut().zip(chord) {
+                    *sum += -(size * chord * (along_a * far_b[i] + along_b * far_a[i]));
                 }
             }
         }

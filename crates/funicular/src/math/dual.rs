@@ -108,8 +108,7 @@ impl<const N: usize> Mul for Dual<N> {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
-        let by = from_fn(|i| self.by[i] * other.value + self.value * other.by[i]);
-        Self { value: self.value * other.value, by }
+        Self { value: self.value * other.value, by: mixed(&self.by, other.value, &other.by, self.value) }
     }
 }
 
@@ -125,8 +124,8 @@ impl<const N: usize> Div for Dual<N> {
     type Output = Self;
 
     fn div(self, other: Self) -> Self {
-        let value = self.value / other.value;
-        Self { value, by: from_fn(|i| (self.by[i] - value * other.by[i]) / other.value) }
+        let (value, inverse) = (self.value / other.value, other.value.recip());
+        Self { value, by: mixed(&self.by, inverse, &other.by, -value * inverse) }
     }
 }
 
@@ -155,6 +154,11 @@ impl<const N: usize> Real for Dual<N> {
         let slope = if sine.abs() < 1.0 { (1.0 - sine * sine).sqrt().recip() } else { 0.0 };
         self.function(sine.asin(), slope)
     }
+}
+
+/// Derivatives `a x + b y` of a product or a quotient.
+fn mixed<const N: usize>(a: &[f64; N], x: f64, b: &[f64; N], y: f64) -> [f64; N] {
+    from_fn(|i| a[i] * x + b[i] * y)
 }
 
 /// Scalar product.

@@ -74,9 +74,11 @@ impl ChainDescription {
             ratio: parts.stretch / parts.stretch_drum,
         })
     }
+}
 
-    /// True if the drum is at the exit point, so that its place contains the ratio of the stretches.
-    pub(crate) fn is_at_exit(&self, place: Place) -> bool {
-        place.motion == SLIP.motion
+impl Place {
+    /// True for a drum or motor at the exit point, whose place contains the ratio of the stretches.
+    pub(crate) fn is_at_exit(self) -> bool {
+        self.motion == SLIP.motion
     }
 }
