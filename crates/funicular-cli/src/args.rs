@@ -1,5 +1,6 @@
 //! Arguments of the program.
 
+mod design;
 mod export;
 mod gradient;
 mod groups;
@@ -11,10 +12,12 @@ mod pages;
 mod request;
 mod statics;
 mod sweep;
+mod uncertainty;
 pub(crate) mod values;
 mod vibration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+pub(crate) use design::DesignArgs;
 pub(crate) use export::{ExportArgs, ExportFormat};
 pub(crate) use gradient::GradientArgs;
 pub(crate) use groups::{
@@ -29,6 +32,7 @@ pub(crate) use pages::{LiveArgs, PaperArgs, ReportArgs};
 pub(crate) use statics::{CheckArgs, PayloadArgs, PoseErrorArgs, StaticsArgs, StiffnessArgs};
 use std::path::PathBuf;
 pub(crate) use sweep::{EachArgs, MapArgs, MergeArgs, PlotArgs, RunArgs, SweepArgs};
+pub(crate) use uncertainty::UncertaintyArgs;
 pub(crate) use vibration::{CableArgs, CompareArgs, FrfArgs, ModesArgs, ReduceArgs};
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
@@ -129,6 +133,21 @@ pub(crate) enum Command {
         funicular gradient robots/yuan2014-4mm.toml --of response --at-hz 1.1 --input fz --output az \\\n    \
         --by platform,materials --per tolerance --tolerances platform.mass_kg=2%")]
     Gradient(GradientArgs),
+    /// Deviations of results from deviations or tolerances of numbers of the robot file
+    ///
+    /// Results are linear in the deviations where no cable may become slack and no frequencies may cross; elsewhere the
+    /// program computes sampled robots, on all cores. Each result has its deviation, the interval that holds 95 % of all
+    /// robots, and the shares of the numbers; docs/uncertainty.md explains the tables.
+    #[command(
+        after_help = "Examples:\n  funicular uncertainty robots/yuan2014-4mm.toml --deviations platform.mass_kg=1%,cables.*.anchor_m=0.002 \\\n    \
+        --of pose,tensions,frequencies --below-hz 2\n  \
+        funicular uncertainty robots/cogiro.toml --pose 1,2,1.5 --tolerances cables.*.unstrained_length_m=0.0002 -o cogiro.html\n  \
+        funicular uncertainty robots/cogiro.toml --poses trajectory.csv --deviations platform.center_of_mass_m=0.005 \\\n    \
+        --of stiffness-min --hold pose -o stiffness.csv\n  \
+        funicular uncertainty robots/yuan2014-4mm.toml --deviations materials.*.axial_stiffness_n=5%,platform=1% \\\n    \
+        --of frequencies,damping --below-hz 3 --samples 2000 --samples-file robots.parquet"
+    )]
+    Uncertainty(UncertaintyArgs),
     /// Minimum and maximum payload at a pose, with the cables and ends whose tension limits bind
     ///
     /// The payload is held by any tensions within the limits, not only by those of a tension rule.
@@ -171,6 +190,18 @@ pub(crate) enum Command {
         funicular identify robot.toml --experiments poses.json --rigid-cables --fit platform.center_of_mass_m \\\n    \
         --fit platform.inertia_kg_m2 -o result.json --page result.html")]
     Identify(IdentifyArgs),
+    /// Values of the robot file with which the robot is stiffest, fastest or lightest at several poses
+    ///
+    /// The values move within their bounds until the goal at the worst pose, or its weighted mean, improves no further. The
+    /// poses are held, and the tensions follow --tension-rule. docs/design.md explains goals, demands and the result.
+    #[command(after_help = "Examples:\n  \
+        funicular design robots/cogiro.toml --poses docs/design/cogiro-poses.csv --target-tension-n 350 \\\n    \
+        --change 'cables.*.attachment_m=±0.05' -o designed.toml\n  \
+        funicular design robots/cogiro.toml --pose 1,2,1.5 --change 'cables.*.anchor_m.z=5:6' --goal stiffness \\\n    \
+        --page design.html\n  \
+        funicular design robots/cogiro.toml --pose 0,0,1.5 --change 'cables.*.anchor_m=±0.5' --goal rope-mass \\\n    \
+        --min-stiffness-n-per-m 20000")]
+    Design(DesignArgs),
     /// Tensions, frequencies, stiffness over the workspace, with one row per pose
     #[command(after_help = "Examples:\n  \
         funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    \

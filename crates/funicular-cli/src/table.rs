@@ -49,6 +49,12 @@ impl fmt::Display for Table {
     }
 }
 
+/// Digits of a value that show two digits of its deviation.
+pub(crate) fn digits_for(value: f64, deviation: f64) -> usize {
+    let ratio = value.abs() / deviation;
+    if ratio.is_finite() && ratio > 0.0 { (ratio.log10().floor() as i64 + 2).clamp(2, 10) as usize } else { 6 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

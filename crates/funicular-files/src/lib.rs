@@ -29,6 +29,7 @@ mod sealed;
 #[cfg(feature = "arrow")]
 pub mod table;
 pub mod threads;
+mod uncertainty;
 mod vti;
 
 pub use guard::Guard;
@@ -38,6 +39,7 @@ pub use resumable_writer::{Begin, Job, Opened};
 #[cfg(feature = "arrow")]
 pub use table::Table;
 pub use threads::Outcome;
+pub use uncertainty::{UncertaintyOutcome, UncertaintyRun};
 
 use endings::Kind;
 use funicular_study::sweep::{Chunk, Record, RecordDifference};

@@ -38,6 +38,11 @@ impl SweepFile {
         Ok(Self { file, record, complete, first_row, rows })
     }
 
+    /// File whose record is known.
+    pub(crate) fn of_parts(file: ParquetFile, record: Record, complete: bool, rows: usize) -> Self {
+        Self { file, record, complete, first_row: 0, rows }
+    }
+
     /// Passes the rows to `take` in chunks, in order.
     ///
     /// # Errors

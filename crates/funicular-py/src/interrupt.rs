@@ -48,13 +48,35 @@ pub(crate) fn interruptible_in_steps<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&mut dyn Watch) -> T + Send + 'static,
 ) -> PyResult<T> {
+    let stop = Stop::default();
+    let mut watch = stop.clone();
+    until_signal(py, &stop, move || work(&mut watch))
+}
+
+/// Runs work on a new thread while the calling thread checks for signals; Ctrl-C sets the flag that the work looks at.
+///
+/// At Ctrl-C the caller gets the exception at once; the thread ends when the work has seen the flag, and its result is
+/// dropped.
+pub(crate) fn interruptible_by_flag<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce(&AtomicBool) -> T + Send + 'static,
+) -> PyResult<T> {
+    let stop = Stop::default();
+    let flag = Arc::clone(&stop.0);
+    until_signal(py, &stop, move || work(&flag))
+}
+
+/// Runs work on a new thread until it ends or a signal comes, which sets `stop`.
+fn until_signal<T: Send + 'static>(
+    py: Python<'_>,
+    stop: &Stop,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> PyResult<T> {
     py.detach(|| {
         let (sender, receiver) = channel();
-        let stop = Stop::default();
-        let mut watch = stop.clone();
         let worker = thread::Builder::new().spawn(move || {
             // The receiver is gone after Ctrl-C.
-            let _ = sender.send(work(&mut watch));
+            let _ = sender.send(work());
         })?;
 
         loop {

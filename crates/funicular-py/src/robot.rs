@@ -3,6 +3,7 @@
 mod grids;
 mod inverse;
 mod statics;
+mod uncertainty;
 
 use crate::analyses::PyAnalyses;
 use crate::answers;

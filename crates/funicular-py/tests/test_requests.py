@@ -57,6 +57,13 @@ MORE = [
     "--payload-center-m 0,0,-0.1 --platform-share 0.75 --quantity pose,payload-max",
     f"funicular compare {ROBOT} --below-hz 2 --pose 0,0,0.5 {STATE} --assembly without-geometric-stiffness "
     "--in-plane-only --winches clamped",
+    "funicular design robots/cogiro.toml --poses trajectory.csv --weights 2,1 --change platform.mass_kg=80:120 "
+    "--min-frequency-hz 0.5 --min-stiffness-n-per-m 100 --avoid-hz 2.5:3.2 --max-iterations 3 --goal rope-length",
+    f"funicular design robots/cogiro.toml --change cables.*.anchor_m=±0.1 {TENSIONS} {STATE} {MODEL}",
+    f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1%,materials=2% --of tensions,frequencies,damping --below-hz 1.3 "
+    "--method linear",
+    f"funicular uncertainty robots/cogiro.toml {TENSIONS} {STATE} --tolerances cables.*.anchor_m=0.001 --hold pose --of lengths,stiffness-min",
+    f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1% --method sampled --samples 20 --seed 3 {LENGTHS} {MODEL}",
     f"funicular cable {ROBOT} --name 3 {RANGE}",
     f"funicular cable {ROBOT} --name 3 {RANGE} --log --pose 0,0,0.5 {STATE} --cable-model shallow-dynamic "
     "--in-plane-only --winches stuck",
@@ -194,7 +201,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
     *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "pose-error", "cable"),
-    *("reduce", "identify"),
+    *("reduce", "identify", "uncertainty"),
 )
 
 
@@ -225,6 +232,9 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
     robot = commands.robot_of(files, changes)
     if command == "pose-error":
         assert plain(robot.pose_error(**keywords)) == theirs
+        return
+    if command == "uncertainty":
+        assert robot.uncertainty(**keywords).details == theirs
         return
     if command == "payload":
         assert plain(robot.payload(**keywords)) == theirs

@@ -6,6 +6,7 @@
 pub mod cable;
 pub mod check;
 pub mod compare;
+pub mod design;
 pub mod frf;
 pub mod gradient;
 pub mod identify;
@@ -17,6 +18,7 @@ pub mod reduce;
 pub mod shared;
 pub mod statics;
 pub mod stiffness;
+pub mod uncertainty;
 #[cfg(feature = "validation")]
 pub mod validate;
 

@@ -17,6 +17,7 @@ pub(crate) mod map;
 mod pdf;
 pub(crate) mod space;
 pub(crate) mod style;
+pub(crate) mod supports;
 mod svg;
 pub(crate) mod view;
 

@@ -32,6 +32,7 @@
 pub mod analyses;
 pub mod at_rest;
 pub mod csv_lines;
+mod design;
 mod error;
 pub mod export;
 #[cfg(feature = "pages")]
@@ -53,6 +54,7 @@ pub mod signals;
 pub mod sweep;
 pub mod text;
 pub mod uff_writing;
+mod uncertainty;
 #[cfg(feature = "validation")]
 pub mod validation;
 pub mod values;

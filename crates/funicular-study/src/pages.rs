@@ -4,6 +4,7 @@
 //! robot in it ([`live`]). It does not depend on the time,
 //! on random numbers or on the network: two runs write the same bytes.
 
+pub mod design;
 pub(crate) mod figure;
 pub mod identify;
 pub mod live;
@@ -11,6 +12,7 @@ pub mod paper;
 pub mod plot;
 pub mod report;
 pub(crate) mod table;
+pub mod uncertainty;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;

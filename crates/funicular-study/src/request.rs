@@ -4,6 +4,7 @@
 //! every other key is an option with the same name as in the program (`--mass-kg`) and in Python (`mass_kg=`). An
 //! option that is left out has its default.
 
+mod design;
 mod files;
 mod gradient;
 mod grids;
@@ -14,8 +15,10 @@ mod parts;
 mod source_file;
 mod statics;
 mod steps;
+mod uncertainty;
 mod vibration;
 
+pub use design::{ChangeValue, DesignRequest};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest};
 pub use gradient::{GradientRequest, frequencies};
 pub use grids::{MapRequest, MergeRequest, PlotRequest, SweepRequest};
@@ -31,6 +34,7 @@ pub use statics::{
     CheckRequest, ParametersRequest, PayloadRequest, PoseErrorRequest, StaticsRequest, StiffnessRequest,
 };
 pub use steps::{Steps, digits};
+pub use uncertainty::{DEFAULT_SAMPLES, UncertaintyRequest, pose_and_tensions};
 
 pub use vibration::{CableRequest, CompareRequest, FrfRequest, ModesRequest, ReduceRequest};
 
@@ -69,6 +73,8 @@ pub enum Request {
     Compare(CompareRequest),
     /// Derivatives of results by numbers of the robot file.
     Gradient(GradientRequest),
+    /// Deviations of results from deviations of numbers of the robot file.
+    Uncertainty(UncertaintyRequest),
     /// Minimum and maximum payload at a pose.
     Payload(PayloadRequest),
     /// Distances between the poses of ideal, spring and catenary cables over platform mass.
@@ -79,6 +85,8 @@ pub enum Request {
     Reduce(ReduceRequest),
     /// Values of the robot file that fit measurements best.
     Identify(IdentifyRequest),
+    /// Values of the robot file with which the robot is best at several poses.
+    Design(DesignRequest),
     /// Quantities over poses.
     Map(MapRequest),
     /// Quantities over values of the robot file.
@@ -117,11 +125,13 @@ impl Request {
             Self::Frf(_) => "frf",
             Self::Compare(_) => "compare",
             Self::Gradient(_) => "gradient",
+            Self::Uncertainty(_) => "uncertainty",
             Self::Payload(_) => "payload",
             Self::PoseError(_) => "pose-error",
             Self::Cable(_) => "cable",
             Self::Reduce(_) => "reduce",
             Self::Identify(_) => "identify",
+            Self::Design(_) => "design",
             Self::Map(_) => "map",
             Self::Sweep(_) => "sweep",
             Self::Report(_) => "report",
@@ -148,11 +158,13 @@ impl Request {
             Self::Frf(request) => Some(&request.robot),
             Self::Compare(request) => Some(&request.robot),
             Self::Gradient(request) => Some(&request.robot),
+            Self::Uncertainty(request) => Some(&request.robot),
             Self::Payload(request) => Some(&request.robot),
             Self::PoseError(request) => Some(&request.robot),
             Self::Cable(request) => Some(&request.robot),
             Self::Reduce(request) => Some(&request.robot),
             Self::Identify(request) => Some(&request.robot),
+            Self::Design(request) => Some(&request.robot),
             Self::Map(request) => Some(&request.robot),
             Self::Sweep(request) => Some(&request.robot),
             Self::Report(request) => Some(&request.robot),

@@ -6,6 +6,7 @@ use crate::analyses::{
     cable::{self, CableResult},
     check::{self, Checked},
     compare::{self, Compared},
+    design::{self, Designed},
     frf,
     gradient::{self, GradientTable},
     identify::{self, Identified},
@@ -16,6 +17,7 @@ use crate::analyses::{
     reduce::{self, ReducedForm},
     statics::{self, Statics},
     stiffness::{self, Stiffness},
+    uncertainty::{self, Uncertainties},
 };
 use crate::error::Error;
 use crate::json;
@@ -39,11 +41,13 @@ pub enum Results {
     Frf(frf::Frf),
     Compare(Compared),
     Gradient(GradientTable),
+    Uncertainty(Uncertainties),
     Payload(Payload),
     PoseError(PoseErrors),
     Cable(CableResult),
     Reduce(ReducedForm),
     Identify(Box<Identified>),
+    Design(Box<Designed>),
     #[cfg(feature = "validation")]
     Validate(Validated),
 }
@@ -64,11 +68,13 @@ impl Results {
             Self::Frf(found) => json::of_results(found, words),
             Self::Compare(found) => json::of_results(found, words),
             Self::Gradient(found) => json::of_results(found, words),
+            Self::Uncertainty(found) => json::of_results(found, words),
             Self::Payload(found) => json::of_results(found, words),
             Self::PoseError(found) => json::of_results(found, words),
             Self::Cable(found) => json::of_results(found, words),
             Self::Reduce(found) => json::of_results(found, words),
             Self::Identify(found) => json::of_results(&**found, words),
+            Self::Design(found) => json::of_results(&**found, words),
             #[cfg(feature = "validation")]
             Self::Validate(found) => json::of_results(found, words),
         }
@@ -100,11 +106,13 @@ pub fn run_on(request: &Request, robot: Option<Robot>, watch: &mut dyn Watch) ->
         Request::Frf(of) => Results::Frf(frf::run(robot()?, of, watch)?),
         Request::Compare(of) => Results::Compare(compare::run(robot()?, of)?),
         Request::Gradient(of) => Results::Gradient(gradient::run(robot()?, of)?),
+        Request::Uncertainty(of) => Results::Uncertainty(uncertainty::run(of, watch)?),
         Request::Payload(of) => Results::Payload(payload::run(robot()?, of)?),
         Request::PoseError(of) => Results::PoseError(pose_error::run(&robot()?, of, watch)?),
         Request::Cable(of) => Results::Cable(cable::run(robot()?, of)?),
         Request::Reduce(of) => Results::Reduce(reduce::run(robot()?, of, watch)?),
         Request::Identify(of) => Results::Identify(Box::new(identify::run(of, watch)?)),
+        Request::Design(of) => Results::Design(Box::new(design::run(of, watch)?)),
         #[cfg(feature = "validation")]
         Request::Validate(_) => Results::Validate(validate::run()?),
         #[cfg(not(feature = "validation"))]

@@ -42,12 +42,6 @@ pub enum CableMotionError {
         /// Name of the cable.
         cable: String,
     },
-    /// The base of a robot with flexible supports turns, or an anchor on a support is moved.
-    #[error(
-        "for a robot with flexible supports, rotations of the base and motions of anchors on supports are not known: choose \
-         `base-x`, `base-y` or `base-z`, or an input on the platform, on a cable or at a drive"
-    )]
-    FrameAndSupports,
     /// The cable has no catenary-dynamic stiffness.
     #[error("cable \"{cable}\": {reason}")]
     CatenaryDynamic {

@@ -8,7 +8,7 @@ mod min_stiffness;
 mod null_vectors;
 mod supports;
 
-pub(crate) use blocks::{CableBlocks, CableRow, PlatformBlocks};
+pub(crate) use blocks::{CableBlocks, CableRow, PlatformBlocks, SupportBlocks};
 pub(crate) use null_vectors::NullVector;
 
 use crate::cable::catenary_dynamic::{CatenaryDynamicError, EndSignal};
@@ -251,19 +251,26 @@ impl Dynamics {
     /// the `signals` at the far ends of cables (index of the cable in the order of the file, signal), too.
     pub(crate) fn with_poles_below(&self, omega: f64, signals: &[(usize, EndSignal)]) -> Self {
         let mut cut = self.clone();
-        for term in &mut cut.terms {
+        for (t, term) in cut.terms.iter_mut().enumerate() {
             if let DynamicCable::CatenaryDynamic(end) = &mut term.form {
-                let own: Vec<EndSignal> =
+                let mut own: Vec<EndSignal> =
                     signals.iter().filter(|(cable, _)| *cable == term.cable).map(|(_, signal)| *signal).collect();
+                // A flexible support moves the far end, too.
+                let carrier = self.supports().and_then(|supports| supports.carrier_motions(t));
+                own.extend(carrier.into_iter().flat_map(|(_, motions)| motions).map(EndSignal::Carrier));
                 **end = end.with_poles_below(omega * omega, &own);
             }
+        }
+        if let Some(supports) = &mut cut.supports {
+            **supports = supports.with_cables(&cut.terms);
         }
         cut
     }
 
-    /// True if a cable with mass has a constant damping ratio.
+    /// True if a cable with mass or a flexible support has a constant damping ratio.
     pub(crate) fn has_damping_ratios(&self) -> bool {
         self.terms.iter().any(|term| matches!(self.damping[term.cable].0, Damping::Ratio(xi) if xi > 0.0))
+            || self.supports().is_some_and(Supports::has_losses)
     }
 
     /// Number of degrees of freedom of the platform.

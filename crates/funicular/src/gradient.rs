@@ -12,8 +12,10 @@
 
 mod adjoint;
 mod cable_form;
+mod parallel_tension;
 mod pullback;
 mod robot_form;
+mod rule;
 mod scalar;
 mod vibration;
 
@@ -22,11 +24,11 @@ pub use vibration::{DampedGradient, ResponseDerivatives, VibrationGradients};
 use crate::cable::CableModel;
 use crate::cable::catenary_dynamic::CatenaryDynamicError;
 use crate::dynamics::Dynamics;
-use crate::math::{Vec3, symmetric};
+use crate::math::{Vec3, Vec6, symmetric};
 use crate::platform::Coordinates;
 use crate::robot::{Robot, RobotChange};
 use crate::statics::derivatives::{StaticDerivativeError, force_at_anchor, load_of};
-use crate::statics::{Equilibrium, tangent_stiffness};
+use crate::statics::{Equilibrium, Limit, TensionRule, tangent_stiffness};
 use adjoint::Adjoint;
 use pullback::Pullback;
 use robot_form::{At, RobotForm};
@@ -41,17 +43,21 @@ pub enum Hold {
     /// The pose stays, apart from its own change, and the unstrained lengths follow. Of more cables than degrees of freedom
     /// the tensions parallel to the chords, (10a), change least: the sum of the squares of their changes is minimum.
     Pose,
+    /// The pose stays, apart from its own change, and the unstrained lengths follow the rule of the tension distribution;
+    /// see [`Gradients::by_rule`]. The same as [`Self::Pose`] for as many cables as degrees of freedom.
+    Rule,
 }
 
 impl Hold {
-    /// Both choices.
-    pub const ALL: [Self; 2] = [Self::Lengths, Self::Pose];
+    /// All choices.
+    pub const ALL: [Self; 3] = [Self::Lengths, Self::Pose, Self::Rule];
 
     /// Name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Lengths => "lengths",
             Self::Pose => "pose",
+            Self::Rule => "rule",
         }
     }
 }
@@ -69,6 +75,52 @@ pub enum GradientError {
          this one"
     )]
     Vertical {
+        /// Name of the cable.
+        cable: String,
+    },
+    /// The rule of the tension distribution is not known.
+    #[error(
+        "the derivatives of tensions that follow a rule need the rule: give it, or hold the pose with tensions that change \
+         least"
+    )]
+    NoRule,
+    /// The rule has no derivatives here.
+    #[error(
+        "tensions by the rule `stiffest` have no derivatives here: choose the rule `closest`, `lowest` or `middle`, or hold \
+         the pose with tensions that change least"
+    )]
+    Stiffest,
+    /// The equilibrium is not that of the rule.
+    #[error(
+        "the tension of cable \"{cable}\" does not follow the rule `{rule}`: distribute the tensions by this rule first, or \
+         hold the lengths"
+    )]
+    NotByRule {
+        /// Name of the rule.
+        rule: &'static str,
+        /// Name of the cable.
+        cable: String,
+    },
+    /// The rule has different derivatives on both sides.
+    #[error(
+        "the tensions by the rule `{rule}` have different derivatives on both sides of this robot: {}; change the pose, the \
+         target or a limit a little, or hold the pose with tensions that change least",
+        one_sided(cable, *limit)
+    )]
+    OneSided {
+        /// Name of the rule.
+        rule: &'static str,
+        /// Name of the cable.
+        cable: String,
+        /// Limit at which the tension of the cable is without pressing against it, if that is the reason.
+        limit: Option<Limit>,
+    },
+    /// A minimum tension by default is not differentiated for straight cables.
+    #[error(
+        "cable \"{cable}\": its minimum tension is the default, a multiple of its weight, which straight cables do not have: \
+         give `minimum_tension_n`, or use the static model `catenary`"
+    )]
+    DefaultMinimum {
         /// Name of the cable.
         cable: String,
     },
@@ -127,6 +179,16 @@ pub enum GradientError {
     },
 }
 
+/// Reason for which a rule has different derivatives on both sides.
+fn one_sided(cable: &str, limit: Option<Limit>) -> String {
+    match limit {
+        Some(limit) => {
+            format!("cable \"{cable}\" is at its {} tension, but the limit does not change the tensions", limit.name())
+        }
+        None => format!("too many or too few cables, cable \"{cable}\" among them, hold the optimum"),
+    }
+}
+
 /// Distance of two stiffnesses, over the maximum, below which they count as one multiple value.
 const MULTIPLE_STIFFNESS: f64 = 1e-9;
 
@@ -165,9 +227,47 @@ impl<'a> Gradients<'a> {
     ///
     /// # Errors
     /// [`GradientError::Static`]: ideal or slack cables, drives, an indifferent equilibrium, too few cables to hold the
-    /// pose; [`GradientError::Vertical`].
+    /// pose; [`GradientError::Vertical`]; [`GradientError::NoRule`] for [`Hold::Rule`], which needs [`Self::by_rule`].
     pub fn new(robot: &'a Robot, equilibrium: &'a Equilibrium, hold: Hold) -> Result<Self, GradientError> {
-        Ok(Self { hold, pullback: Pullback::new(robot, equilibrium, hold)? })
+        if hold == Hold::Rule {
+            return Err(GradientError::NoRule);
+        }
+        Ok(Self { hold, pullback: Pullback::new(robot, equilibrium, hold, None)? })
+    }
+
+    /// Prepares the gradients of an equilibrium whose pose is held, with tensions that follow the rule by which
+    /// [`distribute_tensions`](crate::statics::distribute_tensions) has chosen them. The limits that are reached stay
+    /// reached: the derivatives are those between two changes of this set.
+    ///
+    /// # Errors
+    /// The errors of [`Self::new`]; [`GradientError::Stiffest`], [`GradientError::NotByRule`],
+    /// [`GradientError::OneSided`], [`GradientError::DefaultMinimum`].
+    ///
+    /// # Example
+    /// ```
+    /// use funicular::gradient::Gradients;
+    /// use funicular::robot::{Robot, RobotChange};
+    /// use funicular::statics::{self, StaticModel, TensionRule};
+    ///
+    /// let robot = Robot::from_toml(funicular_robots::COGIRO)?;
+    /// let rule = TensionRule::Closest(vec![350.0]);
+    /// let pose = statics::solve(&robot, StaticModel::Catenary, None)?.equilibrium.pose;
+    /// let tension = |robot: &Robot| -> Result<f64, statics::StaticsError> {
+    ///     Ok(statics::distribute_tensions(robot, &pose, StaticModel::Catenary, &rule)?.cables[0].tension_platform)
+    /// };
+    /// let rest = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &rule)?;
+    /// let by_mass = Gradients::by_rule(&robot, &rest, &rule)?.tensions_platform()[0].mass; // N/kg
+    ///
+    /// let change = RobotChange::of_mass(&robot);
+    /// let difference = (tension(&robot.changed(&change, 0.01))? - tension(&robot.changed(&change, -0.01))?) / 0.02;
+    /// assert!((by_mass - difference).abs() < 1e-6 * difference.abs());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # References
+    /// docs/theory.md, equations (60r) to (60t).
+    pub fn by_rule(robot: &'a Robot, equilibrium: &'a Equilibrium, rule: &TensionRule) -> Result<Self, GradientError> {
+        Ok(Self { hold: Hold::Rule, pullback: Pullback::new(robot, equilibrium, Hold::Rule, Some(rule))? })
     }
 
     /// What is held.
@@ -265,15 +365,41 @@ impl<'a> Gradients<'a> {
         if multiplicity > 1 {
             return Err(GradientError::MultipleStiffness { multiplicity });
         }
+        self.of_eigenvalue(&coordinates, values[lowest], &vectors[lowest])
+    }
 
+    /// Eigenvalues of the scaled stiffness [N/m], ascending, each with its gradient. Those that several motions share
+    /// have the gradients of orthogonal motions among these, which are no derivatives of the sorted values.
+    ///
+    /// # Errors
+    /// [`GradientError::DragTurns`].
+    pub fn stiffnesses(&self) -> Result<Vec<(f64, RobotChange)>, GradientError> {
+        let (robot, equilibrium) = (self.robot(), self.equilibrium());
+        if robot.wind_turns_with_cables() {
+            return Err(GradientError::DragTurns);
+        }
+        let stiffness = tangent_stiffness(robot, equilibrium).ok_or(StaticDerivativeError::Ideal)?;
+        let coordinates = Coordinates::of(robot);
+        let (values, vectors) = symmetric::eigen(&coordinates.reduce_symmetric(&stiffness), coordinates.count());
+        let found = values.iter().zip(&vectors).take(coordinates.count());
+        found.map(|(value, vector)| Ok((*value, self.of_eigenvalue(&coordinates, *value, vector)?))).collect()
+    }
+
+    /// Gradient of an eigenvalue of the scaled stiffness with this vector.
+    fn of_eigenvalue(
+        &self,
+        coordinates: &Coordinates,
+        value: f64,
+        vector: &Vec6,
+    ) -> Result<RobotChange, GradientError> {
         // Rotations are divided by ℓ, which the attachments change.
-        let motion = coordinates.expand(&vectors[lowest]);
+        let motion = coordinates.expand(vector);
         let ell = coordinates.ell();
         let translation = [motion[0], motion[1], motion[2]];
         let scaled = [motion[3], motion[4], motion[5]];
         let turning: f64 = scaled.iter().map(|turn| turn * turn).sum();
         let motion = [translation, scaled.map(|turn| turn / ell)];
-        self.of_static_form(motion, motion, -2.0 * values[lowest] * turning / ell)
+        self.of_static_form(motion, motion, -2.0 * value * turning / ell)
     }
 
     /// Gradient of the static form over two motions (translation, rotation), with a coefficient of ℓ.

@@ -1,6 +1,7 @@
 //! Small second-order model of the robot, `M ẍ + C ẋ + K x = B f`, `y = L x`, for control design.
 //!
-//! The coordinates are the platform's motion and the amplitudes of the cables' clamped modes. They represent
+//! The coordinates are the platform's motion, the amplitudes of the cables' clamped modes and the displacements of flexible
+//! supports. They represent
 //! catenary-dynamic cables without approximation: K is block diagonal, M couples the platform to each amplitude. The
 //! model has two approximations. Three modes of each cable replace all modes above the limit, and a constant damping
 //! ratio is replaced by viscous damping. Both errors are measured against the full model. Derivation: docs/theory.md,
@@ -10,6 +11,7 @@ mod candidates;
 mod control_model;
 mod error;
 mod expansion;
+mod massless;
 mod reference;
 mod selection;
 mod steps;
@@ -25,13 +27,14 @@ pub use selection::Size;
 
 use crate::cable::catenary_dynamic::{DriveSignal, EndSignal, InPowersOfS};
 use crate::cable::{CableModel, DynamicCable};
-use crate::dynamics::{CableBlocks, CableRow, Dynamics, PlatformBlocks};
-use crate::math::{CDMat, Complex, DMat, DVec, Vec6, symmetric_part};
+use crate::dynamics::{CableBlocks, CableRow, Dynamics, PlatformBlocks, SupportBlocks};
+use crate::math::{CDMat, Complex, DMat, DVec, Vec3, Vec6, symmetric_part};
 use crate::modes;
 use crate::response::{self, FrameInput, Port, Quantity, ResponseError, Signal};
 use crate::robot::{Damping, Robot};
 use crate::statics::Equilibrium;
 use expansion::Expansion;
+use massless::Massless;
 use std::array::from_fn;
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -71,6 +74,13 @@ pub enum Coordinate {
         out_of_plane: bool,
         /// Clamped frequency [Hz]; the last modes of a cable replace all the others.
         frequency_hz: f64,
+    },
+    /// Displacement of a flexible support along an axis of the world [m], relative to its foot.
+    Support {
+        /// Index of the support, in the order of [`Robot::supports`].
+        support: usize,
+        /// Axis: 0, 1 or 2.
+        axis: usize,
     },
 }
 
@@ -130,9 +140,6 @@ const MASSLESS: f64 = 1e-6;
 
 /// Checks that all cables are catenary-dynamic and that the losses of their drives have a second-order form.
 fn check_cables(robot: &Robot, dynamics: &Dynamics) -> Result<(), ReductionError> {
-    if dynamics.supports().is_some() {
-        return Err(ReductionError::Supports);
-    }
     let name = |cable: usize| robot.cables[cable].name.clone();
     for term in dynamics.terms() {
         let DynamicCable::CatenaryDynamic(form) = term.form() else { return Err(ReductionError::Model) };
@@ -309,6 +316,11 @@ impl Channels {
             }
             Port::Frame(frame) => {
                 row[0][..layout.dof].copy_from_slice(&coordinates(frame.constant()).as_slice()[..layout.dof]);
+                if let Some(supports) = dynamics.supports() {
+                    let (constant, feet) = frame.on_feet();
+                    row[0][layout.first_support..].copy_from_slice(constant);
+                    row[2][layout.first_support..].copy_from_slice(&supports.inertia_of_feet(feet));
+                }
                 for (term, motion) in frame.carriers() {
                     let Some(powers) = dynamics.carrier_row(term, motion) else {
                         unreachable!("other models were refused")
@@ -325,6 +337,10 @@ impl Channels {
                     let from = layout.first_of_term[term];
                     row[0][from..from + amplitudes.len()].copy_from_slice(&amplitudes);
                 }
+                let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+                let by_far_end = axes.map(|axis| stations.still_by_far_end(*station, direction_w, &axis));
+                let on_supports = dynamics.station_row_on_supports(stations.cable, by_far_end, &amplitudes);
+                row[0][layout.first_support..].copy_from_slice(&on_supports);
             }
         }
         row
@@ -376,15 +392,18 @@ impl Channels {
     }
 }
 
-/// Order of the coordinates: the platform's, then per cable its clamped modes in plane and out of plane.
+/// Order of the coordinates: the platform's, then per cable its clamped modes in plane and out of plane, then the supports.
 struct Layout {
     dof: usize,
     first_of_term: Vec<usize>,
+    /// First coordinate of the supports.
+    first_support: usize,
     coordinates: Vec<Coordinate>,
 }
 
 impl Layout {
-    fn new(dof: usize, cables: &[CableBlocks]) -> Self {
+    /// Order for a robot with this number of support coordinates.
+    fn new(dof: usize, cables: &[CableBlocks], supports: usize) -> Self {
         let mut coordinates: Vec<Coordinate> = (0..dof).map(Coordinate::Platform).collect();
         let mut first_of_term = Vec::with_capacity(cables.len());
         for blocks in cables {
@@ -395,14 +414,21 @@ impl Layout {
                 frequency_hz: mode.pole.sqrt() / TAU,
             }));
         }
-        Self { dof, first_of_term, coordinates }
+        let first_support = coordinates.len();
+        coordinates.extend((0..supports).map(|i| Coordinate::Support { support: i / 3, axis: i % 3 }));
+        Self { dof, first_of_term, first_support, coordinates }
+    }
+
+    /// Index of a coordinate of the ends: the platform's, then those of the supports.
+    fn end(&self, i: usize) -> usize {
+        if i < self.dof { i } else { self.first_support + i - self.dof }
     }
 
     /// Adds `factor` times a row of a cable, given by its index among the terms, to a row over all coordinates.
     fn add_row(&self, of_cable: &CableRow, term: usize, factor: f64, row: &mut [f64]) {
         let at_modes = &mut row[self.first_of_term[term]..][..of_cable.modes.len()];
         at_modes.iter_mut().zip(&of_cable.modes).for_each(|(sum, entry)| *sum += factor * entry);
-        row.iter_mut().zip(&of_cable.platform).for_each(|(sum, entry)| *sum += factor * entry);
+        of_cable.ends.iter().enumerate().for_each(|(i, entry)| row[self.end(i)] += factor * entry);
     }
 }
 
@@ -413,6 +439,8 @@ struct Matrices {
     damping: DMat,
     /// Damping of cables with a constant damping ratio: the coefficient R of the damping `2ωR`.
     ratio: DMat,
+    /// Imaginary part of the stiffness of supports with a constant damping ratio.
+    loss: DMat,
     stiffness: DMat,
     /// Mass of the drives; part of `mass`.
     drives: DMat,
@@ -433,10 +461,29 @@ impl Matrices {
             mass: at_corner(&platform.mass),
             damping: at_corner(&platform.damping),
             ratio: DMat::zeros(n, n),
+            loss: DMat::zeros(n, n),
             stiffness: at_corner(&platform.stiffness),
             drives: DMat::zeros(n, n),
             lossy: Vec::new(),
         }
+    }
+
+    /// Adds the flexible supports.
+    fn add_supports(&mut self, supports: &SupportBlocks, layout: &Layout) {
+        let (at, count) = (layout.first_support, supports.mass.nrows());
+        let parts = [
+            (&mut self.stiffness, &supports.stiffness),
+            (&mut self.mass, &supports.mass),
+            (&mut self.loss, &supports.loss),
+        ];
+        for (matrix, block) in parts {
+            let mut view = matrix.view_mut((at, at), (count, count));
+            view += block;
+        }
+        let mut view = self.stiffness.view_mut((0, at), (layout.dof, count));
+        view += &supports.coupling;
+        let mut view = self.stiffness.view_mut((at, 0), (count, layout.dof));
+        view += &supports.coupling.transpose();
     }
 
     /// Adds a cable, given by its index among the terms.
@@ -445,22 +492,25 @@ impl Matrices {
         let n = self.mass.nrows();
         let from = layout.first_of_term[term];
 
-        // Stiffness of the end, and ω_k² of each clamped mode.
-        let mut at_end = self.stiffness.view_mut((0, 0), (f, f));
-        at_end += &cable.end_stiffness;
+        // Stiffness of the ends, and ω_k² of each clamped mode.
+        for (i, j) in (0..f).flat_map(|i| (0..f).map(move |j| (i, j))) {
+            self.stiffness[(layout.end(i), layout.end(j))] += cable.end_stiffness[(i, j)];
+        }
         for (k, mode) in cable.modes.iter().enumerate() {
             self.stiffness[(from + k, from + k)] = mode.pole;
         }
 
-        // Mass of the end, 1 for each clamped mode, and the participation of the mode between both.
+        // Mass of the ends, 1 for each clamped mode, and the participation of the mode between both.
         let mut mass = DMat::zeros(n, n);
-        mass.view_mut((0, 0), (f, f)).copy_from(&cable.end_mass);
+        for (i, j) in (0..f).flat_map(|i| (0..f).map(move |j| (i, j))) {
+            mass[(layout.end(i), layout.end(j))] = cable.end_mass[(i, j)];
+        }
         for (k, mode) in cable.modes.iter().enumerate() {
             let at = from + k;
             mass[(at, at)] = 1.0;
             for (i, g) in mode.participation.iter().enumerate() {
-                mass[(i, at)] = *g;
-                mass[(at, i)] = *g;
+                mass[(layout.end(i), at)] = *g;
+                mass[(at, layout.end(i))] = *g;
             }
         }
 
@@ -490,40 +540,60 @@ impl Matrices {
     /// Viscous damping, including the replacement of constant ratios.
     fn all_damping(&self, at: DampingAt) -> Result<DMat, ReductionError> {
         let by_ratio = match at {
-            DampingAt::Hz(hz) => &self.ratio * (2.0 * TAU * hz),
-            DampingAt::NaturalFrequencies => at_natural_frequencies(&self.mass, &self.stiffness, &self.ratio)?,
+            DampingAt::Hz(hz) => &self.ratio * (2.0 * TAU * hz) + &self.loss / (TAU * hz),
+            DampingAt::NaturalFrequencies => {
+                at_natural_frequencies(&self.mass, &self.stiffness, &self.ratio, &self.loss)?
+            }
         };
         Ok(&self.damping + by_ratio)
     }
 }
 
-/// Matrices of a linearised robot whose cables have only the poles to be kept, and their coordinates.
-fn matrices(dynamics: &Dynamics) -> (Layout, Matrices) {
+/// Matrices of a linearised robot whose cables have only the poles to be kept, the order of all coordinates, and the supports
+/// without mass, which the matrices do not contain.
+fn matrices(dynamics: &Dynamics) -> (Layout, Matrices, Option<Massless>) {
     let cables: Vec<CableBlocks> = dynamics.cable_blocks().collect();
-    let layout = Layout::new(dynamics.dof(), &cables);
+    let supports = dynamics.support_blocks();
+    let layout = Layout::new(dynamics.dof(), &cables, supports.as_ref().map_or(0, |blocks| blocks.mass.nrows()));
 
     let mut matrices = Matrices::of_platform(&dynamics.platform_blocks(), layout.coordinates.len());
+    if let Some(supports) = &supports {
+        matrices.add_supports(supports, &layout);
+    }
     for (term, cable) in cables.iter().enumerate() {
         matrices.add_cable(cable, term, &layout);
     }
-    (layout, matrices)
+    let massless = Massless::of(&matrices, &layout);
+    let matrices = match &massless {
+        Some(massless) => massless.reduced(matrices),
+        None => matrices,
+    };
+    (layout, matrices, massless)
 }
 
 /// Reduced model from a linearised robot whose cables have only the poles to be kept.
 fn assembled(
     dynamics: &Dynamics,
     channels: &Channels,
-    outputs: &[(Signal, Quantity)],
+    measured: &[(Signal, Quantity)],
     requested: RequestedModel,
 ) -> Result<SecondOrder, ReductionError> {
-    let (layout, mut matrices) = matrices(dynamics);
+    let (mut layout, mut matrices, massless) = matrices(dynamics);
     if dynamics.has_damping_ratios() {
         matrices.damping = matrices.all_damping(requested.damping_at)?;
     }
 
-    let [input, input_rate, input_acceleration] =
-        Channels::rows(&channels.inputs, dynamics, &layout).map(|rows| rows.transpose());
-    let [output, output_rate, output_acceleration] = Channels::rows(&channels.outputs, dynamics, &layout);
+    let mut inputs = Channels::rows(&channels.inputs, dynamics, &layout);
+    let mut outputs = Channels::rows(&channels.outputs, dynamics, &layout);
+    let mut feedthrough = channels.direct(dynamics);
+    if let Some(massless) = &massless {
+        let added = massless.direct(&outputs, &inputs);
+        feedthrough.iter_mut().zip(added).for_each(|(sum, added)| *sum += added);
+        (inputs, outputs) = (massless.rows(inputs), massless.rows(outputs));
+        layout.coordinates = massless.kept(&layout.coordinates);
+    }
+    let [input, input_rate, input_acceleration] = inputs.map(|rows| rows.transpose());
+    let [output, output_rate, output_acceleration] = outputs;
 
     let Matrices { mass, damping, stiffness, .. } = matrices;
     if mass.clone().cholesky().is_none() {
@@ -537,8 +607,8 @@ fn assembled(
         input_rates: [input_rate, input_acceleration],
         output,
         output_rates: [output_rate, output_acceleration],
-        feedthrough: channels.direct(dynamics),
-        quantities: outputs.iter().map(|(_, quantity)| *quantity).collect(),
+        feedthrough,
+        quantities: measured.iter().map(|(_, quantity)| *quantity).collect(),
         coordinates: layout.coordinates,
         below_hz: requested.below_hz,
         frequency_error: 0.0,
@@ -547,23 +617,32 @@ fn assembled(
     })
 }
 
-/// Viscous damping matrix that replaces `2ω R`: with the natural modes Φ, `ΦᵀMΦ = 1`, it is `2 MΦ W ΦᵀM` with
-/// `W_jk = √ω_j (ΦᵀRΦ)_jk √ω_k`. It is correct at ω = ω_j = ω_k, also for the coupling of close modes.
-fn at_natural_frequencies(mass: &DMat, stiffness: &DMat, ratio: &DMat) -> Result<DMat, ReductionError> {
+/// Viscous damping matrix that replaces `2ω R + S/ω`: with the natural modes Φ, `ΦᵀMΦ = 1`, it is `MΦ W ΦᵀM` with
+/// `W_jk = 2 √ω_j (ΦᵀRΦ)_jk √ω_k + (ΦᵀSΦ)_jk/√(ω_jω_k)`. It is correct at ω = ω_j = ω_k, also for the coupling of close modes.
+/// R belongs to cables with a constant damping ratio, S to supports.
+fn at_natural_frequencies(mass: &DMat, stiffness: &DMat, ratio: &DMat, loss: &DMat) -> Result<DMat, ReductionError> {
     let factor = mass.clone().cholesky().ok_or(ReductionError::Mass)?.l();
     let half = factor.solve_lower_triangular(stiffness).ok_or(ReductionError::Mass)?;
     let standard = factor.solve_lower_triangular(&half.transpose()).ok_or(ReductionError::Mass)?;
     let eigen = standard.symmetric_eigen();
 
     // MΦ = L U; Φᵀ R Φ = Uᵀ L⁻¹ R L⁻ᵀ U.
-    let half = factor.solve_lower_triangular(ratio).ok_or(ReductionError::Mass)?;
-    let inner = factor.solve_lower_triangular(&half.transpose()).ok_or(ReductionError::Mass)?;
-    let mut in_modes = eigen.eigenvectors.transpose() * inner * &eigen.eigenvectors;
+    let of_modes = |matrix: &DMat| {
+        let half = factor.solve_lower_triangular(matrix).ok_or(ReductionError::Mass)?;
+        let inner = factor.solve_lower_triangular(&half.transpose()).ok_or(ReductionError::Mass)?;
+        Ok::<_, ReductionError>(eigen.eigenvectors.transpose() * inner * &eigen.eigenvectors)
+    };
+    let mut in_modes = of_modes(ratio)?;
     let roots: Vec<f64> = eigen.eigenvalues.iter().map(|square| square.max(0.0).sqrt().sqrt()).collect();
     for j in 0..roots.len() {
         for k in 0..roots.len() {
             in_modes[(j, k)] *= 2.0 * roots[j] * roots[k];
         }
+    }
+    if loss.amax() > 0.0 {
+        // An unstable direction has no frequency at which the damping could be correct.
+        let inverse = |root: f64| if root > 0.0 { root.recip() } else { 0.0 };
+        in_modes += of_modes(loss)?.map_with_location(|j, k, entry| entry * inverse(roots[j]) * inverse(roots[k]));
     }
     let back = factor * eigen.eigenvectors;
     let damping = &back * in_modes * back.transpose();

@@ -141,14 +141,16 @@ pub fn matrix(
     let mut rows = vec![Vec::with_capacity(frequencies_hz.len()); inputs.len() * outputs.len()];
     for (receptance, frequency_hz) in all.iter().zip(frequencies_hz) {
         let omega = frequency_hz * TAU;
-        let from: Vec<(CVec6, Vec<Complex>)> = inputs.iter().map(|input| input.free_vector(dynamics, omega)).collect();
-        let free_supports = dynamics.support_response(omega).map(|(_, free)| free);
+        let supports = dynamics.support_response(omega);
+        let by_platform = supports.as_ref().map(|(by_platform, _)| by_platform);
+        let from: Vec<(CVec6, Vec<Complex>)> =
+            inputs.iter().map(|input| input.free_vector(dynamics, by_platform, omega)).collect();
         let mut row = 0;
         for (output, _) in outputs {
-            let (to, to_supports) = output.free_vector(dynamics, omega);
+            let (to, to_supports) = output.free_vector(dynamics, by_platform, omega);
             for (input, from_supports) in &from {
                 let mut through = (to.transpose() * receptance * input)[0];
-                if let Some(free) = &free_supports {
+                if let Some((_, free)) = &supports {
                     through += between_supports(free, &to_supports, from_supports);
                 }
                 let added = own[row].as_ref().map(|own| own.at(dynamics, omega));

@@ -60,6 +60,7 @@ pub use friction::{
     CableFriction, FrictionError, FrictionInterval, Held, Interval, MotionInterval, friction_exponents,
     friction_interval,
 };
+pub(crate) use limits::MinimumTension;
 pub use limits::{Limit, LimitViolation, TensionMargin, TensionRange};
 pub use model::StaticModel;
 pub use nearest_pose::{NearestEquilibrium, nearest_equilibrium, pose_distance};
@@ -68,7 +69,7 @@ pub use obstacle::{Obstacle, OneSidedCause};
 pub use residual::{is_unloaded, wrench};
 pub use solve::{Solution, inverse, solve, solve_at, solve_held, solve_held_at};
 pub use stiffness::tangent_stiffness;
-pub(crate) use supports::{on_support, support_side};
+pub(crate) use supports::{SupportSide, on_support, support_side};
 pub use tension::{
     LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, TensionPlace, TensionRule, distribute_tensions,
     payload_bound,

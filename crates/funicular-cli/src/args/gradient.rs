@@ -21,7 +21,7 @@ pub(crate) struct GradientArgs {
     pub(crate) by: Vec<String>,
 
     /// Quantity that is held while a number changes; with the pose held, the tensions parallel to the chords of more
-    /// cables than degrees of freedom change least
+    /// cables than degrees of freedom change least, or follow their rule
     #[arg(long, value_name = "WHAT", value_enum, default_value_t)]
     pub(crate) hold: HoldName,
 

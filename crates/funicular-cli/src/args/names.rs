@@ -6,7 +6,7 @@ use funicular::dynamics::Assembly;
 use funicular::gradient::Hold;
 use funicular::robot::WinchMode;
 use funicular::statics::StaticModel;
-use funicular_study::names::{ModelForm, Per};
+use funicular_study::names::{DesignGoal, ModelForm, Per, UncertaintyMethod};
 
 /// Tension rules by name; see [`funicular::statics::TensionRule`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -97,6 +97,8 @@ pub(crate) enum HoldName {
     Lengths,
     /// The pose; the unstrained lengths follow
     Pose,
+    /// The pose and the rule of --tension-rule; the unstrained lengths follow
+    Rule,
 }
 
 impl From<HoldName> for Hold {
@@ -104,6 +106,35 @@ impl From<HoldName> for Hold {
         match name {
             HoldName::Lengths => Self::Lengths,
             HoldName::Pose => Self::Pose,
+            HoldName::Rule => Self::Rule,
+        }
+    }
+}
+
+/// Goal of a design by name; see [`DesignGoal`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum DesignGoalName {
+    /// Highest first natural frequency, cables included
+    #[default]
+    First,
+    /// Highest first natural frequency of the platform on the static stiffness of its cables
+    Platform,
+    /// Highest minimum stiffness, as `statics` prints it
+    Stiffness,
+    /// Least mass of all ropes
+    RopeMass,
+    /// Least length of all ropes
+    RopeLength,
+}
+
+impl From<DesignGoalName> for DesignGoal {
+    fn from(name: DesignGoalName) -> Self {
+        match name {
+            DesignGoalName::First => Self::First,
+            DesignGoalName::Platform => Self::Platform,
+            DesignGoalName::Stiffness => Self::Stiffness,
+            DesignGoalName::RopeMass => Self::RopeMass,
+            DesignGoalName::RopeLength => Self::RopeLength,
         }
     }
 }
@@ -126,6 +157,28 @@ impl From<PerName> for Per {
             PerName::Unit => Self::Unit,
             PerName::Percent => Self::Percent,
             PerName::Tolerance => Self::Tolerance,
+        }
+    }
+}
+
+/// Way to the deviations of results by name; see [`UncertaintyMethod`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum UncertaintyMethodName {
+    /// Linear where tensions and frequencies allow it, otherwise sampled
+    #[default]
+    Automatic,
+    /// Linear for every result
+    Linear,
+    /// Sampled for every result
+    Sampled,
+}
+
+impl From<UncertaintyMethodName> for UncertaintyMethod {
+    fn from(name: UncertaintyMethodName) -> Self {
+        match name {
+            UncertaintyMethodName::Automatic => Self::Automatic,
+            UncertaintyMethodName::Linear => Self::Linear,
+            UncertaintyMethodName::Sampled => Self::Sampled,
         }
     }
 }

@@ -4,7 +4,8 @@ use super::{
     AssemblyName, CableArgs, CableModelName, ChangeArgs, CompareArgs, EachArgs, ExportArgs, ExportFormat, FrfArgs,
     GradientArgs, ImportArgs, LengthUnitName, LiveArgs, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, MotionName,
     NewArgs, PayloadArgs, PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs, ReportArgs, StateArgs,
-    StaticsArgs, StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs, WinchModeName, WireRopeName,
+    StaticsArgs, StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs, UncertaintyArgs, WinchModeName,
+    WireRopeName,
 };
 use funicular_files::endings::Kind;
 use funicular_study::import::SourceFile;
@@ -37,7 +38,7 @@ impl StateArgs {
 }
 
 impl LoadArgs {
-    fn request(&self) -> Load {
+    pub(crate) fn request(&self) -> Load {
         let Self { force_n, moment_n_m, load_point_m, wind_m_s, cable_load_n_per_m } = *self;
         Load {
             force_n: force_n.map(Into::into),
@@ -203,6 +204,26 @@ impl GradientArgs {
             input: self.input.as_ref().map(|input| input.name.clone()),
             output: self.output.as_ref().map(|output| output.name.clone()),
             points: self.points.request(),
+            state: self.state.request(),
+            tensions: self.tensions.request(),
+            model: self.model.request(),
+        }
+    }
+}
+
+impl UncertaintyArgs {
+    pub(crate) fn request(&self, robot: RobotText, poses: Option<Vec<[f64; 6]>>) -> request::UncertaintyRequest {
+        request::UncertaintyRequest {
+            robot,
+            of: self.of.clone(),
+            deviations: self.deviations.clone(),
+            tolerances: self.tolerances.clone(),
+            hold: self.hold.into(),
+            method: self.method.into(),
+            samples: self.samples,
+            seed: self.seed,
+            below_hz: self.below_hz,
+            poses,
             state: self.state.request(),
             tensions: self.tensions.request(),
             model: self.model.request(),

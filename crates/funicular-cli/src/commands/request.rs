@@ -1,6 +1,6 @@
 //! `request`: runs a request in JSON. Also prints the request of any command.
 
-use super::{analyse_or_draw, page, write_export, write_import, write_new, write_schema};
+use super::{analyse_or_draw, page, uncertainty, write_export, write_import, write_new, write_schema};
 use crate::args::{OutputArgs, RequestArgs};
 use crate::output;
 use crate::sweep_run;
@@ -53,6 +53,7 @@ pub(crate) fn run(args: &RequestArgs) -> Result<()> {
 
     match &request {
         Request::Map(_) | Request::Sweep(_) => sweep_run::run(&request, &mut guard, &args.run),
+        Request::Uncertainty(of) => uncertainty::print(of, &output(), &mut guard),
         Request::Report(_) => page::report(&request, Some(&args.file), &place()),
         Request::Live(_) => page::live(&request, Some(&args.file), &place()),
         Request::Paper(_) => page::paper(&place()),

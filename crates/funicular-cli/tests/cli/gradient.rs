@@ -50,6 +50,31 @@ fn derivatives_are_differences_of_the_program_with_lengths_and_with_the_pose_hel
     assert!((ours - expected).abs() < 1e-4 * expected.abs(), "{ours} {expected}");
 }
 
+/// With the rule held, a tension follows the rule at the changed robot. With the pose alone held it does so only where the
+/// directions of the cables stay.
+#[test]
+fn derivatives_by_the_rule_of_the_tensions_are_differences_of_statics() {
+    let cogiro = robot("cogiro.toml");
+    let state = ["--pose", "1,2,1.5", "--target-tension-n", "350"];
+    let gradient =
+        |hold: &str| json(&[&["gradient", &cogiro, "--of", "tensions", "--hold", hold], &state[..]].concat());
+    let found = gradient("rule");
+    assert_eq!(found["held"], "rule");
+    assert!(found["held_means"].as_str().unwrap().ends_with("such that the tensions obey the rule `closest`"));
+    for (path, value, step) in [("platform.mass_kg", 91.058, 1e-2), ("cables.2.attachment_m.y", 0.3508, 1e-4)] {
+        let expected = difference(step, |step| {
+            let set = format!("{path}={}", value + step);
+            number(&json(&[&["statics", &cogiro, "--set", &set], &state[..]].concat())["cables"][2]["tension_anchor_n"])
+        });
+        let name = "tension of cable \"3\" at the anchor";
+        let ours = derivative(&found, name, path);
+        assert!((ours - expected).abs() < 1e-5 * expected.abs(), "{path}: {ours} {expected}");
+        let changing_least = derivative(&gradient("pose"), name, path);
+        let differs = (changing_least - expected).abs() > 1e-4 * expected.abs();
+        assert_eq!(differs, path.starts_with("cables"), "{path}: {changing_least} {expected}");
+    }
+}
+
 #[test]
 fn steps_are_factors_of_the_derivatives_and_patterns_choose_numbers() {
     let of = |more: &[&str]| {
@@ -121,6 +146,25 @@ fn requests_without_derivatives_are_refused_with_the_reason() {
         (&["gradient", "ROBOT", "--of", "response", "--at-hz", "1"], "`response` needs --input"),
         (&["gradient", "ROBOT", "--below-hz", "2", "--cable-model", "shallow-dynamic"], "not `shallow-dynamic`"),
         (&["gradient", "ROBOT", "--below-hz", "2", "--in-plane-only"], "need all terms of the stiffness"),
+        (
+            &["gradient", &cogiro, "--of", "lengths", "--hold", "rule"],
+            "needs tensions that a rule has chosen: give --pose",
+        ),
+        (
+            &[
+                "gradient",
+                &cogiro,
+                "--of",
+                "lengths",
+                "--hold",
+                "rule",
+                "--pose",
+                "0,0,1.5",
+                "--tension-rule",
+                "stiffest",
+            ],
+            "rule `stiffest` have no derivatives",
+        ),
         (&["gradient", &winches, "--of", "pose"], "runs over a pulley or to a winch"),
         (&["gradient", &cogiro, "--of", "pose", "--pose", "0,0,1.5", "--static-model", "ideal"], "need elastic cables"),
         (

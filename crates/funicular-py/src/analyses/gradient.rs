@@ -20,6 +20,7 @@ impl PyAnalyses {
     /// hold
     ///     Held while a number changes: the unstrained `lengths`, so that the pose follows, or the `pose`, so that the
     ///     lengths follow. Of more cables than degrees of freedom the tensions parallel to the chords then change least.
+    ///     `rule`: as `pose`, but the tensions go on to follow the rule that has chosen them (not `stiffest`).
     /// per
     ///     Step that the derivatives are for: `unit` of the number, `percent` of its value, or its `tolerance`.
     /// tolerances

@@ -13,8 +13,8 @@ use funicular::modes;
 use funicular::response::Quantity;
 use funicular::robot::parameters::{Parameter, Parameters, RobotPart};
 use funicular::robot::{Load, Robot, RobotChange};
-use funicular::statics::CableState;
 use funicular::statics::derivatives::StaticDerivativeError;
+use funicular::statics::{CableState, TensionRule};
 use serde::Serialize;
 
 /// Tolerance of a position or length that is not given [m], and of an angle [degrees]: what is usually measured.
@@ -136,7 +136,7 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
     let text = RobotText::read(&request.robot)?.text;
     let columns = Columns::of(at_rest, &text, &request.by, &request.tolerances)?;
     let Columns { parameters, changes, without_derivative } = columns;
-    let gradients = Gradients::new(robot, equilibrium, request.hold).map_err(no_solution)?;
+    let gradients = held(at_rest, request.hold)?;
 
     // Results of the equilibrium.
     let mut rows = Rows { changes: &changes, results: Vec::new(), refused: Vec::new() };
@@ -189,7 +189,7 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
         robot: robot.name.clone(),
         models: Models::of(at_rest, linearisation),
         held: request.hold.name(),
-        held_means: meaning(robot, request.hold),
+        held_means: meaning(at_rest, request.hold),
         per: request.per.name(),
         parameters,
         results,
@@ -199,23 +199,60 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
     })
 }
 
+/// Gradients about an equilibrium with this held.
+///
+/// # Errors
+/// A rule to be held without one that has chosen the tensions, or an equilibrium without derivatives.
+pub(crate) fn held(at_rest: &AtRest, hold: Hold) -> Result<Gradients<'_>> {
+    let AtRest { robot, equilibrium, rule, held_pose, .. } = at_rest;
+    let gradients = match (hold, rule) {
+        (Hold::Rule, _) if held_pose.is_some() => {
+            bail!(
+                "⟪hold⟫ rule: the lengths of a pose are held, which no rule changes; leave out ⟪hold_lengths_of_pose⟫"
+            )
+        }
+        (Hold::Rule, Some(rule)) => Gradients::by_rule(robot, equilibrium, rule),
+        (Hold::Rule, None) if robot.cables.len() > robot.platform.motion.count() => {
+            bail!(
+                "⟪hold⟫ rule needs tensions that a rule has chosen: give ⟪pose⟫, or the robot file a [state] with `position_m`"
+            )
+        }
+        (Hold::Rule, None) => Gradients::new(robot, equilibrium, Hold::Pose),
+        (Hold::Lengths | Hold::Pose, _) => Gradients::new(robot, equilibrium, hold),
+    };
+    gradients.map_err(no_solution)
+}
+
 /// Sentence about what is held.
-pub(crate) fn meaning(robot: &Robot, hold: Hold) -> &'static str {
-    let redundant = robot.cables.len() > robot.platform.motion.count();
-    match hold {
-        Hold::Lengths => "the unstrained lengths are held, the pose follows",
-        Hold::Pose if redundant => {
+pub(crate) fn meaning(at_rest: &AtRest, hold: Hold) -> &'static str {
+    let redundant = at_rest.robot.cables.len() > at_rest.robot.platform.motion.count();
+    match (hold, &at_rest.rule) {
+        (Hold::Lengths, _) => "the unstrained lengths are held, the pose follows",
+        (Hold::Pose, _) if redundant => {
             "the pose is held, the lengths follow such that the tensions parallel to the chords change least"
         }
-        Hold::Pose => "the pose is held, the lengths follow",
+        (Hold::Rule, Some(TensionRule::Lowest)) => {
+            "the pose is held, the lengths follow such that the tensions obey the rule `lowest`"
+        }
+        (Hold::Rule, Some(TensionRule::Closest(_))) => {
+            "the pose is held, the lengths follow such that the tensions obey the rule `closest`"
+        }
+        (Hold::Rule, Some(TensionRule::Middle)) => {
+            "the pose is held, the lengths follow such that the tensions obey the rule `middle`"
+        }
+        (Hold::Rule, Some(TensionRule::Stiffest)) => {
+            "the pose is held, the lengths follow such that the tensions obey the rule `stiffest`"
+        }
+        (Hold::Pose | Hold::Rule, _) => "the pose is held, the lengths follow",
     }
 }
 
 /// Error for a robot without derivatives: a state that has none is no solution, the rest is input.
-fn no_solution(error: GradientError) -> anyhow::Error {
+pub(crate) fn no_solution(error: GradientError) -> anyhow::Error {
     match &error {
         GradientError::Static(StaticDerivativeError::Slack { .. } | StaticDerivativeError::Singular)
-        | GradientError::Vertical { .. } => NoSolution(error.to_string()).into(),
+        | GradientError::Vertical { .. }
+        | GradientError::OneSided { .. } => NoSolution(error.to_string()).into(),
         _ => error.into(),
     }
 }
@@ -237,7 +274,8 @@ impl Columns {
     pub(crate) fn of(at_rest: &AtRest, text: &str, by: &[String], tolerances: &[String]) -> Result<Self> {
         let all = Parameters::from_toml(text).map_err(|error| anyhow!("{error}"))?;
         let patterns = by.iter().map(|text| Pattern::parse("by", text)).collect::<Result<Vec<_>>>()?;
-        let tolerances = tolerances.iter().map(|text| Tolerance::parse(text)).collect::<Result<Vec<_>>>()?;
+        let tolerances =
+            tolerances.iter().map(|text| Tolerance::parse("tolerances", text)).collect::<Result<Vec<_>>>()?;
 
         let mut columns = Self { parameters: Vec::new(), changes: Vec::new(), without_derivative: Vec::new() };
         let mut met = vec![false; patterns.len()];
@@ -292,46 +330,66 @@ impl Columns {
 }
 
 /// Path of numbers in which `*` stands for any key; numbers below it belong to it.
-struct Pattern {
+pub(crate) struct Pattern {
     text: String,
     keys: Vec<String>,
 }
 
 impl Pattern {
-    fn parse(key: &str, text: &str) -> Result<Self> {
+    pub(crate) fn parse(key: &str, text: &str) -> Result<Self> {
         // A star is a key of its own, which TOML would want in quotes.
         let quoted: Vec<&str> = text.trim().split('.').map(|part| if part == "*" { "'*'" } else { part }).collect();
         let path = crate::set_values::path(&quoted.join(".")).map_err(|reason| anyhow!("⟪{key}⟫: {reason}"))?;
         Ok(Self { text: text.trim().to_owned(), keys: path.keys().to_vec() })
     }
 
-    fn matches(&self, keys: &[String]) -> bool {
+    pub(crate) fn matches(&self, keys: &[String]) -> bool {
         keys.len() >= self.keys.len() && self.keys.iter().zip(keys).all(|(own, key)| own == "*" || own == key)
     }
 }
 
-/// Given tolerance of numbers.
-struct Tolerance {
+/// Given tolerance or deviation of numbers.
+pub(crate) struct Tolerance {
     pattern: Pattern,
     value: f64,
     is_percent: bool,
 }
 
 impl Tolerance {
-    fn parse(text: &str) -> Result<Self> {
-        let wrong = || anyhow!("⟪tolerances⟫ {text}: write PATH=VALUE or PATH=PERCENT%, as in platform.mass_kg=1%");
+    /// Tolerance from its text `PATH=VALUE` or `PATH=PERCENT%`; `key` is the option.
+    ///
+    /// # Errors
+    /// A text that is not of this form, or a negative value.
+    pub(crate) fn parse(key: &str, text: &str) -> Result<Self> {
+        let wrong = || anyhow!("⟪{key}⟫ {text}: write PATH=VALUE or PATH=PERCENT%, as in platform.mass_kg=1%");
         let (path, value) = text.rsplit_once('=').ok_or_else(wrong)?;
         let number = value.trim().trim_end_matches('%');
         let parsed: f64 = number.trim().parse().map_err(|_| wrong())?;
         if !(parsed.is_finite() && parsed >= 0.0) {
-            bail!("⟪tolerances⟫ {text}: it must be finite and not negative");
+            bail!("⟪{key}⟫ {text}: it must be finite and not negative");
         }
         let is_percent = value.trim_end().ends_with('%');
-        Ok(Self { pattern: Pattern::parse("tolerances", path)?, value: parsed, is_percent })
+        Ok(Self { pattern: Pattern::parse(key, path)?, value: parsed, is_percent })
     }
 
-    fn of(&self, value: f64) -> f64 {
+    /// Size for a number with this value.
+    pub(crate) fn of(&self, value: f64) -> f64 {
         if self.is_percent { 0.01 * self.value * value.abs() } else { self.value }
+    }
+
+    /// True for a size relative to the value.
+    pub(crate) fn is_percent(&self) -> bool {
+        self.is_percent
+    }
+
+    /// True for a number with these keys.
+    pub(crate) fn matches(&self, keys: &[String]) -> bool {
+        self.pattern.matches(keys)
+    }
+
+    /// Path, as it was written.
+    pub(crate) fn path(&self) -> &str {
+        &self.pattern.text
     }
 }
 
@@ -346,7 +404,7 @@ fn usual_tolerance(parameter: &Parameter, value: f64) -> f64 {
 }
 
 /// Value of a number of the file, or what an option has put in its place.
-fn value_at(at_rest: &AtRest, parameter: &Parameter) -> f64 {
+pub(crate) fn value_at(at_rest: &AtRest, parameter: &Parameter) -> f64 {
     let robot = &at_rest.robot;
     let Load { force_w, moment_w, point_p } = &robot.load;
     let axis = ["x", "y", "z"].iter().position(|axis| Some(*axis) == parameter.component);

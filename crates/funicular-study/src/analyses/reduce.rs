@@ -313,6 +313,11 @@ impl CoordinateRow {
                 unit: "m √kg",
                 clamped_frequency_hz: Some(*frequency_hz),
             },
+            Coordinate::Support { support, axis } => Self {
+                name: format!("support {} {}", robot.supports[*support].name, ["x", "y", "z"][*axis]),
+                unit: "m",
+                clamped_frequency_hz: None,
+            },
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Pulleys, drum sides and drums in space, for the figures of a robot.
+//! Pulleys, guide wheels, drum sides and drums in space, for the figures of a robot.
 
 use funicular::math::Vec3;
 use funicular::robot::Cable;
@@ -13,6 +13,8 @@ pub(crate) struct DriveLines {
     pub(crate) wheel: Vec<Vec3>,
     /// Cable from the exit point around the wheel to the entry point, and on to the drum.
     pub(crate) path: Vec<Vec3>,
+    /// Guide wheels between pulley and drum: name and place.
+    pub(crate) guide_wheels: Vec<(String, Vec3)>,
     /// Place of the drum if the drum side is straight; `None` without a winch, or with the drum at the entry point.
     pub(crate) drum: Option<Vec3>,
 }
@@ -33,7 +35,10 @@ impl DriveLines {
         let length = cable.anchor.drum_side_length();
         let drum = (length > 0.0).then(|| entry_w - contact.axis_w * length);
         path.extend(drum);
-        Some(Self { wheel: whole.collect(), path, drum })
+        let guide_wheels = cable.anchor.winch.iter().flat_map(|winch| &winch.guide_wheels);
+        let guide_wheels =
+            guide_wheels.map(|wheel| (wheel.name.clone(), entry_w - contact.axis_w * wheel.distance)).collect();
+        Some(Self { wheel: whole.collect(), path, guide_wheels, drum })
     }
 
     /// Lines of all cables with pulleys.
@@ -57,7 +62,9 @@ mod tests {
     fn the_lines_meet_the_free_span_and_end_at_the_drum() {
         let text = "name = \"one\"\n[platform]\nmass_kg = 5.0\nmotion = \"point-mass\"\n[materials.rope]\n\
                     axial_stiffness_n = 1e5\nmass_kg_per_m = 0.01\n[pulleys.wheel]\nradius_m = 0.2\n\
-                    entry_direction = [0, 0, 1]\n[winches.drum]\ndrum_side_length_m = 1.5\n[[cables]]\nname = \"1\"\n\
+                    entry_direction = [0, 0, 1]\n[winches.drum]\ndrum_side_length_m = 1.5\n\
+                    [guide_wheels.foot]\nwinch = \"drum\"\ndistance_m = 1.2\nradius_m = 0.04\ninertia_kg_m2 = 1e-4\n\
+                    [[cables]]\nname = \"1\"\n\
                     material = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\nanchor_m = [0, 0, 4]\n\
                     unstrained_length_m = 4.0\n";
         let robot = Robot::from_toml(text).unwrap();
@@ -65,6 +72,9 @@ mod tests {
         let lines = DriveLines::of(&robot.cables[0], &rest.cables[0]).unwrap();
         assert!((lines.path[0] - rest.cables[0].anchor_w).norm() < 1e-12);
         assert!((lines.drum.unwrap() - Vec3::new(0.0, 0.0, 2.5)).norm() < 1e-12);
+
+        assert_eq!(lines.guide_wheels[0].0, "foot");
+        assert!((lines.guide_wheels[0].1 - Vec3::new(0.0, 0.0, 2.8)).norm() < 1e-12);
 
         // The platform hangs below the far side of the wheel, half around.
         assert!((rest.cables[0].anchor_w.z - 4.0).abs() < 1e-6);

@@ -1,15 +1,17 @@
 //! The robot in space: parallel projection, hanging cables, the platform between its attachments, a floor with scales.
 
 use super::axis::{nice_step, round_numbers};
-use super::drawing::{Align, BLACK, Colour, Drawing, Label, Point, Stroke};
+use super::drawing::{Align, BLACK, Colour, Drawing, Label, Point, Stroke, WHITE};
 use super::drive::DriveLines;
 use super::hull::faces;
 use super::style::{AXIS_WIDTH, BLUE, CURVE_WIDTH, GREY, Type, VERMILION, around};
+use super::supports::SupportAtRest;
 use super::view::{EYE, extent, joined, ranges, sides};
 use crate::text::decimals;
 use funicular::math::Vec3;
 use funicular::robot::Robot;
 use funicular::statics::Equilibrium;
+use std::f64::consts::TAU;
 
 /// Robot in space, at equilibrium and, for a mode shape, moved.
 pub(crate) struct Space {
@@ -18,6 +20,8 @@ pub(crate) struct Space {
     moved: Option<Shape>,
     /// Pulleys and drums at rest.
     drives: Vec<DriveLines>,
+    /// Flexible supports at rest.
+    supports: Vec<SupportAtRest>,
     /// Names of the cables at their anchors, and the sides on which they stand.
     names: Vec<(String, &'static str)>,
     /// Corners of each face of the platform.
@@ -76,6 +80,7 @@ impl Space {
             rest,
             moved,
             drives,
+            supports: SupportAtRest::all(robot, equilibrium),
             head,
         }
     }
@@ -103,6 +108,7 @@ impl Space {
         } else {
             self.draw_shape(&mut drawing, &view, &self.rest, style);
         }
+        self.draw_supports(&mut drawing, &view, style);
         self.draw_anchors(&mut drawing, &view, style);
         drawing
     }
@@ -157,6 +163,15 @@ impl Space {
         for drive in &self.drives {
             drawing.areas(vec![flat(&drive.wheel)], None, Some(Stroke::solid(GREY, AXIS_WIDTH)));
             drawing.line(flat(&drive.path), Stroke::solid(BLUE, 0.5 * CURVE_WIDTH));
+            for (_, wheel) in &drive.guide_wheels {
+                let [x, y] = view.at(*wheel);
+                let corner = |k: u32| {
+                    let angle = f64::from(k) / 24.0 * TAU;
+                    [x + 0.22 * style.size * angle.cos(), y + 0.22 * style.size * angle.sin()]
+                };
+                let circle = (0..24).map(corner).collect();
+                drawing.areas(vec![circle], Some(WHITE), Some(Stroke::solid(GREY, AXIS_WIDTH)));
+            }
             if let Some(drum) = drive.drum {
                 let half = 0.17 * style.size;
                 let [x, y] = view.at(drum);
@@ -164,6 +179,42 @@ impl Space {
                     vec![[x - half, y - half], [x + half, y - half], [x + half, y + half], [x - half, y + half]];
                 drawing.areas(vec![square], Some(GREY), None);
             }
+        }
+    }
+
+    /// Supports: a bar through the anchors, and beside it a spring on the ground with the support's name.
+    fn draw_supports(&self, drawing: &mut Drawing, view: &View, style: &Type) {
+        let size = style.size;
+        let capital = drawing.font.capital_height() * style.small;
+        let (bar, thin) = (Stroke::solid(BLACK, 2.0 * AXIS_WIDTH), Stroke::solid(BLACK, AXIS_WIDTH));
+        for support in &self.supports {
+            let mut points: Vec<Point> = support.anchors.iter().map(|p| view.at(*p)).collect();
+            points.sort_by(|a, b| a[1].total_cmp(&b[1]));
+            let Some([x, y]) = points.last().copied() else { continue };
+
+            // The spring stands away from the middle of the figure, so that cables do not cross it.
+            let outwards = if x < 0.5 * drawing.width { -1.0 } else { 1.0 };
+            let (at, coil) = (x + 1.1 * size * outwards, 0.26 * size);
+            points.push([at, y]);
+            drawing.line(points, bar.clone());
+            let mut spring = vec![[at, y], [at, y + 0.35 * size]];
+            spring.extend((0..6).map(|k| {
+                let side = if k % 2 == 0 { coil } else { -coil };
+                [at + side, y + (0.35 + 0.22 * (f64::from(k) + 0.5)) * size]
+            }));
+            let ground = y + 2.0 * size;
+            spring.extend([[at, ground - 0.33 * size], [at, ground]]);
+            drawing.line(spring, thin.clone());
+
+            // The ground.
+            drawing.line(vec![[at - 0.6 * size, ground], [at + 0.6 * size, ground]], thin.clone());
+            let hatch = |k: i32| {
+                let left = at + (0.3 * f64::from(k) - 0.6) * size;
+                vec![[left + 0.25 * size, ground], [left, ground + 0.25 * size]]
+            };
+            drawing.lines((0..4).map(hatch).collect(), Stroke::solid(GREY, 0.6 * AXIS_WIDTH));
+            let below = [at, ground + 0.5 * size + capital];
+            drawing.text(Label::plain(&support.name), below, Align::Middle, style.small, GREY);
         }
     }
 

@@ -11,14 +11,21 @@ export class EngineError extends Error {
 /** Error of a computation that the page has cancelled. */
 export class Cancelled extends Error {}
 
-/** Compiled module and address of the worker's script. */
-let module = null;
+/** Address of the worker's script, and the module that the first worker has compiled. */
 let script = "";
+let compiled = null;
 
-/** Prepares the engine. `bytes`: WebAssembly; `source`: text of the worker. */
-export async function prepare(bytes, source) {
-  module = await WebAssembly.compile(bytes);
+/**
+ * Makes the first engine. Its worker unpacks and compiles WebAssembly while the page makes its view; the other engines
+ * get the compiled module.
+ * @param {string} source text of the worker
+ * @param {object} core `packed`: compressed WebAssembly in base64; or `address` of the file
+ */
+export function prepare(source, core) {
   script = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
+  const first = new Engine(Promise.resolve(core));
+  compiled = first.ready;
+  return first;
 }
 
 /** Instance of funicular in a worker. */
@@ -27,9 +34,17 @@ export class Engine {
   #waiting = new Map();
   #next = 0;
 
-  constructor() {
+  /** @param {Promise<object>} core `module`, or what it is compiled from */
+  constructor(core = compiled) {
     this.#worker = new Worker(script);
+    let run = null;
+    /** Resolves when the worker has its script. */
+    this.running = new Promise((resolve) => { run = resolve; });
     this.#worker.onmessage = ({ data }) => {
+      if (data.running) {
+        run();
+        return;
+      }
       const waiting = this.#waiting.get(data.id);
       this.#waiting.delete(data.id);
       if (data.error) {
@@ -38,7 +53,9 @@ export class Engine {
         waiting?.resolve(data);
       }
     };
-    this.ready = this.call("start", { module });
+    this.ready = core.then(({ module, packed, address }) => this.#post("start", { module, packed, address }));
+    // Whoever calls the engine is told why it has not started.
+    this.ready.catch(() => {});
   }
 
   /** Number of calls that have no answer yet. */
@@ -46,8 +63,13 @@ export class Engine {
     return this.#waiting.size;
   }
 
-  /** Calls a function of the worker. */
-  call(call, more = {}) {
+  /** Calls a function of the worker when it has started. */
+  async call(call, more = {}) {
+    await this.ready;
+    return this.#post(call, more);
+  }
+
+  #post(call, more) {
     const id = this.#next++;
     return new Promise((resolve, reject) => {
       this.#waiting.set(id, { resolve, reject });
@@ -77,7 +99,6 @@ export class Job {
       this.#workers.push(new Engine());
     }
     const own = this.#workers.slice(0, count);
-    await Promise.all(own.map((engine) => engine.ready));
     return work(own);
   }
 

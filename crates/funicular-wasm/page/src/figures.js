@@ -94,6 +94,53 @@ export function response({ curves, peaks, modes, unit, title, log, width }) {
   return `<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" aria-label="Frequency response. ${escaped(summary)}" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">${parts.join("")}</svg>`;
 }
 
+/**
+ * Record in time.
+ * @param {object} of `curves` (list of {times, values, kind}; the last is the present one), `label`, `factor` (of the
+ *   values), `width`
+ */
+export function history({ curves, label, factor, width }) {
+  const left = 58, right = 10, top = 16, high = 120, bottom = 34;
+  const height = top + high + bottom;
+  const inside = width - left - right;
+  const end = Math.max(...curves.map(({ times }) => times.at(-1)));
+  const extremes = curves.flatMap(({ values }) => [values.reduce((a, b) => Math.min(a, b)), values.reduce((a, b) => Math.max(a, b))]);
+  const most = 1.05 * factor * Math.max(...extremes.map(Math.abs), 1e-300);
+  const x = (t) => left + (inside * t) / end;
+  const y = (value) => top + (high * (most - value)) / (2 * most);
+  const parts = [];
+  for (const t of ticks(0, end, Math.max(3, Math.floor(inside / 60)))) {
+    parts.push(`<line class="grid" x1="${x(t).toFixed(1)}" y1="${top}" x2="${x(t).toFixed(1)}" y2="${top + high}"/><text x="${x(t).toFixed(1)}" y="${top + high + 14}" text-anchor="middle">${tick(t)}</text>`);
+  }
+  for (const value of ticks(-most, most, 5)) {
+    parts.push(`<line class="grid" x1="${left}" y1="${y(value).toFixed(1)}" x2="${width - right}" y2="${y(value).toFixed(1)}"/><text x="${left - 6}" y="${(y(value) + 4).toFixed(1)}" text-anchor="end">${tick(value)}</text>`);
+  }
+  for (const { times, values, kind } of curves) {
+    parts.push(`<path class="${kind}" d="${path(Array.from(times, (t, i) => [x(t), y(factor * values[i])]))}"/>`);
+  }
+  const present = curves.at(-1);
+  parts.push(`<text x="${left}" y="10">${escaped(label)}</text><text x="${left + inside / 2}" y="${height - 4}" text-anchor="middle">time [s]</text>`);
+  parts.push(`<line class="here" data-clock x1="${left}" x2="${left}" y1="${top}" y2="${top + high}"/>`);
+  const told = `${label} from ${short(factor * present.values[0])} at the beginning, over ${short(end, 3)} seconds`;
+  return `<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" aria-label="${escaped(told)}" data-left="${left}" data-inside="${inside}" data-end="${end}" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">${parts.join("")}</svg>`;
+}
+
+/**
+ * Effects as bars from a common zero, the largest first. Elements of HTML, so that long names break into lines.
+ * @param {object} of `rows` (list of {name, path, value, past}), `label`, `unit`
+ */
+export function bars({ rows, label, unit }) {
+  const most = Math.max(...rows.flatMap(({ value, past }) => [Math.abs(value), Math.abs(past ?? 0)]));
+  const row = ({ name, path, value, past }) => {
+    const mark = past === undefined ? "" : `<b class="past" title="before: ${short(past, 3)} ${unit}" style="left:${(50 + (50 * past) / most).toFixed(1)}%"></b>`;
+    const words = `${value < 0 ? "−" : "+"}${short(Math.abs(value), 3)} ${unit}`;
+    const [from, wide] = [value < 0 ? 50 + (50 * value) / most : 50, (50 * Math.abs(value)) / most];
+    return `<li data-path="${escaped(path)}" role="button" tabindex="0" aria-label="${escaped(`${name}: ${words}. Add a slider`)}"><span>${escaped(name).replaceAll(".", ".<wbr>").replaceAll("_", "_<wbr>")}</span>`
+      + `<span class="bar-track"><i class="${value < 0 ? "less" : "more"}" style="left:${from.toFixed(1)}%;width:${wide.toFixed(1)}%"></i>${mark}</span><b>${escaped(words)}</b></li>`;
+  };
+  return `<p class="soft">${escaped(label)}</p><ul class="bars" aria-label="${escaped(label)}">${rows.map(row).join("")}</ul>`;
+}
+
 /** Extremum as a list of one, without spreading long lists into arguments. */
 const finite = (values, of) => [values.length ? values.reduce((a, b) => of(a, b)) : 1];
 
@@ -127,7 +174,7 @@ export function slice({ axes, ranges, cells, here, label, unit, width }) {
     const color = Number.isFinite(value) ? mapColor(most > least ? (value - least) / (most - least) : 0.5) : "var(--none)";
     const [x0, x1] = [Math.max(u0, u - du / 2), Math.min(u1, u + du / 2)].map(x);
     const [y0, y1] = [Math.min(v1, v + dv / 2), Math.max(v0, v - dv / 2)].map(y);
-    parts.push(`<rect x="${x0.toFixed(2)}" y="${y0.toFixed(2)}" width="${(x1 - x0 + 0.3).toFixed(2)}" height="${(y1 - y0 + 0.3).toFixed(2)}" fill="${color}"/>`);
+    parts.push(`<rect x="${x0.toFixed(2)}" y="${y0.toFixed(2)}" width="${(x1 - x0 + 0.3).toFixed(2)}" height="${(y1 - y0 + 0.3).toFixed(2)}" fill="${color}" shape-rendering="crispEdges"/>`);
   }
   for (const u of ticks(u0, u1, 6)) {
     parts.push(`<line class="axis" x1="${x(u).toFixed(1)}" y1="${top + high}" x2="${x(u).toFixed(1)}" y2="${top + high + 4}"/><text x="${x(u).toFixed(1)}" y="${top + high + 16}" text-anchor="middle">${tick(u)}</text>`);

@@ -11,8 +11,8 @@ import { ConvexGeometry } from "three/addons/geometries/ConvexGeometry.js";
 import { Line2 } from "three/addons/lines/Line2.js";
 import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { Drives } from "./drives.js";
 import { rotation } from "./frame.js";
-import { escaped } from "./format.js";
 
 /** Colours of tension from low to high, readable with any colour vision and on both backgrounds. */
 const SCALE = ["#3b6fb6", "#4aa3c8", "#62b78f", "#c9a227", "#d9772b", "#c23b22"].map((hex) => new Color(hex));
@@ -28,13 +28,21 @@ export function colorOf(fraction) {
   return SCALE[low].clone().lerp(SCALE[low + 1], at - low);
 }
 
-/** True if the browser draws without a graphics card: then smooth edges and fine pixels take longer than a frame. */
-function isSoftware() {
-  const gl = document.createElement("canvas").getContext("webgl2");
-  const about = gl?.getExtension("WEBGL_debug_renderer_info");
-  const name = about ? gl.getParameter(about.UNMASKED_RENDERER_WEBGL) : "";
-  gl?.getExtension("WEBGL_lose_context")?.loseContext();
-  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+/** Canvas with its context. Without a graphics card smooth edges and fine pixels take longer than a frame. */
+function drawing() {
+  const made = (antialias) => {
+    const canvas = document.createElement("canvas");
+    const context = canvas.getContext("webgl2", { alpha: true, stencil: false, antialias });
+    return { canvas, context: context ?? undefined };
+  };
+  const smooth = made(true);
+  const about = smooth.context?.getExtension("WEBGL_debug_renderer_info");
+  const name = about ? smooth.context.getParameter(about.UNMASKED_RENDERER_WEBGL) : "";
+  if (!/swiftshader|llvmpipe|software|basic render/i.test(name)) {
+    return { ...smooth, software: false };
+  }
+  smooth.context.getExtension("WEBGL_lose_context")?.loseContext();
+  return { ...made(false), software: true };
 }
 
 export class View {
@@ -52,9 +60,10 @@ export class View {
     this.before = null;
     this.canDrag = true;
 
-    this.software = isSoftware();
-    this.renderer = new WebGLRenderer({ antialias: !this.software, alpha: true });
-    this.canvas = this.renderer.domElement;
+    const { canvas, context, software } = drawing();
+    this.software = software;
+    this.renderer = new WebGLRenderer({ canvas, context, alpha: true });
+    this.canvas = canvas;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
     this.labels = document.createElement("div");
@@ -162,6 +171,8 @@ export class View {
 
     this.addFixed(anchors, low);
     this.addPlatform();
+    this.drives = new Drives(cables, about.check.supports ?? [], this.size);
+    this.fixed.add(this.drives.group);
     for (const { name } of cables) {
       const material = new LineMaterial({ linewidth: 2.6, vertexColors: false, dashScale: 60 / this.size });
       const line = new Line2(new LineGeometry(), material);
@@ -191,12 +202,13 @@ export class View {
     this.fixed.add(this.grid);
     const geometry = new BufferGeometry().setFromPoints(anchors);
     this.anchorMaterial = new PointsMaterial({ size: 8, sizeAttenuation: false });
-    this.fixed.add(new Points(geometry, this.anchorMaterial));
 
     // Posts from the ground to the anchors show the depth.
     const posts = anchors.flatMap((anchor) => [anchor, new Vector3(anchor.x, anchor.y, Math.min(0, low.z))]);
     this.postMaterial = new LineBasicMaterial({ transparent: true, opacity: 0.4 });
-    this.fixed.add(new LineSegments(new BufferGeometry().setFromPoints(posts), this.postMaterial));
+    this.posts = new LineSegments(new BufferGeometry().setFromPoints(posts), this.postMaterial);
+    this.anchorPoints = new Points(geometry, this.anchorMaterial);
+    this.fixed.add(this.posts, this.anchorPoints);
   }
 
   addPlatform() {
@@ -233,6 +245,7 @@ export class View {
     this.postMaterial?.color.set(color("--soft"));
     this.platformMaterial?.color.set(color("--platform"));
     this.edgeMaterial?.color.set(color("--ink"));
+    this.drives?.recolor(color);
     this.draw();
   }
 
@@ -264,6 +277,8 @@ export class View {
       this.handle.quaternion.copy(this.platform.quaternion);
     }
     this.platformMaterial.opacity = 0.82;
+    this.drives.setFrame(frame);
+    this.moveSupports(() => new Vector3());
     const top = Math.max(...frame.cables.map((cable) => cable.highest), 1e-9);
     frame.cables.forEach((cable, i) => {
       const line = this.lines[i];
@@ -337,23 +352,88 @@ export class View {
     this.mode = mode && { ...mode, playing: mode.playing ?? playing, start: this.mode?.start ?? performance.now() };
     if (this.mode) {
       // The largest displacement is a fixed fraction of the robot.
+      this.mode.cables ??= this.straight(this.mode.shape);
       const { cables, shape } = this.mode;
       let largest = 1e-30;
       for (let i = 0; i < cables.length; i += 3) {
         largest = Math.max(largest, Math.hypot(cables[i], cables[i + 1], cables[i + 2]));
       }
       const turned = Math.hypot(...shape.slice(3)) * Math.max(...this.attachments.map((point) => point.length()), 0);
-      this.mode.scale = (0.035 * this.size) / Math.max(largest, Math.hypot(...shape.slice(0, 3)), turned);
+      largest = Math.max(largest, Math.hypot(...shape.slice(0, 3)), turned);
+      this.mode.scale = (0.035 * this.size) / largest;
+      if (mode.release && this.mode.scale < 1) {
+        // A release that can be seen without magnification is shown as it is, unless it leaves the robot.
+        this.mode.scale = Math.min(1, (0.3 * this.size) / largest);
+      }
     } else if (this.frame) {
       this.setFrame(this.frame, this.dragging);
     }
     this.draw();
   }
 
-  showMode(now) {
-    const { cables, shape, scale, start, playing } = this.mode;
+  /**
+   * Plays a free response; null ends it.
+   * @param {object} release `start` and `at(seconds)` with `shape` and `cables` (null: straight lines), `seconds` until the
+   *   record begins again, `slowdown` of the time
+   */
+  setRelease(release) {
+    this.setMode(release && { ...release.start, release, playing: true });
+    if (this.mode) {
+      this.mode.start = performance.now();
+    }
+  }
+
+  /** Factor by which the motion of the release is larger than it is. */
+  get releaseScale() {
+    return this.mode?.release ? this.mode.scale * this.amplitude : 1;
+  }
+
+  /** Displacements of the points of the cables if their curves are unknown: straight lines that follow the platform. */
+  straight(shape) {
+    const [dx, dy, dz, rx, ry, rz] = shape;
+    return Float64Array.from(this.frame.cables.flatMap(({ attachment, points }) => {
+      const [x, y, z] = attachment.map((value, k) => value - this.frame.position[k]);
+      const end = [dx + ry * z - rz * y, dy + rz * x - rx * z, dz + rx * y - ry * x];
+      const last = points.length / 3 - 1;
+      return Array.from(points, (_, k) => end[k % 3] * (1 - Math.floor(k / 3) / last));
+    }));
+  }
+
+  /** Displacements on the screen at a time of the screen [ms]. */
+  motionAt(now) {
+    const { mode } = this;
+    const { start, playing, release } = mode;
+    if (release) {
+      const t = (((now - start) / 1000) / release.slowdown) % (1.15 * release.seconds);
+      mode.clock?.(Math.min(t, release.seconds));
+      const found = release.at(Math.max(0, Math.min(t, release.seconds)));
+      return { ...found, cables: found.cables ?? this.straight(found.shape), factor: mode.scale * this.amplitude };
+    }
     const phase = playing ? Math.sin((2 * Math.PI * (now - start)) / (1000 * PERIOD_S)) : 1;
-    const factor = phase * scale * this.amplitude;
+    return { ...mode, factor: phase * mode.scale * this.amplitude };
+  }
+
+  /** Moves anchors and posts on flexible supports. `moved(i)`: displacement of the anchor of cable i on the screen. */
+  moveSupports(moved) {
+    if (!this.drives.kinds.supports) {
+      return;
+    }
+    this.drives.move(moved);
+    const [points, posts] = [this.anchorPoints, this.posts].map((one) => one.geometry.getAttribute("position"));
+    this.drives.cables.forEach(({ place, support }, i) => {
+      if (support) {
+        const to = place.clone().add(moved(i));
+        points.setXYZ(i, to.x, to.y, to.z);
+        posts.setXYZ(2 * i, to.x, to.y, to.z);
+      }
+    });
+    points.needsUpdate = posts.needsUpdate = true;
+  }
+
+  showMode(now) {
+    const { cables, shape, factor } = this.motionAt(now);
+    const perCable = cables.length / this.frame.cables.length;
+    this.moveSupports((i) => new Vector3(...[3, 2, 1].map((k) => factor * cables[(i + 1) * perCable - k])));
     let at = 0;
     this.frame.cables.forEach((cable, i) => {
       const own = this.exaggerated(cable);
@@ -363,7 +443,7 @@ export class View {
     });
     const [w, x, y, z] = this.frame.quaternion;
     this.platform.position.set(...this.frame.position.map((value, k) => value + factor * shape[k]));
-    const turn = new Vector3(...shape.slice(3)).multiplyScalar(factor);
+    const turn = new Vector3(shape[3], shape[4], shape[5]).multiplyScalar(factor);
     const angle = turn.length();
     const extra = new Quaternion().setFromAxisAngle(angle > 0 ? turn.normalize() : new Vector3(0, 0, 1), angle);
     this.platform.quaternion.copy(extra.multiply(new Quaternion(x, y, z, w)));
@@ -401,40 +481,5 @@ export class View {
   png() {
     this.renderer.render(this.scene, this.camera);
     return new Promise((done) => this.canvas.toBlob(done, "image/png"));
-  }
-
-  /** Picture of the view as SVG: the same camera, drawn with lines. */
-  svg() {
-    const { clientWidth: width, clientHeight: height } = this.place;
-    const style = getComputedStyle(document.documentElement);
-    const color = (name) => style.getPropertyValue(name).trim();
-    const project = (x, y, z) => {
-      const point = new Vector3(x, y, z).project(this.camera);
-      return `${(((point.x + 1) * width) / 2).toFixed(2)},${(((1 - point.y) * height) / 2).toFixed(2)}`;
-    };
-    const polyline = (points, stroke, more) =>
-      `<polyline fill="none" stroke="${stroke}" ${more} points="${Array.from({ length: points.length / 3 }, (_, i) => project(...points.slice(3 * i, 3 * i + 3))).join(" ")}"/>`;
-    const parts = [];
-    const [low] = this.box;
-    for (const line of [...this.platform.children].filter((child) => child.isLineSegments)) {
-      const position = line.geometry.getAttribute("position");
-      for (let i = 0; i < position.count; i += 2) {
-        const ends = [i, i + 1].flatMap((k) => new Vector3().fromBufferAttribute(position, k).applyMatrix4(line.matrixWorld).toArray());
-        parts.push(polyline(ends, color("--ink"), 'stroke-width="1"'));
-      }
-    }
-    if (this.platform.children.length === 1) {
-      const [x, y] = project(...this.frame.position).split(",");
-      parts.push(`<circle cx="${x}" cy="${y}" r="6" fill="${color("--platform")}"/>`);
-    }
-    this.frame?.cables.forEach((cable, i) => {
-      const { material } = this.lines[i];
-      parts.push(polyline(Array.from(this.exaggerated(cable)), `#${material.color.getHexString()}`, `stroke-width="2" ${material.dashed ? 'stroke-dasharray="5 4"' : ""}`));
-      const anchor = Array.from(cable.anchor);
-      const [x, y] = project(...anchor).split(",");
-      parts.push(polyline([...anchor, anchor[0], anchor[1], Math.min(0, low.z)], color("--line"), 'stroke-width="1"'));
-      parts.push(`<circle cx="${x}" cy="${y}" r="3" fill="${color("--ink")}"/><text x="${x}" y="${Number(y) - 7}" font-size="12" text-anchor="middle" fill="${color("--soft")}">${escaped(this.names[i])}</text>`);
-    });
-    return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="sans-serif"><rect width="100%" height="100%" fill="${color("--paper")}"/>${parts.join("")}</svg>`;
   }
 }

@@ -27,13 +27,42 @@ const calls = {
   crash: () => funicular.frame(0, { length: 2 ** 32 - 1 }, 0, 0),
 };
 
-async function answer({ data }) {
-  if (data.call === "start") {
-    funicular = await load(data.module);
-    postMessage({ id: data.id });
-    return;
+/** Bytes of a text in base64; the loop is for browsers before 2025. */
+function decoded(text) {
+  if (Uint8Array.fromBase64) {
+    return Uint8Array.fromBase64(text);
   }
+  const characters = atob(text);
+  const bytes = new Uint8Array(characters.length);
+  for (let i = 0; i < bytes.length; i += 1) {
+    bytes[i] = characters.charCodeAt(i);
+  }
+  return bytes;
+}
+
+/** Compiles WebAssembly while it is unpacked, or while it arrives from a server. */
+async function compiled({ packed, address }) {
+  let stream;
+  if (packed) {
+    stream = new Blob([decoded(packed)]).stream().pipeThrough(new DecompressionStream("gzip"));
+  } else {
+    const response = await fetch(address);
+    if (!response.ok) {
+      throw new Error(`${address} is missing: the server answers with ${response.status}`);
+    }
+    stream = response.body;
+  }
+  return WebAssembly.compileStreaming(new Response(stream, { headers: { "content-type": "application/wasm" } }));
+}
+
+async function answer({ data }) {
   try {
+    if (data.call === "start") {
+      const module = data.module ?? (await compiled(data));
+      funicular = await load(module);
+      postMessage({ id: data.id, module });
+      return;
+    }
     const found = calls[data.call](data);
     postMessage({ id: data.id, ...found }, found.numbers ? [found.numbers.buffer] : []);
   } catch (error) {
@@ -48,6 +77,9 @@ async function answer({ data }) {
     }
   }
 }
+
+// The page makes its view, which blocks it for a while, when the worker has its script.
+postMessage({ running: true });
 
 // Messages wait for the one before, also while an instance starts.
 let before = Promise.resolve();

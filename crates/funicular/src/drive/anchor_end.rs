@@ -136,6 +136,17 @@ impl AnchorEnd {
         held * (along_w * b + sideways_w * c)
     }
 
+    /// Change of the tension of a drum side, as a force on its entry point along it, by a given motion [N]: the exit point
+    /// moves with the anchor by `exit_w`, a generalised force acts on the motion sideways, and the entry point moves along a
+    /// drum side from the ground by `stretched`. The platform is held; zero if the end is held.
+    pub(crate) fn drum_side_tension(&self, held: &Mat3, exit_w: &Vec3, on_swivel: f64, stretched: f64) -> f64 {
+        let Some(by_length_w) = self.force_by_length_w(held) else { return 0.0 };
+        let [[slip, mixed], _] = self.inverse(held);
+        let pull = self.force_by_length / self.stretch_drum;
+        let own = pull * self.stretch / self.stretch_drum - pull * pull * slip;
+        own * stretched - by_length_w.dot(exit_w) / self.stretch_drum + pull * mixed * on_swivel
+    }
+
     /// Stiffness of a cable between platform and anchor for a motion of the anchor whose drum stays on the ground. `held` is
     /// the stiffness of the span.
     ///

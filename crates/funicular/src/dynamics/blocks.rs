@@ -1,19 +1,20 @@
 //! Blocks of a second-order model: the platform, and per catenary-dynamic cable its end and its clamped modes.
 //!
 //! With the amplitudes q_k of the clamped modes as coordinates beside the platform's motion x, the matrices of a
-//! catenary-dynamic cable do not depend on frequency (docs/theory.md, section 13):
+//! catenary-dynamic cable do not depend on frequency (docs/theory.md, section 13). Displacements of flexible supports stand
+//! beside x: together they are the coordinates of the ends.
 //!
 //! ```text
 //! K_c = [ K_s   0   ]      M_c = [ M_s   g_k ]
 //!       [ 0     ω_k² ]           [ g_kᵀ   1  ]
 //! ```
 
-use super::{DynamicCableAt, Dynamics};
+use super::{DynamicCableAt, Dynamics, Supports};
 use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::{
-    CarrierMotion, CatenaryDynamicEnd, DriveForm, DrivePart, DriveSignal, InPowersOfS,
+    CarrierMotion, CatenaryDynamicEnd, DriveForm, DrivePart, DriveSignal, ENDS, InPowersOfS,
 };
-use crate::math::{DMat, Mat3, Mat6, Vec6};
+use crate::math::{DMat, Mat3, Mat6, Vec3, Vec6};
 use crate::robot::Damping;
 
 /// Matrices of the platform over its coordinates [m, rad]; they include all stiffness that does not depend on
@@ -24,13 +25,26 @@ pub(crate) struct PlatformBlocks {
     pub(crate) stiffness: DMat,
 }
 
-/// Blocks that a catenary-dynamic cable adds.
+/// Matrices of flexible supports over their displacements, three per support, with the stiffness of cables that does not
+/// depend on frequency.
+pub(crate) struct SupportBlocks {
+    /// Stiffness [N/m].
+    pub(crate) stiffness: DMat,
+    /// Stiffness between the platform's coordinates and the supports.
+    pub(crate) coupling: DMat,
+    /// Mass [kg].
+    pub(crate) mass: DMat,
+    /// Imaginary part of the stiffness by constant damping ratios [N/m].
+    pub(crate) loss: DMat,
+}
+
+/// Blocks that a catenary-dynamic cable adds. The ends are the platform's coordinates, then those of the supports.
 pub(crate) struct CableBlocks {
     /// Index of the cable, in the order of the file.
     pub(crate) cable: usize,
-    /// Static stiffness K_s of the end over the platform's coordinates.
+    /// Static stiffness K_s over the coordinates of the ends.
     pub(crate) end_stiffness: DMat,
-    /// Mass M_s of the end over the platform's coordinates.
+    /// Mass M_s over the coordinates of the ends.
     pub(crate) end_mass: DMat,
     /// Clamped modes, in plane and then out of plane.
     pub(crate) modes: Vec<ClampedMode>,
@@ -54,16 +68,17 @@ pub(crate) struct DrivePartBlock {
     pub(crate) massless: f64,
 }
 
-/// Row over the platform's coordinates and the amplitudes of the clamped modes of a cable.
+/// Row over the coordinates of the ends, which are the platform's and then those of the supports, and the amplitudes of the
+/// clamped modes of a cable.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CableRow {
-    pub(crate) platform: Vec<f64>,
+    pub(crate) ends: Vec<f64>,
     pub(crate) modes: Vec<f64>,
 }
 
 /// Clamped mode of unit modal mass.
 pub(crate) struct ClampedMode {
-    /// Participation g_k over the platform's coordinates.
+    /// Participation g_k over the coordinates of the ends.
     pub(crate) participation: Vec<f64>,
     /// Pole ω_k² [rad²/s²].
     pub(crate) pole: f64,
@@ -80,17 +95,31 @@ impl Dynamics {
 
     /// Matrices of every catenary-dynamic cable, not scaled, in the order of [`terms`](Self::terms).
     pub(crate) fn cable_blocks(&self) -> impl Iterator<Item = CableBlocks> {
-        self.terms.iter().filter_map(|term| match &term.form {
-            DynamicCable::CatenaryDynamic(end) => Some(self.blocks_of(term, end)),
+        self.terms.iter().enumerate().filter_map(|(t, term)| match &term.form {
+            DynamicCable::CatenaryDynamic(end) => Some(self.blocks_of(t, term, end)),
             DynamicCable::ShallowDynamic(_) => None,
         })
     }
 
+    /// Matrices of the flexible supports, not scaled; `None` on a rigid frame.
+    pub(crate) fn support_blocks(&self) -> Option<SupportBlocks> {
+        let supports = self.supports()?;
+        let [stiffness, mass, loss] = supports.constant_parts().map(Clone::clone);
+        let (scaled, scale) = (supports.constant_coupling(), self.coordinate_scale());
+        let coupling = DMat::from_fn(self.dof(), supports.count(), |i, j| scaled[(i, j)] * scale[i]);
+        Some(SupportBlocks { stiffness, coupling, mass, loss })
+    }
+
+    /// Number of coordinates of the supports.
+    fn support_count(&self) -> usize {
+        self.supports().map_or(0, Supports::count)
+    }
+
     /// Row of a signal of the drive of a cable, given by its index among the terms. `None` if it has no such signal.
     pub(crate) fn drive_signal_row(&self, term: usize, signal: DriveSignal) -> Option<InPowersOfS<CableRow>> {
-        let term = &self.terms[term];
-        let DynamicCable::CatenaryDynamic(end) = &term.form else { return None };
-        Some(end.signal_form(signal)?.map(|form| self.row(term, form)))
+        let DynamicCable::CatenaryDynamic(end) = &self.terms[term].form else { return None };
+        let forms = end.signal_form(signal)?;
+        Some(self.rows(term, forms, |carrier| end.direct_by_carrier(carrier, signal).unwrap_or_default()))
     }
 
     /// Output per input of signals of the drive of one cable with all coordinates at rest; `None` without such signals.
@@ -107,9 +136,24 @@ impl Dynamics {
     /// Row of a motion of the carrier of a cable's far end; the cable is given by its index among the terms. `None` if it is not
     /// catenary-dynamic.
     pub(crate) fn carrier_row(&self, term: usize, motion: &CarrierMotion) -> Option<InPowersOfS<CableRow>> {
-        let term = &self.terms[term];
-        let DynamicCable::CatenaryDynamic(end) = &term.form else { return None };
-        Some(end.carrier_form(motion).map(|form| self.row(term, form)))
+        let DynamicCable::CatenaryDynamic(end) = &self.terms[term].form else { return None };
+        Some(self.rows(term, end.carrier_form(motion), |carrier| end.between_carriers(carrier, motion)))
+    }
+
+    /// Row over the supports of the motion of a point on a cable, given by its index in the order of the file:
+    /// `by_far_end_w` has its displacement per displacement of the far end along each axis of the world, and `amplitudes` its
+    /// motion in the clamped modes.
+    pub(crate) fn station_row_on_supports(&self, cable: usize, by_far_end_w: [f64; 3], amplitudes: &[f64]) -> Vec<f64> {
+        let mut row = vec![0.0; self.support_count()];
+        let Some((supports, first)) = self.supports().and_then(|of| Some((of, of.of_cable(cable)?))) else {
+            return row;
+        };
+        row[first..first + 3].copy_from_slice(&by_far_end_w);
+        let term = self.terms.iter().position(|term| term.cable == cable);
+        if let Some(still) = term.and_then(|term| supports.static_amplitudes(term)) {
+            row[first..].iter_mut().zip(&still).for_each(|(entry, still)| *entry += product(amplitudes, still));
+        }
+        row
     }
 
     /// Motions (e, n, b) of the platform end and of the far end of a cable per unit of a signal of its drive; the cable is given by
@@ -131,22 +175,59 @@ impl Dynamics {
         end.direct_by_carrier(motion, output)
     }
 
-    fn row(&self, term: &DynamicCableAt, form: DriveForm) -> CableRow {
-        CableRow { platform: self.unscaled_row(&term.vector(form.end)), modes: form.modes }
+    /// Row of a form of a cable, given by its index among the terms. `by_carrier` is its value per displacement of a support
+    /// along each axis of the world, the amplitudes of the clamped modes at rest.
+    ///
+    /// The coordinate of a clamped mode is its amplitude without the static one by a drum side that is stretched.
+    fn row(&self, term: usize, form: DriveForm, by_carrier: [f64; 3]) -> CableRow {
+        let mut ends = self.unscaled_row(&self.terms[term].vector(form.end));
+        ends.resize(self.dof() + self.support_count(), 0.0);
+        if let Some((of, (first, _))) = self.supports().and_then(|of| Some((of, of.directions_w(term)?))) {
+            let at_support = &mut ends[self.dof() + first..][..3];
+            at_support.copy_from_slice(&by_carrier);
+            for (entry, still) in at_support.iter_mut().zip(of.static_amplitudes(term).iter().flatten()) {
+                *entry += product(&form.modes, still);
+            }
+        }
+        CableRow { ends, modes: form.modes }
     }
 
-    fn blocks_of(&self, term: &DynamicCableAt, end: &CatenaryDynamicEnd) -> CableBlocks {
+    /// Rows of a polynomial of forms. `by_carrier` is its value for a motion of the carrier.
+    fn rows(
+        &self,
+        term: usize,
+        forms: InPowersOfS<DriveForm>,
+        by_carrier: impl Fn(&CarrierMotion) -> InPowersOfS<f64>,
+    ) -> InPowersOfS<CableRow> {
+        let motions = self.supports().and_then(|supports| supports.carrier_motions(term)).map(|(_, motions)| motions);
+        let by_support = motions.map_or([[0.0; 3]; 3], |motions| motions.map(|motion| by_carrier(&motion)));
+        let mut power = 0..;
+        forms.map(|form| {
+            let power = power.next().unwrap_or_default();
+            self.row(term, form, by_support.map(|powers| powers[power]))
+        })
+    }
+
+    fn blocks_of(&self, t: usize, term: &DynamicCableAt, end: &CatenaryDynamicEnd) -> CableBlocks {
         let cable = &end.cable;
         let with_out_of_plane = !self.linearisation.in_plane_only;
         let (plane, normal) = (&cable.in_plane, &cable.out_of_plane);
         let (damping, mass_per_length) = self.damping[term.cable];
 
         // The drive.
+        let motions = self.supports().and_then(|supports| supports.carrier_motions(t)).map(|(_, motions)| motions);
         let part = |part: DrivePart| {
-            let DrivePart { motion, mass, damping, massless, .. } = part;
-            DrivePartBlock { row: self.row(term, motion), mass, damping, massless }
+            let DrivePart { motion, with_carrier, mass, damping, massless } = part;
+            let along = |carrier: CarrierMotion| product(&with_carrier, &carrier.displacement);
+            let by_carrier = motions.map_or([0.0; 3], |motions| motions.map(along));
+            DrivePartBlock { row: self.row(t, motion, by_carrier), mass, damping, massless }
         };
         let drive: Vec<DrivePartBlock> = end.drive_parts().into_iter().map(part).collect();
+
+        // A cable on a support has both ends.
+        if let Some((first, directions_w)) = self.supports().and_then(|supports| supports.directions_w(t)) {
+            return self.blocks_of_both_ends(t, (first, directions_w), drive);
+        }
 
         if let Some(coupled) = &cable.coupled {
             let at_end =
@@ -193,6 +274,40 @@ impl Dynamics {
         CableBlocks { cable: term.cable, end_stiffness, end_mass, modes, damping, mass_per_length, drive }
     }
 
+    /// Blocks of a cable on a support, given by its index among the terms, with its drive. The support moves the ends along
+    /// `directions_w` and has its coordinates from the index `first` on.
+    fn blocks_of_both_ends(
+        &self,
+        t: usize,
+        (first, directions_w): (usize, &[Vec3; ENDS]),
+        drive: Vec<DrivePartBlock>,
+    ) -> CableBlocks {
+        let term = &self.terms[t];
+        let (damping, mass_per_length) = self.damping[term.cable];
+        let count = self.dof() + self.support_count();
+
+        // Motion of each end by the coordinates.
+        let mut motions = DMat::zeros(ENDS, count);
+        for (i, axis) in term.axes().into_iter().enumerate() {
+            self.unscaled_row(axis).into_iter().enumerate().for_each(|(j, entry)| motions[(i, j)] = entry);
+        }
+        for (i, direction) in directions_w.iter().enumerate() {
+            (0..3).for_each(|k| motions[(i, self.dof() + first + k)] += direction[k]);
+        }
+
+        let both = self.supports().and_then(|supports| supports.both_ends(t));
+        let [end_stiffness, end_mass] = both.map_or([DMat::zeros(count, count), DMat::zeros(count, count)], |both| {
+            both.still_parts()
+                .map(|matrix| motions.transpose() * DMat::from_fn(ENDS, ENDS, |i, j| matrix[i][j]) * &motions)
+        });
+        let mode = |(g, pole, out_of_plane): (&[f64; ENDS], f64, bool)| {
+            let participation = (0..count).map(|j| (0..ENDS).map(|i| g[i] * motions[(i, j)]).sum()).collect();
+            ClampedMode { participation, pole, out_of_plane }
+        };
+        let modes = both.map_or_else(Vec::new, |both| both.clamped_modes().map(mode).collect());
+        CableBlocks { cable: term.cable, end_stiffness, end_mass, modes, damping, mass_per_length, drive }
+    }
+
     /// Removes the scaling from a matrix over the platform's coordinates.
     fn unscaled_block(&self, matrix: &Mat6) -> DMat {
         let (f, scale) = (self.dof(), self.coordinate_scale());
@@ -220,4 +335,9 @@ impl DynamicCableAt {
             sum
         })
     }
+}
+
+/// Sum of the products of the entries.
+fn product(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
 }

@@ -55,6 +55,34 @@ impl Carried {
         self.directions_w.map(|direction| direction.dot(&e))
     }
 
+    /// True if a motion of the frame moves the entry point along the drum side as the support does: both with the drum, or
+    /// both without it.
+    fn moves_like(&self, moved: &CarrierMotion) -> bool {
+        moved.with_drum != self.from_ground
+    }
+
+    /// Motion of the ends with the frame.
+    fn ends_of(&self, moved: &CarrierMotion) -> [f64; ENDS] {
+        let [e, n, b] = moved.displacement;
+        [0.0, 0.0, 0.0, e, n, b, if self.moves_like(moved) { moved.along_drum_side } else { 0.0 }]
+    }
+
+    /// Forces on the motions of the drive by a motion of the frame beside that of the ends: constant part [N], and part per
+    /// ω_c² [kg m].
+    fn forces_beside_ends(&self, form: &CatenaryDynamicEnd, moved: &CarrierMotion) -> Vec<(f64, f64)> {
+        let along_drum_side = if self.moves_like(moved) { 0.0 } else { moved.along_drum_side };
+        form.forces_by_carrier(&CarrierMotion { along_drum_side, ..*moved })
+    }
+
+    /// Mass [kg m] between the entry point of a drum side from the ground, along it, and a base that moves with the whole drum
+    /// side.
+    fn mass_beside_ends(&self, form: &CatenaryDynamicEnd, moved: &CarrierMotion) -> f64 {
+        if self.moves_like(moved) {
+            return 0.0;
+        }
+        form.carried_mass(0) * form.drum_side_ratio() * moved.along_drum_side
+    }
+
     /// Forces on the supports from those on the ends.
     fn on_supports(&self, ends: &[f64; ENDS], count: usize) -> Vec<f64> {
         let mut forces = vec![0.0; count];
@@ -177,6 +205,10 @@ impl Supports {
 
         for ((term, carried), (square, slope)) in terms.iter().zip(&self.carried).zip(&at.squares) {
             let (Some(carried), DynamicCable::CatenaryDynamic(form)) = (carried, &term.form) else { continue };
+            if at.width == 0.0 && *slope == Complex::new(0.0, 0.0) {
+                rows.add(term, carried, &carried.both.value_at(*square), Complex::new(1.0, 0.0), false);
+                continue;
+            }
             let (value, by_square) = carried.both.at(*square, &form.near(square.re, at.width));
             rows.add(term, carried, &value, Complex::new(1.0, 0.0), false);
             rows.add(term, carried, &by_square, *slope, true);
@@ -253,42 +285,39 @@ impl Supports {
         Some((carried.first, [0, 1, 2].map(motion)))
     }
 
-    /// Adds the forces of inertia that act on the displacements of the supports while their feet move.
-    pub(crate) fn add_inertia_of_feet(&self, forces: &mut [Complex], feet_w: &Vec3, omega: f64) {
-        let feet = DVec::from_fn(self.count(), |i, _| feet_w[i % 3]);
-        let inertia = &self.mass * feet * (omega * omega);
+    /// Adds the forces of inertia that act on the displacements of the supports while their feet move, by three coordinates
+    /// per support.
+    pub(crate) fn add_inertia_of_feet(&self, forces: &mut [Complex], feet: &[f64], omega: f64) {
+        let inertia = &self.mass * DVec::from_column_slice(feet) * (omega * omega);
         forces.iter_mut().zip(inertia.iter()).for_each(|(force, inertia)| *force += inertia);
     }
 
-    /// Adds the forces on the support of a cable, given by its index among the terms, while the base moves with all anchors
-    /// and drums.
-    pub(crate) fn add_forces_by_base(
+    /// Adds the forces on the support of a cable, given by its index among the terms, while the frame moves its anchor and
+    /// perhaps its drum.
+    pub(crate) fn add_forces_by_carrier(
         &self,
         forces: &mut [Complex],
         (term, form): (usize, &CatenaryDynamicEnd),
-        base: &CarrierMotion,
+        moved: &CarrierMotion,
         omega: f64,
         square: Complex,
     ) {
         let Some(carried) = &self.carried[term] else { return };
         let all = NearRanges::default();
-        let (stiffness, _) = carried.both.at(square, &all);
-        let along = if carried.from_ground { 0.0 } else { base.along_drum_side };
-        let [e, n, b] = base.displacement;
-        let moved = [0.0, 0.0, 0.0, e, n, b, along];
+        let stiffness = carried.both.value_at(square);
+        let ends = carried.ends_of(moved);
         let mut on_ends: [Complex; ENDS] =
-            std::array::from_fn(|i| -(0..ENDS).map(|j| stiffness[i][j] * moved[j]).sum::<Complex>());
+            std::array::from_fn(|i| -(0..ENDS).map(|j| stiffness[i][j] * ends[j]).sum::<Complex>());
 
-        // The drive: its losses, and the mass of a drum side from the ground, which moves with the base.
+        // The drive: its losses, the swivel that turns, and the mass of a drum side from the ground, which moves with the base.
         if let Some(motions) = form.drive_at(square, &all) {
             let delta = form.beyond_undamped(omega.into(), 1.0);
             let transfer: Vec<[Complex; ENDS]> =
                 carried.both.drive(square, &all).into_iter().map(|(row, _)| row).collect();
-            let carried_along = if carried.from_ground { base.along_drum_side } else { 0.0 };
             let given: Vec<Complex> =
-                (0..transfer.len()).map(|i| square * form.carried_mass(i) * carried_along).collect();
+                carried.forces_beside_ends(form, moved).iter().map(|(still, mass)| *still + square * *mass).collect();
             let mut free: Vec<Complex> =
-                transfer.iter().map(|row| row.iter().zip(moved).map(|(t, u)| t * u).sum()).collect();
+                transfer.iter().map(|row| row.iter().zip(ends).map(|(t, u)| t * u).sum()).collect();
             motions.add_motion_by(&given, &mut free);
             let lost = motions.forces_by(&delta, &free);
             for (i, force) in on_ends.iter_mut().enumerate() {
@@ -296,12 +325,61 @@ impl Supports {
                     .map(|(row, (given, lost))| row[i] * (given - lost))
                     .sum::<Complex>();
             }
-            on_ends[ENDS - 1] += square * form.carried_mass(0) * form.drum_side_ratio() * carried_along;
+            on_ends[ENDS - 1] += square * carried.mass_beside_ends(form, moved);
         }
 
         for (direction, force) in carried.directions_w.iter().zip(on_ends) {
             (0..3).for_each(|k| forces[carried.first + k] += force * direction[k]);
         }
+    }
+
+    /// Stiffness and mass that do not depend on frequency [N/m, kg], and the imaginary part of the stiffness of damped supports
+    /// [N/m].
+    pub(super) fn constant_parts(&self) -> [&DMat; 3] {
+        [&self.stiffness, &self.mass, &self.loss]
+    }
+
+    /// Stiffness between the platform, in scaled coordinates, and the supports by cables whose stiffness does not depend on
+    /// frequency [N/m].
+    pub(super) fn constant_coupling(&self) -> &DMat {
+        &self.coupling
+    }
+
+    /// Directions in which the support of a cable, given by its index among the terms, moves each end of it, world axes, with
+    /// the first coordinate of that support; `None` for a rigid anchor.
+    pub(super) fn directions_w(&self, term: usize) -> Option<(usize, &[Vec3; ENDS])> {
+        self.carried[term].as_ref().map(|carried| (carried.first, &carried.directions_w))
+    }
+
+    /// Static amplitudes of the clamped modes of a cable on a support per displacement of the support along each axis of the
+    /// world; the cable is given by its index among the terms. A drum side from the ground pulls at them. `None` for a rigid
+    /// anchor.
+    pub(super) fn static_amplitudes(&self, term: usize) -> Option<[Vec<f64>; 3]> {
+        let carried = self.carried[term].as_ref()?;
+        let along = carried.directions_w[ENDS - 1];
+        Some([0, 1, 2].map(|k| carried.both.static_amplitudes().map(|amplitude| amplitude * along[k]).collect()))
+    }
+
+    /// Forces of inertia on the supports per acceleration of the frame, which moves their feet by three coordinates per support
+    /// [kg].
+    pub(crate) fn inertia_of_feet(&self, feet: &[f64]) -> Vec<f64> {
+        (-&self.mass * DVec::from_column_slice(feet)).as_slice().to_vec()
+    }
+
+    /// True if a support has damping of its own.
+    pub(crate) fn has_losses(&self) -> bool {
+        self.loss.amax() > 0.0
+    }
+
+    /// Copy for cables whose clamped modes have been compressed.
+    pub(super) fn with_cables(&self, terms: &[DynamicCableAt]) -> Self {
+        let mut supports = self.clone();
+        for (carried, term) in supports.carried.iter_mut().zip(terms) {
+            if let (Some(carried), DynamicCable::CatenaryDynamic(end)) = (carried, &term.form) {
+                carried.both = TwoEnded::new(end, carried.from_ground);
+            }
+        }
+        supports
     }
 
     /// First coordinate of the support of a cable of the robot; `None` for a rigid anchor.

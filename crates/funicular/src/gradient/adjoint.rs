@@ -19,6 +19,8 @@ pub(super) struct Adjoint<T> {
     pub(super) moment: Vector<T>,
     /// By the mass of the platform as inertia.
     pub(super) mass: T,
+    /// By the acceleration of gravity, beside the forces that contain it.
+    pub(super) gravity: Vector<T>,
     /// By the inertia tensor about the centre of mass, symmetric.
     pub(super) inertia: [Vector<T>; 3],
     /// By the viscous damping matrices of the platform, symmetric.
@@ -64,6 +66,7 @@ impl<T: Field> Adjoint<T> {
             point: zero,
             moment: zero,
             mass: T::default(),
+            gravity: zero,
             inertia: [zero; 3],
             translational_damping: [zero; 3],
             rotational_damping: [zero; 3],
@@ -85,6 +88,7 @@ impl<T: Field> Adjoint<T> {
             point: vector(&self.point),
             moment: vector(&self.moment),
             mass: of(self.mass),
+            gravity: vector(&self.gravity),
             inertia: matrix(&self.inertia),
             translational_damping: matrix(&self.translational_damping),
             rotational_damping: matrix(&self.rotational_damping),

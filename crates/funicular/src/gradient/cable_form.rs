@@ -4,6 +4,8 @@
 //! of the cable and its ends count. With the change δN = C δp' of the tension vector and the third derivative κ of |N|
 //! every coefficient is an integral along the cable (docs/theory.md, equation (60a)).
 
+mod length_rate;
+
 use super::GradientError;
 use super::adjoint::CableAdjoint;
 use super::scalar::{Field, Vector, add, add_times, cross, dot, times, vector};

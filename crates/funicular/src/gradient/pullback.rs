@@ -5,16 +5,14 @@
 //! the balance Φ takes its place, and the coefficients of λ·Φ are added (docs/theory.md, equations (60c) to (60f)).
 
 use super::adjoint::{Adjoint, CableAdjoint};
+use super::parallel_tension::ParallelTension;
+use super::rule::RuleFollower;
 use super::{GradientError, Hold};
 use crate::math::{DMat, Mat3, Mat6, Vec3, Vec6, inverse6};
 use crate::platform::Coordinates;
 use crate::robot::{CableChange, Robot, RobotChange};
-use crate::statics::derivatives::{CablePartials, StaticDerivativeError, balance_jacobian, load_of, regular};
-use crate::statics::{CableState, Equilibrium};
-
-/// Sine of the angle between chord and load below which the parallel tension of a cable with weight is not
-/// differentiated: the formula divides by the sine twice.
-const MIN_SINE_OF_CHORD: f64 = 1e-5;
+use crate::statics::derivatives::{CablePartials, StaticDerivativeError, balance_jacobian, regular};
+use crate::statics::{CableState, Equilibrium, TensionRule};
 
 /// Equilibrium with what follows a change of the robot.
 pub(super) struct Pullback<'a> {
@@ -37,41 +35,9 @@ enum Follower {
         wrenches: DMat,
         /// Parallel tension of each cable, if the cables are more than the degrees of freedom.
         tensions: Option<Vec<ParallelTension>>,
+        /// Rule that the tensions follow; without one they change least.
+        rule: Option<Box<RuleFollower>>,
     },
-}
-
-/// Derivatives of the parallel tension τ of a cable, (10a), by length, force, load per length and chord.
-struct ParallelTension {
-    by_length: f64,
-    force_w: Vec3,
-    load_w: Vec3,
-    chord_w: Vec3,
-}
-
-impl ParallelTension {
-    /// τ = |f × q| |d|/|d × q|, or the tension of a cable without load.
-    fn of(robot: &Robot, i: usize, state: &CableState) -> Result<Self, GradientError> {
-        let hanging = state.hanging.as_ref().ok_or(StaticDerivativeError::Ideal)?;
-        let by_length = hanging.catenary.parallel_tension_by_length();
-        let (f, q, d) = (state.force_on_platform_w, load_of(state), state.chord_w());
-        if q == Vec3::zeros() {
-            let zero = Vec3::zeros();
-            return Ok(Self { by_length, force_w: f.normalize(), load_w: zero, chord_w: zero });
-        }
-
-        let (pulled, turned) = (f.cross(&q), d.cross(&q));
-        if turned.norm() < MIN_SINE_OF_CHORD * d.norm() * q.norm() {
-            return Err(GradientError::Vertical { cable: robot.cables[i].name.clone() });
-        }
-        let tau = pulled.norm() * d.norm() / turned.norm();
-        let (a, b) = (pulled.normalize(), turned.normalize());
-        Ok(Self {
-            by_length,
-            force_w: q.cross(&a) * (tau / pulled.norm()),
-            load_w: (a.cross(&f) / pulled.norm() - b.cross(&d) / turned.norm()) * tau,
-            chord_w: (d / d.norm_squared() - q.cross(&b) / turned.norm()) * tau,
-        })
-    }
 }
 
 /// Gradient with the motion of the platform as further coefficients.
@@ -82,7 +48,12 @@ struct Pulled {
 }
 
 impl<'a> Pullback<'a> {
-    pub(super) fn new(robot: &'a Robot, equilibrium: &'a Equilibrium, hold: Hold) -> Result<Self, GradientError> {
+    pub(super) fn new(
+        robot: &'a Robot,
+        equilibrium: &'a Equilibrium,
+        hold: Hold,
+        rule: Option<&TensionRule>,
+    ) -> Result<Self, GradientError> {
         let coordinates = Coordinates::of(robot);
         let cables = (0..robot.cables.len())
             .map(|i| CablePartials::new(robot, equilibrium, i))
@@ -93,7 +64,7 @@ impl<'a> Pullback<'a> {
                 let regular = regular(&coordinates.reduce_matrix(&jacobian), &coordinates)?;
                 Follower::Pose(inverse6(&regular).ok_or(StaticDerivativeError::Singular)?.transpose())
             }
-            Hold::Pose => Follower::of_lengths(robot, equilibrium, &coordinates, &cables)?,
+            Hold::Pose | Hold::Rule => Follower::of_lengths(robot, equilibrium, &coordinates, &cables, rule)?,
         };
         Ok(Self { robot, equilibrium, coordinates, cables, follower })
     }
@@ -109,7 +80,7 @@ impl<'a> Pullback<'a> {
                 self.add_balance(&mut total, &multiplier);
                 self.pulled(&total).gradient
             }
-            Follower::Lengths { pseudoinverse, wrenches, tensions } => {
+            Follower::Lengths { pseudoinverse, wrenches, tensions, rule } => {
                 let direct = self.pulled(scalar);
                 let n = self.coordinates.count();
 
@@ -119,23 +90,23 @@ impl<'a> Pullback<'a> {
                     let per_unknown = tensions.as_ref().map_or(1.0, |tensions| tensions[i].by_length);
                     of_lengths[(i, 0)] = cable.unstrained_length / per_unknown;
                 }
-                let solved = pseudoinverse * &of_lengths;
-                let reduced = Vec6::from_fn(|k, _| if k < n { -solved[(k, 0)] } else { 0.0 });
-                let multiplier = self.coordinates.expand(&reduced);
                 let mut total = scalar.clone();
-                self.add_balance(&mut total, &multiplier);
+                let reduced = if let Some(rule) = rule {
+                    rule.follow(&mut total, &of_lengths)
+                } else {
+                    let solved = pseudoinverse * &of_lengths;
+                    let reduced = Vec6::from_fn(|k, _| if k < n { -solved[(k, 0)] } else { 0.0 });
 
-                // Of redundant cables the parallel tensions change least; what is not balance stays with them.
-                if let Some(tensions) = tensions {
-                    let left = -(wrenches.transpose() * -solved + &of_lengths);
-                    for ((cable, tension), left) in total.cables.iter_mut().zip(tensions).zip(left.iter()) {
-                        for k in 0..3 {
-                            cable.force[k] += tension.force_w[k] * left;
-                            cable.load[k] += tension.load_w[k] * left;
-                            cable.chord[k] += tension.chord_w[k] * left;
+                    // Of redundant cables the parallel tensions change least; what is not balance stays with them.
+                    if let Some(tensions) = tensions {
+                        let left = -(wrenches.transpose() * -solved + &of_lengths);
+                        for ((cable, tension), left) in total.cables.iter_mut().zip(tensions).zip(left.iter()) {
+                            tension.add(cable, *left);
                         }
                     }
-                }
+                    reduced
+                };
+                self.add_balance(&mut total, &self.coordinates.expand(&reduced));
 
                 let Pulled { mut gradient, translation_w, rotation_w } = self.pulled(&total);
                 for (cable, partials) in gradient.cables.iter_mut().zip(&self.cables) {
@@ -201,7 +172,7 @@ impl<'a> Pullback<'a> {
         // Weight and wind at the centre of mass, then the load.
         let (weight, center) = (Vec3::from(scalar.weight), Vec3::from(scalar.center));
         gradient.mass += scalar.mass + robot.gravity_w.dot(&weight);
-        gradient.gravity_w += weight * platform.mass;
+        gradient.gravity_w += weight * platform.mass + Vec3::from(scalar.gravity);
         gradient.drag_area += wind.pressure_w().dot(&weight);
         gradient.wind_velocity_w += wind.pressure_by_velocity_w() * weight * platform.drag_area;
         gradient.air_density += wind.at_unit_density().pressure_w().dot(&weight) * platform.drag_area;
@@ -274,6 +245,7 @@ impl Follower {
         equilibrium: &Equilibrium,
         coordinates: &Coordinates,
         partials: &[CablePartials],
+        rule: Option<&TensionRule>,
     ) -> Result<Self, GradientError> {
         let (cables, degrees_of_freedom) = (partials.len(), coordinates.count());
         if cables < degrees_of_freedom {
@@ -302,7 +274,14 @@ impl Follower {
             return Err(StaticDerivativeError::Singular.into());
         }
         let pseudoinverse = r.solve_upper_triangular(&q.transpose()).ok_or(StaticDerivativeError::Singular)?;
-        Ok(Self::Lengths { pseudoinverse, wrenches, tensions })
+        let rule = match (rule, &tensions) {
+            (Some(rule), Some(tensions)) => {
+                let of_cables = (partials, tensions.as_slice(), &wrenches);
+                Some(Box::new(RuleFollower::new(robot, equilibrium, coordinates, of_cables, rule)?))
+            }
+            _ => None,
+        };
+        Ok(Self::Lengths { pseudoinverse, wrenches, tensions, rule })
     }
 }
 

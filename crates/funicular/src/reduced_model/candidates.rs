@@ -39,6 +39,8 @@ pub(super) struct ModalModel {
     viscous: DMat,
     /// Constant damping ratios `Ξ = ΦᵀRΦ`, which act as `2ω²Ξ`.
     ratios: DMat,
+    /// Imaginary part of the stiffness of supports, `ΦᵀSΦ` [1/s²].
+    losses: DMat,
     /// Form of the platform's kinetic energy, `ΦᵀM_pΦ`.
     platform: DMat,
     /// Form of the drives' kinetic energy.
@@ -76,6 +78,7 @@ impl ModalModel {
             damping: phi.transpose() * &model.damping * &phi,
             viscous: phi.transpose() * &parts.damping * &phi,
             ratios: phi.transpose() * &parts.ratio * &phi,
+            losses: phi.transpose() * &parts.loss * &phi,
             input: model.inputs().map(|input| phi.transpose() * input),
             output: model.outputs().map(|output| output * &phi),
             lossy: phi.transpose() * lossy,
@@ -110,6 +113,7 @@ impl ModalModel {
             damping: basis.transpose() * &self.damping * &basis,
             viscous: basis.transpose() * &self.viscous * &basis,
             ratios: basis.transpose() * &self.ratios * &basis,
+            losses: basis.transpose() * &self.losses * &basis,
             input: self.input.each_ref().map(|input| basis.transpose() * input),
             output: self.output.each_ref().map(|output| output * &basis),
             lossy: basis.transpose() * &self.lossy,
@@ -276,11 +280,13 @@ impl ModalModel {
         })
     }
 
-    /// Dynamic stiffness `D(s) = Ω² + s C + s² (1 − 2iΞ)` for an oscillation, with the constant ratios. For a decay
+    /// Dynamic stiffness `D(s) = Ω² + iS + s C + s² (1 − 2iΞ)` for an oscillation, with the constant ratios. For a decay
     /// without oscillation, to which no ratio belongs, with the viscous damping that replaces them.
     fn dynamic_stiffness(&self, s: Complex) -> CDMat {
-        let (viscous, loss) = self.losses(s);
-        let mut stiffness = viscous.zip_map(&self.ratios, |c, ratio| s * c + s * s * loss * ratio);
+        let (viscous, of_ratio, of_support) = self.losses_at(s);
+        let mut stiffness = viscous.zip_zip_map(&self.ratios, &self.losses, |c, ratio, loss| {
+            s * c + s * s * of_ratio * ratio + of_support * loss
+        });
         for (k, omega) in self.omega.iter().enumerate() {
             stiffness[(k, k)] += omega * omega + s * s;
         }
@@ -289,17 +295,21 @@ impl ModalModel {
 
     /// Derivative of the dynamic stiffness by s.
     fn slope(&self, s: Complex) -> CDMat {
-        let (viscous, loss) = self.losses(s);
-        let mut slope = viscous.zip_map(&self.ratios, |c, ratio| c + 2.0 * s * loss * ratio);
+        let (viscous, of_ratio, _) = self.losses_at(s);
+        let mut slope = viscous.zip_map(&self.ratios, |c, ratio| c + 2.0 * s * of_ratio * ratio);
         for k in 0..self.omega.len() {
             slope[(k, k)] += 2.0 * s;
         }
         slope
     }
 
-    /// Viscous damping at s, and the factor of the constant ratios.
-    fn losses(&self, s: Complex) -> (&DMat, Complex) {
-        if s.im > 0.0 { (&self.viscous, Complex::new(0.0, -2.0)) } else { (&self.damping, 0.0.into()) }
+    /// Viscous damping at s, and the factors of the constant ratios of cables and of the losses of supports.
+    fn losses_at(&self, s: Complex) -> (&DMat, Complex, Complex) {
+        if s.im > 0.0 {
+            (&self.viscous, Complex::new(0.0, -2.0), Complex::new(0.0, 1.0))
+        } else {
+            (&self.damping, 0.0.into(), 0.0.into())
+        }
     }
 
     /// Eigenvalue and motion with constant damping ratios, from those with the viscous damping that replaces them:
@@ -309,7 +319,7 @@ impl ModalModel {
         const MAX_CHANGE: f64 = 0.5;
         // Each step needs an elimination; the second one matters if modes are close.
         let steps = if self.omega.len() > 100 { 1 } else { 2 };
-        if start.im <= 0.0 || self.ratios.amax() == 0.0 {
+        if start.im <= 0.0 || (self.ratios.amax() == 0.0 && self.losses.amax() == 0.0) {
             return (start, motion);
         }
 

@@ -200,7 +200,8 @@ pub fn control_model(
     let mut parts = matrices(&cut).1;
     if let DampingAt::Hz(_) = damping_at {
         // Viscous damping as it was requested.
-        (parts.damping, parts.ratio) = (second_order.damping.clone(), &second_order.damping * 0.0);
+        let none = &second_order.damping * 0.0;
+        (parts.damping, parts.ratio, parts.loss) = (second_order.damping.clone(), none.clone(), none);
     }
     let modal = ModalModel::new(&second_order, &parts, &cut.platform_blocks().mass);
     let modal = modal.ok_or(ReductionError::Unstable)?;

@@ -13,12 +13,6 @@ pub enum ReductionError {
          `catenary-dynamic`, or a model without vibration"
     )]
     Model,
-    /// The robot has flexible supports.
-    #[error(
-        "reduced models do not contain flexible supports: compute responses with `frf`, or leave `support` out of the \
-         cables for a model with rigid anchors"
-    )]
-    Supports,
     /// The control of a motor has a delay.
     #[error(
         "the control of the motor of cable \"{cable}\" has a delay of {delay_s} s, which no second-order model and no \

@@ -9,7 +9,7 @@ use crate::cable_motion::{CableMotionError, CableStations};
 use crate::dynamics::{Dynamics, Supports};
 use crate::math::{CVec6, Complex, Mat3, Vec3, Vec6};
 use crate::robot::Robot;
-use crate::statics::{CableState, Equilibrium, on_support};
+use crate::statics::{CableState, Equilibrium, SupportSide, support_side};
 
 /// Given motion of the frame of the robot, harmonic, of unit amplitude.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +20,8 @@ pub enum FrameInput {
     /// anchors and drums [rad].
     BaseAbout(Vec3),
     /// The anchor of one cable, with its pulley, moves along a direction in world axes (normalised on use); its drum
-    /// stays where it is if there is a drum side, else it moves with the anchor [m].
+    /// stays where it is if there is a drum side, else it moves with the anchor [m]. If the anchor is on a flexible
+    /// support, the foot of that support moves: the ground end of its spring. Drums on the support follow it.
     Anchor {
         /// Index of the cable, in the order of the file.
         cable: usize,
@@ -38,9 +39,9 @@ pub struct FrameMotion {
     cables: Vec<MovedCable>,
     /// Displacement of the far end of every cable in the world.
     displacements_w: Vec<Vec3>,
-    /// Motion of the feet of flexible supports, world axes.
-    feet_w: Vec3,
-    /// Forces on the supports by the cables whose stiffness does not depend on frequency; empty on a rigid frame.
+    /// Motion with the feet of all flexible supports, world axes, three coordinates per support; empty on a rigid frame.
+    feet: Vec<f64>,
+    /// Forces on the supports that do not depend on frequency; empty on a rigid frame.
     constant_on_supports: Vec<f64>,
 }
 
@@ -66,8 +67,8 @@ struct AnchorMotion {
 }
 
 impl FrameInput {
-    /// Motion of cable `i`, which leaves its anchor at `exit_w`; `None` if it does not move.
-    fn of_anchor(&self, robot: &Robot, i: usize, exit_w: &Vec3) -> Option<AnchorMotion> {
+    /// Motion of the anchor of cable `i`, whose state at rest is `state`; `None` if it does not move.
+    fn of_anchor(&self, robot: &Robot, i: usize, state: &CableState) -> Option<AnchorMotion> {
         let anchor = &robot.cables[i].anchor;
         match self {
             Self::BaseAlong(direction_w) => {
@@ -76,20 +77,38 @@ impl FrameInput {
             }
             Self::BaseAbout(axis_w) => {
                 let turn_w = axis_w.normalize();
-                let (entry_w, exit_w) = (turn_w.cross(&anchor.point_w), turn_w.cross(exit_w));
-                Some(AnchorMotion { entry_w, exit_w, turn_w, with_drum: true })
+                let entry_w = turn_w.cross(&(anchor.point_w + state.displacement_w));
+                Some(AnchorMotion { entry_w, exit_w: turn_w.cross(&state.anchor_w), turn_w, with_drum: true })
             }
-            Self::Anchor { cable, direction_w } => (*cable == i).then(|| {
+            Self::Anchor { cable, direction_w } => {
+                // All anchors on one support move with its foot.
+                let support = robot.cables[*cable].anchor.support;
+                let is_moved = *cable == i || (support.is_some() && support == anchor.support);
                 let along_w = direction_w.normalize();
-                // Without a pulley the file does not say where the drum side comes from.
-                AnchorMotion {
-                    entry_w: along_w,
-                    exit_w: along_w,
-                    turn_w: Vec3::zeros(),
-                    with_drum: anchor.pulley.is_none(),
-                }
-            }),
+                let with_drum = match anchor.support.map(|support| &robot.supports[support]) {
+                    Some(support) => support.drum_side_from_ground(anchor).is_none(),
+                    // Without a pulley the file does not say where the drum side comes from.
+                    None => anchor.pulley.is_none(),
+                };
+                let motion = AnchorMotion { entry_w: along_w, exit_w: along_w, turn_w: Vec3::zeros(), with_drum };
+                is_moved.then_some(motion)
+            }
         }
+    }
+
+    /// Motion of the frame at the place of each support of a robot at rest, world axes, three coordinates per support.
+    fn of_feet(&self, robot: &Robot, equilibrium: &Equilibrium) -> Vec<f64> {
+        let of_support = |support: usize| {
+            let carried = |i: &usize| robot.cables[*i].anchor.support == Some(support);
+            let moved: Vec<Vec3> = (0..robot.cables.len())
+                .filter(carried)
+                .filter_map(|i| self.of_anchor(robot, i, &equilibrium.cables[i]))
+                .map(|motion| motion.entry_w)
+                .collect();
+            // A base that turns moves its anchors differently: the mass of the support is taken to be in their middle.
+            moved.iter().sum::<Vec3>() / moved.len().max(1) as f64
+        };
+        (0..robot.supports.len()).map(of_support).flat_map(|moved_w| [moved_w.x, moved_w.y, moved_w.z]).collect()
     }
 }
 
@@ -104,49 +123,49 @@ impl FrameMotion {
         dynamics: &Dynamics,
         input: &FrameInput,
     ) -> Result<Self, CableMotionError> {
-        let feet_w = feet_w(robot, dynamics, input)?;
         let mut frame = Self {
             constant: Vec6::zeros(),
             cables: Vec::new(),
             displacements_w: Vec::new(),
-            feet_w,
+            feet: dynamics.supports().map_or_else(Vec::new, |_| input.of_feet(robot, equilibrium)),
             constant_on_supports: vec![0.0; dynamics.supports().map_or(0, Supports::count)],
         };
         for (i, state) in equilibrium.cables.iter().enumerate() {
-            let Some(anchor) = input.of_anchor(robot, i, &state.anchor_w) else {
+            let Some(anchor) = input.of_anchor(robot, i, state) else {
                 frame.displacements_w.push(Vec3::zeros());
                 continue;
             };
             frame.displacements_w.push(anchor.exit_w);
-            if let Some(term) = dynamics.terms().iter().position(|term| term.cable() == i) {
-                let motion = carrier_motion(state, &anchor, dynamics.terms()[term].form().axes());
+
+            let side = dynamics.supports().and_then(|_| support_side(robot, i, state));
+            let force_on_support_w = if let Some(term) = dynamics.terms().iter().position(|term| term.cable() == i) {
+                let motion = carrier_motion(state, &anchor, side.as_ref(), dynamics.terms()[term].form().axes());
                 frame.cables.push(MovedCable { term, lever_w: state.lever_w, motion });
+                Vec3::zeros()
             } else {
-                let force_w = constant_force_w(robot, i, state, dynamics, &anchor)?;
-                frame.constant += wrench(&force_w, &state.lever_w);
-                frame.add_constant_on_support(robot, i, state, dynamics);
+                let forces = constant_forces_w(robot, i, state, dynamics, (&anchor, side.as_ref()))?;
+                frame.constant += wrench(&forces.on_platform_w, &state.lever_w);
+                forces.on_anchor_w
+            };
+
+            // The supports.
+            let first = dynamics.supports().and_then(|supports| supports.of_cable(i));
+            if let (Some(first), Some(side)) = (first, &side) {
+                let force_w = force_on_support_w + side.force_by(&anchor);
+                (0..3).for_each(|k| frame.constant_on_supports[first + k] += force_w[k]);
             }
         }
         Ok(frame)
     }
 
-    /// Adds the force on the support of a cable whose stiffness does not depend on frequency.
-    fn add_constant_on_support(&mut self, robot: &Robot, i: usize, state: &CableState, dynamics: &Dynamics) {
-        let Some(first) = dynamics.supports().and_then(|supports| supports.of_cable(i)) else { return };
-        let Some(held) = span_stiffness(robot, i, state, dynamics.linearisation.cable_model) else { return };
-        let Some(stiffness) = on_support(robot, i, state, &held) else { return };
-        let force_w = -stiffness.force_w.transpose() * self.feet_w;
-        (0..3).for_each(|k| self.constant_on_supports[first + k] += force_w[k]);
-    }
-
     /// Forces on the displacements of the supports at ω [rad/s], the platform and the supports held on their feet.
     pub(super) fn on_supports(&self, dynamics: &Dynamics, supports: &Supports, omega: f64) -> Vec<Complex> {
         let mut forces: Vec<Complex> = self.constant_on_supports.iter().map(|force| Complex::from(*force)).collect();
-        supports.add_inertia_of_feet(&mut forces, &self.feet_w, omega);
+        supports.add_inertia_of_feet(&mut forces, &self.feet, omega);
         for moved in &self.cables {
             if let DynamicCable::CatenaryDynamic(form) = dynamics.terms()[moved.term].form() {
                 let square = dynamics.cable_square(dynamics.terms()[moved.term].cable(), omega);
-                supports.add_forces_by_base(&mut forces, (moved.term, form), &moved.motion, omega, square);
+                supports.add_forces_by_carrier(&mut forces, (moved.term, form), &moved.motion, omega, square);
             }
         }
         forces
@@ -204,6 +223,11 @@ impl FrameMotion {
         &self.constant
     }
 
+    /// Forces on the supports that do not depend on frequency, and motion of the feet of the supports; empty on a rigid frame.
+    pub(crate) fn on_feet(&self) -> (&[f64], &[f64]) {
+        (&self.constant_on_supports, &self.feet)
+    }
+
     /// Motions of the carriers of the other cables, each with its index among those whose stiffness depends on frequency.
     pub(crate) fn carriers(&self) -> impl Iterator<Item = (usize, &CarrierMotion)> {
         self.cables.iter().map(|moved| (moved.term, &moved.motion))
@@ -216,60 +240,75 @@ impl FrameMotion {
     }
 }
 
-/// Motion of the carrier of a cable in the axes of its model.
-fn carrier_motion(state: &CableState, anchor: &AnchorMotion, axes: &LocalAxes) -> CarrierMotion {
+/// Motion of the carrier of a cable in the axes of its model. `side` is its drum side, if the anchor is on a support.
+fn carrier_motion(
+    state: &CableState,
+    anchor: &AnchorMotion,
+    side: Option<&SupportSide>,
+    axes: &LocalAxes,
+) -> CarrierMotion {
     let LocalAxes { e, n, b } = axes;
     let drive = state.drive.as_ref();
     let contact = drive.and_then(|drive| drive.contact.as_ref());
     let travel_w = drive.map_or_else(Vec3::zeros, |drive| drive.end.travel_w);
+    let along_w = side.map_or_else(|| contact.map_or(travel_w, |contact| contact.axis_w), |side| side.direction_w);
     CarrierMotion {
         displacement: [e, n, b].map(|axis| axis.dot(&anchor.exit_w)),
         on_swivel: contact.map_or(0.0, |contact| state.tension_anchor * contact.exit_normal_w().dot(&anchor.turn_w)),
-        along_drum_side: contact.map_or(travel_w, |contact| contact.axis_w).dot(&anchor.entry_w),
+        along_drum_side: along_w.dot(&anchor.entry_w),
         with_drum: anchor.with_drum,
     }
 }
 
-/// Force on the platform by a motion of the anchor of a cable whose stiffness does not depend on frequency [N].
-fn constant_force_w(
+/// Forces by a motion of the anchor of a cable whose stiffness does not depend on frequency, world axes [N].
+struct ConstantForces {
+    on_platform_w: Vec3,
+    /// Force on the anchor along with what it carries, without the force of the drum side's tension as it turns.
+    on_anchor_w: Vec3,
+}
+
+/// Forces by a motion of the anchor of a cable whose stiffness does not depend on frequency.
+fn constant_forces_w(
     robot: &Robot,
     i: usize,
     state: &CableState,
     dynamics: &Dynamics,
-    anchor: &AnchorMotion,
-) -> Result<Vec3, CableMotionError> {
+    (anchor, side): (&AnchorMotion, Option<&SupportSide>),
+) -> Result<ConstantForces, CableMotionError> {
     let linearisation = dynamics.linearisation;
     let (model, winches) = (linearisation.cable_model, linearisation.winches);
+    let no_motion = || CableMotionError::NoFrameMotion { cable: robot.cables[i].name.clone() };
     let found = EndStiffness::new(robot, i, state, model, linearisation.in_plane_only, winches, 1.0);
-    let Ok(EndStiffness::Constant(stiffness)) = found else {
-        return Err(CableMotionError::NoFrameMotion { cable: robot.cables[i].name.clone() });
-    };
-    let mut force_w = stiffness * anchor.exit_w;
+    let Ok(EndStiffness::Constant(stiffness)) = found else { return Err(no_motion()) };
+    let mut on_platform_w = stiffness * anchor.exit_w;
 
     // The drive adds the forces of a drum side that is stretched and of a swivel that turns.
+    let (mut added_to_drum_side, axes) = (0.0, LocalAxes::of_cable(robot, i, state));
+    let motion = carrier_motion(state, anchor, side, &axes);
     if let (Some(drive), Some(span)) = (&state.drive, &state.hanging) {
-        let held: Mat3 = span.tangent_w();
-        let axes = LocalAxes::of_cable(robot, i, state);
-        let motion = carrier_motion(state, anchor, &axes);
-        let stretched = if motion.with_drum { 0.0 } else { motion.along_drum_side / drive.end.stretch_drum };
+        // Supports have been assembled with the stiffness of the span in its model.
+        let held: Mat3 = match side {
+            Some(_) => span_stiffness(robot, i, state, model).ok_or_else(no_motion)?,
+            None => span.tangent_w(),
+        };
+        let stretched = if motion.with_drum { 0.0 } else { motion.along_drum_side };
         if let Some(by_length_w) = drive.end.force_by_length_w(&held) {
-            force_w -= by_length_w * stretched;
+            on_platform_w -= by_length_w * (stretched / drive.end.stretch_drum);
+            added_to_drum_side = drive.end.drum_side_tension(&held, &anchor.exit_w, motion.on_swivel, stretched);
         }
-        force_w += drive.end.force_by_swivel_w(&held) * motion.on_swivel;
+        on_platform_w += drive.end.force_by_swivel_w(&held) * motion.on_swivel;
     }
-    Ok(force_w)
+
+    let pulled_w = side.filter(|side| side.from_ground).map_or_else(Vec3::zeros, |side| side.direction_w);
+    Ok(ConstantForces { on_platform_w, on_anchor_w: -on_platform_w - pulled_w * added_to_drum_side })
 }
 
-/// Motion of the feet of flexible supports, world axes; zero on a rigid frame.
-///
-/// # Errors
-/// [`CableMotionError::FrameAndSupports`]: a rotation of the base, or a motion of an anchor on a support.
-fn feet_w(robot: &Robot, dynamics: &Dynamics, input: &FrameInput) -> Result<Vec3, CableMotionError> {
-    match input {
-        _ if dynamics.supports().is_none() => Ok(Vec3::zeros()),
-        FrameInput::BaseAlong(direction_w) => Ok(direction_w.normalize()),
-        FrameInput::Anchor { cable, .. } if robot.cables[*cable].anchor.support.is_none() => Ok(Vec3::zeros()),
-        FrameInput::BaseAbout(_) | FrameInput::Anchor { .. } => Err(CableMotionError::FrameAndSupports),
+impl SupportSide {
+    /// Force on the support, for a given motion of its anchor, of forces that turn with the frame or pull at a drum that
+    /// stays where it is, world axes [N].
+    fn force_by(&self, anchor: &AnchorMotion) -> Vec3 {
+        let turned_w = -anchor.turn_w.cross(&self.carried_w);
+        if anchor.with_drum { turned_w } else { turned_w - self.sideways_w * anchor.entry_w }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::DriveSignal;
 use crate::cable_motion::{CableMotionError, CableStations};
 use crate::dynamics::Dynamics;
-use crate::math::{CVec6, Complex, Vec3, Vec6};
+use crate::math::{CDMat, CVec6, Complex, Vec3, Vec6};
 use crate::modes::Mode;
 use crate::robot::{Pose, Robot};
 use crate::statics::Equilibrium;
@@ -233,11 +233,17 @@ impl Port {
     }
 
     /// Vector of the port about the platform origin at ω [rad/s], and its forces on the supports; the supports are free in the
-    /// vector.
-    pub(super) fn free_vector(&self, dynamics: &Dynamics, omega: f64) -> (CVec6, Vec<Complex>) {
+    /// vector. `by_platform` are their displacements there, less their sign, per scaled motion of the platform: see
+    /// [`Dynamics::support_response`]; `None` on a rigid frame.
+    pub(super) fn free_vector(
+        &self,
+        dynamics: &Dynamics,
+        by_platform: Option<&CDMat>,
+        omega: f64,
+    ) -> (CVec6, Vec<Complex>) {
         let mut vector = self.vector(dynamics, omega);
         let Some(on_supports) = self.on_supports(dynamics, omega) else { return (vector, Vec::new()) };
-        let Some((by_platform, _)) = dynamics.support_response(omega) else { return (vector, on_supports) };
+        let Some(by_platform) = by_platform else { return (vector, on_supports) };
         let mut scaled = CVec6::zeros();
         for (row, force) in by_platform.row_iter().zip(&on_supports) {
             row.iter().zip(scaled.iter_mut()).for_each(|(entry, sum)| *sum += entry * force);

@@ -7,8 +7,10 @@
 
 use super::derivatives::{self, load_of};
 use super::equilibrium::{CableState, Equilibrium};
-use crate::math::{Mat6, Vec3};
-use crate::platform::Coordinates;
+use super::supports;
+use crate::catenary::space::HangingCable;
+use crate::math::{Mat3, Mat6, Vec3, Vec6};
+use crate::platform::{Coordinates, wrench_columns};
 use crate::robot::{Cable, Robot};
 use thiserror::Error;
 
@@ -21,12 +23,15 @@ pub enum FrictionError {
          `bearing_friction_coefficient`"
     )]
     NoFriction,
-    /// The robot has flexible supports.
+    /// The pose is held, and the support of a cable with friction yields to its drum on the ground.
     #[error(
-        "the interval of friction is not known for a robot with flexible supports: leave `support` out of the cables for \
-         that with rigid anchors"
+        "friction on the pulley of cable \"{cable}\" changes the pull of its drum on the ground, and with it the place of its \
+         flexible support: pose and tensions cannot both be held; give unstrained lengths, or set `drums = \"on-support\"`"
     )]
-    Supports,
+    Supports {
+        /// Name of the cable.
+        cable: String,
+    },
     /// Some motion meets no resistance.
     #[error("the equilibrium is indifferent: friction may move the platform without limit")]
     Singular,
@@ -124,6 +129,8 @@ pub struct CableFriction {
 /// The change of the unstrained lengths behind the exit points is that of the profile of the tension. Motion and
 /// tensions are of first order in this change. Ideal cables have no strain, so only their tensions at the drum change.
 ///
+/// Flexible supports yield to the changed forces, those of drum sides from the ground included.
+///
 /// Left out: the friction of the swivel, of guide wheels behind the entry point and of the winch; for the tensions at
 /// the exit points the weight of the cable over the exit point's own motion; for all tensions the turn of the wind's
 /// drag.
@@ -163,20 +170,21 @@ pub fn friction_interval(
     if !robot.cables.iter().any(has_friction) {
         return Err(FrictionError::NoFriction);
     }
-    if robot.has_supports() {
-        return Err(FrictionError::Supports);
-    }
     let pairs = robot.cables.iter().zip(&equilibrium.cables);
     let frictions: Vec<Extremes> = pairs.map(|(cable, state)| Extremes::of(cable, state)).collect();
 
     // The motion due to each cable's friction on its own.
     let motions = match held {
-        Held::Lengths => motions_by_length(robot, equilibrium)?,
-        Held::Pose => Vec::new(),
+        Held::Lengths => motions_by_friction(robot, equilibrium)?,
+        Held::Pose => {
+            refuse_pulled_supports(robot, &frictions)?;
+            Vec::new()
+        }
     };
     let motion = (held == Held::Lengths).then(|| {
         let component = |row: usize| {
-            let terms = motions.iter().zip(&frictions).map(|(motion, own)| own.length_change().times(motion[row]));
+            let gains = |[by_length, by_pull]: &[Motion; 2]| [by_length.platform[row], by_pull.platform[row]];
+            let terms = motions.iter().zip(&frictions).map(|(motion, own)| own.effect(gains(motion)));
             terms.fold(Interval::ZERO, Interval::plus)
         };
         MotionInterval {
@@ -186,10 +194,10 @@ pub fn friction_interval(
     });
 
     let cables = equilibrium.cables.iter().enumerate().map(|(i, state)| {
-        let axial_stiffness = robot.cables[i].material.axial_stiffness;
-        let mut gains = vec![TensionGain::default(); motions.len()];
-        for (l, gain) in gains.iter_mut().enumerate() {
-            *gain = TensionGain::of(state, axial_stiffness, &motions[l], i == l);
+        let mut gains = vec![[TensionGain::default(); 2]; motions.len()];
+        for (l, ([by_length, by_pull], gain)) in motions.iter().zip(&mut gains).enumerate() {
+            let of = |motion: &Motion, is_own: bool| TensionGain::of((robot, i), state, motion, is_own);
+            *gain = [of(by_length, i == l), of(by_pull, false)];
         }
         frictions[i].tensions(i, state, &gains, &frictions)
     });
@@ -222,23 +230,114 @@ fn has_friction(cable: &Cable) -> bool {
     cable.anchor.pulley.as_ref().is_some_and(|pulley| pulley.friction.is_some())
 }
 
-/// Motion of the platform per unstrained length of each cable: translation [m/m] and rotation vector [rad/m], world
-/// axes. Zero for ideal cables, which have no strain.
-fn motions_by_length(robot: &Robot, equilibrium: &Equilibrium) -> Result<Vec<[f64; 6]>, FrictionError> {
+/// Refuses a pose that is held while friction moves supports by the pull of drums on the ground.
+fn refuse_pulled_supports(robot: &Robot, frictions: &[Extremes]) -> Result<(), FrictionError> {
+    let is_pulled = |(cable, friction): &(&Cable, &Extremes)| {
+        let support = cable.anchor.support.map(|support| &robot.supports[support]);
+        friction.exponent > 0.0 && support.is_some_and(|support| support.drum_side_from_ground(&cable.anchor).is_some())
+    };
+    match robot.cables.iter().zip(frictions).find(is_pulled) {
+        Some((cable, _)) => Err(FrictionError::Supports { cable: cable.name.clone() }),
+        None => Ok(()),
+    }
+}
+
+/// Motion of the robot by one effect of friction, per unit of it.
+#[derive(Debug, Clone, Default)]
+struct Motion {
+    /// Translation and rotation vector of the platform, world axes [m, rad].
+    platform: [f64; 6],
+    /// Displacement of each support, world axes [m].
+    supports: Vec<Vec3>,
+}
+
+/// Motion by the friction of each cable: per unstrained length of the cable [m/m], and per force with which its drum on the
+/// ground pulls less at its support [m/N]. Zero for ideal cables, which have no strain.
+fn motions_by_friction(robot: &Robot, equilibrium: &Equilibrium) -> Result<Vec<[Motion; 2]>, FrictionError> {
+    let still = || Motion { platform: [0.0; 6], supports: vec![Vec3::zeros(); robot.supports.len()] };
     let Some(jacobian) = derivatives::balance_jacobian(robot, equilibrium) else {
-        return Ok(vec![[0.0; 6]; robot.cables.len()]);
+        return Ok(equilibrium.cables.iter().map(|_| [still(), still()]).collect());
     };
     let coordinates = Coordinates::of(robot);
     let reduced: Mat6 = coordinates.reduce_matrix(&jacobian);
+    let yielding = Yielding::of(robot, equilibrium);
 
-    let motion = |state: &CableState| {
-        let force_w = state.force_by_length_w().unwrap_or_else(Vec3::zeros);
-        let wrench = crate::platform::wrench_of(&force_w, &state.lever_w);
+    let moved = |direct: Vec6, on_support: Option<(usize, Vec3)>| {
+        // Forces on the supports, which the platform feels as they yield.
+        let forces_w = yielding.forces(on_support);
+        let wrench = direct + yielding.wrench(&forces_w);
         let found = derivatives::solve(&reduced, &coordinates, &wrench).map_err(|_| FrictionError::Singular)?;
         let scaled = coordinates.expand(&found);
-        Ok(std::array::from_fn(|row| if row < 3 { scaled[row] } else { scaled[row] / coordinates.ell() }))
+        let platform = std::array::from_fn(|row| if row < 3 { scaled[row] } else { scaled[row] / coordinates.ell() });
+        Ok(Motion { platform, supports: yielding.displacements(&forces_w, &platform) })
     };
-    equilibrium.cables.iter().map(motion).collect()
+    let of_cable = |(i, state): (usize, &CableState)| {
+        let force_w = state.force_by_length_w().unwrap_or_else(Vec3::zeros);
+        let wrench = crate::platform::wrench_of(&force_w, &state.lever_w);
+        let Some(support) = robot.cables[i].anchor.support else { return Ok([moved(wrench, None)?, still()]) };
+
+        // The additional length lies behind the wheel: its weight stays with the support.
+        let side = supports::pull_by_length(robot, i, state);
+        let pulled_w = side.map_or_else(Vec3::zeros, |(along_w, by_length)| along_w * by_length);
+        let by_length = moved(wrench, Some((support, -force_w - pulled_w)))?;
+        let by_pull =
+            side.map_or_else(|| Ok(still()), |(along_w, _)| moved(Vec6::zeros(), Some((support, along_w))))?;
+        Ok([by_length, by_pull])
+    };
+    equilibrium.cables.iter().enumerate().map(of_cable).collect()
+}
+
+/// Supports that yield to small forces at an equilibrium.
+struct Yielding {
+    /// Displacement per force, of each support [m/N].
+    compliances: Vec<Mat3>,
+    /// Wrench on the platform per displacement of each support, by columns.
+    columns: Vec<[Vec6; 3]>,
+}
+
+impl Yielding {
+    fn of(robot: &Robot, equilibrium: &Equilibrium) -> Self {
+        let count = robot.supports.len();
+        let mut own: Vec<Mat3> = robot.supports.iter().map(|support| support.stiffness_w).collect();
+        let mut columns = vec![[Vec6::zeros(); 3]; count];
+        for (i, state) in equilibrium.cables.iter().enumerate() {
+            let held = state.hanging.as_ref().map_or_else(Mat3::zeros, HangingCable::tangent_w);
+            let carried = robot.cables[i].anchor.support.zip(supports::on_support(robot, i, state, &held));
+            let Some((support, cable)) = carried else { continue };
+            own[support] += cable.stiffness_w;
+            for (column, add) in columns[support].iter_mut().zip(wrench_columns(&cable.force_w, &state.lever_w)) {
+                *column += add;
+            }
+        }
+        // An equilibrium has no support that its cables make unstable.
+        let compliances = own.iter().map(|own| own.try_inverse().unwrap_or_else(Mat3::zeros)).collect();
+        Self { compliances, columns }
+    }
+
+    /// Forces on all supports.
+    fn forces(&self, on_support: Option<(usize, Vec3)>) -> Vec<Vec3> {
+        let force_w = |k: usize| on_support.filter(|(support, _)| *support == k).map_or_else(Vec3::zeros, |(_, f)| f);
+        (0..self.columns.len()).map(force_w).collect()
+    }
+
+    /// Wrench on the held platform by forces on the supports.
+    fn wrench(&self, forces_w: &[Vec3]) -> Vec6 {
+        let of = |(k, force_w): (usize, &Vec3)| {
+            let moved_w = self.compliances[k] * force_w;
+            self.columns[k].iter().zip(moved_w.iter()).map(|(column, moved)| column * *moved).sum::<Vec6>()
+        };
+        forces_w.iter().enumerate().map(of).sum()
+    }
+
+    /// Displacements of the supports by forces on them and a motion of the platform.
+    fn displacements(&self, forces_w: &[Vec3], platform: &[f64; 6]) -> Vec<Vec3> {
+        let platform = Vec6::from_column_slice(platform);
+        let of = |(k, force_w): (usize, &Vec3)| {
+            let by_platform_w = Vec3::from_iterator(self.columns[k].iter().map(|column| column.dot(&platform)));
+            self.compliances[k] * (force_w + by_platform_w)
+        };
+        forces_w.iter().enumerate().map(of).collect()
+    }
 }
 
 /// Extremes of the friction of one cable.
@@ -247,6 +346,8 @@ struct Extremes {
     /// Unstrained length beyond the exit point less that without friction [m], after motion towards the platform and
     /// after motion towards the drum.
     excess_lengths: [f64; 2],
+    /// Tension at the drum without friction less that with friction, after the same motions [N].
+    reliefs: [f64; 2],
 }
 
 impl Extremes {
@@ -259,7 +360,8 @@ impl Extremes {
             // Ideal cables have no strain.
             _ => [0.0; 2],
         };
-        Self { exponent, excess_lengths }
+        let reliefs = [1.0, -1.0].map(|used| -state.tension_drum() * (-used * exponent).exp_m1());
+        Self { exponent, excess_lengths, reliefs }
     }
 
     /// Change of the unstrained length beyond the exit point [m].
@@ -267,27 +369,32 @@ impl Extremes {
         Interval::between(self.excess_lengths[0], self.excess_lengths[1])
     }
 
-    /// Change of the cable's length that has the effect of the friction, in a cable without friction [m].
-    fn length_change(&self) -> Interval {
-        self.excess_length().times(-1.0)
+    /// Effect of the friction on a quantity, by its gains with respect to the length of the cable without friction that has the
+    /// same force, and to the relief of its support from the pull of the drum.
+    fn effect(&self, gains: [f64; 2]) -> Interval {
+        Interval::between(self.after(0, gains), self.after(1, gains))
+    }
+
+    /// Effect after one of the motions.
+    fn after(&self, motion: usize, [by_length, by_pull]: [f64; 2]) -> f64 {
+        self.reliefs[motion] * by_pull - self.excess_lengths[motion] * by_length
     }
 
     /// Tensions of cable `i` at its state, by the gains of its tensions with respect to the lengths of all cables; no
     /// gains with the pose held.
-    fn tensions(&self, i: usize, state: &CableState, gains: &[TensionGain], all: &[Self]) -> CableFriction {
+    fn tensions(&self, i: usize, state: &CableState, gains: &[[TensionGain; 2]], all: &[Self]) -> CableFriction {
         let sum = |gain: fn(&TensionGain) -> f64, skipped: Option<usize>| {
             let kept = gains.iter().zip(all).enumerate().filter(|(l, _)| Some(*l) != skipped);
-            let terms = kept.map(|(_, (of, other))| other.length_change().times(gain(of)));
+            let terms = kept.map(|(_, (of, other))| other.effect(of.each_ref().map(gain)));
             terms.fold(Interval::ZERO, Interval::plus)
         };
 
         // The friction of the cable's own pulley acts on the tension at the drum twice, by the length and directly.
         let others = sum(|gain| gain.drum, Some(i));
-        let own_gain = gains.get(i).map_or(0.0, |gain| gain.drum);
+        let own_gains = gains.get(i).map_or([0.0; 2], |gains| gains.each_ref().map(|gain| gain.drum));
         let frictionless = state.tension_drum();
-        let [towards_platform, towards_drum] = self.excess_lengths;
-        let after = |excess_length: f64, exponent: f64| {
-            others.about(frictionless - own_gain * excess_length).times(exponent.exp())
+        let after = |motion: usize, exponent: f64| {
+            others.about(frictionless + self.after(motion, own_gains)).times(exponent.exp())
         };
 
         CableFriction {
@@ -295,12 +402,13 @@ impl Extremes {
             excess_length: self.excess_length(),
             tension_platform: sum(|gain| gain.platform, None).about(state.tension_platform),
             tension_anchor: sum(|gain| gain.anchor, None).about(state.tension_anchor),
-            tension_drum: after(towards_platform, -self.exponent).with(after(towards_drum, self.exponent)),
+            tension_drum: after(0, -self.exponent).with(after(1, self.exponent)),
         }
     }
 }
 
-/// Change of a cable's tensions per unstrained length of a cable, with all other lengths held [N/m].
+/// Change of a cable's tensions per unit of one effect of friction: per unstrained length of a cable, with all other lengths
+/// held [N/m], or per relief of its support [-].
 #[derive(Debug, Clone, Copy, Default)]
 struct TensionGain {
     platform: f64,
@@ -309,21 +417,30 @@ struct TensionGain {
 }
 
 impl TensionGain {
-    /// Gain for a motion per length; `is_own` if the length is that of the cable itself.
-    fn of(state: &CableState, axial_stiffness: f64, motion: &[f64; 6], is_own: bool) -> Self {
+    /// Gain of cable `i` of a robot for a motion; `is_own` if its cause is the length of the cable itself.
+    fn of((robot, i): (&Robot, usize), state: &CableState, motion: &Motion, is_own: bool) -> Self {
         // A slack cable without weight stays without tension.
         let (Some(stiffness), Some(by_length_w)) = (state.tangent_w(), state.force_by_length_w()) else {
             return Self::default();
         };
         let Some(along_w) = state.force_on_platform_w.try_normalize(0.0) else { return Self::default() };
 
-        let [x, y, z, roll, pitch, yaw] = *motion;
-        let attachment_w = Vec3::new(x, y, z) + Vec3::new(roll, pitch, yaw).cross(&state.lever_w);
+        let [x, y, z, roll, pitch, yaw] = motion.platform;
+        let mut attachment_w = Vec3::new(x, y, z) + Vec3::new(roll, pitch, yaw).cross(&state.lever_w);
         let direct_w = if is_own { by_length_w } else { Vec3::zeros() };
-        let platform = along_w.dot(&(direct_w - stiffness * attachment_w));
+        let mut force_w = direct_w - stiffness * attachment_w;
 
-        // ψ(T) + q·p is the same all along the cable, and λ = dψ/dT. The ends at the frame stay in place.
-        let stretch = |tension: f64| 1.0 + tension / axial_stiffness;
+        // The support moves the far end.
+        let held = state.hanging.as_ref().map_or_else(Mat3::zeros, HangingCable::tangent_w);
+        let carried = robot.cables[i].anchor.support.zip(supports::on_support(robot, i, state, &held));
+        if let Some((support, cable)) = carried {
+            force_w += cable.force_w * motion.supports[support];
+            attachment_w -= motion.supports[support];
+        }
+        let platform = along_w.dot(&force_w);
+
+        // ψ(T) + q·p is the same all along the cable, and λ = dψ/dT. The attachment moves relative to the far end.
+        let stretch = |tension: f64| 1.0 + tension / robot.cables[i].material.axial_stiffness;
         let potential = stretch(state.tension_platform) * platform + load_of(state).dot(&attachment_w);
         Self {
             platform,

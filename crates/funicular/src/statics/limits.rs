@@ -14,6 +14,32 @@ const TAUT: f64 = 2.5;
 /// weight from being slack.
 const PART_OF_PLATFORM: f64 = 1e-3;
 
+/// Source of a cable's minimum tension.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum MinimumTension {
+    /// Number of the robot file [N].
+    Given(f64),
+    /// Default: a multiple of the cable's load per length times its chord.
+    OfCable { factor: f64 },
+    /// Default: a fraction of the platform's weight.
+    OfPlatform { factor: f64 },
+}
+
+impl MinimumTension {
+    /// Source of the minimum of cable `i` with this chord: of the two defaults the larger one.
+    pub(crate) fn of(robot: &Robot, i: usize, chord_w: &Vec3) -> Self {
+        if let Some(value) = robot.cables[i].limits().minimum {
+            return Self::Given(value);
+        }
+        let taut = TAUT * robot.line_load(i, chord_w).size * chord_w.norm();
+        if taut >= PART_OF_PLATFORM * robot.platform.mass * robot.gravity_w.norm() {
+            Self::OfCable { factor: TAUT }
+        } else {
+            Self::OfPlatform { factor: PART_OF_PLATFORM }
+        }
+    }
+}
+
 /// Tension range of a cable.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TensionRange {
@@ -39,12 +65,12 @@ impl TensionRange {
     /// # Ok::<(), funicular::robot::spec::SpecError>(())
     /// ```
     pub fn of(robot: &Robot, i: usize, chord_w: &Vec3) -> Self {
-        let cable = &robot.cables[i];
-        let limits = cable.limits();
-        let g = robot.gravity_w.norm();
-        let taut = TAUT * robot.line_load(i, chord_w).size * chord_w.norm();
-        let minimum = limits.minimum.unwrap_or_else(|| taut.max(PART_OF_PLATFORM * robot.platform.mass * g));
-        Self { minimum, maximum: limits.maximum.unwrap_or(f64::INFINITY) }
+        let minimum = match MinimumTension::of(robot, i, chord_w) {
+            MinimumTension::Given(value) => value,
+            MinimumTension::OfCable { factor } => factor * robot.line_load(i, chord_w).size * chord_w.norm(),
+            MinimumTension::OfPlatform { factor } => factor * robot.platform.mass * robot.gravity_w.norm(),
+        };
+        Self { minimum, maximum: robot.cables[i].limits().maximum.unwrap_or(f64::INFINITY) }
     }
 
     /// Distances of a cable's tensions from these limits.

@@ -199,6 +199,15 @@ pub(crate) fn on_support(robot: &Robot, i: usize, state: &CableState, held: &Mat
     Some(drive::on_support(held, state.drive.as_deref(), carried.drum_side()))
 }
 
+/// Direction of the drum side of cable `i` from the ground to its support, unit vector, world axes, and derivative of the tension
+/// at the drum with respect to the unstrained length [N/m], both ends held. `None` unless the drum is on the ground.
+pub(super) fn pull_by_length(robot: &Robot, i: usize, state: &CableState) -> Option<(Vec3, f64)> {
+    let side = Carried::of_state(robot, i, state)?.drum_side()?;
+    let (span, drive) = (state.hanging.as_ref()?, state.drive.as_deref()?);
+    let by_drum_side = drive.end.drum_side_tension(&span.tangent_w(), &Vec3::zeros(), 0.0, 1.0);
+    Some((side.direction_w, -drive.end.stretch_drum * by_drum_side))
+}
+
 /// Drum side of a cable on a support, as vibrations meet it.
 pub(crate) struct SupportSide {
     /// Direction in which the entry point moves along the drum side, unit vector, world axes; zero without a drum side.
@@ -207,17 +216,21 @@ pub(crate) struct SupportSide {
     pub(crate) from_ground: bool,
     /// Stiffness of the tension of a drum side from the ground against a sideways motion of the entry point [N/m].
     pub(crate) sideways_w: Mat3,
+    /// Force of the cable on the support without that of the drum side [N].
+    pub(crate) carried_w: Vec3,
 }
 
 /// Drum side of cable `i` of a robot at rest; `None` if its anchor is rigid.
 pub(crate) fn support_side(robot: &Robot, i: usize, state: &CableState) -> Option<SupportSide> {
-    if let Some(DrumSideAtRest { direction_w, length, tension }) = Carried::of_state(robot, i, state)?.drum_side() {
+    let carried = Carried::of_state(robot, i, state)?;
+    let carried_w = carried.load_w - carried.force_on_platform_w;
+    if let Some(DrumSideAtRest { direction_w, length, tension }) = carried.drum_side() {
         let sideways_w = (Mat3::identity() - direction_w * direction_w.transpose()) * (tension / length);
-        return Some(SupportSide { direction_w, from_ground: true, sideways_w });
+        return Some(SupportSide { direction_w, from_ground: true, sideways_w, carried_w });
     }
     let along = |drive: &DriveAtRest| drive.contact.as_ref().map_or(drive.end.travel_w, |contact| contact.axis_w);
     let direction_w = state.drive.as_deref().map_or_else(Vec3::zeros, along);
-    Some(SupportSide { direction_w, from_ground: false, sideways_w: Mat3::zeros() })
+    Some(SupportSide { direction_w, from_ground: false, sideways_w: Mat3::zeros(), carried_w })
 }
 
 /// Stiffness that the platform loses because supports yield, at rest: 6×6 about the platform origin, world axes. Each cable

@@ -9,6 +9,7 @@ mod geometry;
 mod loads;
 mod platform;
 mod rope;
+mod supports;
 pub mod usual;
 
 pub use equilibrium::of_equilibrium;
@@ -122,6 +123,9 @@ pub fn of_robot(robot: &Robot) -> Vec<Implausible> {
     }
     found.extend(loads::check(robot, ropes_fit && geometry_fits));
     found.extend(drives::check(robot));
+    if geometry_fits {
+        found.extend(supports::check(robot));
+    }
     found
 }
 

@@ -1,5 +1,7 @@
 //! Derivatives of equilibria and natural frequencies, against central differences with Richardson's extrapolation.
 
+mod tension_rule;
+
 use crate::library::library;
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
@@ -256,7 +258,7 @@ fn gradients_are_the_transposes_of_derivatives_along_directions() {
             for (what, change, _) in all {
                 let along = match hold {
                     Hold::Lengths => at_held_lengths(&robot, &rest, &change),
-                    Hold::Pose => at_held_pose(&robot, &rest, &change),
+                    Hold::Pose | Hold::Rule => at_held_pose(&robot, &rest, &change),
                 };
                 // Forward, more cables than degrees of freedom have no rule.
                 let Ok(along) = along else { continue };

@@ -451,6 +451,44 @@ fn slips_at_pulleys_and_winches_are_named() {
 }
 
 #[test]
+fn slips_at_flexible_supports_are_named() {
+    let support = "[supports.post]\nstiffness_n_per_m = 200000.0\nmass_kg = 40.0\n\n[state]";
+    let hall = changed(
+        &hall(),
+        &[("[state]", support), ("material = \"rope\"\n", "material = \"rope\"\nsupport = \"post\"\n")],
+    );
+    assert_eq!(said(&Robot::from_toml(&hall).unwrap()), "");
+
+    let mut misses = Vec::new();
+    let stiffness = "stiffness_n_per_m";
+    for (key, factor, expected) in [
+        (stiffness, 1e-3, "displacement under the weight of the platform"),
+        (stiffness, 1e-3, "stiffness in N/mm or kN/m given as N/m?"),
+        (stiffness, 1e-6, "stiffness in kN/mm or MN/m given as N/m?"),
+        (stiffness, 1e6, "A rigid frame needs no `support`"),
+    ] {
+        check(key, &scaled(&hall, key, factor), &[expected], &mut misses);
+    }
+    let heavy = hall.replace("mass_kg = 40.0", "mass_kg = 40000.0");
+    check("mass", &heavy, &["mass in g given as kg"], &mut misses);
+    assert!(misses.is_empty(), "{}", misses.join("\n"));
+
+    // At an equilibrium, a support that moves far is named.
+    let slip = scaled(&hall, stiffness, 2e-3);
+    let robot = Robot::from_toml(&slip).unwrap();
+    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    let said: Vec<String> = plausibility::of_equilibrium(&robot, &rest).iter().map(ToString::to_string).collect();
+    let moved = rest.support_displacements(&robot)[0].norm();
+    assert!(
+        moved > 1.0 && said.concat().contains("displacement of support \"post\" at equilibrium"),
+        "{moved} {said:?}"
+    );
+    let robot = Robot::from_toml(&hall).unwrap();
+    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    assert!(plausibility::of_equilibrium(&robot, &rest).is_empty());
+}
+
+#[test]
 fn cables_that_balance_only_far_below_their_ends_are_named() {
     let text = r#"
 name = "camera on three pairs of cables"

@@ -3,6 +3,7 @@
 use super::{Figure, colour, plain, rounded};
 use crate::figures::drive::DriveLines;
 use crate::figures::hull::faces;
+use crate::figures::supports::SupportAtRest;
 use crate::figures::view::{EYE, extent, joined, polygon, ranges, sides};
 use funicular::math::Vec3;
 use funicular::robot::Robot;
@@ -53,25 +54,61 @@ pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
         data.push(wheel(&lines.wheel));
         data.extend(lines.drum.map(|drum| {
             let hover = format!("drum of cable {}<extra></extra>", plain(&cable.name));
-            json!({
-                "type": "scatter3d", "mode": "markers", "x": rounded(&[drum.x]), "y": rounded(&[drum.y]), "z": rounded(&[drum.z]),
-                "marker": {"color": "#777777", "symbol": "square", "size": 4}, "hovertemplate": hover,
-            })
+            marker(drum, "square", 4, &hover)
+        }));
+        data.extend(lines.guide_wheels.iter().map(|(name, wheel)| {
+            let hover = format!("guide wheel {} of cable {}<extra></extra>", plain(name), plain(&cable.name));
+            marker(*wheel, "circle-open", 6, &hover)
         }));
         points.extend(lines.points());
     }
+    let supports = SupportAtRest::all(robot, equilibrium);
+    let supported = if supports.is_empty() { "" } else { " Crosses with a bar to their anchors: flexible supports." };
+    data.extend(supports.iter().flat_map(support));
     let scene = scene(&points, true, WIDE);
     Figure::new(
         "figure-robot",
         400,
         format!(
             "The robot at its equilibrium, with one scale for all three axes. Lines: cables; squares: anchors with the \
-             cables' names; dark body: the platform, spanned by the attachments.{driven} Drag to rotate, scroll to zoom, \
+             cables' names; dark body: the platform, spanned by the attachments.{driven}{supported} Drag to rotate, scroll to zoom, \
              point at a cable for its length and tension."
         ),
         &data,
         json!({"scene": scene, "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
     )
+}
+
+/// Grey marker at a place.
+fn marker(at: Vec3, symbol: &str, size: u32, hover: &str) -> Value {
+    json!({
+        "type": "scatter3d", "mode": "markers", "x": rounded(&[at.x]), "y": rounded(&[at.y]), "z": rounded(&[at.z]),
+        "marker": {"color": "#777777", "symbol": symbol, "size": size}, "hovertemplate": hover,
+    })
+}
+
+/// Traces of a support: a bar from its middle to its anchors, and a cross with its name in the middle.
+fn support(support: &SupportAtRest) -> [Value; 2] {
+    let middle = support.middle();
+    let bar: Vec<Vec3> = support.anchors.iter().flat_map(|anchor| [middle, *anchor]).collect();
+    let [x, y, z] = coordinates(&bar);
+    let bar = json!({
+        "type": "scatter3d", "mode": "lines", "x": x, "y": y, "z": z, "line": {"color": "#777777", "width": 7}, "hoverinfo": "skip",
+    });
+    let moved = support.displacement * 1e3;
+    let hover = format!(
+        "support {}, displaced by<br>({:.3}, {:.3}, {:.3}) mm<extra></extra>",
+        plain(&support.name),
+        moved.x,
+        moved.y,
+        moved.z
+    );
+    let mut cross = marker(middle, "cross", 5, &hover);
+    cross["mode"] = json!("markers+text");
+    cross["text"] = json!([plain(&support.name)]);
+    cross["textposition"] = json!("bottom center");
+    cross["textfont"] = json!({"size": 11, "color": "#777777"});
+    [bar, cross]
 }
 
 /// Rim of a wheel.

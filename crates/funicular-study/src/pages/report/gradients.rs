@@ -67,7 +67,7 @@ pub(super) fn first_frequencies(
         "What moves the first frequencies: change of each over the tolerance of the numbers that move them most. \
          Positions and lengths have a tolerance of 1 mm, angles 0.1°, other values 1 %; {}. `funicular gradient` gives all \
          derivatives.",
-        meaning(&at_rest.robot, Hold::Lengths)
+        meaning(at_rest, Hold::Lengths)
     );
     let layout = json!({
         "barmode": "group",

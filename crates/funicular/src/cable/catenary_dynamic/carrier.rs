@@ -36,7 +36,7 @@ impl CatenaryDynamicEnd {
     ///
     /// # References
     /// docs/theory.md, equation (85).
-    pub(super) fn forces_by_carrier(&self, motion: &CarrierMotion) -> Vec<(f64, f64)> {
+    pub(crate) fn forces_by_carrier(&self, motion: &CarrierMotion) -> Vec<(f64, f64)> {
         let [_, at_wheel, whole] = motion.of_drum_side(self.drum_side_ratio());
         let mut forces: Vec<(f64, f64)> = (self.chain().map_or(&[][..], |chain| &chain.drum_side).iter())
             .map(|side| {

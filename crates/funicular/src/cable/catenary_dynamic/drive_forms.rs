@@ -299,8 +299,68 @@ impl CatenaryDynamicEnd {
         self.form_in_powers(still, rate, acceleration, &square)
     }
 
-    /// Output of the cable's drive, or its tension, per motion of the carrier with all coordinates at rest. `None` without
-    /// such a signal.
+    /// Force on the carrier along one motion per unit of another motion of it, with all coordinates at rest: by reciprocity
+    /// symmetric.
+    ///
+    /// # References
+    /// docs/theory.md, equation (92c).
+    pub(crate) fn between_carriers(&self, one: &CarrierMotion, other: &CarrierMotion) -> InPowersOfS<f64> {
+        let (c1, c2) = (one.displacement, other.displacement);
+
+        // The cable: K_s and −ω_c² times its mass at the far end.
+        let (stiffness, mass) = if let Some(family) = self.coupled() {
+            (far_product(&family.stiffness, [3, 4, 5], c1, c2), far_product(&family.mass, [3, 4, 5], c1, c2))
+        } else {
+            let (plane, normal) = (self.in_plane(), self.out_of_plane());
+            let [in_plane, in_plane_mass] = [&plane.stiffness, &plane.mass]
+                .map(|matrix| far_product(matrix, [2, 3], [c1[0], c1[1]], [c2[0], c2[1]]));
+            let (normal, normal_mass) = normal.map_or((0.0, 0.0), |family| {
+                (c1[2] * family.stiffness[1][1] * c2[2], c1[2] * family.mass[1][1] * c2[2])
+            });
+            (in_plane + normal, in_plane_mass + normal_mass)
+        };
+        let (mut still, mut rate, mut acceleration, mut square) = (-stiffness, 0.0, 0.0, mass);
+
+        // Motions of the drive with the carrier, forces on them, and those without mass by these forces.
+        if let Some(drive) = &self.cable.drive {
+            let moved = |c: [f64; 3]| -> Vec<f64> {
+                drive.with_carrier().iter().map(|row| row.iter().zip(c).map(|(part, c)| part * c).sum()).collect()
+            };
+            let (z1, z2) = (moved(c1), moved(c2));
+            let (f1, f2) = (self.forces_by_carrier(one), self.forces_by_carrier(other));
+            for (z, f) in [(&z1, &f2), (&z2, &f1)] {
+                still += z.iter().zip(f).map(|(z, (force, _))| z * force).sum::<f64>();
+                square += z.iter().zip(f).map(|(z, (_, mass))| z * mass).sum::<f64>();
+            }
+            let rest = self.massless_flexibility(&self.motion_forms());
+            for (i, (force, _)) in f1.iter().enumerate() {
+                still += force * f2.iter().enumerate().map(|(j, (other, _))| rest[(i, j)] * other).sum::<f64>();
+            }
+            for part in self.drive_parts() {
+                let along = |c: [f64; 3]| part.with_carrier.iter().zip(c).map(|(part, c)| part * c).sum::<f64>();
+                let product = along(c1) * along(c2);
+                square -= product * part.mass;
+                acceleration -= product * part.mass;
+                rate -= product * part.damping;
+            }
+        }
+
+        // The drum side.
+        if let Some(chain) = self.chain() {
+            let [[_, at_wheel, whole], [_, other_at_wheel, other_whole]] =
+                [one, other].map(|motion| motion.of_drum_side(self.drum_side_ratio()));
+            if let Some(side) = chain.drum_side.first() {
+                still -= side.stiffness * at_wheel * other_at_wheel;
+                square += side.mass * at_wheel * other_at_wheel
+                    + side.carried_mass * (at_wheel * other_whole + whole * other_at_wheel);
+            }
+            square += chain.drum_side_mass * whole * other_whole;
+        }
+        [still, rate - self.viscous_rate() * square, acceleration - square]
+    }
+
+    /// Output of the cable's drive, or its tension, per motion of the carrier with all coordinates at rest; for a commanded
+    /// length, by reciprocity the force on the carrier. `None` without such a signal.
     pub(crate) fn direct_by_carrier(&self, motion: &CarrierMotion, output: DriveSignal) -> Option<InPowersOfS<f64>> {
         if output == DriveSignal::Tension {
             // The force of the motion on the platform end, along the cable.
@@ -310,14 +370,19 @@ impl CatenaryDynamicEnd {
         let in_powers = |still: f64, square: f64| [still, -self.viscous_rate() * square, -square];
         let Some(chain) = self.chain() else {
             // The far end itself moves.
-            if output != DriveSignal::DrumTension || self.cable.coupled.is_some() {
+            let factor = match output {
+                DriveSignal::DrumTension => 1.0,
+                DriveSignal::Length => self.directions.stretch,
+                DriveSignal::Drum | DriveSignal::Motor | DriveSignal::Tension => return None,
+            };
+            if self.cable.coupled.is_some() {
                 return None;
             }
             let ([h, v], family, [e, n, _]) = (self.directions.to_platform, self.in_plane(), motion.displacement);
             let along = |matrix: &[[f64; 4]; 4]| {
                 (matrix[2][2] * e + matrix[2][3] * n) * h + (matrix[3][2] * e + matrix[3][3] * n) * v
             };
-            return Some(in_powers(-along(&family.stiffness), along(&family.mass)));
+            return Some(in_powers(-along(&family.stiffness) * factor, along(&family.mass) * factor));
         };
 
         // Motions of the drive with the carrier, and those without mass by the forces that the carrier brings about.
@@ -336,11 +401,18 @@ impl CatenaryDynamicEnd {
         let mut direct: InPowersOfS<f64> =
             from_fn(|power| (0..=power).map(|i| product(&rows[i], &motions[power - i])).sum());
 
-        // The ends of the drum side.
-        if let (DriveSignal::DrumTension, Some(end)) = (output, &chain.drum_end) {
+        // The ends of the drum side; a length that a drum pays out which is held moves one of them.
+        let factor = |ratio: f64| match output {
+            DriveSignal::DrumTension => ratio,
+            DriveSignal::Length if chain.drum.is_none() => self.directions.stretch,
+            _ => 0.0,
+        };
+        if let Some((end, factor)) =
+            chain.drum_end.as_ref().map(|end| (end, factor(end.ratio))).filter(|(_, f)| *f > 0.0)
+        {
             let [_, at_wheel, whole] = motion.of_drum_side(self.drum_side_ratio());
             let mass = end.by_wheel.1 * at_wheel + end.carried_mass * whole;
-            let own = in_powers(-end.by_wheel.0 * at_wheel * end.ratio, mass * end.ratio);
+            let own = in_powers(-end.by_wheel.0 * at_wheel * factor, mass * factor);
             direct.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
         }
         Some(direct)
@@ -405,4 +477,15 @@ impl CatenaryDynamicEnd {
         }
         families
     }
+}
+
+/// Product `c₁ᵀ M c₂` over the components `places` of a matrix.
+fn far_product<const N: usize, const D: usize>(
+    matrix: &[[f64; N]; N],
+    places: [usize; D],
+    c1: [f64; D],
+    c2: [f64; D],
+) -> f64 {
+    let row = |i: usize| places.iter().zip(c2).map(|(j, c)| matrix[i][*j] * c).sum::<f64>();
+    places.iter().zip(c1).map(|(i, c)| c * row(*i)).sum()
 }

@@ -156,6 +156,26 @@ impl TwoEnded {
         self.modes.iter().filter(|mode| !left_out.of(mode.family).contains(&mode.index))
     }
 
+    /// Stiffness at x = ω_c² [N/m].
+    pub(crate) fn value_at(&self, x: Complex) -> [[Complex; ENDS]; ENDS] {
+        let mut value = [[Complex::new(0.0, 0.0); ENDS]; ENDS];
+        for (i, j) in (0..ENDS).flat_map(|i| (i..ENDS).map(move |j| (i, j))) {
+            value[i][j] = self.stiffness[i][j] - x * self.mass[i][j];
+        }
+        for mode in &self.modes {
+            let by_value = x * x * (mode.pole - x).inv();
+            for (i, a) in mode.participation.iter().enumerate() {
+                for (j, b) in mode.participation.iter().enumerate().skip(i) {
+                    value[i][j] -= by_value * (a * b);
+                }
+            }
+        }
+        for (i, j) in (0..ENDS).flat_map(|i| (0..i).map(move |j| (i, j))) {
+            value[i][j] = value[j][i];
+        }
+        value
+    }
+
     /// Stiffness at x = ω_c² without the poles `left_out` [N/m], and its derivative by x [kg].
     pub(crate) fn at(&self, x: Complex, left_out: &NearRanges) -> EndMatrix {
         let mut value = [[Complex::new(0.0, 0.0); ENDS]; ENDS];
@@ -198,6 +218,22 @@ impl TwoEnded {
     pub(crate) fn drive_by(&self, x: f64, left_out: &NearRanges, ends: &[f64; ENDS]) -> Vec<f64> {
         let rows = self.drive(x.into(), left_out);
         rows.into_iter().map(|(row, _)| row.iter().zip(ends).map(|(transfer, u)| transfer.re * u).sum()).collect()
+    }
+
+    /// Static stiffness [N/m] and mass [kg] over the motions of the ends.
+    pub(crate) fn still_parts(&self) -> [&[[f64; ENDS]; ENDS]; 2] {
+        [&self.stiffness, &self.mass]
+    }
+
+    /// Clamped modes, in plane and then out of plane: participation of the ends [√kg], pole [rad²/s²], and true for a mode out
+    /// of plane.
+    pub(crate) fn clamped_modes(&self) -> impl Iterator<Item = (&[f64; ENDS], f64, bool)> {
+        self.modes.iter().map(|mode| (&mode.participation, mode.pole, mode.family == Family::OutOfPlane))
+    }
+
+    /// Static amplitude of each clamped mode per motion of the entry point along the drum side, `−κ/ω_k²` [√kg].
+    pub(crate) fn static_amplitudes(&self) -> impl Iterator<Item = f64> {
+        self.modes.iter().map(|mode| -mode.on_drum_side.0 / mode.pole)
     }
 
     /// Participation of the ends in a clamped mode [√kg].

@@ -1,16 +1,19 @@
-//! Plausibility of an equilibrium: strain, weight of the cables against their tension, and length of the cables.
+//! Plausibility of an equilibrium: strain, weight of the cables against their tension, length of the cables, and displacement
+//! of supports.
 
-use super::{Implausible, likely, outside, usual};
+use super::{Implausible, likely, outside, supports, usual};
 use crate::robot::{Robot, State};
 use crate::statics::{Equilibrium, StaticModel};
 
 /// Values of an equilibrium that no usual robot has.
 pub fn of_equilibrium(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Implausible> {
+    let displacement = supports::displacement(robot, equilibrium);
     // Ideal cables are rigid and have no weight.
     if equilibrium.model == StaticModel::Ideal {
-        return Vec::new();
+        return displacement.into_iter().collect();
     }
-    [strain(robot, equilibrium), weight(robot, equilibrium), length(robot, equilibrium)].into_iter().flatten().collect()
+    let of_cables = [strain(robot, equilibrium), weight(robot, equilibrium), length(robot, equilibrium)];
+    of_cables.into_iter().chain([displacement]).flatten().collect()
 }
 
 /// Largest strain of a cable.

@@ -203,3 +203,17 @@ pub const CONTROL_DAMPING: [f64; 2] = [0.0, 10.0];
 
 /// Delay of a position control [s]. Outside: milliseconds given as seconds.
 pub const DELAY: [f64; 2] = [0.0, 0.2];
+
+/// Displacement of a flexible support under the weight of the platform, over the size of the anchors. A post of 1e5 N/m under
+/// 30 kg, 5 m from the middle, has 6e-4; masts of 1e4 N/m under 100 kg 0.02. Outside: N/mm given as N/m (0.6 for that post).
+pub const SUPPORT_YIELD: [f64; 2] = [0.0, 0.05];
+
+/// Smallest principal stiffness of a flexible support [N/m]. The axial stiffness of a steel post of 100 cm² and 1 m is 2e9.
+pub const SUPPORT_STIFFNESS: [f64; 2] = [0.0, 1e10];
+
+/// Mass of a flexible support over that of the platform. Towers of a telescope weigh some ten cabins. Outside: g given as kg.
+pub const SUPPORT_MASS: [f64; 2] = [0.0, 300.0];
+
+/// Displacement of a flexible support at an equilibrium over the longest cable: a tenth is no small displacement, for which a
+/// stiffness could be given. Outside: N/mm given as N/m, for supports that yield by more than a ten-thousandth.
+pub const SUPPORT_DISPLACEMENT: [f64; 2] = [0.0, 0.1];

@@ -1,0 +1,84 @@
+//! Arguments of `uncertainty`.
+
+use super::groups::{ModelArgs, OutputArgs, RobotArgs, StateArgs, TensionArgs};
+use super::names::{HoldName, UncertaintyMethodName};
+use super::values;
+use clap::Args;
+use funicular_study::request::DEFAULT_SAMPLES;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(crate) struct UncertaintyArgs {
+    #[command(flatten)]
+    pub(crate) robot: RobotArgs,
+
+    /// Standard deviations PATH=VALUE or PATH=PERCENT% of normally distributed numbers, separated by commas; paths as
+    /// `parameters` lists them, * stands for any key, and a path to a table or vector for all numbers in it. Each option is
+    /// a group with a share of its own
+    #[arg(long, value_name = "DEVIATIONS", value_delimiter = ',')]
+    pub(crate) deviations: Vec<String>,
+
+    /// Tolerances PATH=VALUE or PATH=PERCENT% of numbers that are anywhere within ± their tolerance, separated by commas
+    #[arg(long, value_name = "TOLERANCES", value_delimiter = ',')]
+    pub(crate) tolerances: Vec<String>,
+
+    /// Results: pose, lengths, tensions, stiffness-min, frequencies, damping; separated by commas
+    #[arg(long, value_name = "RESULTS", value_delimiter = ',', default_value = "pose,tensions")]
+    pub(crate) of: Vec<String>,
+
+    /// Quantity that is held while the numbers deviate; with the pose held, the tensions parallel to the chords of more
+    /// cables than degrees of freedom change least
+    #[arg(long, value_name = "WHAT", value_enum, default_value_t)]
+    pub(crate) hold: HoldName,
+
+    /// Upper limit of the frequencies [Hz]; for frequencies and damping
+    #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
+    pub(crate) below_hz: Option<f64>,
+
+    /// List of poses in a CSV file: columns x_m, y_m, z_m and optionally roll_deg, pitch_deg, yaw_deg
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["pose", "lengths_m"])]
+    pub(crate) poses: Option<PathBuf>,
+
+    /// Way to the deviations
+    #[arg(long, value_name = "METHOD", value_enum, default_value_t)]
+    pub(crate) method: UncertaintyMethodName,
+
+    /// Number of sampled robots per pose where sampling is needed, 10 to 1000000; with several groups as many for each
+    /// group
+    #[arg(long, value_name = "N", allow_hyphen_values = true, default_value_t = DEFAULT_SAMPLES)]
+    pub(crate) samples: usize,
+
+    /// Number that chooses another sample
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u32,
+
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+    #[command(flatten)]
+    pub(crate) sink: OutputArgs,
+
+    /// Write the page to FILE.html, completely or not at all
+    #[arg(long, value_name = "FILE.html", help_heading = "Output")]
+    pub(crate) page: Option<PathBuf>,
+
+    /// Write the sampled robots to FILE.parquet or FILE.csv when all are computed; until then they are kept in FILE.partial
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) samples_file: Option<PathBuf>,
+
+    /// Continue with the robots in FILE.partial of the same request; start if there are none
+    #[arg(long, requires = "samples_file", conflicts_with = "discard", help_heading = "Output")]
+    pub(crate) resume: bool,
+
+    /// Discard the robots in FILE.partial and start again
+    #[arg(long, requires = "samples_file", help_heading = "Output")]
+    pub(crate) discard: bool,
+
+    /// Number of threads [default: one per core]; the results do not depend on it
+    #[arg(long, value_name = "N", value_parser = values::threads, allow_hyphen_values = true, help_heading = "Output")]
+    pub(crate) threads: Option<NonZeroUsize>,
+}

@@ -1,0 +1,248 @@
+//! `uncertainty`: run on all cores, text and CSV.
+
+use crate::args::{OutputArgs, UncertaintyArgs};
+use crate::errors::{self, Interrupted};
+use crate::interrupt::{STOPPED, stop_at_next_row};
+use crate::output::{Content, Printed, Sink, Target};
+use crate::progress::Progress;
+use crate::table::{NONE, Table, counted, digits_for, significant};
+use anyhow::{Result, bail};
+use funicular_files::endings::Kind;
+use funicular_files::{Begin, Guard, UncertaintyOutcome, UncertaintyRun, threads};
+use funicular_study::analyses::uncertainty::{PoseUncertainty, UncertainResult, Uncertainties, UncertaintyStudy};
+use funicular_study::request::UncertaintyRequest;
+use funicular_study::wording::{Words, worded};
+use std::fmt::Write as _;
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+/// Number of contributions that the text shows for each result.
+const SHOWN: usize = 3;
+
+/// Runs `uncertainty`: prints the deviations, writes the samples and the page.
+pub(super) fn run(of: &UncertaintyRequest, args: &UncertaintyArgs, guard: &mut Guard) -> Result<()> {
+    // -o may name the page.
+    let output = args.sink.output_file.as_deref();
+    let is_page = args.sink.format.is_none() && output.and_then(Kind::of) == Some(Kind::Html);
+    let page = match (&args.page, output.filter(|_| is_page)) {
+        (Some(_), Some(_)) => bail!("⟪page⟫ and -o name a page each: leave out one of them"),
+        (option, by_ending) => option.as_deref().or(by_ending),
+    };
+    let printed =
+        OutputArgs { format: args.sink.format, output_file: args.sink.output_file.clone().filter(|_| !is_page) };
+    let sink = Sink::open(&printed, &[Kind::Html], guard)?;
+    let html = Content { option: "--page", ..Content::PAGE };
+    let page = page.map(|path| Ok::<_, anyhow::Error>((Target::open(Some(path), html, guard)?, path))).transpose()?;
+    let begin = match (args.resume, args.discard) {
+        (true, _) => Begin::Resume,
+        (_, true) => Begin::Discard,
+        _ => Begin::Anew,
+    };
+    if let Some(path) = &args.samples_file {
+        guard.writes_rows("--samples-file", path, true)?;
+    }
+
+    let found = compute(of, args.threads, args.samples_file.as_deref().map(|path| (path, begin)))?;
+    sink.write(&found)?;
+    if let Some((target, path)) = page {
+        let page = funicular_study::pages::uncertainty::page(&found, super::page::command_line()?)?;
+        target.write(worded(&page, Words::Program).as_bytes())?;
+        errors::note(&format!("wrote {}", path.display()));
+    }
+    if let Some(path) = args.samples_file.as_ref().filter(|_| found.evaluations > 0) {
+        errors::note(&format!("{} in {}", counted(found.evaluations, "robot"), path.display()));
+    }
+    Ok(())
+}
+
+/// Runs a request and prints its results.
+pub(super) fn print(of: &UncertaintyRequest, output: &OutputArgs, guard: &mut Guard) -> Result<()> {
+    let sink = Sink::open(output, &[], guard)?;
+    sink.write(&compute(of, None, None)?)
+}
+
+/// Computes the deviations on all cores.
+fn compute(
+    of: &UncertaintyRequest,
+    threads: Option<NonZeroUsize>,
+    samples: Option<(&Path, Begin)>,
+) -> Result<Uncertainties> {
+    let study = UncertaintyStudy::new(of)?;
+    stop_at_next_row()?;
+    let mut bar: Option<(Progress, &'static str, usize)> = None;
+    let mut progress = |done: usize, total: usize, what: &'static str| {
+        if bar.as_ref().is_none_or(|(_, shown, _)| *shown != what) {
+            bar = Some((Progress::with_rate(total, what), what, 0));
+        }
+        if let Some((bar, _, before)) = &mut bar {
+            bar.advance(done - *before);
+            *before = done;
+        }
+    };
+    let run = UncertaintyRun { threads: threads::or_all(threads), samples, cancel: &STOPPED };
+    match run.run(&study, &mut progress)? {
+        UncertaintyOutcome::Complete(found) => Ok(*found),
+        UncertaintyOutcome::Stopped(sentence) => Err(Interrupted(worded(&sentence, Words::Program)).into()),
+    }
+}
+
+impl Printed for Uncertainties {
+    fn text(&self) -> String {
+        let groups: Vec<String> =
+            self.groups.iter().map(|group| format!("{} ({})", group.name, counted(group.count, "number"))).collect();
+        let mut out = format!(
+            "{}: deviations of results from {} that deviate\n{}\nHeld: {}.\nGroups: {}.\n",
+            self.robot,
+            counted(self.inputs.len(), "number"),
+            self.models.line(),
+            self.held_means,
+            groups.join(", ")
+        );
+        for (i, pose) in self.poses.iter().enumerate() {
+            out += &pose_text(self, i, pose);
+        }
+        if !self.notes.is_empty() {
+            out.push('\n');
+        }
+        for note in &self.notes {
+            let _ = writeln!(out, "{note}.");
+        }
+        out
+    }
+
+    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
+        let mut header: Vec<String> = [
+            "pose",
+            "x_m",
+            "y_m",
+            "z_m",
+            "roll_deg",
+            "pitch_deg",
+            "yaw_deg",
+            "result",
+            "unit",
+            "value",
+            "deviation",
+            "interval_95_from",
+            "interval_95_to",
+            "method",
+            "linear_deviation",
+            "worst_linear",
+            "worst_down",
+            "worst_up",
+            "doubt",
+        ]
+        .map(str::to_owned)
+        .to_vec();
+        header.extend(self.groups.iter().map(|group| format!("share of {}", group.name)));
+        out.write_record(&header)?;
+
+        for (i, pose) in self.poses.iter().enumerate() {
+            for result in &pose.results {
+                let number = |value: Option<f64>| value.map_or_else(String::new, |value| value.to_string());
+                let place = pose.position_m.iter().chain(&pose.roll_pitch_yaw_deg).flatten();
+                let mut row = vec![(i + 1).to_string()];
+                row.extend(place.map(f64::to_string));
+                row.extend([result.name.clone(), result.unit.to_owned(), result.value.to_string()]);
+                row.extend([
+                    number(result.deviation),
+                    number(result.interval_95.map(|interval| interval[0])),
+                    number(result.interval_95.map(|interval| interval[1])),
+                    result.method.to_owned(),
+                    number(result.linear_deviation),
+                    number(result.worst.map(|worst| worst.linear)),
+                    number(result.worst.and_then(|worst| worst.down)),
+                    number(result.worst.and_then(|worst| worst.up)),
+                    result.doubt.clone().unwrap_or_default(),
+                ]);
+                let shares = (0..self.groups.len()).map(|g| number(result.group_shares.as_ref().map(|all| all[g])));
+                row.extend(shares);
+                out.write_record(&row)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Table of the results at one pose.
+fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
+    let mut out = String::new();
+    if of.poses.len() > 1 {
+        let place = pose.position_m.iter().chain(&pose.roll_pitch_yaw_deg).flatten();
+        let place: Vec<String> = place.map(|value| significant(*value, 4)).collect();
+        let _ = write!(out, "\nPose {}", i + 1);
+        if !place.is_empty() {
+            let _ = write!(out, ": {}", place.join(", "));
+        }
+        out.push('\n');
+    }
+    if let Some(reason) = &pose.reason {
+        let _ = writeln!(out, "no results: {reason}");
+        return out;
+    }
+
+    let has_worst = pose.results.iter().any(|result| result.worst.is_some());
+    let mut header = vec!["result", "unit", "value", "deviation", "95 % from", "to", "method"];
+    if has_worst {
+        header.extend(["corner down", "up"]);
+    }
+    header.push("largest shares");
+    let last = header.len() - 1;
+    let mut table = Table::new(&header).text_columns(&[0, 1, 6, last]);
+    for result in &pose.results {
+        let digits = result.deviation.map_or(6, |deviation| digits_for(result.value, deviation));
+        let number = |value: Option<f64>, digits: usize| {
+            value.map_or_else(|| NONE.to_owned(), |value| significant(value, digits))
+        };
+        let mut row = vec![
+            result.name.clone(),
+            result.unit.to_owned(),
+            significant(result.value, digits),
+            number(result.deviation, 3),
+            number(result.interval_95.map(|interval| interval[0]), digits),
+            number(result.interval_95.map(|interval| interval[1]), digits),
+            result.method.to_owned(),
+        ];
+        if has_worst {
+            row.push(number(result.worst.and_then(|worst| worst.down), 3));
+            row.push(number(result.worst.and_then(|worst| worst.up), 3));
+        }
+        row.push(shares(of, result));
+        table.row(row);
+    }
+    let _ = write!(out, "\n{table}");
+
+    // Each doubt once.
+    let mut doubts: Vec<&str> = Vec::new();
+    for doubt in pose.results.iter().filter_map(|result| result.doubt.as_deref()) {
+        if !doubts.contains(&doubt) {
+            doubts.push(doubt);
+        }
+    }
+    if !doubts.is_empty() || pose.failed.is_some() {
+        out.push('\n');
+    }
+    for doubt in doubts {
+        let _ = writeln!(out, "Not linear: {doubt}.");
+    }
+    if let Some(failed) = &pose.failed {
+        let _ =
+            writeln!(out, "{} without results; the first: {}.", counted(failed.count, "sampled robot"), failed.reason);
+    }
+    out
+}
+
+/// Largest contributions to a result: single numbers, or groups where only these are known.
+fn shares(of: &Uncertainties, result: &UncertainResult) -> String {
+    let percent = |share: f64| format!("{} %", significant(100.0 * share, 2));
+    let mut parts: Vec<(f64, &str)> =
+        result.largest.iter().map(|largest| (largest.share, largest.path.as_str())).collect();
+    if result.method == "sampled"
+        && let Some(shares) = &result.group_shares
+    {
+        parts = shares.iter().copied().zip(of.groups.iter().map(|group| group.name.as_str())).collect();
+        parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+    }
+    let shown = parts.iter().take(SHOWN).filter(|(share, _)| *share > 0.0);
+    shown.map(|(share, name)| format!("{name} {}", percent(*share))).collect::<Vec<_>>().join(", ")
+}

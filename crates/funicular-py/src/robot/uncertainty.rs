@@ -1,0 +1,196 @@
+//! Deviations of results from deviations of numbers of the robot file.
+
+use super::PyRobot;
+use crate::answers;
+use crate::arrays::{Number, Numbers};
+use crate::errors;
+use crate::interrupt::interruptible_by_flag;
+use crate::pose::PoseLike;
+use crate::request::{StateKeywords, TensionKeywords, model, named};
+use crate::sweep::{self, ProgressArgument};
+use crate::threads::Threads;
+use crate::written::UncertaintyObject;
+use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun};
+use funicular_study::analyses::uncertainty::UncertaintyStudy;
+use funicular_study::request::{self, UncertaintyRequest};
+use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+
+#[pymethods]
+impl PyRobot {
+    /// Computes the deviations of results from deviations or tolerances of numbers of the robot file.
+    ///
+    /// Results are linear in the deviations where no cable may become slack and no frequencies may cross; elsewhere robots
+    /// are sampled, on all processors. docs/uncertainty.md explains the result. Theory, section "Uncertainty".
+    ///
+    /// Parameters
+    /// ----------
+    /// deviations
+    ///     Standard deviations of normally distributed numbers: a mapping from paths to values in the unit of the number,
+    ///     or to percentages such as "1%"; or a list of texts such as "platform.mass_kg=1%". In a path * stands for any
+    ///     key. Each entry is a group with a share of its own.
+    /// tolerances
+    ///     Tolerances of numbers that are anywhere within ± their tolerance, in the same form.
+    /// of
+    ///     Results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`; the first and the third if
+    ///     not given.
+    /// hold
+    ///     What stays while the numbers deviate: `lengths` or `pose`.
+    /// below_hz
+    ///     Upper limit of the frequencies [Hz]; for frequencies and damping.
+    /// poses
+    ///     Several poses, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
+    /// method
+    ///     `automatic`, `linear` or `sampled`.
+    /// samples, seed
+    ///     Number of sampled robots per pose, and a number that chooses another sample.
+    /// samples_file, resume, discard
+    ///     File of the sampled robots, .parquet or .csv: FILE.partial holds them until all are there, and `resume`
+    ///     continues with them.
+    /// threads
+    ///     Number of threads of this process; one per processor if not given.
+    /// progress
+    ///     Function that is called with the number of finished items and of all items.
+    ///
+    /// The other parameters are those of `equilibrium` and of `modes`.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A path, a deviation or another argument is wrong; the message says which and what to give.
+    /// StaticsError
+    ///     The robot has no equilibrium.
+    /// FileError
+    ///     The file of the samples cannot be written, or belongs to other work.
+    #[pyo3(signature = (
+        deviations=None, tolerances=None, of=None, *, hold="lengths", below_hz=None, poses=None, method="automatic",
+        samples=200, seed=0, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
+        assembly="consistent", in_plane_only=false, winches="as-given", tension_rule=None, target_tension_n=None,
+        min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None,
+        wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, samples_file=None, resume=false,
+        discard=false, threads=None, progress=None
+    ))]
+    #[expect(clippy::too_many_arguments, clippy::fn_params_excessive_bools, reason = "Python's keywords")]
+    fn uncertainty(
+        &self,
+        py: Python<'_>,
+        deviations: Option<Bound<'_, PyAny>>,
+        tolerances: Option<Bound<'_, PyAny>>,
+        of: Option<Vec<String>>,
+        hold: &str,
+        below_hz: Option<Number>,
+        poses: Option<Numbers>,
+        method: &str,
+        samples: usize,
+        seed: u32,
+        pose: Option<PoseLike>,
+        lengths_m: Option<Numbers>,
+        static_model: &str,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+        winches: &str,
+        tension_rule: Option<&str>,
+        target_tension_n: Option<Numbers>,
+        min_tension_n: Option<Number>,
+        max_tension_n: Option<Number>,
+        mass_kg: Option<Number>,
+        force_n: Option<Numbers>,
+        moment_n_m: Option<Numbers>,
+        load_point_m: Option<Numbers>,
+        wind_m_s: Option<Numbers>,
+        cable_load_n_per_m: Option<Numbers>,
+        hold_lengths_of_pose: bool,
+        samples_file: Option<PathBuf>,
+        resume: bool,
+        discard: bool,
+        threads: Option<Threads>,
+        progress: Option<ProgressArgument>,
+    ) -> PyResult<UncertaintyObject> {
+        let state = StateKeywords {
+            pose,
+            lengths_m,
+            hold_lengths_of_pose,
+            mass_kg,
+            static_model,
+            force_n,
+            moment_n_m,
+            load_point_m,
+            wind_m_s,
+            cable_load_n_per_m,
+        };
+        let request = UncertaintyRequest {
+            robot: self.source.clone(),
+            of: of.unwrap_or_else(request::pose_and_tensions),
+            deviations: sizes("deviations", deviations)?,
+            tolerances: sizes("tolerances", tolerances)?,
+            hold: named("hold", hold)?,
+            method: named("method", method)?,
+            samples,
+            seed,
+            below_hz: below_hz.map(|hz| hz.value("below_hz")).transpose()?,
+            poses: poses.map(sweep::poses).transpose()?,
+            state: state.request()?,
+            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request()?,
+            model: model(cable_model, assembly, in_plane_only, winches)?,
+        };
+        let begin = match (samples_file.is_some(), resume, discard) {
+            (false, true, _) | (false, _, true) => {
+                return Err(errors::input("`resume` and `discard` need `samples_file`".to_owned()));
+            }
+            (_, true, true) => {
+                return Err(errors::input("give `resume` or `discard`, not both: one keeps the robots".to_owned()));
+            }
+            (_, true, _) => Begin::Resume,
+            (_, _, true) => Begin::Discard,
+            _ => Begin::Anew,
+        };
+
+        let threads = Threads::of(threads);
+        let outcome = interruptible_by_flag(py, move |cancel| {
+            let study = UncertaintyStudy::new(&request)?;
+            let samples = samples_file.as_deref().map(|path| (path, begin));
+            let mut raised = None;
+            let mut report = |done: usize, total: usize, _: &'static str| {
+                if let (Some(ProgressArgument(function)), None) = (&progress, &raised) {
+                    raised = Python::attach(|py| function.call1(py, (done, total)).err());
+                }
+            };
+            let outcome = UncertaintyRun { threads, samples, cancel }.run(&study, &mut report)?;
+            Ok::<_, anyhow::Error>((outcome, raised))
+        })?;
+        let (outcome, raised) = outcome.map_err(|error| errors::study(&error))?;
+        if let Some(raised) = raised {
+            return Err(raised);
+        }
+        match outcome {
+            UncertaintyOutcome::Complete(found) => {
+                let keys = answers::plain(py, &*found)?;
+                let made = py.import("funicular._uncertainty")?.call_method1("uncertainty", (keys.0,))?;
+                Ok(UncertaintyObject(made.unbind()))
+            }
+            // Only Ctrl-C stops the work, and its exception has been raised before.
+            UncertaintyOutcome::Stopped(reason) => Err(PyKeyboardInterrupt::new_err(reason)),
+        }
+    }
+}
+
+/// Texts `PATH=VALUE` of a mapping or of a list of texts.
+fn sizes(keyword: &str, given: Option<Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
+    let Some(given) = given else { return Ok(Vec::new()) };
+    if let Ok(mapping) = given.cast::<PyDict>() {
+        return mapping
+            .iter()
+            .map(|(path, size)| Ok(format!("{}={}", path.extract::<String>()?, size.str()?.to_cow()?)))
+            .collect();
+    }
+    let wrong = || {
+        errors::input(format!(
+            "`{keyword}` is no mapping from paths to numbers: give one, as in {{\"platform.mass_kg\": \"1%\"}}, or a list of \
+             texts, as in [\"platform.mass_kg=1%\"]"
+        ))
+    };
+    given.extract::<Vec<String>>().map_err(|_| wrong())
+}

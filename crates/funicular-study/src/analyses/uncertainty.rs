@@ -1,0 +1,613 @@
+//! `uncertainty`: deviations of results from deviations of numbers of the robot file.
+
+use super::found;
+use super::shared::Models;
+use crate::at_rest::{self, AtRest};
+use crate::error::{Cancelled, NoSolution};
+use crate::names::UncertaintyMethod;
+use crate::request::{self, Pose, Request, UncertaintyRequest};
+use crate::sweep::{Chunk, Record};
+use crate::text::counted;
+use crate::uncertainty::{GROUPS, Inputs, LinearPose, Row, SampleSet, SampleTable, Sampling, Statistics};
+use crate::watch::Watch;
+use anyhow::{Result, anyhow, bail};
+use funicular::robot::Robot;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+/// Numbers of the largest contributions that a result lists.
+const LARGEST: usize = 5;
+
+/// Numbers of sampled robots that are possible.
+const SAMPLES: std::ops::RangeInclusive<usize> = 10..=1_000_000;
+
+/// Results of `uncertainty`.
+#[derive(Serialize)]
+pub struct Uncertainties {
+    #[serde(skip)]
+    pub robot: String,
+    #[serde(flatten)]
+    pub models: Models,
+    /// Quantity that is held while the numbers deviate: `lengths` or `pose`.
+    pub held: &'static str,
+    /// Sentence that says what is held, and by which rule the rest follows.
+    pub held_means: &'static str,
+    /// Numbers that deviate.
+    pub inputs: Vec<UncertainInput>,
+    /// Groups of numbers, one per option.
+    pub groups: Vec<InputGroup>,
+    /// Number of sampled robots per pose that needs them.
+    pub samples: usize,
+    /// Number of robots that were computed for the samples and the corners of the tolerances.
+    pub evaluations: usize,
+    /// Sentences on how much the numbers are worth.
+    pub notes: Vec<String>,
+    /// Results at each pose.
+    pub poses: Vec<PoseUncertainty>,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// Number of the robot file that deviates.
+#[derive(Debug, Clone, Serialize)]
+pub struct UncertainInput {
+    pub path: String,
+    pub unit: &'static str,
+    /// Value; absent if it changes from pose to pose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub value: Option<f64>,
+    /// Distribution: `normal` or `uniform`.
+    pub distribution: &'static str,
+    /// Standard deviation; absent if it changes from pose to pose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub deviation: Option<f64>,
+    /// Half width of the tolerance; absent for a normal distribution.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// Index of its group, from 0.
+    pub group: usize,
+}
+
+/// Numbers that one option makes deviate.
+#[derive(Debug, Clone, Serialize)]
+pub struct InputGroup {
+    pub name: String,
+    /// Number of numbers in the group.
+    pub count: usize,
+}
+
+/// Results at one pose.
+#[derive(Debug, Clone, Serialize)]
+pub struct PoseUncertainty {
+    /// Pose of the undisturbed robot; absent if it has no equilibrium.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub position_m: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub roll_pitch_yaw_deg: Option<[f64; 3]>,
+    /// Reason why there are no results.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// Number of sampled robots without results, with the first reason.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failed: Option<FailedSamples>,
+    pub results: Vec<UncertainResult>,
+}
+
+/// Sampled robots without results.
+#[derive(Debug, Clone, Serialize)]
+pub struct FailedSamples {
+    pub count: usize,
+    pub reason: String,
+}
+
+/// Result with its deviation.
+#[derive(Debug, Clone, Serialize)]
+pub struct UncertainResult {
+    /// Name, such as `frequency 3` or `tension of cable "2" at the anchor`.
+    pub name: String,
+    pub unit: &'static str,
+    /// Value of the undisturbed robot.
+    pub value: f64,
+    /// Standard deviation; absent if too few sampled robots have the result.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub deviation: Option<f64>,
+    /// Interval that holds 95 % of the robots.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub interval_95: Option<[f64; 2]>,
+    /// Method: `linear` or `sampled`.
+    pub method: &'static str,
+    /// Reason for sampling, or why linear deviations are doubtful.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub doubt: Option<String>,
+    /// Standard deviation by the gradient, also of a sampled result.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub linear_deviation: Option<f64>,
+    /// Mean of the sampled robots.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean: Option<f64>,
+    /// Shares of the groups in the variance; of a sampled result total shares, which may add up to more than 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub group_shares: Option<Vec<f64>>,
+    /// Largest linear shares of single numbers in the variance.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub largest: Vec<ShareOfInput>,
+    /// Linear shares of all numbers, in the order of `inputs`; for one pose only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shares: Option<Vec<f64>>,
+    /// Worst case within the tolerances.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub worst: Option<WorstCase>,
+}
+
+/// Share of a number in the variance of a result.
+#[derive(Debug, Clone, Serialize)]
+pub struct ShareOfInput {
+    pub path: String,
+    pub share: f64,
+}
+
+/// Worst case within the tolerances.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct WorstCase {
+    /// Sum of the absolute linear changes over all tolerances: neither a lower nor an upper bound.
+    pub linear: f64,
+    /// Change at the corner of the tolerances that decreases the result most linearly: the true worst is at least as far.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub down: Option<f64>,
+    /// Change at the opposite corner.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub up: Option<f64>,
+}
+
+found!(Uncertainties, "uncertainty");
+
+/// Computes the deviations on the calling thread.
+///
+/// # Errors
+/// A request that contradicts itself or the robot, a robot without equilibrium at every pose, or work that was stopped.
+pub fn run(request: &UncertaintyRequest, watch: &mut dyn Watch) -> Result<Uncertainties> {
+    let study = UncertaintyStudy::new(request)?;
+    let mut poses = Vec::with_capacity(study.poses());
+    for pose in 0..study.poses() {
+        watch.progress(pose, study.poses(), "poses");
+        if watch.is_cancelled() {
+            return Err(Cancelled.into());
+        }
+        poses.push(study.linear(pose));
+    }
+
+    let plan = study.plan(poses)?;
+    let mut samples = plan.table();
+    for chunk in 0..plan.chunks() {
+        watch.progress(chunk * plan.chunk_rows(), plan.rows(), "robots");
+        let is_cancelled = || watch.is_cancelled();
+        let Some(chunk) = plan.evaluate(chunk, &is_cancelled) else { return Err(Cancelled.into()) };
+        samples.add(&chunk);
+    }
+    Ok(plan.finish(&samples))
+}
+
+/// Request that is ready to run: poses first, then samples.
+pub struct UncertaintyStudy {
+    request: UncertaintyRequest,
+    of: Vec<&'static str>,
+    robot: Robot,
+    inputs: Inputs,
+    poses: Vec<Option<[f64; 6]>>,
+    /// Robot at rest at the first pose that has an equilibrium.
+    first: (usize, AtRest),
+    /// Reasons of the poses before it.
+    failed: Vec<String>,
+}
+
+/// Pose with its linear deviations, or the reason why there are none.
+pub struct PoseOutcome(Result<LinearPose, String>);
+
+impl UncertaintyStudy {
+    /// Checks a request, and finds the first equilibrium.
+    ///
+    /// # Errors
+    /// A request that contradicts itself or the robot, or a robot without equilibrium at every pose.
+    pub fn new(request: &UncertaintyRequest) -> Result<Self> {
+        let of = groups(request)?;
+        let robot = request.robot.read()?.robot;
+        let poses: Vec<Option<[f64; 6]>> = match &request.poses {
+            None => vec![None],
+            Some(_) if request.state.pose.is_some() || request.state.lengths_m.is_some() => {
+                bail!("⟪poses⟫ gives the poses of the robot: leave out ⟪pose⟫ and ⟪lengths_m⟫")
+            }
+            Some(poses) => {
+                crate::sweep::check_poses(poses, &robot)?;
+                poses.iter().copied().map(Some).collect()
+            }
+        };
+
+        // Input errors are the same at every pose, and are found at the first equilibrium.
+        let mut failed = Vec::new();
+        let mut first = None;
+        for (i, pose) in poses.iter().enumerate() {
+            match rest(request, &robot, *pose) {
+                Ok(at_rest) => {
+                    first = Some((i, at_rest));
+                    break;
+                }
+                Err(error) if poses.len() == 1 || !is_of_pose(&error) => return Err(error),
+                Err(error) => failed.push(format!("{error:#}")),
+            }
+        }
+        let Some(first) = first else {
+            return Err(NoSolution(format!(
+                "the robot has no equilibrium at any of {}; at the first one: {}",
+                counted(poses.len(), "pose"),
+                failed.first().map_or("", String::as_str)
+            ))
+            .into());
+        };
+        let inputs = Inputs::new(request, &first.1)?;
+        let study = Self { request: request.clone(), of, robot, inputs, poses, first, failed };
+        // The linear deviations of the first pose find the errors that all poses share.
+        study.linear_at(study.first.1.clone())?;
+        Ok(study)
+    }
+
+    /// Number of poses.
+    pub fn poses(&self) -> usize {
+        self.poses.len()
+    }
+
+    /// Linear deviations at a pose.
+    pub fn linear(&self, pose: usize) -> PoseOutcome {
+        if let Some(reason) = self.failed.get(pose) {
+            return PoseOutcome(Err(reason.clone()));
+        }
+        let (first, at_rest) = &self.first;
+        let at_rest =
+            if pose == *first { Ok(at_rest.clone()) } else { rest(&self.request, &self.robot, self.poses[pose]) };
+        PoseOutcome(at_rest.and_then(|at_rest| self.linear_at(at_rest)).map_err(|error| format!("{error:#}")))
+    }
+
+    fn linear_at(&self, at_rest: AtRest) -> Result<LinearPose> {
+        let mut linear = LinearPose::new(&self.request, &self.of, &self.inputs, at_rest)?;
+        match self.request.method {
+            UncertaintyMethod::Automatic => {}
+            UncertaintyMethod::Linear => {
+                if let Some(row) = linear.rows.iter().find(|row| row.derivatives.is_none()) {
+                    let name = row.kind.name(&linear.at_rest.robot);
+                    let reason = row.doubt.as_deref().unwrap_or_default();
+                    return Err(anyhow!(
+                        "{name} has no linear deviation: {reason}; leave out ⟪method⟫ linear, or this result"
+                    ));
+                }
+            }
+            UncertaintyMethod::Sampled => {
+                for row in &mut linear.rows {
+                    row.doubt.get_or_insert_with(|| "sampled as requested".to_owned());
+                }
+            }
+        }
+        Ok(linear)
+    }
+
+    /// Plan of the samples that the poses need, given in their order.
+    ///
+    /// # Errors
+    /// More samples than the memory is for.
+    pub fn plan(&self, poses: Vec<PoseOutcome>) -> Result<SamplePlan<'_>> {
+        let mut reasons = Vec::with_capacity(poses.len());
+        let mut found = Vec::with_capacity(poses.len());
+        for PoseOutcome(outcome) in poses {
+            match outcome {
+                Ok(linear) => {
+                    found.push(Some(linear));
+                    reasons.push(None);
+                }
+                Err(reason) => {
+                    found.push(None);
+                    reasons.push(Some(reason));
+                }
+            }
+        }
+        let samples_anything = self.request.method != UncertaintyMethod::Linear;
+        let sampling = Sampling::new(&self.request, &self.inputs, &found, samples_anything)?;
+        Ok(SamplePlan { study: self, poses: found, reasons, sampling })
+    }
+}
+
+/// Robots to compute.
+pub struct SamplePlan<'a> {
+    study: &'a UncertaintyStudy,
+    poses: Vec<Option<LinearPose>>,
+    reasons: Vec<Option<String>>,
+    sampling: Sampling,
+}
+
+/// Results of sampled robots.
+pub struct Samples(SampleTable);
+
+impl Samples {
+    /// Adds the next chunk.
+    pub fn add(&mut self, chunk: &Chunk) {
+        self.0.add(chunk);
+    }
+}
+
+impl SamplePlan<'_> {
+    /// Number of robots.
+    pub fn rows(&self) -> usize {
+        self.sampling.rows()
+    }
+
+    /// Number of robots per chunk.
+    pub fn chunk_rows(&self) -> usize {
+        self.sampling.chunk_rows()
+    }
+
+    /// Number of chunks.
+    pub fn chunks(&self) -> usize {
+        self.sampling.chunks()
+    }
+
+    /// Empty table for the results of the robots.
+    pub fn table(&self) -> Samples {
+        Samples(SampleTable::new())
+    }
+
+    /// Computes a chunk of robots; `None` if `given_up`, which is called between two robots, returned true. A chunk depends
+    /// on the request alone.
+    pub fn evaluate(&self, index: usize, given_up: &dyn Fn() -> bool) -> Option<Chunk> {
+        self.sampling.evaluate(index, self.study.request.hold, &self.study.inputs, &self.poses, given_up)
+    }
+
+    /// Description of a file of the robots.
+    ///
+    /// # Errors
+    /// A robot file that cannot be changed as requested.
+    pub fn record(&self) -> Result<Record> {
+        let request = &self.study.request;
+        let Value::Object(mut plan) = Request::Uncertainty(request.clone()).to_value() else {
+            bail!("a request is an object");
+        };
+        plan.remove("schema");
+        plan.insert("robot".to_owned(), json!(request.robot.name));
+        Ok(Record {
+            robot_file: request.robot.changed_text()?,
+            plan,
+            columns: self.sampling.columns(&self.study.robot),
+            rows: self.rows(),
+            chunk_rows: self.chunk_rows(),
+            part: None,
+        })
+    }
+
+    /// Deviations of all results.
+    pub fn finish(self, samples: &Samples) -> Uncertainties {
+        let UncertaintyStudy { request, robot, inputs, first, .. } = self.study;
+        let single = self.poses.len() == 1;
+        let mut warnings = Vec::new();
+        let mut poses = Vec::with_capacity(self.poses.len());
+        for (i, (linear, reason)) in self.poses.iter().zip(&self.reasons).enumerate() {
+            let Some(linear) = linear else {
+                poses.push(PoseUncertainty {
+                    position_m: None,
+                    roll_pitch_yaw_deg: None,
+                    reason: reason.clone(),
+                    failed: None,
+                    results: Vec::new(),
+                });
+                continue;
+            };
+            for warning in &linear.warnings {
+                if !warnings.contains(warning) {
+                    warnings.push(warning.clone());
+                }
+            }
+            poses.push(self.at_pose(i, linear, samples, single));
+        }
+
+        let linearisation = at_rest::linearisation(&request.model, first.1.equilibrium.model);
+        Uncertainties {
+            robot: robot.name.clone(),
+            models: Models::of(&first.1, linearisation),
+            held: request.hold.name(),
+            held_means: super::gradient::meaning(&first.1, request.hold),
+            inputs: self.inputs(),
+            groups: (inputs.groups.iter().enumerate())
+                .map(|(i, group)| InputGroup {
+                    name: group.name.clone(),
+                    count: inputs.list.iter().filter(|input| input.group == i).count(),
+                })
+                .collect(),
+            samples: request.samples,
+            evaluations: self.rows(),
+            notes: notes(request, &poses),
+            poses,
+            warnings,
+        }
+    }
+
+    /// Numbers that deviate, with their values at the first pose.
+    fn inputs(&self) -> Vec<UncertainInput> {
+        let inputs = &self.study.inputs;
+        let several = self.poses.len() > 1;
+        let values = inputs.values(&self.study.first.1);
+        let distributions = inputs.distributions(&values);
+        let input =
+            |((input, value), distribution): ((&crate::uncertainty::Input, f64), crate::uncertainty::Distribution)| {
+                let follows = several && inputs.follows_state(input);
+                UncertainInput {
+                    path: input.path.clone(),
+                    unit: input.unit,
+                    value: Some(value).filter(|_| !(several && input.is_of_state)),
+                    distribution: distribution.name(),
+                    deviation: Some(distribution.deviation()).filter(|_| !follows),
+                    tolerance: distribution.half_width().filter(|_| !follows),
+                    group: input.group,
+                }
+            };
+        inputs.list.iter().zip(values).zip(distributions).map(input).collect()
+    }
+
+    fn at_pose(&self, i: usize, linear: &LinearPose, samples: &Samples, single: bool) -> PoseUncertainty {
+        let pose = crate::analyses::shared::PoseRow::of(&linear.at_rest.equilibrium.pose);
+        let rows = linear.rows.iter().enumerate();
+        let failed = samples.0.failures(&self.sampling, i);
+        PoseUncertainty {
+            position_m: Some(pose.position_m),
+            roll_pitch_yaw_deg: Some(pose.roll_pitch_yaw_deg),
+            reason: None,
+            failed: failed.map(|(count, reason)| FailedSamples { count, reason: reason.to_owned() }),
+            results: rows.map(|(number, row)| self.result(i, number, row, linear, samples, single)).collect(),
+        }
+    }
+
+    fn result(
+        &self,
+        pose: usize,
+        number: usize,
+        row: &Row,
+        linear: &LinearPose,
+        samples: &Samples,
+        single: bool,
+    ) -> UncertainResult {
+        let inputs = &self.study.inputs;
+        let spread = row.spread(&linear.distributions);
+        let is_sampled = row.doubt.is_some() && self.study.request.method != UncertaintyMethod::Linear;
+        let values = |set: SampleSet| samples.0.values(&self.sampling, pose, set, row.kind);
+        let sampled = if is_sampled { values(SampleSet::Sample).and_then(Statistics::of) } else { None };
+
+        // Shares of single numbers are linear; those of the groups of a sampled result include what is not.
+        let contributions = row.contributions(&linear.distributions);
+        let total: f64 = contributions.iter().flatten().sum();
+        let shares =
+            contributions.filter(|_| total > 0.0).map(|of| of.iter().map(|part| part / total).collect::<Vec<_>>());
+        let group_shares = match &sampled {
+            Some(found) => samples.0.shares(&self.sampling, inputs, (pose, linear), row.kind, found.deviation),
+            None => shares.as_ref().map(|shares| {
+                let mut groups = vec![0.0; inputs.groups.len()];
+                inputs.list.iter().zip(shares).for_each(|(input, share)| groups[input.group] += share);
+                groups
+            }),
+        };
+        let largest = shares.as_ref().map_or_else(Vec::new, |shares| {
+            let mut order: Vec<(f64, usize)> = shares.iter().copied().zip(0..).collect();
+            order.sort_by(|a, b| b.0.total_cmp(&a.0));
+            order.truncate(LARGEST);
+            let of = |(share, k): (f64, usize)| ShareOfInput { path: inputs.list[k].path.clone(), share };
+            order.into_iter().filter(|(share, _)| *share > 0.0).map(of).collect()
+        });
+
+        let worst = row.worst(&linear.distributions).filter(|worst| *worst > 0.0).map(|linear| {
+            let mut corners = values(SampleSet::Corners(number)).into_iter().flatten();
+            let mut change = || corners.next().filter(|value| value.is_finite()).map(|value| value - row.value);
+            let up = change();
+            WorstCase { linear, up, down: change() }
+        });
+        UncertainResult {
+            name: row.kind.name(&linear.at_rest.robot),
+            unit: row.kind.unit(),
+            value: row.value + 0.0,
+            deviation: if is_sampled { sampled.as_ref().map(|of| of.deviation) } else { spread.map(|of| of.0) },
+            interval_95: if is_sampled {
+                sampled.as_ref().map(|of| of.interval)
+            } else {
+                spread.map(|(_, half)| [row.value - half, row.value + half])
+            },
+            method: if is_sampled { "sampled" } else { "linear" },
+            doubt: row.doubt.clone(),
+            linear_deviation: spread.map(|of| of.0),
+            mean: sampled.as_ref().map(|of| of.mean),
+            group_shares,
+            largest,
+            shares: shares.filter(|_| single),
+            worst,
+        }
+    }
+}
+
+/// Groups of results of a request, checked, and its numbers.
+fn groups(request: &UncertaintyRequest) -> Result<Vec<&'static str>> {
+    let all = request.of.iter().map(|name| {
+        GROUPS.into_iter().find(|known| known == name).ok_or_else(|| {
+            anyhow!("⟪of⟫: there is no result `{name}`{}", crate::names::suggestion(name, &GROUPS.map(str::to_owned)))
+        })
+    });
+    let of: Vec<&str> = all.collect::<Result<_>>()?;
+    if of.is_empty() {
+        bail!("⟪of⟫ names no result{}", crate::names::listed(&GROUPS.map(str::to_owned)));
+    }
+    for name in ["frequencies", "damping"] {
+        if of.contains(&name) && request.below_hz.is_none() {
+            bail!("`{name}` needs ⟪below_hz⟫");
+        }
+    }
+    request.below_hz.map_or(Ok(()), |hz| request::check_positive("below_hz", hz))?;
+    if !SAMPLES.contains(&request.samples) {
+        bail!(
+            "⟪samples⟫: {} robots are not possible: give a whole number from {} to {}",
+            request.samples,
+            SAMPLES.start(),
+            SAMPLES.end()
+        );
+    }
+    Ok(of)
+}
+
+/// Robot of a request at rest, at a pose of its list or at its state.
+fn rest(request: &UncertaintyRequest, robot: &Robot, pose: Option<[f64; 6]>) -> Result<AtRest> {
+    let mut state = request.state.clone();
+    if let Some(pose) = pose {
+        state.pose = Some(Pose::Angles(pose));
+    }
+    at_rest::equilibrium(robot.clone(), &request.robot, &state, &request.tensions)
+}
+
+/// True for an error that another pose need not have.
+fn is_of_pose(error: &anyhow::Error) -> bool {
+    crate::ErrorKind::of(error) == crate::ErrorKind::NoSolution
+}
+
+/// Sentences on how much the numbers are worth.
+fn notes(request: &UncertaintyRequest, poses: &[PoseUncertainty]) -> Vec<String> {
+    let results = || poses.iter().flat_map(|pose| &pose.results);
+    let mut notes = Vec::new();
+    let linear = results().filter(|result| result.method == "linear").count();
+    let doubtful = results().filter(|result| result.method == "linear" && result.doubt.is_some()).count();
+    let sampled = results().count() - linear;
+    if linear > doubtful {
+        notes.push(format!(
+            "{} linear: no cable may become slack and no frequencies may cross within the deviations",
+            counted(linear - doubtful, "result")
+        ));
+    }
+    if doubtful > 0 {
+        notes.push(format!(
+            "{} linear as requested, although the deviations are too large for it: see the doubts",
+            counted(doubtful, "result")
+        ));
+    }
+    if sampled > 0 {
+        let n = request.samples as f64;
+        notes.push(format!(
+            "{} sampled with {} robots: a deviation is accurate to {} %, and an interval holds 95 ± {} % of all robots",
+            counted(sampled, "result"),
+            request.samples,
+            crate::text::significant(100.0 / (2.0 * n).sqrt(), 2),
+            crate::text::significant(100.0 * 2.0 * (0.95 * 0.05 / n).sqrt(), 2)
+        ));
+    }
+    if results().any(|result| result.worst.is_some()) {
+        notes.push(
+            "worst cases within the tolerances: the linear sum is no bound; the corners, which are computed, are lower \
+             bounds of the worst"
+                .to_owned(),
+        );
+    }
+    let failed: usize = poses.iter().filter_map(|pose| pose.failed.as_ref()).map(|failed| failed.count).sum();
+    if failed > 0 {
+        notes.push(format!(
+            "{} had no equilibrium or no valid values, and does not count",
+            counted(failed, "sampled robot")
+        ));
+    }
+    notes
+}

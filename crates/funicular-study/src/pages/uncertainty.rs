@@ -1,0 +1,275 @@
+//! Page about uncertain results: values with error bars, shares of the numbers that deviate, tables.
+
+use super::Shell;
+use super::figure::{Figure, axis, colour, plain, rounded};
+use super::table::{PageTable, significant};
+use crate::analyses::uncertainty::{PoseUncertainty, UncertainResult, Uncertainties};
+use crate::text::{self, short};
+use anyhow::Context as _;
+use askama::Template;
+use serde_json::{Value, json};
+
+const CONTENTS: &[(&str, &str)] =
+    &[("results", "Results"), ("numbers", "Numbers that deviate"), ("repeat", "How to repeat")];
+
+/// Maximum number of results that have a figure over the poses.
+const MAX_FIGURES: usize = 40;
+
+/// Colours of the groups in bars of shares.
+const COLOURS: [&str; 7] =
+    [colour::BLUE, colour::ORANGE, colour::GREEN, colour::SKY, colour::VERMILION, colour::PURPLE, colour::GREY];
+
+#[derive(Template)]
+#[template(path = "uncertainty.html")]
+struct UncertaintyPage<'a> {
+    shell: Shell,
+    found: &'a Uncertainties,
+    figures: Vec<Figure>,
+    results: PageTable,
+    doubts: Vec<String>,
+    numbers: PageTable,
+    command_line: String,
+}
+
+/// Writes the page as HTML; `command_line` is the command that writes it again.
+///
+/// # Errors
+/// A page that cannot be written.
+pub fn page(found: &Uncertainties, command_line: String) -> anyhow::Result<String> {
+    let figures = match &found.poses[..] {
+        [pose] => of_one_pose(found, pose),
+        _ => over_poses(found),
+    };
+    let mut doubts: Vec<String> = Vec::new();
+    for doubt in found.poses.iter().flat_map(|pose| &pose.results).filter_map(|result| result.doubt.as_ref()) {
+        if !doubts.contains(doubt) {
+            doubts.push(doubt.clone());
+        }
+    }
+    let page = UncertaintyPage {
+        shell: Shell::new(format!("{}: uncertainty of results", found.robot), CONTENTS),
+        found,
+        figures,
+        results: results(found),
+        doubts,
+        numbers: numbers(found),
+        command_line,
+    };
+    page.render().context("the page could not be written as HTML")
+}
+
+/// Error bars from the interval of a result to its value.
+fn bars(results: &[&UncertainResult]) -> Value {
+    let side = |of: fn([f64; 2], f64) -> f64| -> Vec<f64> {
+        let of_result = |result: &&UncertainResult| {
+            result.interval_95.map_or(f64::NAN, |interval| of(interval, result.value).max(0.0))
+        };
+        results.iter().map(of_result).collect()
+    };
+    json!({
+        "type": "data", "symmetric": false, "thickness": 1.6, "width": 5,
+        "array": rounded(&side(|[_, to], value| to - value)), "arrayminus": rounded(&side(|[from, _], value| value - from)),
+    })
+}
+
+/// Figures of one pose: the results of each unit with error bars, then the shares of the groups.
+fn of_one_pose(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> {
+    let mut units: Vec<&str> = Vec::new();
+    for result in &pose.results {
+        if !units.contains(&result.unit) {
+            units.push(result.unit);
+        }
+    }
+
+    let mut figures = Vec::new();
+    for unit in units {
+        let of_unit: Vec<&UncertainResult> = pose.results.iter().filter(|result| result.unit == unit).collect();
+        let traces: Vec<Value> = [("linear", colour::BLUE, "circle"), ("sampled", colour::VERMILION, "square")]
+            .into_iter()
+            .filter_map(|(method, colour, symbol)| {
+                let own: Vec<&UncertainResult> = of_unit.iter().copied().filter(|r| r.method == method).collect();
+                (!own.is_empty()).then(|| {
+                    let values: Vec<f64> = own.iter().map(|result| result.value).collect();
+                    let names: Vec<String> = own.iter().map(|result| plain(&result.name)).collect();
+                    json!({
+                        "type": "scatter", "mode": "markers", "name": method, "x": rounded(&values), "y": names,
+                        "error_x": bars(&own), "marker": {"color": colour, "symbol": symbol, "size": 7},
+                    })
+                })
+            })
+            .collect();
+        // The categories are in the order of the results, from above.
+        let order: Vec<String> = of_unit.iter().map(|result| plain(&result.name)).collect();
+        figures.push(Figure::new(
+            format!("figure-results-{}", figures.len() + 1),
+            130 + 22 * of_unit.len(),
+            format!("Results in {unit} with the intervals that hold 95 % of all robots."),
+            &traces,
+            json!({
+                "xaxis": axis(&format!("value [{unit}]"), json!({})),
+                "yaxis": axis("", json!({
+                    "automargin": true, "autorange": "reversed", "categoryorder": "array", "categoryarray": order,
+                })),
+            }),
+        ));
+    }
+    if found.groups.len() > 1 {
+        figures.push(shares(found, pose));
+    }
+    figures
+}
+
+/// Stacked bars of the shares of the groups in the variance of each result.
+fn shares(found: &Uncertainties, pose: &PoseUncertainty) -> Figure {
+    let with_shares: Vec<&UncertainResult> =
+        pose.results.iter().filter(|result| result.group_shares.is_some()).collect();
+    let names: Vec<String> = with_shares.iter().map(|result| plain(&result.name)).collect();
+    let traces: Vec<Value> = (found.groups.iter().enumerate())
+        .map(|(g, group)| {
+            let of_group: Vec<f64> = with_shares
+                .iter()
+                .map(|result| result.group_shares.as_ref().map_or(0.0, |all| 100.0 * all[g]))
+                .collect();
+            json!({
+                "type": "bar", "orientation": "h", "name": plain(&group.name), "x": rounded(&of_group), "y": names,
+                "marker": {"color": COLOURS[g % COLOURS.len()]},
+            })
+        })
+        .collect();
+    Figure::new(
+        "figure-shares",
+        130 + 22 * with_shares.len(),
+        "Shares of the groups in the variance of each result. Total shares of sampled results may add up to more than 100 %.",
+        &traces,
+        json!({
+            "barmode": "stack",
+            "xaxis": axis("share [%]", json!({})),
+            "yaxis": axis("", json!({"automargin": true, "autorange": "reversed"})),
+        }),
+    )
+}
+
+/// Figures over the poses: one per result, with error bars.
+fn over_poses(found: &Uncertainties) -> Vec<Figure> {
+    let mut names: Vec<(&str, &str)> = Vec::new();
+    for result in found.poses.iter().flat_map(|pose| &pose.results) {
+        if !names.iter().any(|(name, _)| *name == result.name) {
+            names.push((&result.name, result.unit));
+        }
+    }
+
+    let (title, place) = abscissa(found);
+    names.truncate(MAX_FIGURES);
+    let figure = |(i, (name, unit)): (usize, &(&str, &str))| {
+        let mut traces = Vec::new();
+        for (method, colour, symbol) in [("linear", colour::BLUE, "circle"), ("sampled", colour::VERMILION, "square")] {
+            let (mut x, mut own) = (Vec::new(), Vec::new());
+            for (k, pose) in found.poses.iter().enumerate() {
+                for result in pose.results.iter().filter(|result| result.name == *name && result.method == method) {
+                    x.push(place(k, pose));
+                    own.push(result);
+                }
+            }
+            if own.is_empty() {
+                continue;
+            }
+            let values: Vec<f64> = own.iter().map(|result| result.value).collect();
+            traces.push(json!({
+                "type": "scatter", "mode": "markers", "name": method, "x": rounded(&x), "y": rounded(&values),
+                "error_y": bars(&own), "marker": {"color": colour, "symbol": symbol, "size": 6},
+            }));
+        }
+        Figure::new(
+            format!("figure-poses-{}", i + 1),
+            300,
+            format!("{}: values with the intervals that hold 95 % of all robots.", plain(name)),
+            &traces,
+            json!({
+                "xaxis": axis(title, json!({})),
+                "yaxis": axis(&format!("{} [{unit}]", plain(name)), json!({})),
+            }),
+        )
+    };
+    names.iter().enumerate().map(figure).collect()
+}
+
+/// Axis of figures over the poses: the coordinate that changes, if it is a single one and ascends, else the number.
+fn abscissa(found: &Uncertainties) -> (&'static str, impl Fn(usize, &PoseUncertainty) -> f64) {
+    const AXES: [&str; 3] = ["x [m]", "y [m]", "z [m]"];
+    let positions: Vec<[f64; 3]> = found.poses.iter().filter_map(|pose| pose.position_m).collect();
+    let changes = |k: usize| positions.windows(2).any(|pair| (pair[1][k] - pair[0][k]).abs() > 1e-9);
+    let changing: Vec<usize> = (0..3).filter(|k| changes(*k)).collect();
+    let axis = match changing[..] {
+        [k] if positions.windows(2).all(|pair| pair[1][k] > pair[0][k]) => Some(k),
+        _ => None,
+    };
+    let place = move |number: usize, pose: &PoseUncertainty| match (axis, pose.position_m) {
+        (Some(k), Some(position)) => position[k],
+        _ => (number + 1) as f64,
+    };
+    (axis.map_or("number of the pose", |k| AXES[k]), place)
+}
+
+fn results(found: &Uncertainties) -> PageTable {
+    let mut table = PageTable::new(
+        "table-results",
+        "Results with standard deviations and the intervals that hold 95 % of all robots; corners of the tolerances as \
+         changes of the result.",
+        &[
+            "pose",
+            "<result",
+            "<unit",
+            "value",
+            "deviation",
+            "95 % from",
+            "to",
+            "<method",
+            "corner down",
+            "up",
+            "<<largest shares",
+        ],
+    );
+    let number = |value: Option<f64>, digits| value.map_or_else(|| text::NONE.to_owned(), |v| significant(v, digits));
+    for (i, pose) in found.poses.iter().enumerate() {
+        for result in &pose.results {
+            let shares: Vec<String> = (result.largest.iter().take(3))
+                .map(|of| format!("{} {} %", of.path, text::significant(100.0 * of.share, 2)))
+                .collect();
+            table.row(vec![
+                (i + 1).to_string(),
+                result.name.clone(),
+                result.unit.to_owned(),
+                significant(result.value, 6),
+                number(result.deviation, 3),
+                number(result.interval_95.map(|interval| interval[0]), 6),
+                number(result.interval_95.map(|interval| interval[1]), 6),
+                result.method.to_owned(),
+                number(result.worst.and_then(|worst| worst.down), 3),
+                number(result.worst.and_then(|worst| worst.up), 3),
+                shares.join(", "),
+            ]);
+        }
+    }
+    table
+}
+
+fn numbers(found: &Uncertainties) -> PageTable {
+    let mut table = PageTable::new(
+        "table-numbers",
+        "Numbers that deviate.",
+        &["<number", "<unit", "value", "<distribution", "deviation", "tolerance", "<group"],
+    );
+    let number = |value: Option<f64>| value.map_or_else(|| text::NONE.to_owned(), |value| short(value, 6));
+    for input in &found.inputs {
+        table.row(vec![
+            input.path.clone(),
+            input.unit.to_owned(),
+            number(input.value),
+            input.distribution.to_owned(),
+            number(input.deviation),
+            number(input.tolerance),
+            found.groups[input.group].name.clone(),
+        ]);
+    }
+    table
+}

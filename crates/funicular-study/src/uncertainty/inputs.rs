@@ -1,0 +1,358 @@
+//! Numbers of the robot file that deviate, with their distributions.
+
+use super::distribution::normal_quantile;
+use crate::analyses::gradient::{Tolerance, value_at};
+use crate::at_rest::AtRest;
+use crate::request::{Load, UncertaintyRequest};
+use crate::set_values::{self, Assignment};
+use anyhow::{Result, anyhow, bail};
+use funicular::gradient::Hold;
+use funicular::robot::parameters::{Parameter, Parameters, RobotPart};
+use funicular::robot::{Robot, RobotChange};
+
+/// Maximum number of numbers that deviate: a Latin hypercube has as many axes.
+const MAX_INPUTS: usize = 5000;
+
+/// Distribution of the deviation of a number, in the unit of the number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Distribution {
+    /// Normal, with this standard deviation.
+    Normal(f64),
+    /// Uniform between ± this half width.
+    Uniform(f64),
+}
+
+impl Distribution {
+    /// Standard deviation.
+    pub(crate) fn deviation(self) -> f64 {
+        match self {
+            Self::Normal(deviation) => deviation,
+            Self::Uniform(half_width) => half_width / 3.0_f64.sqrt(),
+        }
+    }
+
+    /// Half width of the tolerance; `None` for a normal distribution, which has no bounds.
+    pub(crate) fn half_width(self) -> Option<f64> {
+        match self {
+            Self::Normal(_) => None,
+            Self::Uniform(half_width) => Some(half_width),
+        }
+    }
+
+    /// Deviation with this cumulative probability.
+    pub(super) fn at(self, probability: f64) -> f64 {
+        match self {
+            Self::Normal(deviation) => deviation * normal_quantile(probability),
+            Self::Uniform(half_width) => half_width * (2.0 * probability - 1.0),
+        }
+    }
+
+    /// Name in files.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Normal(_) => "normal",
+            Self::Uniform(_) => "uniform",
+        }
+    }
+}
+
+/// Place of a number in the robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Place {
+    /// Index in the list of parameters of the stated text.
+    Number(usize),
+    /// Unstrained length of a cable, which need not be in the file.
+    Length(usize),
+    /// Index in that list of a number of the pose.
+    Pose(usize),
+}
+
+/// Number that deviates.
+#[derive(Debug, Clone)]
+pub(crate) struct Input {
+    /// Path.
+    pub(crate) path: String,
+    /// Unit.
+    pub(crate) unit: &'static str,
+    /// Index of the option that gives the deviation: the group of the number.
+    pub(crate) group: usize,
+    /// True if its value is that of the pose or of the lengths, and changes from pose to pose.
+    pub(crate) is_of_state: bool,
+    place: Place,
+    parameter: Parameter,
+}
+
+/// Numbers that deviate together.
+pub(crate) struct Group {
+    /// Text of the option.
+    pub(crate) name: String,
+    amount: Tolerance,
+    is_normal: bool,
+}
+
+/// All numbers that deviate.
+pub(crate) struct Inputs {
+    /// Numbers, in the order of the file.
+    pub(crate) list: Vec<Input>,
+    /// Groups, in the order of the request.
+    pub(crate) groups: Vec<Group>,
+    /// Robot file in which every number that deviates is stated, with the loads of the request.
+    stated: Parameters,
+}
+
+impl Inputs {
+    /// Chooses the numbers of a request; `at_rest` is the robot at any of its states.
+    ///
+    /// # Errors
+    /// No deviation, a path that no number has, a negative deviation, or numbers that what is held excludes.
+    pub(crate) fn new(request: &UncertaintyRequest, at_rest: &AtRest) -> Result<Self> {
+        let groups = groups(request)?;
+        let (text, original) = original(request, at_rest)?;
+        let candidates = candidates(&original, &at_rest.robot);
+
+        // The last option that matches a number gives its deviation.
+        let mut chosen: Vec<(Parameter, usize)> = Vec::new();
+        let mut met = vec![Met::default(); groups.len()];
+        for parameter in candidates {
+            let mut group = None;
+            for (index, (option, met)) in groups.iter().zip(&mut met).enumerate() {
+                if option.amount.matches(&parameter.keys) {
+                    met.any = true;
+                    let fits = fits(request.hold, &parameter);
+                    met.fitting |= fits;
+                    group = fits.then_some(index).or(group);
+                }
+            }
+            chosen.extend(group.map(|group| (parameter, group)));
+        }
+        refuse_unmet(&groups, &met, request.hold, &original)?;
+        if chosen.len() > MAX_INPUTS {
+            bail!("{} numbers deviate, and at most {MAX_INPUTS} can at once: choose fewer", chosen.len());
+        }
+
+        let stated = stated(&text, &chosen, request, at_rest)?;
+        let list = chosen.into_iter().map(|(parameter, group)| Input::new(parameter, group, &stated)).collect();
+        Ok(Self { list, groups, stated })
+    }
+
+    /// Values of the numbers at a state.
+    pub(crate) fn values(&self, at_rest: &AtRest) -> Vec<f64> {
+        let value = |input: &Input| match input.place {
+            Place::Length(cable) => at_rest.equilibrium.cables[cable].unstrained_length,
+            Place::Number(_) | Place::Pose(_) => value_at(at_rest, &input.parameter),
+        };
+        self.list.iter().map(value).collect()
+    }
+
+    /// Distributions of the numbers with these values.
+    pub(crate) fn distributions(&self, values: &[f64]) -> Vec<Distribution> {
+        let distribution = |(input, value): (&Input, &f64)| {
+            let group = &self.groups[input.group];
+            let size = group.amount.of(*value);
+            if group.is_normal { Distribution::Normal(size) } else { Distribution::Uniform(size) }
+        };
+        self.list.iter().zip(values).map(distribution).collect()
+    }
+
+    /// True if the size of a number's deviation changes from pose to pose.
+    pub(crate) fn follows_state(&self, input: &Input) -> bool {
+        input.is_of_state && self.groups[input.group].amount.is_percent()
+    }
+
+    /// Changes of a robot per unit of each number; `None` for numbers without derivatives.
+    pub(crate) fn changes(&self, robot: &Robot) -> Vec<Option<RobotChange>> {
+        let change = |input: &Input| match input.place {
+            Place::Number(index) | Place::Pose(index) => self.stated.change_of(index, robot),
+            Place::Length(cable) => {
+                let mut change = RobotChange::none(robot.cables.len());
+                change.cables[cable].unstrained_length = 1.0;
+                Some(change)
+            }
+        };
+        self.list.iter().map(change).collect()
+    }
+
+    /// Robot whose numbers deviate, without its state, and the deviations of its unstrained lengths [m].
+    ///
+    /// # Errors
+    /// Values that a robot cannot have.
+    pub(super) fn robot(&self, values: &[f64], deviations: &[f64]) -> Result<(Robot, Vec<f64>), String> {
+        let mut lengths = vec![0.0; self.stated.robot().cables.len()];
+        let mut numbers = Vec::with_capacity(self.list.len());
+        for ((input, value), deviation) in self.list.iter().zip(values).zip(deviations) {
+            match input.place {
+                Place::Number(index) => numbers.push((index, value + deviation)),
+                Place::Length(cable) => lengths[cable] += deviation,
+                Place::Pose(_) => {}
+            }
+        }
+        let robot = self.stated.robot_with(&numbers).map_err(|error| error.to_string())?;
+        Ok((robot, lengths))
+    }
+
+    /// True for a number of the pose.
+    pub(super) fn is_of_pose(&self, index: usize) -> bool {
+        matches!(self.list[index].place, Place::Pose(_))
+    }
+}
+
+impl Input {
+    fn new(parameter: Parameter, group: usize, stated: &Parameters) -> Self {
+        let index = stated.list().iter().position(|other| other.keys == parameter.keys);
+        let place = match (parameter.part, parameter.key, index) {
+            (RobotPart::Cable(cable), "unstrained_length_m", _) => Place::Length(cable),
+            (RobotPart::State, _, Some(index)) => Place::Pose(index),
+            (_, _, index) => Place::Number(index.unwrap_or(usize::MAX)),
+        };
+        let is_of_state = !matches!(place, Place::Number(_));
+        Self { path: parameter.path(), unit: parameter.unit, group, is_of_state, place, parameter }
+    }
+}
+
+/// Options that give deviations, normal ones first.
+fn groups(request: &UncertaintyRequest) -> Result<Vec<Group>> {
+    let parse = |key: &'static str, is_normal: bool| {
+        let texts = if is_normal { &request.deviations } else { &request.tolerances };
+        texts.iter().map(move |text| {
+            let amount = Tolerance::parse(key, text)?;
+            Ok(Group { name: text.trim().to_owned(), amount, is_normal })
+        })
+    };
+    let groups = parse("deviations", true).chain(parse("tolerances", false)).collect::<Result<Vec<_>>>()?;
+    if groups.is_empty() {
+        bail!(
+            "no number deviates: give ⟪deviations⟫ or ⟪tolerances⟫, as in platform.mass_kg=1% or cables.*.anchor_m=0.002"
+        );
+    }
+    Ok(groups)
+}
+
+/// Numbers that an option has met.
+#[derive(Clone, Default)]
+struct Met {
+    any: bool,
+    /// At least one of them may deviate with what is held.
+    fitting: bool,
+}
+
+/// True if a number may deviate while the lengths or the pose are held.
+fn fits(hold: Hold, parameter: &Parameter) -> bool {
+    let is_length = parameter.key == "unstrained_length_m";
+    match hold {
+        Hold::Lengths => parameter.part != RobotPart::State,
+        _ => !is_length,
+    }
+}
+
+/// Refuses options without a number.
+fn refuse_unmet(groups: &[Group], met: &[Met], hold: Hold, original: &Parameters) -> Result<()> {
+    for (group, met) in groups.iter().zip(met) {
+        let key = if group.is_normal { "deviations" } else { "tolerances" };
+        if !met.any {
+            let paths: Vec<String> = original.list().iter().map(Parameter::path).collect();
+            let nearest = crate::names::suggestion(group.amount.path(), &paths);
+            bail!("⟪{key}⟫ {}: the robot file has no such number{nearest}", group.amount.path());
+        }
+        if !met.fitting {
+            let (held, other, follows) = match hold {
+                Hold::Lengths => ("lengths", "pose", "pose follows"),
+                _ => ("pose", "lengths", "lengths follow"),
+            };
+            bail!(
+                "⟪{key}⟫ {}: with the {held} held the {follows}, and cannot deviate by itself: leave it out, or give \
+                 ⟪hold⟫ {other}",
+                group.name
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Text of the robot file and its numbers, those of a pose that the request gives included.
+fn original(request: &UncertaintyRequest, at_rest: &AtRest) -> Result<(String, Parameters)> {
+    let read = |text: &str| Parameters::from_toml(text).map_err(|error| anyhow!("{error}"));
+    let text = request.robot.changed_text()?;
+    let numbers = read(&text)?;
+    let has = |part: RobotPart| numbers.list().iter().any(|parameter| parameter.part == part);
+    let is_given = numbers.list().iter().any(|parameter| parameter.key == "unstrained_length_m");
+    if request.hold == Hold::Lengths || has(RobotPart::State) || is_given {
+        return Ok((text, numbers));
+    }
+    let position: [f64; 3] = at_rest.equilibrium.pose.position_w.into();
+    let position = set_values::of_json("state.position_m", &serde_json::json!(position));
+    let text = set_values::apply(&text, &[position.map_err(|error| anyhow!("{error}"))?])?;
+    let numbers = read(&text)?;
+    Ok((text, numbers))
+}
+
+/// Numbers of the robot file, and the lengths of the cables if the file has none.
+fn candidates(original: &Parameters, robot: &Robot) -> Vec<Parameter> {
+    let mut list = original.list().to_vec();
+    let has_lengths = list.iter().any(|parameter| parameter.key == "unstrained_length_m");
+    // A length has the unit, range and meaning of the file's key, whose row an anchor stands in for.
+    let Some(pattern) = list.iter().find(|parameter| parameter.key == "anchor_m").cloned() else { return list };
+    if !has_lengths {
+        for (i, cable) in robot.cables.iter().enumerate() {
+            let mut length = pattern.clone();
+            length.keys = vec!["cables".to_owned(), cable.name.clone(), "unstrained_length_m".to_owned()];
+            length.part = RobotPart::Cable(i);
+            length.key = "unstrained_length_m";
+            length.component = None;
+            length.given = false;
+            list.push(length);
+        }
+    }
+    list
+}
+
+/// Robot file that states every number that deviates, with the changes that a request makes besides.
+fn stated(
+    text: &str,
+    chosen: &[(Parameter, usize)],
+    request: &UncertaintyRequest,
+    at_rest: &AtRest,
+) -> Result<Parameters> {
+    let mut assignments: Vec<Assignment> = Vec::new();
+    let mut state = |path: &str, value: f64| -> Result<()> {
+        let path = set_values::path(path).map_err(|error| anyhow!("{error}"))?;
+        assignments.push(path.with("⟪deviations⟫", value));
+        Ok(())
+    };
+
+    // Numbers of the request that stand for numbers of the file.
+    let vector = |path: &str, vector: Option<[f64; 3]>| -> Vec<(String, f64)> {
+        let axes = ["x", "y", "z"].into_iter().zip(vector.into_iter().flatten());
+        axes.map(|(axis, value)| (format!("{path}.{axis}"), value)).collect()
+    };
+    let Load { force_n, moment_n_m, load_point_m, wind_m_s, cable_load_n_per_m } = request.state.load;
+    let mut of_request: Vec<(String, f64)> = Vec::new();
+    of_request.extend(request.state.mass_kg.map(|mass| ("platform.mass_kg".to_owned(), mass)));
+    of_request.extend(vector("loads.force_n", force_n));
+    of_request.extend(vector("loads.moment_n_m", moment_n_m));
+    of_request.extend(vector("loads.point_m", load_point_m));
+    of_request.extend(vector("wind.velocity_m_s", wind_m_s));
+    for cable in at_rest.robot.cables.iter().filter(|_| cable_load_n_per_m.is_some()) {
+        of_request.extend(vector(&format!("cables.{}.load_n_per_m", quoted(&cable.name)), cable_load_n_per_m));
+    }
+    for (path, value) in of_request {
+        state(&path, value)?;
+    }
+
+    // Numbers that the file leaves out.
+    for (parameter, _) in chosen.iter().filter(|(parameter, _)| !parameter.given) {
+        if !matches!((parameter.part, parameter.key), (RobotPart::Cable(_), "unstrained_length_m")) {
+            state(&parameter.path(), value_at(at_rest, parameter))?;
+        }
+    }
+    let text = set_values::apply(text, &assignments)?;
+    Parameters::from_toml(&text).map_err(|error| anyhow!("{error}"))
+}
+
+/// Name as a key of a path.
+fn quoted(name: &str) -> String {
+    if name.contains('\'') {
+        format!("\"{}\"", name.replace('\\', "\\\\").replace('"', "\\\""))
+    } else {
+        format!("'{name}'")
+    }
+}

@@ -1,0 +1,320 @@
+//! Linear deviations at one pose, and the tests of where they hold.
+
+use super::distribution::half_width;
+use super::inputs::{Distribution, Inputs};
+use super::results::{NominalModes, ResultKind, static_gradients};
+use crate::at_rest::{self, AtRest};
+use crate::request::UncertaintyRequest;
+use anyhow::Result;
+use funicular::dynamics::Linearisation;
+use funicular::gradient::{GradientError, Gradients, Hold};
+use funicular::robot::{Robot, RobotChange, TensionLimits};
+use funicular::statics::derivatives::StaticDerivativeError;
+use funicular::statics::{TensionRange, TensionRule};
+
+/// Deviations of a tension that must not reach its limit: of eight cables then one in fifty robots has a slack one.
+const TENSION_DEVIATIONS: f64 = 3.0;
+
+/// Deviations of the distance of two frequencies that must not reach it.
+const FREQUENCY_DEVIATIONS: f64 = 2.0;
+
+/// Robot at a pose with the linear deviations of its results.
+pub(crate) struct LinearPose {
+    /// Undisturbed robot at rest.
+    pub(crate) at_rest: AtRest,
+    /// Linearisation of vibrations.
+    pub(crate) linearisation: Linearisation,
+    /// Values of the numbers that deviate.
+    pub(crate) input_values: Vec<f64>,
+    /// Their distributions.
+    pub(crate) distributions: Vec<Distribution>,
+    /// Results.
+    pub(crate) rows: Vec<Row>,
+    /// Warnings.
+    pub(crate) warnings: Vec<String>,
+    /// Tension limits of the request.
+    pub(super) limits: TensionLimits,
+    /// Tensions parallel to the chords, which a held pose keeps as far as it can; absent where nothing has to be chosen.
+    pub(super) rule: TensionRule,
+    /// Changes of the robot per unit of each number of the pose.
+    pub(super) pose_changes: Vec<Option<RobotChange>>,
+}
+
+/// Result with its derivatives.
+pub(crate) struct Row {
+    /// Result.
+    pub(crate) kind: ResultKind,
+    /// Value for the undisturbed robot.
+    pub(crate) value: f64,
+    /// Derivatives by the numbers that deviate; absent for a result without a gradient.
+    pub(crate) derivatives: Option<Vec<f64>>,
+    /// Reason why linear deviations cannot be trusted; absent where they can.
+    pub(crate) doubt: Option<String>,
+}
+
+impl Row {
+    /// Contributions to the variance, one per number.
+    pub(crate) fn contributions(&self, distributions: &[Distribution]) -> Option<Vec<f64>> {
+        let derivatives = self.derivatives.as_ref()?;
+        Some(derivatives.iter().zip(distributions).map(|(j, of)| (j * of.deviation()).powi(2)).collect())
+    }
+
+    /// Standard deviation, and half width of the interval that holds 95 %.
+    pub(crate) fn spread(&self, distributions: &[Distribution]) -> Option<(f64, f64)> {
+        self.derivatives.as_ref().map(|derivatives| spread(derivatives, distributions))
+    }
+
+    /// Sum of the absolute changes over all tolerances: the linear worst case, which normal deviations do not have.
+    pub(crate) fn worst(&self, distributions: &[Distribution]) -> Option<f64> {
+        let derivatives = self.derivatives.as_ref()?;
+        Some(derivatives.iter().zip(distributions).filter_map(|(j, of)| Some((j * of.half_width()?).abs())).sum())
+    }
+}
+
+/// Standard deviation of a linear result, and half width of the interval that holds 95 %.
+fn spread(derivatives: &[f64], distributions: &[Distribution]) -> (f64, f64) {
+    let (mut normal, mut half_widths) = (0.0, Vec::new());
+    for (derivative, distribution) in derivatives.iter().zip(distributions) {
+        match distribution {
+            Distribution::Normal(deviation) => normal += (derivative * deviation).powi(2),
+            Distribution::Uniform(width) => half_widths.push((derivative * width).abs()),
+        }
+    }
+    let variance = normal + half_widths.iter().map(|width| width * width / 3.0).sum::<f64>();
+    (variance.sqrt(), half_width(normal, &half_widths))
+}
+
+/// Distance that `factor` standard deviations reach, within the tolerances where they bound it.
+fn reach(derivatives: &[f64], distributions: &[Distribution], factor: f64) -> f64 {
+    let (mut normal, mut uniform, mut bound) = (0.0, 0.0, 0.0);
+    for (derivative, distribution) in derivatives.iter().zip(distributions) {
+        let deviation = (derivative * distribution.deviation()).powi(2);
+        match distribution.half_width() {
+            None => normal += deviation,
+            Some(width) => {
+                uniform += deviation;
+                bound += (derivative * width).abs();
+            }
+        }
+    }
+    (factor * (normal + uniform).sqrt()).min(factor * normal.sqrt() + bound)
+}
+
+impl LinearPose {
+    /// Robot of a request at one state, with the derivatives of its results.
+    ///
+    /// # Errors
+    /// A robot without such an equilibrium, or too few cables to hold its pose.
+    pub(crate) fn new(request: &UncertaintyRequest, of: &[&str], inputs: &Inputs, at_rest: AtRest) -> Result<Self> {
+        let robot = &at_rest.robot;
+        let (cables, degrees_of_freedom) = (robot.cables.len(), robot.platform.motion.count());
+        if request.hold != Hold::Lengths && cables < degrees_of_freedom {
+            return Err(StaticDerivativeError::CableCount { cables, degrees_of_freedom }.into());
+        }
+        let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
+        let input_values = inputs.values(&at_rest);
+        let distributions = inputs.distributions(&input_values);
+        let changes = inputs.changes(robot);
+
+        // The results and their values.
+        let needs_damping = of.contains(&"damping");
+        let modes = match request.below_hz {
+            Some(hz) if needs_damping || of.contains(&"frequencies") => {
+                Some(NominalModes::new(&at_rest, linearisation, hz, needs_damping)?)
+            }
+            _ => None,
+        };
+        let kinds = ResultKind::of_groups(of, robot, modes.as_ref().map_or(0, |modes| modes.count));
+        let mut rows = rows(&kinds, &at_rest, modes.as_ref());
+
+        // Their derivatives.
+        match Gradients::new(robot, &at_rest.equilibrium, request.hold) {
+            Err(error) => rows.iter_mut().for_each(|row| row.doubt = Some(error.to_string())),
+            Ok(gradients) => {
+                let along = Along { inputs, changes: &changes, distributions: &distributions };
+                differentiate(&mut rows, &gradients, modes.as_ref(), &along);
+                test_tensions(&mut rows, robot, &gradients, &along);
+                if let Some(modes) = &modes {
+                    test_frequencies(&mut rows, modes, &gradients, &along);
+                }
+            }
+        }
+
+        let mut warnings = at_rest.warnings(None);
+        if let Some(modes) = modes {
+            warnings = modes.warnings;
+        }
+        let rule = held_tensions(&at_rest);
+        let is_moved = |k: usize| request.hold != Hold::Lengths && inputs.is_of_pose(k);
+        let pose_changes = changes.into_iter().enumerate().map(|(k, change)| change.filter(|_| is_moved(k))).collect();
+        let limits = TensionLimits { minimum: request.tensions.min_tension_n, maximum: request.tensions.max_tension_n };
+        Ok(Self { at_rest, linearisation, input_values, distributions, rows, warnings, limits, rule, pose_changes })
+    }
+
+    /// True if a result has to be sampled.
+    pub(crate) fn is_doubtful(&self) -> bool {
+        self.rows.iter().any(|row| row.doubt.is_some())
+    }
+}
+
+/// Rule that holds the tensions of an equilibrium.
+fn held_tensions(at_rest: &AtRest) -> TensionRule {
+    let parallel = at_rest.equilibrium.cables.iter();
+    TensionRule::Closest(
+        parallel
+            .map(|cable| match &cable.hanging {
+                Some(hanging) => hanging.catenary.parallel_tension(),
+                None => cable.tension_platform,
+            })
+            .collect(),
+    )
+}
+
+/// Results with their values, without derivatives. A value that does not exist has no row.
+fn rows(kinds: &[ResultKind], at_rest: &AtRest, modes: Option<&NominalModes>) -> Vec<Row> {
+    let value = |kind: ResultKind| match kind {
+        ResultKind::Frequency(k) => modes?.found.modes.get(k).map(|mode| mode.frequency_hz),
+        ResultKind::Damping(k) => modes?.damped.get(k).map(funicular::modes::damped::DampedMode::damping_ratio),
+        // A rotation is counted from here.
+        ResultKind::Pose(3..) => Some(0.0),
+        other => other.static_value(&at_rest.equilibrium, &at_rest.equilibrium.pose),
+    };
+    let row = |kind: &ResultKind| Some(Row { kind: *kind, value: value(*kind)?, derivatives: None, doubt: None });
+    kinds.iter().filter_map(row).collect()
+}
+
+/// Directions along which results are differentiated.
+struct Along<'a> {
+    inputs: &'a Inputs,
+    changes: &'a [Option<RobotChange>],
+    distributions: &'a [Distribution],
+}
+
+impl Along<'_> {
+    /// Derivatives of a result by all numbers; the error names a number that has none.
+    fn of(&self, gradient: &RobotChange) -> Result<Vec<f64>, String> {
+        let derivative = |(input, change): (&super::inputs::Input, &Option<RobotChange>)| match change {
+            Some(change) => Ok(gradient.dot(change) + 0.0),
+            None => Err(format!("{} has no derivative", input.path)),
+        };
+        self.inputs.list.iter().zip(self.changes).map(derivative).collect()
+    }
+}
+
+/// Adds the derivatives of all rows, or the reasons why they have none.
+fn differentiate(rows: &mut [Row], gradients: &Gradients, modes: Option<&NominalModes>, along: &Along) {
+    let put = |row: &mut Row, gradient: Result<RobotChange, GradientError>| match gradient
+        .map_err(|error| error.to_string())
+        .and_then(|gradient| along.of(&gradient))
+    {
+        Ok(derivatives) => row.derivatives = Some(derivatives),
+        Err(reason) => row.doubt = Some(reason),
+    };
+
+    let kinds: Vec<ResultKind> = rows.iter().map(|row| row.kind).collect();
+    for (row, gradient) in rows.iter_mut().zip(static_gradients(&kinds, gradients)) {
+        if let Some(gradient) = gradient {
+            put(row, gradient);
+        }
+    }
+
+    let Some(modes) = modes else { return };
+    let vibration = match gradients.vibration(&modes.dynamics) {
+        Ok(vibration) => vibration,
+        Err(error) => {
+            let of_modes = rows.iter_mut().filter(|row| row.kind.mode().is_some());
+            of_modes.for_each(|row| row.doubt = Some(error.to_string()));
+            return;
+        }
+    };
+    for row in rows {
+        match row.kind {
+            ResultKind::Frequency(k) => put(row, vibration.frequency(&modes.found.modes[k])),
+            ResultKind::Damping(k) => {
+                put(row, vibration.damped(&modes.damped[k]).map(|gradient| gradient.damping_ratio));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Tests whether a tension may reach zero, or with the pose held one of its limits: all results are then far from linear.
+fn test_tensions(rows: &mut [Row], robot: &Robot, gradients: &Gradients, along: &Along) {
+    let rest = gradients.equilibrium();
+    let chosen = gradients.hold() != Hold::Lengths && robot.cables.len() > robot.platform.motion.count();
+    for (i, (gradient, state)) in gradients.tensions_platform().iter().zip(&rest.cables).enumerate() {
+        let Ok(derivatives) = along.of(gradient) else { return };
+        let range = TensionRange::of(robot, i, &state.chord_w());
+        let margin = range.margin(state);
+        // Where tensions are chosen, the limits hold; elsewhere the cable only must not become slack.
+        let distance = if chosen { margin.distance().min(margin.min) } else { margin.min };
+        let reached = reach(&derivatives, along.distributions, TENSION_DEVIATIONS);
+        if reached >= distance {
+            let reason = tension_reason(robot, i, chosen, reached, distance);
+            rows.iter_mut().for_each(|row| row.doubt = row.doubt.take().or_else(|| Some(reason.clone())));
+            return;
+        }
+    }
+}
+
+fn tension_reason(robot: &Robot, i: usize, chosen: bool, reached: f64, distance: f64) -> String {
+    let what = if chosen { "reach a limit" } else { "become slack" };
+    let number = |value: f64| crate::text::significant(value, 3);
+    format!(
+        "cable \"{}\" may {what}: {TENSION_DEVIATIONS} deviations of its tension are {} N, and its distance is {} N",
+        robot.cables[i].name,
+        number(reached),
+        number(distance.max(0.0))
+    )
+}
+
+/// Tests whether natural frequencies may cross: the ascending list then changes its order, and with it the results of both
+/// modes are far from linear.
+fn test_frequencies(rows: &mut [Row], modes: &NominalModes, gradients: &Gradients, along: &Along) {
+    let Ok(vibration) = gradients.vibration(&modes.dynamics) else { return };
+    let list = &modes.found.modes;
+    let derivatives: Vec<Option<Vec<f64>>> =
+        (list.iter().take(modes.count + 1)).map(|mode| along.of(&vibration.frequency(mode).ok()?).ok()).collect();
+
+    let mut doubts: Vec<Option<String>> = vec![None; modes.count];
+    for k in 0..modes.count {
+        let Some(own) = &derivatives[k] else { continue };
+        let (gap, reached) = match (list.get(k + 1), derivatives.get(k + 1)) {
+            (Some(next), Some(Some(other))) => {
+                let difference: Vec<f64> = other.iter().zip(own).map(|(a, b)| a - b).collect();
+                let reached = reach(&difference, along.distributions, FREQUENCY_DEVIATIONS);
+                (next.frequency_hz - list[k].frequency_hz, reached)
+            }
+            // A neighbour that shares its frequency has no single derivative; its own deviation is taken as equal.
+            (Some(next), _) => {
+                let reached = 2.0 * reach(own, along.distributions, FREQUENCY_DEVIATIONS);
+                (next.frequency_hz - list[k].frequency_hz, reached)
+            }
+            // No further mode up to the end of the list.
+            (None, _) => {
+                (modes.found.below_hz - list[k].frequency_hz, reach(own, along.distributions, FREQUENCY_DEVIATIONS))
+            }
+        };
+        if reached >= gap {
+            let number = |value: f64| crate::text::significant(value, 3);
+            let reason = format!(
+                "frequencies {} and {} may cross: they are {} Hz apart, and {FREQUENCY_DEVIATIONS} deviations of this \
+                 distance are {} Hz",
+                k + 1,
+                k + 2,
+                number(gap),
+                number(reached)
+            );
+            for mode in [k, k + 1] {
+                if let Some(doubt) = doubts.get_mut(mode) {
+                    doubt.get_or_insert_with(|| reason.clone());
+                }
+            }
+        }
+    }
+    for row in rows {
+        if let Some(doubt) = row.kind.mode().and_then(|k| doubts[k].clone()) {
+            row.doubt.get_or_insert(doubt);
+        }
+    }
+}

@@ -1,0 +1,152 @@
+// Which value moves this frequency most: derivatives of the chosen natural frequency by every number of the robot file,
+// from the core's `gradient`, computed in a worker while the platform rests.
+
+import { statics } from "./computation.js";
+import { Cancelled, Job } from "./engine.js";
+import { bars } from "./figures.js";
+import { $, element, short } from "./format.js";
+import { busy } from "./messages.js";
+import { chooseMode } from "./modes.js";
+import { pin } from "./sliders.js";
+import { content, on, page, shown } from "./store.js";
+
+const BARS = 10;
+const MARGIN = 1e-6; // relative: the limit of the list is above the chosen frequency by this
+const job = new Job();
+let found = null; // last table, with the mode that it is about
+
+/** Words for the steps. */
+const STEPS = { percent: "per 1 % of the value", tolerance: "per usual tolerance" };
+
+async function compute() {
+  job.cancel();
+  const { frame } = page;
+  const mode = frame?.modes[shown.mode];
+  const place = $("influence");
+  if (!mode || shown.broken) {
+    found = null;
+    show();
+    return;
+  }
+  place.setAttribute("aria-busy", "true");
+  if (!found) {
+    place.replaceChildren(element("p", { class: "soft" }, "Computing …"));
+  }
+  const request = {
+    command: "gradient", ...statics(), ...content.model, of: ["frequencies"], below_hz: mode.hz * (1 + MARGIN),
+    hold: $("influence-hold").value, per: $("influence-per").value,
+  };
+  const done = busy("Computing the influence of all values", () => { job.cancel(); found = { reason: "Cancelled." }; show(); });
+  try {
+    const text = await job.run(1, async ([worker]) => (await worker.call("answer", { request })).text);
+    found = { table: JSON.parse(text), mode, index: shown.mode };
+  } catch (error) {
+    if (error instanceof Cancelled) {
+      return;
+    }
+    found = { reason: error.message };
+  } finally {
+    done();
+  }
+  place.removeAttribute("aria-busy");
+  show();
+}
+
+/** Derivatives of the chosen frequency; a frequency that several modes share has none. */
+function derivatives() {
+  const { table, mode } = found;
+  const nearest = (list) => list.reduce((best, one) => (Math.abs(one.value - mode.hz) < Math.abs(best.value - mode.hz) ? one : best), list[0]);
+  const own = nearest(table.results);
+  const refused = table.refused?.map(({ name, reason }) => `${name}: ${reason}`);
+  if (!own || Math.abs(own.value / mode.hz - 1) > 1e-3) {
+    return { reason: refused?.join(" ") || "there is no derivative of this frequency" };
+  }
+  if (own.block_entry) {
+    return { reason: "Several modes share this frequency: along each change it splits into several, so it has no single derivative. Choose another mode, or move the platform a little." };
+  }
+  return { result: own };
+}
+
+function show() {
+  const place = $("influence");
+  place.dataset.mode = found?.index ?? "";
+  if (!found) {
+    place.replaceChildren(element("p", { class: "soft" }, "Choose a natural frequency in the table above."));
+    return;
+  }
+  const { result, reason } = found.reason ? found : derivatives();
+  if (reason) {
+    place.replaceChildren(element("p", { class: "soft" }, reason));
+    return;
+  }
+
+  // The largest effects first; a value of zero has no per cent.
+  const { table } = found;
+  const effects = table.parameters.map(({ path, unit, tolerance }, i) => ({ path, unit, tolerance, effect: (100 * result.derivatives[i]) / result.value }));
+  const largest = effects.filter(({ effect }) => effect !== 0 && Number.isFinite(effect)).sort((a, b) => Math.abs(b.effect) - Math.abs(a.effect)).slice(0, BARS);
+  if (largest.length === 0) {
+    place.replaceChildren(element("p", { class: "soft" }, "No value moves this frequency."));
+    return;
+  }
+  const step = ({ unit, tolerance }) => (table.per === "tolerance" ? ` (${short(tolerance, 2)}${unit === "1" ? "" : ` ${unit}`})` : "");
+  const label = `Change of ${short(result.value, 5)} Hz ${STEPS[table.per]}`;
+  const past = pastOf(table);
+  const rows = bars({ rows: largest.map((one) => ({ name: `${one.path}${step(one)}`, path: one.path, value: one.effect, past: past?.get(one.path) })), label, unit: "%" });
+  place.innerHTML = rows;
+  place.append(element("p", { class: "soft" }, `${table.held_means[0].toUpperCase()}${table.held_means.slice(1)}. A click on a bar adds a slider for the value.`));
+}
+
+/** Effects of the remembered state on its mode of this number, by paths; none if it was of another kind. */
+function pastOf(table) {
+  const before = page.before?.influence;
+  if (!before?.table || before.index !== found.index || before.table.per !== table.per || before.table.held !== table.held) {
+    return null;
+  }
+  const { parameters } = before.table;
+  const own = before.effects;
+  return new Map(parameters.map(({ path }, i) => [path, own[i]]));
+}
+
+/** Chooses what is held as the page holds it. */
+function followHold() {
+  $("influence-hold").value = content.hold === "lengths" || (content.hold === "file" && page.about?.check.state === "lengths") ? "lengths" : "pose";
+}
+
+/** Listens to the choice of a mode and to the end of changes. */
+export function listen() {
+  let held = "";
+  on("rest", () => {
+    if (held !== content.hold) {
+      held = content.hold;
+      followHold();
+    }
+    compute();
+  });
+  on("mode", compute);
+  on("remember", () => {
+    if (page.before && found?.table) {
+      const { result } = derivatives();
+      page.before.influence = result && { ...found, effects: result.derivatives.map((value) => (100 * value) / result.value) };
+    }
+    show();
+  });
+  on("outdated", () => job.cancel());
+  on("forget", () => { job.cancel(); found = null; held = ""; show(); });
+  ["influence-hold", "influence-per"].forEach((id) => $(id).addEventListener("change", compute));
+  $("influence-form").addEventListener("submit", (event) => event.preventDefault());
+  const chosen = (event) => {
+    const path = event.target.closest("[data-path]")?.dataset.path;
+    if (path && (event.type === "click" || event.key === "Enter" || event.key === " ")) {
+      event.preventDefault();
+      $("tab-values").click();
+      pin(path);
+      document.querySelector(`[data-number="${CSS.escape(path)}"]`)?.scrollIntoView({ block: "nearest" });
+    }
+  };
+  ["click", "keydown"].forEach((kind) => $("influence").addEventListener(kind, chosen));
+  $("influence-first").addEventListener("click", () => {
+    const first = page.frame?.modes.findIndex((mode) => mode.platformShare >= 0.5);
+    chooseMode(Math.max(0, first ?? 0));
+  });
+  show();
+}

@@ -1,0 +1,65 @@
+// The state of the page as a link, and as the start of a page that `funicular live` has made.
+
+import { mayChoose } from "./computation.js";
+import { element, $ } from "./format.js";
+import { tell } from "./messages.js";
+import { showPlay } from "./modes.js";
+import { setRobot, showLibrary } from "./robot.js";
+import { copy } from "./saving.js";
+import { packed, unpacked } from "./share.js";
+import { content, page, shown } from "./store.js";
+
+/** Everything that a link holds. A robot of the library is named, not copied. */
+function linkState() {
+  const { robot, ...rest } = content;
+  const own = ROBOTS[robot.name] === robot.text ? { ...robot, text: undefined } : robot;
+  return { version: 1, ...rest, robot: own, mode: shown.mode, modes: shown.modes, response: shown.response, exaggeration: shown.exaggeration, camera: page.view.camera6 };
+}
+
+/** Everything for a page around this one: a link, with the text of the robot, and the tension rule only where it counts. */
+export const told = () => JSON.parse(JSON.stringify({ ...linkState(), robot: content.robot, rule: mayChoose() ? content.rule : "" }));
+
+/** Restores the state of a link. */
+export async function restore(state) {
+  if (state?.version !== 1 || typeof state.robot !== "object") {
+    throw new Error("the link has no robot of this page");
+  }
+  const text = state.robot.text ?? ROBOTS[state.robot.name];
+  if (text === undefined) {
+    throw new Error(`the library of this page has no robot “${state.robot.name}”`);
+  }
+  const { hold, pose, lengths, pinned, response, more, model } = state;
+  // Lengths without a pose from which the search starts are solved once as the program solves them.
+  const start = state.start ?? null;
+  const rule = state.rule === "lowest" ? "" : state.rule ?? "";
+  if (rule && ![...$("rule").options].some(({ value }) => value === rule)) {
+    $("rule").append(element("option", { value: rule }, rule));
+  }
+  const display = { mode: state.mode ?? -1, modes: state.modes ?? 20, response: response ?? null, exaggeration: state.exaggeration ?? 1, camera: state.camera };
+  page.view.exaggeration = display.exaggeration;
+  $("exaggeration").value = display.exaggeration;
+  $("count").value = display.modes;
+  $("rule").value = rule;
+  await setRobot(state.robot.name, text, { robot: { name: state.robot.name, text, set: state.robot.set ?? [] }, hold: hold ?? "file", pose: pose ?? null, lengths: lengths ?? null, start, rule, pinned: pinned ?? [], more: more ?? {}, model: model ?? {} }, display);
+  showPlay();
+}
+
+/** Restores the state of the address. */
+export const restoreAddress = async () => restore(await unpacked(location.hash.slice(1)));
+
+/** Listens to the button and to links that are opened in this page. */
+export function listen() {
+  $("share").addEventListener("click", async () => {
+    const fragment = await packed(linkState());
+    window.history.replaceState(null, "", `#${fragment}`);
+    await copy(location.href, $("share"));
+  });
+  addEventListener("hashchange", async () => {
+    try {
+      await restoreAddress();
+      showLibrary();
+    } catch {
+      tell("this link cannot be read: it is not complete, or of another version of this page");
+    }
+  });
+}

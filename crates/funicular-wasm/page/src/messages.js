@@ -1,0 +1,72 @@
+// The one line of messages, and texts that change in place.
+
+import { $, element } from "./format.js";
+
+const PATIENCE_MS = 300; // what is shorter needs no word
+
+/** Shows a message, or nothing. A note is not an error. */
+export function tell(text, note = false) {
+  const place = $("message");
+  place.hidden = text === null;
+  place.classList.toggle("note", note);
+  place.textContent = text ?? "";
+}
+
+/**
+ * Says that something is computed, for how long, and how to cancel it.
+ * @returns {Function} to call at the end
+ */
+export function busy(text, cancel) {
+  const begin = performance.now();
+  const clock = element("span");
+  const row = element("p", {}, `${text} …`, clock, element("button", { onclick: cancel }, "Cancel"));
+  const tick = () => {
+    if (!row.isConnected) {
+      $("busy").append(row);
+    }
+    put(clock, ` ${((performance.now() - begin) / 1000).toFixed(0)} s `);
+  };
+  const first = setTimeout(tick, PATIENCE_MS);
+  const every = setInterval(tick, 1000);
+  return () => {
+    clearTimeout(first);
+    clearInterval(every);
+    row.remove();
+  };
+}
+
+/** Text of an error; after a mistake in the core it says that the page has started again. */
+export function textOf(error) {
+  return error.broken ? `${error.message}\nThe page has started again with the last robot.` : error.message;
+}
+
+/** Puts a text in a place, which is not touched if it has it already. */
+export function put(place, text) {
+  if (place.textContent !== text) {
+    place.textContent = text;
+  }
+}
+
+/** Number of a text with a point or a comma; null if it is none. */
+export function numberOf(text) {
+  const number = Number(text.trim().replace(",", ".").replace("−", "-"));
+  return text.trim() !== "" && Number.isFinite(number) ? number : null;
+}
+
+/** Marks a field as wrong and says why. */
+export function refuse(field, text) {
+  field.setAttribute("aria-invalid", "true");
+  tell(text);
+}
+
+/** Rows of a table, made once and then only filled, because a frame has no time to make them. */
+export function rowsOf(table, count, make) {
+  const body = $(table).tBodies[0];
+  while (body.rows.length > count) {
+    body.lastChild.remove();
+  }
+  while (body.rows.length < count) {
+    body.append(make(body.rows.length));
+  }
+  return body.rows;
+}

@@ -1,0 +1,82 @@
+// Table of natural frequencies; the chosen mode is shown in motion.
+
+import { change } from "./computation.js";
+import { $, element, short } from "./format.js";
+import { numberOf, put, refuse, rowsOf } from "./messages.js";
+import { emit, on, page, shown } from "./store.js";
+
+const MAX_MODES = 200;
+
+/** Words for the kinds of modes. */
+export const KINDS = { platform: "platform", cable: "cables", drive: "drives and supports", mixed: "platform and cables" };
+
+function rowOf(i) {
+  const row = element("tr", { class: "pick" }, element("td", {}, element("button", { "aria-label": `Show mode ${i + 1}` }, String(i + 1))), element("td"), element("td"), element("td", { class: "left" }),
+    element("td", { class: "left" }, element("span", { class: "share", title: "fraction of the kinetic energy in the platform" }, element("i"))), element("td", { class: "before", hidden: true }));
+  row.addEventListener("click", () => chooseMode(shown.mode === i ? -1 : i));
+  return row;
+}
+
+function showModes() {
+  const { before, frame } = page;
+  const rows = rowsOf("modes", frame.modes.length, rowOf);
+  document.querySelectorAll("#modes .before").forEach((cell) => { cell.hidden = before === null; });
+  frame.modes.forEach((mode, i) => {
+    const { cells } = rows[i];
+    put(cells[1], short(mode.hz, 5));
+    put(cells[2], short(100 * mode.damping, 3));
+    put(cells[3], KINDS[mode.kind]);
+    cells[4].firstChild.firstChild.style.width = `${(100 * mode.platformShare).toFixed(0)}%`;
+    const past = before?.frame.modes[i];
+    put(cells[5], past ? `${mode.hz >= past.hz ? "+" : "−"}${short(Math.abs(100 * (mode.hz / past.hz - 1)), 3)}` : "");
+    if (i === shown.mode) {
+      rows[i].setAttribute("aria-current", "true");
+    } else {
+      rows[i].removeAttribute("aria-current");
+    }
+  });
+}
+
+/** Shows a mode in motion; −1 ends it. */
+export function chooseMode(index) {
+  shown.mode = index;
+  showPlay();
+  showModes();
+  if (index < 0) {
+    page.view.setMode(null);
+  } else {
+    change({ mode: true });
+  }
+  emit("mode");
+}
+
+/** Shows the buttons of the motion if a mode is chosen. */
+export function showPlay() {
+  $("play").hidden = shown.mode < 0;
+  $("amplitude-label").hidden = shown.mode < 0;
+}
+
+/** Listens to the buttons of the motion and the number of modes. */
+export function listen() {
+  const { view } = page;
+  on("frame", showModes);
+  on("remember", showModes);
+  $("play").addEventListener("click", () => {
+    if (view.mode) {
+      view.mode.playing = !view.mode.playing;
+      $("play").textContent = view.mode.playing ? "Pause" : "Play";
+      view.draw();
+    }
+  });
+  $("amplitude").addEventListener("input", () => { view.amplitude = Number($("amplitude").value); view.draw(); });
+  $("count").addEventListener("change", () => {
+    const value = numberOf($("count").value);
+    if (value === null || value < 1 || value > MAX_MODES || value % 1 !== 0) {
+      refuse($("count"), `the number of frequencies has to be a whole number from 1 to ${MAX_MODES}`);
+      return;
+    }
+    $("count").removeAttribute("aria-invalid");
+    shown.modes = value;
+    change({ frame: true });
+  });
+}

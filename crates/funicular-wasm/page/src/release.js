@@ -1,0 +1,168 @@
+// A payload is released: the linear modes play the free response from the static displacement under the payload.
+
+import { modeOf, statics } from "./computation.js";
+import { Cancelled, Job } from "./engine.js";
+import { history } from "./figures.js";
+import { $, element, plain, short } from "./format.js";
+import { decay, startOf, summed, wrenchOf } from "./free_response.js";
+import { numberOf, refuse, tell } from "./messages.js";
+import { on, page, shown } from "./store.js";
+
+const MAX_MODES = 60; // that are drawn, the largest first: more need more time per frame than they show
+const MAX_PERIODS = 24; // of the slowest large mode, until the record ends
+const REST_FRACTION = 0.02; // of the first displacement: the record may end
+const SLOW_HZ = 1; // on the screen, the slowest large mode has at most this frequency
+const LARGE = 0.1; // of the largest coordinate: a mode that decides the time scale
+const SAMPLES = 1500;
+const LINEAR_LIMIT = 0.1; // relative difference of the static displacement, above which the page warns
+const job = new Job();
+let last = null; // last free response, also for “before”
+
+/** Payload whose weight is a tenth of the platform's, with two digits. */
+function firstPayload() {
+  const mass = page.about.check.platform.mass_kg;
+  return mass > 0 ? Number((0.1 * mass).toPrecision(2)) : 1;
+}
+
+async function release() {
+  const payload = numberOf($("release-mass").value);
+  const { about: { check }, frame } = page;
+  if (payload === null || payload <= 0 || payload > 1e9) {
+    refuse($("release-mass"), `“${$("release-mass").value}” is not a payload: give a positive mass in kilograms`);
+    return;
+  }
+  $("release-mass").removeAttribute("aria-invalid");
+  if (!frame || frame.modes.length === 0 || frame.stable === false) {
+    $("release").replaceChildren(element("p", { class: "soft" }, "A release needs a stable equilibrium with natural frequencies."));
+    return;
+  }
+  const point = statics().load_point_m ?? check.load?.point_m ?? [0, 0, 0];
+  const wrench = wrenchOf(payload, check.gravity_m_s2, frame.quaternion, point);
+  const starts = startOf(frame.modes, wrench);
+  const size = (i) => Math.abs(starts[i]) * Math.hypot(...frame.modes[i].shape.slice(0, 3));
+  const order = frame.modes.map((_, i) => i).sort((a, b) => size(b) - size(a)).slice(0, MAX_MODES);
+  if (!(size(order[0]) > 0)) {
+    $("release").replaceChildren(element("p", { class: "soft" }, "No listed mode moves under this payload: without gravity it does nothing, else list more natural frequencies."));
+    return;
+  }
+
+  // The slowest of the large modes gives the time scale.
+  const large = order.filter((i) => size(i) >= LARGE * size(order[0])).map((i) => frame.modes[i]);
+  const slowest = large.reduce((a, b) => (b.hz < a.hz ? b : a));
+  const settling = -Math.log(REST_FRACTION) / Math.max(slowest.damping * 2 * Math.PI * slowest.hz, 1e-9);
+  const seconds = Math.min(settling, MAX_PERIODS / slowest.hz);
+  const up = check.gravity_m_s2.map((value) => -value / Math.hypot(...check.gravity_m_s2));
+  const modes = order.map((i) => frame.modes[i]);
+  const own = order.map((i) => starts[i]);
+  const along = modes.map(({ shape }, k) => own[k] * (shape[0] * up[0] + shape[1] * up[1] + shape[2] * up[2]));
+  const at = (t) => along.reduce((sum, value, k) => sum + value * decay(modes[k], t), 0);
+  const times = Float64Array.from({ length: SAMPLES }, (_, i) => (seconds * i) / (SAMPLES - 1));
+  last = { payload, seconds, times, values: times.map(at), slowdown: Math.max(1, slowest.hz / SLOW_HZ), start: summed(modes.map(({ shape }) => shape), own), note: null };
+
+  // Curves of the cables; a cable model that describes ends only has none, and straight lines follow the platform.
+  let cables = null;
+  try {
+    cables = [];
+    for (const i of order) {
+      cables.push(await modeOf(i));
+    }
+  } catch {
+    cables = null;
+  }
+  if (frame !== page.frame) {
+    return; // the robot has moved meanwhile
+  }
+  shown.released = true;
+  page.view.setRelease({
+    seconds, slowdown: last.slowdown,
+    start: { shape: last.start, cables: cables && summed(cables, own) },
+    at: (t) => {
+      const factors = modes.map((mode, k) => own[k] * decay(mode, t));
+      return { shape: summed(modes.map(({ shape }) => shape), factors), cables: cables && summed(cables, factors) };
+    },
+  });
+  page.view.mode.clock = moveClock;
+  $("release-stop").hidden = false;
+  show();
+  compareStatics(frame, payload, point);
+}
+
+/** Compares the first displacement with the static difference of the complete, not linear model. */
+async function compareStatics(frame, payload, point) {
+  const { pose: _, lengths_m: __, tension_rule: ___, ...rest } = statics();
+  const { check } = page.about;
+  const held = rest.force_n ?? check.load?.force_n ?? [0, 0, 0];
+  const force = held.map((value, k) => value + payload * check.gravity_m_s2[k]);
+  const request = { command: "statics", ...rest, lengths_m: frame.cables.map((cable) => cable.length), force_n: force, load_point_m: point };
+  try {
+    const text = await job.run(1, async ([worker]) => (await worker.call("answer", { request })).text);
+    const found = JSON.parse(text).pose.position_m.map((value, k) => value - frame.position[k]);
+    const [size, linear] = [Math.hypot(...found), Math.hypot(...last.start.subarray(0, 3))];
+    const off = Math.hypot(...found.map((value, k) => value - last.start[k])) / Math.max(size, 1e-12);
+    last.note = `The complete static model moves the platform by ${short(1000 * size, 4)} mm under this payload, the listed modes by ${short(1000 * linear, 4)} mm.${off > LINEAR_LIMIT ? ` They differ by ${short(100 * off, 2)} %: the payload is too large for small motions, or more natural frequencies have to be listed.` : ""}`;
+  } catch (error) {
+    if (error instanceof Cancelled) {
+      return;
+    }
+    last.note = `The complete static model has no equilibrium with this payload at these lengths: ${error.message}`;
+  }
+  show();
+}
+
+function show() {
+  if (!last || !shown.released) {
+    return;
+  }
+  const curves = [{ ...last, kind: "now" }];
+  if (page.before?.release) {
+    curves.unshift({ ...page.before.release, kind: "past" });
+  }
+  const figure = history({ curves, label: "displacement of the platform upwards [mm]", factor: 1000, width: Math.max(280, $("release").clientWidth) });
+  const scale = page.view.releaseScale;
+  const motion = scale === 1 ? "the motion is to scale" : `the view shows the motion ${short(scale > 1 ? scale : 1 / scale, 3)} times ${scale > 1 ? "larger" : "smaller"}`;
+  $("release").innerHTML = figure;
+  $("release").append(element("p", { class: "soft" },
+    `Time runs ${last.slowdown > 1 ? `${short(last.slowdown, 2)} times slower` : "as it is"}; ${motion}. ${last.note ?? ""}`));
+}
+
+/** Moves the line of the present time in the figure. */
+function moveClock(t) {
+  const figure = $("release").firstElementChild;
+  const line = figure?.querySelector("[data-clock]");
+  if (line) {
+    const { left, inside, end } = figure.dataset;
+    const at = (Number(left) + (Number(inside) * t) / Number(end)).toFixed(1);
+    line.setAttribute("x1", at);
+    line.setAttribute("x2", at);
+  }
+}
+
+/** Ends the motion in the view. */
+function stop() {
+  if (shown.released) {
+    shown.released = false;
+    page.view.setRelease(null);
+    $("release-stop").hidden = true;
+    $("release").replaceChildren();
+  }
+}
+
+/** Listens to the buttons, and ends the motion when the state changes. */
+export function listen() {
+  on("robot", (isNew) => { if (isNew) { $("release-mass").value = plain(firstPayload()); } });
+  on("outdated", () => { job.cancel(); stop(); });
+  on("forget", () => { last = null; });
+  on("mode", () => { if (shown.mode >= 0) { stop(); } });
+  on("remember", () => {
+    if (page.before) {
+      page.before.release = last;
+    }
+    show();
+  });
+  $("release-form").addEventListener("submit", (event) => {
+    event.preventDefault();
+    release().catch((error) => { if (!(error instanceof Cancelled)) { tell(error.message); } });
+  });
+  $("release-stop").addEventListener("click", stop);
+  new ResizeObserver(show).observe($("release"));
+}

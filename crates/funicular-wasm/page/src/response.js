@@ -1,0 +1,100 @@
+// Frequency response: choice of signals and range, and the figure.
+
+import { change } from "./computation.js";
+import { response as figure } from "./figures.js";
+import { $, element } from "./format.js";
+import { numberOf, put, refuse, tell } from "./messages.js";
+import { on, page, shown } from "./store.js";
+
+/** Signals of a robot, and a range that shows its first resonances. */
+function signals() {
+  const { name, normal } = page.about.motion;
+  const out = name === "planar" ? normal.findIndex((value) => Math.abs(value) > 0.99) : -1;
+  const axes = ["x", "y", "z"];
+  const forces = axes.map((axis, k) => (k === out ? null : [`f${axis}`, `force along ${axis}`]));
+  const moments = axes.map((axis, k) => (name === "rigid" || k === out ? [`m${axis}`, `moment about ${axis}`] : null));
+  const motions = ["", "v", "a"].flatMap((kind, j) => axes.map((axis, k) => (k === out ? null : [`${kind}${axis}`, `${["displacement", "velocity", "acceleration"][j]} along ${axis}`])));
+  const options = (list) => list.filter(Boolean).map(([value, text]) => element("option", { value }, text));
+  $("input").replaceChildren(...options([...forces, ...moments]));
+  $("output").replaceChildren(...options(motions));
+  shown.response ??= { input: out === 2 ? "fx" : "fz", output: out === 2 ? "ax" : "az", from: null, to: null, log: false };
+  showSignals();
+}
+
+function showSignals() {
+  const { input, output, from, to, log } = shown.response;
+  $("input").value = input;
+  $("output").value = output;
+  $("from").value = from ?? "";
+  $("to").value = to ?? "";
+  $("log").checked = log;
+}
+
+/** Range of the first response: up to somewhat above the listed modes. */
+function chooseRange() {
+  const { response } = shown;
+  const highest = page.frame?.modes.at(-1)?.hz;
+  if (response && response.to === null && highest) {
+    const top = 1.15 * highest;
+    const unit = 10 ** Math.floor(Math.log10(top));
+    response.to = Number((Math.ceil((2 * top) / unit) * unit / 2).toPrecision(3));
+    response.from = Number((response.to / 200).toPrecision(2));
+    showSignals();
+  }
+}
+
+function setRange(key, field) {
+  const value = numberOf(field.value);
+  const next = { ...shown.response, [key]: value };
+  if (value === null || value < 0 || !(next.from < next.to) || (next.log && !(next.from > 0))) {
+    refuse(field, "the range of the response needs two frequencies, the first below the second, and above zero if it is logarithmic");
+    return;
+  }
+  [$("from"), $("to")].forEach((other) => other.removeAttribute("aria-invalid"));
+  tell(null);
+  shown.response = next;
+  change({ response: true });
+}
+
+function showResponse() {
+  const { answered, before, frame } = page;
+  if (!answered) {
+    return;
+  }
+  const { numbers, peaks } = answered.exact ?? answered;
+  const curves = [{ numbers, kind: "now" }];
+  if (before?.response?.signals === answered.signals && before.response.range === answered.range) {
+    curves.unshift({ numbers: (before.response.exact ?? before.response).numbers, kind: "past" });
+  }
+  const { input, output, log } = shown.response;
+  const label = (id, value) => [...$(id).options].find((option) => option.value === value)?.textContent ?? value;
+  $("bode").innerHTML = figure({
+    curves, peaks, modes: frame.modes.map((mode) => mode.hz), unit: answered.unit, log,
+    title: `${label("output", output)} per ${label("input", input)}`, width: Math.max(280, $("bode").clientWidth),
+  });
+  put($("caveat"), answered.caveat ?? "");
+}
+
+/** Listens to the choice of signals and range. */
+export function listen() {
+  on("robot", (isNew) => { if (isNew) { signals(); } });
+  on("frame", chooseRange);
+  on("response", showResponse);
+  on("remember", showResponse);
+  on("response-refused", (error) => {
+    put($("caveat"), "");
+    $("bode").replaceChildren(element("p", { class: "soft" }, error.message));
+  });
+  ["input", "output"].forEach((id) => $(id).addEventListener("change", () => {
+    shown.response = { ...shown.response, [id]: $(id).value };
+    change({ response: true });
+  }));
+  ["from", "to"].forEach((id) => $(id).addEventListener("change", () => setRange(id, $(id))));
+  $("log").addEventListener("change", () => {
+    shown.response = { ...shown.response, log: $("log").checked, from: shown.response.from || Number((shown.response.to / 200).toPrecision(2)) };
+    showSignals();
+    change({ response: true });
+  });
+  $("response").addEventListener("submit", (event) => event.preventDefault());
+  new ResizeObserver(showResponse).observe($("bode"));
+}

@@ -1,0 +1,186 @@
+// The robot: choice from the library, files, and the editor of its text.
+
+import { change } from "./computation.js";
+import { Editor } from "./editor.js";
+import { $, element } from "./format.js";
+import { commit } from "./history.js";
+import { tell, textOf } from "./messages.js";
+import { allowed } from "./pose.js";
+import { pinFirst, readParameters } from "./sliders.js";
+import { content, emit, on, page, shown } from "./store.js";
+
+let editor = null;
+
+/**
+ * Shows another robot; what belongs to the old one goes.
+ * @param {object} more parts of the content besides the text
+ * @param {object} display parts of what is shown: `mode`, `modes`, `response`, `exaggeration`, `camera`
+ */
+export async function setRobot(name, text, more = {}, display = {}) {
+  const next = { robot: { name, text, set: [] }, hold: "file", pose: null, lengths: null, start: null, rule: "", pinned: [], more: {}, model: {}, ...more };
+  Object.assign(content, next);
+  Object.assign(shown, { mode: -1, newRobot: true, response: null, ...display });
+  page.view.setMode(null);
+  page.frame = null;
+  page.parameters = [];
+  $("sliders").replaceChildren();
+  emit("forget");
+
+  // The robot is shown first; the panel of its values follows.
+  page.pending += 1;
+  await change({ robot: true });
+  await readParameters();
+  page.pending -= 1;
+  if (content.pinned.length === 0) {
+    pinFirst();
+  }
+  commit();
+}
+
+function showRobot(isNew) {
+  const { about, frame, view } = page;
+  const { check } = about;
+  $("name").textContent = about.name;
+  $("source").textContent = check.source || "";
+  document.title = `${about.name} – funicular`;
+  shown.issues = [];
+  showText(about.text);
+  $("issues").replaceChildren();
+  view.setRobot(about, frame && !isNew ? frame : null, !isNew);
+  if (isNew) {
+    page.before = null;
+    view.remember(null);
+    $("remember").setAttribute("aria-pressed", "false");
+  }
+  if (check.state === "none" && content.hold === "file") {
+    // A robot file without a state: the middle between the anchors is a place to start from.
+    const pose = [...view.center.toArray().map((value) => Number(value.toPrecision(3))), 0, 0, 0];
+    Object.assign(content, { hold: "pose", pose: allowed(pose) });
+    commit();
+  }
+  if (shown.camera) {
+    view.camera6 = shown.camera;
+    shown.camera = null;
+  }
+}
+
+function showRefusal(error) {
+  const { issues } = error;
+  tell(issues.length ? `The robot file has ${issues.length === 1 ? "an error" : `${issues.length} errors`}: line ${issues[0].line}: ${issues[0].message}` : textOf(error));
+  shown.issues = issues;
+  showText(content.robot.set.length === 0 ? content.robot.text : null);
+  $("issues").replaceChildren(...issues.map((issue) => element("li", {},
+    element("button", { onclick: () => editor?.show(issue.from_byte) }, `line ${issue.line}, column ${issue.column}`),
+    `: ${issue.message}${issue.help ? ` (${issue.help})` : ""}`)));
+}
+
+/** Timer of the note on the last import; the next files end it, so that it does not hide what is told about them. */
+let importNote = 0;
+
+async function openFiles(list) {
+  clearTimeout(importNote);
+  const files = await Promise.all([...list].map(async (file) => ({ path: file.name, text: await file.text() })));
+  if (files.length === 0) {
+    return;
+  }
+  if (files.length === 1 && /\.toml$/i.test(files[0].path)) {
+    await setRobot(files[0].path, files[0].text);
+    showLibrary();
+    return;
+  }
+  try {
+    const { text } = await page.engine.call("answer", { request: { command: "import", files } });
+    const found = JSON.parse(text);
+    await setRobot(`${files[0].path.replace(/\.[^.]*$/, "")}.toml`, found.text);
+    showLibrary();
+    const told = [...found.assumed.map((line) => `assumed: ${line}`), ...found.lost.map((line) => `left out: ${line}`)];
+    if (told.length) {
+      importNote = setTimeout(() => tell(`Imported.\n${told.join("\n")}`, true), 400);
+    }
+  } catch (error) {
+    tell(`${files.map((file) => file.path).join(", ")}: ${error.message}`);
+  }
+}
+
+/** Shows which robot of the library this is, or that it is another one. */
+export function showLibrary() {
+  const own = ROBOTS[content.robot.name] !== undefined && ROBOTS[content.robot.name] === content.robot.text;
+  const options = Object.entries(ROBOTS).map(([name, text]) => element("option", { value: name }, /^name = "(.*)"/m.exec(text)?.[1] ?? name));
+  if (!own) {
+    options.unshift(element("option", { value: "" }, content.robot.name || "own file"));
+  }
+  $("library").replaceChildren(...options);
+  $("library").value = own ? content.robot.name : "";
+}
+
+/** Shows the text of the robot in the editor, if it was opened, with its errors; null leaves the text. */
+function showText(text) {
+  if (editor) {
+    if (text !== null) {
+      editor.text = text;
+    }
+    editor.issues = shown.issues;
+  }
+}
+
+/** Makes the editor when its tab is opened for the first time: it is not needed to show a robot. */
+async function openEditor() {
+  if (editor) {
+    return;
+  }
+  let typing = 0;
+  editor = new Editor($("editor"), (text) => {
+    clearTimeout(typing);
+    typing = setTimeout(async () => {
+      content.robot = { ...content.robot, text, set: [] };
+      showLibrary();
+      change({ robot: true });
+      await readParameters();
+      commit();
+    }, 300);
+  });
+  showText(shown.issues.length && content.robot.set.length === 0 ? content.robot.text : page.about?.text ?? content.robot.text);
+  editor.schema = JSON.parse((await page.engine.call("answer", { request: { command: "schema" } })).text);
+}
+
+/** Listens to the library, files and the tabs of the panel. */
+export function listen() {
+  on("robot", showRobot);
+  on("robot-refused", showRefusal);
+  on("restored", showLibrary);
+  $("library").addEventListener("change", () => {
+    const name = $("library").value;
+    if (name) {
+      setRobot(name, ROBOTS[name]).then(showLibrary);
+    }
+  });
+  $("open").addEventListener("click", () => $("files").click());
+  $("files").addEventListener("change", () => openFiles($("files").files).then(() => { $("files").value = ""; }));
+  addEventListener("dragover", (event) => { event.preventDefault(); $("drop").hidden = false; });
+  addEventListener("dragleave", (event) => { $("drop").hidden = event.relatedTarget !== null ? $("drop").hidden : true; });
+  addEventListener("drop", (event) => {
+    event.preventDefault();
+    $("drop").hidden = true;
+    openFiles(event.dataTransfer.files);
+  });
+
+  const tabs = [...document.querySelectorAll("[role=tab]")];
+  const choose = (tab) => tabs.forEach((other) => {
+    other.setAttribute("aria-selected", String(other === tab));
+    other.tabIndex = other === tab ? 0 : -1;
+    $(other.getAttribute("aria-controls")).hidden = other !== tab;
+    if (other === tab && tab.id === "tab-file") {
+      openEditor();
+    }
+  });
+  tabs.forEach((tab, i) => {
+    tab.addEventListener("click", () => choose(tab));
+    tab.addEventListener("keydown", ({ key }) => {
+      const next = { ArrowRight: tabs[i + 1], ArrowLeft: tabs[i - 1] }[key];
+      if (next) {
+        choose(next);
+        next.focus();
+      }
+    });
+  });
+}

@@ -1,0 +1,134 @@
+// Files of results and pictures, and the same analysis as text to copy.
+
+import { mayChoose, RESPONSE_POINTS, statics } from "./computation.js";
+import { $, save } from "./format.js";
+import { drawing } from "./drawing.js";
+import { Cancelled, Job } from "./engine.js";
+import { busy, put, tell } from "./messages.js";
+import { content, on, page, shown } from "./store.js";
+import { commands, python } from "./words.js";
+
+const job = new Job();
+
+/** Figures that can be saved: where they are, and what makes them. */
+const FIGURES = {
+  response: ["bode", "There is no frequency response to save at this state."],
+  map: ["map", "There is no slice of the workspace yet: press “Compute” below “Workspace” first."],
+  release: ["release", "There is no release yet: press “Release” below “Release of a payload” first."],
+};
+
+const fileName = () => `${(content.robot.name || page.about?.name || "robot").replace(/^.*[/\\]/, "").replace(/\.toml$/, "").replace(/[^\w.-]+/g, "-").toLowerCase()}.toml`;
+
+/** Derivatives of the chosen frequency, the last of their table; none if no frequency is chosen. */
+function gradientOf() {
+  const mode = page.frame.modes[shown.mode];
+  return mode ? { belowHz: Number((1.0001 * mode.hz).toPrecision(7)), per: $("influence-per").value, hold: $("influence-hold").value } : null;
+}
+
+function showWords() {
+  const state = { kind: content.hold, pose: content.pose, lengths: content.lengths, set: content.robot.set, rule: mayChoose() ? content.rule : "" };
+  const of = {
+    file: fileName(), state, belowHz: Number((page.frame.belowHz || 20).toPrecision(3)),
+    response: { ...(shown.response ?? {}), points: RESPONSE_POINTS },
+    gradient: gradientOf(),
+  };
+  put($("commands"), commands(of));
+  put($("python"), python(of));
+}
+
+async function saveAs(kind) {
+  const name = fileName().replace(/\.toml$/, "");
+  document.querySelector(".menu").open = false;
+  if (kind === "toml") {
+    save(`${name}.toml`, page.about.text, "application/toml");
+  } else if (kind === "png") {
+    save(`${name}.png`, await page.view.png(), "image/png");
+  } else if (kind === "svg") {
+    save(`${name}.svg`, drawing(page.view), "image/svg+xml");
+  } else if (FIGURES[kind]) {
+    const figure = $(FIGURES[kind][0]).querySelector("svg");
+    if (figure) {
+      save(`${name}-${kind}.svg`, styled(figure.outerHTML), "image/svg+xml");
+    } else {
+      tell(FIGURES[kind][1], true);
+    }
+  } else {
+    const own = await results();
+    if (kind === "json") {
+      save(`${name}.json`, JSON.stringify(own, null, 2), "application/json");
+    } else {
+      save(`${name}.csv`, csv(own), "text/csv");
+    }
+  }
+}
+
+/** Figure of the page with its style inside, so that it looks alike in other programs. */
+function styled(figure) {
+  const style = getComputedStyle(document.documentElement);
+  const color = (name) => style.getPropertyValue(name).trim();
+  const rules = `.axis{stroke:${color("--soft")}}.frame{fill:none;stroke:${color("--soft")}}.here{fill:none;stroke:#d1249d;stroke-width:2.5}text{fill:${color("--soft")}}.grid{stroke:${color("--line")}}.mode{stroke:#777}.now{fill:none;stroke:${color("--accent")};stroke-width:1.6}.past{fill:none;stroke:#777;stroke-dasharray:4 3}.peak{fill:${color("--accent")}}svg{font:11px sans-serif}`;
+  return figure.replaceAll("var(--none)", color("--none")).replace(/>/, `><style>${rules}</style><rect width="100%" height="100%" fill="${color("--paper")}"/>`);
+}
+
+/** Results of the program for the present state, in its JSON. */
+async function results() {
+  const state = statics();
+  const { input, output, from, to, log } = shown.response;
+  const belowHz = page.frame.belowHz || 20;
+  const done = busy("Computing the results for the file", () => job.cancel());
+  try {
+    return await job.run(1, async ([worker]) => {
+      const ask = async (command, more = {}) => JSON.parse((await worker.call("answer", { request: { command, ...state, ...more } })).text);
+      const own = { statics: await ask("statics"), modes: await ask("modes", { ...content.model, below_hz: belowHz }) };
+      if (from !== null) {
+        own.frf = await ask("frf", { ...content.model, input, output, from_hz: from, to_hz: to, points: RESPONSE_POINTS, log });
+      }
+      return own;
+    });
+  } finally {
+    done();
+  }
+}
+
+function csv({ statics: rest, modes, frf }) {
+  const cell = (value) => (value === undefined ? "" : /[",\n]/.test(String(value)) ? `"${String(value).replaceAll('"', '""')}"` : String(value));
+  const table = (keys, rows) => [keys.join(","), ...rows.map((row) => keys.map((key) => cell(row[key])).join(","))].join("\n");
+  const parts = [
+    table(["name", "unstrained_length_m", "tension_platform_n", "tension_anchor_n", "sag_ratio", "lambda2", "minimum_tension_n", "maximum_tension_n"], rest.cables),
+    table(["frequency_hz", "damping_ratio", "kind", "platform_energy_fraction"], modes.modes),
+  ];
+  if (frf) {
+    parts.push(table(["frequency_hz", "real", "imag"], frf.frequency_hz.map((hz, i) => ({ frequency_hz: hz, real: frf.real[i], imag: frf.imag[i] }))));
+  }
+  return `${parts.join("\n\n")}\n`;
+}
+
+/** Copies a text; the button says so for a moment. */
+export async function copy(text, button) {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const area = document.createElement("textarea");
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    document.execCommand("copy");
+    area.remove();
+  }
+  const old = button.dataset.text ?? button.textContent;
+  button.dataset.text = old;
+  button.textContent = "Copied";
+  setTimeout(() => { button.textContent = old; }, 1500);
+}
+
+/** Listens to the menu of files and the buttons that copy. */
+export function listen() {
+  on("rest", showWords);
+  on("mode", () => { if (page.frame) { showWords(); } });
+  document.querySelectorAll("[data-save]").forEach((button) => button.addEventListener("click", () => saveAs(button.dataset.save).catch((error) => {
+    if (!(error instanceof Cancelled)) {
+      tell(error.message);
+    }
+  })));
+  document.querySelectorAll("[data-copy]").forEach((button) => button.addEventListener("click", () => copy($(button.dataset.copy).textContent, button)));
+}

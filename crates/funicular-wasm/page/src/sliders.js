@@ -1,0 +1,147 @@
+// Values of the robot file as sliders with number fields.
+
+import { change } from "./computation.js";
+import { $, element, plain } from "./format.js";
+import { commit } from "./history.js";
+import { numberOf, refuse } from "./messages.js";
+import { content, on, page } from "./store.js";
+
+/** Reads the numbers of the robot file. */
+export async function readParameters() {
+  page.pending += 1;
+  try {
+    const robot = { ...content.robot, set: [] };
+    const { text } = await page.engine.call("answer", { request: { command: "parameters", robot } });
+    page.parameters = JSON.parse(text).parameters;
+  } catch {
+    return; // the reader of the robot tells the error
+  } finally {
+    page.pending -= 1;
+  }
+  $("paths").replaceChildren(...page.parameters.map(({ path, unit, meaning }) => element("option", { value: path }, `${unit === "1" ? "" : `${unit}: `}${meaning}`)));
+  showSliders();
+}
+
+/** Values that most people change first. */
+export function pinFirst() {
+  const first = (pattern) => page.parameters.find(({ path }) => pattern.test(path))?.path;
+  content.pinned = [
+    first(/^platform\.mass_kg$/), first(/^materials\..*\.(diameter_m|area_m2)$/),
+    first(/^materials\..*\.(youngs_modulus_pa|axial_stiffness_n)$/),
+  ].filter(Boolean);
+  showSliders();
+}
+
+const known = (path) => page.parameters.find((one) => one.path === path);
+const valueOf = (path) => content.robot.set.find((one) => one.path === path)?.value ?? known(path)?.value;
+
+function setValue(path, value) {
+  const others = content.robot.set.filter((one) => one.path !== path);
+  content.robot = { ...content.robot, set: value === known(path)?.value ? others : [...others, { path, value }] };
+}
+
+/** Range of a slider around a value. */
+function rangeOf({ value, minimum, maximum, unit, path }) {
+  const { size: robot } = page.view;
+  const finite = (bound) => bound !== null && Number.isFinite(bound) && Math.abs(bound) < 1e300;
+  let [low, high] = value > 0 && finite(minimum) && minimum >= 0 ? [0.2 * value, 3 * value] : [value - Math.abs(value), value + Math.abs(value)];
+  if (unit === "m" && !(finite(minimum) && minimum >= 0)) {
+    [low, high] = [value - 0.15 * robot, value + 0.15 * robot];
+  } else if (value === 0) {
+    const size = { "m/s": 20, N: 500, "N m": 100 }[unit] ?? (/damping_ratio/.test(path) ? 0.1 : 1);
+    [low, high] = [finite(minimum) && minimum >= 0 ? 0 : -size, size];
+  }
+  return [finite(minimum) ? Math.max(low, minimum) : low, finite(maximum) ? Math.min(high, maximum * (1 - 1e-9)) : high];
+}
+
+export function showSliders() {
+  $("sliders").replaceChildren(...content.pinned.map(sliderOf));
+}
+
+function sliderOf(path) {
+  const parameter = known(path);
+  if (!parameter) {
+    return element("div", { class: "slider" }, `${path} is not in this robot file `, element("button", { onclick: () => unpin(path) }, "remove"));
+  }
+  const id = `value-${path}`;
+  const [low, high] = rangeOf(parameter);
+  const value = valueOf(path);
+  const range = element("input", { type: "range", min: low, max: high, step: (high - low) / 400, value, "aria-label": path, "data-path": path });
+  const number = element("input", { id, value: plain(value), inputmode: "decimal", "data-number": path });
+  const set = (next, done) => {
+    setValue(path, next);
+    change({ robot: true });
+    if (done) {
+      commit();
+    }
+  };
+  range.addEventListener("input", () => {
+    const next = Number(Number(range.value).toPrecision(5));
+    number.value = plain(next);
+    number.removeAttribute("aria-invalid");
+    set(next, false);
+  });
+  range.addEventListener("change", commit);
+  number.addEventListener("change", () => {
+    const next = numberOf(number.value);
+    if (next === null) {
+      refuse(number, `${path}: “${number.value}” is not a number`);
+      return;
+    }
+    number.removeAttribute("aria-invalid");
+    range.value = next;
+    set(next, true);
+  });
+  const back = () => {
+    setValue(path, parameter.value);
+    showSliders();
+    change({ robot: true });
+    commit();
+  };
+  return element("div", { class: "slider" },
+    element("div", { class: "head" },
+      element("label", { for: id, title: parameter.meaning }, path.split(".").join(" "), " ", element("small", {}, parameter.unit === "1" ? "" : `[${parameter.unit}]`)),
+      number,
+      element("button", { title: "Back to the value of the file", "aria-label": `${path} back to the value of the file`, onclick: back }, "↺"),
+      element("button", { title: "Remove this slider", "aria-label": `Remove the slider ${path}`, onclick: () => unpin(path) }, "×")),
+    range);
+}
+
+function unpin(path) {
+  content.pinned = content.pinned.filter((other) => other !== path);
+  showSliders();
+  commit();
+}
+
+/** Adds a slider for a value. */
+export function pin(path) {
+  if (!content.pinned.includes(path)) {
+    content.pinned = [...content.pinned, path];
+    showSliders();
+    commit();
+  }
+}
+
+/** Listens to the fields that add and reset values. */
+export function listen() {
+  on("restored", (isOther) => (isOther ? readParameters() : showSliders()));
+  const add = $("path");
+  const added = () => {
+    const path = add.value.trim();
+    if (known(path)) {
+      pin(path);
+      add.value = "";
+      add.removeAttribute("aria-invalid");
+    } else if (path !== "") {
+      add.setAttribute("aria-invalid", "true");
+    }
+  };
+  add.addEventListener("change", added);
+  add.addEventListener("input", () => { if (known(add.value)) { added(); } });
+  $("reset").addEventListener("click", () => {
+    content.robot = { ...content.robot, set: [] };
+    showSliders();
+    change({ robot: true });
+    commit();
+  });
+}

@@ -1,0 +1,89 @@
+// Table of tensions, the legend of their colours, and fields for held lengths.
+
+import { change } from "./computation.js";
+import { $, element, plain, short } from "./format.js";
+import { commit } from "./history.js";
+import { numberOf, put, refuse, rowsOf } from "./messages.js";
+import { content, on, page } from "./store.js";
+import { colorOf, COLORS } from "./view.js";
+
+const LIMIT_MARGIN = 1e-6; // relative: a tension at its limit is not beyond it
+
+function isBeyond(cable) {
+  return page.frame.limited && (cable.highest > cable.maximum * (1 + LIMIT_MARGIN) || cable.lowest < cable.minimum * (1 - LIMIT_MARGIN));
+}
+
+function showLegend() {
+  const { frame } = page;
+  const limits = frame.limited && frame.cables.every((cable) => Number.isFinite(cable.maximum));
+  const scale = [0, 0.2, 0.4, 0.6, 0.8, 1].map((at) => `#${colorOf(at).getHexString()}`).join(",");
+  const { kinds } = page.view.drives;
+  const key = `${limits} ${Object.values(kinds)}`;
+  if ($("legend").dataset.key === key) {
+    return;
+  }
+  $("legend").dataset.key = key;
+  $("legend").innerHTML = `<span>Tension: ${limits ? "minimum" : "none"}<i style="background:linear-gradient(90deg,${scale})"></i>${limits ? "maximum" : "highest"}</span>`
+    + `<span><i class="one" style="background:${COLORS.slack}"></i>slack</span><span><i class="one" style="background:${COLORS.beyond}"></i>beyond a limit</span>`
+    + (kinds.drums ? '<span><i class="dot drum"></i>drum</span>' : "")
+    + (kinds.pulleys ? `<span><i class="dot wheel"></i>pulley${kinds.guides ? ", guide wheel" : ""}</span>` : "")
+    + (kinds.supports ? '<span><i class="dot support"></i>flexible support</span>' : "");
+}
+
+function rowOf(i) {
+  const length = element("input", { "aria-label": `Unstrained length of cable ${i + 1} in metres`, inputmode: "decimal" });
+  length.addEventListener("change", () => setLength(i, length));
+  return element("tr", {}, element("td", { class: "left name" }), element("td"), element("td", { class: "left" },
+    element("span", { class: "track", role: "img" }, element("i"), element("b", { class: "past" }))), element("td"), element("td"), element("td", { class: "lengths" }, length, element("span")));
+}
+
+function showTensions() {
+  const { about, before, frame, view } = page;
+  const rows = rowsOf("tensions", frame.cables.length, rowOf);
+  const free = content.hold === "lengths";
+  const top = Math.max(...frame.cables.map((cable) => (frame.limited && Number.isFinite(cable.maximum) ? cable.maximum : 1.1 * cable.highest)));
+  frame.cables.forEach((cable, i) => {
+    const { cells } = rows[i];
+    put(cells[0], about.check.cables[i].name);
+    put(cells[1], short(cable.tension, 5));
+    const most = frame.limited && Number.isFinite(cable.maximum) ? cable.maximum : top;
+    const track = cells[2].firstChild;
+    const part = Math.max(0, Math.min(1, cable.highest / most));
+    const own = view.lines[i]?.material.color.getHexString();
+    track.firstChild.style.cssText = `width:${(100 * part).toFixed(1)}%;background:#${own}`;
+    track.setAttribute("aria-label", `${short(cable.tension, 4)} of ${short(cable.minimum, 3)} to ${short(cable.maximum, 4)} newtons`);
+    track.title = frame.limited ? `${short(cable.minimum, 3)} to ${Number.isFinite(cable.maximum) ? short(cable.maximum, 4) : "∞"} N` : "";
+    const past = before?.frame.cables[i] ? Math.min(1, before.frame.cables[i].highest / most) : null;
+    track.lastChild.style.cssText = past === null ? "display:none" : `left:${(100 * past).toFixed(1)}%`;
+    put(cells[3], short(100 * cable.sagRatio, 3));
+    put(cells[4], short(cable.lambda2, 3));
+    const [field, text] = cells[5].children;
+    field.hidden = !free;
+    put(text, free ? "" : short(cable.length, 5));
+    if (free && document.activeElement !== field) {
+      field.value = plain(cable.length, 7);
+      field.removeAttribute("aria-invalid");
+    }
+    rows[i].classList.toggle("beyond", isBeyond(cable) || cable.slack === 1);
+  });
+}
+
+function setLength(i, field) {
+  const { about, frame } = page;
+  const value = numberOf(field.value);
+  if (value === null || value <= 0) {
+    refuse(field, `cable “${about.check.cables[i].name}”: “${field.value}” is not a length; give a positive number of metres`);
+    return;
+  }
+  field.removeAttribute("aria-invalid");
+  content.start = [...frame.position, ...frame.quaternion];
+  content.lengths = content.lengths.map((length, k) => (k === i ? value : length));
+  change({ frame: true });
+  commit();
+}
+
+export function listen() {
+  on("frame", showTensions);
+  on("remember", showTensions);
+  on("frame", showLegend);
+}

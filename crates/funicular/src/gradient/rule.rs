@@ -1,0 +1,484 @@
+//! Tensions that follow the rule of their distribution while the pose is held.
+//!
+//! The tensions of more cables than degrees of freedom solve a small problem with constraints (docs/theory.md, equations
+//! (38) and (39)). Its optimality conditions, with the limits that are reached kept as equations, hold for the changed
+//! robot as well: each is a scalar that stays zero. Multiples of these scalars are added to the differential of a result
+//! until no tension counts any more (equations (60r) to (60t)).
+
+use super::GradientError;
+use super::adjoint::{Adjoint, CableAdjoint};
+use super::cable_form::CableForm;
+use super::parallel_tension::ParallelTension;
+use crate::catenary::Catenary;
+use crate::math::{DMat, Vec3, Vec6};
+use crate::platform::Coordinates;
+use crate::robot::Robot;
+use crate::statics::derivatives::{CablePartials, StaticDerivativeError, force_at_anchor, load_of};
+use crate::statics::{CableState, Equilibrium, Limit, MinimumTension, StaticModel, TensionRange, TensionRule};
+
+/// Distance of a tension from a limit, and multiplier of a limit, over the maximum tension, within which they count as
+/// zero. The search for tensions ends when they change by less than 1e-10; over pulleys and for the rule `middle` a limit
+/// is kept to 1e-9. A millionth, to which its results are documented, is well above.
+const AT_LIMIT: f64 = 1e-7;
+
+/// Pivot over the largest one below which the optimality conditions do not determine the tensions: rounding leaves 1e-15
+/// times the number of cables.
+const SINGULAR: f64 = 1e-11;
+
+/// Optimality conditions of the tensions, solved for their multipliers.
+pub(super) struct RuleFollower {
+    /// Multipliers of the balance, then of the conditions, from the coefficients of the parallel tensions.
+    solution: DMat,
+    conditions: Vec<Condition>,
+    degrees_of_freedom: usize,
+}
+
+/// Scalar that is zero for every robot whose tensions follow the rule.
+struct Condition {
+    cable: usize,
+    coefficients: CableAdjoint<f64>,
+    /// By the mass of the platform and by gravity.
+    mass: f64,
+    gravity_w: Vec3,
+    /// By the relative distance from the limits that the rule `middle` maximises.
+    distance: f64,
+    /// True for the stationarity of a tension between its limits, which contains the multipliers of the balance.
+    is_stationarity: bool,
+}
+
+/// Limit of a tension, in terms of which conditions are written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Bound {
+    /// Minimum tension anywhere in the cable.
+    Minimum,
+    /// Maximum tension anywhere in the cable.
+    Maximum,
+    /// Minimum parallel tension of a sagging cable, (37).
+    Slackest,
+}
+
+/// Equilibrium with what the conditions need of it.
+struct Problem<'a> {
+    robot: &'a Robot,
+    equilibrium: &'a Equilibrium,
+    coordinates: &'a Coordinates,
+    partials: &'a [CablePartials],
+    tensions: &'a [ParallelTension],
+    /// Wrenches per parallel tension, reduced; one column per cable.
+    wrenches: &'a DMat,
+    ranges: Vec<TensionRange>,
+    /// Maximum tension [N].
+    size: f64,
+}
+
+impl RuleFollower {
+    pub(super) fn new(
+        robot: &Robot,
+        equilibrium: &Equilibrium,
+        coordinates: &Coordinates,
+        (partials, tensions, wrenches): (&[CablePartials], &[ParallelTension], &DMat),
+        rule: &TensionRule,
+    ) -> Result<Self, GradientError> {
+        let states = equilibrium.cables.iter().enumerate();
+        let ranges = states.map(|(i, state)| TensionRange::of(robot, i, &state.chord_w())).collect();
+        let size = equilibrium.cables.iter().fold(0.0, |most: f64, state| most.max(state.tension_platform));
+        let problem = Problem { robot, equilibrium, coordinates, partials, tensions, wrenches, ranges, size };
+        match rule {
+            TensionRule::Lowest => problem.nearest(rule, None),
+            TensionRule::Closest(target) => problem.nearest(rule, Some(target)),
+            TensionRule::Middle => problem.middle(rule),
+            TensionRule::Stiffest => Err(GradientError::Stiffest),
+        }
+    }
+
+    /// Adds multiples of the conditions until the parallel tensions, whose coefficients are given, do not count; returns
+    /// the multiplier of the balance to be added, reduced.
+    pub(super) fn follow(&self, total: &mut Adjoint<f64>, of_tensions: &DMat) -> Vec6 {
+        let multipliers = &self.solution * of_tensions;
+        let n = self.degrees_of_freedom;
+        for (condition, multiplier) in self.conditions.iter().zip(multipliers.iter().skip(n)) {
+            let factor = -multiplier;
+            add_cable(&mut total.cables[condition.cable], &condition.coefficients, factor);
+            total.mass += condition.mass * factor;
+            for k in 0..3 {
+                total.gravity[k] += condition.gravity_w[k] * factor;
+            }
+        }
+        Vec6::from_fn(|k, _| if k < n { -multipliers[(k, 0)] } else { 0.0 })
+    }
+}
+
+impl RuleFollower {
+    /// Solution for coefficients of the tensions of this number of cables alone, without the further unknowns.
+    fn of_tensions(self, cables: usize) -> Self {
+        let solution = self.solution.columns(0, cables).into_owned();
+        Self { solution, ..self }
+    }
+}
+
+impl Problem<'_> {
+    fn state(&self, i: usize) -> &CableState {
+        &self.equilibrium.cables[i]
+    }
+
+    /// Conditions of the tensions nearest to a target, or to their minima.
+    fn nearest(&self, rule: &TensionRule, target: Option<&Vec<f64>>) -> Result<RuleFollower, GradientError> {
+        let (cables, n) = (self.tensions.len(), self.coordinates.count());
+        let wanted = |i: usize| match target {
+            Some(target) => target[i % target.len()],
+            None => self.ranges[i].minimum,
+        };
+        let held: Vec<Option<Bound>> = (0..cables).map(|i| self.reached(i)).collect();
+        let free: Vec<usize> = (0..cables).filter(|i| held[*i].is_none()).collect();
+        if free.len() < n {
+            return Err(self.one_sided(rule, held.iter().position(Option::is_some).unwrap_or(0), &held));
+        }
+
+        // Multipliers of the balance, by least squares over the cables between their limits.
+        let columns = DMat::from_fn(free.len(), n, |row, k| self.wrenches[(k, free[row])]);
+        let excess = |i: usize| self.parallel(i) - wanted(i);
+        let right = DMat::from_fn(free.len(), 1, |row, _| excess(free[row]));
+        let factors = columns.qr();
+        let solved = factors.r().solve_upper_triangular(&(factors.q().transpose() * right));
+        let solved = solved.ok_or(StaticDerivativeError::Singular)?;
+        let pressure = |i: usize| excess(i) - (0..n).map(|k| self.wrenches[(k, i)] * solved[(k, 0)]).sum::<f64>();
+
+        let rounding = AT_LIMIT * self.size;
+        for (i, bound) in held.iter().enumerate() {
+            let pressure = pressure(i);
+            let outwards = match bound {
+                None if pressure.abs() <= rounding => continue,
+                None => -1.0,
+                Some(Bound::Maximum) => -pressure,
+                Some(_) => pressure,
+            };
+            if outwards < -rounding {
+                return Err(GradientError::NotByRule { rule: rule.name(), cable: self.name(i) });
+            }
+            if outwards <= rounding {
+                return Err(self.one_sided(rule, i, &held));
+            }
+        }
+
+        // The conditions, each with its cable.
+        let reduced = Vec6::from_fn(|k, _| if k < n { solved[(k, 0)] } else { 0.0 });
+        let expanded = self.coordinates.expand(&reduced);
+        let y_v = Vec3::new(expanded[0], expanded[1], expanded[2]);
+        let y_theta = Vec3::new(expanded[3], expanded[4], expanded[5]) / self.coordinates.ell();
+        let conditions = (0..cables)
+            .map(|i| match held[i] {
+                Some(bound) => self.at_bound(i, bound, 1.0, None),
+                None => self.stationarity(i, target.is_none(), &y_v, &y_theta),
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        let found = self.solved(rule, conditions, n, |condition, k| {
+            if condition.is_stationarity { -self.wrenches[(k, condition.cable)] } else { 0.0 }
+        })?;
+        Ok(found.of_tensions(cables))
+    }
+
+    /// Conditions of the tensions with the maximum distance from the limits.
+    fn middle(&self, rule: &TensionRule) -> Result<RuleFollower, GradientError> {
+        let (cables, n) = (self.tensions.len(), self.coordinates.count());
+        if let Some(i) = self.ranges.iter().position(|range| range.maximum.is_infinite()) {
+            return Err(GradientError::NotByRule { rule: rule.name(), cable: self.name(i) });
+        }
+        let widths: Vec<f64> = self.ranges.iter().map(|range| range.maximum - range.minimum).collect();
+        let distances: Vec<[f64; 2]> = (0..cables)
+            .map(|i| {
+                [
+                    self.tension(i, Bound::Minimum) - self.ranges[i].minimum,
+                    self.ranges[i].maximum - self.tension(i, Bound::Maximum),
+                ]
+            })
+            .collect();
+        let smallest = distances.iter().zip(&widths).flat_map(|(d, width)| d.map(|d| d / width));
+        let smallest = smallest.fold(f64::INFINITY, f64::min);
+
+        let mut conditions = Vec::new();
+        for i in 0..cables {
+            for (bound, sign, distance) in
+                [(Bound::Minimum, 1.0, distances[i][0]), (Bound::Maximum, -1.0, distances[i][1])]
+            {
+                if distance - smallest * widths[i] <= AT_LIMIT * self.size {
+                    conditions.push(self.at_bound(i, bound, sign, Some((smallest, widths[i])))?);
+                }
+            }
+        }
+        if let Some(i) = (0..cables).find(|&i| self.reached(i) == Some(Bound::Slackest)) {
+            return Err(self.one_sided(rule, i, &[]));
+        }
+
+        // A corner: as many cables at the smallest distance as there are unknowns beyond the balance.
+        if conditions.len() != cables + 1 - n {
+            return Err(self.one_sided(rule, conditions.first().map_or(0, |condition| condition.cable), &[]));
+        }
+        let cables_held: Vec<usize> = conditions.iter().map(|condition| condition.cable).collect();
+        let found = self.solved(rule, conditions, 1, |condition, _| condition.distance)?;
+
+        // Multipliers of the distance itself; all have to hold it.
+        let presses = |k: usize| found.solution[(n + k, cables)];
+        let strongest = (0..cables_held.len()).fold(0.0, |most: f64, k| most.max(presses(k).abs()));
+        for (k, cable) in cables_held.iter().enumerate() {
+            let sign = -presses(k);
+            if sign < -AT_LIMIT * strongest {
+                return Err(GradientError::NotByRule { rule: rule.name(), cable: self.name(*cable) });
+            }
+            if sign <= AT_LIMIT * strongest {
+                return Err(self.one_sided(rule, *cable, &[]));
+            }
+        }
+        Ok(found.of_tensions(cables))
+    }
+
+    /// Solves the conditions and the balance for their multipliers. `extra` further unknowns have the coefficients
+    /// `by_extra`; in the solution they follow the tensions as columns.
+    fn solved(
+        &self,
+        rule: &TensionRule,
+        conditions: Vec<Condition>,
+        extra: usize,
+        by_extra: impl Fn(&Condition, usize) -> f64,
+    ) -> Result<RuleFollower, GradientError> {
+        let (cables, n) = (self.tensions.len(), self.coordinates.count());
+        let size = cables + extra;
+        let mut matrix = DMat::zeros(size, n + conditions.len());
+        debug_assert!(matrix.is_square(), "as many multipliers as unknowns");
+        for i in 0..cables {
+            (0..n).for_each(|k| matrix[(i, k)] = self.wrenches[(k, i)]);
+        }
+        for (column, condition) in conditions.iter().enumerate() {
+            let (i, column) = (condition.cable, n + column);
+            matrix[(i, column)] = self.by_tension(i, &condition.coefficients);
+            for k in 0..extra {
+                matrix[(cables + k, column)] = by_extra(condition, k);
+            }
+        }
+
+        let factors = matrix.full_piv_lu();
+        let pivots = factors.u().diagonal().map(f64::abs);
+        if pivots.min().is_nan() || pivots.min() <= SINGULAR * pivots.max() {
+            return Err(self.one_sided(rule, conditions.first().map_or(0, |condition| condition.cable), &[]));
+        }
+        let inverse = factors.try_inverse().ok_or(StaticDerivativeError::Singular)?;
+        Ok(RuleFollower { solution: inverse, conditions, degrees_of_freedom: n })
+    }
+
+    fn name(&self, i: usize) -> String {
+        self.robot.cables[i].name.clone()
+    }
+
+    /// Error of tensions whose rule has different derivatives on both sides.
+    fn one_sided(&self, rule: &TensionRule, i: usize, held: &[Option<Bound>]) -> GradientError {
+        let limit = match held.get(i).copied().flatten() {
+            Some(Bound::Maximum) => Some(Limit::Maximum),
+            Some(_) => Some(Limit::Minimum),
+            None => None,
+        };
+        GradientError::OneSided { rule: rule.name(), cable: self.name(i), limit }
+    }
+
+    /// Parallel tension τ of a cable, (10a) [N].
+    fn parallel(&self, i: usize) -> f64 {
+        let state = self.state(i);
+        state.hanging.as_ref().map_or(state.tension_platform, |hanging| hanging.catenary.parallel_tension())
+    }
+
+    /// Minimum or maximum tension in a cable [N].
+    fn tension(&self, i: usize, bound: Bound) -> f64 {
+        let state = self.state(i);
+        let both =
+            state.hanging.as_ref().map(|hanging| [hanging.catenary.min_tension(), hanging.catenary.max_tension()]);
+        let [low, high] = both.unwrap_or([state.tension_platform; 2]);
+        match bound {
+            Bound::Minimum => low,
+            Bound::Maximum => high,
+            Bound::Slackest => self.parallel(i),
+        }
+    }
+
+    /// Limit at which a tension is, within rounding.
+    fn reached(&self, i: usize) -> Option<Bound> {
+        let (range, rounding) = (&self.ranges[i], AT_LIMIT * self.size);
+        let state = self.state(i);
+        let slackest = Catenary::SLACKEST * load_of(state).norm() * state.chord();
+        if self.tension(i, Bound::Minimum) <= range.minimum + rounding {
+            Some(Bound::Minimum)
+        } else if self.tension(i, Bound::Maximum) >= range.maximum - rounding {
+            Some(Bound::Maximum)
+        } else {
+            (self.parallel(i) <= slackest + rounding).then_some(Bound::Slackest)
+        }
+    }
+
+    /// Derivative of a scalar with these coefficients by the parallel tension of cable `i`.
+    fn by_tension(&self, i: usize, coefficients: &CableAdjoint<f64>) -> f64 {
+        let by_length = self.partials[i].force_by_length_w.dot(&Vec3::from(coefficients.force)) + coefficients.length;
+        by_length / self.tensions[i].by_length
+    }
+
+    /// Tension at a limit: `sign (T − limit)`, less the distance from it in proportion to the width of the limits.
+    fn at_bound(
+        &self,
+        i: usize,
+        bound: Bound,
+        sign: f64,
+        distance: Option<(f64, f64)>,
+    ) -> Result<Condition, GradientError> {
+        let mut condition = Condition::new(i);
+        if bound == Bound::Slackest {
+            let state = self.state(i);
+            let (q, d) = (load_of(state), state.chord_w());
+            self.tensions[i].add(&mut condition.coefficients, sign);
+            let factor = -sign * Catenary::SLACKEST;
+            put(&mut condition.coefficients.load, &(q.normalize() * (d.norm() * factor)));
+            put(&mut condition.coefficients.chord, &(d.normalize() * (q.norm() * factor)));
+            return Ok(condition);
+        }
+
+        self.add_tension(&mut condition.coefficients, i, bound, sign);
+        let of_minimum = if bound == Bound::Minimum { -sign } else { 0.0 };
+        let (by_width, width) = distance.unwrap_or_default();
+        self.add_minimum(&mut condition, of_minimum + by_width)?;
+        condition.distance = -width;
+        Ok(condition)
+    }
+
+    /// Stationarity of a tension between its limits: `τ − c − G·y`.
+    fn stationarity(
+        &self,
+        i: usize,
+        from_minimum: bool,
+        y_v: &Vec3,
+        y_theta: &Vec3,
+    ) -> Result<Condition, GradientError> {
+        let mut condition = Condition { is_stationarity: true, ..Condition::new(i) };
+        self.tensions[i].add(&mut condition.coefficients, 1.0);
+        if from_minimum {
+            self.add_minimum(&mut condition, -1.0)?;
+        }
+
+        // The force per tension b turns with chord and load.
+        let (state, tension) = (self.state(i), &self.tensions[i]);
+        let (q, d) = (load_of(state), state.chord_w());
+        let by_length = self.partials[i].force_by_length_w;
+        let by_tension = by_length / tension.by_length;
+        let along = y_v + y_theta.cross(&state.lever_w);
+        let sum = &mut condition.coefficients;
+        put(&mut sum.lever, &-by_tension.cross(y_theta));
+        if q == Vec3::zeros() {
+            let axis = d.normalize();
+            put(&mut sum.chord, &(-(along - axis * axis.dot(&along)) / d.norm()));
+            return Ok(condition);
+        }
+
+        let rate = along.dot(&by_tension);
+        let held = (along - tension.force_w * rate) / tension.by_length;
+        CableForm::at_rest(state, false)?.add_force_by_length(sum, &held, &by_length, &d, -1.0);
+        let [by_chord, by_load] = along_coefficients(&d, &q, &(by_tension * rate));
+        put(&mut sum.chord, &by_chord);
+        put(&mut sum.load, &by_load);
+        Ok(condition)
+    }
+
+    /// Adds `factor` times the coefficients of the minimum or maximum tension in a cable.
+    fn add_tension(&self, sum: &mut CableAdjoint<f64>, i: usize, bound: Bound, factor: f64) {
+        let state = self.state(i);
+        let (f, q, at_anchor) = (state.force_on_platform_w, load_of(state), force_at_anchor(state));
+        let is_sagging = q != Vec3::zeros();
+        let lowest_between = is_sagging && f.dot(&q) > 0.0 && at_anchor.dot(&q) < 0.0;
+        if bound == Bound::Minimum && lowest_between {
+            // Horizontal force: f less its part along the load.
+            let up = -q.normalize();
+            let horizontal = (f - up * f.dot(&up)).normalize();
+            put(&mut sum.force, &(horizontal * factor));
+            put(&mut sum.load, &(horizontal * (f.dot(&up) / q.norm() * factor)));
+            return;
+        }
+
+        let anchor_is_higher = at_anchor.norm() > f.norm();
+        if is_sagging && anchor_is_higher == (bound == Bound::Maximum) {
+            let along = at_anchor.normalize();
+            put(&mut sum.force, &(along * factor));
+            put(&mut sum.load, &(along * (-state.unstrained_length * factor)));
+            sum.length -= along.dot(&q) * factor;
+        } else {
+            put(&mut sum.force, &(f.normalize() * factor));
+        }
+    }
+
+    /// Adds `factor` times the coefficients of the minimum of a cable's tension.
+    fn add_minimum(&self, condition: &mut Condition, factor: f64) -> Result<(), GradientError> {
+        let (i, robot) = (condition.cable, self.robot);
+        let state = self.state(i);
+        let d = state.chord_w();
+        match MinimumTension::of(robot, i, &d) {
+            MinimumTension::Given(_) => {}
+            MinimumTension::OfCable { .. } if self.equilibrium.model != StaticModel::Catenary => {
+                // Straight cables do not follow their load, but this minimum does.
+                if factor != 0.0 {
+                    return Err(GradientError::DefaultMinimum { cable: self.name(i) });
+                }
+            }
+            MinimumTension::OfCable { factor: of_load } => {
+                let q = load_of(state);
+                let factor = factor * of_load;
+                put(&mut condition.coefficients.load, &(q.normalize() * (d.norm() * factor)));
+                put(&mut condition.coefficients.chord, &(d.normalize() * (q.norm() * factor)));
+            }
+            MinimumTension::OfPlatform { factor: of_weight } => {
+                let (g, mass, factor) = (robot.gravity_w, robot.platform.mass, factor * of_weight);
+                condition.mass += g.norm() * factor;
+                condition.gravity_w += g.try_normalize(0.0).unwrap_or_else(Vec3::zeros) * (mass * factor);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Condition {
+    fn new(cable: usize) -> Self {
+        Self {
+            cable,
+            coefficients: CableAdjoint::default(),
+            mass: 0.0,
+            gravity_w: Vec3::zeros(),
+            distance: 0.0,
+            is_stationarity: false,
+        }
+    }
+}
+
+/// Coefficients over chord and load of `x·e`, where `e = h/cos α = P d |d|/|P d|²` is the derivative of the parallel
+/// tension by the force, P the projection on the plane across the load, and `x` is held.
+fn along_coefficients(d: &Vec3, q: &Vec3, x: &Vec3) -> [Vec3; 2] {
+    let up = -q.normalize();
+    let across = |v: &Vec3| v - up * up.dot(v);
+    let span = across(d);
+    let (l, square) = (d.norm(), span.norm_squared());
+    let product = x.dot(&span);
+    let by_span = (x - span * (2.0 * product / square)) * (l / square);
+    let by_chord = across(&by_span) + d * (product / (square * l));
+    let by_up = -(by_span * up.dot(d) + d * up.dot(&by_span));
+    [by_chord, -across(&by_up) / q.norm()]
+}
+
+fn put(sum: &mut [f64; 3], value: &Vec3) {
+    sum.iter_mut().zip(value.iter()).for_each(|(sum, value)| *sum += value);
+}
+
+/// Adds `factor` times the coefficients of a cable to others.
+fn add_cable(sum: &mut CableAdjoint<f64>, of: &CableAdjoint<f64>, factor: f64) {
+    let vectors = [
+        (&mut sum.force, &of.force),
+        (&mut sum.lever, &of.lever),
+        (&mut sum.chord, &of.chord),
+        (&mut sum.load, &of.load),
+    ];
+    for (sum, of) in vectors {
+        sum.iter_mut().zip(of).for_each(|(sum, of)| *sum += of * factor);
+    }
+    sum.length += of.length * factor;
+    sum.stiffness += of.stiffness * factor;
+    debug_assert!(of.mass == 0.0 && of.damping == 0.0, "conditions of rest have no inertia");
+}

@@ -1,0 +1,279 @@
+//! Derivatives of tensions that follow a rule, against central differences of the tension distribution.
+
+use super::{changes, distance, extrapolated, list};
+use crate::random::Draw;
+use funicular::cable::CableModel;
+use funicular::gradient::{GradientError, Gradients, Hold};
+use funicular::math::{Rotation, Vec3};
+use funicular::robot::{Pose, Robot, RobotChange, TensionLimits, Wind};
+use funicular::statics::{self, Equilibrium, Limit, StaticModel, TensionRange, TensionRule};
+use std::fmt::Write as _;
+
+/// Robot with more cables than degrees of freedom at a pose.
+struct Case {
+    name: String,
+    robot: Robot,
+    pose: Pose,
+    rule: TensionRule,
+    model: StaticModel,
+}
+
+impl Case {
+    fn at(&self, robot: &Robot, pose: &Pose) -> Option<Equilibrium> {
+        statics::distribute_tensions(robot, pose, self.model, &self.rule).ok()
+    }
+
+    /// Equilibrium of the robot with a change, which may move the pose, too.
+    fn changed(&self, change: &RobotChange, step: f64) -> Option<(Robot, Equilibrium)> {
+        let robot = self.robot.changed(change, step);
+        let pose = Pose {
+            position_w: self.pose.position_w + change.position_w * step,
+            rot_wp: Rotation::from_scaled_axis(change.rotation_w * step) * self.pose.rot_wp,
+        };
+        let rest = self.at(&robot, &pose)?;
+        Some((robot, rest))
+    }
+}
+
+/// Tensions at both ends and lengths, these times a stiffness per length [N/m].
+fn values(rest: &Equilibrium, stiffness: f64) -> Vec<f64> {
+    let cables = rest.cables.iter();
+    cables.flat_map(|c| [c.tension_platform, c.tension_anchor, c.unstrained_length * stiffness]).collect()
+}
+
+/// Platform under eight cables with random points, some of them from below.
+fn random_case(number: u64) -> Case {
+    let mut draw = Draw(number);
+    let cables = 7 + (number % 3) as usize;
+    let mut text = format!(
+        "name = \"random\"\n[platform]\nmass_kg = {}\ninertia_kg_m2 = [0.9, 1.0, 1.1]\n[materials.rope]\n\
+         axial_stiffness_n = {}\nmass_kg_per_m = {}\n",
+        draw.decades(1.0, 2.3),
+        draw.decades(3.7, 6.0),
+        draw.decades(-2.5, -0.3),
+    );
+    for i in 0..cables {
+        let around = std::f64::consts::TAU * (i as f64 + 0.5 * draw.between(0.0, 1.0)) / cables as f64;
+        let z = if i % 4 == 3 { -draw.between(1.0, 3.0) } else { draw.between(3.0, 5.0) };
+        let anchor = [6.0 * around.cos(), 5.0 * around.sin(), z];
+        let turned = 2.3 * around + draw.between(-0.5, 0.5);
+        let attachment = [0.4 * turned.cos(), 0.4 * turned.sin(), draw.between(-0.3, 0.3)];
+        writeln!(
+            text,
+            "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\nattachment_m = {attachment:?}"
+        )
+        .unwrap();
+    }
+    let robot = Robot::from_toml(&text).unwrap();
+    let position_w = Vec3::from(draw.vector(0.6));
+    let pose = Pose { position_w, rot_wp: Rotation::from_scaled_axis(draw.vector(0.1).into()) };
+    let weight = robot.platform.mass * 9.81;
+    let (robot, rule) = match number % 4 {
+        0 => (robot, TensionRule::Lowest),
+        1 => (robot, TensionRule::Closest(vec![draw.between(0.1, 1.5) * weight])),
+        2 => {
+            let limits = TensionLimits { minimum: Some(0.05 * weight), maximum: Some(1.2 * weight) };
+            (robot.with_tension_limits(limits), TensionRule::Closest(vec![1.3 * weight]))
+        }
+        _ => {
+            let limits = TensionLimits { minimum: Some(0.02 * weight), maximum: Some(3.0 * weight) };
+            (robot.with_tension_limits(limits), TensionRule::Middle)
+        }
+    };
+    let model = if number % 5 == 4 { StaticModel::Spring } else { StaticModel::Catenary };
+    Case { name: format!("random {number}, {rule:?}, {model:?}"), robot, pose, rule, model }
+}
+
+/// Robots of the library with more cables than degrees of freedom, with several rules each, and random ones.
+fn cases() -> Vec<Case> {
+    let mut all: Vec<Case> = (0..60).map(random_case).collect();
+    for (file, robot, rest) in crate::library::library() {
+        let fixed = robot.cables.iter().all(|cable| cable.anchor.is_fixed());
+        if !fixed || robot.cables.len() <= robot.platform.motion.count() {
+            continue;
+        }
+        let mean = rest.cables.iter().map(|cable| cable.tension_platform).sum::<f64>() / robot.cables.len() as f64;
+        let limits = TensionLimits { minimum: Some(0.3 * mean), maximum: Some(3.0 * mean) };
+        let limited = robot.with_tension_limits(limits);
+        for (robot, rule) in [
+            (robot.clone(), TensionRule::Lowest),
+            (robot.clone(), TensionRule::Closest(vec![mean])),
+            (limited.clone(), TensionRule::Closest(vec![0.5 * mean])),
+            (limited, TensionRule::Middle),
+        ] {
+            let (name, pose) = (format!("{file}, {rule:?}"), rest.pose);
+            all.push(Case { name, robot, pose, rule, model: StaticModel::Catenary });
+        }
+    }
+
+    // Wind, a load, a tilt and ropes that sag, so that limits act at every place of a cable.
+    let mut robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    robot.cables.iter_mut().for_each(|cable| {
+        cable.material.mass_per_length = 0.6;
+        cable.material.drag_width = Some(0.005);
+    });
+    robot.load.force_w = Vec3::new(40.0, -30.0, -80.0);
+    robot.load.moment_w = Vec3::new(3.0, 2.0, -1.0);
+    robot.load.point_p = Vec3::new(0.05, -0.1, 0.08);
+    robot.platform.drag_area = 0.2;
+    let robot = robot.with_wind(Wind { velocity_w: Vec3::new(12.0, 5.0, 1.0), ..Wind::default() });
+    for (minimum, rule) in [
+        (Some(250.0), TensionRule::Closest(vec![300.0])),
+        (None, TensionRule::Lowest),
+        (None, TensionRule::Closest(vec![10.0, 300.0, 200.0, 400.0, 350.0, 150.0, 350.0, 350.0])),
+    ] {
+        let pose = Pose {
+            position_w: Vec3::new(1.0, 1.5, 1.2),
+            rot_wp: Rotation::from_scaled_axis(Vec3::new(0.05, 0.02, -0.1)),
+        };
+        let robot = if minimum.is_some() {
+            robot.with_tension_limits(TensionLimits { minimum, maximum: Some(2000.0) })
+        } else {
+            let mut robot = robot.clone();
+            robot.cables.iter_mut().for_each(|cable| {
+                (cable.material.tension_limits.minimum, cable.tension_limits.minimum) = (None, None);
+            });
+            robot
+        };
+        all.push(Case {
+            name: format!("in wind, {minimum:?}, {rule:?}"),
+            robot,
+            pose,
+            rule,
+            model: StaticModel::Catenary,
+        });
+    }
+    all
+}
+
+/// Number of cables at a limit.
+fn at_limits(case: &Case, rest: &Equilibrium) -> usize {
+    let reached = |(i, state): (usize, &statics::CableState)| {
+        TensionRange::of(&case.robot, i, &state.chord_w()).margin(state).reached().is_some()
+    };
+    rest.cables.iter().enumerate().filter(|cable| reached(*cable)).count()
+}
+
+/// Every number changes the tensions and the lengths as the distribution of the changed robot says. The distribution ends
+/// when tensions change by 1e-10 of their size, over steps that change them by 1e-4 to 1e-2. Half of the extrapolation's
+/// own part is spared.
+#[test]
+fn tensions_follow_their_rule_with_every_number_of_the_robot() {
+    let (mut compared, mut limited, mut refused) = (0, 0, 0);
+    for case in cases() {
+        let Some(rest) = case.at(&case.robot, &case.pose) else { continue };
+        let gradients = match Gradients::by_rule(&case.robot, &rest, &case.rule) {
+            Ok(gradients) => gradients,
+            Err(GradientError::OneSided { .. } | GradientError::DefaultMinimum { .. }) => {
+                refused += 1;
+                continue;
+            }
+            Err(error) => panic!("{}: {error}", case.name),
+        };
+        let stiffness = case.robot.cables[0].material.axial_stiffness;
+        let (platform, anchor, lengths) =
+            (gradients.tensions_platform(), gradients.tensions_anchor(), gradients.lengths());
+        let mut all = changes(&case.robot);
+        all.retain(|(what, ..)| *what != "length");
+        let none = RobotChange::none(case.robot.cables.len());
+        all.push(("position", RobotChange { position_w: Vec3::new(0.2, 1.0, -0.4), ..none.clone() }, 1e-4));
+        if case.robot.platform.motion.count() == 6 {
+            all.push(("turn", RobotChange { rotation_w: Vec3::new(0.2, 1.0, -0.4), ..none }, 1e-4));
+        }
+        for (what, change, step) in all {
+            let found: Vec<f64> = (0..case.robot.cables.len())
+                .flat_map(|i| [platform[i].dot(&change), anchor[i].dot(&change), lengths[i].dot(&change) * stiffness])
+                .collect();
+            let motion = case.robot.platform.motion;
+            if what == "position" && motion.count() < 3 {
+                continue;
+            }
+            // Shorter steps, if the first ones cross a change of the limits that are reached.
+            let mut smooth = None;
+            for shorter in [1.0, 1e-2, 1e-4] {
+                let step = step * shorter;
+                let differences =
+                    extrapolated(step, |h| case.changed(&change, h).map(|(_, rest)| values(&rest, stiffness)));
+                let Some((differences, added)) = differences else { continue };
+                let (error, size) = distance(&found, &differences);
+                if added <= 1e-4 * size {
+                    smooth = Some((step, error, size, added));
+                    break;
+                }
+            }
+            let Some((step, error, size, added)) = smooth else { continue };
+            let size_of_tensions = rest.cables.iter().map(|c| c.tension_platform).fold(0.0, f64::max);
+            let rounding = 1e-9 * size_of_tensions / step;
+            assert!(
+                error <= 1e-5 * size + added + rounding,
+                "{}, {what}: {error:e} of {size:e}, extrapolation {added:e}, rounding {rounding:e}",
+                case.name
+            );
+            compared += 1;
+            limited += usize::from(at_limits(&case, &rest) > 0);
+        }
+    }
+    assert!(compared > 500 && limited > 150 && refused < 10, "{compared} {limited} {refused}");
+}
+
+/// First natural frequency and minimum stiffness follow the rule, too: what a design changes. Frequencies are certain to
+/// 1e-10 of themselves, over steps that change them by 1e-4.
+#[test]
+fn frequencies_and_stiffness_follow_the_rule_of_the_tensions() {
+    let robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    let mut compared = 0;
+    for (x, y, target) in [(0.0, 0.0, 350.0), (2.0, -1.5, 350.0), (-3.0, 1.0, 200.0)] {
+        let (pose, rule) = (Pose::new([x, y, 1.5], [0.0; 3]), TensionRule::Closest(vec![target]));
+        let case = Case { name: String::new(), robot: robot.clone(), pose, rule, model: StaticModel::Catenary };
+        let results = |robot: &Robot, rest: &Equilibrium| {
+            let (_, modes) = list(robot, rest, CableModel::CatenaryDynamic, 6.0).unwrap();
+            vec![modes[0].frequency_hz, 1e-4 * rest.stability.min_stiffness().unwrap()]
+        };
+        let rest = case.at(&robot, &case.pose).unwrap();
+        let (dynamics, modes) = list(&robot, &rest, CableModel::CatenaryDynamic, 6.0).unwrap();
+        let gradients = Gradients::by_rule(&robot, &rest, &case.rule).unwrap();
+        assert_eq!(gradients.hold(), Hold::Rule);
+        let first = gradients.vibration(&dynamics).unwrap().frequency(&modes[0]).unwrap();
+        let stiffness = gradients.min_stiffness().unwrap();
+        for (what, change, step) in changes(&robot) {
+            if what == "length" {
+                continue;
+            }
+            let found = [first.dot(&change), 1e-4 * stiffness.dot(&change)];
+            let differences =
+                extrapolated(step, |h| case.changed(&change, h).map(|(robot, rest)| results(&robot, &rest)));
+            let (differences, _) = differences.unwrap();
+            for (found, difference) in found.iter().zip(&differences) {
+                let allowed = 1e-5 * difference.abs() + 1e-9 / step;
+                assert!((found - difference).abs() <= allowed, "({x}, {y}), {what}: {found} {difference}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 40, "{compared}");
+}
+
+/// Rules without derivatives, tensions of another rule, and limits that do not press.
+#[test]
+fn tensions_without_derivatives_by_a_rule_are_refused() {
+    let robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    let pose = Pose::new([0.5, 0.3, 1.5], [0.0; 3]);
+    let closest = TensionRule::Closest(vec![350.0]);
+    let rest = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &closest).unwrap();
+    let refused = |rule: &TensionRule| Gradients::by_rule(&robot, &rest, rule).err().unwrap();
+    assert_eq!(refused(&TensionRule::Stiffest), GradientError::Stiffest);
+    assert!(matches!(refused(&TensionRule::Lowest), GradientError::NotByRule { rule: "lowest", .. }));
+    assert!(matches!(refused(&TensionRule::Closest(vec![300.0])), GradientError::NotByRule { .. }));
+    assert_eq!(Gradients::new(&robot, &rest, Hold::Rule).err(), Some(GradientError::NoRule));
+
+    // A maximum exactly at the tension that the rule chooses anyway.
+    let (highest, state) =
+        rest.cables.iter().enumerate().max_by(|(_, a), (_, b)| a.tension_anchor.total_cmp(&b.tension_anchor)).unwrap();
+    let mut limited = robot.clone();
+    limited.cables[highest].tension_limits.maximum = Some(state.hanging.as_ref().unwrap().catenary.max_tension());
+    let rest = statics::distribute_tensions(&limited, &pose, StaticModel::Catenary, &closest).unwrap();
+    let error = Gradients::by_rule(&limited, &rest, &closest).err().unwrap();
+    let GradientError::OneSided { limit, .. } = &error else { panic!("{error}") };
+    assert_eq!(*limit, Some(Limit::Maximum));
+    assert!(error.to_string().contains("the limit does not change the tensions"), "{error}");
+}
