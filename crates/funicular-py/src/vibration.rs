@@ -7,10 +7,12 @@ use crate::errors;
 use crate::interrupt::interruptible;
 use crate::request::{model, named, points, share, terms};
 use funicular::compare::TOLERANCE;
+use funicular::gradient::Hold;
 use funicular::math::CMat6;
 use funicular::response;
 use funicular_study::analyses::{self, cable, frf};
 use funicular_study::at_rest;
+use funicular_study::names::Per;
 use funicular_study::request;
 use numpy::Complex64;
 use numpy::ndarray::{ArrayD, IxDyn};
@@ -191,10 +193,30 @@ pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<
         model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
     };
 
+    // The request of the derivatives of these modes, for `Modes.gradient`.
+    let own = request.clone();
+    let gradient = request::Request::Gradient(request::GradientRequest {
+        robot: own.robot,
+        of: request::frequencies(),
+        by: Vec::new(),
+        hold: Hold::default(),
+        per: Per::default(),
+        tolerances: Vec::new(),
+        below_hz: Some(own.below_hz),
+        at_hz: None,
+        input: None,
+        output: None,
+        points: request::ResponsePoints::default(),
+        state: own.state,
+        tensions: own.tensions,
+        model: own.model,
+    });
+    let gradient = (!request.rigid_cables).then(|| gradient.to_value().to_string());
+
     let at_rest = Arc::clone(&of.at_rest);
     let found = interruptible(py, move || analyses::modes::about(&at_rest, &request))?;
     let found = answers::plain(py, &found.map_err(|error| errors::study(&error))?)?;
-    let made = py.import("funicular._results")?.call_method1("modes", (found.0,))?;
+    let made = py.import("funicular._results")?.call_method1("modes", (found.0, gradient))?;
     Ok(ModesObject(made.unbind()))
 }
 

@@ -46,7 +46,9 @@ macro_rules! object {
 object!(ReducedObject, "funicular._results", "ReducedModel");
 object!(StateSpaceObject, "funicular._results", "StateSpaceModel");
 object!(PageObject, "funicular._pages", "Page");
+object!(LiveObject, "funicular._live", "Live");
 object!(IdentifiedObject, "funicular._identify", "Identified");
+object!(DesignedObject, "funicular._design", "Designed");
 object!(UncertaintyObject, "funicular._uncertainty", "Uncertainty");
 
 /// Keywords of `reduce` and `state_space`.
@@ -237,11 +239,10 @@ pub(crate) fn live(
     of: &PyEquilibrium,
     path: Option<PathBuf>,
     model: request::Model,
-) -> PyResult<PageObject> {
+) -> PyResult<LiveObject> {
     let (robot, state, tensions) = (of.of.get().source.clone(), of.state.clone(), of.tensions.clone());
     let html = pages::live::live(&request::LiveRequest { robot, state, tensions, model });
     let html = html.map_err(|error| errors::study(&error))?;
-    let no_warnings: Vec<String> = Vec::new();
-    let made = py.import("funicular._pages")?.call_method1("page", (html, no_warnings, path))?;
-    Ok(PageObject(made.unbind()))
+    let made = py.import("funicular._live")?.call_method1("live", (html, path))?;
+    Ok(LiveObject(made.unbind()))
 }

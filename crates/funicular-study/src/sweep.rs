@@ -16,6 +16,7 @@ mod quantity;
 mod record;
 mod robot_values;
 mod row;
+mod sensitivity;
 mod status;
 
 pub use columns::{Chunk, Column, ColumnKind, Values};
@@ -38,6 +39,7 @@ use crate::robot_file::RobotFile;
 use crate::values::positive;
 use anyhow::{Context as _, Result, anyhow, bail};
 use funicular::math::rotation;
+use funicular::robot::parameters::{Parameter, Parameters};
 use funicular::robot::{PlatformMotion, Pose, Robot, State};
 use funicular::statics;
 use funicular::warnings;
@@ -116,7 +118,8 @@ impl PreparedSweep {
         }
 
         let (quantities, options) = resolve(&robot, &mut request.point)?;
-        let (request, points) = (Request::Map(request), Box::new(points.holding(holding)));
+        let parameters = parameters_of(&quantities, &file.text)?;
+        let (request, points) = (Request::Map(request), Box::new(points.holding(holding).with_parameters(parameters)));
         Ok(Self { request, robot, robot_file: file.text, holder_file, points, base, quantities, options })
     }
 
@@ -149,6 +152,7 @@ impl PreparedSweep {
         refuse_no_state(&robot)?;
 
         let (quantities, options) = resolve(&robot, &mut request.point)?;
+        parameters_of(&quantities, &text)?;
         let (request, points) = (Request::Sweep(request), Box::new(points));
         Ok(Self { request, robot, robot_file: text, holder_file, points, base: None, quantities, options })
     }
@@ -305,6 +309,26 @@ fn resolve(robot: &Robot, point: &mut EachPoint) -> Result<(Vec<Quantity>, Optio
         quantities,
         Options { static_model, tension_rule, linearisation, highest_hz, platform_share, payload_center_p },
     ))
+}
+
+/// Numbers of the robot file, if a quantity differentiates by one of them.
+///
+/// # Errors
+/// A path that is no number of the file, or that leads to several.
+fn parameters_of(quantities: &[Quantity], text: &str) -> Result<Option<Parameters>> {
+    let mut differentiating = quantities.iter().filter_map(|of| Some((of, of.path()?))).peekable();
+    if differentiating.peek().is_none() {
+        return Ok(None);
+    }
+    let parameters = Parameters::from_toml(text)?;
+    for (quantity, path) in differentiating {
+        if parameters.find(path.keys()).is_none() {
+            let paths: Vec<String> = parameters.list().iter().map(Parameter::path).collect();
+            let nearest = crate::names::suggestion(&path.text, &paths);
+            bail!("⟪quantities⟫ {}: the robot file has no number {}{nearest}", quantity.name(), path.text);
+        }
+    }
+    Ok(Some(parameters))
 }
 
 /// Names and values of axes.

@@ -11,6 +11,7 @@ mod drives;
 mod dynamics;
 mod exact;
 mod gradients;
+mod identification;
 mod independent;
 mod markdown;
 mod measured;
@@ -115,6 +116,7 @@ pub fn sections() -> Result<Vec<Section>> {
         drives::section(&of_drives, driven::comparisons(&of_drives)?)?,
         gradients::section(&reference::gradients()?)?,
         measured::section(&reference::measured()?.grab)?,
+        identification::section(&reference::identification()?, &reference::measured()?.grab)?,
         dynamics::section(&published),
         cube::section(&published)?,
         paper::section(&published)?,

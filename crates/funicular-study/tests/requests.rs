@@ -136,6 +136,20 @@ fn requests() -> Vec<Value> {
             ],
         ),
         of(
+            "uncertainty",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &model,
+                &json!({
+                    "of": ["pose", "frequencies"], "deviations": ["platform.mass_kg=1%"],
+                    "tolerances": ["cables.*.anchor_m=0.001"], "hold": "pose", "method": "sampled", "samples": 50,
+                    "seed": 3, "below_hz": 5.0, "poses": [[0.0, 0.0, 0.5, 0.0, 0.0, 0.0]],
+                }),
+            ],
+        ),
+        of(
             "pose-error",
             &[&robot, &tensions, &json!({ "mass_kg": [10.55, 86.35, 100], "pose": [1.0, 2.0, 1.5, 0.0, 3.0, 0.5] })],
         ),
@@ -206,6 +220,23 @@ fn requests() -> Vec<Value> {
         of("map", &[&robot, &point, &json!({ "grid": grid })]),
         of("map", &[&robot, &point, &json!({ "grid": [], "poses": [[0.1, 0.2, 0.3, 1.0, 2.0, 3.0]] })]),
         of("sweep", &[&robot, &point, &json!({ "vary": grid })]),
+        of(
+            "design",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &model,
+                &json!({
+                    "change": [
+                        { "path": "platform.mass_kg", "minimum": 1.0, "maximum": 30.0 },
+                        { "path": "cables.*.anchor_m", "plus_minus": 0.1 },
+                    ],
+                    "goal": "rope-mass", "poses": [[0.1, 0.2, 0.3, 1.0, 2.0, 3.0]], "weights": [2.0],
+                    "min_frequency_hz": 1.5, "min_stiffness_n_per_m": 2e4, "avoid_hz": [2.5, 3.2], "max_iterations": 7,
+                }),
+            ],
+        ),
         of(
             "identify",
             &[

@@ -300,3 +300,87 @@ fn payload_and_first_platform_mode_of_a_row_are_those_of_the_core() {
     let poses = Poses::list(few.clone(), vec![[1.0, 2.0, 1.5, 0.0, 0.0, 0.0]]);
     assert!(matches!(Plan::new(&poses, &few, &requested, &options), Err(SweepError::TooFewCables { .. })));
 }
+
+/// Rows of a request of `sweep` or `map`: values of each column.
+fn rows_of(request: &serde_json::Value) -> (Vec<funicular_study::sweep::Column>, Vec<Chunk>) {
+    let prepared = PreparedSweep::new(&Request::from_json(&request.to_string()).unwrap()).unwrap();
+    let plan = prepared.plan().unwrap();
+    (plan.columns().to_vec(), chunks(&plan))
+}
+
+#[test]
+fn sensitivities_are_differences_of_sweeps() {
+    use serde_json::json;
+    const RESULTS: [&str; 4] = ["first-frequency", "stiffness-min", "tensions", "lengths"];
+    let quantities = |path: &str| {
+        let names = RESULTS.iter().flat_map(|name| [(*name).to_owned(), format!("sensitivity:{name}:{path}")]);
+        names.collect::<Vec<_>>()
+    };
+
+    for (path, from, step, more) in [
+        // Six cables at a pose: the lengths follow. Then at lengths: the pose follows.
+        ("platform.mass_kg", 17.95, 1e-3, json!({"pose": [0.1, 0.2, 0.5, 0.0, 2.0, 0.0]})),
+        ("materials.rope-4mm.diameter_m", 0.004, 1e-7, json!({"pose": [0.1, 0.2, 0.5, 0.0, 2.0, 0.0]})),
+        ("cables.2.anchor_m.z", 5.9, 1e-5, json!({"pose": [0.1, 0.2, 0.5, 0.0, 2.0, 0.0]})),
+        ("platform.mass_kg", 17.95, 1e-3, json!({"lengths_m": [6.863, 6.565, 6.756, 6.663, 6.801, 6.604]})),
+        ("platform.center_of_mass_m.x", 0.01, 1e-5, json!({})),
+        (
+            "platform.mass_kg",
+            17.95,
+            1e-3,
+            json!({"pose": [0.1, 0.2, 0.5, 0.0, 2.0, 0.0], "hold_lengths_of_pose": true}),
+        ),
+    ] {
+        let mut request = json!({
+            "command": "sweep", "robot": {"text": funicular_robots::YUAN2014_4MM}, "quantities": quantities(path),
+            "vary": [{"axis": path, "values": [from - step, from, from + step]}],
+        });
+        request.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        let (columns, chunks) = rows_of(&request);
+        let mut rows: Vec<Vec<Option<f64>>> = Vec::new();
+        for chunk in &chunks {
+            for i in 0..chunk.rows() {
+                rows.push(
+                    chunk.columns.iter().map(|of| if let Values::Real(of) = of { of[i] } else { None }).collect(),
+                );
+            }
+        }
+
+        let mut compared = 0;
+        let mut largest = std::collections::BTreeMap::<String, f64>::new();
+        for (at, column) in columns.iter().enumerate().filter(|(_, column)| column.name.contains("_by_")) {
+            let entry = largest.entry(column.unit.to_string()).or_default();
+            *entry = entry.max(rows[1][at].unwrap().abs());
+        }
+        for (at, column) in columns.iter().enumerate() {
+            let Some((result, of)) = column.name.split_once("_by_") else { continue };
+            assert_eq!(of, path);
+            let value = columns.iter().position(|other| other.name == result).unwrap();
+            let difference = (rows[2][value].unwrap() - rows[0][value].unwrap()) / (2.0 * step);
+            let derivative = rows[1][at].unwrap();
+            // Differences of second order, beside the rounding of frequencies of 1e-9 over the step.
+            let tolerance = 2e-5 * derivative.abs().max(largest[column.unit.as_ref()]) + 1e-9 / step * 1e-2;
+            assert!((derivative - difference).abs() < tolerance, "{}: {derivative} {difference}", column.name);
+            compared += 1;
+        }
+        assert_eq!(compared, 14, "{path}");
+    }
+
+    // Units in the columns; a status for poses without derivatives; paths that no number has.
+    let request = |quantity: &str| {
+        json!({
+            "command": "map", "robot": {"text": funicular_robots::COGIRO_WINCHES}, "quantities": [quantity],
+            "poses": [[0.0, 0.0, 1.5, 0.0, 0.0, 0.0]],
+        })
+    };
+    let (columns, chunks) = rows_of(&request("sensitivity:stiffness-min:platform.mass_kg"));
+    let column = columns.last().unwrap();
+    assert_eq!((column.name.as_str(), column.unit.as_ref()), ("stiffness_min_n_per_m_by_platform.mass_kg", "(N/m)/kg"));
+    let Values::Text(status) = &chunks[0].columns[columns.iter().position(|of| of.name == "status").unwrap()] else {
+        panic!("a status is a text")
+    };
+    assert!(["ok", "no-derivative"].contains(&status[0].as_deref().unwrap()), "{status:?}");
+    let wrong = Request::from_json(&request("sensitivity:stiffness-min:platform.mas_kg").to_string()).unwrap();
+    let error = PreparedSweep::new(&wrong).err().unwrap().to_string();
+    assert!(error.contains("did you mean `platform.mass_kg`?"), "{error}");
+}

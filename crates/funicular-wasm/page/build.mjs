@@ -7,7 +7,7 @@ import { build } from "esbuild";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { gzipSync } from "node:zlib";
+import { brotliCompressSync, gzipSync } from "node:zlib";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const folder = process.argv[2];
@@ -65,6 +65,9 @@ const outputs = Object.values(whole.metafile.outputs)[0].inputs;
 const bytes = (pattern) => Object.entries(outputs).reduce((sum, [path, { bytesInOutput }]) => sum + (pattern.test(path) ? bytesInOutput : 0), 0);
 const editor = (bytes(/@codemirror|@lezer|style-mod|crelt|w3c-keyname|@marijn|editor\.js/) / script.length) * compressed(script);
 const all = packed.length + compressed(script) + compressed(style) + compressed(inFolder);
+// As servers send it: all browsers accept Brotli. The single file is unpacked by the page itself, which knows gzip only.
+const served = [wasm, script, style, inFolder].reduce((sum, content) => sum + brotliCompressSync(content).length, 0);
+const servedEditor = (editor / compressed(script)) * brotliCompressSync(script).length;
 const kb = (size) => `${Math.round(size / 1000)} kB`;
-console.log(`compressed: ${kb(all)} (core ${kb(packed.length)}, script ${kb(compressed(script))}, of it the editor ${kb(editor)}); funicular.html ${kb(Buffer.byteLength(alone))}`);
-writeFileSync(join(folder, "sizes.json"), JSON.stringify({ all, withoutEditor: Math.round(all - editor), file: Buffer.byteLength(alone) }));
+console.log(`with Brotli: ${kb(served)}, without the editor ${kb(served - servedEditor)}; with gzip: ${kb(all)} (core ${kb(packed.length)}, script ${kb(compressed(script))}, of it the editor ${kb(editor)}); funicular.html ${kb(Buffer.byteLength(alone))}`);
+writeFileSync(join(folder, "sizes.json"), JSON.stringify({ all, withoutEditor: Math.round(all - editor), served, servedWithoutEditor: Math.round(served - servedEditor), file: Buffer.byteLength(alone) }));

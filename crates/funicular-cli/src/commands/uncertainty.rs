@@ -210,7 +210,7 @@ fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
         row.push(shares(of, result));
         table.row(row);
     }
-    let _ = write!(out, "\n{table}\n");
+    let _ = write!(out, "\n{table}");
 
     // Each doubt once.
     let mut doubts: Vec<&str> = Vec::new();
@@ -218,6 +218,9 @@ fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
         if !doubts.contains(&doubt) {
             doubts.push(doubt);
         }
+    }
+    if !doubts.is_empty() || pose.failed.is_some() {
+        out.push('\n');
     }
     for doubt in doubts {
         let _ = writeln!(out, "Not linear: {doubt}.");

@@ -279,9 +279,20 @@ fn no_solution_has_its_own_exit_code() {
 
 #[test]
 fn every_command_has_help_with_an_example() {
-    for verb in
-        ["check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "pose-error", "cable"]
-    {
+    for verb in [
+        "check",
+        "parameters",
+        "statics",
+        "stiffness",
+        "modes",
+        "frf",
+        "compare",
+        "gradient",
+        "uncertainty",
+        "payload",
+        "pose-error",
+        "cable",
+    ] {
         let help = super::succeed(&[verb, "--help"]);
         assert!(help.contains("Example") && help.contains(&format!("funicular {verb} ")), "{verb}: {help}");
         assert!(help.contains("--set") && help.contains("--format"), "{verb}");

@@ -20,7 +20,7 @@ fn shortest() -> Vec<Vec<String>> {
     let imported = project("docs/import/tripod.wcrfx");
     let response = ["--input", "fz", "--output", "z"];
     let range = ["--from-hz", "1", "--to-hz", "2", "--points", "9"];
-    let with_robot: [(&str, &[&str]); 18] = [
+    let with_robot: [(&str, &[&str]); 20] = [
         ("check", &[]),
         ("parameters", &[]),
         ("statics", &[]),
@@ -29,11 +29,13 @@ fn shortest() -> Vec<Vec<String>> {
         ("frf", &range),
         ("compare", &["--below-hz", "2"]),
         ("gradient", &["--below-hz", "2"]),
+        ("uncertainty", &["--deviations", "platform.mass_kg=1%"]),
         ("payload", &[]),
         ("pose-error", &["--mass-kg", "10:20:3"]),
         ("cable", &["--name", "1"]),
         ("reduce", &["--below-hz", "2"]),
         ("identify", &["--fit", "platform.mass_kg"]),
+        ("design", &["--change", "platform.mass_kg=±1"]),
         ("map", &["--grid", "z=1:2:2"]),
         ("sweep", &["--vary", "platform.mass_kg=90:100:2"]),
         ("report", &[]),

@@ -140,7 +140,7 @@ fn the_robot_file_is_never_overwritten() {
 }
 
 /// Every command that writes, with `OUT` for the file that it writes to.
-const WRITERS: [&str; 20] = [
+const WRITERS: [&str; 23] = [
     "check ROBOT -o OUT",
     "parameters ROBOT -o OUT",
     "statics ROBOT -o OUT",
@@ -149,11 +149,14 @@ const WRITERS: [&str; 20] = [
     "frf ROBOT --from-hz 1 --to-hz 2 --points 2 --input fz --output z -o OUT",
     "compare ROBOT --below-hz 1 -o OUT",
     "gradient ROBOT --of pose -o OUT",
+    "uncertainty ROBOT --deviations platform.mass_kg=1% -o OUT",
+    "uncertainty ROBOT --deviations platform.mass_kg=1% --page OUT",
     "pose-error ROBOT --mass-kg 10:20:2 -o OUT",
     "cable ROBOT --name 1 --from-hz 1 --to-hz 2 --points 2 -o OUT",
     "reduce ROBOT --below-hz 1 -o OUT",
     "reduce ROBOT --below-hz 1 --matrices OUT",
     "identify ROBOT --fit platform.mass_kg --measured-tensions-n 17,36,40,15,50,52 --starts 1 -o OUT",
+    "design ROBOT --poses POSES --change platform.mass_kg=±1 --max-iterations 1 -o OUT",
     "map ROBOT --grid x=0 --grid y=0 --grid z=0.5 -o OUT",
     "map ROBOT --grid x=0 --grid y=0 --grid z=0.5 --discard -o OUT",
     "map ROBOT --poses POSES -o OUT",

@@ -4,6 +4,7 @@ mod bad_input;
 mod cable;
 mod compare;
 mod defaults;
+mod design;
 mod export;
 mod figures;
 mod files;
@@ -26,6 +27,7 @@ mod results;
 mod statics;
 mod stiffness;
 mod sweeps;
+mod uncertainty;
 mod validate;
 mod wind;
 

@@ -5,7 +5,7 @@ use super::{robot, run, run_with, stderr, stdout, succeed};
 /// Command lines that print their result.
 fn command_lines() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
-    let lines: [&[&str]; 18] = [
+    let lines: [&[&str]; 19] = [
         &["check", &cogiro],
         &["parameters", &cogiro, "--set", "platform.center_of_mass_m.x=0.1"],
         &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],
@@ -45,6 +45,24 @@ fn command_lines() -> Vec<Vec<String>> {
         ],
         &["compare", &cogiro, "--below-hz", "3", "--assembly", "without-geometric-stiffness"],
         &["gradient", "ROBOT", "--of", "pose,tensions", "--by", "platform,cables.*.anchor_m.z", "--per", "tolerance"],
+        &[
+            "uncertainty",
+            "ROBOT",
+            "--deviations",
+            "platform.mass_kg=1%,platform.center_of_mass_m=0.005",
+            "--tolerances",
+            "cables.*.anchor_m=0.001",
+            "--hold",
+            "pose",
+            "--of",
+            "lengths",
+            "--method",
+            "sampled",
+            "--samples",
+            "12",
+            "--seed",
+            "7",
+        ],
         &["pose-error", "ROBOT", "--mass-kg", "10.55:86.35:4", "--tolerance-mm", "5"],
         &["cable", "ROBOT", "--name", "1", "--from-hz", "0.1", "--to-hz", "5", "--points", "9"],
         &[

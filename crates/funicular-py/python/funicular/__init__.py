@@ -16,6 +16,7 @@ array([1.0207, 1.1876, 1.2231, 1.2662, 1.3571, 1.8184, 1.8413, 1.8794])
 from funicular import _earlier_names as _earlier_names
 from funicular import _html as _html
 from funicular import _tables as _tables
+from funicular._design import Designed
 from funicular._errors import (
     DynamicsError,
     Error,
@@ -31,8 +32,9 @@ from funicular._errors import (
 from funicular._executors import ExecutorError
 from funicular._funicular import Analyses, Catenary, Equilibrium, Pose, Robot, __version__, peaks
 from funicular._identify import Identified, read_measurements
+from funicular._live import Live
 from funicular._pages import Page
-from funicular._results import Equilibria, Modes, ReducedModel, StateSpaceModel
+from funicular._results import Equilibria, ModeGradients, Modes, ReducedModel, StateSpaceModel
 from funicular._study import Exported, Imported, NewRobot, import_robot, merge, new_robot, paper, run, schema, validate
 from funicular._sweeps import Sweep
 from funicular._uncertainty import Uncertainty
@@ -40,6 +42,7 @@ from funicular._uncertainty import Uncertainty
 __all__ = [
     "Analyses",
     "Catenary",
+    "Designed",
     "DynamicsError",
     "Equilibria",
     "Equilibrium",
@@ -50,6 +53,8 @@ __all__ = [
     "Identified",
     "Imported",
     "InputError",
+    "Live",
+    "ModeGradients",
     "Modes",
     "NewRobot",
     "NoSolutionError",

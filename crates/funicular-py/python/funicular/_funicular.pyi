@@ -6,6 +6,7 @@ from _typeshed import SupportsGetItem
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from funicular._identify import Identified
+from funicular._live import Live
 from funicular._pages import Page
 from funicular._results import Equilibria, Modes, ReducedModel, StateSpaceModel
 from funicular._sweeps import Sweep
@@ -205,11 +206,13 @@ class Analyses:
         NoSolutionError
             A cable is slack, or the equilibrium indifferent: it has no derivatives.
         """
-    def live(self, /, path: str | PathLike[str] | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> Page:
+    def live(self, /, path: str | PathLike[str] | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> Live:
         """
         Makes a page in HTML on which the platform can be dragged, which notebooks show.
 
-        The page contains the program itself, as WebAssembly, and needs no network.
+        The page contains the program itself, as WebAssembly, and needs no network. In a notebook, with the package
+        `anywidget`, the pose and the values that a person changes come back: `state`, `pose`, `values` and `equilibrium()`
+        of the result follow the page.
 
         Parameters
         ----------

@@ -3,6 +3,7 @@
 import copy
 import dataclasses
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 
 from funicular import _show
 from funicular._errors import InputError
-from funicular._funicular import matlab_file
+from funicular._funicular import answer, matlab_file
 
 
 def with_arrays(found: Any) -> Any:
@@ -54,6 +55,77 @@ def _same(a: Any, b: Any) -> bool:
     if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
         return a.shape == b.shape and a.dtype == b.dtype and np.array_equal(a, b, equal_nan=a.dtype.kind in "fc")
     return bool(a == b)
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class ModeGradients(_ArrayFields):
+    """Derivatives of natural modes by numbers of the robot file, made by `Modes.gradient`."""
+
+    paths: tuple[str, ...]
+    """Paths of the numbers."""
+    units: tuple[str, ...]
+    """Units of the numbers, those of the robot file."""
+    values: NDArray[np.float64]
+    """Values of the numbers."""
+    tolerances: NDArray[np.float64]
+    """Tolerances of the numbers."""
+    frequency_hz: NDArray[np.float64]
+    """Derivatives of the natural frequencies [Hz per step], (modes, numbers); NaN for modes that share a frequency."""
+    damping_ratio: NDArray[np.float64] | None
+    """Derivatives of the damping ratios [1 per step], (modes, numbers); None for modes with `damped=False`."""
+    blocks: tuple[tuple[tuple[int, ...], NDArray[np.float64]], ...]
+    """Modes that share a frequency: their indices, and their block (modes, modes, numbers) [Hz per step].
+
+    Along a change of the numbers the derivatives of their frequencies are the eigenvalues of the block."""
+    per: str
+    """Step: `unit`, `percent` or `tolerance`."""
+    held_means: str
+    """Sentence that says what is held."""
+    found: dict[str, Any]
+    """Results with the keys of the program's JSON."""
+
+    def __repr__(self) -> str:
+        return f"<ModeGradients of {len(self.frequency_hz)} modes by {len(self.paths)} numbers, per {self.per}>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Returns a dictionary with the keys of the program's JSON."""
+        return copy.deepcopy(self.found)
+
+
+def _mode_gradients(found: dict[str, Any], count: int) -> ModeGradients:
+    """Makes `ModeGradients` of `count` modes from the results of `gradient`."""
+    numbers = found["parameters"]
+    frequency = np.full((count, len(numbers)), np.nan)
+    damping = np.full((count, len(numbers)), np.nan)
+    has_damping = False
+    blocks: dict[tuple[int, ...], NDArray[np.float64]] = {}
+    for result in found["results"]:
+        kind, derivatives = result["name"].split()[0], result["derivatives"]
+        entry = result.get("block_entry")
+        if entry:
+            # The name is "frequencies 3 to 4, entry …".
+            first, last = (int(word.rstrip(",")) for word in result["name"].split()[1:4:2])
+            modes = tuple(range(first - 1, last))
+            block = blocks.setdefault(modes, np.zeros((len(modes), len(modes), len(numbers))))
+            i, j = (number - first for number in entry)
+            block[i, j] = block[j, i] = derivatives
+        elif kind == "frequency":
+            frequency[int(result["name"].split()[1]) - 1] = derivatives
+        else:
+            has_damping = True
+            damping[int(result["name"].split()[2]) - 1] = derivatives
+    return ModeGradients(
+        paths=tuple(number["path"] for number in numbers),
+        units=tuple(number["unit"] for number in numbers),
+        values=np.array([number["value"] for number in numbers]),
+        tolerances=np.array([number["tolerance"] for number in numbers]),
+        frequency_hz=frequency,
+        damping_ratio=damping if has_damping else None,
+        blocks=tuple(blocks.items()),
+        per=found["per"],
+        held_means=found["held_means"],
+        found=found,
+    )
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -136,6 +208,43 @@ class Modes(_ArrayFields):
     """Caveats of the result."""
     found: dict[str, Any]
     """Results with the keys of the program's JSON."""
+    _request: str | None = None
+
+    def gradient(
+        self,
+        by: Sequence[str] | None = None,
+        *,
+        hold: str = "lengths",
+        per: str = "unit",
+        tolerances: Sequence[str] | None = None,
+    ) -> ModeGradients:
+        """Derivatives of the frequencies and of the damping ratios by numbers of the robot file.
+
+        Parameters
+        ----------
+        by
+            Paths of the numbers, as `Robot.parameters` lists them; `*` stands for any key, and a path to a table or vector
+            for all numbers in it. All numbers if not given.
+        hold
+            Held while a number changes: the unstrained `lengths`, so that the pose follows, or the `pose`.
+        per
+            Step that the derivatives are for: `unit` of the number, `percent` of its value, or its `tolerance`.
+        tolerances
+            Tolerances, as `platform.mass_kg=1%`.
+
+        Raises
+        ------
+        InputError
+            Modes without gradients (rigid cables, cable models, terms, drives), or a path that no number has.
+        NoSolutionError
+            A cable is slack, or the equilibrium indifferent: it has no derivatives.
+        """
+        if self._request is None:
+            raise InputError("these modes have no gradients: their cables are rigid, or they were not made by `modes`")
+        request = json.loads(self._request)
+        request["of"] = ["frequencies"] if self.damped_certified is None else ["frequencies", "damping"]
+        request |= {"by": list(by or []), "hold": hold, "per": per, "tolerances": list(tolerances or [])}
+        return _mode_gradients(json.loads(answer(json.dumps(request))), len(self))
 
     def __len__(self) -> int:
         return len(self.frequency_hz)
@@ -169,8 +278,8 @@ def _support_energies(rows: list[dict[str, Any]], supports: int) -> NDArray[np.f
     return np.array(energies, dtype=float).reshape(len(rows), supports)
 
 
-def modes(found: dict[str, Any]) -> Modes:
-    """Makes `Modes` from the results of the program."""
+def modes(found: dict[str, Any], request: str | None = None) -> Modes:
+    """Makes `Modes` from the results of the program; `request` is that of their derivatives, in JSON."""
     rows, stations = found["modes"], found.get("stations")
     cables = found["cable_names"]
 
@@ -221,6 +330,7 @@ def modes(found: dict[str, Any]) -> Modes:
         cable_shapes=shapes,
         warnings=tuple(found["warnings"]),
         found=found,
+        _request=request,
         **{key: found[key] for key in _COMMON_KEYS},
     )
 

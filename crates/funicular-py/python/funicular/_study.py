@@ -23,6 +23,7 @@ from funicular._funicular import (
     text_of,
     write_file,
 )
+from funicular._live import live
 from funicular._pages import Page, page
 from funicular._sweeps import Sweep
 
@@ -149,8 +150,8 @@ def run(request: Mapping[str, Any] | str) -> Any:
 
     Returns
     -------
-    The dictionary of the program's JSON; a `Sweep` for `map` and `sweep`, a `Page` for `report`, `live`, `paper` and `plot`, an
-    `Imported` for `import`, a `NewRobot` for `new`, an `Exported` for `export`.
+    The dictionary of the program's JSON; a `Sweep` for `map` and `sweep`, a `Page` for `report`, `paper` and `plot`, a `Live`
+    for `live`, an `Imported` for `import`, a `NewRobot` for `new`, an `Exported` for `export`.
 
     Raises
     ------
@@ -167,7 +168,9 @@ def run(request: Mapping[str, Any] | str) -> Any:
             assert work is not None
             work.run()
             return Sweep(work.finish())
-        case "report" | "live" | "paper":
+        case "live":
+            return live(text_of(text, "")[0])
+        case "report" | "paper":
             return page(*text_of(text, "funicular.run(request)"))
         case "export":
             made, warnings = text_of(text, "")

@@ -39,7 +39,9 @@ impl PyAnalyses {
 
     /// Makes a page in HTML on which the platform can be dragged, which notebooks show.
     ///
-    /// The page contains the program itself, as WebAssembly, and needs no network.
+    /// The page contains the program itself, as WebAssembly, and needs no network. In a notebook, with the package
+    /// `anywidget`, the pose and the values that a person changes come back: `state`, `pose`, `values` and `equilibrium()`
+    /// of the result follow the page.
     ///
     /// Parameters
     /// ----------
@@ -61,7 +63,7 @@ impl PyAnalyses {
         assembly: &str,
         in_plane_only: bool,
         winches: &str,
-    ) -> PyResult<written::PageObject> {
+    ) -> PyResult<written::LiveObject> {
         let model = crate::request::model(cable_model, assembly, in_plane_only, winches)?;
         Self::at(slf, |rest| written::live(py, rest, path, model))
     }

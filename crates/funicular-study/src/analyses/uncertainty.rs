@@ -481,7 +481,7 @@ impl SamplePlan<'_> {
         let shares =
             contributions.filter(|_| total > 0.0).map(|of| of.iter().map(|part| part / total).collect::<Vec<_>>());
         let group_shares = match &sampled {
-            Some(found) => samples.0.shares(&self.sampling, pose, row.kind, inputs.groups.len(), found.deviation),
+            Some(found) => samples.0.shares(&self.sampling, inputs, (pose, linear), row.kind, found.deviation),
             None => shares.as_ref().map(|shares| {
                 let mut groups = vec![0.0; inputs.groups.len()];
                 inputs.list.iter().zip(shares).for_each(|(input, share)| groups[input.group] += share);

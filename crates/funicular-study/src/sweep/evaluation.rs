@@ -3,12 +3,15 @@
 use super::columns::Value;
 use super::frequency::{self, Lowest};
 use super::options::Options;
+use super::row::ReadParameters;
 use super::status::Status;
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::gradient::Hold;
 use funicular::modes::Kind;
 use funicular::pose_error::PoseDifference;
 use funicular::robot::Robot;
+use funicular::robot::parameters::Parameters;
 use funicular::statics::{self, Equilibrium, LimitAtCable, PayloadSide, RequestedPayload, Stability, StaticModel};
 use std::cell::OnceCell;
 
@@ -16,6 +19,10 @@ use std::cell::OnceCell;
 pub(super) struct PointEvaluation<'a> {
     pub(super) robot: &'a Robot,
     pub(super) rest: &'a Equilibrium,
+    /// Quantity that is held while a number of the robot changes.
+    pub(super) hold: Hold,
+    /// Reader of the numbers of the robot file of this point.
+    read: &'a ReadParameters<'a>,
     options: &'a Options,
     /// Lowest frequencies with the cable model of the options, as many as the quantities need.
     lowest: OnceCell<Result<Lowest, Status>>,
@@ -30,9 +37,32 @@ pub(super) struct PointEvaluation<'a> {
 impl<'a> PointEvaluation<'a> {
     /// Equilibrium of a point before any quantity of it is computed; the quantities need the lowest `frequency_count`
     /// frequencies.
-    pub(super) fn new(robot: &'a Robot, rest: &'a Equilibrium, options: &'a Options, frequency_count: usize) -> Self {
+    pub(super) fn new(
+        robot: &'a Robot,
+        rest: &'a Equilibrium,
+        hold: Hold,
+        read: &'a ReadParameters<'a>,
+        options: &'a Options,
+        frequency_count: usize,
+    ) -> Self {
         let (lowest, exact) = (OnceCell::new(), OnceCell::new());
-        Self { robot, rest, options, lowest, frequency_count, exact, missing: Status::note_for(robot, rest) }
+        let missing = Status::note_for(robot, rest);
+        Self { robot, rest, hold, read, options, lowest, frequency_count, exact, missing }
+    }
+
+    /// Numbers of the robot file of this point.
+    pub(super) fn parameters(&self) -> Option<Parameters> {
+        (self.read)()
+    }
+
+    /// Linearisation, and upper limit of the search for natural frequencies [Hz].
+    pub(super) fn vibration(&self) -> (Linearisation, f64) {
+        (self.options.linearisation, self.options.highest_hz)
+    }
+
+    /// Keeps the reason why a value is missing, unless the row has one already.
+    pub(super) fn note_missing(&mut self, status: Status) {
+        self.missing.get_or_insert(status);
     }
 
     /// First reason why a requested value is missing, or the caveat about the equilibrium.

@@ -14,6 +14,7 @@ use super::quantity::Quantity;
 use super::row;
 use super::status::Status;
 use funicular::robot::Robot;
+use std::borrow::Cow;
 
 /// Maximum number of rows per chunk: some milliseconds of work for statics, some seconds with natural frequencies.
 const MAX_ROWS: usize = 256;
@@ -149,7 +150,8 @@ impl<'a> Plan<'a> {
             let point = self.points.point(i);
             row.clear();
             row.extend(point.coordinates.iter().map(|value| Value::real(Some(*value))));
-            row::cells(&point, self.quantities, self.options, self.with_distance, self.width, &mut row);
+            let read = || self.points.parameters(i).map(Cow::into_owned);
+            row::cells(&point, &read, self.quantities, self.options, self.with_distance, self.width, &mut row);
             for (column, value) in columns.iter_mut().zip(row.drain(..)) {
                 column.push(value);
             }

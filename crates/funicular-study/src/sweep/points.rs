@@ -5,9 +5,11 @@ use super::error::SweepError;
 use super::options::Options;
 use crate::request::{Steps, digits};
 use funicular::math::rotation;
+use funicular::robot::parameters::Parameters;
 use funicular::robot::{PlatformMotion, Pose, Robot, State};
 use funicular::statics::{self, Solution, StaticsError};
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// Points of a sweep, in a fixed order.
 pub trait Points: Sync {
@@ -19,6 +21,12 @@ pub trait Points: Sync {
 
     /// Point `i`. Equal `i` give equal points on all threads.
     fn point(&self, i: usize) -> Point<'_>;
+
+    /// Numbers of the robot file of point `i`, for derivatives; `None` if the points have none.
+    fn parameters(&self, i: usize) -> Option<Cow<'_, Parameters>> {
+        let _ = i;
+        None
+    }
 }
 
 /// Point of a sweep.
@@ -52,6 +60,8 @@ pub struct Poses {
     robot: Robot,
     /// Robot whose unstrained lengths at each pose are held.
     holder: Option<Robot>,
+    /// Numbers of the robot file, for derivatives.
+    parameters: Option<Arc<Parameters>>,
     which: PoseSet,
 }
 
@@ -113,18 +123,24 @@ impl Poses {
             let value = at_base.next().unwrap_or(0.0);
             steps.unwrap_or_else(|| Steps::List(vec![value]))
         }));
-        Ok(Self { robot, holder: None, which: PoseSet::Grid { axes, turns, base } })
+        Ok(Self { robot, holder: None, parameters: None, which: PoseSet::Grid { axes, turns, base } })
     }
 
     /// List of poses in the given order: position [m] and roll, pitch, yaw [degrees].
     pub fn list(robot: Robot, poses: Vec<[f64; 6]>) -> Self {
-        Self { robot, holder: None, which: PoseSet::List(poses) }
+        Self { robot, holder: None, parameters: None, which: PoseSet::List(poses) }
     }
 
     /// These poses with held lengths: those with which `holder` rests at each pose.
     #[must_use]
     pub fn holding(self, holder: Option<Robot>) -> Self {
         Self { holder, ..self }
+    }
+
+    /// These poses with the numbers of the robot file, for derivatives.
+    #[must_use]
+    pub fn with_parameters(self, parameters: Option<Parameters>) -> Self {
+        Self { parameters: parameters.map(Arc::new), ..self }
     }
 
     /// Values along the six axes of a grid, including axes with one value; `None` for a list.
@@ -163,6 +179,10 @@ fn refuse_missing_freedom(motion: &PlatformMotion, axis: usize) -> Result<(), Sw
 }
 
 impl Points for Poses {
+    fn parameters(&self, _i: usize) -> Option<Cow<'_, Parameters>> {
+        self.parameters.as_deref().map(Cow::Borrowed)
+    }
+
     fn count(&self) -> usize {
         match &self.which {
             PoseSet::Grid { axes, .. } => axes.iter().fold(1, |count, steps| count.saturating_mul(steps.count())),

@@ -7,6 +7,8 @@
 use super::columns::{Column, ColumnKind, Value};
 use super::evaluation::{PointEvaluation, has_ideal_pose};
 use super::points::AXES;
+use super::sensitivity::Sensitivity;
+use crate::set_values;
 use funicular::cable::{CableModel, Sag};
 use funicular::math::rotation;
 use funicular::robot::Robot;
@@ -26,10 +28,10 @@ struct Definition {
     takes: ParameterKind,
     needs: RequiredModel,
     /// Number of the lowest natural frequencies that it shows, with the cable model of the options.
-    frequencies: fn(Parameter) -> usize,
-    columns: fn(&Robot, Parameter) -> Vec<Column>,
+    frequencies: fn(&Parameter) -> usize,
+    columns: fn(&Robot, &Parameter) -> Vec<Column>,
     /// Function that adds the values of a point, one per column.
-    values: fn(&mut PointEvaluation<'_>, Parameter, &mut Vec<Value>),
+    values: fn(&mut PointEvaluation<'_>, &Parameter, &mut Vec<Value>),
 }
 
 /// Kind of parameter after the colon of a name.
@@ -39,6 +41,8 @@ enum ParameterKind {
     Count,
     /// Cable model other than `catenary-dynamic`, with the default for a name without a colon.
     Model(CableModel),
+    /// Result and path of a number of the robot file.
+    Sensitivity,
 }
 
 /// Static models for which a quantity exists.
@@ -52,18 +56,19 @@ enum RequiredModel {
 }
 
 /// Value of the parameter in a name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 enum Parameter {
     None,
     Count(usize),
     Model(CableModel),
+    Sensitivity(Sensitivity),
 }
 
 /// Maximum number of natural frequencies per point.
 pub const MAX_FREQUENCIES: usize = 100;
 
 /// Every quantity, in the order of the documentation.
-static TABLE: [Definition; 23] = [
+static TABLE: [Definition; 24] = [
     Definition {
         name: "first-frequency",
         about: "lowest natural frequency",
@@ -343,6 +348,27 @@ static TABLE: [Definition; 23] = [
         },
     },
     Definition {
+        name: "sensitivity:RESULT:PATH",
+        about: "derivative of a result by a number of the robot file",
+        documentation: "`first_frequency_hz_by_PATH`, `stiffness_min_n_per_m_by_PATH`, `tension_platform_NAME_n_by_PATH` or \
+                        `unstrained_length_NAME_m_by_PATH`: derivative of `first-frequency`, `stiffness-min`, `tensions` or \
+                        `lengths` by a number of the robot file, as in `sensitivity:first-frequency:platform.mass_kg`, in \
+                        the unit of the result over that of the number. The lengths are held if the state gives them and \
+                        with `--hold-lengths-of-pose`; otherwise the pose is held, and the tensions parallel to the chords \
+                        of more cables than degrees of freedom change least",
+        takes: ParameterKind::Sensitivity,
+        needs: RequiredModel::Elastic,
+        frequencies: |_| 0,
+        columns: |robot, parameter| {
+            parameter.sensitivity().map_or_else(Vec::new, |of| of.columns(&columns_of(of.result(), robot)))
+        },
+        values: |row, parameter, out| {
+            if let Some(of) = parameter.sensitivity() {
+                of.values(row, out);
+            }
+        },
+    },
+    Definition {
         name: "condition",
         about: "inverse condition number of the cables' directions: 0 at a singular pose, at most 1",
         documentation: "`inverse_condition`: minimum divided by maximum singular value of the cables' directions \
@@ -398,7 +424,7 @@ static TABLE: [Definition; 23] = [
 /// assert_eq!(error.to_string(), "there is no quantity `tension-mx`; did you mean `tension-max`?");
 /// # Ok::<(), funicular_study::sweep::UnknownQuantity>(())
 /// ```
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct Quantity {
     definition: &'static Definition,
     parameter: Parameter,
@@ -429,10 +455,11 @@ impl Quantity {
     /// Name with its parameter, also if the parameter is the default.
     pub fn name(&self) -> String {
         let head = self.definition.head();
-        match self.parameter {
+        match &self.parameter {
             Parameter::None => head.to_owned(),
             Parameter::Count(count) => format!("{head}:{count}"),
             Parameter::Model(model) => format!("{head}:{model}"),
+            Parameter::Sensitivity(of) => format!("{head}:{}", of.name()),
         }
     }
 
@@ -445,18 +472,23 @@ impl Quantity {
     pub fn count(&self) -> Option<usize> {
         match self.parameter {
             Parameter::Count(count) => Some(count),
-            Parameter::None | Parameter::Model(_) => None,
+            Parameter::None | Parameter::Model(_) | Parameter::Sensitivity(_) => None,
         }
+    }
+
+    /// Path of the number of the robot file by which it differentiates.
+    pub(crate) fn path(&self) -> Option<&set_values::Path> {
+        self.parameter.sensitivity().map(Sensitivity::path)
     }
 
     /// Columns of the quantity for a robot.
     pub fn columns(&self, robot: &Robot) -> Vec<Column> {
-        (self.definition.columns)(robot, self.parameter)
+        (self.definition.columns)(robot, &self.parameter)
     }
 
     /// Number of the lowest natural frequencies that it shows, with the cable model of the options.
     pub(super) fn frequencies(&self) -> usize {
-        (self.definition.frequencies)(self.parameter)
+        (self.definition.frequencies)(&self.parameter)
     }
 
     /// True if it does not exist for a static model.
@@ -475,7 +507,7 @@ impl Quantity {
 
     /// Adds the values of the quantity at a point.
     pub(super) fn values(&self, row: &mut PointEvaluation<'_>, out: &mut Vec<Value>) {
-        (self.definition.values)(row, self.parameter, out);
+        (self.definition.values)(row, &self.parameter, out);
     }
 }
 
@@ -509,28 +541,36 @@ impl Definition {
             (ParameterKind::Model(_), Some(text)) => {
                 simpler_models().find(|model| model.name() == text).map(Parameter::Model)
             }
-            (ParameterKind::Nothing, Some(_)) | (ParameterKind::Count, None) => None,
+            (ParameterKind::Sensitivity, Some(text)) => Sensitivity::parse(text).map(Parameter::Sensitivity),
+            (ParameterKind::Nothing, Some(_)) | (ParameterKind::Count | ParameterKind::Sensitivity, None) => None,
         }
     }
 }
 
 impl Parameter {
-    fn count(self) -> usize {
+    fn count(&self) -> usize {
         match self {
-            Self::Count(count) => count,
-            Self::None | Self::Model(_) => 0,
+            Self::Count(count) => *count,
+            Self::None | Self::Model(_) | Self::Sensitivity(_) => 0,
         }
     }
 
-    fn model(self) -> Option<CableModel> {
+    fn model(&self) -> Option<CableModel> {
         match self {
-            Self::Model(model) => Some(model),
-            Self::None | Self::Count(_) => None,
+            Self::Model(model) => Some(*model),
+            Self::None | Self::Count(_) | Self::Sensitivity(_) => None,
+        }
+    }
+
+    fn sensitivity(&self) -> Option<&Sensitivity> {
+        match self {
+            Self::Sensitivity(of) => Some(of),
+            Self::None | Self::Count(_) | Self::Model(_) => None,
         }
     }
 
     /// Name of the model in the form that is used in names of columns.
-    fn underscored(self) -> String {
+    fn underscored(&self) -> String {
         self.model().map_or_else(String::new, |model| model.name().replace('-', "_"))
     }
 }
@@ -563,6 +603,7 @@ fn hint(text: &str) -> String {
         Some(ParameterKind::Count) => {
             return format!(": give a whole number from 1 to {MAX_FREQUENCIES} after the colon, as in {head}:3");
         }
+        Some(ParameterKind::Sensitivity) => return Sensitivity::hint(text),
         Some(ParameterKind::Model(_)) if text.contains(':') => {
             let models: Vec<&str> = simpler_models().map(CableModel::name).collect();
             let parameter = text.split_once(':').map_or("", |(_, parameter)| parameter);
@@ -578,6 +619,12 @@ fn hint(text: &str) -> String {
         Some(definition) => format!("; did you mean `{}`?", definition.name),
         None => format!("; there are {}", Quantity::names().collect::<Vec<_>>().join(", ")),
     }
+}
+
+/// Columns of the quantity with this name.
+fn columns_of(name: &str, robot: &Robot) -> Vec<Column> {
+    let quantity = name.parse::<Quantity>();
+    quantity.map_or_else(|_| Vec::new(), |quantity| quantity.columns(robot))
 }
 
 /// Column of numbers.
@@ -625,6 +672,7 @@ mod tests {
     fn every_quantity_of_the_table_is_read_and_named_back() {
         for name in Quantity::names() {
             let name = name.replace(":N", ":7").replace(":MODEL", ":shallow-static");
+            let name = name.replace(":RESULT:PATH", ":stiffness-min:cables.1.anchor_m.z");
             let quantity: Quantity = name.parse().unwrap();
             assert_eq!(quantity.name(), name);
             assert!(!quantity.about().is_empty());
@@ -654,6 +702,9 @@ mod tests {
             ("frequencies", "as in frequencies:3"),
             ("tension-max:3", "did you mean `tension-max`"),
             ("model-error:exact", "one of spring, shallow-static, catenary-static, shallow-dynamic"),
+            ("sensitivity", "as in sensitivity:first-frequency:platform.mass_kg"),
+            ("sensitivity:tension:platform.mass_kg", "did you mean `sensitivity:tensions:platform.mass_kg`"),
+            ("sensitivity:tensions:platform mass", "as in sensitivity:first-frequency:platform.mass_kg"),
             ("", "there are first-frequency"),
             ("é", "there are"),
         ] {

@@ -179,6 +179,11 @@ impl Points for RobotValues {
             .collect()
     }
 
+    fn parameters(&self, i: usize) -> Option<Cow<'_, Parameters>> {
+        let text = set_values::apply(&self.text, &self.assignments(&self.values(i))).ok()?;
+        Parameters::from_toml(&text).ok().map(Cow::Owned)
+    }
+
     fn point(&self, i: usize) -> Point<'_> {
         let coordinates = self.values(i);
         let (holder, reason) = match self.holder_at(&coordinates) {

@@ -6,13 +6,19 @@ use super::options::Options;
 use super::points::Point;
 use super::quantity::Quantity;
 use super::status::Status;
-use funicular::robot::Robot;
+use funicular::gradient::Hold;
+use funicular::robot::parameters::Parameters;
+use funicular::robot::{Robot, State};
 use funicular::statics::{Equilibrium, Solution};
+
+/// Reader of the numbers of the robot file of a point.
+pub(super) type ReadParameters<'a> = dyn Fn() -> Option<Parameters> + 'a;
 
 /// Adds the `width` cells of a point that follow its coordinates: feasible, status, reason, distance from the requested
 /// pose if there is such a column, then the quantities.
 pub(super) fn cells(
     point: &Point,
+    read: &ReadParameters<'_>,
     quantities: &[Quantity],
     options: &Options,
     with_distance: bool,
@@ -27,7 +33,8 @@ pub(super) fn cells(
         }
         Ok((robot, Solution { equilibrium, requested_pose, .. })) => {
             // The quantities are evaluated first, because the status depends on values that are missing.
-            let (values, missing) = quantity_values(robot, &equilibrium, quantities, options);
+            let hold = hold(point);
+            let (values, missing) = quantity_values(robot, &equilibrium, hold, read, quantities, options);
             head(true, missing, out);
             if with_distance {
                 out.push(Value::real(requested_pose.map(|(_, distance)| distance)));
@@ -47,15 +54,23 @@ fn feasible<'p>(point: &'p Point, options: &Options) -> Result<(&'p Robot, Solut
     }
 }
 
+/// Quantity that stays while a number of the robot changes: the lengths if they are given or held, else the pose.
+fn hold(point: &Point) -> Hold {
+    let of_lengths = point.robot.as_ref().is_ok_and(|(_, state)| matches!(**state, State::Lengths(_)));
+    if of_lengths || point.holder.is_some() { Hold::Lengths } else { Hold::Pose }
+}
+
 /// Values of all quantities, and the first reason why a value is missing.
 fn quantity_values(
     robot: &Robot,
     rest: &Equilibrium,
+    hold: Hold,
+    read: &ReadParameters<'_>,
     quantities: &[Quantity],
     options: &Options,
 ) -> (Vec<Value>, Option<Status>) {
     let frequency_count = quantities.iter().map(Quantity::frequencies).max().unwrap_or(0);
-    let mut row = PointEvaluation::new(robot, rest, options, frequency_count);
+    let mut row = PointEvaluation::new(robot, rest, hold, read, options, frequency_count);
     let mut values = Vec::new();
     for quantity in quantities {
         quantity.values(&mut row, &mut values);

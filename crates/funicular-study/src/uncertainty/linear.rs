@@ -175,6 +175,8 @@ fn rows(kinds: &[ResultKind], at_rest: &AtRest, modes: Option<&NominalModes>) ->
     let value = |kind: ResultKind| match kind {
         ResultKind::Frequency(k) => modes?.found.modes.get(k).map(|mode| mode.frequency_hz),
         ResultKind::Damping(k) => modes?.damped.get(k).map(funicular::modes::damped::DampedMode::damping_ratio),
+        // A rotation is counted from here.
+        ResultKind::Pose(3..) => Some(0.0),
         other => other.static_value(&at_rest.equilibrium, &at_rest.equilibrium.pose),
     };
     let row = |kind: &ResultKind| Some(Row { kind: *kind, value: value(*kind)?, derivatives: None, doubt: None });

@@ -299,20 +299,34 @@ impl SampleTable {
     pub(crate) fn shares(
         &self,
         sampling: &Sampling,
-        pose: usize,
+        inputs: &Inputs,
+        (pose, linear): (usize, &LinearPose),
         kind: ResultKind,
-        groups: usize,
         deviation: f64,
     ) -> Option<Vec<f64>> {
-        if groups == 1 {
+        if inputs.groups.len() == 1 {
             return Some(vec![1.0]);
         }
+        let row = linear.rows.iter().find(|row| row.kind == kind)?;
         let share = |group: usize| {
             let one = self.values(sampling, pose, SampleSet::Sample, kind)?;
             let other = self.values(sampling, pose, SampleSet::Redrawn(group), kind)?;
-            total_share(one.zip(other), deviation * deviation)
+
+            // The linear change of the same robots, where there are derivatives.
+            let derivatives = row.derivatives.as_deref().unwrap_or_default();
+            let of_group = || (0..derivatives.len()).filter(|k| inputs.list[*k].group == group);
+            let at = |points: &[f64], k: usize| derivatives[k] * linear.distributions[k].at(points[k]);
+            let linear_changes = sampling
+                .points
+                .iter()
+                .zip(&sampling.redrawn)
+                .map(|(one, other)| of_group().map(|k| at(one, k) - at(other, k)).sum::<f64>());
+            let mean_square: f64 =
+                of_group().map(|k| 2.0 * (derivatives[k] * linear.distributions[k].deviation()).powi(2)).sum();
+            let changes = one.zip(other).map(|(one, other)| one - other).zip(linear_changes);
+            total_share(changes, mean_square, deviation * deviation)
         };
-        (0..groups).map(share).collect()
+        (0..inputs.groups.len()).map(share).collect()
     }
 
     /// Number of robots of the sample at a pose that have no results, with the first reason.

@@ -4,6 +4,7 @@ mod damped;
 mod drives;
 mod exact;
 mod gradients;
+mod identification;
 mod independent;
 mod measured;
 mod published;
@@ -21,6 +22,7 @@ pub(super) use drives::{
 };
 pub(super) use exact::{ExactCable, ExactReference, ExactRobot, exact};
 pub(super) use gradients::{GradientReference, GradientRobot, GradientRow, gradients};
+pub(super) use identification::{IdentificationReference, MeasuredResponses, PlatformOfMakers, identification};
 pub(super) use independent::{
     ComplexMatrix, IndependentReference, IndependentRobot, Matrix, ModeList, ReferenceResponse, independent,
 };

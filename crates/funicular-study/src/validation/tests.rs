@@ -72,3 +72,9 @@ fn cables_over_pulleys_and_on_winches_rest_as_in_other_programs() {
 fn a_robot_with_few_cables_swings_as_its_makers_computed_and_measured() {
     check(super::measured::section(&crate::validation::reference::measured().unwrap().grab));
 }
+
+#[test]
+fn values_are_identified_as_the_measurements_have_them_and_as_others_did() {
+    let poses = crate::validation::reference::measured().unwrap().grab;
+    check(identification::section(&reference::identification().unwrap(), &poses));
+}

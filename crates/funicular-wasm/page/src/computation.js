@@ -1,9 +1,9 @@
 // From the state to results: the robot, then a frame, then the mode and the response that are shown. When nothing has
 // changed for a while, the long computations follow in a worker of their own.
 
-import { Cancelled, Job } from "./engine.js";
+import { Cancelled, Engine, Job } from "./engine.js";
 import { frameOf } from "./frame.js";
-import { tell } from "./messages.js";
+import { busy, tell } from "./messages.js";
 import { content, emit, on, page, shown } from "./store.js";
 
 export const POINTS = 33; // per cable: a sagging cable looks smooth
@@ -14,6 +14,7 @@ const MAX_TIMES = 1000;
 
 const details = new Job();
 const dirty = { robot: false, frame: false, mode: false, response: false };
+let stopped = false; // a person has cancelled a frame
 let running = null; // the computation that is at work
 
 /** True if every change so far has its frame. */
@@ -22,6 +23,10 @@ export const isIdle = () => running === null && page.frame !== null && page.pend
 /** Notes what has changed and computes it; resolves when everything so far is shown. */
 export function change(what) {
   Object.assign(dirty, what);
+  if (stopped) {
+    stopped = false;
+    dirty.robot = true;
+  }
   if (what.robot || what.frame) {
     details.cancel();
     emit("outdated");
@@ -87,11 +92,12 @@ async function readRobot() {
     const isNew = page.about === null || shown.newRobot;
     page.about = found.about;
     tell(null);
-    shown.newRobot = false;
+    shown.newRobot = shown.refused = false;
     emit("robot", isNew);
   } catch (error) {
     dirty.frame = false;
     if (!(error instanceof Cancelled)) {
+      shown.refused = true;
       emit("robot-refused", error);
     }
   }
@@ -107,8 +113,16 @@ function stateOf() {
   return { kind: 0, state: [] };
 }
 
+/** Ends a frame that takes too long. The next change begins with a new worker, which reads the robot again. */
+function cancelFrame() {
+  page.engine.end();
+  page.engine = new Engine();
+  stopped = true;
+}
+
 async function computeFrame() {
   const begin = performance.now();
+  const done = busy("Computing the equilibrium and its natural frequencies", cancelFrame);
   try {
     const found = await page.engine.call("frame", { ...stateOf(), modes: shown.modes, points: POINTS });
     page.frame = { ...frameOf(found.numbers), about: found.about };
@@ -123,7 +137,11 @@ async function computeFrame() {
     if (!(error instanceof Cancelled)) {
       shown.broken = true;
       emit("frame-refused", error);
+    } else if (stopped) {
+      tell("Cancelled: the results are those of the last state.", true);
     }
+  } finally {
+    done();
   }
 }
 
@@ -182,12 +200,17 @@ export function rest() {
   clearTimeout(waitingForRest);
   waitingForRest = setTimeout(async () => {
     const { frame, view } = page;
-    if (!frame || shown.broken || view.dragging) {
+    if (!frame || shown.broken || shown.refused || view.dragging) {
       return;
     }
     emit("rest");
     const state = statics();
     const run = (command, more = {}) => (found) => found.call("answer", { request: { command, ...state, ...more } });
+    const done = busy("Computing the payload and every peak of the response", () => {
+      details.cancel();
+      page.settled.payload ??= { reason: "cancelled" };
+      emit("settled");
+    });
     try {
       await details.run(1, async ([worker]) => {
         page.settled = { statics: JSON.parse((await run("statics")(worker)).text), payload: null };
@@ -220,6 +243,7 @@ export function rest() {
         emit("settled");
       }
     }
+    done();
     emit("rested");
   }, REST_MS);
 }

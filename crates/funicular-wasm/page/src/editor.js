@@ -17,46 +17,83 @@ const colors = HighlightStyle.define([
   { tag: [tags.propertyName, tags.bracket], color: "var(--ink)" },
 ]);
 
-/** Keys of the robot file with their meaning, from its JSON Schema. */
-function keysOf(schema) {
-  const found = new Map();
-  const walk = (node) => {
-    if (node === null || typeof node !== "object") {
-      return;
+/** Part of a JSON Schema for the table with these keys; null if there is no such table. */
+function partOf(schema, keys) {
+  let node = schema;
+  for (const key of keys) {
+    const next = node.properties?.[key] ?? (typeof node.additionalProperties === "object" ? node.additionalProperties : null);
+    if (!next) {
+      return null;
     }
-    for (const [key, value] of Object.entries(node.properties ?? {})) {
-      if (!found.has(key)) {
-        found.set(key, { label: key, type: "property", info: value.description, apply: value.type === "object" ? key : `${key} = ` });
-      }
+    node = next.type === "array" && next.items?.properties ? next.items : next;
+  }
+  return node;
+}
+
+/** Names of tables after one bracket, or of lists of tables after two. After `materials.` follows a name of the user's choice. */
+function tablesOf(schema, brackets) {
+  return Object.entries(schema.properties ?? {}).flatMap(([key, value]) => {
+    const isList = Boolean(value.items?.properties);
+    const isNamed = Boolean(value.additionalProperties?.properties);
+    if (brackets === 2 ? !isList : !isNamed && !value.properties) {
+      return [];
     }
-    Object.values(node).forEach(walk);
-  };
-  walk(schema);
-  return [...found.values()];
+    return [{ label: key, type: "class", info: value.description, apply: isNamed ? `${key}.` : key }];
+  });
+}
+
+/** Keys that a table may have, and their meaning; with the key and nothing else for a nested table. */
+const keysOf = (part) => Object.entries(part?.properties ?? {}).map(([label, { description, type }]) => ({
+  label, type: "property", info: description, apply: type === "object" ? label : `${label} = `,
+}));
+
+/** Keys of the table header above a line, `[a.b]` or `[[a]]`; none at the top of the file. */
+function tableAbove(document, number) {
+  for (let line = number; line >= 1; line -= 1) {
+    const header = /^\s*\[{1,2}\s*([^\]]+?)\s*\]/.exec(document.line(line).text);
+    if (header) {
+      return header[1].match(/"[^"]*"|'[^']*'|[^.\s]+/g) ?? [];
+    }
+  }
+  return [];
 }
 
 export class Editor {
-  /** Keys of the robot file that the editor completes, from its JSON Schema. */
+  /** JSON Schema of the robot file, for the completion of keys. */
   set schema(schema) {
-    this.keys = keysOf(schema);
+    this.keys = schema;
+  }
+
+  /** Completions at a place: the keys of its table, or the tables after a bracket. */
+  complete(context) {
+    if (!this.keys) {
+      return null;
+    }
+    const bracket = context.matchBefore(/^\s*\[{1,2}[a-z_]*/);
+    if (bracket) {
+      const name = /[a-z_]*$/.exec(bracket.text)[0];
+      const brackets = bracket.text.trim().length - name.length;
+      return { from: context.pos - name.length, options: tablesOf(this.keys, brackets), validFor: /^[a-z_]*$/ };
+    }
+    const word = context.matchBefore(/^\s*[a-z_0-9]*/);
+    if (!word || !(context.explicit || word.text.trim() !== "")) {
+      return null;
+    }
+    const { number } = context.state.doc.lineAt(context.pos);
+    const part = partOf(this.keys, tableAbove(context.state.doc, number - 1));
+    return { from: word.from + word.text.search(/[a-z_0-9]|$/), options: keysOf(part), validFor: /^[a-z_0-9]*$/ };
   }
 
   /** `changed(text)` is called after each change by a person. */
   constructor(place, changed) {
     this.silent = false;
-    this.keys = [];
-    const complete = (context) => {
-      const word = context.matchBefore(/^\s*[a-z_0-9]*/);
-      return word && (context.explicit || word.text.trim() !== "")
-        ? { from: word.from + word.text.search(/[a-z_0-9]|$/), options: this.keys, validFor: /^[a-z_0-9]*$/ }
-        : null;
-    };
+    this.keys = null;
     this.view = new EditorView({
       parent: place,
       state: EditorState.create({
         extensions: [
           lineNumbers(), history(), drawSelection(), highlightActiveLine(), closeBrackets(), lintGutter(),
-          StreamLanguage.define(toml), syntaxHighlighting(colors), autocompletion({ override: [complete], activateOnTyping: true }),
+          StreamLanguage.define(toml), syntaxHighlighting(colors), autocompletion({ override: [(context) => this.complete(context)], activateOnTyping: true }),
           // Tab leaves the editor, for people who use the keyboard only.
           keymap.of([...completionKeymap, ...defaultKeymap, ...historyKeymap]),
           EditorView.contentAttributes.of({ "aria-label": "Robot file (TOML)" }),

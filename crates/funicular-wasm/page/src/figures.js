@@ -127,15 +127,16 @@ export function history({ curves, label, factor, width }) {
 
 /**
  * Effects as bars from a common zero, the largest first. Elements of HTML, so that long names break into lines.
- * @param {object} of `rows` (list of {name, path, value}), `label`, `unit`
+ * @param {object} of `rows` (list of {name, path, value, past}), `label`, `unit`
  */
 export function bars({ rows, label, unit }) {
-  const most = Math.max(...rows.map(({ value }) => Math.abs(value)));
-  const row = ({ name, path, value }) => {
+  const most = Math.max(...rows.flatMap(({ value, past }) => [Math.abs(value), Math.abs(past ?? 0)]));
+  const row = ({ name, path, value, past }) => {
+    const mark = past === undefined ? "" : `<b class="past" title="before: ${short(past, 3)} ${unit}" style="left:${(50 + (50 * past) / most).toFixed(1)}%"></b>`;
     const words = `${value < 0 ? "−" : "+"}${short(Math.abs(value), 3)} ${unit}`;
     const [from, wide] = [value < 0 ? 50 + (50 * value) / most : 50, (50 * Math.abs(value)) / most];
-    return `<li data-path="${escaped(path)}" role="button" tabindex="0" aria-label="${escaped(`${name}: ${words}. Add a slider`)}"><span>${escaped(name)}</span>`
-      + `<span class="bar-track"><i class="${value < 0 ? "less" : "more"}" style="left:${from.toFixed(1)}%;width:${wide.toFixed(1)}%"></i></span><b>${escaped(words)}</b></li>`;
+    return `<li data-path="${escaped(path)}" role="button" tabindex="0" aria-label="${escaped(`${name}: ${words}. Add a slider`)}"><span>${escaped(name).replaceAll(".", ".<wbr>").replaceAll("_", "_<wbr>")}</span>`
+      + `<span class="bar-track"><i class="${value < 0 ? "less" : "more"}" style="left:${from.toFixed(1)}%;width:${wide.toFixed(1)}%"></i>${mark}</span><b>${escaped(words)}</b></li>`;
   };
   return `<p class="soft">${escaped(label)}</p><ul class="bars" aria-label="${escaped(label)}">${rows.map(row).join("")}</ul>`;
 }
@@ -173,7 +174,7 @@ export function slice({ axes, ranges, cells, here, label, unit, width }) {
     const color = Number.isFinite(value) ? mapColor(most > least ? (value - least) / (most - least) : 0.5) : "var(--none)";
     const [x0, x1] = [Math.max(u0, u - du / 2), Math.min(u1, u + du / 2)].map(x);
     const [y0, y1] = [Math.min(v1, v + dv / 2), Math.max(v0, v - dv / 2)].map(y);
-    parts.push(`<rect x="${x0.toFixed(2)}" y="${y0.toFixed(2)}" width="${(x1 - x0 + 0.3).toFixed(2)}" height="${(y1 - y0 + 0.3).toFixed(2)}" fill="${color}"/>`);
+    parts.push(`<rect x="${x0.toFixed(2)}" y="${y0.toFixed(2)}" width="${(x1 - x0 + 0.3).toFixed(2)}" height="${(y1 - y0 + 0.3).toFixed(2)}" fill="${color}" shape-rendering="crispEdges"/>`);
   }
   for (const u of ticks(u0, u1, 6)) {
     parts.push(`<line class="axis" x1="${x(u).toFixed(1)}" y1="${top + high}" x2="${x(u).toFixed(1)}" y2="${top + high + 4}"/><text x="${x(u).toFixed(1)}" y="${top + high + 16}" text-anchor="middle">${tick(u)}</text>`);

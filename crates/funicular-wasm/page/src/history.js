@@ -20,6 +20,7 @@ export function commit() {
   history.present = now;
   history.future = [];
   show();
+  emit("committed");
 }
 
 function step(from, to) {
@@ -31,6 +32,7 @@ function step(from, to) {
   history.present = from.pop();
   Object.assign(content, JSON.parse(history.present));
   show();
+  emit("committed");
   emit("restored", old.text !== content.robot.text);
   change({ robot: true });
 }

@@ -5,6 +5,7 @@ import { statics } from "./computation.js";
 import { Cancelled, Job } from "./engine.js";
 import { bars } from "./figures.js";
 import { $, element, short } from "./format.js";
+import { busy } from "./messages.js";
 import { chooseMode } from "./modes.js";
 import { pin } from "./sliders.js";
 import { content, on, page, shown } from "./store.js";
@@ -35,6 +36,7 @@ async function compute() {
     command: "gradient", ...statics(), ...content.model, of: ["frequencies"], below_hz: mode.hz * (1 + MARGIN),
     hold: $("influence-hold").value, per: $("influence-per").value,
   };
+  const done = busy("Computing the influence of all values", () => { job.cancel(); found = { reason: "Cancelled." }; show(); });
   try {
     const text = await job.run(1, async ([worker]) => (await worker.call("answer", { request })).text);
     found = { table: JSON.parse(text), mode, index: shown.mode };
@@ -43,6 +45,8 @@ async function compute() {
       return;
     }
     found = { reason: error.message };
+  } finally {
+    done();
   }
   place.removeAttribute("aria-busy");
   show();
@@ -86,9 +90,21 @@ function show() {
   }
   const step = ({ unit, tolerance }) => (table.per === "tolerance" ? ` (${short(tolerance, 2)}${unit === "1" ? "" : ` ${unit}`})` : "");
   const label = `Change of ${short(result.value, 5)} Hz ${STEPS[table.per]}`;
-  const rows = bars({ rows: largest.map((one) => ({ name: `${one.path}${step(one)}`, path: one.path, value: one.effect })), label, unit: "%" });
+  const past = pastOf(table);
+  const rows = bars({ rows: largest.map((one) => ({ name: `${one.path}${step(one)}`, path: one.path, value: one.effect, past: past?.get(one.path) })), label, unit: "%" });
   place.innerHTML = rows;
   place.append(element("p", { class: "soft" }, `${table.held_means[0].toUpperCase()}${table.held_means.slice(1)}. A click on a bar adds a slider for the value.`));
+}
+
+/** Effects of the remembered state on its mode of this number, by paths; none if it was of another kind. */
+function pastOf(table) {
+  const before = page.before?.influence;
+  if (!before?.table || before.index !== found.index || before.table.per !== table.per || before.table.held !== table.held) {
+    return null;
+  }
+  const { parameters } = before.table;
+  const own = before.effects;
+  return new Map(parameters.map(({ path }, i) => [path, own[i]]));
 }
 
 /** Chooses what is held as the page holds it. */
@@ -107,6 +123,13 @@ export function listen() {
     compute();
   });
   on("mode", compute);
+  on("remember", () => {
+    if (page.before && found?.table) {
+      const { result } = derivatives();
+      page.before.influence = result && { ...found, effects: result.derivatives.map((value) => (100 * value) / result.value) };
+    }
+    show();
+  });
   on("outdated", () => job.cancel());
   on("forget", () => { job.cancel(); found = null; held = ""; show(); });
   ["influence-hold", "influence-per"].forEach((id) => $(id).addEventListener("change", compute));

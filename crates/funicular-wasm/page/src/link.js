@@ -1,5 +1,6 @@
 // The state of the page as a link, and as the start of a page that `funicular live` has made.
 
+import { mayChoose } from "./computation.js";
 import { element, $ } from "./format.js";
 import { tell } from "./messages.js";
 import { showPlay } from "./modes.js";
@@ -14,6 +15,9 @@ function linkState() {
   const own = ROBOTS[robot.name] === robot.text ? { ...robot, text: undefined } : robot;
   return { version: 1, ...rest, robot: own, mode: shown.mode, modes: shown.modes, response: shown.response, exaggeration: shown.exaggeration, camera: page.view.camera6 };
 }
+
+/** Everything for a page around this one: a link, with the text of the robot, and the tension rule only where it counts. */
+export const told = () => JSON.parse(JSON.stringify({ ...linkState(), robot: content.robot, rule: mayChoose() ? content.rule : "" }));
 
 /** Restores the state of a link. */
 export async function restore(state) {

@@ -4,6 +4,7 @@ import * as comparison from "./comparison.js";
 import { isIdle, statics } from "./computation.js";
 import { CORES, prepare } from "./engine.js";
 import { $ } from "./format.js";
+import * as embedded from "./embedded.js";
 import * as history from "./history.js";
 import * as influence from "./influence.js";
 import * as key from "./key.js";
@@ -96,14 +97,20 @@ async function start() {
 
   // The order of listeners is the order in which a frame is shown: the view first, whose colours the table takes.
   robot.listen();
-  const parts = [pose, tensions, modes, key, response, sliders, influence, release, history, link, saving, comparison];
+  const parts = [pose, tensions, modes, key, response, sliders, influence, release, history, link, embedded, saving, comparison];
   parts.forEach((part) => part.listen());
+  on("frame", () => {
+    if (performance.getEntriesByName("frame").length === 0) {
+      performance.mark("frame");
+    }
+  });
   on("rested", () => { $("state").dataset.settled = String(Number($("state").dataset.settled ?? 0) + 1); });
   $("remember").addEventListener("click", remember);
   $("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ({ matches }) => setTheme(matches ? "dark" : "light"));
   performance.mark("ready");
   await firstRobot();
+  performance.mark("complete");
 }
 
 // For tests: the state and the numbers of the page, as data.
@@ -116,7 +123,13 @@ window.funicular = {
   get times() { return page.times; },
   get idle() { return isIdle(); },
   get view() { return page.view; },
+  get engine() { return page.engine; },
   ask: async (request) => JSON.parse((await page.engine.call("answer", { request })).text),
+  timeOfResponse: async () => {
+    const { input, output, from, to, log } = shown.response;
+    const request = { input, output, from_hz: from, to_hz: to, points: 1000, log };
+    return (await page.engine.call("response", { request })).milliseconds;
+  },
   crash: () => page.engine.call("crash"),
 };
 

@@ -1,6 +1,8 @@
 // The one line of messages, and texts that change in place.
 
-import { $ } from "./format.js";
+import { $, element } from "./format.js";
+
+const PATIENCE_MS = 300; // what is shorter needs no word
 
 /** Shows a message, or nothing. A note is not an error. */
 export function tell(text, note = false) {
@@ -8,6 +10,29 @@ export function tell(text, note = false) {
   place.hidden = text === null;
   place.classList.toggle("note", note);
   place.textContent = text ?? "";
+}
+
+/**
+ * Says that something is computed, for how long, and how to cancel it.
+ * @returns {Function} to call at the end
+ */
+export function busy(text, cancel) {
+  const begin = performance.now();
+  const clock = element("span");
+  const row = element("p", {}, `${text} …`, clock, element("button", { onclick: cancel }, "Cancel"));
+  const tick = () => {
+    if (!row.isConnected) {
+      $("busy").append(row);
+    }
+    put(clock, ` ${((performance.now() - begin) / 1000).toFixed(0)} s `);
+  };
+  const first = setTimeout(tick, PATIENCE_MS);
+  const every = setInterval(tick, 1000);
+  return () => {
+    clearTimeout(first);
+    clearInterval(every);
+    row.remove();
+  };
 }
 
 /** Text of an error; after a mistake in the core it says that the page has started again. */

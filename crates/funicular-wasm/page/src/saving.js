@@ -2,17 +2,35 @@
 
 import { mayChoose, RESPONSE_POINTS, statics } from "./computation.js";
 import { $, save } from "./format.js";
-import { put, tell } from "./messages.js";
+import { drawing } from "./drawing.js";
+import { Cancelled, Job } from "./engine.js";
+import { busy, put, tell } from "./messages.js";
 import { content, on, page, shown } from "./store.js";
 import { commands, python } from "./words.js";
 
+const job = new Job();
+
+/** Figures that can be saved: where they are, and what makes them. */
+const FIGURES = {
+  response: ["bode", "There is no frequency response to save at this state."],
+  map: ["map", "There is no slice of the workspace yet: press “Compute” below “Workspace” first."],
+  release: ["release", "There is no release yet: press “Release” below “Release of a payload” first."],
+};
+
 const fileName = () => `${(content.robot.name || page.about?.name || "robot").replace(/^.*[/\\]/, "").replace(/\.toml$/, "").replace(/[^\w.-]+/g, "-").toLowerCase()}.toml`;
+
+/** Derivatives of the chosen frequency, the last of their table; none if no frequency is chosen. */
+function gradientOf() {
+  const mode = page.frame.modes[shown.mode];
+  return mode ? { belowHz: Number((1.0001 * mode.hz).toPrecision(7)), per: $("influence-per").value, hold: $("influence-hold").value } : null;
+}
 
 function showWords() {
   const state = { kind: content.hold, pose: content.pose, lengths: content.lengths, set: content.robot.set, rule: mayChoose() ? content.rule : "" };
   const of = {
     file: fileName(), state, belowHz: Number((page.frame.belowHz || 20).toPrecision(3)),
     response: { ...(shown.response ?? {}), points: RESPONSE_POINTS },
+    gradient: gradientOf(),
   };
   put($("commands"), commands(of));
   put($("python"), python(of));
@@ -26,9 +44,14 @@ async function saveAs(kind) {
   } else if (kind === "png") {
     save(`${name}.png`, await page.view.png(), "image/png");
   } else if (kind === "svg") {
-    save(`${name}.svg`, page.view.svg(), "image/svg+xml");
-  } else if (kind === "response") {
-    save(`${name}-response.svg`, styled($("bode").innerHTML), "image/svg+xml");
+    save(`${name}.svg`, drawing(page.view), "image/svg+xml");
+  } else if (FIGURES[kind]) {
+    const figure = $(FIGURES[kind][0]).querySelector("svg");
+    if (figure) {
+      save(`${name}-${kind}.svg`, styled(figure.outerHTML), "image/svg+xml");
+    } else {
+      tell(FIGURES[kind][1], true);
+    }
   } else {
     const own = await results();
     if (kind === "json") {
@@ -43,20 +66,28 @@ async function saveAs(kind) {
 function styled(figure) {
   const style = getComputedStyle(document.documentElement);
   const color = (name) => style.getPropertyValue(name).trim();
-  const rules = `text{fill:${color("--soft")}}.grid{stroke:${color("--line")}}.mode{stroke:#777}.now{fill:none;stroke:${color("--accent")};stroke-width:1.6}.past{fill:none;stroke:#777;stroke-dasharray:4 3}.peak{fill:${color("--accent")}}svg{font:11px sans-serif}`;
-  return figure.replace(/>/, `><style>${rules}</style><rect width="100%" height="100%" fill="${color("--paper")}"/>`);
+  const rules = `.axis{stroke:${color("--soft")}}.frame{fill:none;stroke:${color("--soft")}}.here{fill:none;stroke:#d1249d;stroke-width:2.5}text{fill:${color("--soft")}}.grid{stroke:${color("--line")}}.mode{stroke:#777}.now{fill:none;stroke:${color("--accent")};stroke-width:1.6}.past{fill:none;stroke:#777;stroke-dasharray:4 3}.peak{fill:${color("--accent")}}svg{font:11px sans-serif}`;
+  return figure.replaceAll("var(--none)", color("--none")).replace(/>/, `><style>${rules}</style><rect width="100%" height="100%" fill="${color("--paper")}"/>`);
 }
 
 /** Results of the program for the present state, in its JSON. */
 async function results() {
   const state = statics();
-  const ask = async (command, more = {}) => JSON.parse((await page.engine.call("answer", { request: { command, ...state, ...more } })).text);
-  const own = { statics: await ask("statics"), modes: await ask("modes", { ...content.model, below_hz: page.frame.belowHz || 20 }) };
   const { input, output, from, to, log } = shown.response;
-  if (from !== null) {
-    own.frf = await ask("frf", { ...content.model, input, output, from_hz: from, to_hz: to, points: RESPONSE_POINTS, log });
+  const belowHz = page.frame.belowHz || 20;
+  const done = busy("Computing the results for the file", () => job.cancel());
+  try {
+    return await job.run(1, async ([worker]) => {
+      const ask = async (command, more = {}) => JSON.parse((await worker.call("answer", { request: { command, ...state, ...more } })).text);
+      const own = { statics: await ask("statics"), modes: await ask("modes", { ...content.model, below_hz: belowHz }) };
+      if (from !== null) {
+        own.frf = await ask("frf", { ...content.model, input, output, from_hz: from, to_hz: to, points: RESPONSE_POINTS, log });
+      }
+      return own;
+    });
+  } finally {
+    done();
   }
-  return own;
 }
 
 function csv({ statics: rest, modes, frf }) {
@@ -93,6 +124,11 @@ export async function copy(text, button) {
 /** Listens to the menu of files and the buttons that copy. */
 export function listen() {
   on("rest", showWords);
-  document.querySelectorAll("[data-save]").forEach((button) => button.addEventListener("click", () => saveAs(button.dataset.save).catch((error) => tell(error.message))));
+  on("mode", () => { if (page.frame) { showWords(); } });
+  document.querySelectorAll("[data-save]").forEach((button) => button.addEventListener("click", () => saveAs(button.dataset.save).catch((error) => {
+    if (!(error instanceof Cancelled)) {
+      tell(error.message);
+    }
+  })));
   document.querySelectorAll("[data-copy]").forEach((button) => button.addEventListener("click", () => copy($(button.dataset.copy).textContent, button)));
 }

@@ -1,0 +1,135 @@
+//! Derivatives of quantities by a number of the robot file, as quantities of maps and sweeps.
+
+use super::columns::{Column, Value};
+use super::evaluation::PointEvaluation;
+use super::status::Status;
+use crate::set_values::{self, Path};
+use funicular::gradient::Gradients;
+use funicular::modes;
+use funicular::robot::RobotChange;
+use funicular::suggest::nearest;
+use std::fmt::Display;
+
+/// Result that is differentiated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Differentiated {
+    FirstFrequency,
+    MinStiffness,
+    Tensions,
+    Lengths,
+}
+
+/// Quantities that can be differentiated, by their names.
+const RESULTS: [(&str, Differentiated); 4] = [
+    ("first-frequency", Differentiated::FirstFrequency),
+    ("stiffness-min", Differentiated::MinStiffness),
+    ("tensions", Differentiated::Tensions),
+    ("lengths", Differentiated::Lengths),
+];
+
+/// Derivative of a quantity by a number of the robot file.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Sensitivity {
+    result: (&'static str, Differentiated),
+    path: Path,
+}
+
+impl Sensitivity {
+    /// Derivative from `RESULT:PATH`.
+    pub(super) fn parse(text: &str) -> Option<Self> {
+        let (result, path) = text.split_once(':')?;
+        let result = RESULTS.into_iter().find(|(name, _)| *name == result)?;
+        Some(Self { result, path: set_values::path(path).ok()? })
+    }
+
+    /// End of the message about a name that is no derivative.
+    pub(super) fn hint(text: &str) -> String {
+        let mut parts = text.splitn(3, ':').skip(1);
+        if let (Some(result), Some(path)) = (parts.next(), parts.next())
+            && !RESULTS.iter().any(|(name, _)| *name == result)
+            && let Some(near) = nearest(result, RESULTS.iter().map(|(name, _)| *name))
+        {
+            return format!("; did you mean `sensitivity:{near}:{path}`?");
+        }
+        let names: Vec<&str> = RESULTS.iter().map(|(name, _)| *name).collect();
+        format!(
+            ": give a result and the path of a number after the colon, as in sensitivity:first-frequency:platform.mass_kg; \
+             results are {}",
+            names.join(", ")
+        )
+    }
+
+    /// Name of the quantity that is differentiated.
+    pub(super) fn result(&self) -> &'static str {
+        self.result.0
+    }
+
+    /// Path of the number.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Result and path.
+    pub(super) fn name(&self) -> String {
+        format!("{}:{}", self.result.0, self.path.text)
+    }
+
+    /// Columns, from those of the quantity that is differentiated.
+    pub(super) fn columns(&self, of_result: &[Column]) -> Vec<Column> {
+        let number = self.path.unit().unwrap_or("1").replace("degrees", "deg").replace('²', "2").replace('³', "3");
+        let whole = |unit: &str| if unit.contains([' ', '/']) { format!("({unit})") } else { unit.to_owned() };
+        let column = |column: &Column| Column {
+            name: format!("{}_by_{}", column.name, self.path.text),
+            unit: if number == "1" {
+                column.unit.clone()
+            } else {
+                format!("{}/{}", whole(&column.unit), whole(&number)).into()
+            },
+            about: format!("derivative of the {} by this number of the robot file", column.about),
+            kind: column.kind,
+        };
+        of_result.iter().map(column).collect()
+    }
+
+    /// Adds the derivatives at a point, one per column.
+    pub(super) fn values(&self, row: &mut PointEvaluation<'_>, out: &mut Vec<Value>) {
+        let cables = row.robot.cables.len();
+        match self.derivatives(row) {
+            Ok(found) => out.extend(found.into_iter().map(|value| Value::real(Some(value)))),
+            Err(status) => {
+                let is_per_cable = matches!(self.result.1, Differentiated::Tensions | Differentiated::Lengths);
+                out.extend(vec![Value::Nothing; if is_per_cable { cables } else { 1 }]);
+                row.note_missing(status);
+            }
+        }
+    }
+
+    fn derivatives(&self, row: &PointEvaluation<'_>) -> Result<Vec<f64>, Status> {
+        let none = |reason: &dyn Display| Status::new("no-derivative", &reason.to_string());
+        let change = self.change(row)?;
+        let gradients = Gradients::new(row.robot, row.rest, row.hold).map_err(|error| none(&error))?;
+        let along = |all: Vec<RobotChange>| all.iter().map(|gradient| gradient.dot(&change)).collect();
+        Ok(match self.result.1 {
+            Differentiated::Tensions => along(gradients.tensions_platform()),
+            Differentiated::Lengths => along(gradients.lengths()),
+            Differentiated::MinStiffness => along(vec![gradients.min_stiffness().map_err(|error| none(&error))?]),
+            Differentiated::FirstFrequency => {
+                let (linearisation, highest_hz) = row.vibration();
+                let (dynamics, found) = modes::lowest(row.robot, row.rest, linearisation, 1, highest_hz)
+                    .map_err(|error| Status::new("no-frequency", &error))?;
+                let first = found.modes.first().ok_or_else(|| none(&"there is no mode"))?;
+                let vibration = gradients.vibration(&dynamics).map_err(|error| none(&error))?;
+                along(vec![vibration.frequency(first).map_err(|error| none(&error))?])
+            }
+        })
+    }
+
+    /// Change of the robot of a point per unit of the number.
+    fn change(&self, row: &PointEvaluation<'_>) -> Result<RobotChange, Status> {
+        let none = |reason: &str| Status::new("no-derivative", reason);
+        let parameters = row.parameters().ok_or_else(|| none("the points have no robot file"))?;
+        let index = parameters.find(self.path.keys()).ok_or_else(|| none("the robot file has no such number"))?;
+        let change = parameters.change_of(index, row.robot);
+        change.ok_or_else(|| none(&format!("{} has no derivative", self.path.text)))
+    }
+}

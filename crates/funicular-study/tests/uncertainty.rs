@@ -1,0 +1,166 @@
+//! Uncertainty: exact cases, linear deviations against samples, and the tests that choose between them.
+
+use funicular_study::analyses::uncertainty::{UncertainResult, Uncertainties};
+use funicular_study::{Request, Results, Silent, run};
+use serde_json::{Value, json};
+
+fn uncertainty(robot: &str, more: &Value) -> Uncertainties {
+    let mut request = json!({"command": "uncertainty", "robot": {"text": robot}});
+    request.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+    let request = Request::from_json(&request.to_string()).unwrap();
+    match run(&request, &mut Silent).unwrap() {
+        Results::Uncertainty(found) => found,
+        _ => panic!("uncertainty was requested"),
+    }
+}
+
+fn results(of: &Uncertainties) -> &[UncertainResult] {
+    &of.poses[0].results
+}
+
+/// Robot on straight cables without weight at a pose: tensions are proportional to the load.
+fn straight() -> String {
+    funicular_robots::YUAN2014_4MM.replace("mass_kg_per_m = 0.067", "mass_kg_per_m = 0.0")
+}
+
+#[test]
+fn tensions_proportional_to_the_mass_have_its_relative_deviation_by_both_ways() {
+    let held = json!({"pose": [0.0, 0.0, 0.5, 0.0, 0.0, 0.0], "hold": "pose", "of": ["tensions"]});
+    let with = |more: Value| {
+        let mut all = held.clone();
+        all.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        uncertainty(&straight(), &all)
+    };
+
+    // Normal: deviation 2 % and interval ± 1.96 · 2 % of each tension.
+    let linear = with(json!({"deviations": ["platform.mass_kg=2%"]}));
+    let sampled = with(json!({"deviations": ["platform.mass_kg=2%"], "method": "sampled", "samples": 1000}));
+    for (linear, sampled) in results(&linear).iter().zip(results(&sampled)) {
+        assert_eq!((linear.method, sampled.method), ("linear", "sampled"));
+        // The gradient has ten digits here.
+        assert!((linear.deviation.unwrap() / linear.value - 0.02).abs() < 1e-10, "{linear:?}");
+        // A Latin hypercube of one number has its deviation to 1/n and its quantiles to 1/(n · density).
+        assert!((sampled.deviation.unwrap() / linear.value - 0.02).abs() < 5e-5, "{sampled:?}");
+        assert!((sampled.mean.unwrap() / linear.value - 1.0).abs() < 1e-4, "{sampled:?}");
+        let (one, other) = (linear.interval_95.unwrap(), sampled.interval_95.unwrap());
+        for k in 0..2 {
+            assert!((one[k] / linear.value - [0.960_800_7, 1.039_199_3][k]).abs() < 1e-7, "{linear:?}");
+            assert!((other[k] - one[k]).abs() < 2e-4 * linear.value, "{sampled:?}");
+        }
+        assert_eq!(linear.group_shares, Some(vec![1.0]));
+        assert!(linear.worst.is_none());
+    }
+
+    // Within a tolerance: deviation 2 %/√3, interval 95 % of the tolerance, corners at ± 2 %.
+    let linear = with(json!({"tolerances": ["platform.mass_kg=2%"]}));
+    for result in results(&linear) {
+        let worst = result.worst.unwrap();
+        assert!((result.deviation.unwrap() / result.value - 0.02 / 3.0_f64.sqrt()).abs() < 1e-10);
+        // The interval is found on a grid of 4096 steps.
+        assert!((result.interval_95.unwrap()[1] / result.value - 1.019).abs() < 2e-5, "{result:?}");
+        for (change, expected) in [(worst.linear, 0.02), (worst.up.unwrap(), 0.02), (worst.down.unwrap(), -0.02)] {
+            assert!((change / result.value - expected).abs() < 1e-9, "{result:?}");
+        }
+    }
+}
+
+/// Three robots, what deviates, and the number of results.
+fn cases() -> [(&'static str, Value, usize); 3] {
+    [
+        (
+            funicular_robots::YUAN2014_4MM,
+            json!({
+                "deviations": ["platform.mass_kg=1%", "platform.center_of_mass_m=0.001"],
+                "tolerances": ["cables.*.anchor_m=0.002"],
+            }),
+            18,
+        ),
+        (
+            funicular_robots::COGIRO,
+            json!({
+                "deviations": ["platform.mass_kg=1%", "materials.*.axial_stiffness_n=5%"],
+                "tolerances": ["cables.*.unstrained_length_m=0.0005"],
+            }),
+            22,
+        ),
+        (
+            funicular_robots::COGIRO,
+            json!({
+                "pose": [1.0, 2.0, 1.5, 0.0, 0.0, 0.0], "max_tension_n": 5000.0, "tension_rule": "middle", "hold": "pose",
+                "of": ["lengths", "tensions"], "deviations": ["cables.*.attachment_m=0.002", "platform.mass_kg=2%"],
+                "tolerances": ["state.position_m=0.01"],
+            }),
+            24,
+        ),
+    ]
+}
+
+#[test]
+fn linear_deviations_are_those_of_samples_where_the_tests_allow_them() {
+    const SAMPLES: usize = 400;
+    for (robot, request, count) in cases() {
+        let linear = uncertainty(robot, &request);
+        let mut request = request;
+        request["method"] = json!("sampled");
+        request["samples"] = json!(SAMPLES);
+        let sampled = uncertainty(robot, &request);
+        assert_eq!(results(&linear).len(), count);
+        for (linear, sampled) in results(&linear).iter().zip(results(&sampled)) {
+            assert_eq!((linear.method, &linear.doubt), ("linear", &None), "{linear:?}");
+            // 400 robots: deviation to 3.5 %, so 10 % is nearly three of these.
+            let ratio = linear.deviation.unwrap() / sampled.deviation.unwrap();
+            assert!((0.9..1.1).contains(&ratio), "{}: {ratio}", linear.name);
+            for k in 0..2 {
+                // An end of the interval has 2.5 % of 400 robots beyond it: 10 ± 3, which is 0.13 deviations.
+                let apart = (linear.interval_95.unwrap()[k] - sampled.interval_95.unwrap()[k]).abs();
+                assert!(apart < 0.4 * sampled.deviation.unwrap(), "{}: {apart}", linear.name);
+            }
+            // Total shares of a nearly linear result are its shares. The sampled variance, to 7 %, divides them.
+            let ratio = (sampled.deviation.unwrap() / linear.deviation.unwrap()).powi(2);
+            for (one, other) in linear.group_shares.iter().flatten().zip(sampled.group_shares.iter().flatten()) {
+                assert!((one - other * ratio).abs() < 0.03, "{}: {one} {other} {ratio}", linear.name);
+            }
+            assert_eq!(sampled.linear_deviation, linear.deviation);
+        }
+    }
+}
+
+#[test]
+fn numbers_without_gradients_and_robots_with_winches_are_sampled() {
+    let found = uncertainty(
+        funicular_robots::COGIRO_WINCHES,
+        &json!({"deviations": ["pulleys.*.radius_m=1%", "platform.mass_kg=1%"], "samples": 20, "of": ["tensions"]}),
+    );
+    for result in results(&found) {
+        assert_eq!(result.method, "sampled");
+        assert!(result.deviation.unwrap() > 0.0 && result.interval_95.unwrap()[0] < result.value, "{result:?}");
+    }
+
+    // Values out of their range and poses without equilibrium are counted, and leave the rest as it is.
+    let found = uncertainty(
+        funicular_robots::YUAN2014_4MM,
+        &json!({"deviations": ["platform.mass_kg=60%"], "samples": 100, "of": ["pose"]}),
+    );
+    let failed = found.poses[0].failed.as_ref().unwrap();
+    // Φ(−1/0.6) = 4.8 % of all masses are negative.
+    assert!((4..=5).contains(&failed.count) && failed.reason.contains("it must be positive"), "{failed:?}");
+    assert!(results(&found)[2].deviation.is_some());
+}
+
+#[test]
+fn numbers_of_the_request_and_numbers_that_the_file_leaves_out_deviate_too() {
+    // Without a [loads] table; the mass is that of the request.
+    let found = uncertainty(
+        funicular_robots::YUAN2014_4MM,
+        &json!({
+            "mass_kg": 20.0, "force_n": [0.0, 0.0, -10.0], "deviations": ["platform.mass_kg=1%", "loads.force_n.z=1"],
+            "of": ["tensions"], "method": "sampled", "samples": 10,
+        }),
+    );
+    assert_eq!(found.inputs.iter().map(|input| input.value.unwrap()).collect::<Vec<_>>(), [20.0, -10.0]);
+    assert_eq!(found.inputs.iter().map(|input| input.deviation.unwrap()).collect::<Vec<_>>(), [0.2, 1.0]);
+    // The middle of the sample is the undisturbed robot.
+    for result in results(&found) {
+        assert!((result.mean.unwrap() - result.value).abs() < 0.1 * result.deviation.unwrap(), "{result:?}");
+    }
+}
