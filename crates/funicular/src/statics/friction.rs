@@ -161,7 +161,7 @@ pub struct CableFriction {
 /// ```
 ///
 /// # References
-/// docs/theory.md, equations (71) to (74).
+/// docs/theory.md, equations (71) to (74) and (91a).
 pub fn friction_interval(
     robot: &Robot,
     equilibrium: &Equilibrium,
