@@ -1,5 +1,6 @@
 //! Arguments of the program.
 
+mod design;
 mod export;
 mod gradient;
 mod groups;
@@ -16,6 +17,7 @@ pub(crate) mod values;
 mod vibration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+pub(crate) use design::DesignArgs;
 pub(crate) use export::{ExportArgs, ExportFormat};
 pub(crate) use gradient::GradientArgs;
 pub(crate) use groups::{
@@ -188,6 +190,18 @@ pub(crate) enum Command {
         funicular identify robot.toml --experiments poses.json --rigid-cables --fit platform.center_of_mass_m \\\n    \
         --fit platform.inertia_kg_m2 -o result.json --page result.html")]
     Identify(IdentifyArgs),
+    /// Values of the robot file with which the robot is stiffest, fastest or lightest at several poses
+    ///
+    /// The values move within their bounds until the goal at the worst pose, or its weighted mean, improves no further. The
+    /// poses are held, and the tensions follow --tension-rule. docs/design.md explains goals, demands and the result.
+    #[command(after_help = "Examples:\n  \
+        funicular design robots/cogiro.toml --poses docs/design/cogiro-poses.csv --target-tension-n 350 \\\n    \
+        --change 'cables.*.attachment_m=±0.05' -o designed.toml\n  \
+        funicular design robots/cogiro.toml --pose 1,2,1.5 --change 'cables.*.anchor_m.z=5:6' --goal stiffness \\\n    \
+        --page design.html\n  \
+        funicular design robots/cogiro.toml --pose 0,0,1.5 --change 'cables.*.anchor_m=±0.5' --goal rope-mass \\\n    \
+        --min-stiffness-n-per-m 20000")]
+    Design(DesignArgs),
     /// Tensions, frequencies, stiffness over the workspace, with one row per pose
     #[command(after_help = "Examples:\n  \
         funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    \

@@ -4,6 +4,7 @@
 mod cable;
 mod check;
 mod compare;
+mod design;
 mod frf;
 mod gradient;
 mod identify;
@@ -14,14 +15,15 @@ mod payload;
 mod pose_error;
 mod reduce;
 mod request;
+mod result_files;
 mod statics;
 mod stiffness;
 mod uncertainty;
 mod validate;
 
 use crate::args::{
-    Cli, Command, ExportArgs, FigureArgs, ImportArgs, MapArgs, MergeArgs, NewArgs, OutputArgs, ReduceArgs, RobotArgs,
-    UncertaintyArgs,
+    Cli, Command, DesignArgs, ExportArgs, FigureArgs, ImportArgs, MapArgs, MergeArgs, NewArgs, OutputArgs, ReduceArgs,
+    RobotArgs, UncertaintyArgs,
 };
 use crate::output::{Content, FigureSink, Sink, Target, refuse_without_figure};
 use crate::progress::{TerminalProgress, WaitingSpinner};
@@ -81,6 +83,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         Command::Export(args) => export(&request_of(&cli.command)?, args),
         Command::Reduce(args) => reduce(&request_of(&cli.command)?, args),
         Command::Identify(args) => identify::run(&request_of(&cli.command)?, args),
+        Command::Design(args) => design::run(&request_of(&cli.command)?, args),
         Command::Check(args) | Command::Parameters(args) => {
             analyse(&request_of(&cli.command)?, &args.output, robot_file::guard(Some(&args.robot.robot)))
         }
@@ -147,6 +150,7 @@ fn request_of(command: &Command) -> Result<Request> {
         Command::Cable(args) => Request::Cable(args.request(robot(&args.robot)?)),
         Command::Reduce(args) => Request::Reduce(args.request(robot(&args.robot)?)),
         Command::Identify(args) => Request::Identify(identify::request(args, robot(&args.robot)?)?),
+        Command::Design(args) => Request::Design(design_request(args, robot(&args.robot)?)?),
         Command::Map(args) => Request::Map(map_request(args, robot(&args.robot)?)?),
         Command::Sweep(args) => Request::Sweep(args.request(robot(&args.robot)?)),
         Command::Merge(args) => Request::Merge(args.request()),
@@ -165,6 +169,15 @@ fn request_of(command: &Command) -> Result<Request> {
 
 /// Request of a map. Errors of its poses name the line in the file of poses.
 fn map_request(args: &MapArgs, robot: RobotText) -> Result<requests::MapRequest> {
+    let poses = match &args.poses {
+        Some(path) => Some(pose_csv::read(path, &robot.read()?.robot)?),
+        None => None,
+    };
+    Ok(args.request(robot, poses))
+}
+
+/// Request of a design. Errors of its poses name the line in the file of poses.
+fn design_request(args: &DesignArgs, robot: RobotText) -> Result<requests::DesignRequest> {
     let poses = match &args.poses {
         Some(path) => Some(pose_csv::read(path, &robot.read()?.robot)?),
         None => None,
@@ -240,6 +253,7 @@ fn print_results(request: &Request, robot: Option<Robot>, sink: &Sink) -> Result
         Results::Cable(found) => sink.write(found),
         Results::Reduce(found) => sink.write(found),
         Results::Identify(found) => sink.write(&**found),
+        Results::Design(found) => sink.write(&**found),
         Results::Validate(found) => {
             sink.write(found)?;
             Ok(found.verdict()?)

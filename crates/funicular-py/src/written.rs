@@ -48,6 +48,7 @@ object!(StateSpaceObject, "funicular._results", "StateSpaceModel");
 object!(PageObject, "funicular._pages", "Page");
 object!(LiveObject, "funicular._live", "Live");
 object!(IdentifiedObject, "funicular._identify", "Identified");
+object!(DesignedObject, "funicular._design", "Designed");
 object!(UncertaintyObject, "funicular._uncertainty", "Uncertainty");
 
 /// Keywords of `reduce` and `state_space`.

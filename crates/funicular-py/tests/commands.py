@@ -10,7 +10,7 @@ import funicular
 
 # Options for the place and the form of a result, which do not change the computation.
 OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--matrices", "--resume", "--discard", "--part", "--threads"}
-OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--page", "--samples-file"}
+OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--designed", "--page", "--samples-file"}
 # Options without a value.
 SWITCHES = {
     *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
@@ -68,6 +68,8 @@ def value(command: str, option: str, text: str) -> Any:
         return steps(text)
     if option in ("--of", "--by", "--tolerances", "--deviations"):
         return text.split(",")
+    if option in ("--weights", "--avoid-hz"):
+        return [float(part) for part in text.replace(":", ",").split(",")]
     if option in ("--input", "--output", "--name", "--rope") or re.search("[a-z]{2}", text):
         return text
     found = numbers(text)
@@ -99,6 +101,8 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
             keywords["quantities"] = next(rest).split(",")
         elif word == "--poses":
             keywords["poses"] = read_poses(next(rest))
+        elif command == "design" and word == "--change":
+            keywords.setdefault(key, []).append(chosen(next(rest)))
         elif command == "identify" and word in ("--fit", "--prior", "--measured", "--node", "--response"):
             keywords.setdefault(key, []).append(next(rest))
         elif word in LISTS.get(command, ()):
@@ -111,6 +115,15 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
     if command == "identify":
         keywords = identification(keywords)
     return command, files, keywords, changes
+
+
+def chosen(text: str) -> dict[str, Any]:
+    """Value of a design with its bounds, as in a request."""
+    path, _, bounds = text.partition("=")
+    if bounds.startswith("±"):
+        return {"path": path, "plus_minus": float(bounds[1:])}
+    low, high = map(float, bounds.split(":"))
+    return {"path": path, "minimum": low, "maximum": high}
 
 
 # Options of `identify` that belong to the request; the others belong to its experiment.

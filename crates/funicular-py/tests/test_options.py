@@ -29,6 +29,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "payload": ("`robot.payload(…)`", [Robot.payload]),
     "pose-error": ("`robot.pose_error(…)`", [Robot.pose_error]),
     "identify": ("`robot.identify(fit, experiments, …)`", [Robot.identify]),
+    "design": ("`robot.design(change, …)`", [Robot.design]),
     "cable": ("`robot.equilibrium(…).cable(…)`", [Robot.equilibrium, Equilibrium.cable]),
     "reduce": (
         "`robot.equilibrium(…).state_space(…)`, `robot.equilibrium(…).reduce(…)` for the second-order form",
@@ -75,6 +76,10 @@ OTHERS: dict[tuple[str | None, str], tuple[str, object]] = {
     ("identify", "--output-file"): ("`json.dumps(result.details)`", funicular.Identified.to_dict),
     ("identify", "--fitted"): ("`result.robot_file`, `result.robot`", funicular.Identified.to_dict),
     ("identify", "--page"): ("the program's option", funicular.run),
+    ("design", "--format"): ("`to_dict()` of the result", funicular.Designed.to_dict),
+    ("design", "--output-file"): ("`json.dumps(result.details)`", funicular.Designed.to_dict),
+    ("design", "--designed"): ("`result.robot_file`, `result.robot`", funicular.Designed.to_dict),
+    ("design", "--page"): ("the program's option", funicular.run),
     ("uncertainty", "--page"): ("the program's option", funicular.run),
     (None, "--from-hz"): ("`hz=numpy.linspace(from_hz, to_hz, points)`", np.linspace),
     (None, "--to-hz"): ("`hz=numpy.linspace(from_hz, to_hz, points)`", np.linspace),

@@ -57,6 +57,9 @@ MORE = [
     "--payload-center-m 0,0,-0.1 --platform-share 0.75 --quantity pose,payload-max",
     f"funicular compare {ROBOT} --below-hz 2 --pose 0,0,0.5 {STATE} --assembly without-geometric-stiffness "
     "--in-plane-only --winches clamped",
+    "funicular design robots/cogiro.toml --poses trajectory.csv --weights 2,1 --change platform.mass_kg=80:120 "
+    "--min-frequency-hz 0.5 --min-stiffness-n-per-m 100 --avoid-hz 2.5:3.2 --max-iterations 3 --goal rope-length",
+    f"funicular design robots/cogiro.toml --change cables.*.anchor_m=±0.1 {TENSIONS} {STATE} {MODEL}",
     f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1%,materials=2% --of tensions,frequencies,damping --below-hz 1.3 "
     "--method linear",
     f"funicular uncertainty robots/cogiro.toml {TENSIONS} {STATE} --tolerances cables.*.anchor_m=0.001 --hold pose --of lengths,stiffness-min",

@@ -6,6 +6,7 @@
 pub mod cable;
 pub mod check;
 pub mod compare;
+pub mod design;
 pub mod frf;
 pub mod gradient;
 pub mod identify;

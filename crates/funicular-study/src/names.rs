@@ -160,6 +160,58 @@ impl Named for Hold {
     }
 }
 
+/// Number that a design improves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DesignGoal {
+    /// Highest first natural frequency.
+    #[default]
+    First,
+    /// Highest first natural frequency of the platform on the static stiffness of its cables.
+    Platform,
+    /// Highest minimum stiffness.
+    Stiffness,
+    /// Least mass of all ropes.
+    RopeMass,
+    /// Least length of all ropes.
+    RopeLength,
+}
+
+impl DesignGoal {
+    /// Result in words, with its unit.
+    pub fn in_words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::First => ("first natural frequency", "Hz"),
+            Self::Platform => ("first natural frequency of the platform", "Hz"),
+            Self::Stiffness => ("minimum stiffness", "N/m"),
+            Self::RopeMass => ("mass of the ropes", "kg"),
+            Self::RopeLength => ("length of the ropes", "m"),
+        }
+    }
+
+    /// Sign of an improvement.
+    pub(crate) fn sign(self) -> f64 {
+        match self {
+            Self::First | Self::Platform | Self::Stiffness => 1.0,
+            Self::RopeMass | Self::RopeLength => -1.0,
+        }
+    }
+}
+
+impl Named for DesignGoal {
+    const WHAT: &'static str = "goal of a design";
+    const ALL: &'static [Self] = &[Self::First, Self::Platform, Self::Stiffness, Self::RopeMass, Self::RopeLength];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::First => "first",
+            Self::Platform => "platform",
+            Self::Stiffness => "stiffness",
+            Self::RopeMass => "rope-mass",
+            Self::RopeLength => "rope-length",
+        }
+    }
+}
+
 /// Step of a number that derivatives are for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Per {

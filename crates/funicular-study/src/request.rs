@@ -4,6 +4,7 @@
 //! every other key is an option with the same name as in the program (`--mass-kg`) and in Python (`mass_kg=`). An
 //! option that is left out has its default.
 
+mod design;
 mod files;
 mod gradient;
 mod grids;
@@ -17,6 +18,7 @@ mod steps;
 mod uncertainty;
 mod vibration;
 
+pub use design::{ChangeValue, DesignRequest};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest};
 pub use gradient::{GradientRequest, frequencies};
 pub use grids::{MapRequest, MergeRequest, PlotRequest, SweepRequest};
@@ -83,6 +85,8 @@ pub enum Request {
     Reduce(ReduceRequest),
     /// Values of the robot file that fit measurements best.
     Identify(IdentifyRequest),
+    /// Values of the robot file with which the robot is best at several poses.
+    Design(DesignRequest),
     /// Quantities over poses.
     Map(MapRequest),
     /// Quantities over values of the robot file.
@@ -127,6 +131,7 @@ impl Request {
             Self::Cable(_) => "cable",
             Self::Reduce(_) => "reduce",
             Self::Identify(_) => "identify",
+            Self::Design(_) => "design",
             Self::Map(_) => "map",
             Self::Sweep(_) => "sweep",
             Self::Report(_) => "report",
@@ -159,6 +164,7 @@ impl Request {
             Self::Cable(request) => Some(&request.robot),
             Self::Reduce(request) => Some(&request.robot),
             Self::Identify(request) => Some(&request.robot),
+            Self::Design(request) => Some(&request.robot),
             Self::Map(request) => Some(&request.robot),
             Self::Sweep(request) => Some(&request.robot),
             Self::Report(request) => Some(&request.robot),

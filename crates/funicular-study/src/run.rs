@@ -6,6 +6,7 @@ use crate::analyses::{
     cable::{self, CableResult},
     check::{self, Checked},
     compare::{self, Compared},
+    design::{self, Designed},
     frf,
     gradient::{self, GradientTable},
     identify::{self, Identified},
@@ -46,6 +47,7 @@ pub enum Results {
     Cable(CableResult),
     Reduce(ReducedForm),
     Identify(Box<Identified>),
+    Design(Box<Designed>),
     #[cfg(feature = "validation")]
     Validate(Validated),
 }
@@ -72,6 +74,7 @@ impl Results {
             Self::Cable(found) => json::of_results(found, words),
             Self::Reduce(found) => json::of_results(found, words),
             Self::Identify(found) => json::of_results(&**found, words),
+            Self::Design(found) => json::of_results(&**found, words),
             #[cfg(feature = "validation")]
             Self::Validate(found) => json::of_results(found, words),
         }
@@ -109,6 +112,7 @@ pub fn run_on(request: &Request, robot: Option<Robot>, watch: &mut dyn Watch) ->
         Request::Cable(of) => Results::Cable(cable::run(robot()?, of)?),
         Request::Reduce(of) => Results::Reduce(reduce::run(robot()?, of, watch)?),
         Request::Identify(of) => Results::Identify(Box::new(identify::run(of, watch)?)),
+        Request::Design(of) => Results::Design(Box::new(design::run(of, watch)?)),
         #[cfg(feature = "validation")]
         Request::Validate(_) => Results::Validate(validate::run()?),
         #[cfg(not(feature = "validation"))]

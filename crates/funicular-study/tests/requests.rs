@@ -221,6 +221,23 @@ fn requests() -> Vec<Value> {
         of("map", &[&robot, &point, &json!({ "grid": [], "poses": [[0.1, 0.2, 0.3, 1.0, 2.0, 3.0]] })]),
         of("sweep", &[&robot, &point, &json!({ "vary": grid })]),
         of(
+            "design",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &model,
+                &json!({
+                    "change": [
+                        { "path": "platform.mass_kg", "minimum": 1.0, "maximum": 30.0 },
+                        { "path": "cables.*.anchor_m", "plus_minus": 0.1 },
+                    ],
+                    "goal": "rope-mass", "poses": [[0.1, 0.2, 0.3, 1.0, 2.0, 3.0]], "weights": [2.0],
+                    "min_frequency_hz": 1.5, "min_stiffness_n_per_m": 2e4, "avoid_hz": [2.5, 3.2], "max_iterations": 7,
+                }),
+            ],
+        ),
+        of(
             "identify",
             &[
                 &robot,

@@ -24,7 +24,7 @@ pub use vibration::{DampedGradient, ResponseDerivatives, VibrationGradients};
 use crate::cable::CableModel;
 use crate::cable::catenary_dynamic::CatenaryDynamicError;
 use crate::dynamics::Dynamics;
-use crate::math::{Vec3, symmetric};
+use crate::math::{Vec3, Vec6, symmetric};
 use crate::platform::Coordinates;
 use crate::robot::{Robot, RobotChange};
 use crate::statics::derivatives::{StaticDerivativeError, force_at_anchor, load_of};
@@ -365,15 +365,41 @@ impl<'a> Gradients<'a> {
         if multiplicity > 1 {
             return Err(GradientError::MultipleStiffness { multiplicity });
         }
+        self.of_eigenvalue(&coordinates, values[lowest], &vectors[lowest])
+    }
 
+    /// Eigenvalues of the scaled stiffness [N/m], ascending, each with its gradient. Those that several motions share
+    /// have the gradients of orthogonal motions among these, which are no derivatives of the sorted values.
+    ///
+    /// # Errors
+    /// [`GradientError::DragTurns`].
+    pub fn stiffnesses(&self) -> Result<Vec<(f64, RobotChange)>, GradientError> {
+        let (robot, equilibrium) = (self.robot(), self.equilibrium());
+        if robot.wind_turns_with_cables() {
+            return Err(GradientError::DragTurns);
+        }
+        let stiffness = tangent_stiffness(robot, equilibrium).ok_or(StaticDerivativeError::Ideal)?;
+        let coordinates = Coordinates::of(robot);
+        let (values, vectors) = symmetric::eigen(&coordinates.reduce_symmetric(&stiffness), coordinates.count());
+        let found = values.iter().zip(&vectors).take(coordinates.count());
+        found.map(|(value, vector)| Ok((*value, self.of_eigenvalue(&coordinates, *value, vector)?))).collect()
+    }
+
+    /// Gradient of an eigenvalue of the scaled stiffness with this vector.
+    fn of_eigenvalue(
+        &self,
+        coordinates: &Coordinates,
+        value: f64,
+        vector: &Vec6,
+    ) -> Result<RobotChange, GradientError> {
         // Rotations are divided by ℓ, which the attachments change.
-        let motion = coordinates.expand(&vectors[lowest]);
+        let motion = coordinates.expand(vector);
         let ell = coordinates.ell();
         let translation = [motion[0], motion[1], motion[2]];
         let scaled = [motion[3], motion[4], motion[5]];
         let turning: f64 = scaled.iter().map(|turn| turn * turn).sum();
         let motion = [translation, scaled.map(|turn| turn / ell)];
-        self.of_static_form(motion, motion, -2.0 * values[lowest] * turning / ell)
+        self.of_static_form(motion, motion, -2.0 * value * turning / ell)
     }
 
     /// Gradient of the static form over two motions (translation, rotation), with a coefficient of ℓ.

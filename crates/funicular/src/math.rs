@@ -7,6 +7,7 @@ pub(crate) mod eigenvectors;
 pub mod generalized_eigen;
 pub mod least_squares;
 pub mod legendre;
+pub mod max_min;
 pub(crate) mod order;
 pub mod roots;
 pub mod rotation;

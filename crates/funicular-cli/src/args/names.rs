@@ -6,7 +6,7 @@ use funicular::dynamics::Assembly;
 use funicular::gradient::Hold;
 use funicular::robot::WinchMode;
 use funicular::statics::StaticModel;
-use funicular_study::names::{ModelForm, Per, UncertaintyMethod};
+use funicular_study::names::{DesignGoal, ModelForm, Per, UncertaintyMethod};
 
 /// Tension rules by name; see [`funicular::statics::TensionRule`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -107,6 +107,34 @@ impl From<HoldName> for Hold {
             HoldName::Lengths => Self::Lengths,
             HoldName::Pose => Self::Pose,
             HoldName::Rule => Self::Rule,
+        }
+    }
+}
+
+/// Goal of a design by name; see [`DesignGoal`].
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum DesignGoalName {
+    /// Highest first natural frequency, cables included
+    #[default]
+    First,
+    /// Highest first natural frequency of the platform on the static stiffness of its cables
+    Platform,
+    /// Highest minimum stiffness, as `statics` prints it
+    Stiffness,
+    /// Least mass of all ropes
+    RopeMass,
+    /// Least length of all ropes
+    RopeLength,
+}
+
+impl From<DesignGoalName> for DesignGoal {
+    fn from(name: DesignGoalName) -> Self {
+        match name {
+            DesignGoalName::First => Self::First,
+            DesignGoalName::Platform => Self::Platform,
+            DesignGoalName::Stiffness => Self::Stiffness,
+            DesignGoalName::RopeMass => Self::RopeMass,
+            DesignGoalName::RopeLength => Self::RopeLength,
         }
     }
 }

@@ -38,7 +38,7 @@ impl StateArgs {
 }
 
 impl LoadArgs {
-    fn request(&self) -> Load {
+    pub(crate) fn request(&self) -> Load {
         let Self { force_n, moment_n_m, load_point_m, wind_m_s, cable_load_n_per_m } = *self;
         Load {
             force_n: force_n.map(Into::into),

@@ -1,14 +1,14 @@
 //! `identify`: files of measurements, text and CSV.
 
-use crate::args::{IdentifyArgs, OutputArgs};
-use crate::output::{Content, Printed, Sink, Target};
+use super::result_files::ResultFiles;
+use crate::args::IdentifyArgs;
+use crate::output::Printed;
 use crate::progress::TerminalProgress;
 use crate::table::{NONE, Table, counted, digits_for, significant};
 use crate::{errors, robot_file};
 use anyhow::{Context, Result, bail};
 use std::fmt::Write as _;
 
-use funicular_files::endings::Kind;
 use funicular_study::analyses::identify::{self, Identified};
 use funicular_study::measurements::{self, FileOptions};
 use funicular_study::request::{Experiment, FitValue, IdentifyRequest, Pose, Request, RobotText};
@@ -25,42 +25,15 @@ pub(super) fn run(request: &Request, args: &IdentifyArgs) -> Result<()> {
         guard.reads("the measurements", file);
     }
 
-    // -o may name the robot file or the page.
-    let output = args.sink.output_file.as_deref();
-    let kind = output.and_then(Kind::of).filter(|_| args.sink.format.is_none());
-    let [to_robot, to_page] = [Kind::Toml, Kind::Html].map(|wanted| output.filter(|_| kind == Some(wanted)));
-    let given = |option: Option<&Path>, by_ending: Option<&Path>, name: &str| match (option, by_ending) {
-        (Some(_), Some(_)) => bail!("⟪{name}⟫ and -o name a file of the same kind: leave out one of them"),
-        (option, by_ending) => Ok(option.or(by_ending).map(Path::to_owned)),
-    };
-    let fitted = given(args.fitted.as_deref(), to_robot, "fitted")?;
-    let page = given(args.page.as_deref(), to_page, "page")?;
-    let elsewhere = to_robot.is_some() || to_page.is_some();
-    let printed =
-        OutputArgs { format: args.sink.format, output_file: args.sink.output_file.clone().filter(|_| !elsewhere) };
-    let sink = Sink::open(&printed, &[Kind::Toml, Kind::Html], &mut guard)?;
-    let robot =
-        Content { name: "the robot file", option: "--fitted", in_words: "a robot file", fitting: &[Kind::Toml] };
-    let fitted =
-        fitted.map(|path| Ok::<_, anyhow::Error>((Target::open(Some(&path), robot, &mut guard)?, path))).transpose()?;
-    let html = Content { option: "--page", ..Content::PAGE };
-    let page =
-        page.map(|path| Ok::<_, anyhow::Error>((Target::open(Some(&path), html, &mut guard)?, path))).transpose()?;
-
+    let fitted = ("--fitted", args.fitted.as_deref());
+    let files = ResultFiles::open(&args.sink, fitted, args.page.as_deref(), &mut guard)?;
     let mut watch = TerminalProgress::new();
     let found = identify::run(of, &mut watch)?;
     drop(watch);
-    sink.write(&found)?;
-    if let Some((target, path)) = fitted {
-        target.write(found.robot_file.as_bytes())?;
-        errors::note(&format!("wrote {}", path.display()));
-    }
-    if let Some((target, path)) = page {
+    files.write(&found, &found.robot_file, || {
         let page = funicular_study::pages::identify::page(&found, super::page::command_line()?)?;
-        target.write(worded(&page, Words::Program).as_bytes())?;
-        errors::note(&format!("wrote {}", path.display()));
-    }
-    Ok(())
+        Ok(worded(&page, Words::Program))
+    })
 }
 
 /// Request with the measurements of all files.

@@ -20,7 +20,7 @@ fn shortest() -> Vec<Vec<String>> {
     let imported = project("docs/import/tripod.wcrfx");
     let response = ["--input", "fz", "--output", "z"];
     let range = ["--from-hz", "1", "--to-hz", "2", "--points", "9"];
-    let with_robot: [(&str, &[&str]); 19] = [
+    let with_robot: [(&str, &[&str]); 20] = [
         ("check", &[]),
         ("parameters", &[]),
         ("statics", &[]),
@@ -35,6 +35,7 @@ fn shortest() -> Vec<Vec<String>> {
         ("cable", &["--name", "1"]),
         ("reduce", &["--below-hz", "2"]),
         ("identify", &["--fit", "platform.mass_kg"]),
+        ("design", &["--change", "platform.mass_kg=±1"]),
         ("map", &["--grid", "z=1:2:2"]),
         ("sweep", &["--vary", "platform.mass_kg=90:100:2"]),
         ("report", &[]),

@@ -140,7 +140,7 @@ fn the_robot_file_is_never_overwritten() {
 }
 
 /// Every command that writes, with `OUT` for the file that it writes to.
-const WRITERS: [&str; 22] = [
+const WRITERS: [&str; 23] = [
     "check ROBOT -o OUT",
     "parameters ROBOT -o OUT",
     "statics ROBOT -o OUT",
@@ -156,6 +156,7 @@ const WRITERS: [&str; 22] = [
     "reduce ROBOT --below-hz 1 -o OUT",
     "reduce ROBOT --below-hz 1 --matrices OUT",
     "identify ROBOT --fit platform.mass_kg --measured-tensions-n 17,36,40,15,50,52 --starts 1 -o OUT",
+    "design ROBOT --poses POSES --change platform.mass_kg=±1 --max-iterations 1 -o OUT",
     "map ROBOT --grid x=0 --grid y=0 --grid z=0.5 -o OUT",
     "map ROBOT --grid x=0 --grid y=0 --grid z=0.5 --discard -o OUT",
     "map ROBOT --poses POSES -o OUT",

@@ -4,6 +4,7 @@ mod bad_input;
 mod cable;
 mod compare;
 mod defaults;
+mod design;
 mod export;
 mod figures;
 mod files;

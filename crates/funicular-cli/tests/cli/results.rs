@@ -20,6 +20,7 @@ fn every_json_names_schema_command_and_robot_and_holds_no_null() {
         "pose-error ROBOT --mass-kg 10:90:3 --tolerance-mm 5",
         "cable ROBOT --name 1 --from-hz 0 --to-hz 3 --points 5",
         "identify ROBOT --fit platform.mass_kg --measured-tensions-n 17,36,40,15,50,52 --starts 1",
+        "design ROBOT --pose 0,0,0.5 --change platform.mass_kg=±1 --goal platform --min-stiffness-n-per-m 10",
     ] {
         let arguments: Vec<&str> = line.split(' ').collect();
         let value = json(&arguments);

@@ -248,7 +248,7 @@ pub(crate) fn meaning(at_rest: &AtRest, hold: Hold) -> &'static str {
 }
 
 /// Error for a robot without derivatives: a state that has none is no solution, the rest is input.
-fn no_solution(error: GradientError) -> anyhow::Error {
+pub(crate) fn no_solution(error: GradientError) -> anyhow::Error {
     match &error {
         GradientError::Static(StaticDerivativeError::Slack { .. } | StaticDerivativeError::Singular)
         | GradientError::Vertical { .. }
@@ -330,20 +330,20 @@ impl Columns {
 }
 
 /// Path of numbers in which `*` stands for any key; numbers below it belong to it.
-struct Pattern {
+pub(crate) struct Pattern {
     text: String,
     keys: Vec<String>,
 }
 
 impl Pattern {
-    fn parse(key: &str, text: &str) -> Result<Self> {
+    pub(crate) fn parse(key: &str, text: &str) -> Result<Self> {
         // A star is a key of its own, which TOML would want in quotes.
         let quoted: Vec<&str> = text.trim().split('.').map(|part| if part == "*" { "'*'" } else { part }).collect();
         let path = crate::set_values::path(&quoted.join(".")).map_err(|reason| anyhow!("⟪{key}⟫: {reason}"))?;
         Ok(Self { text: text.trim().to_owned(), keys: path.keys().to_vec() })
     }
 
-    fn matches(&self, keys: &[String]) -> bool {
+    pub(crate) fn matches(&self, keys: &[String]) -> bool {
         keys.len() >= self.keys.len() && self.keys.iter().zip(keys).all(|(own, key)| own == "*" || own == key)
     }
 }

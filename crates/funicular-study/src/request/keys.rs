@@ -87,6 +87,17 @@ pub const KEYS: &[(&str, &str)] = &[
         "measurements of the robot, each in a state of its own: `responses`, `frequencies`, `measured_pose`, \
          `measured_tensions_n`, `measured_lengths_m`",
     ),
+    (
+        "change",
+        "values of the robot file that a design chooses: `path`, and `plus_minus` around the present value or `minimum` and \
+         `maximum`",
+    ),
+    ("goal", "number that a design improves: `first`, `platform`, `stiffness`, `rope-mass` or `rope-length`"),
+    ("weights", "weights of the poses of a design, one per pose, for their mean instead of the worst pose"),
+    ("min_frequency_hz", "minimum of the first natural frequency at every pose of a design [Hz]"),
+    ("min_stiffness_n_per_m", "minimum of the minimum stiffness at every pose of a design [N/m]"),
+    ("avoid_hz", "band without natural frequencies at every pose of a design: first and last frequency [Hz]"),
+    ("max_iterations", "maximum number of iterations"),
     ("starts", "number of starts of the search"),
     ("response_noise", "deviation of measured responses that have none, relative to their magnitude"),
     ("frequency_noise", "relative deviation of measured natural frequencies that have none"),
@@ -94,7 +105,7 @@ pub const KEYS: &[(&str, &str)] = &[
     ("damping_at_hz", "frequency at which viscous damping reproduces constant damping ratios [Hz]"),
     ("name", "name of a cable; for `new` the name of the robot"),
     ("grid", "axes of a grid of poses"),
-    ("poses", "list of poses instead of a grid"),
+    ("poses", "list of poses instead of a grid, or of a design"),
     ("vary", "values of the robot file that vary"),
     ("quantities", "quantities to compute at every point"),
     ("up_to_hz", "upper limit of the search for natural frequencies [Hz]"),

@@ -1,0 +1,123 @@
+//! `design`: text and CSV.
+
+use super::result_files::ResultFiles;
+use crate::args::DesignArgs;
+use crate::output::Printed;
+use crate::progress::TerminalProgress;
+use crate::robot_file;
+use crate::table::{Table, counted, significant};
+use anyhow::{Result, bail};
+use funicular_study::analyses::design::{self, Designed};
+use funicular_study::request::Request;
+use funicular_study::wording::{Words, worded};
+use std::fmt::Write as _;
+
+/// Runs `design`: prints the result, writes the robot file and the page.
+pub(super) fn run(request: &Request, args: &DesignArgs) -> Result<()> {
+    let Request::Design(of) = request else { bail!("this is not a request of `design`") };
+    let mut guard = robot_file::guard(Some(&args.robot.robot));
+    if let Some(poses) = &args.poses {
+        guard.reads("the poses", poses);
+    }
+    let designed = ("--designed", args.designed.as_deref());
+    let files = ResultFiles::open(&args.sink, designed, args.page.as_deref(), &mut guard)?;
+
+    let mut watch = TerminalProgress::new();
+    let found = design::run(of, &mut watch)?;
+    drop(watch);
+    files.write(&found, &found.robot_file, || {
+        let page = funicular_study::pages::design::page(&found, super::page::command_line()?)?;
+        Ok(worded(&page, Words::Program))
+    })
+}
+
+impl Printed for Designed {
+    fn text(&self) -> String {
+        let per_cent = 100.0 * (self.after / self.before - 1.0);
+        let mut text = format!(
+            "{}: {} {} → {} {} ({per_cent:+.2} %)\n{}\n{}, {}: {}.\n",
+            self.robot,
+            self.goal_means,
+            significant(self.before, 5),
+            significant(self.after, 5),
+            self.unit,
+            self.models.line(),
+            counted(self.values.len(), "value"),
+            counted(self.iterations, "iteration"),
+            self.ending,
+        );
+        for limit in &self.limits {
+            let _ = writeln!(text, "{limit}.");
+        }
+
+        let unit = self.unit;
+        let (before, after) = (format!("before [{unit}]"), format!("after [{unit}]"));
+        let mut table = Table::new(&[
+            "pose",
+            "x [m]",
+            "y [m]",
+            "z [m]",
+            "roll [°]",
+            "pitch [°]",
+            "yaw [°]",
+            &before,
+            &after,
+            "share",
+        ]);
+        for (number, row) in (1..).zip(&self.poses) {
+            let mut cells = vec![number.to_string()];
+            cells.extend(row.position_m.iter().chain(&row.roll_pitch_yaw_deg).map(|value| short(*value)));
+            cells.extend([significant(row.before, 5), significant(row.after, 5), format!("{:.3}", row.share)]);
+            table.row(cells);
+        }
+        let _ = write!(text, "\n{table}");
+
+        if !self.demands.is_empty() {
+            let mut table =
+                Table::new(&["demand", "limit", "before", "after", "unit", "at pose"]).text_columns(&[0, 4]);
+            for row in &self.demands {
+                table.row(vec![
+                    row.name.clone(),
+                    significant(row.limit, 5),
+                    significant(row.before, 5),
+                    significant(row.after, 5),
+                    row.unit.to_owned(),
+                    row.pose.to_string(),
+                ]);
+            }
+            let _ = write!(text, "\n{table}");
+        }
+
+        let mut table =
+            Table::new(&["value", "unit", "before", "after", "minimum", "maximum", ""]).text_columns(&[0, 1, 6]);
+        for row in &self.values {
+            table.row(vec![
+                row.path.clone(),
+                row.unit.to_owned(),
+                significant(row.start, 6),
+                significant(row.value, 6),
+                significant(row.minimum, 6),
+                significant(row.maximum, 6),
+                row.at_bound.map_or_else(String::new, |bound| format!("at its {bound}")),
+            ]);
+        }
+        let _ = write!(text, "\n{table}");
+        text
+    }
+
+    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
+        out.write_record(["path", "unit", "start", "value", "minimum", "maximum", "at_bound", "gain_per_unit"])?;
+        for row in &self.values {
+            out.serialize((
+                (&row.path, row.unit, row.start, row.value),
+                (row.minimum, row.maximum, row.at_bound, row.gain_per_unit),
+            ))?;
+        }
+        Ok(())
+    }
+}
+
+/// Number of a pose, without zeros at the end.
+fn short(value: f64) -> String {
+    funicular_study::text::short(value, 6)
+}
