@@ -23,7 +23,7 @@ async function compare() {
   const begin = performance.now();
   const clock = setInterval(() => put($("compare-state"), `${((performance.now() - begin) / 1000).toFixed(0)} s`), 500);
   try {
-    const request = { command: "compare", ...statics(), below_hz: page.frame.belowHz || 20 };
+    const request = { command: "compare", ...statics(), below_hz: Number((page.frame.belowHz || 20).toPrecision(4)) };
     const text = await job.run(1, async ([worker]) => (await worker.call("answer", { request })).text);
     show(JSON.parse(text));
   } catch (error) {

@@ -135,7 +135,7 @@ export function bars({ rows, label, unit }) {
     const mark = past === undefined ? "" : `<b class="past" title="before: ${short(past, 3)} ${unit}" style="left:${(50 + (50 * past) / most).toFixed(1)}%"></b>`;
     const words = `${value < 0 ? "−" : "+"}${short(Math.abs(value), 3)} ${unit}`;
     const [from, wide] = [value < 0 ? 50 + (50 * value) / most : 50, (50 * Math.abs(value)) / most];
-    return `<li data-path="${escaped(path)}" role="button" tabindex="0" aria-label="${escaped(`${name}: ${words}. Add a slider`)}"><span>${escaped(name)}</span>`
+    return `<li data-path="${escaped(path)}" role="button" tabindex="0" aria-label="${escaped(`${name}: ${words}. Add a slider`)}"><span>${escaped(name).replaceAll(".", ".<wbr>").replaceAll("_", "_<wbr>")}</span>`
       + `<span class="bar-track"><i class="${value < 0 ? "less" : "more"}" style="left:${from.toFixed(1)}%;width:${wide.toFixed(1)}%"></i>${mark}</span><b>${escaped(words)}</b></li>`;
   };
   return `<p class="soft">${escaped(label)}</p><ul class="bars" aria-label="${escaped(label)}">${rows.map(row).join("")}</ul>`;

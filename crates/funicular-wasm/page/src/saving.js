@@ -2,6 +2,7 @@
 
 import { mayChoose, RESPONSE_POINTS, statics } from "./computation.js";
 import { $, save } from "./format.js";
+import { drawing } from "./drawing.js";
 import { Cancelled, Job } from "./engine.js";
 import { busy, put, tell } from "./messages.js";
 import { content, on, page, shown } from "./store.js";
@@ -18,11 +19,18 @@ const FIGURES = {
 
 const fileName = () => `${(content.robot.name || page.about?.name || "robot").replace(/^.*[/\\]/, "").replace(/\.toml$/, "").replace(/[^\w.-]+/g, "-").toLowerCase()}.toml`;
 
+/** Derivatives of the chosen frequency, the last of their table; none if no frequency is chosen. */
+function gradientOf() {
+  const mode = page.frame.modes[shown.mode];
+  return mode ? { belowHz: Number((1.0001 * mode.hz).toPrecision(7)), per: $("influence-per").value, hold: $("influence-hold").value } : null;
+}
+
 function showWords() {
   const state = { kind: content.hold, pose: content.pose, lengths: content.lengths, set: content.robot.set, rule: mayChoose() ? content.rule : "" };
   const of = {
     file: fileName(), state, belowHz: Number((page.frame.belowHz || 20).toPrecision(3)),
     response: { ...(shown.response ?? {}), points: RESPONSE_POINTS },
+    gradient: gradientOf(),
   };
   put($("commands"), commands(of));
   put($("python"), python(of));
@@ -36,7 +44,7 @@ async function saveAs(kind) {
   } else if (kind === "png") {
     save(`${name}.png`, await page.view.png(), "image/png");
   } else if (kind === "svg") {
-    save(`${name}.svg`, page.view.svg(), "image/svg+xml");
+    save(`${name}.svg`, drawing(page.view), "image/svg+xml");
   } else if (FIGURES[kind]) {
     const figure = $(FIGURES[kind][0]).querySelector("svg");
     if (figure) {
@@ -116,6 +124,7 @@ export async function copy(text, button) {
 /** Listens to the menu of files and the buttons that copy. */
 export function listen() {
   on("rest", showWords);
+  on("mode", () => { if (page.frame) { showWords(); } });
   document.querySelectorAll("[data-save]").forEach((button) => button.addEventListener("click", () => saveAs(button.dataset.save).catch((error) => {
     if (!(error instanceof Cancelled)) {
       tell(error.message);

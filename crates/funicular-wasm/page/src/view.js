@@ -13,7 +13,6 @@ import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { Drives } from "./drives.js";
 import { rotation } from "./frame.js";
-import { escaped } from "./format.js";
 
 /** Colours of tension from low to high, readable with any colour vision and on both backgrounds. */
 const SCALE = ["#3b6fb6", "#4aa3c8", "#62b78f", "#c9a227", "#d9772b", "#c23b22"].map((hex) => new Color(hex));
@@ -482,45 +481,5 @@ export class View {
   png() {
     this.renderer.render(this.scene, this.camera);
     return new Promise((done) => this.canvas.toBlob(done, "image/png"));
-  }
-
-  /** Picture of the view as SVG: the same camera, drawn with lines. */
-  svg() {
-    const { clientWidth: width, clientHeight: height } = this.place;
-    const style = getComputedStyle(document.documentElement);
-    const color = (name) => style.getPropertyValue(name).trim();
-    const project = (x, y, z) => {
-      const point = new Vector3(x, y, z).project(this.camera);
-      return `${(((point.x + 1) * width) / 2).toFixed(2)},${(((1 - point.y) * height) / 2).toFixed(2)}`;
-    };
-    const polyline = (points, stroke, more) =>
-      `<polyline fill="none" stroke="${stroke}" ${more} points="${Array.from({ length: points.length / 3 }, (_, i) => project(...points.slice(3 * i, 3 * i + 3))).join(" ")}"/>`;
-    const parts = [];
-    const [low] = this.box;
-    for (const line of [...this.platform.children].filter((child) => child.isLineSegments)) {
-      const position = line.geometry.getAttribute("position");
-      for (let i = 0; i < position.count; i += 2) {
-        const ends = [i, i + 1].flatMap((k) => new Vector3().fromBufferAttribute(position, k).applyMatrix4(line.matrixWorld).toArray());
-        parts.push(polyline(ends, color("--ink"), 'stroke-width="1"'));
-      }
-    }
-    if (this.platform.children.length === 1) {
-      const [x, y] = project(...this.frame.position).split(",");
-      parts.push(`<circle cx="${x}" cy="${y}" r="6" fill="${color("--platform")}"/>`);
-    }
-    this.drives?.lines().forEach((points) => parts.push(polyline(points.flat(), color("--soft"), 'stroke-width="1"')));
-    this.drives?.marks().forEach(({ place, color: fill }) => {
-      const [x, y] = project(...place).split(",");
-      parts.push(`<circle cx="${x}" cy="${y}" r="4" fill="${fill}"/>`);
-    });
-    this.frame?.cables.forEach((cable, i) => {
-      const { material } = this.lines[i];
-      parts.push(polyline(Array.from(this.exaggerated(cable)), `#${material.color.getHexString()}`, `stroke-width="2" ${material.dashed ? 'stroke-dasharray="5 4"' : ""}`));
-      const anchor = Array.from(cable.anchor);
-      const [x, y] = project(...anchor).split(",");
-      parts.push(polyline([...anchor, anchor[0], anchor[1], Math.min(0, low.z)], color("--line"), 'stroke-width="1"'));
-      parts.push(`<circle cx="${x}" cy="${y}" r="3" fill="${color("--ink")}"/><text x="${x}" y="${Number(y) - 7}" font-size="12" text-anchor="middle" fill="${color("--soft")}">${escaped(this.names[i])}</text>`);
-    });
-    return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="sans-serif"><rect width="100%" height="100%" fill="${color("--paper")}"/>${parts.join("")}</svg>`;
   }
 }

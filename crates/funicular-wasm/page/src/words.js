@@ -19,7 +19,7 @@ function options(state) {
 }
 
 /** Commands of the program for statics, modes and response. */
-export function commands({ file, state, belowHz, response }) {
+export function commands({ file, state, belowHz, response, gradient }) {
   const more = options(state);
   const command = (name, own) => [`funicular ${name} ${quoted(file)}`, ...more, ...own].join(" \\\n  ");
   return [
@@ -29,11 +29,12 @@ export function commands({ file, state, belowHz, response }) {
       `--input ${response.input}`, `--output ${response.output}`, `--from-hz ${response.from}`, `--to-hz ${response.to}`,
       `--points ${response.points}`, ...(response.log ? ["--log"] : []),
     ]),
+    ...(gradient ? [command("gradient", [`--below-hz ${gradient.belowHz}`, `--per ${gradient.per}`, `--hold ${gradient.hold}`])] : []),
   ].join("\n\n");
 }
 
 /** Script in Python for the same. */
-export function python({ file, state, belowHz, response }) {
+export function python({ file, state, belowHz, response, gradient }) {
   const text = (value) => JSON.stringify(value);
   const set = state.set.length
     ? `.with_({${state.set.map(({ path, value }) => `${text(path)}: ${value}`).join(", ")}})`
@@ -56,5 +57,6 @@ rest = robot.equilibrium(${own.join(", ")})
 print(rest.tension_platform_n)
 print(rest.modes(${belowHz}).frequency_hz)
 hz = np.${space}(${response.from}, ${response.to}, ${response.points})
-response = rest.frf(hz, ${text(response.input)}, ${text(response.output)})`;
+response = rest.frf(hz, ${text(response.input)}, ${text(response.output)})${gradient ? `
+table = rest.gradient(below_hz=${gradient.belowHz}, per=${text(gradient.per)}, hold=${text(gradient.hold)})` : ""}`;
 }

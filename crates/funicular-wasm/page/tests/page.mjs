@@ -4,6 +4,7 @@
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
+import { createServer } from "node:http";
 import { mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
@@ -284,6 +285,25 @@ test("a mode is shown in motion, and “before” is compared", async () => {
   await page.click("#modes tbody tr:nth-child(17) button");
 });
 
+test("the commands in the page run as they stand", async () => {
+  await choose("cogiro");
+  await framed(async () => { await page.fill("[data-number='platform.mass_kg']", "150"); await page.keyboard.press("Enter"); });
+  await framed(async () => { await page.fill("[data-pose='2']", "1.7"); await page.keyboard.press("Enter"); });
+  await page.click("#modes tbody tr:nth-child(1) button");
+  await page.waitForFunction(() => /funicular gradient/.test(document.getElementById("commands").textContent));
+  const lines = (await page.locator("#commands").textContent()).split("\n\n");
+  assert.equal(lines.length, 4);
+  const shown = (await frame()).cables[0].tension;
+  for (const line of lines) {
+    const done = spawnSync("sh", ["-c", line.replace(/^funicular/, `"$PROGRAM"`)], { encoding: "utf8", cwd: new URL(".", library), env: { ...process.env, PROGRAM: program } });
+    assert.equal(done.status, 0, `${line}\n${done.stderr}`);
+    if (line.startsWith("funicular statics")) {
+      assert.ok(done.stdout.includes(shown.toFixed(3)), `${shown} is not in ${done.stdout}`);
+    }
+  }
+  await page.click("#modes tbody tr:nth-child(1) button");
+});
+
 test("the models are compared on demand", async () => {
   await choose("kntu-planar");
   await page.click("#compare-run");
@@ -536,10 +556,10 @@ test("pulleys, drums, guide wheels and supports stand where they are", async () 
   const drive = modes.indexOf("drive");
   assert.ok(drive >= 0, modes.join());
   await page.click(`#modes tbody tr:nth-child(${drive + 1}) button`);
-  await page.waitForFunction(() => window.funicular.view.mode);
-  await page.waitForTimeout(500);
-  const moved = await page.evaluate(() => window.funicular.view.drives.cables.map(({ body, place }) => body.position.distanceTo(place)));
-  assert.ok(moved[0] > 1e-3 && moved.slice(1).every((distance) => distance === 0), moved.join());
+  await page.waitForFunction(() => {
+    const [first, ...others] = window.funicular.view.drives.cables.map(({ body, place }) => body.position.distanceTo(place));
+    return first > 1e-3 && others.every((distance) => distance === 0);
+  });
   await page.screenshot({ path: join(pictures, "drives.png") });
   await page.click(`#modes tbody tr:nth-child(${drive + 1}) button`);
 });
@@ -585,6 +605,36 @@ test("a long computation says so and can be cancelled", async () => {
   await framed(async () => { await page.fill("[data-pose='2']", "1.4"); await page.keyboard.press("Enter"); });
   assert.equal((await frame()).position[2], 1.4);
   assert.equal(await page.locator("#message").isVisible(), false);
+});
+
+test("a server needs no settings, and a missing module is told", async () => {
+  // Without types of files, as the plainest servers answer; the second time without the module.
+  for (const withModule of [true, false]) {
+    const asked = [];
+    const server = createServer((request, answer) => {
+      const name = request.url.split("?")[0].slice(1);
+      asked.push(name);
+      if (!["index.html", "page.js", "page.css", "funicular.wasm"].includes(name) || (name === "funicular.wasm" && !withModule)) {
+        answer.writeHead(404).end();
+        return;
+      }
+      answer.writeHead(200, name.endsWith(".html") ? { "content-type": "text/html" } : {}).end(readFileSync(join(web, name)));
+    });
+    await new Promise((done) => server.listen(0, "127.0.0.1", done));
+    const own = await browser.newContext().then((of) => of.newPage());
+    own.setDefaultTimeout(PATIENCE_MS);
+    await own.goto(`http://127.0.0.1:${server.address().port}/index.html`);
+    if (withModule) {
+      await idle(own);
+      assert.equal((await frame(own)).cables.length, 8);
+    } else {
+      await own.waitForFunction(() => !document.getElementById("message").hidden);
+      assert.match(await text("#message", own), /funicular\.wasm is missing: the server answers with 404/);
+    }
+    assert.deepEqual([...new Set(asked)].sort(), ["funicular.wasm", "index.html", "page.css", "page.js"]);
+    await own.close();
+    server.close();
+  }
 });
 
 test("a page around this one is told every change", async () => {

@@ -1,0 +1,36 @@
+// Structure of the page's script: its modules import each other in no circle.
+
+import assert from "node:assert/strict";
+import { readdirSync, readFileSync } from "node:fs";
+import { test } from "node:test";
+
+const source = new URL("../src/", import.meta.url);
+const imports = new Map(readdirSync(source).map((file) => {
+  const text = readFileSync(new URL(file, source), "utf8");
+  return [file, [...text.matchAll(/^(?:import|export)\b[^;]*?from "\.\/([\w-]+\.js)";/gm)].map((found) => found[1])];
+}));
+
+test("no modules import each other in a circle", () => {
+  const done = new Set();
+  const visit = (file, path) => {
+    assert.ok(!path.includes(file), `${[...path, file].join(" → ")}: move what both need to a module below`);
+    if (!done.has(file)) {
+      imports.get(file).forEach((next) => visit(next, [...path, file]));
+      done.add(file);
+    }
+  };
+  imports.forEach((_, file) => visit(file, []));
+  assert.ok(imports.get("main.js").length > 10 && done.size === imports.size, "the imports are not read");
+});
+
+test("every module is part of the page or of its worker", () => {
+  const used = new Set(["main.js", "worker.js"]);
+  for (const file of used) {
+    imports.get(file).forEach((next) => used.add(next));
+  }
+  assert.deepEqual([...imports.keys()].filter((file) => !used.has(file)), []);
+});
+
+test("the state of the page imports nothing, so that each module may use it", () => {
+  assert.deepEqual(imports.get("store.js"), []);
+});
