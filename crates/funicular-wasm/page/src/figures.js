@@ -184,9 +184,9 @@ export function slice({ axes, ranges, cells, here, label, unit, width }) {
   }
   parts.push(`<rect class="frame" x="${left}" y="${top}" width="${inside}" height="${high}"/>`);
   parts.push(`<text x="${left + inside / 2}" y="${top + high + 31}" text-anchor="middle">${axes[0]} [m]</text><text transform="translate(11 ${top + high / 2}) rotate(-90)" text-anchor="middle">${axes[1]} [m]</text>`);
+  const cross = ([u, v]) => `M${x(u) - 7} ${y(v)}H${x(u) + 7}M${x(u)} ${y(v) - 7}V${y(v) + 7}`;
   if (here) {
-    const [cx, cy] = [x(here[0]), y(here[1])];
-    parts.push(`<path class="here" d="M${cx - 7} ${cy}H${cx + 7}M${cx} ${cy - 7}V${cy + 7}"/>`);
+    parts.push(`<path class="here" d="${cross(here)}"/>`);
   }
   // Scale.
   const bar = top + high + 42;
@@ -202,5 +202,5 @@ export function slice({ axes, ranges, cells, here, label, unit, width }) {
   const told = `${label} at ${cells.length} poses; ${held} of them have a value${held ? `, from ${short(least)} to ${short(most)}${unitText}` : ""}`;
   const svg = `<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" aria-label="${escaped(told)}" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">${parts.join("")}</svg>`;
   const at = (px, py) => [u0 + ((px - left) / inside) * (u1 - u0), v1 - ((py - top) / high) * (v1 - v0)];
-  return { svg, at };
+  return { svg, at, cross };
 }

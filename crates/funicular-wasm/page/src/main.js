@@ -65,6 +65,7 @@ function makeWorkspace() {
     cores: CORES,
   });
   on("outdated", () => workspace.outdated());
+  on("frame", () => workspace.moved());
   on("forget", () => workspace.forget());
   on("remember", () => workspace.remember(page.before !== null));
 }

@@ -56,6 +56,8 @@ function setRange(key, field) {
   change({ response: true });
 }
 
+let width = 0; // of the figure, asked when it changes: asking in each frame makes the page lay out everything twice
+
 function showResponse() {
   const { answered, before, frame } = page;
   if (!answered) {
@@ -70,7 +72,7 @@ function showResponse() {
   const label = (id, value) => [...$(id).options].find((option) => option.value === value)?.textContent ?? value;
   $("bode").innerHTML = figure({
     curves, peaks, modes: frame.modes.map((mode) => mode.hz), unit: answered.unit, log,
-    title: `${label("output", output)} per ${label("input", input)}`, width: Math.max(280, $("bode").clientWidth),
+    title: `${label("output", output)} per ${label("input", input)}`, width: Math.max(280, width || $("bode").clientWidth),
   });
   put($("caveat"), answered.caveat ?? "");
 }
@@ -96,5 +98,11 @@ export function listen() {
     change({ response: true });
   });
   $("response").addEventListener("submit", (event) => event.preventDefault());
-  new ResizeObserver(showResponse).observe($("bode"));
+  new ResizeObserver(() => {
+    const now = $("bode").clientWidth;
+    if (now !== width) {
+      width = now;
+      showResponse();
+    }
+  }).observe($("bode"));
 }

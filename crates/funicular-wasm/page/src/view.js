@@ -59,6 +59,7 @@ export class View {
     this.lines = [];
     this.before = null;
     this.canDrag = true;
+    this.pixels = [1, 1];
 
     const { canvas, context, software } = drawing();
     this.software = software;
@@ -112,6 +113,8 @@ export class View {
     if (width === 0 || height === 0) {
       return;
     }
+    // Kept, because asking the page for them in each frame makes it lay out everything twice.
+    this.pixels = [width, height];
     this.renderer.setPixelRatio(this.software ? 1 : Math.min(2, devicePixelRatio || 1));
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
@@ -137,7 +140,7 @@ export class View {
 
   /** Puts the names of the cables beside them, at a third of their length from the anchor. */
   placeLabels() {
-    const { clientWidth: width, clientHeight: height } = this.place;
+    const [width, height] = this.pixels;
     this.frame?.cables.forEach(({ attachment, anchor }, i) => {
       const point = new Vector3(...[0, 1, 2].map((k) => anchor[k] + 0.3 * (attachment[k] - anchor[k]))).project(this.camera);
       const label = this.labels.children[i];

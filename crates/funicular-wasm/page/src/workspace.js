@@ -38,7 +38,15 @@ export class Workspace {
     if (this.#running) {
       this.#job.cancel();
     }
-    this.#draw();
+  }
+
+  /** The platform has moved: so does its cross in the figure. */
+  moved() {
+    const cross = $("map").querySelector(".here");
+    if (cross && this.cross) {
+      const { frame } = this.#page.state();
+      cross.setAttribute("d", this.cross(this.#result.indices.map((k) => frame.position[k])));
+    }
   }
 
   /** Another robot. */
@@ -156,8 +164,8 @@ export class Workspace {
     const { frame } = this.#page.state();
     const here = told.indices.map((k) => frame.position[k]);
     const width = Math.max(260, $("map").clientWidth);
-    const { svg, at } = slice({ ...told, here, width });
-    this.at = at;
+    const { svg, at, cross } = slice({ ...told, here, width });
+    Object.assign(this, { at, cross });
     const past = this.#before && this.#before !== told ? slice({ ...this.#before, here: null, label: `${this.#before.label}, before`, width }).svg : "";
     $("map").innerHTML = svg + past;
     const off = "xyz".split("").map((axis, k) => (told.indices.includes(k) ? null : `${axis} = ${short(told.here[k], 4)} m`)).find(Boolean);

@@ -263,6 +263,10 @@ test("the message says which cable limits the payload, and the workspace is comp
   await page.waitForFunction(() => document.getElementById("slice-run").textContent === "Compute");
   await page.click("#slice-run");
   await page.waitForFunction(() => document.getElementById("slice-run").textContent === "Compute" && document.querySelectorAll("#map svg rect").length > 1000);
+  const cross = () => page.getAttribute("#map .here", "d");
+  const there = await cross();
+  await framed(async () => { await page.fill("[data-pose='0']", "0.5"); await page.keyboard.press("Enter"); });
+  assert.notEqual(await cross(), there, "the cross follows the platform");
   assert.match(await page.getAttribute("#map svg", "aria-label"), /^Highest tension at \d+ poses/);
   await page.locator("#map").scrollIntoViewIfNeeded();
   await page.screenshot({ path: join(pictures, "workspace.png") });
@@ -743,6 +747,13 @@ test("the page loads fast enough", { skip: !process.env.FUNICULAR_MEASURE }, asy
 
 test("a frame is fast enough to drag", { skip: !process.env.FUNICULAR_MEASURE }, async (t) => {
   const own = await opened(address);
+  const tools = await own.context().newCDPSession(own);
+  await tools.send("Performance.enable", { timeDomain: "threadTicks" });
+  const used = async () => {
+    const { metrics } = await tools.send("Performance.getMetrics");
+    return ["TaskDuration", "ProcessTime"].map((name) => 1000 * (metrics.find((one) => one.name === name)?.value ?? NaN));
+  };
+  const before = await used();
   const times = await own.evaluate(async () => {
     const { view } = window.funicular;
     const { position, quaternion } = { position: view.handle.position.toArray(), quaternion: [1, 0, 0, 0] };
@@ -763,6 +774,8 @@ test("a frame is fast enough to drag", { skip: !process.env.FUNICULAR_MEASURE },
     }
     return { frames, computed: [...window.funicular.times], responses };
   });
+  const [thread, whole] = (await used()).map((value, i) => (value - before[i]) / times.computed.length);
+  t.diagnostic(`processor time per computed frame: main thread ${thread.toFixed(1)} ms, all threads of the page ${whole.toFixed(1)} ms`);
   for (const [name, list] of Object.entries(times)) {
     t.diagnostic(`${name}: median ${part(list, 0.5).toFixed(1)} ms, 95th percentile ${part(list, 0.95).toFixed(1)} ms of ${list.length}`);
   }
