@@ -192,7 +192,7 @@ fn vibration_follows_the_control_of_winches() {
 
 #[test]
 fn requests_without_derivatives_are_refused_with_the_reason() {
-    let cogiro = robot("cogiro.toml");
+    let (cogiro, winches) = (robot("cogiro.toml"), robot("cogiro-winches.toml"));
     for (arguments, expected) in [
         (&["gradient", "ROBOT"][..], "`frequencies` needs --below-hz"),
         (&["gradient", "ROBOT", "--of", "tension"], "did you mean `tensions`?"),
