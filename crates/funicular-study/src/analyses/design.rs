@@ -369,15 +369,12 @@ impl Report<'_> {
         let shares = self.shares();
         let mut rows = Vec::with_capacity(shares.len());
         for (i, ((before, after), share)) in self.before.poses.iter().zip(&self.after.poses).zip(shares).enumerate() {
-            let (position_m, roll_pitch_yaw_deg) = match &self.request.poses {
-                Some(poses) => {
-                    let [x, y, z, roll, pitch, yaw] = poses[i];
-                    ([x, y, z], [roll, pitch, yaw])
-                }
-                None => {
-                    let pose = self.poses.at_rest(robot.clone(), i)?.equilibrium.pose;
-                    (pose.position_w.into(), rotation::to_roll_pitch_yaw_deg(&pose.rot_wp))
-                }
+            let (position_m, roll_pitch_yaw_deg) = if let Some(poses) = &self.request.poses {
+                let [x, y, z, roll, pitch, yaw] = poses[i];
+                ([x, y, z], [roll, pitch, yaw])
+            } else {
+                let pose = self.poses.at_rest(robot.clone(), i)?.equilibrium.pose;
+                (pose.position_w.into(), rotation::to_roll_pitch_yaw_deg(&pose.rot_wp))
             };
             rows.push(PoseRow {
                 position_m,

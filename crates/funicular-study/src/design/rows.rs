@@ -181,12 +181,16 @@ impl<'a> AtPoses<'a> {
         if let Some(limit) = request.min_frequency_hz {
             let lowest = lowest(at_rest, &gradients, linearisation, &along)?;
             values.frequency_hz = lowest.first().map(|(hz, _)| *hz);
-            lowest.iter().for_each(|(hz, gradient)| demand(0, over(row(*hz, gradient, 1.0), limit, limit)));
+            for (hz, slopes) in &lowest {
+                demand(0, over(row(*hz, slopes, 1.0), limit, limit));
+            }
         }
         if let Some(limit) = request.min_stiffness_n_per_m {
             let stiffnesses = gradients.stiffnesses().map_err(no_solution)?;
             values.stiffness = stiffnesses.first().map(|(value, _)| *value);
-            stiffnesses.iter().for_each(|(value, of)| demand(1, over(row(*value, &along(of), 1.0), limit, limit)));
+            for (value, gradient) in &stiffnesses {
+                demand(1, over(row(*value, &along(gradient), 1.0), limit, limit));
+            }
         }
         if let Some([first, last]) = request.avoid_hz {
             let (dynamics, _) = at_rest.dynamics(linearisation, ABOVE_BAND * last)?;

@@ -70,11 +70,7 @@ fn variable(parameters: &Parameters, index: usize, wanted: &ChangeValue) -> Resu
         ));
     }
     if parameters.change(index).is_none() {
-        return Err(refuse(
-            "results have no derivatives by this value: limits, the plane of a planar platform, pulleys and winches have \
-             none"
-                .to_owned(),
-        ));
+        return Err(refuse("results have no derivatives by this value, so that a design cannot choose it".to_owned()));
     }
 
     for bound in [wanted.minimum, wanted.maximum, wanted.plus_minus].into_iter().flatten() {

@@ -68,7 +68,7 @@ fn compare(
     match hold {
         Hold::Lengths => push("pose [m, rad]", &gradients.pose(), &|row| row.pose.as_deref(), STATICS)?,
         Hold::Pose | Hold::Rule => {
-            push("unstrained lengths [m]", &gradients.lengths(), &|row| row.lengths.as_deref(), STATICS)?
+            push("unstrained lengths [m]", &gradients.lengths(), &|row| row.lengths.as_deref(), STATICS)?;
         }
     }
     let of_tensions = if hold == Hold::Pose { TENSIONS_AT_POSE } else { STATICS };
