@@ -204,7 +204,7 @@ fn requests_that_make_no_sense_are_refused_with_the_reason() {
         ),
         (&["uncertainty", &few, "--deviations", "platform=1%", "--hold", "pose"], "3 cables hold"),
         (
-            &["uncertainty", &robot("cogiro-winches.toml"), "--deviations", "platform=1%", "--method", "linear"],
+            &["uncertainty", "ROBOT", "--static-model", "ideal", "--deviations", "platform=1%", "--method", "linear"],
             "x has no linear deviation",
         ),
     ] {
