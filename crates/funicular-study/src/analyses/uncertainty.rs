@@ -622,10 +622,7 @@ fn notes(request: &UncertaintyRequest, poses: &[PoseUncertainty]) -> Vec<String>
     }
     let failed: usize = poses.iter().filter_map(|pose| pose.failed.as_ref()).map(|failed| failed.count).sum();
     if failed > 0 {
-        notes.push(format!(
-            "{} had no equilibrium or no valid values, and does not count",
-            counted(failed, "sampled robot")
-        ));
+        notes.push(format!("{} had no equilibrium or no valid values: not counted", counted(failed, "sampled robot")));
     }
     notes
 }
