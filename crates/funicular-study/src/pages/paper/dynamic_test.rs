@@ -197,12 +197,12 @@ impl Fits {
             format!(
                 "The 4 mm cables meet all nine printed frequencies of the two static models, and there is no other natural \
                  frequency of these models below {BELOW_HZ} Hz. Printed tenths have a deviation of about 0.03 Hz. They \
-                 determine the mass to ± {} kg, the centre of mass to ± {} mm, and the radii of gyration to ± {} %. {} of the \
-                 ten values' combinations, mainly the products of inertia, follow from what was assumed beforehand.",
+                 determine the mass to ± {} kg, the centre of mass to ± {} mm, and the radii of gyration to ± {} %. They do not \
+                 tell {} of the ten values, mainly of the products of inertia.",
                 fixed(small.mass_std, 1),
                 listed(&millimetres, 0),
                 fixed(relative.fold(0.0, f64::max), 0),
-                small.undetermined,
+                crate::text::counted(small.undetermined, "combination"),
             ),
             format!(
                 "No platform on the 8 mm cables that the search found meets them: the sum of squared deviations stays at {}, \
