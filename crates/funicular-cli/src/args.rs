@@ -144,7 +144,7 @@ pub(crate) enum Command {
         funicular uncertainty robots/cogiro.toml --pose 1,2,1.5 --tolerances cables.*.unstrained_length_m=0.0002 -o cogiro.html\n  \
         funicular uncertainty robots/cogiro.toml --poses trajectory.csv --deviations platform.center_of_mass_m=0.005 \\\n    \
         --of stiffness-min --hold pose -o stiffness.csv\n  \
-        funicular uncertainty robots/yuan2014-4mm.toml --deviations materials.*.axial_stiffness_n=5%,platform=1% \\\n    \
+        funicular uncertainty robots/yuan2014-4mm.toml --deviations materials.*.youngs_modulus_pa=5%,platform=1% \\\n    \
         --of frequencies,damping --below-hz 3 --samples 2000 --samples-file robots.parquet"
     )]
     Uncertainty(UncertaintyArgs),

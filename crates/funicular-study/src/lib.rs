@@ -54,7 +54,6 @@ pub mod signals;
 pub mod sweep;
 pub mod text;
 pub mod uff_writing;
-mod uncertainty;
 #[cfg(feature = "validation")]
 pub mod validation;
 pub mod values;

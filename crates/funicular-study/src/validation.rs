@@ -21,6 +21,7 @@ mod robots;
 mod shapes;
 #[cfg(test)]
 mod tests;
+mod uncertainty;
 
 pub use markdown::markdown;
 
@@ -120,6 +121,7 @@ pub fn sections() -> Result<Vec<Section>> {
         dynamics::section(&published),
         cube::section(&published)?,
         paper::section(&published)?,
+        uncertainty::section()?,
     ])
 }
 

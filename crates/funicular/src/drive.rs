@@ -14,10 +14,12 @@ mod anchor_end;
 mod arc;
 mod balance;
 mod chain;
+pub(crate) mod derivatives;
 mod friction;
 
 pub use anchor_end::AnchorEnd;
 pub(crate) use anchor_end::{DrumSideAtRest, OnSupport};
+pub(crate) use chain::{ChainDescription, Piece};
 pub use chain::{DriveChain, Motor, Place};
 pub use friction::DriveFriction;
 

@@ -12,6 +12,8 @@
 
 mod adjoint;
 mod cable_form;
+mod drive_form;
+mod end_form;
 mod parallel_tension;
 mod pullback;
 mod robot_form;
@@ -23,6 +25,7 @@ pub use vibration::{DampedGradient, ResponseDerivatives, VibrationGradients};
 
 use crate::cable::CableModel;
 use crate::cable::catenary_dynamic::CatenaryDynamicError;
+use crate::drive::derivatives::end;
 use crate::dynamics::Dynamics;
 use crate::math::{Vec3, Vec6, symmetric};
 use crate::platform::Coordinates;
@@ -31,7 +34,7 @@ use crate::statics::derivatives::{StaticDerivativeError, force_at_anchor, load_o
 use crate::statics::{Equilibrium, Limit, TensionRule, tangent_stiffness};
 use adjoint::Adjoint;
 use pullback::Pullback;
-use robot_form::{At, RobotForm};
+use robot_form::{Driven, RobotForm};
 use thiserror::Error;
 
 /// Quantity that is held while a number of the robot changes.
@@ -124,6 +127,15 @@ pub enum GradientError {
         /// Name of the cable.
         cable: String,
     },
+    /// A rule chooses the tensions of cables over pulleys or to winches.
+    #[error(
+        "cable \"{cable}\" runs over a pulley or to a winch: tensions that follow their rule have derivatives for cables that \
+         end at fixed points; hold the lengths or the pose instead"
+    )]
+    RuleAndDrive {
+        /// Name of the cable.
+        cable: String,
+    },
     /// Gradients are not implemented for this cable model.
     #[error(
         "gradients of vibrations need the cable model `spring`, `catenary-static` or `catenary-dynamic`, not `{0}`"
@@ -158,8 +170,19 @@ pub enum GradientError {
         frequency_hz: f64,
     },
     /// An input or output is not on the platform.
-    #[error("gradients of responses need inputs and outputs on the platform")]
+    #[error("gradients of responses need inputs and outputs on the platform, or at a drive: `length`, `motor`, `drum`")]
     NotOnPlatform,
+    /// A cable has no such signal of its drive, or none with gradients.
+    #[error(
+        "cable \"{cable}\" has no gradients of the signal `{signal}`: `length` needs a cable with a drum side or a winch that \
+         yields, `drum` and `motor` one that can move; choose another signal"
+    )]
+    NoDriveSignal {
+        /// Name of the cable.
+        cable: String,
+        /// Name of the signal.
+        signal: &'static str,
+    },
     /// The robot is undamped and the frequency is a natural one.
     #[error(
         "the response at {frequency_hz} Hz is not finite: an undamped natural frequency lies there; give the ropes \
@@ -226,8 +249,8 @@ impl<'a> Gradients<'a> {
     /// Prepares the gradients of an equilibrium.
     ///
     /// # Errors
-    /// [`GradientError::Static`]: ideal or slack cables, drives, an indifferent equilibrium, too few cables to hold the
-    /// pose; [`GradientError::Vertical`]; [`GradientError::NoRule`] for [`Hold::Rule`], which needs [`Self::by_rule`].
+    /// [`GradientError::Static`]: ideal or slack cables, flexible supports, an indifferent equilibrium, too few cables to
+    /// hold the pose; [`GradientError::Vertical`]; [`GradientError::NoRule`] for [`Hold::Rule`], which needs [`Self::by_rule`].
     pub fn new(robot: &'a Robot, equilibrium: &'a Equilibrium, hold: Hold) -> Result<Self, GradientError> {
         if hold == Hold::Rule {
             return Err(GradientError::NoRule);
@@ -315,7 +338,8 @@ impl<'a> Gradients<'a> {
             .collect()
     }
 
-    /// Gradients of the tensions at the anchors [N], in file order: the magnitude of N = f − L q.
+    /// Gradients of the tensions at the anchors [N], with a pulley at the exit point, in file order: the magnitude of
+    /// N = f − S q, S being the unstrained length of the free span.
     pub fn tensions_anchor(&self) -> Vec<RobotChange> {
         let states = self.equilibrium().cables.iter().enumerate();
         states
@@ -324,11 +348,22 @@ impl<'a> Gradients<'a> {
                 self.of(|scalar| {
                     let cable = &mut scalar.cables[i];
                     cable.force = direction_w.into();
-                    cable.load = (direction_w * -state.unstrained_length).into();
-                    cable.length = -direction_w.dot(&load_of(state));
+                    cable.load = (direction_w * -state.free_length()).into();
+                    cable.free_length = -direction_w.dot(&load_of(state));
                 })
             })
             .collect()
+    }
+
+    /// Gradients of the tensions at the drums [N], in file order; without a drive those at the anchors.
+    pub fn tensions_drum(&self) -> Vec<RobotChange> {
+        let mut all = self.tensions_anchor();
+        for (i, (gradient, state)) in all.iter_mut().zip(&self.equilibrium().cables).enumerate() {
+            if state.drive.is_some() {
+                *gradient = self.of(|scalar| scalar.cables[i].end[end::TENSION_DRUM] = 1.0);
+            }
+        }
+        all
     }
 
     /// Gradient of an entry of the tangent stiffness about the origin of the platform, world axes [N/m, N, N·m], (14).
@@ -405,8 +440,8 @@ impl<'a> Gradients<'a> {
     /// Gradient of the static form over two motions (translation, rotation), with a coefficient of ℓ.
     fn of_static_form(&self, a: [[f64; 3]; 2], b: [[f64; 3]; 2], ell: f64) -> Result<RobotChange, GradientError> {
         let form = RobotForm::of_statics(self.robot(), self.equilibrium())?;
-        let at = At::undamped(0.0, self.robot().cables.len());
-        let [a, b] = [a, b].map(|[v, theta]| form.motion(v, theta, &at, &[], &[]));
+        let at = form.undamped(0.0);
+        let [a, b] = [a, b].map(|[v, theta]| form.motion(v, theta, &at, &[], &Driven::NONE));
         Ok(self.of(|scalar| {
             form.add(scalar, &a, &b, &at, 1.0);
             scalar.ell = ell;

@@ -3,6 +3,7 @@
 //! The types are those of nalgebra under these names; no other file of the crate names nalgebra.
 
 pub(crate) mod active_set;
+pub(crate) mod dual;
 pub(crate) mod eigenvectors;
 pub mod generalized_eigen;
 pub mod least_squares;

@@ -16,9 +16,10 @@ mod winch;
 mod wind;
 
 pub use anchor::Anchor;
-pub use change::{CableChange, RobotChange};
+pub use change::{CableChange, GuideWheelChange, PulleyChange, RobotChange, WinchChange};
 pub use friction::PulleyFriction;
 pub use motion::{OutOfPlane, Plane, PlatformMotion};
+pub(crate) use pulley::Wheel;
 pub use pulley::{Pulley, PulleyContact};
 pub use support::{DrumPlace, Support};
 pub use winch::{Control, DrumSide, GuideWheel, Servo, Winch, WinchMode};

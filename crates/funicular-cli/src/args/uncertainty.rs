@@ -28,7 +28,7 @@ pub(crate) struct UncertaintyArgs {
     pub(crate) of: Vec<String>,
 
     /// Quantity that is held while the numbers deviate; with the pose held, the tensions parallel to the chords of more
-    /// cables than degrees of freedom change least
+    /// cables than degrees of freedom change least, or follow their rule
     #[arg(long, value_name = "WHAT", value_enum, default_value_t)]
     pub(crate) hold: HoldName,
 

@@ -132,8 +132,66 @@ fn modes_that_share_a_frequency_have_a_block_and_a_response_two_rows() {
 }
 
 #[test]
-fn requests_without_derivatives_are_refused_with_the_reason() {
+fn tensions_and_poses_follow_pulleys_and_winches() {
     let winches = robot("cogiro-winches.toml");
+    let found = json(&["gradient", &winches, "--of", "tensions,pose,stiffness-min"]);
+    let statics = |path: &str, value: f64| {
+        let found = json(&["statics", &winches, "--set", &format!("{path}={value}")]);
+        ["tension_platform_n", "tension_drum_n"].map(|key| {
+            number(&found["cables"][0].get(key).map_or_else(|| found["cables"][0]["drive"][key].clone(), Clone::clone))
+        })
+    };
+    for (path, value, step) in [
+        ("pulleys.wheel.radius_m", 0.05, 1e-3),
+        ("pulleys.wheel.entry_direction.x", 0.0, 1e-2),
+        ("winches.drum.drum_side_length_m", 5.4, 1e-3),
+    ] {
+        for (k, end) in ["platform", "drum"].iter().enumerate() {
+            let expected = difference(step, |step| statics(path, value + step)[k]);
+            let ours = derivative(&found, &format!("tension of cable \"1\" at the {end}"), path);
+            // Third order of the step, which is a hundredth of the value at most.
+            assert!((ours - expected).abs() < 1e-3 * expected.abs(), "{path} {end}: {ours} {expected}");
+        }
+    }
+}
+
+#[test]
+fn vibration_follows_the_control_of_winches() {
+    let text = std::fs::read_to_string(robot("cogiro-winches.toml")).unwrap();
+    let text = text.replace("gear_ratio = 3\n", "gear_ratio = 3\ncontrol = \"position\"\nbandwidth_hz = 5\n");
+    let of = |text: &str, arguments: &[&str]| -> Value {
+        let output = run_with(&[arguments, &["--format", "json"]].concat(), text);
+        serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{arguments:?}: {}", stderr(&output)))
+    };
+    let response = ["--of", "response", "--at-hz", "1.7", "--input", "length:3", "--output", "z"];
+    let modes = ["gradient", "-", "--below-hz", "2.2", "--by", "winches", "--of", "frequencies"];
+    let by_winches = of(&text, &modes);
+    let by_response = of(&text, &[&["gradient", "-", "--by", "winches"], &response[..]].concat());
+    for (key, value, step) in [("bandwidth_hz", 5.0, 0.02), ("gear_ratio", 3.0, 0.01)] {
+        let changed = |step: f64| text.replace(&format!("{key} = {value}"), &format!("{key} = {}", value + step));
+        let path = format!("winches.drum.{key}");
+        for (result, found, arguments) in [
+            ("frequency 3", &by_winches, &modes[..]),
+            (
+                "response at 1.7 Hz, real part",
+                &by_response,
+                &[&["gradient", "-", "--by", "winches"], &response[..]].concat()[..],
+            ),
+        ] {
+            let value = |step: f64| {
+                let found = of(&changed(step), arguments);
+                let results = found["results"].as_array().unwrap();
+                number(&results.iter().find(|row| row["name"] == result).unwrap()["value"])
+            };
+            let (expected, ours) = (difference(step, value), derivative(found, result, &path));
+            // Third order of the step.
+            assert!((ours - expected).abs() < 1e-3 * expected.abs(), "{path}, {result}: {ours} {expected}");
+        }
+    }
+}
+
+#[test]
+fn requests_without_derivatives_are_refused_with_the_reason() {
     let cogiro = robot("cogiro.toml");
     for (arguments, expected) in [
         (&["gradient", "ROBOT"][..], "`frequencies` needs --below-hz"),
@@ -165,7 +223,10 @@ fn requests_without_derivatives_are_refused_with_the_reason() {
             ],
             "rule `stiffest` have no derivatives",
         ),
-        (&["gradient", &winches, "--of", "pose"], "runs over a pulley or to a winch"),
+        (
+            &["gradient", &winches, "--of", "lengths", "--hold", "rule", "--pose", "0,0,1.5"],
+            "runs over a pulley or to a winch: tensions that follow their rule have derivatives",
+        ),
         (&["gradient", &cogiro, "--of", "pose", "--pose", "0,0,1.5", "--static-model", "ideal"], "need elastic cables"),
         (
             &["gradient", "ROBOT", "--of", "response", "--at-hz", "1", "--input", "cable:3@0.5:fz", "--output", "z"],

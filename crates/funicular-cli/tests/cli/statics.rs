@@ -181,6 +181,22 @@ fn a_load_is_the_files_or_the_options() {
     assert!(refused.status.code() == Some(2) && stderr(&refused).contains("give --force-n"));
 }
 
+/// The example of a robot on posts: displacements of its supports, and the interval of friction with them.
+#[test]
+fn a_robot_on_posts_has_an_interval_of_friction() {
+    let robot = super::project("docs/pulleys/posts.toml");
+    let found = json(&["statics", &robot, "--friction-interval"]);
+    let names: Vec<&str> = found["supports"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["east-north", "east-south", "west"]);
+    let height = numbers(&found["friction_interval"]["translation_m"][2]);
+    assert!(height[0] < -1e-5 && height[1] > 1e-5, "{height:?}");
+
+    // With the pose held the supports would move.
+    let refused = super::run(&["statics", &robot, "--friction-interval", "--pose", "0,0,0.5,0,0,0"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("its drum on the ground"), "{}", stderr(&refused));
+}
+
 #[test]
 fn friction_of_pulleys_leaves_an_interval() {
     let robot = super::project("docs/pulleys/winches.toml");

@@ -37,7 +37,7 @@ impl PyRobot {
     ///     Results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`; the first and the third if
     ///     not given.
     /// hold
-    ///     What stays while the numbers deviate: `lengths` or `pose`.
+    ///     What stays while the numbers deviate: `lengths`, `pose`, or `rule` (the pose and the rule of the tensions).
     /// below_hz
     ///     Upper limit of the frequencies [Hz]; for frequencies and damping.
     /// poses

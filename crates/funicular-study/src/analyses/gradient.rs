@@ -9,6 +9,7 @@ use crate::request::{self, GradientRequest, RobotText};
 use anyhow::{Result, anyhow, bail};
 use funicular::dynamics::Dynamics;
 use funicular::gradient::{GradientError, Gradients, Hold, VibrationGradients};
+use funicular::math::Vec3;
 use funicular::modes;
 use funicular::response::Quantity;
 use funicular::robot::parameters::{Parameter, Parameters, RobotPart};
@@ -153,6 +154,10 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
         let (platform, anchor) = (values(|cable| cable.tension_platform), values(|cable| cable.tension_anchor));
         rows.of_cables(robot, "tension of cable", " at the platform", "N", &platform, &gradients.tensions_platform());
         rows.of_cables(robot, "tension of cable", " at the anchor", "N", &anchor, &gradients.tensions_anchor());
+        if equilibrium.cables.iter().any(|cable| cable.drive.is_some()) {
+            let drum = values(CableState::tension_drum);
+            rows.of_cables(robot, "tension of cable", " at the drum", "N", &drum, &gradients.tensions_drum());
+        }
     }
     if of.contains(&"stiffness-min") {
         let value = equilibrium.stability.min_stiffness().unwrap_or_default();
@@ -321,7 +326,8 @@ impl Columns {
         }
         if columns.parameters.is_empty() {
             bail!(
-                "⟪by⟫: {} without derivatives: limits, the plane of a planar platform, pulleys and winches have none",
+                "⟪by⟫: {} without derivatives: limits, the plane of a planar platform, friction of pulleys and supports have \
+                 none",
                 columns.without_derivative.join(", ")
             );
         }
@@ -408,7 +414,7 @@ pub(crate) fn value_at(at_rest: &AtRest, parameter: &Parameter) -> f64 {
     let robot = &at_rest.robot;
     let Load { force_w, moment_w, point_p } = &robot.load;
     let axis = ["x", "y", "z"].iter().position(|axis| Some(*axis) == parameter.component);
-    let of = |vector: &funicular::math::Vec3| axis.map(|axis| vector[axis]);
+    let of = |vector: &Vec3| axis.map(|axis| vector[axis]);
     let angle = |angles: [f64; 3]| {
         ["roll", "pitch", "yaw"].iter().position(|name| Some(*name) == parameter.component).map(|axis| angles[axis])
     };
@@ -523,7 +529,10 @@ impl Rows<'_> {
             bail!("a response needs ⟪input⟫, ⟪output⟫ and ⟪at_hz⟫");
         };
         let (input, output) = (request::input(input)?, request::output(output)?);
-        let [from, to] = at_rest::signals(robot, &input, &output, &request.points)?;
+        request.points.check()?;
+        let [at_input, at_output] =
+            [request.points.input_point_m, request.points.output_point_m].map(|point| point.map(Vec3::from));
+        let (from, to) = (input.signal(robot, at_input)?, output.signal(robot, at_output)?);
         let quantity: Quantity = output.quantity;
         let rows = vibration.responses(&[from], &[(to, quantity)], &[at_hz], self.changes)?;
         let Some(found) = rows.first().and_then(|row| row.first()) else { bail!("the response has no value") };

@@ -1,4 +1,20 @@
 //! `uncertainty`: deviations of results from deviations of numbers of the robot file.
+//!
+//! The linear way uses the gradients of all results, and two tests decide where it holds: whether a cable may become
+//! slack, and whether natural frequencies may cross. Where it does not hold, or where a result has no gradient, robots are
+//! sampled (docs/theory.md, section "Uncertainty").
+//!
+//! The work comes in parts that do not depend on each other: poses, then chunks of sampled robots. A front end runs them
+//! on its own threads and may keep the samples in a file, as those of a sweep.
+
+mod distribution;
+mod inputs;
+mod linear;
+mod results;
+mod sampling;
+mod statistics;
+
+pub(crate) use statistics::Statistics;
 
 use super::found;
 use super::shared::Models;
@@ -8,10 +24,13 @@ use crate::names::UncertaintyMethod;
 use crate::request::{self, Pose, Request, UncertaintyRequest};
 use crate::sweep::{Chunk, Record};
 use crate::text::counted;
-use crate::uncertainty::{GROUPS, Inputs, LinearPose, Row, SampleSet, SampleTable, Sampling, Statistics};
 use crate::watch::Watch;
 use anyhow::{Result, anyhow, bail};
 use funicular::robot::Robot;
+use inputs::{Distribution, Input, Inputs};
+use linear::{LinearPose, Row};
+use results::GROUPS;
+use sampling::{SampleSet, SampleTable, Sampling};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -431,19 +450,18 @@ impl SamplePlan<'_> {
         let several = self.poses.len() > 1;
         let values = inputs.values(&self.study.first.1);
         let distributions = inputs.distributions(&values);
-        let input =
-            |((input, value), distribution): ((&crate::uncertainty::Input, f64), crate::uncertainty::Distribution)| {
-                let follows = several && inputs.follows_state(input);
-                UncertainInput {
-                    path: input.path.clone(),
-                    unit: input.unit,
-                    value: Some(value).filter(|_| !(several && input.is_of_state)),
-                    distribution: distribution.name(),
-                    deviation: Some(distribution.deviation()).filter(|_| !follows),
-                    tolerance: distribution.half_width().filter(|_| !follows),
-                    group: input.group,
-                }
-            };
+        let input = |((input, value), distribution): ((&Input, f64), Distribution)| {
+            let follows = several && inputs.follows_state(input);
+            UncertainInput {
+                path: input.path.clone(),
+                unit: input.unit,
+                value: Some(value).filter(|_| !(several && input.is_of_state)),
+                distribution: distribution.name(),
+                deviation: Some(distribution.deviation()).filter(|_| !follows),
+                tolerance: distribution.half_width().filter(|_| !follows),
+                group: input.group,
+            }
+        };
         inputs.list.iter().zip(values).zip(distributions).map(input).collect()
     }
 

@@ -213,8 +213,13 @@ impl Space {
                 vec![[left + 0.25 * size, ground], [left, ground + 0.25 * size]]
             };
             drawing.lines((0..4).map(hatch).collect(), Stroke::solid(GREY, 0.6 * AXIS_WIDTH));
-            let below = [at, ground + 0.5 * size + capital];
-            drawing.text(Label::plain(&support.name), below, Align::Middle, style.small, GREY);
+
+            // The name begins beside the cable to the drum and stays on the page.
+            let label = Label::plain(&support.name);
+            let wide = drawing.width_of(&label, style.small);
+            let left = if outwards > 0.0 { at - 0.6 * size } else { at + 0.6 * size - wide };
+            let left = left.min(drawing.width - wide - 0.3 * size).max(0.3 * size);
+            drawing.text(label, [left, ground + 0.5 * size + capital], Align::Start, style.small, GREY);
         }
     }
 

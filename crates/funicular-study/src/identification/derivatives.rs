@@ -7,7 +7,7 @@ use funicular::gradient::{Gradients, Hold, VibrationGradients};
 use funicular::math::{Complex, Mat3, Vec3, skew};
 use funicular::robot::{Robot, RobotChange, State};
 
-/// Angle [rad] below which the series of (93h) is used: the next term is θ⁴/30240.
+/// Angle [rad] below which the series of (93g) is used: the next term is θ⁴/30240.
 const SMALL_ANGLE: f64 = 1e-2;
 
 impl Prepared<'_> {
@@ -148,7 +148,7 @@ impl Prepared<'_> {
 }
 
 /// Derivative of the rotation vector θ of a rotation by a small turn after it, in world axes: the inverse of the left
-/// Jacobian, (93h).
+/// Jacobian, (93g).
 fn rate_of_rotation_vector(theta: &Vec3) -> Mat3 {
     let angle = theta.norm();
     let square = if angle < SMALL_ANGLE {

@@ -2,6 +2,7 @@
 //! values.
 
 mod dynamic_test;
+mod fit;
 mod matching;
 mod pose;
 mod published;
@@ -43,6 +44,8 @@ struct PaperPage {
     thresholds: PageTable,
     moorpy: PageTable,
     parameters: PageTable,
+    fits: PageTable,
+    fit_sentences: [String; 2],
     test_figures: Vec<Figure>,
     lists: Vec<PageTable>,
     counts: PageTable,
@@ -58,6 +61,7 @@ pub fn paper(command_line: String) -> anyhow::Result<String> {
     let [small, large] = robots()?;
     let sweeps = [pose::Sweep::of(&small), pose::Sweep::of(&large)];
     let outcomes = dynamic_test::outcomes([&small, &large])?;
+    let fits = dynamic_test::Fits::of([&small, &large])?;
     let page = PaperPage {
         shell: Shell::new("Yuan, Courteille and Deblaise 2014: published and computed".to_owned(), CONTENTS),
         cable_figure: single_cable::figure(),
@@ -70,6 +74,8 @@ pub fn paper(command_line: String) -> anyhow::Result<String> {
         thresholds: pose::thresholds(&sweeps),
         moorpy: pose::against_moorpy(&sweeps),
         parameters: dynamic_test::parameters(&outcomes),
+        fits: fits.table(),
+        fit_sentences: fits.sentences(),
         test_figures: outcomes.iter().map(dynamic_test::Outcome::figure).collect(),
         lists: dynamic_test::lists(&outcomes),
         counts: dynamic_test::counts(&outcomes),

@@ -12,7 +12,9 @@ use funicular::modes::Kind;
 use funicular::pose_error::PoseDifference;
 use funicular::robot::Robot;
 use funicular::robot::parameters::Parameters;
-use funicular::statics::{self, Equilibrium, LimitAtCable, PayloadSide, RequestedPayload, Stability, StaticModel};
+use funicular::statics::{
+    self, Equilibrium, LimitAtCable, PayloadSide, RequestedPayload, Stability, StaticModel, TensionRule,
+};
 use std::cell::OnceCell;
 
 /// Robot at the equilibrium of a point, with results that several quantities share.
@@ -53,6 +55,12 @@ impl<'a> PointEvaluation<'a> {
     /// Numbers of the robot file of this point.
     pub(super) fn parameters(&self) -> Option<Parameters> {
         (self.read)()
+    }
+
+    /// Rule that chooses the tensions while the pose is held; `None` without a choice.
+    pub(super) fn rule(&self) -> Option<&'a TensionRule> {
+        let redundant = self.robot.cables.len() > self.robot.platform.motion.count();
+        (self.hold != Hold::Lengths && redundant).then_some(&self.options.tension_rule)
     }
 
     /// Linearisation, and upper limit of the search for natural frequencies [Hz].

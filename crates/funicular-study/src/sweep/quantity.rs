@@ -354,8 +354,7 @@ static TABLE: [Definition; 24] = [
                         `unstrained_length_NAME_m_by_PATH`: derivative of `first-frequency`, `stiffness-min`, `tensions` or \
                         `lengths` by a number of the robot file, as in `sensitivity:first-frequency:platform.mass_kg`, in \
                         the unit of the result over that of the number. The lengths are held if the state gives them and \
-                        with `--hold-lengths-of-pose`; otherwise the pose is held, and the tensions parallel to the chords \
-                        of more cables than degrees of freedom change least",
+                        with `--hold-lengths-of-pose`; otherwise the pose is held, and the tensions follow their rule",
         takes: ParameterKind::Sensitivity,
         needs: RequiredModel::Elastic,
         frequencies: |_| 0,

@@ -78,3 +78,8 @@ fn values_are_identified_as_the_measurements_have_them_and_as_others_did() {
     let poses = crate::validation::reference::measured().unwrap().grab;
     check(identification::section(&reference::identification().unwrap(), &poses));
 }
+
+#[test]
+fn linear_deviations_are_those_of_sampled_robots() {
+    check(super::uncertainty::section());
+}

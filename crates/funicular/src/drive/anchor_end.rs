@@ -2,8 +2,9 @@
 
 use super::arc::Beyond;
 use crate::catenary::space::HangingCable;
+use crate::math::dual::{Real, dot};
 use crate::math::{Mat3, Vec3};
-use crate::robot::PulleyContact;
+use crate::robot::{PulleyContact, Wheel};
 
 /// Wrap angle [rad] below which the exit point is on the swivel axis and cannot move sideways. At 1e-8 its distance from
 /// the axis is 1e-16 of the radius.
@@ -62,44 +63,83 @@ impl OnSupport {
     }
 }
 
+/// Stiffness of an end, in numbers or in numbers with derivatives.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct EndNumbers<T> {
+    /// Stiffness along the cable by its weight, −q·t/λ [N/m].
+    pub(super) weight: T,
+    /// Stiffness k_s along the cable of all that lies behind the exit point [N/m]; `None` for a rigid drum there.
+    pub(super) spring: Option<T>,
+    /// Motion sideways; `None` if the end has none.
+    pub(super) sideways: Option<SidewaysNumbers<T>>,
+}
+
+/// Stiffness of an end sideways.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SidewaysNumbers<T> {
+    /// Stiffness between the motions along the cable and sideways [N/m].
+    pub(super) coupling: T,
+    /// Stiffness sideways [N/m].
+    pub(super) stiffness: T,
+    /// Distance of the exit point from the swivel axis [m].
+    pub(super) distance: T,
+}
+
+impl<T: Real> EndNumbers<T> {
+    /// Stiffness of an end whose cable travels along `travel_w`, with the load per unstrained length `load_w`.
+    ///
+    /// # References
+    /// docs/theory.md, equations (68) and (69).
+    pub(super) fn at(travel_w: &[T; 3], load_w: &[T; 3], wheel: Option<&Wheel<T>>, beyond: &Beyond<T>) -> Self {
+        let stretch = beyond.stretch;
+        let mut numbers = Self { weight: -dot(load_w, travel_w) / stretch, spring: None, sideways: None };
+        if beyond.compliance.value() <= 0.0 {
+            return numbers;
+        }
+        numbers.spring = Some(T::from(1.0) / (stretch * stretch * beyond.compliance));
+
+        // A cable without tension does not hold the swivel.
+        if let Some(wheel) = wheel.filter(|wheel| wheel.wrap.value() > MIN_WRAP && beyond.tension.value() > 0.0) {
+            let distance = wheel.distance_from_axis();
+            let swivel = beyond.tension / (wheel.radius * (wheel.wrap * 0.5).tan());
+            let coupling = -dot(load_w, &wheel.sideways_w) / stretch - beyond.kink * swivel;
+            let lifted = dot(load_w, &wheel.center_w) * beyond.moment / (distance * distance);
+            numbers.sideways = Some(SidewaysNumbers { coupling, stiffness: swivel + lifted, distance });
+        }
+        numbers
+    }
+}
+
 impl AnchorEnd {
     /// End of a span.
     ///
     /// # References
     /// docs/theory.md, equations (68) and (69).
     pub(super) fn of(span: &HangingCable, contact: Option<&PulleyContact>, beyond: &Beyond) -> Self {
-        let (load_w, stretch) = (span.load_w(), beyond.stretch);
         let travel_w = contact.map_or_else(|| towards_platform(span, beyond), PulleyContact::exit_direction_w);
+        let wheel = contact.map(PulleyContact::wheel);
+        let numbers = EndNumbers::at(&travel_w.into(), &span.load_w().into(), wheel.as_ref(), beyond);
         let mut end = Self {
             along_w: None,
             sideways_w: None,
             stiffness: [[0.0; 2]; 2],
             force_by_length: 0.0,
             rope_compliance: beyond.rope_compliance,
-            stretch,
+            stretch: beyond.stretch,
             stretch_drum: beyond.stretch_entry,
-            weight: -load_w.dot(&travel_w) / stretch,
+            weight: numbers.weight,
             travel_w,
         };
 
         // A rigid drum at the exit point holds the cable.
-        if beyond.compliance <= 0.0 {
-            return end;
-        }
-        let spring = 1.0 / (stretch * stretch * beyond.compliance);
+        let Some(spring) = numbers.spring else { return end };
         end.along_w = Some(travel_w);
         end.stiffness[0][0] = spring + end.weight;
-        end.force_by_length = stretch * spring;
-
-        // A cable without tension does not hold the swivel.
-        if let Some(contact) = contact.filter(|contact| contact.wrap > MIN_WRAP && beyond.tension > 0.0) {
-            let (sideways_w, distance) = (contact.sideways_w, contact.distance_from_axis());
-            let swivel = beyond.tension / (contact.radius * (0.5 * contact.wrap).tan());
-            let coupling = -load_w.dot(&sideways_w) / stretch - beyond.kink * swivel;
-            let lifted = load_w.dot(&contact.center_w) * beyond.moment / (distance * distance);
+        end.force_by_length = beyond.stretch * spring;
+        if let Some(SidewaysNumbers { coupling, stiffness, .. }) = numbers.sideways {
             end.stiffness[0][1] = coupling;
-            end.stiffness[1] = [coupling, swivel + lifted];
-            end.sideways_w = Some(sideways_w);
+            end.stiffness[1] = [coupling, stiffness];
+            end.sideways_w = contact.map(|contact| contact.sideways_w);
         }
 
         end
@@ -118,6 +158,14 @@ impl AnchorEnd {
             total -= (mixed + mixed.transpose()) * b + sideways * sideways.transpose() * c;
         }
         total
+    }
+
+    /// Motions (σ, v) of the end per displacement of the start of the span, world axes.
+    pub(crate) fn motion_by_start(&self, held: &Mat3) -> [Vec3; 2] {
+        let [[a, b], [_, c]] = self.inverse(held);
+        let [along, sideways] =
+            [self.along_w, self.sideways_w].map(|direction| direction.map_or_else(Vec3::zeros, |of| held * of));
+        [along * a + sideways * b, along * b + sideways * c]
     }
 
     /// Derivative of the force on the platform with respect to the unstrained length [N/m]; `None` if the end is held,
@@ -189,5 +237,5 @@ impl AnchorEnd {
 
 /// Direction of the cable at its end towards the platform.
 fn towards_platform(span: &HangingCable, beyond: &Beyond) -> Vec3 {
-    beyond.force_w.try_normalize(0.0).unwrap_or_else(|| -span.chord_w().normalize())
+    Vec3::from(beyond.force_w).try_normalize(0.0).unwrap_or_else(|| -span.chord_w().normalize())
 }

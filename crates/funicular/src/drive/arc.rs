@@ -2,8 +2,8 @@
 
 use super::end_force_w;
 use crate::catenary::space::HangingCable;
-use crate::math::Vec3;
-use crate::robot::{Anchor, PulleyContact};
+use crate::math::dual::{Real, dot};
+use crate::robot::{Anchor, PulleyContact, Wheel};
 
 /// Nodes and weights of the 6-point Gauss rule on [−1, 1]; the other three nodes mirror these. The tension changes along
 /// the arc by the weight of a piece as long as the wheel, a smooth and small change: six points give all digits.
@@ -17,105 +17,71 @@ const GAUSS: [(f64, f64); 3] = [
 /// no meaning, but a search may pass such a place.
 const MIN_SQUARED_STRETCH: f64 = 0.1;
 
+/// Numbers on which the pieces of a cable beyond the exit point depend.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Given<T> {
+    /// Force of the span at the exit point towards the platform, world axes [N].
+    pub(super) force_w: [T; 3],
+    /// Load per unstrained length, world axes [N/m].
+    pub(super) load_w: [T; 3],
+    /// EA [N].
+    pub(super) axial_stiffness: T,
+    /// Place on the wheel; `None` without a pulley.
+    pub(super) wheel: Option<Wheel<T>>,
+    /// Length from the entry point to the drum [m], and length that the winch pays out per tension [m/N]; `None` without a
+    /// winch.
+    pub(super) winch: Option<(T, T)>,
+}
+
+impl Given<f64> {
+    /// Numbers of a span that ends at the anchor's point, or at the exit point of `contact`.
+    pub(super) fn of(span: &HangingCable, anchor: &Anchor, contact: Option<&PulleyContact>) -> Self {
+        Self {
+            force_w: end_force_w(span).into(),
+            load_w: span.load_w().into(),
+            axial_stiffness: span.catenary.rope().axial_stiffness,
+            wheel: contact.map(PulleyContact::wheel),
+            winch: anchor.winch.as_ref().map(|winch| (winch.drum_side_length, winch.compliance())),
+        }
+    }
+}
+
 /// Pieces of a cable beyond the exit point, for a free span and a place on the wheel.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Beyond {
+pub(super) struct Beyond<T = f64> {
     /// Force of the span at the exit point towards the platform, world axes [N].
-    pub(super) force_w: Vec3,
+    pub(super) force_w: [T; 3],
     /// Tension at the exit point [N].
-    pub(super) tension: f64,
+    pub(super) tension: T,
     /// Stretch λ = 1 + T/EA at the exit point.
-    pub(super) stretch: f64,
+    pub(super) stretch: T,
     /// Tension at the entry point [N].
-    pub(super) tension_entry: f64,
+    pub(super) tension_entry: T,
     /// Unstrained length on the wheel [m].
-    pub(super) arc_length: f64,
+    pub(super) arc_length: T,
     /// Unstrained length from the entry point to the drum [m], less the length that the winch yields.
-    pub(super) drum_side_length: f64,
+    pub(super) drum_side_length: T,
     /// Length that the winch yields [m].
-    pub(super) winch_yield: f64,
+    pub(super) winch_yield: T,
     /// Stretch λ_E between entry point and drum.
-    pub(super) stretch_entry: f64,
-    /// Compliance Γ: minus the derivative of the unstrained length beyond the exit point by ψ [m/N], and its part Γ_r of
-    /// arc and drum side.
-    pub(super) compliance: f64,
-    pub(super) rope_compliance: f64,
+    pub(super) stretch_entry: T,
+    /// Compliance Γ: minus the derivative of the unstrained length beyond the exit point by ψ [m/N], its part Γ_r of
+    /// arc and drum side, and the part of the drum side alone.
+    pub(super) compliance: T,
+    pub(super) rope_compliance: T,
+    pub(super) drum_side_compliance: T,
     /// Moment of the length on the wheel about the swivel axis, `M_a = ∫ r (1 − cos θ) ds` [m²].
-    pub(super) moment: f64,
+    pub(super) moment: T,
     /// Sideways kink κ [rad] of a balanced swivel.
-    pub(super) kink: f64,
+    pub(super) kink: T,
     /// Potential energy [J] of arc, drum side and winch; heights counted from the entry point.
-    pub(super) energy: f64,
+    pub(super) energy: T,
 }
 
 impl Beyond {
     /// Pieces of a span that ends at the anchor's point, or at the exit point of `contact`.
-    ///
-    /// # References
-    /// docs/theory.md, equations (64) to (67).
     pub(super) fn of(span: &HangingCable, anchor: &Anchor, contact: Option<&PulleyContact>) -> Self {
-        let ea = span.catenary.rope().axial_stiffness;
-        let load_w = span.load_w();
-        let force_w = end_force_w(span);
-        let tension = force_w.norm();
-        let stretch = 1.0 + tension / ea;
-        let potential = tension * 0.5 * (1.0 + stretch);
-
-        let mut beyond = Self {
-            force_w,
-            tension,
-            stretch,
-            tension_entry: tension,
-            arc_length: 0.0,
-            drum_side_length: 0.0,
-            winch_yield: 0.0,
-            stretch_entry: stretch,
-            compliance: 0.0,
-            rope_compliance: 0.0,
-            moment: 0.0,
-            kink: 0.0,
-            energy: 0.0,
-        };
-
-        // Arc on the wheel.
-        let mut stretch_entry = stretch;
-        if let Some(contact) = contact {
-            let exit = contact.exit_offset_w();
-            for (angle, arc) in arc_nodes(contact) {
-                let offset = contact.offset_w(angle);
-                let potential = potential + load_w.dot(&(exit - offset));
-                let stretch = stretch_of(potential, ea);
-                let tension = tension_of(potential, stretch);
-                // Unstrained length of the piece that belongs to the node.
-                let length = arc / stretch;
-                beyond.arc_length += length;
-                beyond.rope_compliance += length / (ea * stretch * stretch);
-                beyond.moment += length * offset.dot(&contact.center_w);
-                beyond.energy += length * (0.5 * tension * tension / ea - load_w.dot(&offset));
-            }
-            let potential = potential + load_w.dot(&exit);
-            stretch_entry = stretch_of(potential, ea);
-            beyond.tension_entry = tension_of(potential, stretch_entry);
-
-            let lever = contact.distance_from_axis() * tension;
-            let sine = if lever > 0.0 { -load_w.dot(&contact.sideways_w) * beyond.moment / lever } else { 0.0 };
-            beyond.kink = sine.clamp(-1.0, 1.0).asin();
-        }
-
-        // Drum side and winch.
-        beyond.stretch_entry = stretch_entry;
-        if let Some(winch) = &anchor.winch {
-            let (tension, by_tension) = (beyond.tension_entry, winch.compliance());
-            beyond.winch_yield = tension * by_tension;
-            beyond.drum_side_length = (winch.drum_side_length - beyond.winch_yield) / stretch_entry;
-            let squared = stretch_entry * stretch_entry;
-            beyond.rope_compliance += beyond.drum_side_length / (ea * squared);
-            beyond.compliance += by_tension / squared;
-            beyond.energy += 0.5 * tension * tension * (beyond.drum_side_length / ea + by_tension);
-        }
-        beyond.compliance += beyond.rope_compliance;
-
-        beyond
+        Self::at(&Given::of(span, anchor, contact))
     }
 
     /// Sideways kink κ of a balanced swivel [rad], without the integrals over the arc where the load does not turn the
@@ -131,12 +97,86 @@ impl Beyond {
     }
 }
 
+impl<T: Real> Beyond<T> {
+    /// Pieces for given numbers.
+    ///
+    /// # References
+    /// docs/theory.md, equations (64) to (67).
+    pub(super) fn at(given: &Given<T>) -> Self {
+        let Given { force_w, load_w, axial_stiffness: ea, wheel, winch } = *given;
+        let (zero, one) = (T::from(0.0), T::from(1.0));
+        let tension = dot(&force_w, &force_w).sqrt();
+        let stretch = one + tension / ea;
+        let potential = tension * 0.5 * (one + stretch);
+
+        let mut beyond = Self {
+            force_w,
+            tension,
+            stretch,
+            tension_entry: tension,
+            arc_length: zero,
+            drum_side_length: zero,
+            winch_yield: zero,
+            stretch_entry: stretch,
+            compliance: zero,
+            rope_compliance: zero,
+            drum_side_compliance: zero,
+            moment: zero,
+            kink: zero,
+            energy: zero,
+        };
+
+        // Arc on the wheel.
+        let mut stretch_entry = stretch;
+        if let Some(wheel) = wheel {
+            let exit = wheel.offset_w(wheel.wrap);
+            for (angle, arc) in arc_nodes(&wheel) {
+                let offset = wheel.offset_w(angle);
+                let lift: [T; 3] = std::array::from_fn(|k| exit[k] - offset[k]);
+                let potential = potential + dot(&load_w, &lift);
+                let stretch = stretch_of(potential, ea);
+                let tension = tension_of(potential, stretch);
+                // Unstrained length of the piece that belongs to the node.
+                let length = arc / stretch;
+                beyond.arc_length = beyond.arc_length + length;
+                beyond.rope_compliance = beyond.rope_compliance + length / (ea * stretch * stretch);
+                beyond.moment = beyond.moment + length * dot(&offset, &wheel.center_w);
+                beyond.energy = beyond.energy + length * (tension * 0.5 * tension / ea - dot(&load_w, &offset));
+            }
+            let potential = potential + dot(&load_w, &exit);
+            stretch_entry = stretch_of(potential, ea);
+            beyond.tension_entry = tension_of(potential, stretch_entry);
+
+            let lever = wheel.distance_from_axis() * tension;
+            if lever.value() > 0.0 {
+                beyond.kink = (-dot(&load_w, &wheel.sideways_w) * beyond.moment / lever).arcsin();
+            }
+        }
+
+        // Drum side and winch.
+        beyond.stretch_entry = stretch_entry;
+        if let Some((length, by_tension)) = winch {
+            let tension = beyond.tension_entry;
+            beyond.winch_yield = tension * by_tension;
+            beyond.drum_side_length = (length - beyond.winch_yield) / stretch_entry;
+            let squared = stretch_entry * stretch_entry;
+            beyond.drum_side_compliance = beyond.drum_side_length / (ea * squared);
+            beyond.rope_compliance = beyond.rope_compliance + beyond.drum_side_compliance;
+            beyond.compliance = beyond.compliance + by_tension / squared;
+            beyond.energy = beyond.energy + tension * 0.5 * tension * (beyond.drum_side_length / ea + by_tension);
+        }
+        beyond.compliance = beyond.compliance + beyond.rope_compliance;
+
+        beyond
+    }
+}
+
 /// Points of the rim with the length of arc that belongs to each, for integrals over the arc: angles from the entry point
 /// [rad], and lengths [m].
-pub(super) fn arc_nodes(contact: &PulleyContact) -> impl Iterator<Item = (f64, f64)> + use<> {
-    let (half, radius) = (0.5 * contact.wrap, contact.radius);
+pub(super) fn arc_nodes<T: Real>(wheel: &Wheel<T>) -> impl Iterator<Item = (T, T)> + use<T> {
+    let (half, radius) = (wheel.wrap * 0.5, wheel.radius);
     let both = |(node, weight): (f64, f64)| [(node, weight), (-node, weight)];
-    GAUSS.into_iter().flat_map(both).map(move |(node, weight)| (half * (1.0 + node), weight * half * radius))
+    GAUSS.into_iter().flat_map(both).map(move |(node, weight)| (half * (1.0 + node), half * weight * radius))
 }
 
 /// Tension from the entry point of a span to its drum [N].
@@ -149,13 +189,14 @@ pub(crate) fn tension_at_drum(span: &HangingCable, contact: Option<&PulleyContac
 }
 
 /// Tension [N] of ψ and the stretch λ: T = 2ψ/(1 + λ).
-fn tension_of(potential: f64, stretch: f64) -> f64 {
-    2.0 * potential / (1.0 + stretch)
+fn tension_of<T: Real>(potential: T, stretch: T) -> T {
+    potential * 2.0 / (T::from(1.0) + stretch)
 }
 
 /// Stretch λ = √(1 + 2ψ/EA).
-pub(super) fn stretch_of(potential: f64, axial_stiffness: f64) -> f64 {
-    (1.0 + 2.0 * potential / axial_stiffness).max(MIN_SQUARED_STRETCH).sqrt()
+pub(super) fn stretch_of<T: Real>(potential: T, axial_stiffness: T) -> T {
+    let squared = T::from(1.0) + potential * 2.0 / axial_stiffness;
+    if squared.value() >= MIN_SQUARED_STRETCH { squared.sqrt() } else { T::from(MIN_SQUARED_STRETCH).sqrt() }
 }
 
 #[cfg(test)]

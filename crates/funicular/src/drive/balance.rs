@@ -124,8 +124,9 @@ impl Problem<'_> {
         let missing = unknowns.free_length + beyond.length() - self.rope.unstrained_length;
         let [across, sideways] = unknowns.contact.map_or([0.0; 2], |contact| {
             let tension = beyond.tension.max(f64::MIN_POSITIVE);
-            let across = contact.exit_normal_w().dot(&beyond.force_w) / tension;
-            [across, contact.sideways_w.dot(&beyond.force_w) / tension - beyond.kink.sin()]
+            let force_w = Vec3::from(beyond.force_w);
+            let across = contact.exit_normal_w().dot(&force_w) / tension;
+            [across, contact.sideways_w.dot(&force_w) / tension - beyond.kink.sin()]
         });
         let imbalance = Vec3::new(across, sideways, missing / self.rope.unstrained_length);
         Trial { unknowns, span, beyond, imbalance }
@@ -222,7 +223,8 @@ impl Problem<'_> {
 impl Trial {
     /// Derivatives of the conditions by wrap, swivel angle and free length.
     fn derivatives(&self, rope: &Rope) -> Mat3 {
-        let Beyond { force_w, tension, stretch, compliance, moment, .. } = self.beyond;
+        let Beyond { tension, stretch, compliance, moment, .. } = self.beyond;
+        let force_w = Vec3::from(self.beyond.force_w);
         let catenary = &self.span.catenary;
         let (along_w, up_w) = self.span.axes_w();
         let [h, v] = catenary.start_force_by_length();

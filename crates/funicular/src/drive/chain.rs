@@ -4,7 +4,10 @@
 //! the waves of a drum side with mass, the drum and the motor, as motions of the cable there towards the wheel. What cannot
 //! move has no motion: a rigid winch is a wall (docs/theory.md, equations (75) to (79)).
 
+mod description;
 mod parts;
+
+pub(crate) use description::{ChainDescription, Piece};
 
 use super::DriveAtRest;
 use crate::math::{Complex, DMat, legendre};

@@ -37,7 +37,7 @@ impl DriveAtRest {
         let (load_w, exit) = (span.load_w(), contact.exit_offset_w());
         let tension_exit = span.catenary.tension_at_end();
         let potential_exit = tension_exit * (1.0 + 0.5 * tension_exit / ea);
-        for (angle, arc) in arc_nodes(contact) {
+        for (angle, arc) in arc_nodes(&contact.wheel()) {
             let potential = potential_exit + load_w.dot(&(exit - contact.offset_w(angle)));
             let stretch = stretch_of(potential, ea);
             let tension = 2.0 * potential / (1.0 + stretch);

@@ -13,7 +13,7 @@
 
 use super::supports::SupportsAt;
 use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
-use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveAt, DriveLosses, Family, NearPole};
+use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveAt, DriveLosses, Family, NearPole, NearRanges};
 use crate::cable::{DynamicCable, LocalStiffness};
 use crate::math::{CDMat, CMat6, CVec6, Complex, order};
 
@@ -42,14 +42,27 @@ pub(crate) struct DampedMotion {
 const SHARED_ZERO: f64 = 1e-13;
 
 impl Dynamics {
-    /// Motion at a simple zero ω [rad/s], for catenary-dynamic cables without drives; of size one.
+    /// Motion at a simple zero ω [rad/s], for catenary-dynamic cables on a rigid frame; of size one.
     pub(crate) fn damped_motion(&self, omega: Complex) -> Option<DampedMotion> {
         let no_poles = vec![Vec::new(); self.terms.len()];
         let Bordered { value, slope, .. } = self.bordered(omega, 1.0, &no_poles);
-        // Amplitudes of clamped modes in the unit of the platform's motion, so that all entries have one size.
-        let stiffest = (0..self.dof()).map(|k| value[(k, k)].norm()).fold(0.0, f64::max);
-        let unit = |k: usize| if k < self.dof() { 1.0 } else { stiffest.sqrt() / omega.norm() };
-        let scaled = CDMat::from_fn(value.nrows(), value.ncols(), |r, c| value[(r, c)] * (unit(r) * unit(c)));
+        // Poles near ω, as the border has them.
+        let mut near = Vec::new();
+        for (t, term) in self.terms.iter().enumerate() {
+            let DynamicCable::CatenaryDynamic(form) = &term.form else { return None };
+            let (damping, mass_per_length) = self.damping[term.cable];
+            let (square, _) = damping.square_with_slope(omega, mass_per_length);
+            let (.., poles) = form.complex_beside_poles(square, NEAR_POLE_FRACTION);
+            near.extend(poles.into_iter().map(|pole| (t, pole.family, pole.index)));
+        }
+
+        // Amplitudes of clamped modes in the unit of the platform's motion, so that all entries have one size. Drives follow,
+        // whose rows are motions.
+        let (dof, bordered) = (self.dof(), self.dof() + near.len());
+        let stiffest = (0..dof).map(|k| value[(k, k)].norm()).fold(0.0, f64::max);
+        let unit = |k: usize| if (dof..bordered).contains(&k) { stiffest.sqrt() / omega.norm() } else { 1.0 };
+        let weight = |row: usize| if row < bordered { unit(row) } else { stiffest };
+        let scaled = CDMat::from_fn(value.nrows(), value.ncols(), |r, c| value[(r, c)] * (weight(r) * unit(c)));
         let svd = scaled.svd(false, true);
         let mut values: Vec<(f64, usize)> = svd.singular_values.iter().copied().zip(0..).collect();
         order::sort_ascending(&mut values, |(value, _)| *value);
@@ -59,20 +72,29 @@ impl Dynamics {
         let row = svd.v_t?;
         let motion: Vec<Complex> = row.row(values[0].1).iter().enumerate().map(|(k, z)| z.conj() * unit(k)).collect();
 
-        let product = |r: usize| -> Complex { (0..motion.len()).map(|c| slope[(r, c)] * motion[c]).sum() };
-        let slope = (0..motion.len()).map(|r| motion[r] * product(r)).sum();
-        let mut near = Vec::new();
-        for (t, term) in self.terms.iter().enumerate() {
-            let DynamicCable::CatenaryDynamic(form) = &term.form else { return None };
-            let (damping, mass_per_length) = self.damping[term.cable];
-            let (square, _) = damping.square_with_slope(omega, mass_per_length);
-            let (.., poles) = form.complex_beside_poles(square, NEAR_POLE_FRACTION);
-            for pole in poles {
-                near.push((t, pole.family, pole.index, motion[self.dof() + near.len()]));
+        // The null vector of the transposed matrix has the forces −Δz of the drives in place of their motions z.
+        let mut left = motion.clone();
+        let mut first = bordered;
+        for term in &self.terms {
+            let DynamicCable::CatenaryDynamic(form) = &term.form else { continue };
+            if form.has_drive_losses() {
+                for (delta, _) in form.beyond_undamped(omega, 1.0).0 {
+                    left[first] *= -delta;
+                    first += 1;
+                }
             }
         }
+        let product = |r: usize| -> Complex { (0..motion.len()).map(|c| slope[(r, c)] * motion[c]).sum() };
+        let slope = (0..motion.len()).map(|r| left[r] * product(r)).sum();
+        let near =
+            near.into_iter().enumerate().map(|(k, (t, family, index))| (t, family, index, motion[dof + k])).collect();
         let platform = CVec6::from_fn(|i, _| if i < self.dof() { motion[i] } else { Complex::new(0.0, 0.0) });
         Some(DampedMotion { platform, near, slope })
+    }
+
+    /// Poles of a cable that are unknowns of their own at the square ω_c² of its frequency, as in the border.
+    pub(crate) fn near_of_border(form: &CatenaryDynamicEnd, square: Complex) -> NearRanges {
+        form.near(square.re, NEAR_POLE_FRACTION)
     }
 
     /// Square ω_c² of cable `i` at a complex ω [rad/s], and its derivatives by the mass per length and by the damping.

@@ -2,6 +2,7 @@
 //! numbers of the robot.
 
 use super::scalar::{Field, Vector};
+use crate::drive::derivatives::end;
 
 /// Derivative of a scalar by each quantity of the state at rest, all others held: the coefficients of df, dr, dq and so on
 /// in its differential. World axes.
@@ -33,7 +34,7 @@ pub(super) struct Adjoint<T> {
 }
 
 /// Coefficients of one cable.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct CableAdjoint<T> {
     /// By the force on the platform.
     pub(super) force: Vector<T>,
@@ -45,12 +46,81 @@ pub(super) struct CableAdjoint<T> {
     pub(super) load: Vector<T>,
     /// By the unstrained length.
     pub(super) length: T,
+    /// By the unstrained length of the free span: besides that by the unstrained length, to which it is equal without a drive.
+    pub(super) free_length: T,
     /// By the axial stiffness.
     pub(super) stiffness: T,
     /// By the mass per length as inertia.
     pub(super) mass: T,
     /// By the damping ratio, or the viscous damping per length.
     pub(super) damping: T,
+    /// By the numbers of the end at the exit point, in the order of [`end`](crate::drive::derivatives::end).
+    pub(super) end: [T; end::COUNT],
+    /// By the numbers of the drive themselves.
+    pub(super) drive: DriveAdjoint<T>,
+    /// By the distance and the mass of each guide wheel; none beyond the end.
+    pub(super) guides: Vec<[T; 2]>,
+}
+
+impl<T: Field> CableAdjoint<T> {
+    /// Coefficients of a guide wheel.
+    fn guide(&mut self, wheel: usize) -> &mut [T; 2] {
+        if self.guides.len() <= wheel {
+            self.guides.resize(wheel + 1, [T::default(); 2]);
+        }
+        &mut self.guides[wheel]
+    }
+
+    /// Adds to the coefficient of the distance of a guide wheel.
+    pub(super) fn guide_distance(&mut self, wheel: usize, coefficient: T) {
+        self.guide(wheel)[0] += coefficient;
+    }
+
+    /// Adds to the coefficient of the mass of a guide wheel.
+    pub(super) fn guide_mass(&mut self, wheel: usize, coefficient: T) {
+        self.guide(wheel)[1] += coefficient;
+    }
+}
+
+/// Coefficients of the numbers of a cable's drive that stand in its motion.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct DriveAdjoint<T> {
+    /// By the radius of the wheel, its moment of inertia and that of the swivel.
+    pub(super) radius: T,
+    pub(super) inertia: T,
+    pub(super) swivel_inertia: T,
+    /// By the length from the drum to the entry point.
+    pub(super) drum_side_length: T,
+    /// By the length that the winch pays out per tension at rest.
+    pub(super) compliance: T,
+    /// By the stiffness of the winch, the masses of drum and motor, and the damping.
+    pub(super) stiffness: T,
+    pub(super) drum_mass: T,
+    pub(super) motor_mass: T,
+    pub(super) damping: T,
+    /// By the gains and the delay of the control.
+    pub(super) position_gain: T,
+    pub(super) speed_gain: T,
+    pub(super) delay: T,
+}
+
+impl<T: Field> DriveAdjoint<T> {
+    fn map<U: Field>(&self, of: impl Fn(T) -> U) -> DriveAdjoint<U> {
+        DriveAdjoint {
+            radius: of(self.radius),
+            inertia: of(self.inertia),
+            swivel_inertia: of(self.swivel_inertia),
+            drum_side_length: of(self.drum_side_length),
+            compliance: of(self.compliance),
+            stiffness: of(self.stiffness),
+            drum_mass: of(self.drum_mass),
+            motor_mass: of(self.motor_mass),
+            damping: of(self.damping),
+            position_gain: of(self.position_gain),
+            speed_gain: of(self.speed_gain),
+            delay: of(self.delay),
+        }
+    }
 }
 
 impl<T: Field> Adjoint<T> {
@@ -100,9 +170,13 @@ impl<T: Field> Adjoint<T> {
                     chord: vector(&cable.chord),
                     load: vector(&cable.load),
                     length: of(cable.length),
+                    free_length: of(cable.free_length),
                     stiffness: of(cable.stiffness),
                     mass: of(cable.mass),
                     damping: of(cable.damping),
+                    end: cable.end.map(&of),
+                    drive: cable.drive.map(&of),
+                    guides: cable.guides.iter().map(|guide| guide.map(&of)).collect(),
                 })
                 .collect(),
         }

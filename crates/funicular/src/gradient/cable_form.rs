@@ -8,10 +8,17 @@ mod length_rate;
 
 use super::GradientError;
 use super::adjoint::CableAdjoint;
+use super::drive_form::{ControlAt, DriveAtFrequency, DriveForm};
+use super::end_form::EndAtRest;
 use super::scalar::{Field, Vector, add, add_times, cross, dot, times, vector};
-use crate::cable::catenary_dynamic::{CatenaryDynamic, CatenaryDynamicEnd, PoleResidue, Stations, smooth_pieces};
+use crate::cable::catenary_dynamic::{
+    CatenaryDynamic, CatenaryDynamicEnd, Displacements, DriveAt, DriveLosses, DriveSignal, Family, PoleResidue,
+    Stations, smooth_pieces,
+};
 use crate::catenary::space::HangingCable;
-use crate::math::{DMat, Vec3, legendre};
+use crate::drive::derivatives::end;
+use crate::math::{CDMat, Complex, DMat, Vec3, legendre};
+use crate::robot::{Anchor, Cable, Servo, WinchMode};
 use crate::statics::CableState;
 use crate::statics::derivatives::StaticDerivativeError;
 use std::array::from_fn;
@@ -41,6 +48,8 @@ pub(super) struct CableForm {
     /// Integrals over [−1, ξ] from the values at the points of a rule, by rows; one matrix per size.
     rules: Vec<DMat>,
     inertia: Inertia,
+    /// End at the pulley or the winch, if it can move and the cable has no inertia.
+    end: Option<EndAtRest>,
 }
 
 /// Motion of the points of a cable.
@@ -50,8 +59,50 @@ enum Inertia {
     /// Slow motion: the cable has no mass, but may get some.
     Massless,
     /// Vibration by clamped modes.
-    Modes(Box<CatenaryDynamic>, Stations),
+    Modes(Box<Vibrating>),
 }
+
+/// Clamped modes of a cable that vibrates, with the drive at its end.
+struct Vibrating {
+    cable: CatenaryDynamic,
+    stations: Stations,
+    drive: Option<VibratingEnd>,
+}
+
+/// Drive at the end of a cable that vibrates.
+struct VibratingEnd {
+    form: DriveForm,
+    /// Directions in which the end moves, in the axes of the cable, each with the motion.
+    directions: Vec<(usize, [f64; 3])>,
+    /// Number of motions along the cable, and of all.
+    along: usize,
+    count: usize,
+}
+
+/// Frequency of a cable, and the losses of its drive there.
+#[derive(Debug, Clone, Default)]
+pub(super) struct CableAt<T> {
+    /// Square ω_c², and its derivatives by mass per length and by damping.
+    pub(super) square: T,
+    pub(super) by_damping: [T; 2],
+    /// Control of the motor.
+    pub(super) control: ControlAt<T>,
+    /// Losses of the drive; `None` without losses and without forces on it.
+    pub(super) losses: Option<LossesAt<T>>,
+}
+
+/// Losses of a drive at a frequency, for its motions.
+#[derive(Debug, Clone)]
+pub(super) struct LossesAt<T> {
+    /// Stiffness Δ per motion besides that of the undamped model [N/m].
+    pub(super) delta: Vec<T>,
+    /// Receptance R, by rows, and (1 + R Δ)⁻¹.
+    pub(super) receptance: Vec<Vec<T>>,
+    pub(super) inverse: Vec<Vec<T>>,
+}
+
+/// Amplitude of a clamped mode that does not follow from the end: family, index, amplitude.
+pub(super) type NearMode<T> = (Family, usize, T);
 
 /// Point of the integrals along a cable.
 struct Point {
@@ -75,31 +126,65 @@ pub(super) struct CableMotion<T> {
     end_force_w: Vector<T>,
     /// Rotation of the platform, world axes.
     theta: Vector<T>,
+    /// Motions along the cable and sideways of an end at rest, or the motions of the drive.
+    end: Vec<T>,
+    /// Force that moves the far end, in the axes of the cable [N].
+    far_force: Vector<T>,
+}
+
+impl<T> CableMotion<T> {
+    /// Motions of the drive.
+    pub(super) fn of_drive(&self) -> &[T] {
+        &self.end
+    }
 }
 
 impl CableForm {
     /// Cable with the static end stiffness of its catenary. `may_have_mass` for a massless cable in a model with inertia.
-    pub(super) fn at_rest(state: &CableState, may_have_mass: bool) -> Result<Self, GradientError> {
-        let catenary = hanging(state)?.catenary;
-        let pieces = smooth_pieces(&catenary, vec![(0.0, catenary.rope().unstrained_length)]);
+    pub(super) fn at_rest(anchor: &Anchor, state: &CableState, may_have_mass: bool) -> Result<Self, GradientError> {
+        let hanging = hanging(state)?;
+        let catenary = &hanging.catenary;
+        let pieces = smooth_pieces(catenary, vec![(0.0, catenary.rope().unstrained_length)]);
         let count = |size: f64| (DIGITS_OF_REST / (2.0 * size.ln())).ceil() as usize + 4;
         let sizes: Vec<usize> = pieces.iter().map(|(_, _, size)| count(*size)).collect();
         let inertia = if may_have_mass { Inertia::Massless } else { Inertia::None };
-        Self::on_pieces(state, 0.0, &pieces, &sizes, inertia)
+        let mut form = Self::on_pieces(state, 0.0, &pieces, &sizes, inertia)?;
+        form.end = EndAtRest::of(anchor, state.drive.as_deref(), &hanging.tangent_w());
+        Ok(form)
     }
 
-    /// Cable that vibrates about its catenary.
-    pub(super) fn vibrating(state: &CableState, end: &CatenaryDynamicEnd, name: &str) -> Result<Self, GradientError> {
+    /// Cable that vibrates about its catenary. `winches` is the mode of the winches.
+    pub(super) fn vibrating(
+        cable: &Cable,
+        state: &CableState,
+        end: &CatenaryDynamicEnd,
+        winches: WinchMode,
+    ) -> Result<Self, GradientError> {
         let catenary = hanging(state)?.catenary;
         let pieces = smooth_pieces(&catenary, vec![(0.0, catenary.rope().unstrained_length)]);
         let sizes: Vec<usize> = end.cable.degrees.iter().map(|degree| degree + POINTS_FOR_TENSION).collect();
         let mut form = Self::on_pieces(state, end.mass_per_length, &pieces, &sizes, Inertia::None)?;
 
         let arc_lengths = form.points.iter().map(|point| point.fraction * form.length).collect();
-        let (m, limit) = (end.mass_per_length, end.cable.limit);
-        let (cable, stations) = CatenaryDynamic::with_stations(&catenary, None, m, limit, arc_lengths, false)
-            .map_err(|reason| GradientError::CatenaryDynamic { cable: name.to_owned(), reason })?;
-        form.inertia = Inertia::Modes(Box::new(cable), stations);
+        let (m, limit, moving) = (end.mass_per_length, end.cable.limit, end.cable.end.clone());
+        let (modes, stations) = CatenaryDynamic::with_stations(&catenary, moving.clone(), m, limit, arc_lengths, false)
+            .map_err(|reason| GradientError::CatenaryDynamic { cable: cable.name.clone(), reason })?;
+        let drive = match (&moving, &state.drive) {
+            (Some(moving), Some(drive)) => {
+                let (along, count) = moving.counts();
+                let rope = (cable.material.axial_stiffness, m);
+                let directions = moving.along.iter().map(|of| (0, of.direction));
+                let sideways = moving.sideways.iter().map(|of| (along, of.direction));
+                Some(VibratingEnd {
+                    form: DriveForm::of(&cable.anchor, drive, rope, winches, limit, along),
+                    directions: directions.chain(sideways).collect(),
+                    along,
+                    count,
+                })
+            }
+            _ => None,
+        };
+        form.inertia = Inertia::Modes(Box::new(Vibrating { cable: modes, stations, drive }));
         Ok(form)
     }
 
@@ -153,66 +238,81 @@ impl CableForm {
             elements,
             rules: of_size.iter().map(|(_, rule)| integrals(rule)).collect(),
             inertia,
+            end: None,
         })
     }
 
-    /// Motion with the platform (translation of its origin and rotation, world axes) at the square ω_c² of the cable's
-    /// complex frequency. `near` are amplitudes that do not follow from the end: index of the clamped mode, in plane or
-    /// out of plane, amplitude.
+    /// Motion with the platform (translation of its origin and rotation, world axes) at a frequency. `near` are amplitudes
+    /// that do not follow from the end, `forces` act on the motions of the drive besides its own; none if empty.
     pub(super) fn motion<T: Field>(
         &self,
         v: &Vector<T>,
         theta: &Vector<T>,
-        square: T,
-        near: &[(bool, usize, T)],
+        at: &CableAt<T>,
+        near: &[NearMode<T>],
+        forces: &[T],
     ) -> CableMotion<T> {
         let end_w = add(v, &cross(theta, &vector(&self.lever_w)));
         let end: Vector<T> = from_fn(|k| dot(&end_w, &vector(&self.axes_w[k])));
 
-        let Inertia::Modes(cable, stations) = &self.inertia else {
+        let Inertia::Modes(vibrating) = &self.inertia else {
             // Without mass the tension vector changes by the same amount all along the cable.
-            let force = self.static_force(&end);
-            let tension = vec![times(&force, T::from(-1.0)); self.points.len()];
+            let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&end_w));
+            let mut elongation = end;
+            if let Some(of) = &self.end {
+                let followed_w = of.displacement(&at_end);
+                (0..3).for_each(|k| elongation[k] += dot(&followed_w, &vector(&self.axes_w[k])) * -1.0);
+            }
+            let force = self.static_force(&elongation);
+            let far_force = times(&force, T::from(-1.0));
+            let tension = vec![far_force; self.points.len()];
             let displacement = match self.inertia {
                 Inertia::Massless => {
                     let strains: Vec<Vector<T>> =
                         self.points.iter().zip(&tension).map(|(point, change)| self.strain(point, change)).collect();
-                    self.gathered(&strains).iter().map(|moved| add(&end, moved)).collect()
+                    let (gathered, _) = self.gathered(&strains);
+                    gathered.iter().map(|moved| add(&end, moved)).collect()
                 }
                 _ => Vec::new(),
             };
-            return CableMotion { displacement, tension, end_force_w: self.world(&force), theta: *theta };
+            let (end_force_w, end) = (self.world(&force), at_end.to_vec());
+            return CableMotion { displacement, tension, end_force_w, theta: *theta, end, far_force };
         };
 
         // Momentum: δN(s) = δN(0) − ω_c² m ∫₀ˢ δp ds.
-        let displacement = displacement(cable, stations, &end, square, near);
-        let mut gathered = self.gathered(&displacement);
-        let factor = -(square * self.mass_per_length);
-        for sum in &mut gathered {
+        let (displacement, motions) = vibrating.displacement(&end, at, near, forces);
+        let (mut gathered, mut whole) = self.gathered(&displacement);
+        let factor = -(at.square * self.mass_per_length);
+        for sum in gathered.iter_mut().chain([&mut whole]) {
             *sum = times(sum, factor);
         }
 
-        // The anchor is held: the strains of δN along the cable add up to −a, where a is the motion of the platform end.
+        // The strains of δN along the cable add up to the motion of the far end less that of the platform end.
         let mut moved = end;
+        if let Some(drive) = &vibrating.drive {
+            for (motion, direction) in &drive.directions {
+                (0..3).for_each(|k| moved[k] += -(motions[*motion] * direction[k]));
+            }
+        }
         for (point, gathered) in self.points.iter().zip(&gathered) {
             add_times(&mut moved, &self.strain(point, gathered), T::from(point.weight));
         }
         let force = self.static_force(&moved);
         let tension = gathered.iter().map(|gathered| from_fn(|k| gathered[k] - force[k])).collect();
-        CableMotion { displacement, tension, end_force_w: self.world(&force), theta: *theta }
+        let far_force = from_fn(|k| whole[k] - force[k]);
+        CableMotion { displacement, tension, end_force_w: self.world(&force), theta: *theta, end: motions, far_force }
     }
 
-    /// Adds `factor` times the coefficients of W(a, b); `damping` has the derivatives of ω_c² by mass per length and by
-    /// damping.
+    /// Adds `factor` times the coefficients of W(a, b) at a frequency; `own_square` is ω² of the drive.
     pub(super) fn add<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
         a: &CableMotion<T>,
         b: &CableMotion<T>,
-        square: T,
-        damping: [T; 2],
+        (own_square, at): (T, &CableAt<T>),
         factor: T,
     ) {
+        let (square, damping) = (at.square, at.by_damping);
         let zero = T::default();
         let (mut by_force, mut by_load) = ([zero; 3], [zero; 3]);
         let (mut squares, mut work) = (zero, zero);
@@ -247,15 +347,69 @@ impl CableForm {
         add_times(&mut sum.load, &load_w, -(factor * self.length));
         let inertia = square * moved;
         let strained = (work + inertia * self.mass_per_length) * (1.0 / self.length);
-        sum.length += -(factor * (by_load[1] * self.load + strained));
+        sum.free_length += -(factor * (by_load[1] * self.load + strained));
         sum.stiffness += factor * squares * self.axial_stiffness.powi(-2);
-        let by_square = -(factor * moved * self.mass_per_length);
-        sum.mass += by_square * damping[0] - factor * inertia;
-        sum.damping += by_square * damping[1];
+        sum.mass += -(factor * inertia);
 
         // The ends turn with their lever arms.
         let turned = add(&cross(&a.end_force_w, &b.theta), &cross(&b.end_force_w, &a.theta));
         add_times(&mut sum.lever, &turned, factor);
+
+        // The far end turns with its directions, and its stiffness changes.
+        let mut mass = moved * self.mass_per_length;
+        match &self.inertia {
+            Inertia::Modes(vibrating) => {
+                if let Some(VibratingEnd { form, along, .. }) = &vibrating.drive {
+                    let at = DriveAtFrequency { square: own_square, of_rope: square, control: at.control };
+                    mass += form.add(sum, &a.end, &b.end, &at, factor);
+                    let slips = form.chain().is_some().then_some(0);
+                    self.add_turn(sum, a, b, [slips, form.sideways().map(|_| *along)], factor);
+                }
+            }
+            Inertia::None | Inertia::Massless => {
+                if let Some(of) = &self.end {
+                    of.add(sum, &a.end, &b.end, factor);
+                    self.add_turn(sum, a, b, [Some(0), Some(1)], factor);
+                }
+            }
+        }
+        let by_square = -(factor * mass);
+        sum.mass += by_square * damping[0];
+        sum.damping += by_square * damping[1];
+    }
+
+    /// Adds `factor` times the coefficients of the forces of a signal on the drive, over another motion.
+    pub(super) fn add_signal<T: Field>(
+        &self,
+        sum: &mut CableAdjoint<T>,
+        (signal, servo): (DriveSignal, Option<&Servo>),
+        other: &CableMotion<T>,
+        (own_square, at): (T, &CableAt<T>),
+        factor: T,
+    ) {
+        let Inertia::Modes(vibrating) = &self.inertia else { return };
+        let Some(VibratingEnd { form, .. }) = &vibrating.drive else { return };
+        let frequency = DriveAtFrequency { square: own_square, of_rope: at.square, control: at.control };
+        form.add_signal(sum, signal, other.of_drive(), (&frequency, servo, at.by_damping), factor);
+    }
+
+    /// Adds the coefficients of the directions in which the far end moves: along the cable and sideways, by their places among
+    /// its motions.
+    fn add_turn<T: Field>(
+        &self,
+        sum: &mut CableAdjoint<T>,
+        a: &CableMotion<T>,
+        b: &CableMotion<T>,
+        places: [Option<usize>; 2],
+        factor: T,
+    ) {
+        let [force_a, force_b] = [a, b].map(|motion| self.world(&motion.far_force));
+        for (first, place) in [end::TRAVEL, end::SIDEWAYS].into_iter().zip(places) {
+            let Some(i) = place else { continue };
+            for k in 0..3 {
+                sum.end[first + k] += factor * (force_a[k] * b.end[i] + force_b[k] * a.end[i]);
+            }
+        }
     }
 
     /// Strain δp' of a change of the tension vector at a point.
@@ -267,8 +421,8 @@ impl CableForm {
         [change[0] * both - along * (h * by_turn), change[1] * both - along * (v * by_turn), change[2] * both]
     }
 
-    /// Integrals of a vector from the platform end to every point [m].
-    fn gathered<T: Field>(&self, values: &[Vector<T>]) -> Vec<Vector<T>> {
+    /// Integrals of a vector from the platform end to every point, and over the whole cable [m].
+    fn gathered<T: Field>(&self, values: &[Vector<T>]) -> (Vec<Vector<T>>, Vector<T>) {
         let mut sums = vec![[T::default(); 3]; values.len()];
         let mut before = [T::default(); 3];
         for (range, half, rule) in &self.elements {
@@ -286,7 +440,7 @@ impl CableForm {
                 add_times(&mut before, &value, T::from(last));
             }
         }
-        sums
+        (sums, before)
     }
 
     /// Force that moves the platform end slowly, in the axes of the cable.
@@ -301,39 +455,133 @@ impl CableForm {
     }
 }
 
-/// Displacement of the points for a motion of the platform end.
-fn displacement<T: Field>(
-    cable: &CatenaryDynamic,
-    stations: &Stations,
-    end: &Vector<T>,
-    square: T,
-    near: &[(bool, usize, T)],
-) -> Vec<Vector<T>> {
-    let in_plane = amplitudes(&cable.in_plane, &[end[0], end[1]], square, near, true);
-    let out_of_plane = amplitudes(&cable.out_of_plane, &[end[2]], square, near, false);
+impl Vibrating {
+    /// Displacement of the points for a motion of the platform end, and the motions of the drive.
+    fn displacement<T: Field>(
+        &self,
+        end: &Vector<T>,
+        at: &CableAt<T>,
+        near: &[NearMode<T>],
+        forces: &[T],
+    ) -> (Vec<Vector<T>>, Vec<T>) {
+        let Self { cable, stations, .. } = self;
+        let square = at.square;
+        let of = |family: Family| near.iter().filter(move |near| near.0 == family);
+        let mut in_plane = amplitudes(&cable.in_plane, &[end[0], end[1]], square, of(Family::InPlane));
+        let mut out_of_plane = amplitudes(&cable.out_of_plane, &[end[2]], square, of(Family::OutOfPlane));
+        let mut coupled = match &cable.coupled {
+            Some(family) => amplitudes(family, end, square, of(Family::Coupled)),
+            None => Vec::new(),
+        };
 
-    let (of_plane, of_normal) = (&stations.in_plane, &stations.out_of_plane);
-    let mut displacement: Vec<Vector<T>> = (of_plane.still.iter().zip(&of_normal.still))
-        .map(|(plane, normal)| {
-            [
-                end[0] * plane[0][0] + end[1] * plane[0][1],
-                end[0] * plane[1][0] + end[1] * plane[1][1],
-                end[2] * normal[0][0],
-            ]
-        })
-        .collect();
-    for (mode, q) in of_plane.modes.iter().zip(&in_plane) {
-        for (sum, [h, v]) in displacement.iter_mut().zip(mode) {
-            sum[0] += *q * *h;
-            sum[1] += *q * *v;
+        // Motions of the drive, whose losses and forces act on the clamped modes.
+        let mut motions = Vec::new();
+        if let (Some(drive), Some(shapes)) = (&self.drive, &cable.drive) {
+            motions = vec![T::default(); drive.count];
+            let (along, sideways) = motions.split_at_mut(drive.along);
+            if cable.coupled.is_none() {
+                add_motions(along, &shapes.along, &[end[0], end[1]], &in_plane);
+                add_motions(sideways, &shapes.sideways, &[end[2]], &out_of_plane);
+            } else {
+                add_motions(&mut motions, &shapes.coupled, end, &coupled);
+            }
+            if let Some(losses) = &at.losses {
+                let act = losses.act_on(&mut motions, forces);
+                let families: [(Family, &mut Vec<T>); 3] = [
+                    (Family::InPlane, &mut in_plane),
+                    (Family::OutOfPlane, &mut out_of_plane),
+                    (Family::Coupled, &mut coupled),
+                ];
+                for (family, all) in families {
+                    for (index, (amplitude, pole)) in all.iter_mut().zip(cable.poles_of(family)).enumerate() {
+                        if of(family).any(|near| near.1 == index) {
+                            continue;
+                        }
+                        let mut force = T::default();
+                        shapes.in_mode(family, index).iter().zip(&act).for_each(|(phi, act)| force += *act * *phi);
+                        *amplitude += -(force / (T::from(*pole) - square));
+                    }
+                }
+            }
+        }
+
+        // Points in plane and out of plane, or all directions together.
+        let mut displacement = vec![[T::default(); 3]; stations.arc_lengths.len()];
+        if cable.coupled.is_some() {
+            add_displacements(&mut displacement, &stations.coupled, [0, 1, 2], end, &coupled);
+        } else {
+            add_displacements(&mut displacement, &stations.in_plane, [0, 1], &[end[0], end[1]], &in_plane);
+            add_displacements(&mut displacement, &stations.out_of_plane, [2], &[end[2]], &out_of_plane);
+        }
+        (displacement, motions)
+    }
+}
+
+impl LossesAt<Complex> {
+    /// Losses of a drive with these motions.
+    pub(super) fn of(motions: &DriveAt, losses: &DriveLosses) -> Self {
+        let delta: Vec<Complex> = losses.0.iter().map(|(value, _)| *value).collect();
+        let rows = |matrix: &CDMat| matrix.row_iter().map(|row| row.iter().copied().collect()).collect();
+        Self { receptance: rows(&motions.receptance), inverse: rows(&motions.inverse(&delta)), delta }
+    }
+}
+
+impl<T: Field> LossesAt<T> {
+    /// Applies losses and given forces to the motions of a drive. The result is the forces with which the drive resists:
+    /// those of the losses less those given.
+    fn act_on(&self, motions: &mut Vec<T>, forces: &[T]) -> Vec<T> {
+        let product = |matrix: &[Vec<T>], vector: &[T]| -> Vec<T> {
+            let row = |row: &Vec<T>| {
+                let mut sum = T::default();
+                row.iter().zip(vector).for_each(|(entry, value)| sum += *entry * *value);
+                sum
+            };
+            matrix.iter().map(row).collect()
+        };
+        let by_forces = product(&self.receptance, forces);
+        motions.iter_mut().zip(&by_forces).for_each(|(motion, moved)| *motion += *moved);
+        *motions = product(&self.inverse, motions);
+        let mut act: Vec<T> = motions.iter().zip(&self.delta).map(|(motion, delta)| *motion * *delta).collect();
+        act.iter_mut().zip(forces).for_each(|(act, force)| *act += -*force);
+        act
+    }
+}
+
+/// Adds the first component of stations, which are motions of a drive, for a motion of the platform end.
+fn add_motions<T: Field, const D: usize, const N: usize>(
+    motions: &mut [T],
+    of: &Displacements<D, N>,
+    end: &[T; D],
+    amplitudes: &[T],
+) {
+    for (sum, still) in motions.iter_mut().zip(&of.still) {
+        end.iter().zip(&still[0]).for_each(|(u, psi)| *sum += *u * *psi);
+    }
+    for (mode, q) in of.modes.iter().zip(amplitudes) {
+        motions.iter_mut().zip(mode).for_each(|(sum, phi)| *sum += *q * phi[0]);
+    }
+}
+
+/// Adds the displacements of stations along these axes for a motion of the platform end.
+fn add_displacements<T: Field, const D: usize, const N: usize>(
+    displacement: &mut [Vector<T>],
+    of: &Displacements<D, N>,
+    axes: [usize; D],
+    end: &[T; D],
+    amplitudes: &[T],
+) {
+    for (sum, still) in displacement.iter_mut().zip(&of.still) {
+        for (row, axis) in still.iter().zip(axes) {
+            end.iter().zip(row).for_each(|(u, psi)| sum[axis] += *u * *psi);
         }
     }
-    for (mode, q) in of_normal.modes.iter().zip(&out_of_plane) {
-        for (sum, [b]) in displacement.iter_mut().zip(mode) {
-            sum[2] += *q * *b;
+    for (mode, q) in of.modes.iter().zip(amplitudes) {
+        for (sum, value) in displacement.iter_mut().zip(mode) {
+            for (value, axis) in value.iter().zip(axes) {
+                sum[axis] += *q * *value;
+            }
         }
     }
-    displacement
 }
 
 /// Curve of the cable; ideal cables have none.
@@ -343,12 +591,11 @@ fn hanging(state: &CableState) -> Result<&HangingCable, GradientError> {
 
 /// Amplitudes of the clamped modes (unit modal mass) for a motion of the platform end, `q_k = ω_c² g_k·u/(ω_k² − ω_c²)`.
 /// Those of `near` modes are given.
-fn amplitudes<T: Field, const N: usize, const E: usize, const M: usize>(
+fn amplitudes<'n, T: Field + 'n, const N: usize, const E: usize, const M: usize>(
     family: &PoleResidue<N, E>,
     end: &[T; M],
     square: T,
-    near: &[(bool, usize, T)],
-    is_in_plane: bool,
+    near: impl Iterator<Item = &'n NearMode<T>>,
 ) -> Vec<T> {
     let mut all: Vec<T> = (family.poles.iter().zip(&family.participation))
         .map(|(pole, g)| {
@@ -359,7 +606,7 @@ fn amplitudes<T: Field, const N: usize, const E: usize, const M: usize>(
             square * drive / (T::from(*pole) - square)
         })
         .collect();
-    for (_, index, amplitude) in near.iter().filter(|(in_plane, ..)| *in_plane == is_in_plane) {
+    for (_, index, amplitude) in near {
         all[*index] = *amplitude;
     }
     all

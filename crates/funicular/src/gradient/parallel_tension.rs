@@ -2,10 +2,11 @@
 
 use super::GradientError;
 use super::adjoint::CableAdjoint;
+use crate::drive::derivatives::{DriveDerivatives, Row, place};
 use crate::math::Vec3;
 use crate::robot::Robot;
 use crate::statics::CableState;
-use crate::statics::derivatives::{StaticDerivativeError, load_of};
+use crate::statics::derivatives::{CablePartials, StaticDerivativeError, load_of};
 
 /// Sine of the angle between chord and load below which the parallel tension of a cable with weight is not
 /// differentiated: the formula divides by the sine twice.
@@ -21,9 +22,25 @@ pub(super) struct ParallelTension {
 
 impl ParallelTension {
     /// τ = |f × q| |d|/|d × q|, or the tension of a cable without load.
-    pub(super) fn of(robot: &Robot, i: usize, state: &CableState) -> Result<Self, GradientError> {
+    pub(super) fn of(
+        robot: &Robot,
+        i: usize,
+        state: &CableState,
+        partials: &CablePartials,
+    ) -> Result<Self, GradientError> {
         let hanging = state.hanging.as_ref().ok_or(StaticDerivativeError::Ideal)?;
-        let by_length = hanging.catenary.parallel_tension_by_length();
+        let mut tension = Self::at_state(robot, i, state, hanging.catenary.parallel_tension_by_length())?;
+        // Over a pulley the length of the cable changes the chord, too.
+        if let Some(drive) = &partials.drive {
+            let by_length = |rows: &[Row; 3]| Vec3::from_fn(|k, _| rows[k][place::LENGTH]);
+            let DriveDerivatives { force_w, chord_w, .. } = &drive.by_outer;
+            tension.by_length = tension.force_w.dot(&by_length(force_w)) + tension.chord_w.dot(&by_length(chord_w));
+        }
+        Ok(tension)
+    }
+
+    /// Derivatives by force, load per length and chord; that by the length is given.
+    fn at_state(robot: &Robot, i: usize, state: &CableState, by_length: f64) -> Result<Self, GradientError> {
         let (f, q, d) = (state.force_on_platform_w, load_of(state), state.chord_w());
         if q == Vec3::zeros() {
             let zero = Vec3::zeros();

@@ -8,11 +8,12 @@ use super::adjoint::{Adjoint, CableAdjoint};
 use super::parallel_tension::ParallelTension;
 use super::rule::RuleFollower;
 use super::{GradientError, Hold};
+use crate::drive::derivatives::{DriveDerivatives, Row, place};
 use crate::math::{DMat, Mat3, Mat6, Vec3, Vec6, inverse6};
 use crate::platform::Coordinates;
-use crate::robot::{CableChange, Robot, RobotChange};
-use crate::statics::derivatives::{CablePartials, StaticDerivativeError, balance_jacobian, regular};
-use crate::statics::{CableState, Equilibrium, TensionRule};
+use crate::robot::{CableChange, GuideWheelChange, PulleyChange, Robot, RobotChange, WinchChange};
+use crate::statics::derivatives::{CablePartials, StaticDerivativeError, jacobian_of, regular};
+use crate::statics::{Equilibrium, TensionRule};
 
 /// Equilibrium with what follows a change of the robot.
 pub(super) struct Pullback<'a> {
@@ -60,7 +61,7 @@ impl<'a> Pullback<'a> {
             .collect::<Result<Vec<_>, _>>()?;
         let follower = match hold {
             Hold::Lengths => {
-                let jacobian = balance_jacobian(robot, equilibrium).ok_or(StaticDerivativeError::Ideal)?;
+                let jacobian = jacobian_of(robot, equilibrium, cables.iter());
                 let regular = regular(&coordinates.reduce_matrix(&jacobian), &coordinates)?;
                 Follower::Pose(inverse6(&regular).ok_or(StaticDerivativeError::Singular)?.transpose())
             }
@@ -154,7 +155,7 @@ impl<'a> Pullback<'a> {
 
         for (i, (cable, partials)) in scalar.cables.iter().zip(&self.cables).enumerate() {
             let state = &self.equilibrium.cables[i];
-            let (of_cable, chord_w, lever_w) = cable_pulled(cable, partials, state, &mut gradient);
+            let (of_cable, chord_w, lever_w) = cable_pulled(cable, partials, &mut gradient);
             translation_w -= chord_w;
             rotation_w += state.lever_w.cross(&lever_w);
             gradient.cables[i] = CableChange { attachment_p: rot.inverse() * lever_w, ..of_cable };
@@ -213,29 +214,109 @@ impl<'a> Pullback<'a> {
 fn cable_pulled(
     cable: &CableAdjoint<f64>,
     partials: &CablePartials,
-    state: &CableState,
     gradient: &mut RobotChange,
 ) -> (CableChange, Vec3, Vec3) {
-    debug_assert!(state.drive.is_none(), "the partial derivatives refuse drives");
     let force = Vec3::from(cable.force);
-    let load = Vec3::from(cable.load) + partials.force_by_load_w.transpose() * force;
-    let chord_w = Vec3::from(cable.chord) + partials.stiffness_w * force + partials.load_by_chord_w.transpose() * load;
+
+    // To chord, load, EA and length, and to the numbers of the drive.
+    let outer = match &partials.drive {
+        Some(drive) => drive_pulled(cable, &drive.by_outer),
+        None => Outer {
+            reach_w: Vec3::from(cable.chord) + partials.stiffness_w * force,
+            load_w: partials.force_by_load_w.transpose() * force,
+            axial_stiffness: partials.force_by_stiffness_w.dot(&force),
+            length: cable.free_length + partials.force_by_length_w.dot(&force),
+            ..Outer::default()
+        },
+    };
+    let load = Vec3::from(cable.load) + outer.load_w;
+    let chord_w = outer.reach_w + partials.load_by_chord_w.transpose() * load;
     let lever_w = Vec3::from(cable.lever) - chord_w;
 
     gradient.gravity_w += load * partials.load_by_gravity;
     gradient.wind_velocity_w += partials.load_by_wind_w.transpose() * load;
     gradient.air_density += partials.load_by_density_w.dot(&load);
+    let (pulley, winch) = partials.drive.as_ref().map_or_else(Default::default, |drive| {
+        let turn_w = outer.turn_w + drive.load_by_turn_w.transpose() * load;
+        let of_drive = &cable.drive;
+        let compliance = of_drive.compliance + outer.compliance;
+        let pulley = PulleyChange {
+            radius: of_drive.radius + outer.radius + drive.load_by_radius_w.dot(&load),
+            entry_direction_w: turn_w.cross(&drive.entry_direction_w),
+            inertia: of_drive.inertia,
+            swivel_inertia: of_drive.swivel_inertia,
+        };
+        let winch = WinchChange {
+            drum_side_length: of_drive.drum_side_length + outer.drum_side_length,
+            stiffness: of_drive.stiffness + compliance * drive.compliance_by_stiffness,
+            drum_mass: of_drive.drum_mass,
+            motor_mass: of_drive.motor_mass,
+            damping: of_drive.damping,
+            position_gain: of_drive.position_gain + compliance * drive.compliance_by_gain,
+            speed_gain: of_drive.speed_gain,
+            delay: of_drive.delay,
+        };
+        (pulley, winch)
+    });
     let of_cable = CableChange {
         anchor_w: chord_w,
         attachment_p: Vec3::zeros(),
-        unstrained_length: cable.length + partials.force_by_length_w.dot(&force),
-        axial_stiffness: cable.stiffness + partials.force_by_stiffness_w.dot(&force),
+        unstrained_length: cable.length + outer.length,
+        axial_stiffness: cable.stiffness + outer.axial_stiffness,
         mass_per_length: cable.mass + partials.load_by_mass_w.dot(&load),
         load_per_length_w: load * partials.load_by_own,
         drag_width: partials.load_by_drag_width_w.dot(&load),
         damping: cable.damping,
+        pulley,
+        winch,
+        guide_wheels: cable
+            .guides
+            .iter()
+            .map(|[distance, mass]| GuideWheelChange { distance: *distance, mass: *mass })
+            .collect(),
     };
     (of_cable, chord_w, lever_w)
+}
+
+/// Coefficients of the numbers on which a cable at rest depends.
+#[derive(Default)]
+struct Outer {
+    reach_w: Vec3,
+    load_w: Vec3,
+    axial_stiffness: f64,
+    length: f64,
+    radius: f64,
+    turn_w: Vec3,
+    drum_side_length: f64,
+    compliance: f64,
+}
+
+/// Follows the coefficients of a cable with a drive to the numbers on which it depends.
+fn drive_pulled(cable: &CableAdjoint<f64>, by_outer: &DriveDerivatives) -> Outer {
+    let mut sum = Row::default();
+    let mut add = |coefficient: f64, row: &Row| {
+        if coefficient != 0.0 {
+            sum.iter_mut().zip(row).for_each(|(sum, by)| *sum += coefficient * by);
+        }
+    };
+    for k in 0..3 {
+        add(cable.force[k], &by_outer.force_w[k]);
+        add(cable.chord[k], &by_outer.chord_w[k]);
+    }
+    add(cable.free_length, &by_outer.free_length);
+    cable.end.iter().zip(&by_outer.end).for_each(|(coefficient, row)| add(*coefficient, row));
+
+    let three = |first: usize| Vec3::new(sum[first], sum[first + 1], sum[first + 2]);
+    Outer {
+        reach_w: three(place::REACH),
+        load_w: three(place::LOAD),
+        axial_stiffness: sum[place::AXIAL_STIFFNESS],
+        length: sum[place::LENGTH],
+        radius: sum[place::RADIUS],
+        turn_w: three(place::TURN),
+        drum_side_length: sum[place::DRUM_SIDE],
+        compliance: sum[place::COMPLIANCE],
+    }
 }
 
 impl Follower {
@@ -254,8 +335,9 @@ impl Follower {
         let tensions = if cables == degrees_of_freedom {
             None
         } else {
-            let states = equilibrium.cables.iter().enumerate();
-            Some(states.map(|(i, state)| ParallelTension::of(robot, i, state)).collect::<Result<Vec<_>, _>>()?)
+            let states = equilibrium.cables.iter().zip(partials).enumerate();
+            let of = |(i, (state, partials))| ParallelTension::of(robot, i, state, partials);
+            Some(states.map(of).collect::<Result<Vec<_>, _>>()?)
         };
 
         let mut wrenches = DMat::zeros(degrees_of_freedom, cables);

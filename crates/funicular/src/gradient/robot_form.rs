@@ -1,14 +1,17 @@
 //! Quadratic form `aᵀ D(ω) b` of the whole robot over two motions, and its coefficients over the state at rest.
 
 use super::GradientError;
-use super::adjoint::Adjoint;
-use super::cable_form::{CableForm, CableMotion};
+use super::adjoint::{Adjoint, CableAdjoint};
+use super::cable_form::{CableAt, CableForm, CableMotion};
+use super::drive_form::ControlAt;
+use super::end_form::EndAtRest;
 use super::scalar::{Field, Vector, add, add_times, cross, dot, outer, times, vector};
-use crate::cable::catenary_dynamic::Family;
+use crate::cable::catenary_dynamic::{DriveSignal, Family, MovingEnd};
 use crate::cable::{CableModel, DynamicCable};
+use crate::drive::derivatives::end;
 use crate::dynamics::{Assembly, DynamicCableAt, Dynamics, Linearisation};
 use crate::math::Vec3;
-use crate::robot::Robot;
+use crate::robot::{Cable, Robot, Servo};
 use crate::statics::{CableState, Equilibrium};
 
 /// Robot about an equilibrium, with what its form needs.
@@ -19,14 +22,24 @@ pub(super) struct RobotForm {
     /// Force and lever arm of each cable.
     levers: Vec<(Vec3, Vec3)>,
     mass: f64,
+    /// Position control of each motor that moves.
+    servos: Vec<Option<Servo>>,
 }
 
 /// Form of one cable by its model.
 enum AnyCable {
     /// Cable of the catenary models.
     Catenary(Box<CableForm>),
-    /// Spring EA/l along the chord.
-    Spring { chord_w: Vec3, lever_w: Vec3, axial_stiffness: f64 },
+    /// Spring EA/l along the chord, with its end at the pulley or the winch.
+    Spring(SpringForm),
+}
+
+/// Spring along the chord of a cable.
+struct SpringForm {
+    chord_w: Vec3,
+    lever_w: Vec3,
+    axial_stiffness: f64,
+    end: Option<EndAtRest>,
 }
 
 /// Motion of the whole robot, world axes.
@@ -34,6 +47,13 @@ pub(super) struct RobotMotion<T> {
     v: Vector<T>,
     theta: Vector<T>,
     cables: Vec<Option<CableMotion<T>>>,
+}
+
+impl<T> RobotMotion<T> {
+    /// Motion of a cable; `None` for a spring.
+    pub(super) fn cable(&self, i: usize) -> Option<&CableMotion<T>> {
+        self.cables[i].as_ref()
+    }
 }
 
 /// Amplitude of a clamped mode that does not follow from the platform: cable among those whose stiffness depends on
@@ -46,19 +66,21 @@ pub(super) struct At<T> {
     pub(super) square: T,
     /// Factor iω of the damping of the platform; zero for undamped motions.
     pub(super) rate: T,
-    /// Square ω_c² of each cable.
-    pub(super) of_cables: Vec<T>,
-    /// Derivatives of ω_c² of each cable by mass per length and by damping.
-    pub(super) by_damping: Vec<[T; 2]>,
+    /// The cables, in file order.
+    pub(super) cables: Vec<CableAt<T>>,
 }
 
-impl<T: Field> At<T> {
-    /// Undamped frequency [rad/s].
-    pub(super) fn undamped(omega: f64, cables: usize) -> Self {
-        let square = T::from(omega * omega);
-        let zero = T::default();
-        Self { square, rate: zero, of_cables: vec![square; cables], by_damping: vec![[zero; 2]; cables] }
-    }
+/// What moves the robot besides the platform: amplitudes of clamped modes, and forces on the drive of one cable.
+pub(super) struct Driven<'a, T> {
+    /// Amplitudes of clamped modes near the frequency.
+    pub(super) near: &'a [NearAmplitude<T>],
+    /// Cable with forces on the motions of its drive.
+    pub(super) forces: Option<(usize, &'a [T])>,
+}
+
+impl<T> Driven<'_, T> {
+    /// Motion that follows the platform.
+    pub(super) const NONE: Self = Self { near: &[], forces: None };
 }
 
 impl RobotForm {
@@ -68,38 +90,41 @@ impl RobotForm {
         equilibrium: &Equilibrium,
         dynamics: &Dynamics,
     ) -> Result<Self, GradientError> {
-        let Linearisation { cable_model, assembly, in_plane_only, .. } = dynamics.linearisation;
+        let Linearisation { cable_model, assembly, in_plane_only, winches, .. } = dynamics.linearisation;
         if assembly != Assembly::Consistent || in_plane_only {
             return Err(GradientError::Terms);
         }
 
         let mut cables = Vec::with_capacity(robot.cables.len());
+        let mut servos = vec![None; robot.cables.len()];
         for (i, state) in equilibrium.cables.iter().enumerate() {
             let term = dynamics.terms().iter().find(|term| term.cable() == i);
             cables.push(match (cable_model, term.map(DynamicCableAt::form)) {
-                (CableModel::Spring, _) => AnyCable::Spring {
-                    chord_w: state.chord_w(),
-                    lever_w: state.lever_w,
-                    axial_stiffness: robot.cables[i].material.axial_stiffness,
-                },
-                (CableModel::CatenaryStatic, _) => AnyCable::Catenary(Box::new(CableForm::at_rest(state, false)?)),
-                (CableModel::CatenaryDynamic, Some(DynamicCable::CatenaryDynamic(end))) => {
-                    let name = &robot.cables[i].name;
-                    AnyCable::Catenary(Box::new(CableForm::vibrating(state, end, name)?))
+                (CableModel::Spring, _) => AnyCable::Spring(SpringForm::of(&robot.cables[i], state)),
+                (CableModel::CatenaryStatic, _) => {
+                    AnyCable::Catenary(Box::new(CableForm::at_rest(&robot.cables[i].anchor, state, false)?))
                 }
-                (CableModel::CatenaryDynamic, _) => AnyCable::Catenary(Box::new(CableForm::at_rest(state, true)?)),
+                (CableModel::CatenaryDynamic, Some(DynamicCable::CatenaryDynamic(end))) => {
+                    servos[i] = end.cable.end.as_ref().and_then(MovingEnd::chain).and_then(|chain| chain.motor?.servo);
+                    AnyCable::Catenary(Box::new(CableForm::vibrating(&robot.cables[i], state, end, winches)?))
+                }
+                (CableModel::CatenaryDynamic, _) => {
+                    AnyCable::Catenary(Box::new(CableForm::at_rest(&robot.cables[i].anchor, state, true)?))
+                }
                 (CableModel::ShallowStatic | CableModel::ShallowDynamic, _) => {
                     return Err(GradientError::Model(cable_model));
                 }
             });
         }
-        Ok(Self::with_cables(robot, equilibrium, cables))
+        Ok(Self { servos, ..Self::with_cables(robot, equilibrium, cables) })
     }
 
     /// Form of the static stiffness.
     pub(super) fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Result<Self, GradientError> {
-        let cables = (equilibrium.cables.iter())
-            .map(|state| Ok(AnyCable::Catenary(Box::new(CableForm::at_rest(state, false)?))))
+        let cables = (equilibrium.cables.iter().enumerate())
+            .map(|(i, state)| {
+                Ok(AnyCable::Catenary(Box::new(CableForm::at_rest(&robot.cables[i].anchor, state, false)?)))
+            })
             .collect::<Result<_, GradientError>>()?;
         Ok(Self::with_cables(robot, equilibrium, cables))
     }
@@ -113,7 +138,19 @@ impl RobotForm {
             dead: [center, (load.force_w, rot * load.point_p)],
             levers: equilibrium.cables.iter().map(of_cable).collect(),
             mass: platform.mass,
+            servos: vec![None; robot.cables.len()],
         }
+    }
+
+    /// Undamped frequency [rad/s].
+    pub(super) fn undamped(&self, omega: f64) -> At<f64> {
+        let square = omega * omega;
+        let cable = |servo: &Option<Servo>| CableAt {
+            square,
+            control: ControlAt::undamped(servo.as_ref()),
+            ..CableAt::default()
+        };
+        At { square, rate: 0.0, cables: self.servos.iter().map(cable).collect() }
     }
 
     /// Motion with the platform: translation of its origin and rotation, world axes. `terms` are the cables whose stiffness
@@ -124,19 +161,35 @@ impl RobotForm {
         theta: Vector<T>,
         at: &At<T>,
         terms: &[usize],
-        near: &[NearAmplitude<T>],
+        driven: &Driven<T>,
     ) -> RobotMotion<T> {
         let of_cable = |(i, cable): (usize, &AnyCable)| match cable {
-            AnyCable::Spring { .. } => None,
+            AnyCable::Spring(_) => None,
             AnyCable::Catenary(form) => {
-                let own: Vec<(bool, usize, T)> = (near.iter())
+                let own: Vec<(Family, usize, T)> = (driven.near.iter())
                     .filter(|(term, ..)| terms.get(*term) == Some(&i))
-                    .map(|(_, family, index, amplitude)| (*family == Family::InPlane, *index, *amplitude))
+                    .map(|(_, family, index, amplitude)| (*family, *index, *amplitude))
                     .collect();
-                Some(form.motion(&v, &theta, at.of_cables[i], &own))
+                let forces = driven.forces.filter(|(cable, _)| *cable == i).map_or(&[][..], |(_, forces)| forces);
+                Some(form.motion(&v, &theta, &at.cables[i], &own, forces))
             }
         };
         RobotMotion { v, theta, cables: self.cables.iter().enumerate().map(of_cable).collect() }
+    }
+
+    /// Adds `factor` times the coefficients of the forces of a drive's signal, over another motion.
+    pub(super) fn add_signal<T: Field>(
+        &self,
+        sum: &mut Adjoint<T>,
+        (i, signal): (usize, DriveSignal),
+        other: &RobotMotion<T>,
+        at: &At<T>,
+        factor: T,
+    ) {
+        if let (AnyCable::Catenary(form), Some(motion)) = (&self.cables[i], other.cable(i)) {
+            let signal = (signal, self.servos[i].as_ref());
+            form.add_signal(&mut sum.cables[i], signal, motion, (at.square, &at.cables[i]), factor);
+        }
     }
 
     /// Adds `factor` times the coefficients of the form over two motions.
@@ -182,24 +235,58 @@ impl RobotForm {
             add_times(&mut of_cable.lever, &lever, factor);
             match (cable, &a.cables[i], &b.cables[i]) {
                 (AnyCable::Catenary(form), Some(a), Some(b)) => {
-                    form.add(of_cable, a, b, at.of_cables[i], at.by_damping[i], factor);
+                    form.add(of_cable, a, b, (at.square, &at.cables[i]), factor);
                 }
-                (AnyCable::Spring { chord_w, lever_w, axial_stiffness }, ..) => {
-                    let (chord, lever) = (vector(chord_w), vector(lever_w));
-                    let [end_a, end_b] = [a, b].map(|motion| add(&motion.v, &cross(&motion.theta, &lever)));
-                    // (EA/l³)(u_a·d)(u_b·d): by the chord, by the arm of the ends, by EA.
-                    let (l, ea) = (chord_w.norm(), *axial_stiffness);
-                    let [along_a, along_b] = [dot(&end_a, &chord), dot(&end_b, &chord)];
-                    let size = factor * (ea / l.powi(3));
-                    let mut by_chord = add(&times(&end_a, along_b), &times(&end_b, along_a));
-                    add_times(&mut by_chord, &chord, -(along_a * along_b * (3.0 / (l * l))));
-                    add_times(&mut of_cable.chord, &by_chord, size);
-                    let by_end =
-                        add(&times(&cross(&chord, &a.theta), along_b), &times(&cross(&chord, &b.theta), along_a));
-                    add_times(&mut of_cable.lever, &by_end, size);
-                    of_cable.stiffness += factor * along_a * along_b * l.powi(-3);
-                }
+                (AnyCable::Spring(spring), ..) => spring.add(of_cable, (&a.v, &a.theta), (&b.v, &b.theta), factor),
                 _ => unreachable!("every catenary has its motion"),
+            }
+        }
+    }
+}
+
+impl SpringForm {
+    fn of(cable: &Cable, state: &CableState) -> Self {
+        let (chord_w, axial_stiffness) = (state.chord_w(), cable.material.axial_stiffness);
+        let held = chord_w * chord_w.transpose() * (axial_stiffness / chord_w.norm().powi(3));
+        let end = EndAtRest::of(&cable.anchor, state.drive.as_deref(), &held);
+        Self { chord_w, lever_w: state.lever_w, axial_stiffness, end }
+    }
+
+    /// Adds `factor` times the coefficients of `(EA/l³)(u_a·d)(u_b·d)` over two motions (translation, rotation) of the
+    /// platform: by the chord, by the arm of the ends, by EA; u is the motion of the platform end less that of the far end.
+    fn add<T: Field>(
+        &self,
+        sum: &mut CableAdjoint<T>,
+        a: (&Vector<T>, &Vector<T>),
+        b: (&Vector<T>, &Vector<T>),
+        factor: T,
+    ) {
+        let (chord, lever) = (vector(&self.chord_w), vector(&self.lever_w));
+        let [end_a, end_b] = [a, b].map(|(v, theta)| add(v, &cross(theta, &lever)));
+        let followed = |start: &Vector<T>| {
+            let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(start));
+            let moved = self.end.as_ref().map_or_else(Default::default, |of| of.displacement(&at_end));
+            (at_end, std::array::from_fn(|k| start[k] - moved[k]))
+        };
+        let ((far_a, u_a), (far_b, u_b)): (([T; 2], Vector<T>), ([T; 2], Vector<T>)) =
+            (followed(&end_a), followed(&end_b));
+
+        let (l, ea) = (self.chord_w.norm(), self.axial_stiffness);
+        let [along_a, along_b] = [dot(&u_a, &chord), dot(&u_b, &chord)];
+        let size = factor * (ea / l.powi(3));
+        let mut by_chord = add(&times(&u_a, along_b), &times(&u_b, along_a));
+        add_times(&mut by_chord, &chord, -(along_a * along_b * (3.0 / (l * l))));
+        add_times(&mut sum.chord, &by_chord, size);
+        let by_end = add(&times(&cross(&chord, a.1), along_b), &times(&cross(&chord, b.1), along_a));
+        add_times(&mut sum.lever, &by_end, size);
+        sum.stiffness += factor * along_a * along_b * l.powi(-3);
+
+        if let Some(end) = &self.end {
+            end.add(sum, &far_a, &far_b, factor);
+            for (first, i) in [(end::TRAVEL, 0), (end::SIDEWAYS, 1)] {
+                for k in 0..3 {
+                    sum.end[first + k] += -(size * chord[k] * (along_a * far_b[i] + along_b * far_a[i]));
+                }
             }
         }
     }

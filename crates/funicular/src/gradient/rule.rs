@@ -79,6 +79,9 @@ impl RuleFollower {
         (partials, tensions, wrenches): (&[CablePartials], &[ParallelTension], &DMat),
         rule: &TensionRule,
     ) -> Result<Self, GradientError> {
+        if let Some(i) = equilibrium.cables.iter().position(|state| state.drive.is_some()) {
+            return Err(GradientError::RuleAndDrive { cable: robot.cables[i].name.clone() });
+        }
         let states = equilibrium.cables.iter().enumerate();
         let ranges = states.map(|(i, state)| TensionRange::of(robot, i, &state.chord_w())).collect();
         let size = equilibrium.cables.iter().fold(0.0, |most: f64, state| most.max(state.tension_platform));
@@ -313,7 +316,9 @@ impl Problem<'_> {
 
     /// Derivative of a scalar with these coefficients by the parallel tension of cable `i`.
     fn by_tension(&self, i: usize, coefficients: &CableAdjoint<f64>) -> f64 {
-        let by_length = self.partials[i].force_by_length_w.dot(&Vec3::from(coefficients.force)) + coefficients.length;
+        let by_length = self.partials[i].force_by_length_w.dot(&Vec3::from(coefficients.force))
+            + coefficients.length
+            + coefficients.free_length;
         by_length / self.tensions[i].by_length
     }
 
@@ -374,7 +379,8 @@ impl Problem<'_> {
 
         let rate = along.dot(&by_tension);
         let held = (along - tension.force_w * rate) / tension.by_length;
-        CableForm::at_rest(state, false)?.add_force_by_length(sum, &held, &by_length, &d, -1.0);
+        CableForm::at_rest(&self.robot.cables[i].anchor, state, false)?
+            .add_force_by_length(sum, &held, &by_length, &d, -1.0);
         let [by_chord, by_load] = along_coefficients(&d, &q, &(by_tension * rate));
         put(&mut sum.chord, &by_chord);
         put(&mut sum.load, &by_load);
@@ -479,6 +485,7 @@ fn add_cable(sum: &mut CableAdjoint<f64>, of: &CableAdjoint<f64>, factor: f64) {
         sum.iter_mut().zip(of).for_each(|(sum, of)| *sum += of * factor);
     }
     sum.length += of.length * factor;
+    sum.free_length += of.free_length * factor;
     sum.stiffness += of.stiffness * factor;
     debug_assert!(of.mass == 0.0 && of.damping == 0.0, "conditions of rest have no inertia");
 }

@@ -1,14 +1,18 @@
 //! Gradients of natural frequencies, damped frequencies, damping ratios and responses.
 
 use super::adjoint::Adjoint;
-use super::robot_form::{At, NearAmplitude, RobotForm, RobotMotion};
+use super::cable_form::{CableAt, CableMotion, LossesAt};
+use super::drive_form::ControlAt;
+use super::robot_form::{At, Driven, NearAmplitude, RobotForm, RobotMotion};
 use super::scalar::{Vector, add_times, cross, vector};
 use super::{GradientError, Gradients};
+use crate::cable::DynamicCable;
+use crate::cable::catenary_dynamic::{DriveSignal, MovingEnd, NearRanges};
 use crate::dynamics::{DynamicCableAt, Dynamics};
 use crate::math::{CVec6, Complex, Vec3, Vec6};
 use crate::modes::Mode;
 use crate::modes::damped::DampedMode;
-use crate::response::{self, Quantity, Signal};
+use crate::response::{self, Port, Quantity, Signal};
 use crate::robot::RobotChange;
 use std::f64::consts::TAU;
 
@@ -112,12 +116,13 @@ impl<'g> VibrationGradients<'g> {
         let (v, theta) = self.platform_motion(&mode.motion.platform);
         let near: Vec<NearAmplitude<f64>> =
             mode.motion.near.iter().map(|near| (near.term, near.family, near.pole, near.amplitude)).collect();
-        self.form.motion(v, theta, &At::undamped(mode.frequency_hz * TAU, self.cables()), &self.terms, &near)
+        let at = self.form.undamped(mode.frequency_hz * TAU);
+        self.form.motion(v, theta, &at, &self.terms, &Driven { near: &near, forces: None })
     }
 
     fn of_pair(&self, a: (&Mode, &RobotMotion<f64>), b: (&Mode, &RobotMotion<f64>)) -> RobotChange {
         let omega = (a.0.frequency_hz * b.0.frequency_hz).sqrt() * TAU;
-        let at = At::undamped(omega, self.cables());
+        let at = self.form.undamped(omega);
         self.gradients.of(|scalar| self.form.add(scalar, a.1, b.1, &at, 1.0 / (2.0 * omega * TAU)))
     }
 
@@ -129,10 +134,29 @@ impl<'g> VibrationGradients<'g> {
         ([motion[0], motion[1], motion[2]], [motion[3] / ell, motion[4] / ell, motion[5] / ell])
     }
 
-    /// Complex frequency ω at which the form is taken, with all damping.
-    fn at(&self, omega: Complex) -> At<Complex> {
-        let (of_cables, by_damping) = (0..self.cables()).map(|i| self.dynamics.square_by_damping(i, omega)).unzip();
-        At { square: omega * omega, rate: omega * Complex::i(), of_cables, by_damping }
+    /// Complex frequency ω at which the form is taken, with all damping. Poles near it are left out of the drives if their
+    /// amplitudes are unknowns; `driven` is a cable with forces on its drive.
+    fn at(&self, omega: Complex, leaves_out: bool, driven: &[usize]) -> At<Complex> {
+        let mut cables: Vec<CableAt<Complex>> = (0..self.cables())
+            .map(|i| {
+                let (square, by_damping) = self.dynamics.square_by_damping(i, omega);
+                CableAt { square, by_damping, ..CableAt::default() }
+            })
+            .collect();
+        for term in self.dynamics.terms() {
+            let DynamicCable::CatenaryDynamic(form) = term.form() else { continue };
+            let at = &mut cables[term.cable()];
+            if let Some(motor) = form.cable.end.as_ref().and_then(MovingEnd::chain).and_then(|chain| chain.motor) {
+                at.control = ControlAt::at(motor.servo.as_ref(), motor.damping, omega);
+            }
+            if form.has_drive_losses() || driven.contains(&term.cable()) {
+                let left_out =
+                    if leaves_out { Dynamics::near_of_border(form, at.square) } else { NearRanges::default() };
+                let losses = form.beyond_undamped(omega, 1.0);
+                at.losses = form.drive_at(at.square, &left_out).map(|motions| LossesAt::of(&motions, &losses));
+            }
+        }
+        At { square: omega * omega, rate: omega * Complex::i(), cables }
     }
 
     /// Gradients of a damped mode, whose zero of the dynamic stiffness is simple.
@@ -147,11 +171,12 @@ impl<'g> VibrationGradients<'g> {
         let refused = || GradientError::NoDampedMotion { frequency_hz: mode.frequency_hz() };
         let found = self.dynamics.damped_motion(omega).ok_or_else(refused)?;
 
-        let at = self.at(omega);
+        let at = self.at(omega, true, &[]);
         let [re, im] = [|z: &Complex| z.re, |z: &Complex| z.im].map(|part| found.platform.map(|z| part(&z)));
         let [re, im] = [re, im].map(|part| self.platform_motion(&part));
         let join = |re: Vector<f64>, im: Vector<f64>| std::array::from_fn(|k| Complex::new(re[k], im[k]));
-        let motion = self.form.motion(join(re.0, im.0), join(re.1, im.1), &at, &self.terms, &found.near);
+        let driven = Driven { near: &found.near, forces: None };
+        let motion = self.form.motion(join(re.0, im.0), join(re.1, im.1), &at, &self.terms, &driven);
         let mut by_omega = Adjoint::zeros(self.cables());
         self.form.add(&mut by_omega, &motion, &motion, &at, -found.slope.inv());
 
@@ -165,14 +190,14 @@ impl<'g> VibrationGradients<'g> {
         })
     }
 
-    /// Responses between all pairs of signals on the platform at each frequency [Hz], with their derivatives along
+    /// Responses between all pairs of signals on the platform and at drives (`length`, `motor`, `drum`) at each frequency [Hz], with their derivatives along
     /// directions: one row per pair, in the order of [`response::matrix`].
     ///
     /// A direction changes the robot; the point and the direction of a signal stay in the robot file's terms: the point
     /// turns with the platform, the direction stays in the world.
     ///
     /// # Errors
-    /// [`GradientError::NotOnPlatform`], [`GradientError::Resonance`].
+    /// [`GradientError::NotOnPlatform`], [`GradientError::NoDriveSignal`], [`GradientError::Resonance`].
     ///
     /// # Example
     /// ```
@@ -205,6 +230,7 @@ impl<'g> VibrationGradients<'g> {
     ) -> Result<Vec<Vec<ResponseDerivatives>>, GradientError> {
         let from = inputs.iter().map(|signal| self.place(signal)).collect::<Result<Vec<_>, _>>()?;
         let to = outputs.iter().map(|(signal, _)| self.place(signal)).collect::<Result<Vec<_>, _>>()?;
+        let driven: Vec<usize> = from.iter().chain(&to).filter_map(Place::cable).collect();
         let receptances = response::receptances(self.dynamics, frequencies_hz).map_err(|reason| match reason {
             response::ResponseError::Resonance { frequency_hz } => GradientError::Resonance { frequency_hz },
             response::ResponseError::SameCable => GradientError::NotOnPlatform,
@@ -213,28 +239,46 @@ impl<'g> VibrationGradients<'g> {
         let mut rows = vec![Vec::with_capacity(frequencies_hz.len()); inputs.len() * outputs.len()];
         for (receptance, frequency_hz) in receptances.iter().zip(frequencies_hz) {
             let omega = frequency_hz * TAU;
-            let at = self.at(omega.into());
+            let at = self.at(omega.into(), false, &driven);
             let solved = |place: &Place| {
-                let x = receptance * place.vector.map(Complex::from);
+                let x = receptance * place.vector(self.dynamics, omega);
                 let (v, theta) = halves(&x);
-                (x, self.form.motion(v, theta, &at, &self.terms, &[]))
+                let forces = place.forces(self.dynamics, omega);
+                let driven = Driven { near: &[], forces: forces.as_ref().map(|(cable, forces)| (*cable, &forces[..])) };
+                (x, forces.clone(), self.form.motion(v, theta, &at, &self.terms, &driven))
             };
             let by_input: Vec<_> = from.iter().map(solved).collect();
             let by_output: Vec<_> = to.iter().map(solved).collect();
 
             let mut row = rows.iter_mut();
-            for ((output, (x_out, of_output)), (_, quantity)) in to.iter().zip(&by_output).zip(outputs) {
+            for ((output, (x_out, row_out, of_output)), (_, quantity)) in to.iter().zip(&by_output).zip(outputs) {
                 let factor = match quantity {
                     Quantity::Displacement => Complex::new(1.0, 0.0),
                     Quantity::Velocity => Complex::new(0.0, omega),
                     Quantity::Acceleration => Complex::new(-(omega * omega), 0.0),
                 };
-                for (input, (x_in, of_input)) in from.iter().zip(&by_input) {
-                    let value: Complex = (0..6).map(|k| x_in[k] * output.vector[k]).sum::<Complex>() * factor;
+                for (input, (x_in, _, of_input)) in from.iter().zip(&by_input) {
+                    let value = factor
+                        * match (&output.kind, row_out) {
+                            (PlaceKind::OnPlatform { vector, .. }, _) => {
+                                (0..6).map(|k| x_in[k] * vector[k]).sum::<Complex>()
+                            }
+                            (PlaceKind::Drive { .. }, Some((cable, row))) => {
+                                let motions = of_input.cable(*cable).map_or(&[][..], CableMotion::of_drive);
+                                row.iter().zip(motions).map(|(row, z)| row * z).sum()
+                            }
+                            (PlaceKind::Drive { .. }, None) => Complex::new(0.0, 0.0),
+                        };
                     let mut scalar = Adjoint::zeros(self.cables());
                     self.form.add(&mut scalar, of_output, of_input, &at, -factor);
-                    output.add_turn(&mut scalar, &halves(x_in).1, factor);
-                    input.add_turn(&mut scalar, &halves(x_out).1, factor);
+                    for (place, x_other, other) in [(output, x_in, of_input), (input, x_out, of_output)] {
+                        match &place.kind {
+                            PlaceKind::OnPlatform { .. } => place.add_turn(&mut scalar, &halves(x_other).1, factor),
+                            PlaceKind::Drive { cable, signal, .. } => {
+                                self.form.add_signal(&mut scalar, (*cable, *signal), other, &at, factor);
+                            }
+                        }
+                    }
                     let along = self.along(&scalar, along);
                     if let Some(row) = row.next() {
                         row.push(ResponseDerivatives { value, along });
@@ -253,27 +297,65 @@ impl<'g> VibrationGradients<'g> {
 
     fn place(&self, signal: &Signal) -> Result<Place, GradientError> {
         let pose = &self.gradients.equilibrium().pose;
+        if let Signal::Drive { cable, signal } = signal {
+            let refused = || GradientError::NoDriveSignal {
+                cable: self.gradients.robot().cables[*cable].name.clone(),
+                signal: signal.name(),
+            };
+            let term = self.terms.iter().position(|of| of == cable).ok_or_else(refused)?;
+            let lever_w = self.gradients.equilibrium().cables[*cable].lever_w;
+            let port = Port::Drive { term, signal: *signal, lever_w };
+            let place = Place { kind: PlaceKind::Drive { cable: *cable, term, signal: *signal, port } };
+            // Every frequency has the same signals.
+            place.forces(self.dynamics, 1.0).ok_or_else(refused)?;
+            return Ok(place);
+        }
         let vector = signal.platform_vector(pose).ok_or(GradientError::NotOnPlatform)?;
         let arm = match signal {
             Signal::Along { direction_w, point_p } => Some((direction_w.normalize(), pose.rot_wp * point_p)),
             _ => None,
         };
-        Ok(Place { vector, arm })
+        Ok(Place { kind: PlaceKind::OnPlatform { vector, arm } })
     }
 }
 
-/// Place of a signal on the platform.
+/// Place of a signal.
 struct Place {
-    /// Vector about the platform origin.
-    vector: Vec6,
-    /// Direction and arm of its point, world axes.
-    arm: Option<(Vec3, Vec3)>,
+    kind: PlaceKind,
+}
+
+/// Kinds of places.
+enum PlaceKind {
+    /// On the platform: vector about its origin; direction and arm of a point, world axes.
+    OnPlatform { vector: Vec6, arm: Option<(Vec3, Vec3)> },
+    /// Signal of a cable's drive, with the index of the cable among those whose stiffness depends on frequency.
+    Drive { cable: usize, term: usize, signal: DriveSignal, port: Port },
 }
 
 impl Place {
+    /// Cable of a drive's signal.
+    fn cable(&self) -> Option<usize> {
+        if let PlaceKind::Drive { cable, .. } = self.kind { Some(cable) } else { None }
+    }
+
+    /// Vector about the platform origin at ω [rad/s].
+    fn vector(&self, dynamics: &Dynamics, omega: f64) -> CVec6 {
+        match &self.kind {
+            PlaceKind::OnPlatform { vector, .. } => vector.map(Complex::from),
+            PlaceKind::Drive { port, .. } => port.vector(dynamics, omega),
+        }
+    }
+
+    /// Forces of a drive's signal on the motions of its cable, with that cable.
+    fn forces(&self, dynamics: &Dynamics, omega: f64) -> Option<(usize, Vec<Complex>)> {
+        let PlaceKind::Drive { cable, term, signal, .. } = &self.kind else { return None };
+        let DynamicCable::CatenaryDynamic(form) = dynamics.terms()[*term].form() else { return None };
+        Some((*cable, form.signal_forces(*signal, omega)?))
+    }
+
     /// Adds the turn of the arm r with the platform, `((dφ × r) × u)·θ = dφ·(r × (u × θ))`, for a rotation θ.
     fn add_turn(&self, scalar: &mut Adjoint<Complex>, theta: &Vector<Complex>, factor: Complex) {
-        if let Some((direction, arm)) = &self.arm {
+        if let PlaceKind::OnPlatform { arm: Some((direction, arm)), .. } = &self.kind {
             let turn = cross(&vector(arm), &cross(&vector(direction), theta));
             add_times(&mut scalar.rotation, &turn, factor);
         }

@@ -253,7 +253,7 @@ impl Port {
     }
 
     /// Vector of the port about the platform origin at ω [rad/s].
-    pub(super) fn vector(&self, dynamics: &Dynamics, omega: f64) -> CVec6 {
+    pub(crate) fn vector(&self, dynamics: &Dynamics, omega: f64) -> CVec6 {
         match self {
             Self::Platform(vector) => vector.map(Complex::from),
             Self::Drive { .. } => self.drive_vector(dynamics, omega).unwrap_or_else(CVec6::zeros),

@@ -1,6 +1,6 @@
 //! Direction of change of a robot: the rate of each of its numbers with respect to one parameter.
 
-use super::{Damping, Robot, State};
+use super::{Control, Damping, Pulley, Robot, State, Winch};
 use crate::math::{Mat3, Vec3};
 
 /// Rates of change of a robot's numbers with respect to one parameter: a direction in the space of all robots with the
@@ -54,7 +54,7 @@ pub struct RobotChange {
 }
 
 /// Rates of change of the numbers of one cable.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct CableChange {
     /// Point of the anchor, world axes.
     pub anchor_w: Vec3,
@@ -72,6 +72,109 @@ pub struct CableChange {
     pub drag_width: f64,
     /// Damping: the ratio, or the viscous damping per length, whichever the rope has.
     pub damping: f64,
+    /// Pulley at the anchor.
+    pub pulley: PulleyChange,
+    /// Winch behind the anchor.
+    pub winch: WinchChange,
+    /// Guide wheels of the winch, in its order; none changes beyond the end of the list.
+    pub guide_wheels: Vec<GuideWheelChange>,
+}
+
+/// Rates of change of the numbers of a guide wheel.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct GuideWheelChange {
+    /// Length of the cable from the entry point to the wheel.
+    pub distance: f64,
+    /// Mass that the wheel adds at the cable.
+    pub mass: f64,
+}
+
+/// Rates of change of the numbers of the pulley of one cable.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PulleyChange {
+    /// Radius.
+    pub radius: f64,
+    /// Direction of travel at the entry point, world axes; normal to the direction, which keeps its length.
+    pub entry_direction_w: Vec3,
+    /// Moment of inertia of the wheel.
+    pub inertia: f64,
+    /// Moment of inertia of all that swivels.
+    pub swivel_inertia: f64,
+}
+
+/// Rates of change of the numbers of the winch of one cable, all at the cable.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WinchChange {
+    /// Length from the drum to the entry point.
+    pub drum_side_length: f64,
+    /// Mechanical stiffness; without effect on a rigid winch.
+    pub stiffness: f64,
+    /// Mass of the drum.
+    pub drum_mass: f64,
+    /// Mass of the motor.
+    pub motor_mass: f64,
+    /// Viscous damping.
+    pub damping: f64,
+    /// Position gain of a position control.
+    pub position_gain: f64,
+    /// Speed gain of a position control.
+    pub speed_gain: f64,
+    /// Delay of a position control.
+    pub delay: f64,
+}
+
+impl PulleyChange {
+    /// Sum of the products of all numbers with those of another one.
+    fn dot(&self, other: &Self) -> f64 {
+        self.radius * other.radius
+            + self.entry_direction_w.dot(&other.entry_direction_w)
+            + self.inertia * other.inertia
+            + self.swivel_inertia * other.swivel_inertia
+    }
+
+    /// Changes a pulley by `step` units of the parameter.
+    fn apply(&self, pulley: &mut Pulley, step: f64) {
+        pulley.radius += self.radius * step;
+        pulley.inertia += self.inertia * step;
+        pulley.swivel_inertia += self.swivel_inertia * step;
+        if self.entry_direction_w != Vec3::zeros() {
+            pulley.entry_direction_w = (pulley.entry_direction_w + self.entry_direction_w * step).normalize();
+        }
+    }
+}
+
+impl WinchChange {
+    /// Sum of the products of all numbers with those of another one.
+    fn dot(&self, other: &Self) -> f64 {
+        self.drum_side_length * other.drum_side_length
+            + self.stiffness * other.stiffness
+            + self.drum_mass * other.drum_mass
+            + self.motor_mass * other.motor_mass
+            + self.damping * other.damping
+            + self.position_gain * other.position_gain
+            + self.speed_gain * other.speed_gain
+            + self.delay * other.delay
+    }
+
+    /// Changes a winch by `step` units of the parameter.
+    fn apply(&self, winch: &mut Winch, step: f64) {
+        winch.drum_side_length += self.drum_side_length * step;
+        winch.stiffness += self.stiffness * step;
+        winch.drum_mass += self.drum_mass * step;
+        winch.motor_mass += self.motor_mass * step;
+        winch.damping += self.damping * step;
+        if let Control::Position(servo) = &mut winch.control {
+            servo.position_gain += self.position_gain * step;
+            servo.speed_gain += self.speed_gain * step;
+            servo.delay += self.delay * step;
+        }
+    }
+}
+
+impl GuideWheelChange {
+    fn product((own, other): (&Self, &Self)) -> f64 {
+        own.distance * other.distance + own.mass * other.mass
+    }
 }
 
 impl CableChange {
@@ -85,6 +188,9 @@ impl CableChange {
             + self.load_per_length_w.dot(&other.load_per_length_w)
             + self.drag_width * other.drag_width
             + self.damping * other.damping
+            + self.pulley.dot(&other.pulley)
+            + self.winch.dot(&other.winch)
+            + self.guide_wheels.iter().zip(&other.guide_wheels).map(GuideWheelChange::product).sum::<f64>()
     }
 }
 
@@ -167,6 +273,16 @@ impl Robot {
             }
             let (Damping::Ratio(value) | Damping::Viscous(value)) = &mut cable.material.damping;
             *value += change.damping * step;
+            if let Some(pulley) = &mut cable.anchor.pulley {
+                change.pulley.apply(pulley, step);
+            }
+            if let Some(winch) = &mut cable.anchor.winch {
+                change.winch.apply(winch, step);
+                for (wheel, change) in winch.guide_wheels.iter_mut().zip(&change.guide_wheels) {
+                    wheel.distance += change.distance * step;
+                    wheel.mass += change.mass * step;
+                }
+            }
         }
 
         match &mut robot.state {

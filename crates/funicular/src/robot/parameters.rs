@@ -7,9 +7,10 @@
 
 use super::spec::key::{Absent, Component, Key, KeyValue, Numeric, Shape};
 use super::spec::{Numbers, SpecError, TABLES, TOP, from_tree, parsed};
-use super::{PlatformMotion, Robot, RobotChange, RopeSection};
+use super::{GuideWheelChange, PlatformMotion, Pulley, Robot, RobotChange, RopeSection};
 use crate::math::{Vec3, Vec6, rotation};
 use std::borrow::Cow;
+use std::f64::consts::TAU;
 use thiserror::Error;
 use toml::Spanned;
 use toml::de::{DeArray, DeFloat, DeTable, DeValue};
@@ -231,8 +232,8 @@ impl Parameters {
 impl Parameters {
     /// Change of the robot per unit of a parameter, in the unit of the file: the direction for derivatives of results
     /// with respect to the parameter. A value of a rope changes all its cables, an angle of the pose turns the platform.
-    /// `None` for numbers without derivatives: limits, the plane of a planar platform and angles that leave it, pulleys
-    /// and winches.
+    /// `None` for numbers without derivatives: limits, the plane of a planar platform and angles that leave it, friction of
+    /// pulleys, and supports.
     ///
     /// # Example
     /// ```
@@ -292,14 +293,146 @@ impl Parameters {
                     "attachment_m" => cable.attachment_p = unit()?,
                     "load_n_per_m" => cable.load_per_length_w = unit()?,
                     "unstrained_length_m" => cable.unstrained_length = 1.0,
+                    "entry_direction" => {
+                        let pulley = robot.cables[i].anchor.pulley.as_ref()?;
+                        cable.pulley.entry_direction_w = self.direction_change(parameter, pulley, &unit()?)?;
+                    }
                     _ => return None,
                 }
             }
+            (RobotPart::Pulley, key) => self.pulley_change(robot, parameter, key, unit(), &mut change)?,
+            (RobotPart::Winch, key) => self.winch_change(robot, parameter, key, &mut change)?,
+            (RobotPart::GuideWheel, key) => self.guide_wheel_change(robot, parameter, key, &mut change)?,
             (RobotPart::Material, key) => self.material_change(parameter, key, unit(), &mut change)?,
             _ => return None,
         }
 
         Some(change)
+    }
+
+    /// Change of the unit vector of a pulley with a component of a vector of any length.
+    fn direction_change(&self, parameter: &Parameter, pulley: &Pulley, unit: &Vec3) -> Option<Vec3> {
+        let (_, vector) = parameter.keys.split_last()?;
+        let components = self.list.iter().filter(|other| other.keys.split_last().is_some_and(|(_, of)| of == vector));
+        let length = components.map(|other| other.value * other.value).sum::<f64>().sqrt();
+        let direction_w = &pulley.entry_direction_w;
+        Some((unit - direction_w * direction_w.dot(unit)) / length)
+    }
+
+    /// Change of all cables over a pulley.
+    fn pulley_change(
+        &self,
+        robot: &Robot,
+        parameter: &Parameter,
+        key: &str,
+        unit: Option<Vec3>,
+        change: &mut RobotChange,
+    ) -> Option<()> {
+        let name = parameter.keys.get(1)?;
+        for (i, (cable, change)) in robot.cables.iter().zip(&mut change.cables).enumerate() {
+            let Some(pulley) = cable.anchor.pulley.as_ref().filter(|pulley| pulley.name == *name) else { continue };
+            let change = &mut change.pulley;
+            match key {
+                "radius_m" => change.radius = 1.0,
+                "inertia_kg_m2" => change.inertia = 1.0,
+                "swivel_inertia_kg_m2" => change.swivel_inertia = 1.0,
+                "entry_direction" => {
+                    let own = |other: &Parameter| other.part == RobotPart::Cable(i) && other.key == "entry_direction";
+                    if !self.list.iter().any(own) {
+                        change.entry_direction_w = self.direction_change(parameter, pulley, &unit?)?;
+                    }
+                }
+                _ => return None,
+            }
+        }
+        Some(())
+    }
+
+    /// Change of all cables to a winch. At the cable, numbers about the axis of the drum count by the square of its radius.
+    fn winch_change(&self, robot: &Robot, parameter: &Parameter, key: &str, change: &mut RobotChange) -> Option<()> {
+        let name = parameter.keys.get(1)?;
+        let value_of = |key: &str| {
+            let of_winch = |other: &&Parameter| other.part == RobotPart::Winch && other.keys.get(1) == Some(name);
+            self.list.iter().filter(of_winch).find(|other| other.key == key).map(|other| other.value)
+        };
+        // Without a radius no other number of the winch is about the axis.
+        let by_radius = value_of("drum_radius_m").map_or(0.0, |radius| radius.powi(-2));
+        let bandwidth = value_of("bandwidth_hz");
+        let ratio = value_of("gear_ratio").unwrap_or(1.0);
+
+        for (cable, change) in robot.cables.iter().zip(&mut change.cables) {
+            let Some(winch) = cable.anchor.winch.as_ref().filter(|winch| winch.name == *name) else { continue };
+            let (mass, servo) = (winch.drum_mass + winch.motor_mass, winch.servo());
+            let change = &mut change.winch;
+            match key {
+                "drum_side_length_m" => change.drum_side_length = 1.0,
+                "stiffness_n_per_m" => change.stiffness = 1.0,
+                "shaft_stiffness_n_m_per_rad" => change.stiffness = by_radius,
+                "drum_inertia_kg_m2" => change.drum_mass = by_radius,
+                "motor_inertia_kg_m2" => change.motor_mass = by_radius * ratio * ratio,
+                "gear_ratio" => change.motor_mass = 2.0 * winch.motor_mass / ratio,
+                "damping_n_m_s_per_rad" => change.damping = by_radius,
+                "drum_radius_m" => {
+                    let per_metre = -2.0 / parameter.value;
+                    change.drum_mass = per_metre * winch.drum_mass;
+                    change.motor_mass = per_metre * winch.motor_mass;
+                    change.damping = per_metre * winch.damping;
+                    if value_of("shaft_stiffness_n_m_per_rad").is_some() {
+                        change.stiffness = per_metre * winch.stiffness;
+                    }
+                    if let (Some(servo), None) = (servo, bandwidth) {
+                        change.position_gain = per_metre * servo.position_gain;
+                        change.speed_gain = per_metre * servo.speed_gain;
+                    }
+                }
+                "bandwidth_hz" => {
+                    change.position_gain = 2.0 * servo?.position_gain / parameter.value;
+                    change.speed_gain = servo?.speed_gain / parameter.value;
+                }
+                "control_damping_ratio" => change.speed_gain = 2.0 * mass * bandwidth? * TAU,
+                "position_gain_n_m_per_rad" => change.position_gain = by_radius,
+                "speed_gain_n_m_s_per_rad" => change.speed_gain = by_radius,
+                "delay_s" => change.delay = 1.0,
+                _ => return None,
+            }
+
+            // Gains by the bandwidth are proportional to the mass.
+            if let (Some(servo), Some(_)) = (servo, bandwidth) {
+                let relative = (change.drum_mass + change.motor_mass) / mass;
+                change.position_gain += relative * servo.position_gain;
+                change.speed_gain += relative * servo.speed_gain;
+            }
+        }
+        Some(())
+    }
+
+    /// Change of a guide wheel of all cables to its winch.
+    fn guide_wheel_change(
+        &self,
+        robot: &Robot,
+        parameter: &Parameter,
+        key: &str,
+        change: &mut RobotChange,
+    ) -> Option<()> {
+        let name = parameter.keys.get(1)?;
+        let radius = self.list.iter().find(|other| {
+            other.part == RobotPart::GuideWheel && other.keys.get(1) == Some(name) && other.key == "radius_m"
+        })?;
+        let mut is_known = false;
+        for (cable, change) in robot.cables.iter().zip(&mut change.cables) {
+            let wheels = cable.anchor.winch.as_ref().map_or(&[][..], |winch| &winch.guide_wheels);
+            let Some(index) = wheels.iter().position(|wheel| wheel.name == *name) else { continue };
+            is_known = true;
+            change.guide_wheels.resize(wheels.len(), GuideWheelChange::default());
+            let (wheel, change) = (&wheels[index], &mut change.guide_wheels[index]);
+            match key {
+                "distance_m" => change.distance = 1.0,
+                "radius_m" => change.mass = -2.0 * wheel.mass / radius.value,
+                "inertia_kg_m2" => change.mass = radius.value.powi(-2),
+                _ => return None,
+            }
+        }
+        is_known.then_some(())
     }
 
     /// Change of all cables made of a rope.

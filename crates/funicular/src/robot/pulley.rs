@@ -6,6 +6,7 @@
 //! (docs/theory.md, equations (61) to (63)).
 
 use super::friction::PulleyFriction;
+use crate::math::dual::{Real, combined};
 use crate::math::{Vec3, any_normal};
 use std::f64::consts::TAU;
 
@@ -107,11 +108,20 @@ impl PulleyContact {
         Self { wrap: self.wrap + wrap, center_w, sideways_w: self.axis_w.cross(&center_w), ..*self }
     }
 
+    /// Wheel with the cable on it.
+    pub(crate) fn wheel(&self) -> Wheel<f64> {
+        Wheel {
+            radius: self.radius,
+            wrap: self.wrap,
+            axis_w: self.axis_w.into(),
+            center_w: self.center_w.into(),
+            sideways_w: self.sideways_w.into(),
+        }
+    }
+
     /// Vector from the entry point to the point of the rim at the angle θ from it [m].
     pub fn offset_w(&self, angle: f64) -> Vec3 {
-        // 1 − cos θ without cancellation.
-        let half = (0.5 * angle).sin();
-        (self.center_w * (2.0 * half * half) + self.axis_w * angle.sin()) * self.radius
+        self.wheel().offset_w(angle).into()
     }
 
     /// Vector from the entry point to the exit point [m].
@@ -121,12 +131,12 @@ impl PulleyContact {
 
     /// Direction t of travel at the exit point, towards the platform; unit vector, world axes.
     pub fn exit_direction_w(&self) -> Vec3 {
-        self.center_w * self.wrap.sin() + self.axis_w * self.wrap.cos()
+        self.wheel().exit_direction_w().into()
     }
 
     /// Direction n from the exit point to the wheel's centre; unit vector, world axes.
     pub fn exit_normal_w(&self) -> Vec3 {
-        self.center_w * self.wrap.cos() - self.axis_w * self.wrap.sin()
+        self.wheel().exit_normal_w().into()
     }
 
     /// Length of the arc between entry and exit point [m].
@@ -136,7 +146,47 @@ impl PulleyContact {
 
     /// Distance of the exit point from the swivel axis [m].
     pub fn distance_from_axis(&self) -> f64 {
-        let half = (0.5 * self.wrap).sin();
-        2.0 * self.radius * half * half
+        self.wheel().distance_from_axis()
+    }
+}
+
+/// Cable on a pulley, in numbers or in numbers with derivatives.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Wheel<T> {
+    /// Radius r [m].
+    pub(crate) radius: T,
+    /// Wrap angle β [rad].
+    pub(crate) wrap: T,
+    /// Unit vectors a, ρ and ν of [`PulleyContact`].
+    pub(crate) axis_w: [T; 3],
+    pub(crate) center_w: [T; 3],
+    pub(crate) sideways_w: [T; 3],
+}
+
+impl<T: Real> Wheel<T> {
+    /// Vector from the entry point to the point of the rim at the angle θ from it [m].
+    pub(crate) fn offset_w(&self, angle: T) -> [T; 3] {
+        // 1 − cos θ without cancellation.
+        let (half, _) = (angle * 0.5).sin_cos();
+        let (sin, _) = angle.sin_cos();
+        combined(&self.center_w, half * 2.0 * half, &self.axis_w, sin).map(|component| component * self.radius)
+    }
+
+    /// Direction t of travel at the exit point.
+    pub(crate) fn exit_direction_w(&self) -> [T; 3] {
+        let (sin, cos) = self.wrap.sin_cos();
+        combined(&self.center_w, sin, &self.axis_w, cos)
+    }
+
+    /// Direction n from the exit point to the wheel's centre.
+    pub(crate) fn exit_normal_w(&self) -> [T; 3] {
+        let (sin, cos) = self.wrap.sin_cos();
+        combined(&self.center_w, cos, &self.axis_w, -sin)
+    }
+
+    /// Distance of the exit point from the swivel axis [m].
+    pub(crate) fn distance_from_axis(&self) -> T {
+        let (half, _) = (self.wrap * 0.5).sin_cos();
+        self.radius * 2.0 * half * half
     }
 }

@@ -129,6 +129,11 @@ impl Winch {
         }
     }
 
+    /// Position control of the motor, if it has one.
+    pub(crate) fn servo(&self) -> Option<Servo> {
+        if let Control::Position(servo) = self.control { Some(servo) } else { None }
+    }
+
     /// Length by which the winch pays out cable per tension at rest [m/N]: that of its mechanical stiffness, and that of
     /// a control without integral action.
     pub fn compliance(&self) -> f64 {

@@ -8,9 +8,11 @@
 use super::drag::tangent_with_drag;
 use super::equilibrium::{CableState, Equilibrium};
 use super::model::StaticModel;
+use super::stiffness::assembled;
+use crate::drive::derivatives::{DriveDerivatives, Row, place, straight_chord};
 use crate::math::{Mat3, Mat6, Vec3, Vec6, skew};
 use crate::platform::{Coordinates, wrench_of};
-use crate::robot::{CableChange, Load, Robot, RobotChange};
+use crate::robot::{CableChange, Control, Load, Robot, RobotChange};
 use thiserror::Error;
 
 /// Ratio to the largest singular value up to which the smallest one counts as zero: below it a derivative has no
@@ -29,16 +31,11 @@ pub enum StaticDerivativeError {
         /// Name of the cable.
         cable: String,
     },
-    /// Cable over a pulley or on a winch.
-    #[error(
-        "cable \"{cable}\" runs over a pulley or to a winch: derivatives exist for cables that end at fixed points"
-    )]
-    Drive {
-        /// Name of the cable.
-        cable: String,
-    },
     /// Cable whose anchor is on a flexible support.
-    #[error("the anchor of cable \"{cable}\" is on a flexible support: derivatives exist for anchors on a rigid frame")]
+    #[error(
+        "the anchor of cable \"{cable}\" is on a flexible support: derivatives exist for anchors on a rigid frame; remove \
+         `support` from the cables"
+    )]
     Support {
         /// Name of the cable.
         cable: String,
@@ -120,7 +117,7 @@ pub fn at_held_lengths(
     let direct = Direct::new(robot, equilibrium, change)?;
     let coordinates = Coordinates::of(robot);
 
-    let jacobian = balance_jacobian(robot, equilibrium).ok_or(StaticDerivativeError::Ideal)?;
+    let jacobian = direct.jacobian(robot, equilibrium);
     let motion = solve(&coordinates.reduce_matrix(&jacobian), &coordinates, &direct.wrench)?;
     let motion = coordinates.expand(&motion);
     let translation_w = Vec3::new(motion[0], motion[1], motion[2]);
@@ -153,7 +150,7 @@ pub fn at_held_pose(
     // The wrench by the change, and by the motion from the pose to a changed one.
     let (translation_w, rotation_w) = (change.position_w, change.rotation_w);
     let motion = Vec6::from_iterator(translation_w.iter().chain(rotation_w.iter()).copied());
-    let jacobian = balance_jacobian(robot, equilibrium).ok_or(StaticDerivativeError::Ideal)?;
+    let jacobian = direct.jacobian(robot, equilibrium);
     let wrench = direct.wrench - jacobian * motion;
 
     let mut by_lengths = Mat6::zeros();
@@ -172,12 +169,30 @@ pub fn at_held_pose(
 /// Derivative 𝒥 = −∂Φ/∂x of the balance; 6×6, about the platform origin, world axes [N/m, N, N·m]. `None` for ideal
 /// cables.
 pub(crate) fn balance_jacobian(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
-    // The tangent contains half of a moment that is fixed in the world, so that it is symmetric; the balance contains
-    // none of it.
-    let mut jacobian = tangent_with_drag(robot, equilibrium)?;
-    let mut turns = jacobian.fixed_view_mut::<3, 3>(3, 3);
+    Some(without_moment(robot, tangent_with_drag(robot, equilibrium)?))
+}
+
+/// Derivative 𝒥 of the balance from the partial derivatives of all cables: exact also over inclined pulleys, for which
+/// [`balance_jacobian`] leaves out the square of the kink.
+pub(crate) fn jacobian_of<'a>(
+    robot: &Robot,
+    equilibrium: &Equilibrium,
+    partials: impl Iterator<Item = &'a CablePartials>,
+) -> Mat6 {
+    let cables = equilibrium.cables.iter().zip(partials).map(|(state, partials)| {
+        let stiffness_w = partials.stiffness_w + partials.force_by_load_w * partials.load_by_chord_w;
+        (stiffness_w, state.force_on_platform_w, state.lever_w)
+    });
+    let whole = assembled(robot, &equilibrium.pose, cables);
+    without_moment(robot, Coordinates::of(robot).allowed_matrix(&whole))
+}
+
+/// Stiffness without the half of a moment that is fixed in the world: the tangent contains it, so that it is symmetric, and the
+/// balance does not.
+fn without_moment(robot: &Robot, mut stiffness: Mat6) -> Mat6 {
+    let mut turns = stiffness.fixed_view_mut::<3, 3>(3, 3);
     turns -= skew(&robot.load.moment_w) * 0.5;
-    Some(jacobian)
+    stiffness
 }
 
 /// Solves for the reduced unknowns; `wrench` is not yet reduced.
@@ -208,6 +223,8 @@ struct Direct {
 /// Effect of a change on one cable while the platform stays in place.
 struct DirectCable {
     partials: CablePartials,
+    /// Outer variables of the drive, with chord and load.
+    outer: Row,
     force_w: Vec3,
     lever_w: Vec3,
     load_w: Vec3,
@@ -239,13 +256,12 @@ impl Direct {
             let partials = CablePartials::new(robot, equilibrium, i)?;
             let chord_w = of_cable.anchor_w - lever_w;
             let load_w = partials.load(change, of_cable, &chord_w);
-            let force_w = partials.stiffness_w * chord_w
-                + partials.force_by_load_w * load_w
-                + partials.force_by_length_w * of_cable.unstrained_length
-                + partials.force_by_stiffness_w * of_cable.axial_stiffness;
+            let outer = partials.outer(of_cable, &chord_w, &load_w);
+            let force_w = partials.force(&outer);
             wrench += wrench_of(&force_w, &state.lever_w) + moment(&state.force_on_platform_w, &lever_w);
             cables.push(DirectCable {
                 partials,
+                outer,
                 force_w,
                 lever_w,
                 load_w,
@@ -253,6 +269,11 @@ impl Direct {
             });
         }
         Ok(Self { wrench, cables })
+    }
+
+    /// Derivative 𝒥 of the balance.
+    fn jacobian(&self, robot: &Robot, equilibrium: &Equilibrium) -> Mat6 {
+        jacobian_of(robot, equilibrium, self.cables.iter().map(|cable| &cable.partials))
     }
 
     /// Derivative including the platform's motion.
@@ -264,10 +285,17 @@ impl Direct {
             let force_w = cable.force_w + partials.stiffness_w * chord_w + partials.force_by_load_w * turned_w;
             let load_w = cable.load_w + turned_w;
 
-            // The tension at the anchor is the magnitude of N = f − L q, q being the load per length.
+            // The tension at the anchor, or at the exit point, is the magnitude of N = f − S q, q being the load per length
+            // and S the length of the free span.
             let at_anchor_w = force_at_anchor(state);
-            let change_at_anchor_w =
-                force_w - load_w * state.unstrained_length - load_of(state) * cable.unstrained_length;
+            let mut outer = cable.outer;
+            for k in 0..3 {
+                outer[place::REACH + k] += chord_w[k];
+                outer[place::LOAD + k] += turned_w[k];
+            }
+            outer[place::LENGTH] = cable.unstrained_length;
+            let longer = partials.free_length(&outer);
+            let change_at_anchor_w = force_w - load_w * state.free_length() - load_of(state) * longer;
             let along = |force_w: &Vec3, change_w: &Vec3| force_w.normalize().dot(change_w);
             CableDerivative {
                 force_on_platform_w: force_w,
@@ -308,6 +336,57 @@ pub(crate) struct CablePartials {
     pub(crate) load_by_gravity: f64,
     /// Load per length by the load that the file gives: 1, or 0 for a straight cable.
     pub(crate) load_by_own: f64,
+    /// Cable over a pulley or to a winch; `None` for one that ends at its anchor.
+    pub(crate) drive: Option<Box<DrivePartials>>,
+}
+
+/// Partial derivatives of a cable over a pulley or to a winch. The chord of [`CablePartials`] then goes to the anchor's point.
+#[derive(Debug, Clone)]
+pub(crate) struct DrivePartials {
+    /// State of the cable and of its end by the outer variables.
+    pub(crate) by_outer: DriveDerivatives,
+    /// Load per length by the radius of the wheel and by the rotation of the pulley: the drag of the wind sees the chord to the
+    /// exit point.
+    pub(crate) load_by_radius_w: Vec3,
+    pub(crate) load_by_turn_w: Mat3,
+    /// Direction of travel at the entry point.
+    pub(crate) entry_direction_w: Vec3,
+    /// Length that the winch pays out per tension, by its stiffness and by its position gain.
+    pub(crate) compliance_by_stiffness: f64,
+    pub(crate) compliance_by_gain: f64,
+}
+
+impl DrivePartials {
+    fn new(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> Result<Option<Box<Self>>, StaticDerivativeError> {
+        let (state, anchor) = (&equilibrium.cables[i], &robot.cables[i].anchor);
+        let (Some(span), Some(drive)) = (&state.hanging, &state.drive) else { return Ok(None) };
+        let by_outer = DriveDerivatives::of(span, anchor, drive).ok_or(StaticDerivativeError::Singular)?;
+        let mut partials = Self {
+            by_outer,
+            load_by_radius_w: Vec3::zeros(),
+            load_by_turn_w: Mat3::zeros(),
+            entry_direction_w: anchor.pulley.as_ref().map_or_else(Vec3::zeros, |pulley| pulley.entry_direction_w),
+            compliance_by_stiffness: 0.0,
+            compliance_by_gain: 0.0,
+        };
+        if let Some(winch) = &anchor.winch {
+            partials.compliance_by_stiffness = -winch.stiffness.powi(-2);
+            if let Control::Position(servo) = winch.control {
+                partials.compliance_by_gain = if servo.integral { 0.0 } else { -servo.position_gain.powi(-2) };
+            }
+        }
+        Ok(Some(Box::new(partials)))
+    }
+
+    /// Outer variables of the pulley and the winch by the change of a cable.
+    fn outer(&self, of_cable: &CableChange, outer: &mut Row) {
+        let turn_w = self.entry_direction_w.cross(&of_cable.pulley.entry_direction_w);
+        outer[place::RADIUS] = of_cable.pulley.radius;
+        outer[place::TURN..place::DRUM_SIDE].copy_from_slice(turn_w.as_slice());
+        outer[place::DRUM_SIDE] = of_cable.winch.drum_side_length;
+        outer[place::COMPLIANCE] = self.compliance_by_stiffness * of_cable.winch.stiffness
+            + self.compliance_by_gain * of_cable.winch.position_gain;
+    }
 }
 
 impl CablePartials {
@@ -315,9 +394,6 @@ impl CablePartials {
     pub(crate) fn new(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> Result<Self, StaticDerivativeError> {
         let (state, cable) = (&equilibrium.cables[i], &robot.cables[i]);
         let hanging = state.hanging.as_ref().ok_or(StaticDerivativeError::Ideal)?;
-        if state.drive.is_some() {
-            return Err(StaticDerivativeError::Drive { cable: cable.name.clone() });
-        }
         if cable.anchor.support.is_some() {
             return Err(StaticDerivativeError::Support { cable: cable.name.clone() });
         }
@@ -341,15 +417,33 @@ impl CablePartials {
             load_by_mass_w: Vec3::zeros(),
             load_by_gravity: 0.0,
             load_by_own: 0.0,
+            drive: DrivePartials::new(robot, equilibrium, i)?,
         };
+        if let Some(drive) = &partials.drive {
+            let rows = &drive.by_outer.force_w;
+            partials.stiffness_w = block(rows, place::REACH);
+            partials.force_by_length_w = column(rows, place::LENGTH);
+            partials.force_by_stiffness_w = column(rows, place::AXIAL_STIFFNESS);
+        }
 
         // Straight cables carry no load along them.
         if equilibrium.model == StaticModel::Catenary {
-            let chord_w = state.chord_w();
+            // The drag is that of a straight cable.
+            let chord_w = cable.anchor.exit_w(&state.attachment_w) - state.attachment_w;
             let (axis_w, wind) = (chord_w.normalize(), &robot.wind);
             let width = material.drag_width.unwrap_or(0.0);
             partials.force_by_load_w = hanging.force_by_load_w();
             partials.load_by_chord_w = robot.line_load_by_chord(i, &chord_w).unwrap_or_else(Mat3::zeros);
+            if let Some(drive) = &mut partials.drive {
+                partials.force_by_load_w = block(&drive.by_outer.force_w, place::LOAD);
+                if let (Some(pulley), true) = (&cable.anchor.pulley, partials.load_by_chord_w != Mat3::zeros()) {
+                    let reach_w = cable.anchor.point_w - state.attachment_w;
+                    let chord = straight_chord(pulley, &reach_w).ok_or(StaticDerivativeError::Singular)?;
+                    drive.load_by_radius_w = partials.load_by_chord_w * column(&chord, place::RADIUS);
+                    drive.load_by_turn_w = partials.load_by_chord_w * block(&chord, place::TURN);
+                    partials.load_by_chord_w *= block(&chord, place::REACH);
+                }
+            }
             partials.load_by_wind_w = wind.cross_pressure_by_velocity_w(&axis_w) * width;
             partials.load_by_density_w = wind.at_unit_density().cross_pressure_w(&axis_w) * width;
             partials.load_by_drag_width_w = wind.cross_pressure_w(&axis_w);
@@ -369,12 +463,67 @@ impl CablePartials {
             + self.load_by_wind_w * change.wind_velocity_w
             + self.load_by_density_w * change.air_density
             + self.load_by_drag_width_w * of_cable.drag_width
+            + self.load_of_drive(of_cable)
+    }
+
+    /// Change of the load per length with the numbers of the pulley.
+    fn load_of_drive(&self, of_cable: &CableChange) -> Vec3 {
+        self.drive.as_ref().map_or_else(Vec3::zeros, |drive| {
+            let turn_w = drive.entry_direction_w.cross(&of_cable.pulley.entry_direction_w);
+            drive.load_by_radius_w * of_cable.pulley.radius + drive.load_by_turn_w * turn_w
+        })
+    }
+
+    /// Outer variables by the change of a cable, of its chord to the anchor's point and of its load.
+    fn outer(&self, of_cable: &CableChange, chord_w: &Vec3, load_w: &Vec3) -> Row {
+        let mut outer = Row::default();
+        outer[place::REACH..place::LOAD].copy_from_slice(chord_w.as_slice());
+        outer[place::LOAD..place::AXIAL_STIFFNESS].copy_from_slice(load_w.as_slice());
+        outer[place::AXIAL_STIFFNESS] = of_cable.axial_stiffness;
+        outer[place::LENGTH] = of_cable.unstrained_length;
+        if let Some(drive) = &self.drive {
+            drive.outer(of_cable, &mut outer);
+        }
+        outer
+    }
+
+    /// Change of the force on the platform with the outer variables.
+    fn force(&self, outer: &Row) -> Vec3 {
+        if let Some(drive) = &self.drive {
+            return Vec3::from(drive.by_outer.force_w.map(|row| along(&row, outer)));
+        }
+        let part = |first: usize| Vec3::from_column_slice(&outer[first..first + 3]);
+        self.stiffness_w * part(place::REACH)
+            + self.force_by_load_w * part(place::LOAD)
+            + self.force_by_length_w * outer[place::LENGTH]
+            + self.force_by_stiffness_w * outer[place::AXIAL_STIFFNESS]
+    }
+
+    /// Change of the unstrained length of the free span with the outer variables.
+    fn free_length(&self, outer: &Row) -> f64 {
+        self.drive.as_ref().map_or(outer[place::LENGTH], |drive| along(&drive.by_outer.free_length, outer))
     }
 }
 
-/// Tension vector at the anchor, `N = f − L q`, world axes [N].
+/// Three columns of three rows from `first` on.
+fn block(rows: &[Row; 3], first: usize) -> Mat3 {
+    Mat3::from_fn(|i, j| rows[i][first + j])
+}
+
+/// Column of three rows.
+fn column(rows: &[Row; 3], variable: usize) -> Vec3 {
+    Vec3::from_fn(|i, _| rows[i][variable])
+}
+
+/// Derivative along a change of the outer variables.
+fn along(row: &Row, outer: &Row) -> f64 {
+    row.iter().zip(outer).map(|(by, change)| by * change).sum()
+}
+
+/// Tension vector at the anchor, or at the exit point, `N = f − S q`, S being the unstrained length of the free span; world
+/// axes [N].
 pub(crate) fn force_at_anchor(state: &CableState) -> Vec3 {
-    state.force_on_platform_w - load_of(state) * state.unstrained_length
+    state.force_on_platform_w - load_of(state) * state.free_length()
 }
 
 /// Load per unstrained length of a hanging cable, world axes [N/m]; zero for a straight cable.

@@ -1,9 +1,10 @@
 //! Stiffness that the drag of the wind adds because it turns with the cables, and the stiffness that includes it.
 
-use super::equilibrium::Equilibrium;
+use super::equilibrium::{CableState, Equilibrium};
 use super::model::StaticModel;
 use super::stiffness::tangent_stiffness;
-use crate::math::{Mat6, inverse6, symmetric_part};
+use crate::drive::derivatives::{DriveDerivatives, place, straight_chord};
+use crate::math::{Mat3, Mat6, inverse6, symmetric_part};
 use crate::platform::{Coordinates, add_congruent};
 use crate::robot::Robot;
 
@@ -47,12 +48,33 @@ pub fn drag_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> 
     }
     let mut total = Mat6::zeros();
     for (i, cable) in equilibrium.cables.iter().enumerate() {
-        if let (Some(hanging), Some(turn)) = (&cable.hanging, robot.line_load_by_chord(i, &cable.chord_w())) {
+        if let Some(turned) = force_by_turn_w(robot, i, cable) {
             // The chord shortens as the attachment moves along it: the signs of −∂Φ/∂x and ∂d/∂x cancel.
-            add_congruent(&mut total, &(hanging.force_by_load_w() * turn), &cable.lever_w);
+            add_congruent(&mut total, &turned, &cable.lever_w);
         }
     }
     Some(Coordinates::of(robot).allowed_matrix(&total))
+}
+
+/// Force of cable `i` on the platform by its chord through the turn of the drag, 3×3, world axes [N/m]. Over a pulley the
+/// chord turns with the exit point of a straight cable, whose drag it is.
+fn force_by_turn_w(robot: &Robot, i: usize, state: &CableState) -> Option<Mat3> {
+    let hanging = state.hanging.as_ref()?;
+    let Some(drive) = &state.drive else {
+        return Some(hanging.force_by_load_w() * robot.line_load_by_chord(i, &state.chord_w())?);
+    };
+
+    let mut anchor = robot.cables[i].anchor.clone();
+    if let Some(support) = anchor.support {
+        anchor.displace(&robot.supports[support], &state.displacement_w);
+    }
+    let attachment_w = state.attachment_w;
+    let turn = robot.line_load_by_chord(i, &(anchor.exit_w(&attachment_w) - attachment_w))?;
+    let by_load = DriveDerivatives::of(hanging, &anchor, drive)?.force_w;
+    let by_load = Mat3::from_fn(|k, j| by_load[k][place::LOAD + j]);
+    let Some(pulley) = &anchor.pulley else { return Some(by_load * turn) };
+    let chord = straight_chord(pulley, &(anchor.point_w - attachment_w))?;
+    Some(by_load * turn * Mat3::from_fn(|k, j| chord[k][place::REACH + j]))
 }
 
 /// Ratio of the antisymmetric part of a stiffness to the complete stiffness: Frobenius norms of the scaled matrices

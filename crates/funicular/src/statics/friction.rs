@@ -161,7 +161,7 @@ pub struct CableFriction {
 /// ```
 ///
 /// # References
-/// docs/theory.md, equations (71) to (74).
+/// docs/theory.md, equations (71) to (74) and (91a).
 pub fn friction_interval(
     robot: &Robot,
     equilibrium: &Equilibrium,
@@ -170,7 +170,9 @@ pub fn friction_interval(
     if !robot.cables.iter().any(has_friction) {
         return Err(FrictionError::NoFriction);
     }
-    let pairs = robot.cables.iter().zip(&equilibrium.cables);
+    // Supports have changed the lengths of drum sides from the ground.
+    let settled = equilibrium.settled(robot);
+    let pairs = settled.cables.iter().zip(&equilibrium.cables);
     let frictions: Vec<Extremes> = pairs.map(|(cable, state)| Extremes::of(cable, state)).collect();
 
     // The motion due to each cable's friction on its own.
@@ -210,7 +212,8 @@ pub fn friction_interval(
 /// # References
 /// docs/theory.md, equation (71).
 pub fn friction_exponents(robot: &Robot, equilibrium: &Equilibrium) -> Vec<f64> {
-    robot.cables.iter().zip(&equilibrium.cables).map(|(cable, state)| exponent(cable, state)).collect()
+    let settled = equilibrium.settled(robot);
+    settled.cables.iter().zip(&equilibrium.cables).map(|(cable, state)| exponent(cable, state)).collect()
 }
 
 /// Friction exponent Θ of a cable at its state.

@@ -137,7 +137,7 @@ impl DriveAt {
     }
 
     /// `(1 + R Δ)⁻¹`; not finite at a resonance of the drive without damping.
-    fn inverse(&self, delta: &[Complex]) -> CDMat {
+    pub(crate) fn inverse(&self, delta: &[Complex]) -> CDMat {
         let count = delta.len();
         let one =
             CDMat::from_fn(count, count, |i, j| self.receptance[(i, j)] * delta[j] + if i == j { 1.0 } else { 0.0 });
@@ -225,7 +225,7 @@ impl DriveMotion {
     }
 
     /// Motions in the clamped mode with this index of a family [1/√kg]; zero for motions that it does not contain.
-    pub(super) fn in_mode(&self, family: Family, index: usize) -> Vec<f64> {
+    pub(crate) fn in_mode(&self, family: Family, index: usize) -> Vec<f64> {
         let mut motions = vec![0.0; self.flexibility.nrows()];
         let sideways = self.along.still.len();
         match family {

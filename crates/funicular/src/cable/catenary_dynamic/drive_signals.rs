@@ -188,6 +188,14 @@ impl CatenaryDynamicEnd {
         x * h + y * v
     }
 
+    /// Forces on the motions of the drive per unit of an input, and by reciprocity the row of drum and motor; `None` for
+    /// tensions, and for a cable without such a signal.
+    pub(crate) fn signal_forces(&self, signal: DriveSignal, omega: f64) -> Option<Vec<Complex>> {
+        let mut forces = self.forces_of(self.chain()?, signal, omega)?;
+        forces.resize(self.motions(), Complex::new(0.0, 0.0));
+        Some(forces)
+    }
+
     pub(super) fn motions_with_losses(&self, omega: f64) -> Option<(DriveAt, DriveLosses)> {
         let motions = self.drive_at(self.square(omega), &NearRanges::default())?;
         Some((motions, self.beyond_undamped(omega.into(), 1.0)))

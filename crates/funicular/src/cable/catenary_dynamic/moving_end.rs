@@ -103,7 +103,7 @@ impl MovingEnd {
     }
 
     /// Number of motions along the cable, and of all.
-    pub(super) fn counts(&self) -> (usize, usize) {
+    pub(crate) fn counts(&self) -> (usize, usize) {
         let along = self.chain().map_or(0, DriveChain::len);
         (along, along + usize::from(self.sideways.is_some()))
     }

@@ -1,6 +1,6 @@
 //! Coefficients of a change of a cable's force per length: a second derivative of the cable at rest.
 
-use super::{CableForm, CableMotion};
+use super::{CableAt, CableForm, CableMotion};
 use crate::gradient::adjoint::CableAdjoint;
 use crate::gradient::scalar::{Vector, add_times, dot, vector};
 use crate::math::Vec3;
@@ -39,8 +39,10 @@ impl CableForm {
             tension,
             end_force_w: held,
             theta: held,
+            end: Vec::new(),
+            far_force: held,
         };
-        self.add(sum, &motion(constant), &motion(growing.collect()), 0.0, [0.0; 2], -factor);
+        self.add(sum, &motion(constant), &motion(growing.collect()), (0.0, &CableAt::default()), -factor);
 
         // Load, chord and length where they stand.
         let mut by_load = [0.0; 3];

@@ -44,9 +44,11 @@ fn symmetric(reader: &mut Reader, key: &str, tensor: &Mat3, elements: &[[&Value;
                 .issue(
                     elements[i][j].span(),
                     format!(
-                        "`{key}` is not symmetric: row {}, column {} is {lower:e}, its mirror is {upper:e}",
+                        "`{key}` is not symmetric: row {}, column {} is {}, its mirror is {}",
                         i + 1,
-                        j + 1
+                        j + 1,
+                        all_digits(lower),
+                        all_digits(upper)
                     ),
                 )
                 .context(elements[j][i].span(), "the mirror");
@@ -58,8 +60,12 @@ fn symmetric(reader: &mut Reader, key: &str, tensor: &Mat3, elements: &[[&Value;
 
 /// Value with four significant digits, for a message.
 pub(super) fn short(value: f64) -> String {
-    let rounded = rounded(value, 4);
-    if rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
+    all_digits(rounded(value, 4))
+}
+
+/// Number with all its digits.
+fn all_digits(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
 }
 
 /// Value with a number of significant digits.

@@ -7,6 +7,7 @@ use crate::request::{Load, UncertaintyRequest};
 use crate::set_values::{self, Assignment};
 use anyhow::{Result, anyhow, bail};
 use funicular::gradient::Hold;
+use funicular::math::{Vec3, Vec6, rotation};
 use funicular::robot::parameters::{Parameter, Parameters, RobotPart};
 use funicular::robot::{Robot, RobotChange};
 
@@ -65,6 +66,8 @@ enum Place {
     Length(usize),
     /// Index in that list of a number of the pose.
     Pose(usize),
+    /// Coordinate of a pose that is not in the file: position, then roll, pitch, yaw.
+    Coordinate(usize),
 }
 
 /// Number that deviates.
@@ -107,7 +110,8 @@ impl Inputs {
     /// No deviation, a path that no number has, a negative deviation, or numbers that what is held excludes.
     pub(crate) fn new(request: &UncertaintyRequest, at_rest: &AtRest) -> Result<Self> {
         let groups = groups(request)?;
-        let (text, original) = original(request, at_rest)?;
+        let text = request.robot.changed_text()?;
+        let original = Parameters::from_toml(&text).map_err(|error| anyhow!("{error}"))?;
         let candidates = candidates(&original, &at_rest.robot);
 
         // The last option that matches a number gives its deviation.
@@ -139,7 +143,7 @@ impl Inputs {
     pub(crate) fn values(&self, at_rest: &AtRest) -> Vec<f64> {
         let value = |input: &Input| match input.place {
             Place::Length(cable) => at_rest.equilibrium.cables[cable].unstrained_length,
-            Place::Number(_) | Place::Pose(_) => value_at(at_rest, &input.parameter),
+            Place::Number(_) | Place::Pose(_) | Place::Coordinate(_) => value_at(at_rest, &input.parameter),
         };
         self.list.iter().map(value).collect()
     }
@@ -163,6 +167,7 @@ impl Inputs {
     pub(crate) fn changes(&self, robot: &Robot) -> Vec<Option<RobotChange>> {
         let change = |input: &Input| match input.place {
             Place::Number(index) | Place::Pose(index) => self.stated.change_of(index, robot),
+            Place::Coordinate(k) => coordinate_change(robot, k),
             Place::Length(cable) => {
                 let mut change = RobotChange::none(robot.cables.len());
                 change.cables[cable].unstrained_length = 1.0;
@@ -183,7 +188,7 @@ impl Inputs {
             match input.place {
                 Place::Number(index) => numbers.push((index, value + deviation)),
                 Place::Length(cable) => lengths[cable] += deviation,
-                Place::Pose(_) => {}
+                Place::Pose(_) | Place::Coordinate(_) => {}
             }
         }
         let robot = self.stated.robot_with(&numbers).map_err(|error| error.to_string())?;
@@ -192,7 +197,7 @@ impl Inputs {
 
     /// True for a number of the pose.
     pub(super) fn is_of_pose(&self, index: usize) -> bool {
-        matches!(self.list[index].place, Place::Pose(_))
+        matches!(self.list[index].place, Place::Pose(_) | Place::Coordinate(_))
     }
 }
 
@@ -202,6 +207,10 @@ impl Input {
         let place = match (parameter.part, parameter.key, index) {
             (RobotPart::Cable(cable), "unstrained_length_m", _) => Place::Length(cable),
             (RobotPart::State, _, Some(index)) => Place::Pose(index),
+            (RobotPart::State, _, None) => {
+                let is_own = |(_, _, component): &(_, _, &'static str)| Some(*component) == parameter.component;
+                Place::Coordinate(COORDINATES.iter().position(is_own).unwrap_or(0))
+            }
             (_, _, index) => Place::Number(index.unwrap_or(usize::MAX)),
         };
         let is_of_state = !matches!(place, Place::Number(_));
@@ -268,29 +277,61 @@ fn refuse_unmet(groups: &[Group], met: &[Met], hold: Hold, original: &Parameters
     Ok(())
 }
 
-/// Text of the robot file and its numbers, those of a pose that the request gives included.
-fn original(request: &UncertaintyRequest, at_rest: &AtRest) -> Result<(String, Parameters)> {
-    let read = |text: &str| Parameters::from_toml(text).map_err(|error| anyhow!("{error}"));
-    let text = request.robot.changed_text()?;
-    let numbers = read(&text)?;
-    let has = |part: RobotPart| numbers.list().iter().any(|parameter| parameter.part == part);
-    let is_given = numbers.list().iter().any(|parameter| parameter.key == "unstrained_length_m");
-    if request.hold == Hold::Lengths || has(RobotPart::State) || is_given {
-        return Ok((text, numbers));
-    }
-    let position: [f64; 3] = at_rest.equilibrium.pose.position_w.into();
-    let position = set_values::of_json("state.position_m", &serde_json::json!(position));
-    let text = set_values::apply(&text, &[position.map_err(|error| anyhow!("{error}"))?])?;
-    let numbers = read(&text)?;
-    Ok((text, numbers))
+/// Coordinates of a pose: key, unit, component.
+const COORDINATES: [(&str, &str, &str); 6] = [
+    ("position_m", "m", "x"),
+    ("position_m", "m", "y"),
+    ("position_m", "m", "z"),
+    ("roll_pitch_yaw_deg", "degrees", "roll"),
+    ("roll_pitch_yaw_deg", "degrees", "pitch"),
+    ("roll_pitch_yaw_deg", "degrees", "yaw"),
+];
+
+/// Change of a pose per unit of one of its [`COORDINATES`]; `None` for a motion that the platform does not have.
+fn coordinate_change(robot: &Robot, k: usize) -> Option<RobotChange> {
+    let mut change = RobotChange::none(robot.cables.len());
+    let [_, pitch, yaw] = robot.written_angles_deg;
+    // R = Rz(yaw) Ry(pitch) Rx(roll): each angle turns about the axis of its rotation, after those left of it.
+    let axis_w = match k {
+        0..3 => {
+            change.position_w[k] = 1.0;
+            Vec3::zeros()
+        }
+        3 => rotation::from_roll_pitch_yaw_deg(0.0, pitch, yaw) * Vec3::x(),
+        4 => rotation::from_roll_pitch_yaw_deg(0.0, 0.0, yaw) * Vec3::y(),
+        _ => Vec3::z(),
+    };
+    change.rotation_w = axis_w * 1_f64.to_radians();
+
+    let (v, turn) = (change.position_w, change.rotation_w);
+    let motion = Vec6::new(v.x, v.y, v.z, turn.x, turn.y, turn.z);
+    let beyond = motion - robot.platform.motion.allowed(&motion);
+    // Rounding of the axes is 1e-16.
+    (beyond.norm() <= 1e-12 * motion.norm()).then_some(change)
 }
 
-/// Numbers of the robot file, and the lengths of the cables if the file has none.
+/// Numbers of the robot file, and the lengths of the cables and the pose if the file has none.
 fn candidates(original: &Parameters, robot: &Robot) -> Vec<Parameter> {
-    let mut list = original.list().to_vec();
+    // Coordinates of the pose along which the platform cannot move are no numbers that deviate.
+    let moves = |(i, parameter): &(usize, &Parameter)| {
+        parameter.part != RobotPart::State || original.change_of(*i, robot).is_some()
+    };
+    let mut list: Vec<Parameter> =
+        original.list().iter().enumerate().filter(moves).map(|(_, parameter)| parameter.clone()).collect();
     let has_lengths = list.iter().any(|parameter| parameter.key == "unstrained_length_m");
     // A length has the unit, range and meaning of the file's key, whose row an anchor stands in for.
     let Some(pattern) = list.iter().find(|parameter| parameter.key == "anchor_m").cloned() else { return list };
+    if !original.list().iter().any(|parameter| parameter.part == RobotPart::State) {
+        let of_platform = COORDINATES.into_iter().enumerate().filter(|(k, _)| coordinate_change(robot, *k).is_some());
+        for (_, (key, unit, component)) in of_platform {
+            let mut coordinate = pattern.clone();
+            coordinate.keys = vec!["state".to_owned(), key.to_owned(), component.to_owned()];
+            coordinate.part = RobotPart::State;
+            (coordinate.key, coordinate.unit, coordinate.component) = (key, unit, Some(component));
+            coordinate.given = false;
+            list.push(coordinate);
+        }
+    }
     if !has_lengths {
         for (i, cable) in robot.cables.iter().enumerate() {
             let mut length = pattern.clone();
@@ -340,7 +381,7 @@ fn stated(
 
     // Numbers that the file leaves out.
     for (parameter, _) in chosen.iter().filter(|(parameter, _)| !parameter.given) {
-        if !matches!((parameter.part, parameter.key), (RobotPart::Cable(_), "unstrained_length_m")) {
+        if parameter.part != RobotPart::State && parameter.key != "unstrained_length_m" {
             state(&parameter.path(), value_at(at_rest, parameter))?;
         }
     }

@@ -3,7 +3,9 @@
 use super::distribution::half_width;
 use super::inputs::{Distribution, Inputs};
 use super::results::{NominalModes, ResultKind, static_gradients};
+use crate::analyses::gradient::held;
 use crate::at_rest::{self, AtRest};
+use crate::error::NoSolution;
 use crate::request::UncertaintyRequest;
 use anyhow::Result;
 use funicular::dynamics::Linearisation;
@@ -34,7 +36,7 @@ pub(crate) struct LinearPose {
     pub(crate) warnings: Vec<String>,
     /// Tension limits of the request.
     pub(super) limits: TensionLimits,
-    /// Tensions parallel to the chords, which a held pose keeps as far as it can; absent where nothing has to be chosen.
+    /// Rule of the tensions at a held pose: that of the request, or that they change least.
     pub(super) rule: TensionRule,
     /// Changes of the robot per unit of each number of the pose.
     pub(super) pose_changes: Vec<Option<RobotChange>>,
@@ -128,7 +130,8 @@ impl LinearPose {
         let mut rows = rows(&kinds, &at_rest, modes.as_ref());
 
         // Their derivatives.
-        match Gradients::new(robot, &at_rest.equilibrium, request.hold) {
+        match held(&at_rest, request.hold) {
+            Err(error) if !error.is::<GradientError>() && !error.is::<NoSolution>() => return Err(error),
             Err(error) => rows.iter_mut().for_each(|row| row.doubt = Some(error.to_string())),
             Ok(gradients) => {
                 let along = Along { inputs, changes: &changes, distributions: &distributions };
@@ -144,7 +147,10 @@ impl LinearPose {
         if let Some(modes) = modes {
             warnings = modes.warnings;
         }
-        let rule = held_tensions(&at_rest);
+        let rule = match (request.hold, &at_rest.rule) {
+            (Hold::Rule, Some(rule)) => rule.clone(),
+            _ => held_tensions(&at_rest),
+        };
         let is_moved = |k: usize| request.hold != Hold::Lengths && inputs.is_of_pose(k);
         let pose_changes = changes.into_iter().enumerate().map(|(k, change)| change.filter(|_| is_moved(k))).collect();
         let limits = TensionLimits { minimum: request.tensions.min_tension_n, maximum: request.tensions.max_tension_n };
@@ -246,7 +252,11 @@ fn test_tensions(rows: &mut [Row], robot: &Robot, gradients: &Gradients, along: 
         let Ok(derivatives) = along.of(gradient) else { return };
         let range = TensionRange::of(robot, i, &state.chord_w());
         let margin = range.margin(state);
-        // Where tensions are chosen, the limits hold; elsewhere the cable only must not become slack.
+        // Where tensions are chosen, the limits hold; elsewhere the cable only must not become slack. A limit that a rule
+        // has reached stays reached.
+        if gradients.hold() == Hold::Rule && margin.reached().is_some() {
+            continue;
+        }
         let distance = if chosen { margin.distance().min(margin.min) } else { margin.min };
         let reached = reach(&derivatives, along.distributions, TENSION_DEVIATIONS);
         if reached >= distance {

@@ -1,0 +1,414 @@
+//! Form of the drive of a cable over the motions behind its exit point, and its coefficients over the numbers of the
+//! drive.
+//!
+//! The form is that of (76) with the masses and the control: `Σ k_j (Δ_a)(Δ_b) + … − ω² Σ M z_a z_b + C(ω) w_a w_b`. The
+//! motions do not change, only the numbers (docs/theory.md, equation (60l)).
+
+use super::adjoint::CableAdjoint;
+use super::scalar::Field;
+use crate::cable::catenary_dynamic::DriveSignal;
+use crate::drive::derivatives::end;
+use crate::drive::{AnchorEnd, ChainDescription, DriveAtRest, Piece, Place};
+use crate::math::Complex;
+use crate::robot::{Anchor, Servo, WinchMode};
+
+/// Form of the drive of one cable.
+pub(super) struct DriveForm {
+    chain: Option<ChainDescription>,
+    /// Radius of the wheel, its moment of inertia and that of the swivel.
+    radius: f64,
+    inertia: f64,
+    swivel_inertia: f64,
+    /// Distance of the exit point from the swivel axis.
+    distance: f64,
+    /// Place of the motion sideways among the motions, if there is one.
+    sideways: Option<usize>,
+    /// Winch: length to the drum, distances and masses of the guide wheels, masses of drum and motor.
+    drum_side_length: f64,
+    guides: Vec<(f64, f64)>,
+    drum_mass: f64,
+    motor_mass: f64,
+    /// Compliance of the drum side alone.
+    drum_side_compliance: f64,
+    /// Stretch at the exit point and at the drum.
+    stretch: f64,
+    stretch_drum: f64,
+    /// EA and mass per length of the rope.
+    axial_stiffness: f64,
+    mass_per_length: f64,
+}
+
+/// Control of the motor of one cable at a frequency: its force C + iωc per motion, and the derivatives of that by the
+/// position gain, the speed gain, the delay and the viscous damping.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct ControlAt<T> {
+    pub(super) force: T,
+    pub(super) by_position_gain: T,
+    pub(super) by_speed_gain: T,
+    pub(super) by_delay: T,
+    pub(super) by_damping: T,
+}
+
+impl ControlAt<f64> {
+    /// Control without losses.
+    pub(super) fn undamped(servo: Option<&Servo>) -> Self {
+        match servo {
+            Some(servo) => Self { force: servo.position_gain, by_position_gain: 1.0, ..Self::default() },
+            None => Self::default(),
+        }
+    }
+}
+
+impl ControlAt<Complex> {
+    /// Control at a complex ω.
+    pub(super) fn at(servo: Option<&Servo>, damping: f64, omega: Complex) -> Self {
+        let rate = Complex::i() * omega;
+        let mut at = Self { force: rate * damping, by_damping: rate, ..Self::default() };
+        if let Some(servo) = servo {
+            let (force, _) = servo.control(omega);
+            let delay = (-rate * servo.delay).exp();
+            at.force += force;
+            at.by_position_gain = delay;
+            at.by_speed_gain = rate * delay;
+            at.by_delay = -rate * force;
+        }
+        at
+    }
+}
+
+/// Frequencies at which the form of a drive is taken.
+pub(super) struct DriveAtFrequency<T> {
+    /// Square ω² of wheel, drum and motor, and ω_c² of the rope.
+    pub(super) square: T,
+    pub(super) of_rope: T,
+    pub(super) control: ControlAt<T>,
+}
+
+impl DriveForm {
+    /// Form of the drive of a cable whose motions are those of the chain and then that sideways.
+    pub(super) fn of(
+        anchor: &Anchor,
+        drive: &DriveAtRest,
+        rope: (f64, f64),
+        mode: WinchMode,
+        limit: f64,
+        along: usize,
+    ) -> Self {
+        let chain = ChainDescription::of(anchor, drive, rope, mode, limit);
+        let end: &AnchorEnd = &drive.end;
+        let pulley = anchor.pulley.as_ref();
+        let winch = anchor.winch.as_ref();
+        let straight = drive.drum_side_length / (rope.0 * end.stretch_drum.powi(2));
+        Self {
+            chain,
+            radius: pulley.map_or(0.0, |pulley| pulley.radius),
+            inertia: pulley.map_or(0.0, |pulley| pulley.inertia),
+            swivel_inertia: pulley.map_or(0.0, |pulley| pulley.swivel_inertia),
+            distance: drive.contact.as_ref().map_or(0.0, |contact| contact.distance_from_axis()),
+            sideways: end.sideways_w.map(|_| along),
+            drum_side_length: anchor.drum_side_length(),
+            guides: winch.map_or_else(Vec::new, |winch| {
+                winch.guide_wheels.iter().map(|wheel| (wheel.distance, wheel.mass)).collect()
+            }),
+            drum_mass: winch.map_or(0.0, |winch| winch.drum_mass),
+            motor_mass: winch.map_or(0.0, |winch| winch.motor_mass),
+            drum_side_compliance: straight,
+            stretch: end.stretch,
+            stretch_drum: end.stretch_drum,
+            axial_stiffness: rope.0,
+            mass_per_length: rope.1,
+        }
+    }
+
+    /// Adds `factor` times the coefficients of the form over two motions. The result is the mass of the rope of the drive over
+    /// both motions, by which the form changes with −ω_c².
+    pub(super) fn add<T: Field>(
+        &self,
+        sum: &mut CableAdjoint<T>,
+        a: &[T],
+        b: &[T],
+        at: &DriveAtFrequency<T>,
+        factor: T,
+    ) -> T {
+        let mut rope_mass = T::default();
+        if let Some(chain) = &self.chain {
+            let slip = factor * a[0] * b[0];
+            sum.end[end::WEIGHT] += slip;
+            if self.radius > 0.0 {
+                let inertia = -(slip * at.square) * self.radius.powi(-2);
+                sum.drive.inertia += inertia;
+                sum.drive.radius += inertia * (-2.0 * self.inertia / self.radius);
+            }
+
+            let mut by_ratio = T::default();
+            for (index, piece) in chain.pieces.iter().enumerate() {
+                rope_mass += self.add_piece(sum, chain, (index, piece), (a, b), at, factor, &mut by_ratio);
+            }
+            for (place, wheel) in &chain.guides {
+                let by_mass = -(factor * at.square * moved(*place, a) * moved(*place, b));
+                sum.guide_mass(*wheel, by_mass);
+            }
+            self.add_winch(sum, chain, (a, b), at, factor, &mut by_ratio);
+            self.add_ratio(sum, by_ratio);
+        }
+
+        // Sideways with the swivel.
+        if let Some(v) = self.sideways {
+            if self.chain.is_some() {
+                sum.end[end::COUPLING] += factor * (a[0] * b[v] + a[v] * b[0]);
+            }
+            let both = factor * a[v] * b[v];
+            sum.end[end::SIDEWAYS_STIFFNESS] += both;
+            let inertia = -(both * at.square) * self.distance.powi(-2);
+            sum.drive.swivel_inertia += inertia;
+            sum.end[end::DISTANCE] += inertia * (-2.0 * self.swivel_inertia / self.distance);
+        }
+        rope_mass
+    }
+
+    /// Adds the coefficients of a piece of arc and drum side; see [`Self::add`].
+    #[expect(clippy::too_many_arguments, reason = "a piece in its chain, over two motions")]
+    fn add_piece<T: Field>(
+        &self,
+        sum: &mut CableAdjoint<T>,
+        chain: &ChainDescription,
+        (index, piece): (usize, &Piece),
+        (a, b): (&[T], &[T]),
+        at: &DriveAtFrequency<T>,
+        factor: T,
+        by_ratio: &mut T,
+    ) -> T {
+        let at_ends = |z: &[T]| piece.ends.map(|end| end.map_or_else(T::default, |place| moved(place, z)));
+        let (ends_a, ends_b) = (at_ends(a), at_ends(b));
+        let mut strained = (ends_a[0] - ends_a[1]) * (ends_b[0] - ends_b[1]);
+        for wave in piece.waves.clone() {
+            strained += a[wave] * b[wave] * 2.0;
+        }
+
+        // Mass of a rod of the length EA/k.
+        let (mut mass, mut forces) = (T::default(), [[T::default(); 2]; 2]);
+        if let Some(matrix) = &piece.mass {
+            let size = 0.5 * self.mass_per_length * self.axial_stiffness / piece.spring;
+            let function = |ends: &[T; 2], z: &[T], k: usize| {
+                if k < 2 { ends[k] } else { z[piece.waves.start + k - 2] }
+            };
+            for row in 0..matrix.nrows() {
+                let product = |ends: &[T; 2], z: &[T]| {
+                    let mut product = T::default();
+                    for column in 0..matrix.ncols() {
+                        product += function(ends, z, column) * (matrix[(row, column)] * size);
+                    }
+                    product
+                };
+                let (by_a, by_b) = (product(&ends_a, a), product(&ends_b, b));
+                mass += function(&ends_a, a, row) * by_b;
+                if row < 2 {
+                    forces[row] = [-(at.of_rope * by_a), -(at.of_rope * by_b)];
+                }
+            }
+            let inertia = -(factor * at.of_rope * mass);
+            sum.mass += inertia * (1.0 / self.mass_per_length);
+            sum.stiffness += inertia * (1.0 / self.axial_stiffness);
+        }
+        // k = 1/(λ²Γ); the mass is proportional to 1/k.
+        let by_spring = factor * strained + factor * at.of_rope * mass * (1.0 / piece.spring);
+        sum.end[end::STRETCH] += by_spring * (-2.0 * piece.spring / self.stretch);
+        self.add_compliance(sum, chain, index, by_spring * (-piece.spring / piece.compliance));
+
+        // Ends whose places contain the ratio of the stretches.
+        let pull = [ends_a[0] - ends_a[1], ends_b[0] - ends_b[1]].map(|stretched| stretched * piece.spring);
+        for (k, sign) in [(0, 1.0), (1, -1.0)] {
+            let (Some(place), true) = (piece.ends[k], piece.by_ratio[k]) else { continue };
+            let force = [pull[0] * sign + forces[k][0], pull[1] * sign + forces[k][1]];
+            let per_ratio = place.factor / chain.ratio;
+            *by_ratio += factor * (a[place.motion] * force[1] + b[place.motion] * force[0]) * per_ratio;
+        }
+        mass
+    }
+
+    /// Adds the coefficient of the compliance of a piece: of the whole rope, or of its share of the drum side.
+    fn add_compliance<T: Field>(&self, sum: &mut CableAdjoint<T>, chain: &ChainDescription, index: usize, by: T) {
+        let last = chain.pieces.len() - 1;
+        if last == 0 {
+            sum.end[end::ROPE_COMPLIANCE] += by;
+            return;
+        }
+
+        // Γ_j = Γ_d (ℓ_{j+1} − ℓ_j)/ℓ_d; the arc belongs to the first.
+        let length = self.drum_side_length;
+        let wheel = |k: usize| chain.guides[k].1;
+        let start = if index == 0 { 0.0 } else { self.guides[wheel(index - 1)].0 };
+        let stop = if index == last { length } else { self.guides[wheel(index)].0 };
+        let share = (stop - start) / length;
+        if index == 0 {
+            sum.end[end::ROPE_COMPLIANCE] += by;
+            sum.end[end::DRUM_SIDE_COMPLIANCE] += by * (share - 1.0);
+        } else {
+            sum.end[end::DRUM_SIDE_COMPLIANCE] += by * share;
+        }
+        let per_length = by * (self.drum_side_compliance / length);
+        if index < last {
+            sum.guide_distance(wheel(index), per_length);
+        }
+        if index > 0 {
+            sum.guide_distance(wheel(index - 1), -per_length);
+        }
+        let by_length = if index == last { 1.0 - share } else { -share };
+        sum.drive.drum_side_length += per_length * by_length;
+    }
+
+    /// Adds the coefficients of drum, shaft and motor.
+    fn add_winch<T: Field>(
+        &self,
+        sum: &mut CableAdjoint<T>,
+        chain: &ChainDescription,
+        (a, b): (&[T], &[T]),
+        at: &DriveAtFrequency<T>,
+        factor: T,
+        by_ratio: &mut T,
+    ) {
+        let Some(drum) = chain.drum else { return };
+        let at_place = |place: Option<Place>, z: &[T]| place.map_or_else(T::default, |place| moved(place, z));
+        let (drum_a, drum_b) = (moved(drum, a), moved(drum, b));
+        let (motor_a, motor_b) = (at_place(chain.motor, a), at_place(chain.motor, b));
+
+        sum.drive.drum_mass += -(factor * at.square * drum_a * drum_b);
+        let mut force = [drum_a, drum_b].map(|moved| -(at.square * moved * self.drum_mass));
+        if chain.shaft.is_finite() {
+            sum.drive.stiffness += factor * (drum_a - motor_a) * (drum_b - motor_b);
+            force[0] += (drum_a - motor_a) * chain.shaft;
+            force[1] += (drum_b - motor_b) * chain.shaft;
+        }
+        if let Some(motor) = chain.motor {
+            let both = factor * motor_a * motor_b;
+            sum.drive.motor_mass += -(at.square * both);
+            let control = &at.control;
+            if chain.is_controlled {
+                sum.drive.position_gain += both * control.by_position_gain;
+                sum.drive.speed_gain += both * control.by_speed_gain;
+                sum.drive.delay += both * control.by_delay;
+            }
+            sum.drive.damping += both * control.by_damping;
+            if chain.is_at_exit(motor) {
+                for (force, moved) in force.iter_mut().zip([motor_a, motor_b]) {
+                    *force += moved * control.force - at.square * moved * self.motor_mass;
+                }
+            }
+        }
+
+        // A drum at the exit point moves by σ λ_E/λ.
+        if chain.is_at_exit(drum) {
+            let per_ratio = -drum.factor / chain.ratio;
+            *by_ratio += factor * (a[drum.motion] * force[1] + b[drum.motion] * force[0]) * per_ratio;
+        }
+    }
+
+    /// Adds `factor` times the coefficients of the forces on the drive per unit of a signal, over the motions `z` on which
+    /// they act; `by_damping` has the derivatives of ω_c².
+    pub(super) fn add_signal<T: Field>(
+        &self,
+        sum: &mut CableAdjoint<T>,
+        signal: DriveSignal,
+        z: &[T],
+        (at, servo, by_damping): (&DriveAtFrequency<T>, Option<&Servo>, [T; 2]),
+        factor: T,
+    ) {
+        let Some(chain) = &self.chain else { return };
+        let mut by_ratio = T::default();
+        // A place at the exit point contains one over the ratio of the stretches.
+        let mut add_place = |place: Place, force: T| {
+            if chain.is_at_exit(place) {
+                by_ratio += factor * force * moved(place, z) * (-1.0 / chain.ratio);
+            }
+        };
+        match (signal, chain.drum, chain.motor) {
+            (DriveSignal::Drum, Some(place), _) | (DriveSignal::Motor, _, Some(place)) => {
+                add_place(place, T::from(1.0))
+            }
+            (DriveSignal::Length, _, Some(motor)) => {
+                // C λ_E at the motor.
+                let (Some(servo), control) = (servo, &at.control) else { return };
+                let force = control.by_position_gain * servo.position_gain + control.by_speed_gain * servo.speed_gain;
+                let work = factor * moved(motor, z);
+                sum.end[end::STRETCH_DRUM] += work * force;
+                sum.drive.position_gain += work * control.by_position_gain * self.stretch_drum;
+                sum.drive.speed_gain += work * control.by_speed_gain * self.stretch_drum;
+                sum.drive.delay += work * control.by_delay * self.stretch_drum;
+                add_place(motor, force * self.stretch_drum);
+            }
+            (DriveSignal::Length, Some(drum), None) => {
+                // k λ_E at the drum.
+                let work = factor * moved(drum, z);
+                sum.end[end::STRETCH_DRUM] += work * chain.shaft;
+                sum.drive.stiffness += work * self.stretch_drum;
+                add_place(drum, T::from(chain.shaft * self.stretch_drum));
+            }
+            (DriveSignal::Length, None, None) => {
+                self.add_held_drum(sum, chain, z, (at, by_damping), factor, &mut by_ratio)
+            }
+            _ => {}
+        }
+        self.add_ratio(sum, by_ratio);
+    }
+
+    /// Adds the coefficients of the force `λ (k + ω_c² M)` of the last piece, whose end at the drum is moved by λ.
+    fn add_held_drum<T: Field>(
+        &self,
+        sum: &mut CableAdjoint<T>,
+        chain: &ChainDescription,
+        z: &[T],
+        (at, by_damping): (&DriveAtFrequency<T>, [T; 2]),
+        factor: T,
+        by_ratio: &mut T,
+    ) {
+        let Some((index, piece)) = chain.pieces.iter().enumerate().next_back() else { return };
+        let start = piece.ends[0].map_or_else(T::default, |place| moved(place, z));
+        let (mut mass, mut mass_of_start) = (T::default(), 0.0);
+        if let Some(matrix) = &piece.mass {
+            let size = 0.5 * self.mass_per_length * self.axial_stiffness / piece.spring;
+            mass = start * (matrix[(0, 1)] * size);
+            mass_of_start = matrix[(0, 1)] * size;
+            for (k, wave) in piece.waves.clone().enumerate() {
+                mass += z[wave] * (matrix[(k + 2, 1)] * size);
+            }
+        }
+
+        let inertia = factor * at.of_rope * mass;
+        let force = factor * start * piece.spring + inertia;
+        sum.end[end::STRETCH] += force;
+        let by_spring = (factor * start - inertia * (1.0 / piece.spring)) * self.stretch;
+        sum.end[end::STRETCH] += by_spring * (-2.0 * piece.spring / self.stretch);
+        self.add_compliance(sum, chain, index, by_spring * (-piece.spring / piece.compliance));
+        if piece.mass.is_some() {
+            sum.mass += inertia * (self.stretch / self.mass_per_length);
+            sum.stiffness += inertia * (self.stretch / self.axial_stiffness);
+            sum.mass += factor * mass * self.stretch * by_damping[0];
+            sum.damping += factor * mass * self.stretch * by_damping[1];
+        }
+        if let (Some(place), true) = (piece.ends[0], piece.by_ratio[0]) {
+            let per_motion = (T::from(piece.spring) + at.of_rope * mass_of_start) * self.stretch;
+            *by_ratio += factor * per_motion * z[place.motion] * (place.factor / chain.ratio);
+        }
+    }
+
+    /// Adds the coefficient of the ratio of the stretches.
+    fn add_ratio<T: Field>(&self, sum: &mut CableAdjoint<T>, by_ratio: T) {
+        sum.end[end::STRETCH] += by_ratio * (1.0 / self.stretch_drum);
+        sum.end[end::STRETCH_DRUM] += by_ratio * (-self.stretch * self.stretch_drum.powi(-2));
+    }
+
+    /// Chain of the motions along the cable.
+    pub(super) fn chain(&self) -> Option<&ChainDescription> {
+        self.chain.as_ref()
+    }
+
+    /// Place of the motion sideways.
+    pub(super) fn sideways(&self) -> Option<usize> {
+        self.sideways
+    }
+}
+
+/// Motion at a place.
+fn moved<T: Field>(place: Place, motions: &[T]) -> T {
+    motions[place.motion] * place.factor
+}

@@ -1,0 +1,542 @@
+//! Gradients of robots with pulleys and winches against differences of the program itself, for random robots.
+
+use super::{distance, lengths_of};
+use funicular::cable::CableModel;
+use funicular::cable::catenary_dynamic::DriveSignal;
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::gradient::{Gradients, Hold};
+use funicular::math::Vec3;
+use funicular::modes::{self, Mode};
+use funicular::response::{self, Port, Quantity, Signal};
+use funicular::robot::{
+    CableChange, Control, Damping, DrumSide, GuideWheel, GuideWheelChange, Pulley, Robot, RobotChange, Servo, Winch,
+    WinchMode, Wind,
+};
+use funicular::statics::{self, Equilibrium, StaticModel};
+use proptest::prelude::*;
+
+/// Numbers of a random robot with drives.
+#[derive(Debug, Clone)]
+pub(super) struct Chosen {
+    pub(super) radius: f64,
+    /// Inclination of the swivel axes.
+    pub(super) incline: [f64; 2],
+    pub(super) drum_side: f64,
+    /// Stiffness of the winches [N/m]; rigid beyond 1e6.
+    pub(super) stiffness: f64,
+    /// Position gain of a control without integral action [N/m]; an ideal one beyond 1e6.
+    pub(super) gain: f64,
+    pub(super) wind: [f64; 3],
+    /// Wrap of a cable without pulley: every third cable has none.
+    pub(super) mixed: bool,
+    pub(super) longer: f64,
+}
+
+pub(super) fn chosen() -> impl Strategy<Value = Chosen> {
+    let incline = prop_oneof![Just([0.0, 0.0]), [-0.5..0.5_f64, -0.5..0.5]];
+    let wind = prop_oneof![Just([0.0; 3]), [-15.0..15.0_f64, -15.0..15.0, -3.0..3.0]];
+    let drive = (0.02..0.12_f64, incline, 0.0..4.0_f64, 4.3..6.5_f64, 4.0..6.5_f64);
+    (drive, wind, any::<bool>(), -0.002..0.004_f64).prop_map(
+        |((radius, incline, drum_side, stiffness, gain), wind, mixed, longer)| {
+            let (stiffness, gain) = (10_f64.powf(stiffness), 10_f64.powf(gain));
+            Chosen { radius, incline, drum_side, stiffness, gain, wind, mixed, longer }
+        },
+    )
+}
+
+/// Robot with the chosen drives, at rest with lengths that are given.
+pub(super) fn robot_of(chosen: &Chosen) -> Option<(Robot, Equilibrium)> {
+    let text = funicular_robots::YUAN2014_4MM
+        .replace("damping_ratio = 0.003", "damping_ratio = 0.003\ndrag_coefficient = 1.2");
+    let mut robot = Robot::from_toml(&text).unwrap();
+    let straight = statics::forward(&robot, &super::LENGTHS, StaticModel::Catenary, None).ok()?;
+    robot.load.force_w = Vec3::new(5.0, -3.0, -8.0);
+    robot.load.moment_w = Vec3::new(0.3, 0.2, -0.1);
+    robot.load.point_p = Vec3::new(0.05, -0.1, 0.08);
+    robot.platform.drag_area = 0.02;
+    let mut robot = robot.with_wind(Wind { velocity_w: Vec3::from(chosen.wind), ..Wind::default() });
+
+    for (i, cable) in robot.cables.iter_mut().enumerate() {
+        let without = chosen.mixed && i % 3 == 1;
+        let side = if i % 2 == 0 { 1.0 } else { -0.7 };
+        let [x, y] = chosen.incline;
+        if !without {
+            let direction_w = Vec3::new(x * side, y, 1.0).normalize();
+            cable.anchor.pulley = Some(Pulley::new("wheel", chosen.radius * (1.0 + 0.1 * i as f64), direction_w));
+        }
+        if !(chosen.mixed && i % 3 == 2) {
+            let mut winch = Winch::rigid("drum", chosen.drum_side);
+            if chosen.stiffness < 1e6 {
+                winch.stiffness = chosen.stiffness;
+            }
+            if chosen.gain < 1e6 {
+                let servo = Servo { position_gain: chosen.gain, speed_gain: 30.0, integral: i % 2 == 0, delay: 0.0 };
+                winch.control = Control::Position(servo);
+            }
+            cable.anchor.winch = Some(winch);
+        }
+    }
+
+    let held = statics::inverse(&robot, &straight.pose, StaticModel::Catenary).ok()?;
+    let lengths: Vec<f64> = lengths_of(&held).iter().map(|length| length * (1.0 + chosen.longer)).collect();
+    let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, Some(&held.pose)).ok()?;
+    let taut = rest.cables.iter().all(|cable| cable.tension_platform > 4.0);
+    (taut && rest.stability.is_stable() == Some(true) && rest.residual < 1e-11).then_some((robot, rest))
+}
+
+/// Changes of the numbers of the robot, random over all cables, with a usual size each: changes of about a thousandth.
+pub(super) fn changes(robot: &Robot) -> Vec<(&'static str, RobotChange)> {
+    let none = || RobotChange::none(robot.cables.len());
+    let mut all = vec![
+        ("mass", RobotChange { mass: 1.0, ..none() }),
+        ("gravity", RobotChange { gravity_w: Vec3::new(0.3, -0.2, 1.0), ..none() }),
+        ("centre", RobotChange { center_of_mass_p: Vec3::new(0.03, 0.02, -0.03), ..none() }),
+        ("force", RobotChange { force_w: Vec3::new(3.0, 2.0, -4.0), ..none() }),
+        ("point", RobotChange { point_p: Vec3::new(0.1, 0.05, -0.1), ..none() }),
+    ];
+    if robot.wind.velocity_w != Vec3::zeros() {
+        all.push(("wind", RobotChange { wind_velocity_w: Vec3::new(2.0, -1.0, 0.5), ..none() }));
+        all.push(("density", RobotChange { air_density: 0.1, ..none() }));
+    }
+    let mut of_cables = |name, set: &dyn Fn(&Robot, usize, f64, &mut CableChange)| {
+        let mut change = none();
+        for (i, cable) in change.cables.iter_mut().enumerate() {
+            set(robot, i, (1.7 * i as f64 + 0.3).sin(), cable);
+        }
+        all.push((name, change));
+    };
+    of_cables("anchor", &|_, _, x, cable| cable.anchor_w = Vec3::new(0.03, 0.05 * x, -0.02) * x);
+    of_cables("attachment", &|_, _, x, cable| cable.attachment_p = Vec3::new(0.01, -0.01 * x, 0.02) * x);
+    of_cables("length", &|_, _, x, cable| cable.unstrained_length = 0.01 * x);
+    of_cables("stiffness", &|robot, i, x, cable| {
+        cable.axial_stiffness = 0.1 * x * robot.cables[i].material.axial_stiffness;
+    });
+    of_cables("rope", &|_, _, x, cable| cable.mass_per_length = 0.01 * x);
+    of_cables("load", &|_, _, x, cable| cable.load_per_length_w = Vec3::new(0.1, 0.1 * x, -0.1));
+    of_cables("drag", &|_, _, x, cable| cable.drag_width = 3e-4 * x);
+    of_cables("radius", &|_, _, x, cable| cable.pulley.radius = 0.005 * x);
+    of_cables("direction", &|robot, i, x, cable| {
+        if let Some(pulley) = &robot.cables[i].anchor.pulley {
+            cable.pulley.entry_direction_w = pulley.entry_direction_w.cross(&Vec3::new(0.6, 0.5 * x, -0.3)) * 0.3;
+        }
+    });
+    of_cables("drum side", &|_, _, x, cable| cable.winch.drum_side_length = 0.02 * x);
+    of_cables("winch", &|robot, i, x, cable| {
+        let stiffness = robot.cables[i].anchor.winch.as_ref().map_or(0.0, |winch| winch.stiffness);
+        cable.winch.stiffness = if stiffness.is_finite() { 0.2 * x * stiffness } else { 0.0 };
+    });
+    of_cables("gain", &|robot, i, x, cable| {
+        if let Some(Control::Position(servo)) = robot.cables[i].anchor.winch.as_ref().map(|winch| winch.control) {
+            cable.winch.position_gain = 0.2 * x * servo.position_gain;
+        }
+    });
+    all
+}
+
+/// Central differences at a step, at a half and at a quarter of it, extrapolated twice; and how much the last one adds to
+/// each.
+pub(super) fn extrapolated(step: f64, mut at: impl FnMut(f64) -> Option<Vec<f64>>) -> Option<(Vec<f64>, Vec<f64>)> {
+    let mut central = |h: f64| -> Option<Vec<f64>> {
+        let (low, high) = (at(-h)?, at(h)?);
+        Some(low.iter().zip(&high).map(|(low, high)| (high - low) / (2.0 * h)).collect())
+    };
+    let (one, half, quarter) = (central(step)?, central(0.5 * step)?, central(0.25 * step)?);
+    let twice = |coarse: &[f64], fine: &[f64], factor: f64| -> Vec<f64> {
+        coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) / (factor - 1.0)).collect()
+    };
+    let (first, second) = (twice(&one, &half, 4.0), twice(&half, &quarter, 4.0));
+    let best = twice(&first, &second, 16.0);
+    let added = best.iter().zip(&second).map(|(best, second)| (best - second).abs()).collect();
+    Some((best, added))
+}
+
+/// Equilibrium of the changed robot with lengths held, apart from their own change.
+pub(super) fn changed(robot: &Robot, rest: &Equilibrium, change: &RobotChange, h: f64) -> Option<(Robot, Equilibrium)> {
+    let changed = robot.changed(change, h);
+    let lengths: Vec<f64> =
+        lengths_of(rest).iter().zip(&change.cables).map(|(l, c)| l + h * c.unstrained_length).collect();
+    let at = statics::forward(&changed, &lengths, StaticModel::Catenary, Some(&rest.pose)).ok()?;
+    (at.residual < 1e-11).then_some((changed, at))
+}
+
+/// Pose, tensions, and the stiffness if no drag turns.
+fn values(robot: &Robot, rest: &Equilibrium, from: &Equilibrium) -> Vec<Vec<f64>> {
+    let turn = (rest.pose.rot_wp * from.pose.rot_wp.inverse()).scaled_axis();
+    let of = |value: fn(&statics::CableState) -> f64| rest.cables.iter().map(value).collect::<Vec<f64>>();
+    let tangent = statics::tangent_stiffness(robot, rest).unwrap();
+    let mut all = vec![
+        (rest.pose.position_w - from.pose.position_w).iter().copied().collect(),
+        turn.iter().copied().collect(),
+        of(|cable| cable.tension_platform),
+        of(|cable| cable.tension_anchor),
+        of(statics::CableState::tension_drum),
+        vec![tangent[(0, 0)], tangent[(1, 4)] + tangent[(4, 1)], tangent[(5, 5)]],
+    ];
+    if !(robot.wind.velocity_w != Vec3::zeros()) {
+        all.push(vec![rest.stability.min_stiffness().unwrap()]);
+    }
+    all
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 5, failure_persistence: None, ..Default::default() })]
+
+    /// Pose, tensions and stiffness with lengths held. The forward solver finds an equilibrium to 1e-12 of the forces, over
+    /// steps that change them by a hundredth or so; the differences extrapolate two orders of the step.
+    #[test]
+    fn statics_with_drives_follow_every_number(chosen in chosen()) {
+        let Some((robot, rest)) = robot_of(&chosen) else { return Err(TestCaseError::reject("no such rest")) };
+        let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+        let entry = |i, j| gradients.tangent_entry(i, j).unwrap();
+        let pose = gradients.pose();
+        let twice = |gradient: RobotChange| [gradient.clone(), gradient];
+        let mut ours: Vec<Vec<Vec<RobotChange>>> = [
+            pose[..3].to_vec(), pose[3..].to_vec(), gradients.tensions_platform(), gradients.tensions_anchor(),
+            gradients.tensions_drum(),
+        ].into_iter().map(|rows| rows.into_iter().map(|row| vec![row]).collect()).collect();
+        ours.push(vec![vec![entry(0, 0)], twice(entry(1, 4)).to_vec(), vec![entry(5, 5)]]);
+        if !(robot.wind.velocity_w != Vec3::zeros()) {
+            ours.push(vec![vec![gradients.min_stiffness().unwrap()]]);
+        }
+
+        let sizes = values(&robot, &rest, &rest);
+        let mut compared = 0;
+        for (what, change) in changes(&robot) {
+            let step = 0.1;
+            let flat = extrapolated(step, |h| {
+                let (robot, at) = changed(&robot, &rest, &change, h)?;
+                Some(values(&robot, &at, &rest).concat())
+            });
+            let Some((differences, added)) = flat else { continue };
+            // Beside a slack cable or another equilibrium a step is too long.
+            let (_, size) = distance(&differences, &differences);
+            if added.iter().any(|added| *added > 1e-7 * size) {
+                continue;
+            }
+            let mut first = 0;
+            for (k, rows) in ours.iter().enumerate() {
+                let found: Vec<f64> = rows.iter().map(|row| row.iter().map(|of| of.dot(&change)).sum()).collect();
+                let (error, size) = distance(&found, &differences[first..first + found.len()]);
+                first += found.len();
+                // Rounding of the values over the step: 1e-12 of the tensions, of lengths and of the stiffness.
+                let value = sizes[k].iter().fold(0.0_f64, |size, value| size.max(value.abs())).max(1.0);
+                let allowed = 1e-9 * size + 3e-11 * value / step;
+                prop_assert!(error <= allowed, "{what}, {k}: {error:e} of {size:e}, {found:?} {differences:?}");
+                compared += 1;
+            }
+        }
+        prop_assert!(compared > 30, "{compared}");
+    }
+}
+
+/// Inertias, losses and controls of a random robot, and the mode of its winches.
+#[derive(Debug, Clone)]
+pub(super) struct Moving {
+    wheel: f64,
+    swivel: f64,
+    drum: f64,
+    motor: f64,
+    damping: f64,
+    speed_gain: f64,
+    delay: f64,
+    rod: bool,
+    guides: usize,
+    ratio: f64,
+    pub(super) winches: WinchMode,
+}
+
+pub(super) fn moving() -> impl Strategy<Value = Moving> {
+    let masses = (0.0..0.5_f64, 0.0..2e-3_f64, 0.1..2.0_f64, 0.5..8.0_f64);
+    let losses = (1.0..40.0_f64, 10.0..200.0_f64, prop_oneof![Just(0.0), Just(0.003)]);
+    let winches = prop_oneof![
+        3 => Just(WinchMode::AsGiven), 1 => Just(WinchMode::Clamped), 1 => Just(WinchMode::Torque), 1 => Just(WinchMode::Stuck)
+    ];
+    (masses, losses, any::<bool>(), 0..3_usize, 1e-3..0.02_f64, winches).prop_map(
+        |((wheel, swivel, drum, motor), (damping, speed_gain, delay), rod, guides, ratio, winches)| Moving {
+            wheel,
+            swivel,
+            drum,
+            motor,
+            damping,
+            speed_gain,
+            delay,
+            rod,
+            guides,
+            ratio,
+            winches,
+        },
+    )
+}
+
+/// Gives the drives of a robot their inertias and losses; at rest nothing changes.
+pub(super) fn set_moving(robot: &mut Robot, moving: &Moving) {
+    for (i, cable) in robot.cables.iter_mut().enumerate() {
+        cable.material.damping = Damping::Ratio(moving.ratio);
+        if let Some(pulley) = &mut cable.anchor.pulley {
+            pulley.inertia = moving.wheel * pulley.radius * pulley.radius;
+            pulley.swivel_inertia = moving.swivel;
+        }
+        let Some(winch) = &mut cable.anchor.winch else { continue };
+        winch.drum_mass = moving.drum * (1.0 + 0.1 * i as f64);
+        winch.motor_mass = moving.motor;
+        winch.damping = moving.damping;
+        winch.drum_side = if moving.rod { DrumSide::Rod } else { DrumSide::Massless };
+        if let Control::Position(servo) = &mut winch.control {
+            (servo.speed_gain, servo.delay) = (moving.speed_gain, moving.delay);
+        }
+        let length = winch.drum_side_length;
+        if length > 0.1 {
+            let wheel = |k: usize| GuideWheel {
+                name: format!("{k}"),
+                distance: length * (k + 1) as f64 / (moving.guides + 1) as f64 * (1.0 - 0.03 * i as f64),
+                mass: 0.2 + 0.1 * k as f64,
+            };
+            winch.guide_wheels = (0..moving.guides).map(wheel).collect();
+        }
+    }
+}
+
+/// Changes of the numbers that only count in vibration.
+pub(super) fn changes_of_moving(robot: &Robot) -> Vec<(&'static str, RobotChange)> {
+    let none = || RobotChange::none(robot.cables.len());
+    let mut all = Vec::new();
+    let mut of_cables = |name, set: &dyn Fn(f64, &Robot, usize, &mut CableChange)| {
+        let mut change = none();
+        for (i, cable) in change.cables.iter_mut().enumerate() {
+            set((2.1 * i as f64 + 0.7).sin(), robot, i, cable);
+        }
+        all.push((name, change));
+    };
+    of_cables("wheel", &|x, robot, i, cable| {
+        cable.pulley.inertia = robot.cables[i].anchor.pulley.as_ref().map_or(0.0, |of| 0.2 * x * of.inertia);
+    });
+    of_cables("swivel", &|x, robot, i, cable| {
+        cable.pulley.swivel_inertia =
+            robot.cables[i].anchor.pulley.as_ref().map_or(0.0, |of| 0.2 * x * of.swivel_inertia);
+    });
+    of_cables("drum", &|x, _, _, cable| cable.winch.drum_mass = 0.03 * x);
+    of_cables("motor", &|x, _, _, cable| cable.winch.motor_mass = 0.1 * x);
+    of_cables("motor's damping", &|x, _, _, cable| cable.winch.damping = 0.3 * x);
+    of_cables("speed gain", &|x, _, _, cable| cable.winch.speed_gain = 1.0 * x);
+    of_cables("delay", &|x, _, _, cable| cable.winch.delay = 1e-4 * x);
+    of_cables("guides", &|x, robot, i, cable| {
+        let count = robot.cables[i].anchor.winch.as_ref().map_or(0, |winch| winch.guide_wheels.len());
+        cable.guide_wheels = vec![GuideWheelChange { distance: 0.01 * x, mass: 0.02 }; count];
+    });
+    of_cables("damping", &|x, _, _, cable| cable.damping = 1e-4 * x);
+    all
+}
+
+/// Frequency limit of the lists [Hz].
+const BELOW_HZ: f64 = 4.0;
+
+fn linearised(robot: &Robot, rest: &Equilibrium, winches: WinchMode, cable_model: CableModel) -> Option<Dynamics> {
+    let linearisation = Linearisation { winches, cable_model, ..Linearisation::default() };
+    Dynamics::about(robot, rest, linearisation, BELOW_HZ).ok()
+}
+
+/// True if the error of a derivative is that of the differences: 1e-8 of the largest derivative of the row, what the
+/// extrapolation adds, and rounding of the value over the step.
+fn agrees(ours: f64, (difference, added): (f64, f64), largest: f64, rounding: f64) -> bool {
+    (ours - difference).abs() <= 1e-8 * largest + added + rounding
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 5, failure_persistence: None, ..Default::default() })]
+
+    /// Natural frequencies of robots with drives, of every mode that is alone, in all modes of the winches. They have eleven
+    /// digits; the steps change them by 1e-6 to 1e-3.
+    #[test]
+    fn frequencies_with_drives_follow_every_number(
+        chosen in chosen(),
+        moving in moving(),
+        model in prop_oneof![
+            4 => Just(CableModel::CatenaryDynamic), 1 => Just(CableModel::CatenaryStatic), 1 => Just(CableModel::Spring)
+        ],
+        first in 0..6_usize,
+    ) {
+        let Some((mut robot, rest)) = robot_of(&chosen) else { return Err(TestCaseError::reject("no such rest")) };
+        set_moving(&mut robot, &moving);
+        let Some(dynamics) = linearised(&robot, &rest, moving.winches, model) else {
+            return Err(TestCaseError::reject("the cable runs out"))
+        };
+        let modes = modes::below(&dynamics, BELOW_HZ).modes;
+        let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+        let vibration = gradients.vibration(&dynamics).unwrap();
+        let alone = |k: usize| {
+            let gap = |other: Option<&Mode>| other.is_none_or(|other| (other.frequency_hz / modes[k].frequency_hz - 1.0).abs() > 0.01);
+            gap(modes.get(k + 1)) && gap(k.checked_sub(1).and_then(|k| modes.get(k)))
+        };
+        let chosen: Vec<usize> = (0..modes.len().saturating_sub(1)).filter(|k| alone(*k)).collect();
+        let rows: Vec<RobotChange> = chosen.iter().map(|k| vibration.frequency(&modes[*k]).unwrap()).collect();
+        let mut all = changes(&robot);
+        all.extend(changes_of_moving(&robot));
+        let largest: Vec<f64> = rows.iter().map(|row| all.iter().fold(0.0, |most: f64, (_, change)| most.max(row.dot(change).abs()))).collect();
+
+        for (what, change) in all.into_iter().skip(first).step_by(6) {
+            let step = 0.02;
+            let values = |h: f64| {
+                let (robot, at) = changed(&robot, &rest, &change, h)?;
+                let found = modes::below(&linearised(&robot, &at, moving.winches, model)?, BELOW_HZ).modes;
+                (found.len() > *chosen.last()?).then(|| chosen.iter().map(|k| found[*k].frequency_hz).collect())
+            };
+            let Some((differences, added)) = extrapolated(step, values) else { continue };
+            for (i, k) in chosen.iter().enumerate() {
+                let (ours, value) = (rows[i].dot(&change), modes[*k].frequency_hz);
+                prop_assert!(
+                    agrees(ours, (differences[i], added[i]), largest[i], 3e-11 * value / step),
+                    "{what}, mode {k} at {value} Hz: {ours} {}, largest {}, added {}", differences[i], largest[i], added[i]
+                );
+            }
+        }
+    }
+}
+
+/// Signals on the platform.
+fn signals() -> ([Signal; 2], [(Signal, Quantity); 2]) {
+    let along = |direction_w, point_p| Signal::Along { direction_w, point_p };
+    let first = along(Vec3::new(0.2, 0.1, 1.0), Vec3::new(0.1, 0.05, 0.02));
+    let second = Signal::About { axis_w: Vec3::new(0.0, 1.0, 0.2) };
+    let out = along(Vec3::new(1.0, -0.2, 0.3), Vec3::new(-0.1, 0.0, 0.1));
+    ([first, second], [(out, Quantity::Acceleration), (first, Quantity::Displacement)])
+}
+
+/// Compares the derivatives of `values` along changes with differences: every `count`-th change from the number `first` on.
+fn compare(
+    robot: &Robot,
+    rest: &Equilibrium,
+    all: &[(&'static str, RobotChange)],
+    (first, count): (usize, usize),
+    ours: &dyn Fn(usize) -> Vec<f64>,
+    digits: f64,
+    values: &dyn Fn(&Robot, &Equilibrium) -> Option<Vec<f64>>,
+) -> Result<(), TestCaseError> {
+    let step = 0.02;
+    let here = values(robot, rest).unwrap();
+    let rows: Vec<Vec<f64>> = (0..all.len()).map(ours).collect();
+    for (d, (what, change)) in all.iter().enumerate().skip(first).step_by(count) {
+        let found = extrapolated(step, |h| {
+            let (robot, at) = changed(robot, rest, change, h)?;
+            values(&robot, &at)
+        });
+        let Some((differences, added)) = found else { continue };
+        for (i, difference) in differences.iter().enumerate() {
+            let largest = rows.iter().fold(0.0, |most: f64, row| most.max(row[i].abs()));
+            prop_assert!(
+                agrees(rows[d][i], (*difference, added[i]), largest, digits * here[i].abs() / step),
+                "{what}, value {i} {}: {} {difference}, largest {largest}, added {}",
+                here[i],
+                rows[d][i],
+                added[i]
+            );
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 3, failure_persistence: None, ..Default::default() })]
+
+    /// Damped frequencies and damping ratios of robots whose drives have losses. Zeros have ten digits or more.
+    #[test]
+    fn damped_modes_with_drives_follow_every_number(chosen in chosen(), moving in moving(), first in 0..13_usize) {
+        const LIMIT_HZ: f64 = 1.3;
+        let Some((mut robot, rest)) = robot_of(&chosen) else { return Err(TestCaseError::reject("no such rest")) };
+        set_moving(&mut robot, &moving);
+        let linearised = |robot: &Robot, rest: &Equilibrium| {
+            let linearisation = Linearisation { winches: moving.winches, ..Linearisation::default() };
+            Dynamics::about(robot, rest, linearisation, LIMIT_HZ).ok()
+        };
+        let Some(dynamics) = linearised(&robot, &rest) else { return Err(TestCaseError::reject("the cable runs out")) };
+        let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+        let vibration = gradients.vibration(&dynamics).unwrap();
+        let damped = |dynamics: &Dynamics| {
+            let found = modes::damped::damped_modes(dynamics, &modes::below(dynamics, LIMIT_HZ));
+            found.certified.then_some(found.modes)
+        };
+        let Some(found) = damped(&dynamics) else { return Err(TestCaseError::reject("no certified list")) };
+        let alone = |k: usize| {
+            let distance = |other: usize| (found[other].omega - found[k].omega).norm() / found[k].omega.norm();
+            (0..found.len()).filter(|other| *other != k).all(|other| distance(other) > 3e-3)
+        };
+        let oscillates = |k: &usize| found[*k].omega.re > 0.1 * found[*k].omega.norm();
+        let picked: Vec<usize> = (0..found.len()).filter(|k| alone(*k)).filter(oscillates).take(6).collect();
+        let mut rows = Vec::new();
+        for k in &picked {
+            let of = vibration.damped(&found[*k]).unwrap();
+            rows.extend([of.frequency_hz, of.damping_ratio]);
+        }
+
+        // The mode of a changed robot is the nearest.
+        let values = |robot: &Robot, rest: &Equilibrium| -> Option<Vec<f64>> {
+            let list = damped(&linearised(robot, rest)?)?;
+            let mut values = Vec::new();
+            for k in &picked {
+                let distance = |mode: &modes::damped::DampedMode| (mode.omega - found[*k].omega).norm();
+                let mode = list.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+                values.extend([mode.frequency_hz(), mode.damping_ratio()]);
+            }
+            Some(values)
+        };
+        let mut all = changes(&robot);
+        all.extend(changes_of_moving(&robot));
+        let ours = |d: usize| rows.iter().map(|row| row.dot(&all[d].1)).collect();
+        compare(&robot, &rest, &all, (first, 13), &ours, 3e-10, &values)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 5, failure_persistence: None, ..Default::default() })]
+
+    /// Responses between signals on the platform and of a drive: commanded length, force of the motor, motion of the drum.
+    #[test]
+    fn responses_with_drives_follow_every_number(chosen in chosen(), moving in moving(), first in 0..5_usize) {
+        let Some((mut robot, rest)) = robot_of(&chosen) else { return Err(TestCaseError::reject("no such rest")) };
+        set_moving(&mut robot, &moving);
+        let linearised = |robot: &Robot, rest: &Equilibrium| {
+            linearised(robot, rest, moving.winches, CableModel::CatenaryDynamic)
+        };
+        let Some(dynamics) = linearised(&robot, &rest) else { return Err(TestCaseError::reject("the cable runs out")) };
+        let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
+        let vibration = gradients.vibration(&dynamics).unwrap();
+
+        // Signals on the platform, and those of the first drive that exist.
+        let (inputs, outputs) = signals();
+        let (mut inputs, mut outputs) = (inputs.to_vec(), outputs.to_vec());
+        for signal in [DriveSignal::Length, DriveSignal::Motor, DriveSignal::Drum] {
+            let of_drive = Signal::Drive { cable: 0, signal };
+            let exists = Port::all(&robot, &rest, &dynamics, &[of_drive], false).is_ok();
+            let is_known = vibration.responses(&[of_drive], &[outputs[0]], &[1.0], &[]).is_ok();
+            // A cable that a rigid drum holds at the exit point has a commanded length, but no gradient of it.
+            prop_assert!(exists || !is_known);
+            if is_known {
+                inputs.push(of_drive);
+                if signal.is_output() {
+                    outputs.push((of_drive, Quantity::Displacement));
+                }
+            }
+        }
+        let frequencies_hz = [0.6, 1.3, 2.71];
+        let values = |robot: &Robot, rest: &Equilibrium| -> Option<Vec<f64>> {
+            let dynamics = linearised(robot, rest)?;
+            let from = Port::all(robot, rest, &dynamics, &inputs, false).ok()?;
+            let measured: Vec<Signal> = outputs.iter().map(|(signal, _)| *signal).collect();
+            let to = Port::all(robot, rest, &dynamics, &measured, false).ok()?;
+            let to: Vec<_> = to.into_iter().zip(outputs.iter().map(|(_, quantity)| *quantity)).collect();
+            let rows = response::matrix(&dynamics, &frequencies_hz, &from, &to).ok()?;
+            Some(rows.iter().flatten().flat_map(|z| [z.re, z.im]).collect())
+        };
+
+        let mut all = changes(&robot);
+        all.extend(changes_of_moving(&robot));
+        let directions: Vec<RobotChange> = all.iter().map(|(_, change)| change.clone()).collect();
+        let found = vibration.responses(&inputs, &outputs, &frequencies_hz, &directions).unwrap();
+        let here: Vec<f64> = found.iter().flatten().flat_map(|at| [at.value.re, at.value.im]).collect();
+        for (ours, expected) in here.chunks(2).zip(values(&robot, &rest).unwrap().chunks(2)) {
+            let (error, size) = distance(ours, expected);
+            prop_assert!(error <= 1e-9 * size, "{ours:?} {expected:?}");
+        }
+        let ours = |d: usize| found.iter().flatten().flat_map(|at| [at.along[d].re, at.along[d].im]).collect();
+        compare(&robot, &rest, &all, (first, 5), &ours, 1e-9, &values)?;
+    }
+}
