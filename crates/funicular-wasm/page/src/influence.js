@@ -17,7 +17,7 @@ let followed = ""; // state of the page that the choice of what is held has foll
 let found = null; // last table, with the mode that it is about
 
 /** Words for the steps. */
-const STEPS = { percent: "per 1 % of the value", tolerance: "per usual tolerance" };
+const STEPS = { percent: "if a value rises by 1 % of its size", tolerance: "if a value rises by its usual tolerance" };
 
 async function compute() {
   job.cancel();
