@@ -1,7 +1,7 @@
 // Which value moves this frequency most: derivatives of the chosen natural frequency by every number of the robot file,
 // from the core's `gradient`, computed in a worker while the platform rests.
 
-import { statics } from "./computation.js";
+import { holdsLengths, statics } from "./computation.js";
 import { Cancelled, Job } from "./engine.js";
 import { bars } from "./figures.js";
 import { $, element, short } from "./format.js";
@@ -13,10 +13,11 @@ import { content, on, page, shown } from "./store.js";
 const BARS = 10;
 const MARGIN = 1e-6; // relative: the limit of the list is above the chosen frequency by this
 const job = new Job();
+let followed = ""; // state of the page that the choice of what is held has followed
 let found = null; // last table, with the mode that it is about
 
 /** Words for the steps. */
-const STEPS = { percent: "per 1 % of the value", tolerance: "per usual tolerance" };
+const STEPS = { percent: "if a value rises by 1 % of its size", tolerance: "if a value rises by its usual tolerance" };
 
 async function compute() {
   job.cancel();
@@ -28,6 +29,7 @@ async function compute() {
     show();
     return;
   }
+  followHold();
   place.setAttribute("aria-busy", "true");
   if (!found) {
     place.replaceChildren(element("p", { class: "soft" }, "Computing …"));
@@ -107,21 +109,22 @@ function pastOf(table) {
   return new Map(parameters.map(({ path }, i) => [path, own[i]]));
 }
 
-/** Chooses what is held as the page holds it. */
+/** Chooses what is held as the page holds it: the sliders act like the bars then. The rule `stiffest` has no derivatives. */
 function followHold() {
-  $("influence-hold").value = content.hold === "lengths" || (content.hold === "file" && page.about?.check.state === "lengths") ? "lengths" : "pose";
+  const now = `${content.hold} ${page.frame.about.tension_rule}`;
+  if (followed === now) {
+    return;
+  }
+  followed = now;
+  const rule = page.frame.about.tension_rule;
+  const byRule = rule && rule !== "stiffest";
+  $("influence-hold").querySelector("[value=rule]").disabled = !byRule;
+  $("influence-hold").value = holdsLengths() ? "lengths" : byRule ? "rule" : "pose";
 }
 
 /** Listens to the choice of a mode and to the end of changes. */
 export function listen() {
-  let held = "";
-  on("rest", () => {
-    if (held !== content.hold) {
-      held = content.hold;
-      followHold();
-    }
-    compute();
-  });
+  on("rest", compute);
   on("mode", compute);
   on("remember", () => {
     if (page.before && found?.table) {
@@ -131,7 +134,7 @@ export function listen() {
     show();
   });
   on("outdated", () => job.cancel());
-  on("forget", () => { job.cancel(); found = null; held = ""; show(); });
+  on("forget", () => { job.cancel(); found = null; followed = ""; show(); });
   ["influence-hold", "influence-per"].forEach((id) => $(id).addEventListener("change", compute));
   $("influence-form").addEventListener("submit", (event) => event.preventDefault());
   const chosen = (event) => {
