@@ -98,7 +98,9 @@ impl Prepared<'_> {
             gradients.lengths().iter().for_each(&mut add);
         }
         if stage == Stage::Statics {
-            columns.iter_mut().for_each(|column| column.resize(solved.values.len(), Complex::default()));
+            for column in &mut columns {
+                column.resize(solved.values.len(), Complex::default());
+            }
             return Ok(columns);
         }
 
@@ -111,7 +113,9 @@ impl Prepared<'_> {
             }
         }
         if let Some(dynamics) = of_responses {
-            columns.iter_mut().for_each(|column| column.resize(solved.values.len(), Complex::default()));
+            for column in &mut columns {
+                column.resize(solved.values.len(), Complex::default());
+            }
             self.add_responses(&gradients.vibration(dynamics)?, robot, changes, &mut columns)?;
         }
         Ok(columns)

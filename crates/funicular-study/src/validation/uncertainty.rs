@@ -118,6 +118,8 @@ fn sampled(request: &str) -> Result<Vec<Vec<f64>>> {
             }
         }
     }
-    columns.iter_mut().for_each(|column| column.truncate(SAMPLES));
+    for column in &mut columns {
+        column.truncate(SAMPLES);
+    }
     Ok(columns)
 }

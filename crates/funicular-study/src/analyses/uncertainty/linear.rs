@@ -261,7 +261,9 @@ fn test_tensions(rows: &mut [Row], robot: &Robot, gradients: &Gradients, along: 
         let reached = reach(&derivatives, along.distributions, TENSION_DEVIATIONS);
         if reached >= distance {
             let reason = tension_reason(robot, i, chosen, reached, distance);
-            rows.iter_mut().for_each(|row| row.doubt = row.doubt.take().or_else(|| Some(reason.clone())));
+            for row in rows.iter_mut() {
+                row.doubt = row.doubt.take().or_else(|| Some(reason.clone()));
+            }
             return;
         }
     }
