@@ -32,7 +32,6 @@
 pub mod analyses;
 pub mod at_rest;
 pub mod csv_lines;
-mod design;
 mod error;
 pub mod export;
 #[cfg(feature = "pages")]

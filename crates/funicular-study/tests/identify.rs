@@ -172,9 +172,12 @@ fn intervals_hold_as_often_as_they_say() {
     assert!((0.88..=1.0).contains(&coverage), "{coverage}");
 }
 
+/// Robot of a request, with values by their paths.
+type RobotWith<'a> = &'a dyn Fn(&[(&str, f64)]) -> Value;
+
 /// Robot with other values, its measured responses and the values to find.
 struct Trial<'a> {
-    robot: &'a dyn Fn(&[(&str, f64)]) -> Value,
+    robot: RobotWith<'a>,
     truth: &'a [(&'a str, f64)],
     cable_model: &'a str,
     /// Lowest and highest frequency [Hz], and their number.

@@ -1,9 +1,11 @@
 //! `design`: values of the robot file with which the robot is best at several poses.
 
+mod rows;
+mod variables;
+
 use super::found;
 use super::shared::Models;
 use crate::Watch;
-use crate::design::{AtPoses, Evaluated, PoseValues, Variable, linearisation_of_goal, rounded, variables};
 use crate::error::{Cancelled, NoSolution};
 use crate::names::{DesignGoal, Named};
 use crate::request::{self, DesignRequest};
@@ -13,7 +15,9 @@ use funicular::math::max_min::{self, Ending, Evaluation, Found, Goal, MET, Probl
 use funicular::math::rotation;
 use funicular::robot::State;
 use funicular::robot::parameters::Parameters;
+use rows::{AtPoses, Evaluated, PoseValues, linearisation_of_goal};
 use serde::Serialize;
+use variables::{Variable, rounded, variables};
 
 /// Maximum number of poses, each of which is an equilibrium with a list of modes per step.
 const MAX_POSES: usize = 1000;

@@ -1,6 +1,6 @@
 //! Robot with other values at all poses: its results and their derivatives by the values, as rows of a linear problem.
 
-use super::Variable;
+use super::variables::Variable;
 use crate::analyses::gradient::{held, no_solution};
 use crate::at_rest::{self, AtRest};
 use crate::names::DesignGoal;
