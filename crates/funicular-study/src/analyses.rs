@@ -20,8 +20,6 @@ pub mod statics;
 pub mod stiffness;
 pub mod uncertainty;
 #[cfg(feature = "validation")]
-pub mod validate;
-
 pub use reduce::control_model;
 
 use serde::Serialize;

@@ -39,7 +39,6 @@ pub use uncertainty::{DEFAULT_SAMPLES, UncertaintyRequest, pose_and_tensions};
 pub use vibration::{CableRequest, CompareRequest, FrfRequest, ModesRequest, ReduceRequest};
 
 pub(crate) use parts::{check, check_vector};
-pub(crate) use vibration::platform_share;
 
 use crate::error::Error;
 use crate::names::suggestion;

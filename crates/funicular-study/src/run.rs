@@ -1,7 +1,6 @@
 //! Execution of a request.
 
 #[cfg(feature = "validation")]
-use crate::analyses::validate::{self, Validated};
 use crate::analyses::{
     cable::{self, CableResult},
     check::{self, Checked},
@@ -22,6 +21,7 @@ use crate::analyses::{
 use crate::error::Error;
 use crate::json;
 use crate::request::{Request, RobotText};
+use crate::validation::{self, Validated};
 use crate::watch::Watch;
 use crate::wording::Words;
 use anyhow::{Result, anyhow};
@@ -114,7 +114,7 @@ pub fn run_on(request: &Request, robot: Option<Robot>, watch: &mut dyn Watch) ->
         Request::Identify(of) => Results::Identify(Box::new(identify::run(of, watch)?)),
         Request::Design(of) => Results::Design(Box::new(design::run(of, watch)?)),
         #[cfg(feature = "validation")]
-        Request::Validate(_) => Results::Validate(validate::run()?),
+        Request::Validate(_) => Results::Validate(validation::run()?),
         #[cfg(not(feature = "validation"))]
         Request::Validate(_) => {
             return Err(anyhow!(

@@ -22,8 +22,10 @@ mod shapes;
 #[cfg(test)]
 mod tests;
 mod uncertainty;
+mod verdict;
 
 pub use markdown::markdown;
+pub use verdict::{Validated, run};
 
 use anyhow::Result;
 use serde::Serialize;

@@ -1,8 +1,8 @@
 //! `validate`: text and CSV.
 
 use crate::output::Printed;
-use funicular_study::analyses::validate::Validated;
 use funicular_study::validation;
+use funicular_study::validation::Validated;
 
 impl Printed for Validated {
     fn text(&self) -> String {

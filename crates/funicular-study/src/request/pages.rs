@@ -1,7 +1,6 @@
 //! Requests of pages, and of the comparison with published numbers.
 
-use super::parts::{Model, ResponsePoints, RobotText, State, Tensions};
-use super::vibration::platform_share;
+use super::parts::{Model, ResponsePoints, RobotText, State, Tensions, platform_share};
 use serde::{Deserialize, Serialize};
 
 /// Request of `report`.

@@ -329,7 +329,7 @@ pub struct EachPoint {
     #[serde(default = "default_up_to_hz")]
     pub up_to_hz: f64,
     /// Minimum fraction of the kinetic energy in the platform for the first mode of the platform.
-    #[serde(default = "super::platform_share")]
+    #[serde(default = "platform_share")]
     pub platform_share: f64,
     /// Centre of mass of the payload, platform frame [m]. Default: that of the platform.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -458,4 +458,9 @@ impl ImportPlatform {
         self.inertia_kg_m2.iter().flatten().try_for_each(|value| check("inertia_kg_m2", Some(*value), finite))?;
         check_vector("center_of_mass_m", self.center_of_mass_m)
     }
+}
+
+/// Default of the minimum fraction of the kinetic energy in the platform for a mode of the platform.
+pub(crate) fn platform_share() -> f64 {
+    funicular::modes::PLATFORM_SHARE
 }

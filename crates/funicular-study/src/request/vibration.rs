@@ -1,6 +1,8 @@
 //! Requests about vibration.
 
-use super::parts::{FrequencyRange, Model, OneOrSeveral, ResponsePoints, RobotText, State, Tensions, Terms};
+use super::parts::{
+    FrequencyRange, Model, OneOrSeveral, ResponsePoints, RobotText, State, Tensions, Terms, platform_share,
+};
 use crate::names::ModelForm;
 use serde::{Deserialize, Serialize};
 
@@ -179,8 +181,4 @@ fn yes() -> bool {
 
 fn one_per_cent() -> f64 {
     funicular::compare::TOLERANCE
-}
-
-pub(crate) fn platform_share() -> f64 {
-    funicular::modes::PLATFORM_SHARE
 }

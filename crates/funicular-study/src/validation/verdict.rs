@@ -1,17 +1,20 @@
 //! `validate`: all comparisons of docs/validation.md.
 
-use super::Found;
+use super::{Section, sections};
+use crate::analyses::Found;
 use crate::error::NoSolution;
 use crate::text::counted;
-use crate::validation::{self, Section};
 use anyhow::Result;
 use serde::Serialize;
 
 /// Results of `validate`: comparisons with numbers that others published or computed.
 #[derive(Serialize)]
 pub struct Validated {
+    /// Number of comparisons.
     pub comparisons: usize,
+    /// Number of comparisons within tolerance.
     pub passed: usize,
+    /// Comparisons by section.
     pub sections: Vec<Section>,
 }
 
@@ -20,7 +23,7 @@ pub struct Validated {
 /// # Errors
 /// Reference data that cannot be read.
 pub fn run() -> Result<Validated> {
-    let sections = validation::sections()?;
+    let sections = sections()?;
     let rows = || sections.iter().flat_map(|section| &section.rows);
     Ok(Validated { comparisons: rows().count(), passed: rows().filter(|row| row.pass).count(), sections })
 }
