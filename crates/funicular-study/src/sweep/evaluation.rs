@@ -3,7 +3,6 @@
 use super::columns::Value;
 use super::frequency::{self, Lowest};
 use super::options::Options;
-use super::row::ReadParameters;
 use super::status::Status;
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
@@ -16,6 +15,9 @@ use funicular::statics::{
     self, Equilibrium, LimitAtCable, PayloadSide, RequestedPayload, Stability, StaticModel, TensionRule,
 };
 use std::cell::OnceCell;
+
+/// Reader of the numbers of the robot file of a point.
+pub(super) type ReadParameters<'a> = dyn Fn() -> Option<Parameters> + 'a;
 
 /// Robot at the equilibrium of a point, with results that several quantities share.
 pub(super) struct PointEvaluation<'a> {

@@ -1,18 +1,14 @@
 //! Evaluation of one point: its equilibrium and the requested quantities.
 
 use super::columns::Value;
-use super::evaluation::PointEvaluation;
+use super::evaluation::{PointEvaluation, ReadParameters};
 use super::options::Options;
 use super::points::Point;
 use super::quantity::Quantity;
 use super::status::Status;
 use funicular::gradient::Hold;
-use funicular::robot::parameters::Parameters;
 use funicular::robot::{Robot, State};
 use funicular::statics::{Equilibrium, Solution};
-
-/// Reader of the numbers of the robot file of a point.
-pub(super) type ReadParameters<'a> = dyn Fn() -> Option<Parameters> + 'a;
 
 /// Adds the `width` cells of a point that follow its coordinates: feasible, status, reason, distance from the requested
 /// pose if there is such a column, then the quantities.
