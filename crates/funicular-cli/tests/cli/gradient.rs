@@ -164,7 +164,7 @@ fn vibration_follows_the_control_of_winches() {
         serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{arguments:?}: {}", stderr(&output)))
     };
     let response = ["--of", "response", "--at-hz", "1.7", "--input", "length:3", "--output", "z"];
-    let modes = ["gradient", "-", "--below-hz", "2.2", "--by", "winches", "--of", "frequencies"];
+    let modes = ["gradient", "-", "--below-hz", "3.45", "--by", "winches", "--of", "frequencies"];
     let by_winches = of(&text, &modes);
     let by_response = of(&text, &[&["gradient", "-", "--by", "winches"], &response[..]].concat());
     for (key, value, step) in [("bandwidth_hz", 5.0, 0.02), ("gear_ratio", 3.0, 0.01)] {

@@ -88,6 +88,7 @@ fn colour_of(code: u8) -> &'static str {
         "no-comparison" => "#e3d9ee",
         "unlimited" => "#d3efd0",
         "no-payload" => "#efd3dc",
+        "no-derivative" => "#d9d9c3",
         "negative-tension" => colour::VERMILION,
         "tension-limits" => colour::PURPLE,
         "not-found" => "#8b2f6b",

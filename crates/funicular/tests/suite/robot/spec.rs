@@ -241,7 +241,7 @@ fn an_inertia_tensor_that_no_body_has_is_refused() {
     check(
         ROBOT,
         &[
-            ("not symmetric", "[0.01, 0.0, 0.3]", "[-0.01, 0.0, 0.3]", "not symmetric: row 3, column 1 is -1e-2", 9),
+            ("not symmetric", "[0.01, 0.0, 0.3]", "[-0.01, 0.0, 0.3]", "not symmetric: row 3, column 1 is -0.01", 9),
             ("negative moment", "[0.0, 0.2, 0.0]", "[0.0, -0.2, 0.0]", "not positive definite", 6),
             ("all zero", "[0.2, 0.0, 0.01]", "[0.0, 0.0, 0.01]", "not positive definite", 6),
             ("too long", "[0.01, 0.0, 0.3]", "[0.01, 0.0, 0.5]", "exceeds the sum of the others", 6),
