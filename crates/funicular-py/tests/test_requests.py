@@ -61,7 +61,7 @@ MORE = [
     "--min-frequency-hz 0.5 --min-stiffness-n-per-m 100 --avoid-hz 2.5:3.2 --max-iterations 3 --goal rope-length",
     f"funicular design robots/cogiro.toml --change cables.*.anchor_m=±0.1 {TENSIONS} {STATE} {MODEL}",
     f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1%,materials=2% --of tensions,frequencies,damping --below-hz 1.3 "
-    "--method linear",
+    "--method linear --pose 0,0,0.5 --hold-lengths-of-pose",
     f"funicular uncertainty robots/cogiro.toml {TENSIONS} {STATE} --tolerances cables.*.anchor_m=0.001 --hold pose --of lengths,stiffness-min",
     f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1% --method sampled --samples 20 --seed 3 {LENGTHS} {MODEL}",
     f"funicular cable {ROBOT} --name 3 {RANGE}",

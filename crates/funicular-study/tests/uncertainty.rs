@@ -176,3 +176,25 @@ fn numbers_of_the_request_and_numbers_that_the_file_leaves_out_deviate_too() {
         assert!((result.mean.unwrap() - result.value).abs() < 0.1 * result.deviation.unwrap(), "{result:?}");
     }
 }
+
+#[test]
+fn a_force_that_the_file_leaves_out_deviates_like_the_weight() {
+    // At the centre of mass 9.81 N more downwards is 1 kg more.
+    let text = funicular_robots::COGIRO.replace("[-0.034, -0.013, 0.264]", "[0.0, 0.0, 0.0]");
+    assert!(!text.contains("[loads]") && !text.contains("[wind]"));
+    let held = json!({
+        "pose": [1.0, 2.0, 1.5, 0.0, 0.0, 0.0], "hold": "pose", "of": ["lengths"], "wind_m_s": [0.0, 0.0, 0.0],
+        "cable_load_n_per_m": [0.0, 0.0, -0.1],
+    });
+    let with = |deviation: &str| {
+        let mut all = held.clone();
+        all.as_object_mut().unwrap().insert("deviations".to_owned(), json!([deviation]));
+        uncertainty(&text, &all)
+    };
+    let (force, mass) = (with("loads.force_n.z=9.81"), with("platform.mass_kg=1"));
+    for (force, mass) in results(&force).iter().zip(results(&mass)) {
+        let (force, mass) = (force.deviation.unwrap(), mass.deviation.unwrap());
+        // Rounding of the gradients.
+        assert!(mass > 0.0 && (force / mass - 1.0).abs() < 1e-9, "{force} {mass}");
+    }
+}

@@ -5,11 +5,13 @@ Compiled half of `funicular`; import `funicular` instead.
 from _typeshed import SupportsGetItem
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
+from funicular._design import Designed
 from funicular._identify import Identified
 from funicular._live import Live
 from funicular._pages import Page
 from funicular._results import Equilibria, Modes, ReducedModel, StateSpaceModel
 from funicular._sweeps import Sweep
+from funicular._uncertainty import Uncertainty
 from numpy import complex128, float64
 from numpy.typing import ArrayLike, NDArray
 from os import PathLike
@@ -635,6 +637,51 @@ class Robot(Analyses):
         """
         Returns the robot as it was read, with the keys of the program's `check`; lists of numbers are arrays.
         """
+    def design(self, /, change: Any, *, goal: str = "first", poses: Any | None = None, weights: Any | None = None, min_frequency_hz: SupportsFloat | SupportsIndex | None = None, min_stiffness_n_per_m: SupportsFloat | SupportsIndex | None = None, avoid_hz: Any | None = None, max_iterations: SupportsIndex = 50, pose: Any | None = None, static_model: str = "catenary", mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: Any | None = None, moment_n_m: Any | None = None, load_point_m: Any | None = None, wind_m_s: Any | None = None, cable_load_n_per_m: Any | None = None, tension_rule: str | None = None, target_tension_n: Any | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> Designed:
+        """
+        Chooses values of the robot file with which the robot is best at several poses.
+
+        The poses are held, and the tensions of more cables than degrees of freedom follow `tension_rule`. The values move
+        within their bounds until the goal improves no further.
+
+        Parameters
+        ----------
+        change
+            Values to choose: a mapping from paths to the largest change to both sides, or to bounds (minimum, maximum). A
+            vector without a component stands for all its numbers, and * for every name, as in `cables.*.attachment_m`.
+        goal
+            `first` natural frequency, first natural frequency of the `platform` on the static stiffness of its cables,
+            minimum `stiffness`, `rope-mass` or `rope-length`.
+        poses
+            Poses (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees]; the worst one counts. If not given: `pose`, or
+            the pose of the robot file.
+        weights
+            Weights (n,) for the mean of the poses instead of the worst one.
+        min_frequency_hz, min_stiffness_n_per_m
+            Demands on the first natural frequency [Hz] and on the minimum stiffness [N/m] at every pose.
+        avoid_hz
+            Band (first, last) without natural frequencies at every pose [Hz].
+        max_iterations
+            Maximum number of iterations.
+
+        The other parameters are those of `equilibrium` and of `modes`.
+
+        Returns
+        -------
+        Result with `x`, `fun`, `success`, `message`, `nit` as those of `scipy.optimize`, with the values per pose, and with
+        `robot`.
+
+        Raises
+        ------
+        InputError
+            A value, a path or a bound is wrong.
+        StaticsError
+            A pose has no equilibrium, or no values within the bounds meet all demands; the message says what was reached.
+
+        References
+        ----------
+        docs/theory.md, equations (60r) to (60t) and (95a) to (95c).
+        """
     def equilibria(self, /, poses: ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", tension_rule: str | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, threads: SupportsIndex | None = None) -> Equilibria:
         """
         Computes the equilibria of many states in parallel, without Python's lock.
@@ -935,6 +982,53 @@ class Robot(Analyses):
     def to_toml(self, /) -> str:
         """
         Returns the text of the robot file with all changes.
+        """
+    def uncertainty(self, /, deviations: Any | None = None, tolerances: Any | None = None, of: SupportsGetItem[int, str] | None = None, *, hold: str = "lengths", below_hz: SupportsFloat | SupportsIndex | None = None, poses: ArrayLike | None = None, method: str = "automatic", samples: SupportsIndex = 200, seed: SupportsIndex = 0, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, samples_file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Uncertainty:
+        """
+        Computes the deviations of results from deviations or tolerances of numbers of the robot file.
+
+        Results are linear in the deviations where no cable may become slack and no frequencies may cross; elsewhere robots
+        are sampled, on all processors. docs/uncertainty.md explains the result. Theory, section "Uncertainty".
+
+        Parameters
+        ----------
+        deviations
+            Standard deviations of normally distributed numbers: a mapping from paths to values in the unit of the number,
+            or to percentages such as "1%"; or a list of texts such as "platform.mass_kg=1%". In a path * stands for any
+            key. Each entry is a group with a share of its own.
+        tolerances
+            Tolerances of numbers that are anywhere within ± their tolerance, in the same form.
+        of
+            Results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`; the first and the third if
+            not given.
+        hold
+            What stays while the numbers deviate: `lengths`, `pose`, or `rule` (the pose and the rule of the tensions).
+        below_hz
+            Upper limit of the frequencies [Hz]; for frequencies and damping.
+        poses
+            Several poses, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
+        method
+            `automatic`, `linear` or `sampled`.
+        samples, seed
+            Number of sampled robots per pose, and a number that chooses another sample.
+        samples_file, resume, discard
+            File of the sampled robots, .parquet or .csv: FILE.partial holds them until all are there, and `resume`
+            continues with them.
+        threads
+            Number of threads of this process; one per processor if not given.
+        progress
+            Function that is called with the number of finished items and of all items.
+
+        The other parameters are those of `equilibrium` and of `modes`.
+
+        Raises
+        ------
+        InputError
+            A path, a deviation or another argument is wrong; the message says which and what to give.
+        StaticsError
+            The robot has no equilibrium.
+        FileError
+            The file of the samples cannot be written, or belongs to other work.
         """
     def with_(self, /, changes: dict[str, Any] | None = None, *, mass_kg: SupportsFloat | SupportsIndex | None = None) -> Robot:
         """

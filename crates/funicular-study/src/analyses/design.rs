@@ -499,7 +499,7 @@ impl Report<'_> {
             let limiting: Vec<String> =
                 (1..).zip(&shares).filter(|(_, share)| **share > RELEVANT).map(|(pose, _)| pose.to_string()).collect();
             let noun = if limiting.len() == 1 { "pose" } else { "poses" };
-            sentences.push(format!("the goal is limited by {noun} {}", limiting.join(", ")));
+            sentences.push(format!("The goal is limited by {noun} {}", limiting.join(", ")));
         }
         for row in self.demands() {
             if row.gain_per_unit > 0.0 {

@@ -615,7 +615,7 @@ fn notes(request: &UncertaintyRequest, poses: &[PoseUncertainty]) -> Vec<String>
     }
     if results().any(|result| result.worst.is_some()) {
         notes.push(
-            "worst cases within the tolerances: the linear sum is no bound; the corners, which are computed, are lower \
+            "Worst cases within the tolerances: the linear sum is no bound; the corners, which are computed, are lower \
              bounds of the worst"
                 .to_owned(),
         );

@@ -207,7 +207,7 @@ fn room(found: &Designed) -> Figure {
          multipliers of the last linear problem."
             .to_owned(),
         &data,
-        json!({"margin": {"l": 210}, "xaxis": axis(&format!("gain [{}]", found.unit), json!({}))}),
+        json!({"margin": {"l": 210}, "xaxis": axis(&format!("gain [{}]", found.unit), json!({"exponentformat": "power"}))}),
     )
 }
 

@@ -10,6 +10,7 @@ use funicular::gradient::Hold;
 use funicular::math::{Vec3, Vec6, rotation};
 use funicular::robot::parameters::{Parameter, Parameters, RobotPart};
 use funicular::robot::{Robot, RobotChange};
+use serde_json::json;
 
 /// Maximum number of numbers that deviate: a Latin hypercube has as many axes.
 const MAX_INPUTS: usize = 5000;
@@ -134,7 +135,7 @@ impl Inputs {
             bail!("{} numbers deviate, and at most {MAX_INPUTS} can at once: choose fewer", chosen.len());
         }
 
-        let stated = stated(&text, &chosen, request, at_rest)?;
+        let stated = stated(&text, &original, &chosen, request, at_rest)?;
         let list = chosen.into_iter().map(|(parameter, group)| Input::new(parameter, group, &stated)).collect();
         Ok(Self { list, groups, stated })
     }
@@ -349,41 +350,52 @@ fn candidates(original: &Parameters, robot: &Robot) -> Vec<Parameter> {
 /// Robot file that states every number that deviates, with the changes that a request makes besides.
 fn stated(
     text: &str,
+    original: &Parameters,
     chosen: &[(Parameter, usize)],
     request: &UncertaintyRequest,
     at_rest: &AtRest,
 ) -> Result<Parameters> {
+    // A vector is stated as a whole, because the file may not have it.
     let mut assignments: Vec<Assignment> = Vec::new();
-    let mut state = |path: &str, value: f64| -> Result<()> {
-        let path = set_values::path(path).map_err(|error| anyhow!("{error}"))?;
-        assignments.push(path.with("⟪deviations⟫", value));
+    let mut state = |path: &str, value: serde_json::Value| -> Result<()> {
+        assignments.push(set_values::of_json(path, &value).map_err(|error| anyhow!("{error}"))?);
         Ok(())
     };
 
     // Numbers of the request that stand for numbers of the file.
-    let vector = |path: &str, vector: Option<[f64; 3]>| -> Vec<(String, f64)> {
-        let axes = ["x", "y", "z"].into_iter().zip(vector.into_iter().flatten());
-        axes.map(|(axis, value)| (format!("{path}.{axis}"), value)).collect()
-    };
     let Load { force_n, moment_n_m, load_point_m, wind_m_s, cable_load_n_per_m } = request.state.load;
-    let mut of_request: Vec<(String, f64)> = Vec::new();
-    of_request.extend(request.state.mass_kg.map(|mass| ("platform.mass_kg".to_owned(), mass)));
-    of_request.extend(vector("loads.force_n", force_n));
-    of_request.extend(vector("loads.moment_n_m", moment_n_m));
-    of_request.extend(vector("loads.point_m", load_point_m));
-    of_request.extend(vector("wind.velocity_m_s", wind_m_s));
-    for cable in at_rest.robot.cables.iter().filter(|_| cable_load_n_per_m.is_some()) {
-        of_request.extend(vector(&format!("cables.{}.load_n_per_m", quoted(&cable.name)), cable_load_n_per_m));
+    if let Some(mass) = request.state.mass_kg {
+        state("platform.mass_kg", json!(mass))?;
     }
-    for (path, value) in of_request {
-        state(&path, value)?;
+    for (path, vector) in [
+        ("loads.force_n", force_n),
+        ("loads.moment_n_m", moment_n_m),
+        ("loads.point_m", load_point_m),
+        ("wind.velocity_m_s", wind_m_s),
+    ] {
+        if let Some(vector) = vector {
+            state(path, json!(vector))?;
+        }
+    }
+    for cable in at_rest.robot.cables.iter().filter(|_| cable_load_n_per_m.is_some()) {
+        state(&format!("cables.{}.load_n_per_m", quoted(&cable.name)), json!(cable_load_n_per_m))?;
     }
 
     // Numbers that the file leaves out.
     for (parameter, _) in chosen.iter().filter(|(parameter, _)| !parameter.given) {
-        if parameter.part != RobotPart::State && parameter.key != "unstrained_length_m" {
-            state(&parameter.path(), value_at(at_rest, parameter))?;
+        if parameter.part == RobotPart::State || parameter.key == "unstrained_length_m" {
+            continue;
         }
+        if parameter.component.is_none() {
+            state(&parameter.path(), json!(value_at(at_rest, parameter)))?;
+            continue;
+        }
+        let of_vector = &parameter.keys[..parameter.keys.len() - 1];
+        let components = original.list().iter().filter(|other| other.keys.starts_with(of_vector));
+        let vector: Vec<f64> = components.map(|other| value_at(at_rest, other)).collect();
+        let mut whole = parameter.clone();
+        whole.keys.pop();
+        state(&whole.path(), json!(vector))?;
     }
     let text = set_values::apply(text, &assignments)?;
     Parameters::from_toml(&text).map_err(|error| anyhow!("{error}"))
