@@ -19,7 +19,7 @@ pub mod shared;
 pub mod statics;
 pub mod stiffness;
 pub mod uncertainty;
-#[cfg(feature = "validation")]
+
 pub use reduce::control_model;
 
 use serde::Serialize;

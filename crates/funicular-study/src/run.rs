@@ -1,6 +1,5 @@
 //! Execution of a request.
 
-#[cfg(feature = "validation")]
 use crate::analyses::{
     cable::{self, CableResult},
     check::{self, Checked},
@@ -21,6 +20,7 @@ use crate::analyses::{
 use crate::error::Error;
 use crate::json;
 use crate::request::{Request, RobotText};
+#[cfg(feature = "validation")]
 use crate::validation::{self, Validated};
 use crate::watch::Watch;
 use crate::wording::Words;
