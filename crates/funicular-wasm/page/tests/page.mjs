@@ -28,7 +28,8 @@ before(async () => {
   mkdirSync(pictures, { recursive: true });
   browser = await chromium.launch({
     executablePath: process.env.FUNICULAR_BROWSER,
-    args: ["--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--proxy-server=127.0.0.1:9"],
+    // As on a computer without a graphics card: the 3D view is drawn by software, and the page itself without it.
+    args: ["--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--enable-unsafe-swiftshader", "--proxy-server=127.0.0.1:9"],
   });
   page = await opened(address);
 });
