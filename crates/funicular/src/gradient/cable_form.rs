@@ -5,6 +5,7 @@
 //! every coefficient is an integral along the cable (docs/theory.md, equation (60a)).
 
 mod length_rate;
+mod sums;
 
 use super::GradientError;
 use super::adjoint::CableAdjoint;
@@ -13,16 +14,18 @@ use super::end_form::EndAtRest;
 use super::scalar::{Field, Vector, add, add_times, cross, dot, times, vector};
 use crate::cable::catenary_dynamic::{
     CatenaryDynamic, CatenaryDynamicEnd, Displacements, DriveAt, DriveLosses, DriveSignal, Family, PoleResidue,
-    Stations, smooth_pieces,
+    smooth_pieces,
 };
 use crate::catenary::space::HangingCable;
 use crate::drive::derivatives::end;
-use crate::math::{CDMat, Complex, DMat, Vec3, legendre};
+use crate::math::{CDMat, Complex, Vec3};
 use crate::robot::{Anchor, Cable, Servo, WinchMode};
 use crate::statics::CableState;
 use crate::statics::derivatives::StaticDerivativeError;
 use std::array::from_fn;
-use std::ops::Range;
+use sums::{Element, Shapes};
+
+pub(super) use sums::Rules;
 
 /// Natural logarithm of the accuracy of integrals of the tension alone along a cable at rest: 1e-14.
 const DIGITS_OF_REST: f64 = 32.0;
@@ -43,10 +46,7 @@ pub(super) struct CableForm {
     /// Load per length, up [N/m]; negative.
     load: f64,
     points: Vec<Point>,
-    /// Elements as ranges of points, each with half its length [m] and the number of its rule.
-    elements: Vec<(Range<usize>, f64, usize)>,
-    /// Integrals over [−1, ξ] from the values at the points of a rule, by rows; one matrix per size.
-    rules: Vec<DMat>,
+    elements: Vec<Element>,
     inertia: Inertia,
     /// End at the pulley or the winch, if it can move and the cable has no inertia.
     end: Option<EndAtRest>,
@@ -65,7 +65,11 @@ enum Inertia {
 /// Clamped modes of a cable that vibrates, with the drive at its end.
 struct Vibrating {
     cable: CatenaryDynamic,
-    stations: Stations,
+    /// Number of points, and their displacements in plane, out of plane, and in all directions if the end couples both.
+    points: usize,
+    in_plane: Shapes,
+    out_of_plane: Shapes,
+    coupled: Shapes,
     drive: Option<VibratingEnd>,
 }
 
@@ -148,22 +152,23 @@ impl CableForm {
         let count = |size: f64| (DIGITS_OF_REST / (2.0 * size.ln())).ceil() as usize + 4;
         let sizes: Vec<usize> = pieces.iter().map(|(_, _, size)| count(*size)).collect();
         let inertia = if may_have_mass { Inertia::Massless } else { Inertia::None };
-        let mut form = Self::on_pieces(state, 0.0, &pieces, &sizes, inertia)?;
+        let mut form = Self::on_pieces(state, 0.0, &pieces, &sizes, &mut Rules::default(), inertia)?;
         form.end = EndAtRest::of(anchor, state.drive.as_deref(), &hanging.tangent_w());
         Ok(form)
     }
 
-    /// Cable that vibrates about its catenary. `winches` is the mode of the winches.
+    /// Cable that vibrates about its catenary. `winches` is the mode of the winches; `rules` are shared by the cables.
     pub(super) fn vibrating(
         cable: &Cable,
         state: &CableState,
         end: &CatenaryDynamicEnd,
         winches: WinchMode,
+        rules: &mut Rules,
     ) -> Result<Self, GradientError> {
         let catenary = hanging(state)?.catenary;
         let pieces = smooth_pieces(&catenary, vec![(0.0, catenary.rope().unstrained_length)]);
         let sizes: Vec<usize> = end.cable.degrees.iter().map(|degree| degree + POINTS_FOR_TENSION).collect();
-        let mut form = Self::on_pieces(state, end.mass_per_length, &pieces, &sizes, Inertia::None)?;
+        let mut form = Self::on_pieces(state, end.mass_per_length, &pieces, &sizes, rules, Inertia::None)?;
 
         let arc_lengths = form.points.iter().map(|point| point.fraction * form.length).collect();
         let (m, limit, moving) = (end.mass_per_length, end.cable.limit, end.cable.end.clone());
@@ -184,7 +189,14 @@ impl CableForm {
             }
             _ => None,
         };
-        form.inertia = Inertia::Modes(Box::new(Vibrating { cable: modes, stations, drive }));
+        form.inertia = Inertia::Modes(Box::new(Vibrating {
+            cable: modes,
+            points: form.points.len(),
+            in_plane: Shapes::of(&stations.in_plane),
+            out_of_plane: Shapes::of(&stations.out_of_plane),
+            coupled: Shapes::of(&stations.coupled),
+            drive,
+        }));
         Ok(form)
     }
 
@@ -194,6 +206,7 @@ impl CableForm {
         mass_per_length: f64,
         pieces: &[(f64, f64, f64)],
         sizes: &[usize],
+        rules: &mut Rules,
         inertia: Inertia,
     ) -> Result<Self, GradientError> {
         let hanging = hanging(state)?;
@@ -201,18 +214,13 @@ impl CableForm {
         let rope = catenary.rope();
         let (h, at_start) = (catenary.horizontal_force(), catenary.vertical_force_at_start());
 
-        let mut of_size: Vec<(usize, Vec<(f64, f64)>)> = Vec::new();
         let mut points: Vec<Point> = Vec::with_capacity(sizes.iter().sum());
         let mut elements = Vec::with_capacity(pieces.len());
         for ((from, to, _), size) in pieces.iter().zip(sizes) {
-            let known = of_size.iter().position(|(known, _)| known == size);
-            let rule = known.unwrap_or_else(|| {
-                of_size.push((*size, legendre::gauss(*size)));
-                of_size.len() - 1
-            });
+            let rule = rules.of_size(*size);
             let (center, half) = (0.5 * (from + to), 0.5 * (to - from));
-            elements.push((points.len()..points.len() + size, half, rule));
-            for (xi, weight) in &of_size[rule].1 {
+            let first = points.len();
+            for (xi, weight) in &rule.points {
                 let s = center + half * xi;
                 let v = at_start + rope.weight_per_length * s;
                 let tension = h.hypot(v);
@@ -223,6 +231,7 @@ impl CableForm {
                     tension,
                 });
             }
+            elements.push(Element { points: first..points.len(), half, rule });
         }
 
         let [[hh, hv], [_, vv]] = catenary.tangent();
@@ -236,7 +245,6 @@ impl CableForm {
             load: -rope.weight_per_length,
             points,
             elements,
-            rules: of_size.iter().map(|(_, rule)| integrals(rule)).collect(),
             inertia,
             end: None,
         })
@@ -270,7 +278,7 @@ impl CableForm {
                 Inertia::Massless => {
                     let strains: Vec<Vector<T>> =
                         self.points.iter().zip(&tension).map(|(point, change)| self.strain(point, change)).collect();
-                    let (gathered, _) = self.gathered(&strains);
+                    let (gathered, _) = self.gathered(&sums::by_axes(&strains));
                     gathered.iter().map(|moved| add(&end, moved)).collect()
                 }
                 _ => Vec::new(),
@@ -282,6 +290,7 @@ impl CableForm {
         // Momentum: δN(s) = δN(0) − ω_c² m ∫₀ˢ δp ds.
         let (displacement, motions) = vibrating.displacement(&end, at, near, forces);
         let (mut gathered, mut whole) = self.gathered(&displacement);
+        let displacement = sums::vectors(&displacement, self.points.len());
         let factor = -(at.square * self.mass_per_length);
         for sum in gathered.iter_mut().chain([&mut whole]) {
             *sum = times(sum, factor);
@@ -421,26 +430,10 @@ impl CableForm {
         [change[0] * both - along * (h * by_turn), change[1] * both - along * (v * by_turn), change[2] * both]
     }
 
-    /// Integrals of a vector from the platform end to every point, and over the whole cable [m].
-    fn gathered<T: Field>(&self, values: &[Vector<T>]) -> (Vec<Vector<T>>, Vector<T>) {
-        let mut sums = vec![[T::default(); 3]; values.len()];
-        let mut before = [T::default(); 3];
-        for (range, half, rule) in &self.elements {
-            let matrix = &self.rules[*rule];
-            let (sums, values) = (&mut sums[range.clone()], &values[range.clone()]);
-            sums.fill(before);
-            for (column, value) in matrix.column_iter().zip(values) {
-                let value = times(value, T::from(*half));
-                let (inner, last) = (column.iter().take(values.len()), column[values.len()]);
-                for (sum, entry) in sums.iter_mut().zip(inner) {
-                    for k in 0..3 {
-                        sum[k] += value[k] * *entry;
-                    }
-                }
-                add_times(&mut before, &value, T::from(last));
-            }
-        }
-        (sums, before)
+    /// Integrals of a vector, whose components at the points stand axis by axis, from the platform end to every point and
+    /// over the whole cable [m].
+    fn gathered<T: Field>(&self, values: &[T]) -> (Vec<Vector<T>>, Vector<T>) {
+        sums::integrals(&self.elements, values, self.points.len())
     }
 
     /// Force that moves the platform end slowly, in the axes of the cable.
@@ -456,15 +449,15 @@ impl CableForm {
 }
 
 impl Vibrating {
-    /// Displacement of the points for a motion of the platform end, and the motions of the drive.
+    /// Displacement of the points, axis by axis, for a motion of the platform end, and the motions of the drive.
     fn displacement<T: Field>(
         &self,
         end: &Vector<T>,
         at: &CableAt<T>,
         near: &[NearMode<T>],
         forces: &[T],
-    ) -> (Vec<Vector<T>>, Vec<T>) {
-        let Self { cable, stations, .. } = self;
+    ) -> (Vec<T>, Vec<T>) {
+        let cable = &self.cable;
         let square = at.square;
         let of = |family: Family| near.iter().filter(move |near| near.0 == family);
         let mut in_plane = amplitudes(&cable.in_plane, &[end[0], end[1]], square, of(Family::InPlane));
@@ -506,12 +499,13 @@ impl Vibrating {
         }
 
         // Points in plane and out of plane, or all directions together.
-        let mut displacement = vec![[T::default(); 3]; stations.arc_lengths.len()];
+        let mut displacement = vec![T::default(); 3 * self.points];
         if cable.coupled.is_some() {
-            add_displacements(&mut displacement, &stations.coupled, [0, 1, 2], end, &coupled);
+            self.coupled.add(&mut displacement, end, &coupled);
         } else {
-            add_displacements(&mut displacement, &stations.in_plane, [0, 1], &[end[0], end[1]], &in_plane);
-            add_displacements(&mut displacement, &stations.out_of_plane, [2], &[end[2]], &out_of_plane);
+            let (plane, normal) = displacement.split_at_mut(2 * self.points);
+            self.in_plane.add(plane, &end[..2], &in_plane);
+            self.out_of_plane.add(normal, &end[2..], &out_of_plane);
         }
         (displacement, motions)
     }
@@ -562,28 +556,6 @@ fn add_motions<T: Field, const D: usize, const N: usize>(
     }
 }
 
-/// Adds the displacements of stations along these axes for a motion of the platform end.
-fn add_displacements<T: Field, const D: usize, const N: usize>(
-    displacement: &mut [Vector<T>],
-    of: &Displacements<D, N>,
-    axes: [usize; D],
-    end: &[T; D],
-    amplitudes: &[T],
-) {
-    for (sum, still) in displacement.iter_mut().zip(&of.still) {
-        for (row, axis) in still.iter().zip(axes) {
-            end.iter().zip(row).for_each(|(u, psi)| sum[axis] += *u * *psi);
-        }
-    }
-    for (mode, q) in of.modes.iter().zip(amplitudes) {
-        for (sum, value) in displacement.iter_mut().zip(mode) {
-            for (value, axis) in value.iter().zip(axes) {
-                sum[axis] += *q * *value;
-            }
-        }
-    }
-}
-
 /// Curve of the cable; ideal cables have none.
 fn hanging(state: &CableState) -> Result<&HangingCable, GradientError> {
     Ok(state.hanging.as_ref().ok_or(StaticDerivativeError::Ideal)?)
@@ -610,21 +582,4 @@ fn amplitudes<'n, T: Field + 'n, const N: usize, const E: usize, const M: usize>
         all[*index] = *amplitude;
     }
     all
-}
-
-/// Integrals over [−1, ξ] at the points of a Gauss rule from values there, by rows; the last row is the integral over
-/// [−1, 1].
-fn integrals(rule: &[(f64, f64)]) -> DMat {
-    let count = rule.len();
-    // Orthonormal polynomials at the points, and their integrals: of P_k it is (P_{k+1} − P_{k−1})/(2k + 1).
-    let at_points: Vec<Vec<f64>> = rule.iter().map(|(xi, _)| legendre::orthonormal(*xi, count)).collect();
-    let plain = |values: &[f64], k: usize| values[k] / (k as f64 + 0.5).sqrt();
-    let primitive = |values: &[f64], k: usize| {
-        let below = if k == 0 { -1.0 } else { plain(values, k - 1) };
-        (plain(values, k + 1) - below) / (2.0 * k as f64 + 1.0) * (k as f64 + 0.5).sqrt()
-    };
-    let primitives = DMat::from_fn(count, count, |i, k| primitive(&at_points[i], k));
-    let expansion = DMat::from_fn(count, count, |k, j| rule[j].1 * at_points[j][k]);
-    let inner = primitives * expansion;
-    DMat::from_fn(count + 1, count, |i, j| if i < count { inner[(i, j)] } else { rule[j].1 })
 }

@@ -2,7 +2,7 @@
 
 use super::GradientError;
 use super::adjoint::{Adjoint, CableAdjoint};
-use super::cable_form::{CableAt, CableForm, CableMotion};
+use super::cable_form::{CableAt, CableForm, CableMotion, Rules};
 use super::drive_form::ControlAt;
 use super::end_form::EndAtRest;
 use super::scalar::{Field, Vector, add, add_times, cross, dot, outer, times, vector};
@@ -95,7 +95,7 @@ impl RobotForm {
             return Err(GradientError::Terms);
         }
 
-        let mut cables = Vec::with_capacity(robot.cables.len());
+        let (mut cables, mut rules) = (Vec::with_capacity(robot.cables.len()), Rules::default());
         let mut servos = vec![None; robot.cables.len()];
         for (i, state) in equilibrium.cables.iter().enumerate() {
             let term = dynamics.terms().iter().find(|term| term.cable() == i);
@@ -106,7 +106,13 @@ impl RobotForm {
                 }
                 (CableModel::CatenaryDynamic, Some(DynamicCable::CatenaryDynamic(end))) => {
                     servos[i] = end.cable.end.as_ref().and_then(MovingEnd::chain).and_then(|chain| chain.motor?.servo);
-                    AnyCable::Catenary(Box::new(CableForm::vibrating(&robot.cables[i], state, end, winches)?))
+                    AnyCable::Catenary(Box::new(CableForm::vibrating(
+                        &robot.cables[i],
+                        state,
+                        end,
+                        winches,
+                        &mut rules,
+                    )?))
                 }
                 (CableModel::CatenaryDynamic, _) => {
                     AnyCable::Catenary(Box::new(CableForm::at_rest(&robot.cables[i].anchor, state, true)?))

@@ -17,10 +17,39 @@ pub(super) trait Field:
     + Mul<f64, Output = Self>
     + Div<Output = Self>
 {
+    /// Number of real parts.
+    const PARTS: usize;
+
+    /// Real part with this number.
+    fn part(self, part: usize) -> f64;
+
+    /// Number with these real parts.
+    fn of_parts(part: impl Fn(usize) -> f64) -> Self;
 }
 
-impl Field for f64 {}
-impl Field for Complex {}
+impl Field for f64 {
+    const PARTS: usize = 1;
+
+    fn part(self, _: usize) -> f64 {
+        self
+    }
+
+    fn of_parts(part: impl Fn(usize) -> f64) -> Self {
+        part(0)
+    }
+}
+
+impl Field for Complex {
+    const PARTS: usize = 2;
+
+    fn part(self, part: usize) -> f64 {
+        if part == 0 { self.re } else { self.im }
+    }
+
+    fn of_parts(part: impl Fn(usize) -> f64) -> Self {
+        Self::new(part(0), part(1))
+    }
+}
 
 /// Vector in space.
 pub(super) type Vector<T> = [T; 3];

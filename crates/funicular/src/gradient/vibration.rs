@@ -228,9 +228,18 @@ impl<'g> VibrationGradients<'g> {
         frequencies_hz: &[f64],
         along: &[RobotChange],
     ) -> Result<Vec<Vec<ResponseDerivatives>>, GradientError> {
-        let from = inputs.iter().map(|signal| self.place(signal)).collect::<Result<Vec<_>, _>>()?;
-        let to = outputs.iter().map(|(signal, _)| self.place(signal)).collect::<Result<Vec<_>, _>>()?;
-        let driven: Vec<usize> = from.iter().chain(&to).filter_map(Place::cable).collect();
+        // The motions by a signal are computed once, also if it is both input and output.
+        let mut signals: Vec<&Signal> = Vec::with_capacity(inputs.len() + outputs.len());
+        let mut numbered = |signal| {
+            signals.iter().position(|known| *known == signal).unwrap_or_else(|| {
+                signals.push(signal);
+                signals.len() - 1
+            })
+        };
+        let from: Vec<usize> = inputs.iter().map(&mut numbered).collect();
+        let to: Vec<usize> = outputs.iter().map(|(signal, _)| numbered(signal)).collect();
+        let places = signals.iter().map(|signal| self.place(signal)).collect::<Result<Vec<_>, _>>()?;
+        let driven: Vec<usize> = places.iter().filter_map(Place::cable).collect();
         let receptances = response::receptances(self.dynamics, frequencies_hz).map_err(|reason| match reason {
             response::ResponseError::Resonance { frequency_hz } => GradientError::Resonance { frequency_hz },
             response::ResponseError::SameCable => GradientError::NotOnPlatform,
@@ -247,17 +256,18 @@ impl<'g> VibrationGradients<'g> {
                 let driven = Driven { near: &[], forces: forces.as_ref().map(|(cable, forces)| (*cable, &forces[..])) };
                 (x, forces.clone(), self.form.motion(v, theta, &at, &self.terms, &driven))
             };
-            let by_input: Vec<_> = from.iter().map(solved).collect();
-            let by_output: Vec<_> = to.iter().map(solved).collect();
+            let solutions: Vec<_> = places.iter().map(solved).collect();
 
             let mut row = rows.iter_mut();
-            for ((output, (x_out, row_out, of_output)), (_, quantity)) in to.iter().zip(&by_output).zip(outputs) {
+            for (to, (_, quantity)) in to.iter().zip(outputs) {
+                let (output, (x_out, row_out, of_output)) = (&places[*to], &solutions[*to]);
                 let factor = match quantity {
                     Quantity::Displacement => Complex::new(1.0, 0.0),
                     Quantity::Velocity => Complex::new(0.0, omega),
                     Quantity::Acceleration => Complex::new(-(omega * omega), 0.0),
                 };
-                for (input, (x_in, _, of_input)) in from.iter().zip(&by_input) {
+                for from in &from {
+                    let (input, (x_in, _, of_input)) = (&places[*from], &solutions[*from]);
                     let value = factor
                         * match (&output.kind, row_out) {
                             (PlaceKind::OnPlatform { vector, .. }, _) => {

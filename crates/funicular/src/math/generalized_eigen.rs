@@ -12,7 +12,8 @@ use super::simd::dot;
 /// `stiffness` and `mass` are n×n by columns, of which the lower triangle is read; `vectors` has n rows of `count`
 /// numbers. All three are consumed. `None` if K is not positive definite.
 ///
-/// Steps: Cholesky factor, congruence, Householder's tridiagonal form, implicit QL.
+/// Steps: Cholesky factor, congruence, Householder's tridiagonal form, implicit QL. The vectors are transformed in blocks of
+/// columns.
 ///
 /// # References
 /// G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed. 2013, sections 4.2, 8.3.1, 8.3.3 and 8.7.2.
@@ -35,16 +36,64 @@ impl pulp::NullaryFnOnce for PencilReduction {
 
     #[inline(always)]
     fn call(self) -> Self::Output {
-        let Self { n, count, mut k, mut m, mut vectors } = self;
+        let Self { n, count, mut k, mut m, vectors } = self;
         if !cholesky(&mut k, n) {
             return None;
         }
-        solve_rows(&k, n, &mut vectors, count);
         congruence(&k, &mut m, n);
         let (mut diagonal, mut below) = (vec![0.0; n], vec![0.0; n]);
-        tridiagonalise(&mut m, n, &mut vectors, count, &mut diagonal, &mut below);
-        diagonalise(&mut diagonal, &mut below, &mut vectors, count);
-        Some((diagonal, vectors))
+        let factors = tridiagonalise(&mut m, n, &mut diagonal, &mut below);
+
+        // The given vectors, block by block.
+        let mut blocks = Blocks::of(&vectors, n, count);
+        for block in blocks.0.chunks_exact_mut(n.max(1)) {
+            solve_rows(&k, n, block);
+            reflect(&m, n, &factors, block);
+        }
+        diagonalise(&mut diagonal, &mut below, &mut blocks);
+        Some((diagonal, blocks.into_rows(n, count, vectors)))
+    }
+}
+
+/// Columns of a block of vectors: two of the widest registers, so that the rows of one block stay in the nearest cache while
+/// all transformations pass over them.
+const WIDTH: usize = 16;
+
+/// Row of a block.
+type Row = [f64; WIDTH];
+
+/// Vectors in blocks of columns: all rows of the first block, then those of the next. The last block is filled with zeros.
+struct Blocks(Vec<Row>);
+
+impl Blocks {
+    #[inline(always)]
+    fn of(vectors: &[f64], n: usize, count: usize) -> Self {
+        let mut blocks = vec![[0.0; WIDTH]; n * count.div_ceil(WIDTH)];
+        for (i, row) in vectors.chunks_exact(count.max(1)).enumerate() {
+            for (b, part) in row.chunks(WIDTH).enumerate() {
+                blocks[b * n + i][..part.len()].copy_from_slice(part);
+            }
+        }
+        Self(blocks)
+    }
+
+    /// Rows of `count` numbers, in the memory of `rows`.
+    #[inline(always)]
+    fn into_rows(self, n: usize, count: usize, mut rows: Vec<f64>) -> Vec<f64> {
+        for (i, row) in rows.chunks_exact_mut(count.max(1)).enumerate() {
+            for (b, part) in row.chunks_mut(WIDTH).enumerate() {
+                part.copy_from_slice(&self.0[b * n + i][..part.len()]);
+            }
+        }
+        rows
+    }
+}
+
+/// Adds `factor x` to a row.
+#[inline(always)]
+fn add_row(y: &mut Row, factor: f64, x: &Row) {
+    for (y, x) in y.iter_mut().zip(x) {
+        *y += factor * x;
     }
 }
 
@@ -76,17 +125,17 @@ fn cholesky(a: &mut [f64], n: usize) -> bool {
     true
 }
 
-/// Solves in place: vectors ← L⁻¹ vectors, rows of `count` numbers.
+/// Solves in place: block ← L⁻¹ block.
 #[inline(always)]
-fn solve_rows(l: &[f64], n: usize, vectors: &mut [f64], count: usize) {
+fn solve_rows(l: &[f64], n: usize, block: &mut [Row]) {
     for j in 0..n {
-        let (done, rest) = vectors.split_at_mut((j + 1) * count);
-        let row = &mut done[j * count..];
+        let (done, rest) = block.split_at_mut(j + 1);
+        let row = &mut done[j];
         for x in row.iter_mut() {
             *x /= l[j * n + j];
         }
-        for (i, other) in rest.chunks_exact_mut(count).enumerate() {
-            add_scaled(other, -l[j * n + j + 1 + i], row);
+        for (other, entry) in rest.iter_mut().zip(&l[j * n + j + 1..(j + 1) * n]) {
+            add_row(other, -entry, row);
         }
     }
 }
@@ -125,10 +174,11 @@ fn congruence(l: &[f64], a: &mut [f64], n: usize) {
     }
 }
 
-/// Householder reflections to tridiagonal form, applied to the vectors as well.
+/// Householder reflections `H = I − β v vᵀ` to tridiagonal form. The vectors v replace the columns of `a` below the diagonal;
+/// the result are the factors β, zero where there is no reflection.
 #[inline(always)]
-fn tridiagonalise(a: &mut [f64], n: usize, vectors: &mut [f64], count: usize, diagonal: &mut [f64], below: &mut [f64]) {
-    let (mut v, mut w, mut sums) = (vec![0.0; n], vec![0.0; n], vec![0.0; count]);
+fn tridiagonalise(a: &mut [f64], n: usize, diagonal: &mut [f64], below: &mut [f64]) -> Vec<f64> {
+    let (mut v, mut w, mut factors) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
     for k in 0..n {
         diagonal[k] = a[k * n + k];
         if k + 1 >= n {
@@ -150,7 +200,7 @@ fn tridiagonalise(a: &mut [f64], n: usize, vectors: &mut [f64], count: usize, di
         let alpha = if v[0] > 0.0 { -norm } else { norm };
         v[0] -= alpha;
         let beta = 2.0 / (v[0] * v[0] + tail);
-        below[k] = alpha;
+        (below[k], factors[k]) = (alpha, beta);
 
         // w = β A v from the lower triangle: every column serves as column and as row.
         w.fill(0.0);
@@ -175,22 +225,73 @@ fn tridiagonalise(a: &mut [f64], n: usize, vectors: &mut [f64], count: usize, di
             }
         }
 
-        // The vectors.
-        let rows = &mut vectors[(k + 1) * count..];
-        sums.fill(0.0);
-        for (row, v) in rows.chunks_exact(count).zip(v.iter()) {
-            add_scaled(&mut sums, *v, row);
+        a[k * n + k + 1..(k + 1) * n].copy_from_slice(v);
+    }
+    factors
+}
+
+/// Applies the reflections of [`tridiagonalise`] to a block.
+#[inline(always)]
+fn reflect(a: &[f64], n: usize, factors: &[f64], block: &mut [Row]) {
+    for (k, beta) in factors.iter().enumerate().filter(|(_, beta)| **beta != 0.0) {
+        let (v, rows) = (&a[k * n + k + 1..(k + 1) * n], &mut block[k + 1..]);
+        let mut sums = [0.0; WIDTH];
+        for (row, v) in rows.iter().zip(v) {
+            add_row(&mut sums, *v, row);
         }
-        for (row, v) in rows.chunks_exact_mut(count).zip(v.iter()) {
-            add_scaled(row, -beta * v, &sums);
+        for (row, v) in rows.iter_mut().zip(v) {
+            add_row(row, -beta * v, &sums);
         }
     }
 }
 
-/// Implicit QL with Wilkinson's shift; the rotations also act on the rows of the vectors.
+/// Rotations of neighbouring rows, in passes from a row upwards.
+#[derive(Default)]
+struct Rotations {
+    /// First row and number of rotations of each pass.
+    passes: Vec<(usize, usize)>,
+    /// Cosine and sine of each rotation.
+    angles: Vec<(f64, f64)>,
+}
+
+/// Rotations that are kept before they are applied: their 16 kB stay in the nearest cache beside a block.
+const MOST_ROTATIONS: usize = 1024;
+
+impl Rotations {
+    /// Applies the rotations. A row that two of them share stays in registers between them.
+    // No closures: only functions that are inlined are compiled for the registers that the processor has.
+    #[inline(always)]
+    fn apply(&self, blocks: &mut Blocks, n: usize) {
+        for block in blocks.0.chunks_exact_mut(n.max(1)) {
+            let mut done = 0;
+            for (first, count) in &self.passes {
+                let mut high = block[*first];
+                for (k, (c, s)) in self.angles[done..done + count].iter().enumerate() {
+                    let i = first - 1 - k;
+                    let mut low = block[i];
+                    for (low, high) in low.iter_mut().zip(&mut high) {
+                        (*low, *high) = (c * *low - s * *high, s * *low + c * *high);
+                    }
+                    block[i + 1] = high;
+                    high = low;
+                }
+                block[first - count] = high;
+                done += count;
+            }
+        }
+    }
+
+    fn clear(&mut self) {
+        self.passes.clear();
+        self.angles.clear();
+    }
+}
+
+/// Implicit QL with Wilkinson's shift; the rotations also act on the rows of the blocks.
 #[inline(always)]
-fn diagonalise(d: &mut [f64], e: &mut [f64], vectors: &mut [f64], count: usize) {
+fn diagonalise(d: &mut [f64], e: &mut [f64], blocks: &mut Blocks) {
     let n = d.len();
+    let mut rotations = Rotations::default();
     for l in 0..n {
         // Two or three passes per eigenvalue; 60 is a guard that only rounding could reach.
         for _ in 0..60 {
@@ -207,6 +308,7 @@ fn diagonalise(d: &mut [f64], e: &mut [f64], vectors: &mut [f64], count: usize) 
             let mut g = d[split] - d[l] + e[l] / (g + (g * g + 1.0).sqrt().copysign(g));
             let (mut s, mut c, mut p) = (1.0, 1.0, 0.0);
             let mut deflated = false;
+            let before = rotations.angles.len();
 
             // The rotations.
             for i in (l..split).rev() {
@@ -224,10 +326,12 @@ fn diagonalise(d: &mut [f64], e: &mut [f64], vectors: &mut [f64], count: usize) 
                 p = s * r;
                 d[i + 1] = g + p;
                 g = c * r - b;
-                let (low, high) = vectors[i * count..(i + 2) * count].split_at_mut(count);
-                for (low, high) in low.iter_mut().zip(high) {
-                    (*low, *high) = (c * *low - s * *high, s * *low + c * *high);
-                }
+                rotations.angles.push((c, s));
+            }
+            rotations.passes.push((split, rotations.angles.len() - before));
+            if rotations.angles.len() > MOST_ROTATIONS {
+                rotations.apply(blocks, n);
+                rotations.clear();
             }
 
             if !deflated {
@@ -237,6 +341,7 @@ fn diagonalise(d: &mut [f64], e: &mut [f64], vectors: &mut [f64], count: usize) 
             e[split] = 0.0;
         }
     }
+    rotations.apply(blocks, n);
 }
 
 #[cfg(test)]
@@ -250,24 +355,26 @@ mod tests {
         fn values_and_products_are_those_of_the_full_decomposition(
             n in 1usize..30,
             entries in prop::collection::vec(-1.0f64..1.0, 30 * 30),
-            columns in prop::collection::vec(-1.0f64..1.0, 30 * 3),
+            // One block, a whole number of them, and one more.
+            count in prop::sample::select(vec![1, 3, WIDTH, 2 * WIDTH, 2 * WIDTH + 1]),
+            columns in prop::collection::vec(-1.0f64..1.0, 30 * (2 * WIDTH + 1)),
         ) {
             let random = DMat::from_fn(n, n, |i, j| entries[i * 30 + j]);
             let k = &random * random.transpose() + DMat::identity(n, n);
             let m = DMat::from_fn(n, n, |i, j| entries[i.max(j) * 30 + i.min(j)]);
-            let vectors = DMat::from_fn(n, 3, |i, j| columns[i * 3 + j]);
-            let rows: Vec<f64> = (0..n * 3).map(|at| columns[at]).collect();
-            let (values, products) = pencil(k.as_slice().to_vec(), m.as_slice().to_vec(), rows, 3).unwrap();
+            let vectors = DMat::from_fn(n, count, |i, j| columns[i * count + j]);
+            let rows: Vec<f64> = columns[..n * count].to_vec();
+            let (values, products) = pencil(k.as_slice().to_vec(), m.as_slice().to_vec(), rows, count).unwrap();
 
             // Σ μ_k^p (φ_kᵀ a)(φ_kᵀ b) = aᵀ K⁻¹ (M K⁻¹)^p b: no eigenvector needed to compare.
             let inverse = k.clone().try_inverse().unwrap();
             let mut power = inverse.clone();
             for exponent in 0..4 {
                 let exact = vectors.transpose() * &power * &vectors;
-                for i in 0..3 {
-                    for j in 0..3 {
+                for i in 0..count {
+                    for j in 0..count {
                         let sum: f64 =
-                            (0..n).map(|k| values[k].powi(exponent) * products[k * 3 + i] * products[k * 3 + j]).sum();
+                            (0..n).map(|k| values[k].powi(exponent) * products[k * count + i] * products[k * count + j]).sum();
                         prop_assert!((sum - exact[(i, j)]).abs() < 1e-9, "power {exponent}: {sum} {}", exact[(i, j)]);
                     }
                 }
