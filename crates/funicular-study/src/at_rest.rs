@@ -302,6 +302,16 @@ impl AtRest {
         Ok((dynamics, self.warnings(Some((linearisation.cable_model, up_to_hz)))))
     }
 
+    /// Robot linearised about this equilibrium as by [`dynamics`](Self::dynamics), for gradients of its vibrations.
+    pub fn dynamics_for_gradients(
+        &self,
+        linearisation: Linearisation,
+        up_to_hz: f64,
+    ) -> Result<(Dynamics, Vec<String>)> {
+        let dynamics = Dynamics::for_gradients(&self.robot, &self.equilibrium, linearisation, up_to_hz)?;
+        Ok((dynamics, self.warnings(Some((linearisation.cable_model, up_to_hz)))))
+    }
+
     /// Warnings about implausible values, about the statics and, if given, about a cable model up to a frequency [Hz].
     pub fn warnings(&self, dynamics: Option<(CableModel, f64)>) -> Vec<String> {
         let mut warnings = warnings::of_statics(&self.robot, &self.equilibrium);

@@ -226,7 +226,9 @@ fn gradients(c: &mut Criterion) {
     let parameters = Parameters::from_toml(funicular_robots::YUAN2014_4MM).expect("the library's robot");
     let (robot, lengths) = robot();
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).expect("converges");
-    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 20.0).expect("taut");
+    let prepared = || Dynamics::for_gradients(&robot, &rest, Linearisation::default(), black_box(20.0)).expect("taut");
+    c.bench_function("gradients: set-up below 20 Hz with the shapes of the cables", |b| b.iter(prepared));
+    let dynamics = prepared();
     let found = modes::below(&dynamics, 20.0).modes;
     let changes: Vec<RobotChange> = (0..parameters.list().len()).filter_map(|i| parameters.change(i)).collect();
 

@@ -16,7 +16,7 @@ use crate::drive::DriveChain;
 use crate::math::{Complex, Mat3, Vec3, any_normal};
 use crate::robot::{Robot, WinchMode};
 use crate::statics::CableState;
-use catenary_dynamic::{CatenaryDynamicEnd, EndDirections, MovingEnd};
+use catenary_dynamic::{CatenaryDynamicEnd, EndDirections, MovingEnd, Shapes};
 use shallow_dynamic::ShallowDynamic;
 use std::f64::consts::TAU;
 use std::fmt;
@@ -322,6 +322,17 @@ impl EndStiffness {
         winches: WinchMode,
         up_to_hz: f64,
     ) -> Result<Self, NoStiffness> {
+        Self::of_cable(robot, (i, state), (model, in_plane_only, winches), up_to_hz, Shapes::Dropped)
+    }
+
+    /// Stiffness as by [`new`](Self::new); a catenary-dynamic cable may keep the shapes of its clamped modes.
+    pub(crate) fn of_cable(
+        robot: &Robot,
+        (i, state): (usize, &CableState),
+        (model, in_plane_only, winches): (CableModel, bool, WinchMode),
+        up_to_hz: f64,
+        shapes: Shapes,
+    ) -> Result<Self, NoStiffness> {
         let axes = LocalAxes::of_cable(robot, i, state);
         let sag = Sag::of(robot, i, state);
         let material = &robot.cables[i].material;
@@ -371,7 +382,7 @@ impl EndStiffness {
                 if m == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
                     return Ok(Self::Constant(without_b(in_series(hanging.tangent_w()))));
                 }
-                let cable = CatenaryDynamicEnd::new(hanging, end, m, damping, in_plane_only, limit)?;
+                let cable = CatenaryDynamicEnd::new(hanging, end, (m, damping), in_plane_only, limit, shapes)?;
                 Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable)))
             }
         })

@@ -114,7 +114,7 @@ impl CableStations {
                     end.cable.end.clone(),
                     m,
                     limit,
-                    arc_lengths.clone(),
+                    &arc_lengths,
                     loaded,
                 )
                 .map_err(|reason| {

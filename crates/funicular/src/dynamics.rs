@@ -11,7 +11,7 @@ mod supports;
 pub(crate) use blocks::{CableBlocks, CableRow, PlatformBlocks, SupportBlocks};
 pub(crate) use null_vectors::NullVector;
 
-use crate::cable::catenary_dynamic::{CatenaryDynamicError, EndSignal};
+use crate::cable::catenary_dynamic::{CatenaryDynamicError, EndSignal, Shapes};
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, span_stiffness};
 use crate::math::{CMat6, CVec6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6, order};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
@@ -197,6 +197,31 @@ impl Dynamics {
         linearisation: Linearisation,
         up_to_hz: f64,
     ) -> Result<Self, DynamicsError> {
+        Self::with_shapes(robot, equilibrium, linearisation, up_to_hz, Shapes::Dropped)
+    }
+
+    /// Robot as by [`about`](Self::about), which keeps the shapes of the clamped modes along its catenary-dynamic cables.
+    /// [`Gradients::vibration`](crate::gradient::Gradients::vibration) needs them, and otherwise computes all clamped modes a
+    /// second time.
+    ///
+    /// # Errors
+    /// The errors of [`about`](Self::about).
+    pub fn for_gradients(
+        robot: &Robot,
+        equilibrium: &Equilibrium,
+        linearisation: Linearisation,
+        up_to_hz: f64,
+    ) -> Result<Self, DynamicsError> {
+        Self::with_shapes(robot, equilibrium, linearisation, up_to_hz, Shapes::Kept)
+    }
+
+    fn with_shapes(
+        robot: &Robot,
+        equilibrium: &Equilibrium,
+        linearisation: Linearisation,
+        up_to_hz: f64,
+        shapes: Shapes,
+    ) -> Result<Self, DynamicsError> {
         let Linearisation { cable_model, assembly, in_plane_only, winches } = linearisation;
         let coordinates = Coordinates::of(robot);
         refuse_on_supports(robot, linearisation)?;
@@ -207,7 +232,8 @@ impl Dynamics {
         let mut constant = Mat6::zeros();
         let mut terms = Vec::new();
         for (i, state) in equilibrium.cables.iter().enumerate() {
-            let stiffness = EndStiffness::new(&settled, i, state, cable_model, in_plane_only, winches, up_to_hz)
+            let options = (cable_model, in_plane_only, winches);
+            let stiffness = EndStiffness::of_cable(&settled, (i, state), options, up_to_hz, shapes)
                 .map_err(|reason| DynamicsError::of_cable(&robot.cables[i].name, cable_model, reason))?;
             match stiffness {
                 EndStiffness::Constant(k) => {

@@ -167,7 +167,7 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
     // Results of vibration.
     let limit = request.below_hz.into_iter().chain(request.at_hz).fold(0.0, f64::max);
     if ["frequencies", "damping", "response"].iter().any(|name| of.contains(name)) {
-        let (dynamics, found) = at_rest.dynamics(linearisation, limit)?;
+        let (dynamics, found) = at_rest.dynamics_for_gradients(linearisation, limit)?;
         warnings = found;
         let vibration = gradients.vibration(&dynamics)?;
         if of.contains(&"frequencies") || of.contains(&"damping") {

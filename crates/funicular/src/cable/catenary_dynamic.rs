@@ -34,7 +34,7 @@ pub use drive_signals::DriveSignal;
 pub(crate) use drive_signals::EndDirections;
 pub(crate) use internal_motion::InternalMotion;
 pub use internal_motion::{Displacements, Stations};
-pub(crate) use mesh::{ellipse, has_tension, smooth_pieces};
+pub(crate) use mesh::{POINTS_BEYOND_DEGREE, ellipse, has_tension, smooth_pieces};
 pub use moving_end::{EndAlong, EndSideways, MovingEnd};
 pub use poles::PoleResidue;
 pub(crate) use two_ended::{ENDS, TwoEnded};
@@ -44,7 +44,7 @@ use crate::catenary::Catenary;
 use crate::catenary::space::HangingCable;
 use crate::math::{Complex, DMat};
 use crate::robot::Damping;
-use mesh::Mesh;
+use mesh::{ElementTable, Mesh};
 use moving_end::Still;
 use partition::Condensed;
 use std::ops::Range;
@@ -134,6 +134,18 @@ pub struct CatenaryDynamicEnd {
     pub(crate) kept: Option<Box<KeptModes>>,
     /// Directions of the cable at its ends.
     directions: EndDirections,
+    /// Displacements of the points at which motions along the cable are integrated, by all clamped modes; `None` unless they
+    /// have been kept.
+    pub(crate) shapes: Option<Box<Stations>>,
+}
+
+/// What happens to the shapes of the clamped modes of a cable once its poles and residues are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Shapes {
+    /// They are never formed.
+    Dropped,
+    /// They are kept, for gradients.
+    Kept,
 }
 
 /// Clamped modes that a cable has kept, and the modes that replace the others: per family the number of modes that are
@@ -165,21 +177,23 @@ impl CatenaryDynamicEnd {
     ///
     /// # Errors
     /// [`CatenaryDynamicError`].
-    pub fn new(
+    pub(crate) fn new(
         hanging: &HangingCable,
         end: Option<MovingEnd>,
-        mass_per_length: f64,
-        damping: Damping,
+        (mass_per_length, damping): (f64, Damping),
         in_plane_only: bool,
         limit: f64,
+        shapes: Shapes,
     ) -> Result<Self, CatenaryDynamicError> {
         if in_plane_only && end.as_ref().is_some_and(MovingEnd::couples) {
             return Err(CatenaryDynamicError::Skew);
         }
-        let cable =
-            CatenaryDynamic::with_stations(&hanging.catenary, end, mass_per_length, limit, Vec::new(), false)?.0;
+        let places = if shapes == Shapes::Kept { Places::Points } else { Places::At(&[]) };
+        let (cable, stations) =
+            CatenaryDynamic::condensed(&hanging.catenary, end, mass_per_length, limit, places, &[])?;
         let (axes, directions) = (LocalAxes::of_hanging(hanging), EndDirections::of(hanging));
-        Ok(Self { cable, axes, damping, mass_per_length, in_plane_only, kept: None, directions })
+        let shapes = (shapes == Shapes::Kept).then(|| Box::new(stations));
+        Ok(Self { cable, axes, damping, mass_per_length, in_plane_only, kept: None, directions, shapes })
     }
 
     /// Platform end of a shallow sagging span with a drive, valid up to ω = `limit` [rad/s]. `end` is its end at the pulley
@@ -199,13 +213,13 @@ impl CatenaryDynamicEnd {
             return Err(CatenaryDynamicError::Skew);
         }
         let (cable, mass_per_length) = (shallow_span::condensed(sag, end, limit)?, sag.mass_per_length);
-        Ok(Self { cable, axes, damping, mass_per_length, in_plane_only, kept: None, directions })
+        Ok(Self { cable, axes, damping, mass_per_length, in_plane_only, kept: None, directions, shapes: None })
     }
 
     /// Copy that keeps the poles below x and has a few poles in place of the others: see [`PoleResidue::compressed`].
     /// These represent the losses of the drive and its `signals`, too.
     pub(crate) fn with_poles_below(&self, x: f64, signals: &[EndSignal]) -> Self {
-        let mut cut = self.clone();
+        let mut cut = Self { shapes: None, ..self.clone() };
         let [of_plane, of_normal, of_coupled] = self.forces_on_modes(signals);
         let CatenaryDynamic { in_plane, out_of_plane, coupled, .. } = &self.cable;
         let below = [in_plane.poles_below(x), out_of_plane.poles_below(x)];
@@ -455,7 +469,7 @@ impl CatenaryDynamic {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(catenary: &Catenary, mass_per_length: f64, limit: f64) -> Result<Self, CatenaryDynamicError> {
-        Ok(Self::with_stations(catenary, None, mass_per_length, limit, Vec::new(), false)?.0)
+        Ok(Self::with_stations(catenary, None, mass_per_length, limit, &[], false)?.0)
     }
 
     /// Dynamic stiffness as by [`new`](Self::new), and the displacements of the points at the given unstrained arc
@@ -469,10 +483,23 @@ impl CatenaryDynamic {
         end: Option<MovingEnd>,
         mass_per_length: f64,
         limit: f64,
-        arc_lengths: Vec<f64>,
+        arc_lengths: &[f64],
         loaded: bool,
     ) -> Result<(Self, Stations), CatenaryDynamicError> {
-        let cuts = if loaded { &arc_lengths[..] } else { &[] };
+        let cuts = if loaded { arc_lengths } else { &[] };
+        Self::condensed(catenary, end, mass_per_length, limit, Places::At(arc_lengths), cuts)
+    }
+
+    /// Dynamic stiffness and displacements as by [`with_stations`](Self::with_stations), with nodes of the mesh at the arc
+    /// lengths `cuts`.
+    fn condensed(
+        catenary: &Catenary,
+        end: Option<MovingEnd>,
+        mass_per_length: f64,
+        limit: f64,
+        places: Places,
+        cuts: &[f64],
+    ) -> Result<(Self, Stations), CatenaryDynamicError> {
         let mut mesh = Mesh::new(catenary, mass_per_length, limit, cuts, end.is_some())?;
         let couples = end.as_ref().is_some_and(MovingEnd::couples);
         loop {
@@ -483,13 +510,13 @@ impl CatenaryDynamic {
 
             // Poles and residues, with the drive among the stations.
             let found = match &end {
-                Some(end) if couples => Families::together(catenary, &mesh, end, limit, &arc_lengths)?,
-                _ => Families::apart(catenary, &mesh, end.as_ref(), limit, &arc_lengths)?,
+                Some(end) if couples => Families::together(catenary, &mesh, end, limit, places)?,
+                _ => Families::apart(catenary, &mesh, end.as_ref(), limit, places)?,
             };
 
             // Accept the discretisation if it is fine enough, otherwise refine it.
             if found.error <= WANTED_ERROR || mesh.refined == MAX_REFINEMENTS {
-                return Ok(found.split(end, limit, mesh.degrees(), arc_lengths));
+                return Ok(found.split(end, limit, mesh.degrees()));
             }
             mesh.refine();
         }
@@ -553,6 +580,26 @@ struct Families {
     coupled: Option<Condensed<3, 6, 6>>,
     flexibility: DMat,
     error: f64,
+    /// Arc lengths of the stations.
+    arc_lengths: Vec<f64>,
+}
+
+/// Stations of a cable.
+#[derive(Clone, Copy)]
+enum Places<'a> {
+    /// At these arc lengths from the start [m].
+    At(&'a [f64]),
+    /// At the points of the Gauss rules of the elements.
+    Points,
+}
+
+impl Places<'_> {
+    fn arc_lengths(self, mesh: &Mesh, tables: &[ElementTable]) -> Vec<f64> {
+        match self {
+            Self::At(arc_lengths) => arc_lengths.to_vec(),
+            Self::Points => mesh.points(tables),
+        }
+    }
 }
 
 impl Families {
@@ -562,7 +609,7 @@ impl Families {
         mesh: &Mesh,
         end: Option<&MovingEnd>,
         limit: f64,
-        arc_lengths: &[f64],
+        places: Places,
     ) -> Result<Self, CatenaryDynamicError> {
         let held = MovingEnd { along: None, sideways: None };
         let end = end.unwrap_or(&held);
@@ -570,11 +617,12 @@ impl Families {
             end.still(catenary.tangent(), catenary.out_of_plane_stiffness())?;
 
         let tables = mesh.tables();
-        let in_plane = mesh.condense(&tables, in_plane, end.guide_in_plane().as_ref(), limit, arc_lengths)?;
+        let arc_lengths = places.arc_lengths(mesh, &tables);
+        let in_plane = mesh.condense(&tables, in_plane, end.guide_in_plane().as_ref(), limit, &arc_lengths)?;
         let out_of_plane =
-            mesh.condense(&tables, out_of_plane, end.guide_out_of_plane().as_ref(), limit, arc_lengths)?;
+            mesh.condense(&tables, out_of_plane, end.guide_out_of_plane().as_ref(), limit, &arc_lengths)?;
         let error = in_plane.error.max(out_of_plane.error);
-        Ok(Self { in_plane, out_of_plane, coupled: None, flexibility, error })
+        Ok(Self { in_plane, out_of_plane, coupled: None, flexibility, error, arc_lengths })
     }
 
     /// Motions in plane and out of plane, which the end couples.
@@ -583,10 +631,12 @@ impl Families {
         mesh: &Mesh,
         end: &MovingEnd,
         limit: f64,
-        arc_lengths: &[f64],
+        places: Places,
     ) -> Result<Self, CatenaryDynamicError> {
         let (still, flexibility) = end.still_coupled(catenary.tangent(), catenary.out_of_plane_stiffness())?;
-        let coupled = mesh.condense(&mesh.tables(), still, Some(&end.guide()), limit, arc_lengths)?;
+        let tables = mesh.tables();
+        let arc_lengths = places.arc_lengths(mesh, &tables);
+        let coupled = mesh.condense(&tables, still, Some(&end.guide()), limit, &arc_lengths)?;
         let error = coupled.error;
         Ok(Self {
             in_plane: Condensed::none(),
@@ -594,17 +644,13 @@ impl Families {
             coupled: Some(coupled),
             flexibility,
             error,
+            arc_lengths,
         })
     }
 
     /// Cable, and its stations; the motions at its end, which follow the stations, belong to the cable.
-    fn split(
-        mut self,
-        end: Option<MovingEnd>,
-        limit: f64,
-        degrees: Vec<usize>,
-        arc_lengths: Vec<f64>,
-    ) -> (CatenaryDynamic, Stations) {
+    fn split(mut self, end: Option<MovingEnd>, limit: f64, degrees: Vec<usize>) -> (CatenaryDynamic, Stations) {
+        let arc_lengths = self.arc_lengths;
         let first = arc_lengths.len();
         let mut coupled_stations = Displacements::none();
         let mut drive = DriveMotion {

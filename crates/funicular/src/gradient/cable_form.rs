@@ -13,8 +13,8 @@ use super::drive_form::{ControlAt, DriveAtFrequency, DriveForm};
 use super::end_form::EndAtRest;
 use super::scalar::{Field, Vector, add, add_times, cross, dot, times, vector};
 use crate::cable::catenary_dynamic::{
-    CatenaryDynamic, CatenaryDynamicEnd, Displacements, DriveAt, DriveLosses, DriveSignal, Family, PoleResidue,
-    smooth_pieces,
+    CatenaryDynamic, CatenaryDynamicEnd, Displacements, DriveAt, DriveLosses, DriveSignal, Family,
+    POINTS_BEYOND_DEGREE, PoleResidue, smooth_pieces,
 };
 use crate::catenary::space::HangingCable;
 use crate::drive::derivatives::end;
@@ -23,15 +23,12 @@ use crate::robot::{Anchor, Cable, Servo, WinchMode};
 use crate::statics::CableState;
 use crate::statics::derivatives::StaticDerivativeError;
 use std::array::from_fn;
-use sums::{Element, Shapes};
+use sums::{Element, ShapeColumns};
 
 pub(super) use sums::Rules;
 
 /// Natural logarithm of the accuracy of integrals of the tension alone along a cable at rest: 1e-14.
 const DIGITS_OF_REST: f64 = 32.0;
-
-/// Points of the Gauss rule beyond the degree of an element, as in the elements themselves.
-const POINTS_FOR_TENSION: usize = 10;
 
 /// Cable about its equilibrium, with what the form needs of it.
 pub(super) struct CableForm {
@@ -67,9 +64,9 @@ struct Vibrating {
     cable: CatenaryDynamic,
     /// Number of points, and their displacements in plane, out of plane, and in all directions if the end couples both.
     points: usize,
-    in_plane: Shapes,
-    out_of_plane: Shapes,
-    coupled: Shapes,
+    in_plane: ShapeColumns,
+    out_of_plane: ShapeColumns,
+    coupled: ShapeColumns,
     drive: Option<VibratingEnd>,
 }
 
@@ -167,13 +164,21 @@ impl CableForm {
     ) -> Result<Self, GradientError> {
         let catenary = hanging(state)?.catenary;
         let pieces = smooth_pieces(&catenary, vec![(0.0, catenary.rope().unstrained_length)]);
-        let sizes: Vec<usize> = end.cable.degrees.iter().map(|degree| degree + POINTS_FOR_TENSION).collect();
+        let sizes: Vec<usize> = end.cable.degrees.iter().map(|degree| degree + POINTS_BEYOND_DEGREE).collect();
         let mut form = Self::on_pieces(state, end.mass_per_length, &pieces, &sizes, rules, Inertia::None)?;
 
-        let arc_lengths = form.points.iter().map(|point| point.fraction * form.length).collect();
+        // Displacements of these points: those that the cable has kept, or computed again.
         let (m, limit, moving) = (end.mass_per_length, end.cable.limit, end.cable.end.clone());
-        let (modes, stations) = CatenaryDynamic::with_stations(&catenary, moving.clone(), m, limit, arc_lengths, false)
-            .map_err(|reason| GradientError::CatenaryDynamic { cable: cable.name.clone(), reason })?;
+        let again;
+        let (modes, stations) = if let Some(stations) = &end.shapes {
+            (end.cable.clone(), &**stations)
+        } else {
+            let arc_lengths: Vec<f64> = form.points.iter().map(|point| point.fraction * form.length).collect();
+            let found = CatenaryDynamic::with_stations(&catenary, moving.clone(), m, limit, &arc_lengths, false)
+                .map_err(|reason| GradientError::CatenaryDynamic { cable: cable.name.clone(), reason })?;
+            again = found.1;
+            (found.0, &again)
+        };
         let drive = match (&moving, &state.drive) {
             (Some(moving), Some(drive)) => {
                 let (along, count) = moving.counts();
@@ -192,9 +197,9 @@ impl CableForm {
         form.inertia = Inertia::Modes(Box::new(Vibrating {
             cable: modes,
             points: form.points.len(),
-            in_plane: Shapes::of(&stations.in_plane),
-            out_of_plane: Shapes::of(&stations.out_of_plane),
-            coupled: Shapes::of(&stations.coupled),
+            in_plane: ShapeColumns::of(&stations.in_plane),
+            out_of_plane: ShapeColumns::of(&stations.out_of_plane),
+            coupled: ShapeColumns::of(&stations.coupled),
             drive,
         }));
         Ok(form)

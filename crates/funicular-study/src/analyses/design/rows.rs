@@ -193,7 +193,7 @@ impl<'a> AtPoses<'a> {
             }
         }
         if let Some([first, last]) = request.avoid_hz {
-            let (dynamics, _) = at_rest.dynamics(linearisation, ABOVE_BAND * last)?;
+            let (dynamics, _) = at_rest.dynamics_for_gradients(linearisation, ABOVE_BAND * last)?;
             modes::check_count(&dynamics, ABOVE_BAND * last, modes::MAX_MODES)?;
             let list = modes::below(&dynamics, ABOVE_BAND * last);
             let vibration = gradients.vibration(&dynamics).map_err(no_solution)?;

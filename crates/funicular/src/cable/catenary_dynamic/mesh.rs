@@ -81,6 +81,9 @@ const MIN_TENSION: f64 = 1e-9;
 /// estimates the error of the discretisation.
 pub(super) const BEYOND: usize = 2;
 
+/// Points of the Gauss rule of an element beyond its degree.
+pub(crate) const POINTS_BEYOND_DEGREE: usize = POINTS_FOR_TANGENT + BEYOND;
+
 /// Degree of an element for a wave of this phase over it and a tangent C whose Bernstein ellipse has this size.
 pub(super) fn degree(phase: f64, size: f64) -> usize {
     let waves = DEGREE_PER_RADIAN * phase + DEGREES_OF_TRANSITION * (0.5 * phase).cbrt();
@@ -143,6 +146,15 @@ impl<'a> Mesh<'a> {
     /// Quadrature and slopes of each element; all components share them.
     pub(super) fn tables(&self) -> Vec<ElementTable> {
         self.elements.iter().map(|element| ElementTable::new(element.degree + BEYOND)).collect()
+    }
+
+    /// Arc lengths of the points of all rules, element by element.
+    pub(super) fn points(&self, tables: &[ElementTable]) -> Vec<f64> {
+        let of_element = |(element, table): (&Element, &ElementTable)| {
+            let (center, half) = (0.5 * (element.from + element.to), 0.5 * (element.to - element.from));
+            table.rule.iter().map(|(xi, _)| center + half * xi).collect::<Vec<_>>()
+        };
+        self.elements.iter().zip(tables).flat_map(of_element).collect()
     }
 
     /// Polynomial degree of each element.

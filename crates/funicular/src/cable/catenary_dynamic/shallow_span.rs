@@ -37,7 +37,7 @@ pub(super) fn condensed(
         }
         let found = if moves.couples() { span.together(moves, limit)? } else { span.apart(moves, limit)? };
         if found.error <= WANTED_ERROR || refinements == MAX_REFINEMENTS {
-            return Ok(found.split(end, limit, vec![span.degree], Vec::new()).0);
+            return Ok(found.split(end, limit, vec![span.degree]).0);
         }
         span.degree = mesh::refined(span.degree);
     }
@@ -71,7 +71,7 @@ impl ShallowSpan<'_> {
         let in_plane = self.condense(end.guide_in_plane().as_ref(), in_plane, limit)?;
         let out_of_plane = self.condense(end.guide_out_of_plane().as_ref(), out_of_plane, limit)?;
         let error = in_plane.error.max(out_of_plane.error);
-        Ok(Families { in_plane, out_of_plane, coupled: None, flexibility, error })
+        Ok(Families { in_plane, out_of_plane, coupled: None, flexibility, error, arc_lengths: Vec::new() })
     }
 
     /// Motions in plane and out of plane, which the end couples.
@@ -86,6 +86,7 @@ impl ShallowSpan<'_> {
             coupled: Some(coupled),
             flexibility,
             error,
+            arc_lengths: Vec::new(),
         })
     }
 

@@ -10,14 +10,14 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Displacement of the points of a cable by the motion of its platform end and by its clamped modes, one column each.
-pub(super) struct Shapes {
+pub(super) struct ShapeColumns {
     /// Components per column.
     rows: usize,
     /// The columns: one per direction of the platform end, then one per mode.
     columns: Vec<f64>,
 }
 
-impl Shapes {
+impl ShapeColumns {
     /// Columns of these displacements, axis by axis.
     pub(super) fn of<const D: usize, const N: usize>(of: &Displacements<D, N>) -> Self {
         let mut columns = Vec::with_capacity(D * of.still.len() * (D + of.modes.len()));
