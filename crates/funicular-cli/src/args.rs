@@ -21,8 +21,8 @@ pub(crate) use design::DesignArgs;
 pub(crate) use export::{ExportArgs, ExportFormat};
 pub(crate) use gradient::GradientArgs;
 pub(crate) use groups::{
-    ChangeArgs, FigureArgs, LoadArgs, ModelArgs, OutputArgs, PointArgs, RangeArgs, RobotArgs, StateArgs, TensionArgs,
-    TermArgs,
+    ChangeArgs, FigureArgs, LinearisedArgs, LoadArgs, LoadedRobotArgs, ModelArgs, OutputArgs, PointArgs, RangeArgs,
+    RobotArgs, StateArgs, TensionArgs, TermArgs,
 };
 pub(crate) use identify::IdentifyArgs;
 pub(crate) use import::ImportArgs;

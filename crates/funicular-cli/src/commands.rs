@@ -68,8 +68,10 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         }
         Command::Merge(args) => merge(args),
         Command::Plot(args) => page::plot(args),
-        Command::Live(args) => page::live(&request_of(&cli.command)?, args.robot.as_deref(), &args.output_file),
-        Command::Report(args) => page::report(&request_of(&cli.command)?, args.robot.as_deref(), &args.output_file),
+        Command::Live(args) => page::live(&request_of(&cli.command)?, args.robot.robot.as_deref(), &args.output_file),
+        Command::Report(args) => {
+            page::report(&request_of(&cli.command)?, args.robot.robot.as_deref(), &args.output_file)
+        }
         Command::Paper(args) => page::paper(&args.output_file),
         Command::New(args) => {
             let mut guard = Guard::default();
@@ -155,8 +157,12 @@ fn request_of(command: &Command) -> Result<Request> {
         Command::Sweep(args) => Request::Sweep(args.request(robot(&args.robot)?)),
         Command::Merge(args) => Request::Merge(args.request()),
         Command::Plot(args) => Request::Plot(args.request()),
-        Command::Report(args) => Request::Report(args.request(robot_file::read(args.robot.as_deref(), &args.changes)?)),
-        Command::Live(args) => Request::Live(args.request(robot_file::read(args.robot.as_deref(), &args.changes)?)),
+        Command::Report(args) => {
+            Request::Report(args.request(robot_file::read(args.robot.robot.as_deref(), &args.robot.changes)?))
+        }
+        Command::Live(args) => {
+            Request::Live(args.request(robot_file::read(args.robot.robot.as_deref(), &args.robot.changes)?))
+        }
         Command::Paper(_) => Request::Paper(requests::PaperRequest {}),
         Command::New(args) => Request::New(new_request(args)?),
         Command::Schema(_) => Request::Schema(requests::SchemaRequest {}),

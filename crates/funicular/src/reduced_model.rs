@@ -8,10 +8,12 @@
 //! section 13.
 
 mod candidates;
+mod channels;
 mod control_model;
 mod error;
 mod expansion;
 mod massless;
+mod matrices;
 mod reference;
 mod selection;
 mod steps;
@@ -25,17 +27,18 @@ pub use control_model::{
 pub use error::ReductionError;
 pub use selection::Size;
 
-use crate::cable::catenary_dynamic::{DriveSignal, EndSignal, InPowersOfS};
+use crate::cable::catenary_dynamic::{DriveSignal, InPowersOfS};
 use crate::cable::{CableModel, DynamicCable};
-use crate::dynamics::{CableBlocks, CableRow, Dynamics, PlatformBlocks, SupportBlocks};
-use crate::math::{CDMat, Complex, DMat, DVec, Vec3, Vec6, symmetric_part};
+use crate::dynamics::{CableBlocks, Dynamics};
+use crate::math::{CDMat, Complex, DMat};
 use crate::modes;
-use crate::response::{self, FrameInput, Port, Quantity, ResponseError, Signal};
-use crate::robot::{Damping, Robot};
+use crate::response::{FrameInput, Quantity, Signal};
+use crate::robot::Robot;
 use crate::statics::Equilibrium;
+use channels::Channels;
 use expansion::Expansion;
 use massless::Massless;
-use std::array::from_fn;
+use matrices::{Layout, Matrices};
 use std::f64::consts::TAU;
 use std::ops::Range;
 use steps::Steps;
@@ -270,285 +273,6 @@ fn largest_difference(reference: &[Vec<Complex>], others: &[Vec<Complex>], kinds
     (0..count).flat_map(|k| (0..=last).map(move |kind| (kind, k))).map(|(kind, k)| of_kind(kind, k)).fold(0.0, f64::max)
 }
 
-/// Ports of the inputs and outputs on the linearised robot.
-struct Channels {
-    inputs: Vec<Port>,
-    outputs: Vec<Port>,
-}
-
-impl Channels {
-    fn new(
-        robot: &Robot,
-        equilibrium: &Equilibrium,
-        dynamics: &Dynamics,
-        inputs: &[Signal],
-        outputs: &[(Signal, Quantity)],
-        loaded: bool,
-    ) -> Result<Self, ReductionError> {
-        let signals: Vec<Signal> = inputs.iter().copied().chain(outputs.iter().map(|(signal, _)| *signal)).collect();
-        let mut inputs_first = Port::all(robot, equilibrium, dynamics, &signals, loaded)?;
-        let outputs = inputs_first.split_off(inputs.len());
-        Ok(Self { inputs: inputs_first, outputs })
-    }
-
-    /// Displacement of every output per force at every input, at all frequencies.
-    fn responses(&self, dynamics: &Dynamics, frequencies_hz: &[f64]) -> Result<Vec<Vec<Complex>>, ResponseError> {
-        let outputs: Vec<_> = self.outputs.iter().map(|port| (port.clone(), Quantity::Displacement)).collect();
-        response::matrix(dynamics, frequencies_hz, &self.inputs, &outputs)
-    }
-
-    /// Row of a port over the coordinates, in powers of s.
-    fn row(port: &Port, dynamics: &Dynamics, layout: &Layout) -> InPowersOfS<Vec<f64>> {
-        let zeros = || vec![0.0; layout.coordinates.len()];
-        let mut row = [zeros(), zeros(), zeros()];
-        let coordinates = |vector: &Vec6| dynamics.coordinates().motion().reduced(vector);
-        match port {
-            Port::Platform(vector) => {
-                row[0][..layout.dof].copy_from_slice(&coordinates(vector).as_slice()[..layout.dof]);
-            }
-            Port::Drive { term, signal, .. } => {
-                let Some(powers) = dynamics.drive_signal_row(*term, *signal) else {
-                    unreachable!("a port has a signal of its drive")
-                };
-                for (row, of_cable) in row.iter_mut().zip(&powers) {
-                    layout.add_row(of_cable, *term, 1.0, row);
-                }
-            }
-            Port::Frame(frame) => {
-                row[0][..layout.dof].copy_from_slice(&coordinates(frame.constant()).as_slice()[..layout.dof]);
-                if let Some(supports) = dynamics.supports() {
-                    let (constant, feet) = frame.on_feet();
-                    row[0][layout.first_support..].copy_from_slice(constant);
-                    row[2][layout.first_support..].copy_from_slice(&supports.inertia_of_feet(feet));
-                }
-                for (term, motion) in frame.carriers() {
-                    let Some(powers) = dynamics.carrier_row(term, motion) else {
-                        unreachable!("other models were refused")
-                    };
-                    for (row, of_cable) in row.iter_mut().zip(&powers) {
-                        layout.add_row(of_cable, term, 1.0, row);
-                    }
-                }
-            }
-            Port::Cable { stations, station, direction_w } => {
-                let (platform, term, amplitudes) = stations.row(dynamics, *station, direction_w);
-                row[0][..layout.dof].copy_from_slice(&coordinates(&platform).as_slice()[..layout.dof]);
-                if let Some(term) = term {
-                    let from = layout.first_of_term[term];
-                    row[0][from..from + amplitudes.len()].copy_from_slice(&amplitudes);
-                }
-                let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
-                let by_far_end = axes.map(|axis| stations.still_by_far_end(*station, direction_w, &axis));
-                let on_supports = dynamics.station_row_on_supports(stations.cable, by_far_end, &amplitudes);
-                row[0][layout.first_support..].copy_from_slice(&on_supports);
-            }
-        }
-        row
-    }
-
-    /// Matrices of ports by powers of s, one row per port.
-    fn rows(ports: &[Port], dynamics: &Dynamics, layout: &Layout) -> InPowersOfS<DMat> {
-        let rows: Vec<_> = ports.iter().map(|port| Self::row(port, dynamics, layout)).collect();
-        from_fn(|power| DMat::from_fn(ports.len(), layout.coordinates.len(), |i, j| rows[i][power][j]))
-    }
-
-    /// Signals at the far ends of cables: index of the cable, and signal.
-    fn at_far_ends(&self, dynamics: &Dynamics) -> Vec<(usize, EndSignal)> {
-        let of_port = |port: &Port| match port {
-            Port::Drive { term, signal, .. } => vec![(*term, EndSignal::Drive(*signal))],
-            Port::Frame(frame) => frame.carriers().map(|(term, motion)| (term, EndSignal::Carrier(*motion))).collect(),
-            Port::Platform(_) | Port::Cable { .. } => Vec::new(),
-        };
-        let all = self.inputs.iter().chain(&self.outputs).flat_map(of_port);
-        all.map(|(term, signal)| (dynamics.terms()[term].cable(), signal)).collect()
-    }
-
-    /// Outputs per inputs with all coordinates at rest, in powers of s, outputs×inputs. Input and output of the drive of
-    /// one cable have such a part, and so has an output on a cable whose far end the input moves.
-    fn direct(&self, dynamics: &Dynamics) -> InPowersOfS<DMat> {
-        let entry = |output: &Port, input: &Port| match (input, output) {
-            (Port::Drive { term, signal: input, .. }, Port::Drive { term: of_output, signal: output, .. })
-                if term == of_output =>
-            {
-                dynamics.direct_drive_signal(*term, *input, *output).unwrap_or_default()
-            }
-            (Port::Frame(frame), Port::Drive { term, signal, .. }) => {
-                let moved = frame.carriers().find(|(of, _)| of == term);
-                moved.and_then(|(_, motion)| dynamics.direct_by_carrier(*term, motion, *signal)).unwrap_or_default()
-            }
-            (Port::Drive { term, signal, .. }, Port::Cable { stations, station, direction_w })
-            | (Port::Cable { stations, station, direction_w }, Port::Drive { term, signal, .. })
-                if dynamics.terms()[*term].cable() == stations.cable =>
-            {
-                [stations.still_by_ends(*station, direction_w, dynamics.ends_of_signal(*term, *signal)), 0.0, 0.0]
-            }
-            (Port::Frame(frame), Port::Cable { stations, station, direction_w }) => {
-                [frame.still_of_station(stations, *station, direction_w), 0.0, 0.0]
-            }
-            _ => [0.0; 3],
-        };
-        let size = (self.outputs.len(), self.inputs.len());
-        from_fn(|power| DMat::from_fn(size.0, size.1, |o, i| entry(&self.outputs[o], &self.inputs[i])[power]))
-    }
-}
-
-/// Order of the coordinates: the platform's, then per cable its clamped modes in plane and out of plane, then the supports.
-struct Layout {
-    dof: usize,
-    first_of_term: Vec<usize>,
-    /// First coordinate of the supports.
-    first_support: usize,
-    coordinates: Vec<Coordinate>,
-}
-
-impl Layout {
-    /// Order for a robot with this number of support coordinates.
-    fn new(dof: usize, cables: &[CableBlocks], supports: usize) -> Self {
-        let mut coordinates: Vec<Coordinate> = (0..dof).map(Coordinate::Platform).collect();
-        let mut first_of_term = Vec::with_capacity(cables.len());
-        for blocks in cables {
-            first_of_term.push(coordinates.len());
-            coordinates.extend(blocks.modes.iter().map(|mode| Coordinate::Clamped {
-                cable: blocks.cable,
-                out_of_plane: mode.out_of_plane,
-                frequency_hz: mode.pole.sqrt() / TAU,
-            }));
-        }
-        let first_support = coordinates.len();
-        coordinates.extend((0..supports).map(|i| Coordinate::Support { support: i / 3, axis: i % 3 }));
-        Self { dof, first_of_term, first_support, coordinates }
-    }
-
-    /// Index of a coordinate of the ends: the platform's, then those of the supports.
-    fn end(&self, i: usize) -> usize {
-        if i < self.dof { i } else { self.first_support + i - self.dof }
-    }
-
-    /// Adds `factor` times a row of a cable, given by its index among the terms, to a row over all coordinates.
-    fn add_row(&self, of_cable: &CableRow, term: usize, factor: f64, row: &mut [f64]) {
-        let at_modes = &mut row[self.first_of_term[term]..][..of_cable.modes.len()];
-        at_modes.iter_mut().zip(&of_cable.modes).for_each(|(sum, entry)| *sum += factor * entry);
-        of_cable.ends.iter().enumerate().for_each(|(i, entry)| row[self.end(i)] += factor * entry);
-    }
-}
-
-/// Matrices over all coordinates.
-struct Matrices {
-    mass: DMat,
-    /// Viscous damping.
-    damping: DMat,
-    /// Damping of cables with a constant damping ratio: the coefficient R of the damping `2ωR`.
-    ratio: DMat,
-    /// Imaginary part of the stiffness of supports with a constant damping ratio.
-    loss: DMat,
-    stiffness: DMat,
-    /// Mass of the drives; part of `mass`.
-    drives: DMat,
-    /// Motions of drives on which losses act.
-    lossy: Vec<Vec<f64>>,
-}
-
-impl Matrices {
-    /// Matrices of the platform alone, with n coordinates in total.
-    fn of_platform(platform: &PlatformBlocks, n: usize) -> Self {
-        let f = platform.mass.nrows();
-        let at_corner = |block: &DMat| {
-            let mut matrix = DMat::zeros(n, n);
-            matrix.view_mut((0, 0), (f, f)).copy_from(block);
-            matrix
-        };
-        Self {
-            mass: at_corner(&platform.mass),
-            damping: at_corner(&platform.damping),
-            ratio: DMat::zeros(n, n),
-            loss: DMat::zeros(n, n),
-            stiffness: at_corner(&platform.stiffness),
-            drives: DMat::zeros(n, n),
-            lossy: Vec::new(),
-        }
-    }
-
-    /// Adds the flexible supports.
-    fn add_supports(&mut self, supports: &SupportBlocks, layout: &Layout) {
-        let (at, count) = (layout.first_support, supports.mass.nrows());
-        let parts = [
-            (&mut self.stiffness, &supports.stiffness),
-            (&mut self.mass, &supports.mass),
-            (&mut self.loss, &supports.loss),
-        ];
-        for (matrix, block) in parts {
-            let mut view = matrix.view_mut((at, at), (count, count));
-            view += block;
-        }
-        let mut view = self.stiffness.view_mut((0, at), (layout.dof, count));
-        view += &supports.coupling;
-        let mut view = self.stiffness.view_mut((at, 0), (count, layout.dof));
-        view += &supports.coupling.transpose();
-    }
-
-    /// Adds a cable, given by its index among the terms.
-    fn add_cable(&mut self, cable: &CableBlocks, term: usize, layout: &Layout) {
-        let f = cable.end_mass.nrows();
-        let n = self.mass.nrows();
-        let from = layout.first_of_term[term];
-
-        // Stiffness of the ends, and ω_k² of each clamped mode.
-        for (i, j) in (0..f).flat_map(|i| (0..f).map(move |j| (i, j))) {
-            self.stiffness[(layout.end(i), layout.end(j))] += cable.end_stiffness[(i, j)];
-        }
-        for (k, mode) in cable.modes.iter().enumerate() {
-            self.stiffness[(from + k, from + k)] = mode.pole;
-        }
-
-        // Mass of the ends, 1 for each clamped mode, and the participation of the mode between both.
-        let mut mass = DMat::zeros(n, n);
-        for (i, j) in (0..f).flat_map(|i| (0..f).map(move |j| (i, j))) {
-            mass[(layout.end(i), layout.end(j))] = cable.end_mass[(i, j)];
-        }
-        for (k, mode) in cable.modes.iter().enumerate() {
-            let at = from + k;
-            mass[(at, at)] = 1.0;
-            for (i, g) in mode.participation.iter().enumerate() {
-                mass[(layout.end(i), at)] = *g;
-                mass[(at, layout.end(i))] = *g;
-            }
-        }
-
-        // The drive: its mass, which is part of that of the modes, and its losses.
-        let mut rope = mass.clone();
-        for part in &cable.drive {
-            let mut row = vec![0.0; n];
-            layout.add_row(&part.row, term, 1.0, &mut row);
-            let row = DVec::from_vec(row);
-            let product = &row * row.transpose();
-            rope -= &product * part.mass;
-            self.drives += &product * part.mass;
-            if part.damping > 0.0 {
-                self.damping += product * part.damping;
-                self.lossy.push(row.as_slice().to_vec());
-            }
-        }
-
-        // Damping of the rope acts where its mass is.
-        match cable.damping {
-            Damping::Viscous(c) => self.damping += &rope * (c / cable.mass_per_length),
-            Damping::Ratio(xi) => self.ratio += &rope * xi,
-        }
-        self.mass += mass;
-    }
-
-    /// Viscous damping, including the replacement of constant ratios.
-    fn all_damping(&self, at: DampingAt) -> Result<DMat, ReductionError> {
-        let by_ratio = match at {
-            DampingAt::Hz(hz) => &self.ratio * (2.0 * TAU * hz) + &self.loss / (TAU * hz),
-            DampingAt::NaturalFrequencies => {
-                at_natural_frequencies(&self.mass, &self.stiffness, &self.ratio, &self.loss)?
-            }
-        };
-        Ok(&self.damping + by_ratio)
-    }
-}
-
 /// Matrices of a linearised robot whose cables have only the poles to be kept, the order of all coordinates, and the supports
 /// without mass, which the matrices do not contain.
 fn matrices(dynamics: &Dynamics) -> (Layout, Matrices, Option<Massless>) {
@@ -615,38 +339,6 @@ fn assembled(
         truncation_error: None,
         damping_error: None,
     })
-}
-
-/// Viscous damping matrix that replaces `2ω R + S/ω`: with the natural modes Φ, `ΦᵀMΦ = 1`, it is `MΦ W ΦᵀM` with
-/// `W_jk = 2 √ω_j (ΦᵀRΦ)_jk √ω_k + (ΦᵀSΦ)_jk/√(ω_jω_k)`. It is correct at ω = ω_j = ω_k, also for the coupling of close modes.
-/// R belongs to cables with a constant damping ratio, S to supports.
-fn at_natural_frequencies(mass: &DMat, stiffness: &DMat, ratio: &DMat, loss: &DMat) -> Result<DMat, ReductionError> {
-    let factor = mass.clone().cholesky().ok_or(ReductionError::Mass)?.l();
-    let half = factor.solve_lower_triangular(stiffness).ok_or(ReductionError::Mass)?;
-    let standard = factor.solve_lower_triangular(&half.transpose()).ok_or(ReductionError::Mass)?;
-    let eigen = standard.symmetric_eigen();
-
-    // MΦ = L U; Φᵀ R Φ = Uᵀ L⁻¹ R L⁻ᵀ U.
-    let of_modes = |matrix: &DMat| {
-        let half = factor.solve_lower_triangular(matrix).ok_or(ReductionError::Mass)?;
-        let inner = factor.solve_lower_triangular(&half.transpose()).ok_or(ReductionError::Mass)?;
-        Ok::<_, ReductionError>(eigen.eigenvectors.transpose() * inner * &eigen.eigenvectors)
-    };
-    let mut in_modes = of_modes(ratio)?;
-    let roots: Vec<f64> = eigen.eigenvalues.iter().map(|square| square.max(0.0).sqrt().sqrt()).collect();
-    for j in 0..roots.len() {
-        for k in 0..roots.len() {
-            in_modes[(j, k)] *= 2.0 * roots[j] * roots[k];
-        }
-    }
-    if loss.amax() > 0.0 {
-        // An unstable direction has no frequency at which the damping could be correct.
-        let inverse = |root: f64| if root > 0.0 { root.recip() } else { 0.0 };
-        in_modes += of_modes(loss)?.map_with_location(|j, k, entry| entry * inverse(roots[j]) * inverse(roots[k]));
-    }
-    let back = factor * eigen.eigenvectors;
-    let damping = &back * in_modes * back.transpose();
-    Ok(symmetric_part(&damping))
 }
 
 /// Maximum relative error of the responses by the viscous replacement of constant ratios, at natural frequencies.

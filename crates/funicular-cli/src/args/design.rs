@@ -1,10 +1,10 @@
 //! Options of `design`.
 
-use super::names::{DesignGoalName, StaticModelName};
+use super::names::DesignGoalName;
 use super::values::{self, PoseNumbers};
-use super::{LoadArgs, ModelArgs, OutputArgs, RobotArgs, TensionArgs};
+use super::{LoadedRobotArgs, ModelArgs, OutputArgs, RobotArgs, TensionArgs};
 use clap::Args;
-use funicular_study::request::{ChangeValue, DesignRequest, Pose, RobotText, State};
+use funicular_study::request::{ChangeValue, DesignRequest, RobotText};
 use funicular_study::set_values;
 use std::path::PathBuf;
 
@@ -52,16 +52,8 @@ pub(crate) struct DesignArgs {
     #[arg(long, value_name = "X,Y,Z[,ROLL,PITCH,YAW]", value_parser = values::pose, allow_hyphen_values = true, conflicts_with = "poses", help_heading = "State")]
     pub(crate) pose: Option<PoseNumbers>,
 
-    /// Mass of the platform [kg]; inertia and centre of mass do not change
-    #[arg(long, value_name = "KG", value_parser = values::positive, allow_hyphen_values = true, help_heading = "State")]
-    pub(crate) mass_kg: Option<f64>,
-
-    /// Static model of the cables
-    #[arg(long, value_name = "MODEL", value_enum, default_value_t, help_heading = "State")]
-    pub(crate) static_model: StaticModelName,
-
     #[command(flatten)]
-    pub(crate) load: LoadArgs,
+    pub(crate) loaded: LoadedRobotArgs,
     #[command(flatten)]
     pub(crate) tensions: TensionArgs,
     #[command(flatten)]
@@ -92,13 +84,7 @@ impl DesignArgs {
             min_stiffness_n_per_m: self.min_stiffness_n_per_m,
             avoid_hz: self.avoid_hz,
             max_iterations: self.max_iterations,
-            state: State {
-                pose: self.pose.map(|pose| Pose::Angles(pose.0)),
-                mass_kg: self.mass_kg,
-                static_model: self.static_model.into(),
-                load: self.load.request(),
-                ..State::default()
-            },
+            state: self.loaded.at_pose(self.pose),
             tensions: self.tensions.request(),
             model: self.model.request(),
         }

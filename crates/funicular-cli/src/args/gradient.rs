@@ -1,6 +1,6 @@
 //! Arguments of `gradient`.
 
-use super::groups::{ModelArgs, OutputArgs, PointArgs, RobotArgs, StateArgs, TensionArgs};
+use super::groups::{LinearisedArgs, OutputArgs, PointArgs, RobotArgs};
 use super::names::{HoldName, PerName};
 use super::values::{self};
 use clap::Args;
@@ -52,11 +52,7 @@ pub(crate) struct GradientArgs {
     pub(crate) points: PointArgs,
 
     #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
+    pub(crate) linearised: LinearisedArgs,
     #[command(flatten)]
     pub(crate) sink: OutputArgs,
 }

@@ -5,6 +5,7 @@ use super::names::{AssemblyName, CableModelName, StaticModelName, TensionRuleNam
 use super::values::{self, Lengths, PoseNumbers, Tensions};
 use clap::Args;
 use funicular::math::Vec3;
+use funicular::modes::PLATFORM_SHARE;
 use funicular_study::request::Change;
 use std::path::PathBuf;
 
@@ -27,6 +28,27 @@ pub(crate) struct ChangeArgs {
     pub(crate) set: Vec<Change>,
 }
 
+/// Robot file and its changes, with a robot that is built into the program if no file is given.
+#[derive(Debug, Args)]
+pub(crate) struct OptionalRobotArgs {
+    /// Robot file (TOML), or - for standard input [default: yuan2014-4mm.toml, which is built into the program]
+    #[arg(value_name = "ROBOT")]
+    pub(crate) robot: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) changes: ChangeArgs,
+}
+
+/// Robot at rest and its linearisation.
+#[derive(Debug, Args)]
+pub(crate) struct LinearisedArgs {
+    #[command(flatten)]
+    pub(crate) state: StateArgs,
+    #[command(flatten)]
+    pub(crate) tensions: TensionArgs,
+    #[command(flatten)]
+    pub(crate) model: ModelArgs,
+}
+
 /// State of the robot; what these options do not give comes from the robot file.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "State")]
@@ -44,6 +66,14 @@ pub(crate) struct StateArgs {
     #[arg(long, conflicts_with = "lengths_m")]
     pub(crate) hold_lengths_of_pose: bool,
 
+    #[command(flatten)]
+    pub(crate) loaded: LoadedRobotArgs,
+}
+
+/// Mass, static model and loads of the robot, at any pose.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "State")]
+pub(crate) struct LoadedRobotArgs {
     /// Mass of the platform [kg]; inertia and centre of mass do not change
     #[arg(long, value_name = "KG", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) mass_kg: Option<f64>,
@@ -178,6 +208,14 @@ pub(crate) struct TensionArgs {
     /// Maximum tension anywhere in a cable [N] [default: from the robot file, or none]
     #[arg(long, value_name = "N", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) max_tension_n: Option<f64>,
+}
+
+/// Mode that counts as a mode of the platform.
+#[derive(Debug, Args)]
+pub(crate) struct ShareArgs {
+    /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform
+    #[arg(long, value_name = "FRACTION", value_parser = values::fraction, allow_hyphen_values = true, default_value_t = PLATFORM_SHARE)]
+    pub(crate) platform_share: f64,
 }
 
 /// Points of the platform for the input and the output of a response.

@@ -1,7 +1,7 @@
 //! Options of `identify`.
 
 use super::values::{self, Lengths, PoseNumbers, Tensions};
-use super::{ModelArgs, OutputArgs, PointArgs, RobotArgs, StateArgs, TensionArgs};
+use super::{LinearisedArgs, OutputArgs, PointArgs, RobotArgs};
 use clap::Args;
 use funicular_study::measurements::{NodePoint, ResponseName};
 use funicular_study::request::FitValue;
@@ -99,11 +99,7 @@ pub(crate) struct IdentifyArgs {
     pub(crate) damping_noise: f64,
 
     #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
+    pub(crate) linearised: LinearisedArgs,
 
     /// Natural frequencies with cables that are straight, without mass and rigid in length; with --static-model ideal
     #[arg(long, help_heading = "Model")]

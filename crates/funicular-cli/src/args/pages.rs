@@ -1,19 +1,15 @@
 //! Arguments of the commands that write a page about a robot.
 
-use super::groups::{ChangeArgs, ModelArgs, PointArgs, StateArgs, TensionArgs};
+use super::groups::{LinearisedArgs, OptionalRobotArgs, PointArgs, ShareArgs};
 use super::values::{self};
 use clap::Args;
-use funicular::modes::PLATFORM_SHARE;
 use funicular_study::signals::{Input, Output};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct ReportArgs {
-    /// Robot file (TOML), or - for standard input [default: yuan2014-4mm.toml, which is built into the program]
-    #[arg(value_name = "ROBOT")]
-    pub(crate) robot: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) changes: ChangeArgs,
+    pub(crate) robot: OptionalRobotArgs,
 
     /// Upper limit of the frequencies [Hz]
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true, default_value = "20")]
@@ -31,16 +27,11 @@ pub(crate) struct ReportArgs {
     #[command(flatten)]
     pub(crate) points: PointArgs,
 
-    /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform
-    #[arg(long, value_name = "FRACTION", value_parser = values::fraction, allow_hyphen_values = true, default_value_t = PLATFORM_SHARE)]
-    pub(crate) platform_share: f64,
+    #[command(flatten)]
+    pub(crate) share: ShareArgs,
 
     #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
+    pub(crate) linearised: LinearisedArgs,
 
     /// Write the page to FILE, completely or not at all; - is standard output
     #[arg(short, long, value_name = "FILE", default_value = "funicular-report.html", help_heading = "Output")]
@@ -49,17 +40,10 @@ pub(crate) struct ReportArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct LiveArgs {
-    /// Robot file (TOML), or - for standard input [default: yuan2014-4mm.toml, which is built into the program]
-    #[arg(value_name = "ROBOT")]
-    pub(crate) robot: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) changes: ChangeArgs,
+    pub(crate) robot: OptionalRobotArgs,
     #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
+    pub(crate) linearised: LinearisedArgs,
 
     /// Write the page to FILE, completely or not at all; - is standard output
     #[arg(short, long, value_name = "FILE", default_value = "funicular-live.html", help_heading = "Output")]

@@ -1,11 +1,12 @@
 //! Conversion of arguments to requests. Names and values are copied; no decision is made here.
 
+use super::values::PoseNumbers;
 use super::{
     AssemblyName, CableArgs, CableModelName, ChangeArgs, CompareArgs, EachArgs, ExportArgs, ExportFormat, FrfArgs,
-    GradientArgs, ImportArgs, LengthUnitName, LiveArgs, LoadArgs, MapArgs, MergeArgs, ModelArgs, ModesArgs, MotionName,
-    NewArgs, PayloadArgs, PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs, ReportArgs, StateArgs,
-    StaticsArgs, StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs, UncertaintyArgs, WinchModeName,
-    WireRopeName,
+    GradientArgs, ImportArgs, LengthUnitName, LinearisedArgs, LiveArgs, LoadArgs, LoadedRobotArgs, MapArgs, MergeArgs,
+    ModelArgs, ModesArgs, MotionName, NewArgs, PayloadArgs, PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs,
+    ReportArgs, StateArgs, StaticsArgs, StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs,
+    UncertaintyArgs, WinchModeName, WireRopeName,
 };
 use funicular_files::endings::Kind;
 use funicular_study::import::SourceFile;
@@ -24,15 +25,31 @@ impl ChangeArgs {
     }
 }
 
+impl LinearisedArgs {
+    pub(crate) fn request(&self) -> (State, Tensions, Model) {
+        (self.state.request(), self.tensions.request(), self.model.request())
+    }
+}
+
 impl StateArgs {
     pub(crate) fn request(&self) -> State {
         State {
             lengths_m: self.lengths_m.as_ref().map(|lengths| lengths.0.clone()),
-            pose: self.pose.map(|pose| Pose::Angles(pose.0)),
             hold_lengths_of_pose: self.hold_lengths_of_pose,
+            ..self.loaded.at_pose(self.pose)
+        }
+    }
+}
+
+impl LoadedRobotArgs {
+    /// State at a pose, or else at the pose of the robot file.
+    pub(crate) fn at_pose(&self, pose: Option<PoseNumbers>) -> State {
+        State {
+            pose: pose.map(|pose| Pose::Angles(pose.0)),
             mass_kg: self.mass_kg,
             static_model: self.static_model.into(),
             load: self.load.request(),
+            ..State::default()
         }
     }
 }
@@ -117,18 +134,14 @@ impl StaticsArgs {
 
 impl StiffnessArgs {
     pub(crate) fn request(&self, robot: RobotText) -> request::StiffnessRequest {
-        request::StiffnessRequest {
-            robot,
-            at_hz: self.at_hz,
-            state: self.state.request(),
-            tensions: self.tensions.request(),
-            model: self.model.request(),
-        }
+        let (state, tensions, model) = self.linearised.request();
+        request::StiffnessRequest { robot, at_hz: self.at_hz, state, tensions, model }
     }
 }
 
 impl ModesArgs {
     pub(crate) fn request(&self, robot: RobotText) -> request::ModesRequest {
+        let (state, tensions, model) = self.linearised.request();
         request::ModesRequest {
             robot,
             below_hz: self.below_hz,
@@ -136,12 +149,12 @@ impl ModesArgs {
             output: self.output.as_ref().map(|output| output.name.clone()),
             points: self.points.request(),
             stations: self.stations,
-            platform_share: self.platform_share,
+            platform_share: self.share.platform_share,
             damped: true,
             rigid_cables: self.rigid_cables,
-            state: self.state.request(),
-            tensions: self.tensions.request(),
-            model: self.model.request(),
+            state,
+            tensions,
+            model,
         }
     }
 }
@@ -154,6 +167,7 @@ impl FrfArgs {
     }
 
     pub(crate) fn request(&self, robot: RobotText) -> request::FrfRequest {
+        let (state, tensions, model) = self.linearised.request();
         request::FrfRequest {
             robot,
             range: FrequencyRange {
@@ -168,9 +182,9 @@ impl FrfArgs {
             output: OneOrSeveral::of(self.output.iter().map(|output| output.name.clone()).collect()),
             signal_points: self.signal_points.request(),
             prominence_db: self.prominence_db,
-            state: self.state.request(),
-            tensions: self.tensions.request(),
-            model: self.model.request(),
+            state,
+            tensions,
+            model,
         }
     }
 }
@@ -181,7 +195,7 @@ impl CompareArgs {
             robot,
             below_hz: self.below_hz,
             platform: self.platform,
-            platform_share: self.platform_share,
+            platform_share: self.share.platform_share,
             tolerance: self.tolerance,
             state: self.state.request(),
             tensions: self.tensions.request(),
@@ -192,6 +206,7 @@ impl CompareArgs {
 
 impl GradientArgs {
     pub(crate) fn request(&self, robot: RobotText) -> request::GradientRequest {
+        let (state, tensions, model) = self.linearised.request();
         request::GradientRequest {
             robot,
             of: self.of.clone(),
@@ -204,15 +219,16 @@ impl GradientArgs {
             input: self.input.as_ref().map(|input| input.name.clone()),
             output: self.output.as_ref().map(|output| output.name.clone()),
             points: self.points.request(),
-            state: self.state.request(),
-            tensions: self.tensions.request(),
-            model: self.model.request(),
+            state,
+            tensions,
+            model,
         }
     }
 }
 
 impl UncertaintyArgs {
     pub(crate) fn request(&self, robot: RobotText, poses: Option<Vec<[f64; 6]>>) -> request::UncertaintyRequest {
+        let (state, tensions, model) = self.linearised.request();
         request::UncertaintyRequest {
             robot,
             of: self.of.clone(),
@@ -224,9 +240,9 @@ impl UncertaintyArgs {
             seed: self.seed,
             below_hz: self.below_hz,
             poses,
-            state: self.state.request(),
-            tensions: self.tensions.request(),
-            model: self.model.request(),
+            state,
+            tensions,
+            model,
         }
     }
 }
@@ -273,6 +289,7 @@ impl CableArgs {
 
 impl ReduceArgs {
     pub(crate) fn request(&self, robot: RobotText) -> request::ReduceRequest {
+        let (state, tensions, model) = self.linearised.request();
         request::ReduceRequest {
             robot,
             below_hz: self.below_hz,
@@ -283,23 +300,24 @@ impl ReduceArgs {
             order: self.order,
             tolerance: self.tolerance,
             damping_at_hz: self.damping_at_hz,
-            state: self.state.request(),
-            tensions: self.tensions.request(),
-            model: self.model.request(),
+            state,
+            tensions,
+            model,
         }
     }
 }
 
 impl EachArgs {
     fn request(&self) -> EachPoint {
+        let (state, tensions, model) = self.linearised.request();
         EachPoint {
             quantities: self.what.quantity.iter().map(funicular_study::sweep::Quantity::name).collect(),
             up_to_hz: self.what.up_to_hz,
-            platform_share: self.what.platform_share,
+            platform_share: self.what.share.platform_share,
             payload_center_m: self.what.payload_center_m.map(Into::into),
-            state: self.state.request(),
-            tensions: self.tensions.request(),
-            model: self.model.request(),
+            state,
+            tensions,
+            model,
         }
     }
 }
@@ -321,28 +339,25 @@ impl SweepArgs {
 
 impl ReportArgs {
     pub(crate) fn request(&self, robot: RobotText) -> request::ReportRequest {
+        let (state, tensions, model) = self.linearised.request();
         request::ReportRequest {
             robot,
             below_hz: self.below_hz,
-            platform_share: self.platform_share,
+            platform_share: self.share.platform_share,
             input: self.input.as_ref().map(|input| input.name.clone()),
             output: self.output.as_ref().map(|output| output.name.clone()),
             points: self.points.request(),
-            state: self.state.request(),
-            tensions: self.tensions.request(),
-            model: self.model.request(),
+            state,
+            tensions,
+            model,
         }
     }
 }
 
 impl LiveArgs {
     pub(crate) fn request(&self, robot: RobotText) -> request::LiveRequest {
-        request::LiveRequest {
-            robot,
-            state: self.state.request(),
-            tensions: self.tensions.request(),
-            model: self.model.request(),
-        }
+        let (state, tensions, model) = self.linearised.request();
+        request::LiveRequest { robot, state, tensions, model }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Arguments of the commands about the robot file and the robot at rest.
 
-use super::groups::{FigureArgs, ModelArgs, OutputArgs, RobotArgs, StateArgs, TensionArgs};
+use super::groups::{FigureArgs, LinearisedArgs, OutputArgs, RobotArgs, StateArgs, TensionArgs};
 use super::values::{self, Lengths, MassRange, PoseNumbers};
 use clap::Args;
 use funicular::math::Vec3;
@@ -49,11 +49,7 @@ pub(crate) struct StiffnessArgs {
     pub(crate) at_hz: f64,
 
     #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
+    pub(crate) linearised: LinearisedArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }

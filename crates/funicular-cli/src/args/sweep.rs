@@ -1,6 +1,7 @@
 //! Options of `map`, `sweep`, `merge` and `plot`.
 
-use super::{FigureArgs, Format, ModelArgs, RobotArgs, StateArgs, TensionArgs, values};
+use super::groups::{LinearisedArgs, ShareArgs};
+use super::{FigureArgs, Format, RobotArgs, values};
 use clap::Args;
 use funicular_study::sweep::{Part, Quantity, Steps, ValueAxis};
 use std::num::NonZeroUsize;
@@ -48,11 +49,7 @@ pub(crate) struct EachArgs {
     #[command(flatten)]
     pub(crate) what: WhatArgs,
     #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
+    pub(crate) linearised: LinearisedArgs,
 }
 
 /// Quantities to compute at every point.
@@ -66,9 +63,8 @@ pub(crate) struct WhatArgs {
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true, default_value_t = funicular_study::sweep::MAX_HZ)]
     pub(crate) up_to_hz: f64,
 
-    /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform
-    #[arg(long, value_name = "FRACTION", value_parser = values::fraction, allow_hyphen_values = true, default_value_t = funicular::modes::PLATFORM_SHARE)]
-    pub(crate) platform_share: f64,
+    #[command(flatten)]
+    pub(crate) share: ShareArgs,
 
     /// Centre of mass of the payload, platform frame [m] [default: that of the platform]
     #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true)]

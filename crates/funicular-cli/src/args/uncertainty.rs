@@ -1,6 +1,6 @@
 //! Arguments of `uncertainty`.
 
-use super::groups::{ModelArgs, OutputArgs, RobotArgs, StateArgs, TensionArgs};
+use super::groups::{LinearisedArgs, OutputArgs, RobotArgs};
 use super::names::{HoldName, UncertaintyMethodName};
 use super::values;
 use clap::Args;
@@ -54,11 +54,7 @@ pub(crate) struct UncertaintyArgs {
     pub(crate) seed: u32,
 
     #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
+    pub(crate) linearised: LinearisedArgs,
     #[command(flatten)]
     pub(crate) sink: OutputArgs,
 

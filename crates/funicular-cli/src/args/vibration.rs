@@ -1,13 +1,13 @@
 //! Arguments of the commands about vibration.
 
 use super::groups::{
-    FigureArgs, ModelArgs, OutputArgs, PointArgs, RangeArgs, RobotArgs, StateArgs, TensionArgs, TermArgs,
+    FigureArgs, LinearisedArgs, OutputArgs, PointArgs, RangeArgs, RobotArgs, ShareArgs, StateArgs, TensionArgs,
+    TermArgs,
 };
 use super::names::{CableModelName, ModelFormName, WinchModeName};
 use super::values::{self};
 use clap::Args;
 use funicular::compare::TOLERANCE;
-use funicular::modes::PLATFORM_SHARE;
 use funicular_study::signals::{Input, Output};
 use std::path::PathBuf;
 
@@ -34,16 +34,11 @@ pub(crate) struct ModesArgs {
     #[arg(long, value_name = "N", value_parser = values::stations)]
     pub(crate) stations: Option<usize>,
 
-    /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform
-    #[arg(long, value_name = "FRACTION", value_parser = values::fraction, allow_hyphen_values = true, default_value_t = PLATFORM_SHARE)]
-    pub(crate) platform_share: f64,
+    #[command(flatten)]
+    pub(crate) share: ShareArgs,
 
     #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
+    pub(crate) linearised: LinearisedArgs,
 
     /// Modes with cables that are straight, without mass and rigid in length: how a platform swings on fewer cables than
     /// it has degrees of freedom; with --static-model ideal
@@ -108,11 +103,7 @@ pub(crate) struct FrfArgs {
     pub(crate) prominence_db: f64,
 
     #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
+    pub(crate) linearised: LinearisedArgs,
     #[command(flatten)]
     pub(crate) sink: OutputArgs,
     #[command(flatten)]
@@ -132,9 +123,8 @@ pub(crate) struct CompareArgs {
     #[arg(long)]
     pub(crate) platform: bool,
 
-    /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform
-    #[arg(long, value_name = "FRACTION", value_parser = values::fraction, allow_hyphen_values = true, default_value_t = PLATFORM_SHARE)]
-    pub(crate) platform_share: f64,
+    #[command(flatten)]
+    pub(crate) share: ShareArgs,
 
     /// Maximum relative difference of frequency for a model that is good enough
     #[arg(long, value_name = "FRACTION", value_parser = values::not_negative, allow_hyphen_values = true, default_value_t = TOLERANCE)]
@@ -226,11 +216,7 @@ pub(crate) struct ReduceArgs {
     pub(crate) matrices: Option<PathBuf>,
 
     #[command(flatten)]
-    pub(crate) state: StateArgs,
-    #[command(flatten)]
-    pub(crate) tensions: TensionArgs,
-    #[command(flatten)]
-    pub(crate) model: ModelArgs,
+    pub(crate) linearised: LinearisedArgs,
     #[command(flatten)]
     pub(crate) sink: OutputArgs,
 }

@@ -42,8 +42,9 @@ pub(super) fn request(args: &IdentifyArgs, robot: RobotText) -> Result<IdentifyR
         Some(path) => read_experiments(path)?,
         None => Vec::new(),
     };
+    let (state, tensions, model) = args.linearised.request();
     let mut own = Experiment {
-        state: args.state.request(),
+        state,
         measured_pose: args.measured_pose.map(|pose| Pose::Angles(pose.0)),
         position_std_m: args.position_std_m,
         rotation_std_deg: args.rotation_std_deg,
@@ -83,8 +84,8 @@ pub(super) fn request(args: &IdentifyArgs, robot: RobotText) -> Result<IdentifyR
         frequency_noise: args.frequency_noise,
         damping_noise: args.damping_noise,
         rigid_cables: args.rigid_cables,
-        tensions: args.tensions.request(),
-        model: args.model.request(),
+        tensions,
+        model,
     })
 }
 

@@ -5,8 +5,9 @@
 //! `D(s) = Ω² + s C + s²` is symmetric, so that the left eigenvectors are the right ones, for any damping. The eigenvalues
 //! with viscous damping are the starts of those with constant damping ratios (docs/theory.md, section 13).
 
+use super::matrices::Matrices;
 use super::reference::Reference;
-use super::{InPowersOfS, Matrices, ReductionError, SecondOrder, polynomial};
+use super::{InPowersOfS, ReductionError, SecondOrder, polynomial};
 use crate::math::eigenvectors::upper_eigen;
 use crate::math::{CDMat, Complex, DMat, DVec, order};
 

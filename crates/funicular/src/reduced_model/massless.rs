@@ -1,6 +1,7 @@
 //! Flexible supports without mass that carry no cable with mass: their displacements follow at once and are eliminated.
 
-use super::{InPowersOfS, Layout, Matrices};
+use super::InPowersOfS;
+use super::matrices::{Layout, Matrices};
 use crate::math::DMat;
 
 /// Coordinates without mass, which follow the others: `e = −K_ee⁻¹ K_er y + K_ee⁻¹ f_e`.

@@ -1,6 +1,6 @@
 //! Responses of the full model at frequencies that include every peak: what a reduced model is measured against.
 
-use super::Channels;
+use super::channels::Channels;
 use crate::dynamics::Dynamics;
 use crate::math::Complex;
 use crate::modes::Mode;

@@ -1,0 +1,293 @@
+//! Change of the robot per unit of each parameter, along which results are differentiated.
+
+use super::{Parameter, Parameters, RobotPart};
+use crate::math::{Vec3, Vec6, rotation};
+use crate::robot::spec::key::{Component, Shape};
+use crate::robot::{GuideWheelChange, PlatformMotion, Pulley, Robot, RobotChange, RopeSection};
+use std::f64::consts::TAU;
+
+impl Parameters {
+    /// Change of the robot per unit of a parameter, in the unit of the file: the direction for derivatives of results
+    /// with respect to the parameter. A value of a rope changes all its cables, an angle of the pose turns the platform.
+    /// `None` for numbers without derivatives: limits, the plane of a planar platform and angles that leave it, friction of
+    /// pulleys, and supports.
+    ///
+    /// # Example
+    /// ```
+    /// use funicular::robot::parameters::Parameters;
+    ///
+    /// let parameters = Parameters::from_toml(funicular_robots::COGIRO)?;
+    /// let height = parameters.find(&["cables", "1", "anchor_m", "z"]).unwrap();
+    /// assert_eq!(parameters.change(height).unwrap().cables[0].anchor_w.z, 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn change(&self, index: usize) -> Option<RobotChange> {
+        self.change_of(index, &self.robot)
+    }
+
+    /// Change per unit of a parameter as [`Self::change`], of a robot that has been changed since it was read, such as by
+    /// another pose.
+    pub fn change_of(&self, index: usize, robot: &Robot) -> Option<RobotChange> {
+        let parameter = self.list.get(index)?;
+        let mut change = RobotChange::none(robot.cables.len());
+
+        let unit = || -> Option<Vec3> {
+            let axis = ["x", "y", "z"].iter().position(|name| Some(*name) == parameter.component)?;
+            let mut unit = Vec3::zeros();
+            unit[axis] = 1.0;
+            Some(unit)
+        };
+
+        match (parameter.part, parameter.key) {
+            (RobotPart::Robot, "gravity_m_s2") => change.gravity_w = unit()?,
+            (RobotPart::Platform, "mass_kg") => change.mass = 1.0,
+            (RobotPart::Platform, "center_of_mass_m") => change.center_of_mass_p = unit()?,
+            (RobotPart::Platform, "drag_area_m2") => change.drag_area = 1.0,
+            (RobotPart::Platform, "inertia_kg_m2") => match (parameter.component, &robot.platform.motion) {
+                // A single number is the moment about the normal.
+                (None, PlatformMotion::Planar(plane)) => {
+                    change.inertia_p = plane.normal_w() * plane.normal_w().transpose();
+                }
+                (component, _) => {
+                    let entry = Shape::Tensor.components().iter().find(|(name, _)| Some(*name) == component)?.1;
+                    let Component::Entry(i, j) = entry else { return None };
+                    change.inertia_p[(i, j)] = 1.0;
+                    change.inertia_p[(j, i)] = 1.0;
+                }
+            },
+            (RobotPart::Platform, "translational_damping_n_s_m") => change.translational_damping_p = unit()?,
+            (RobotPart::Platform, "rotational_damping_n_m_s") => change.rotational_damping_p = unit()?,
+            (RobotPart::Wind, "velocity_m_s") => change.wind_velocity_w = unit()?,
+            (RobotPart::Wind, "air_density_kg_m3") => change.air_density = 1.0,
+            (RobotPart::State, key) => pose_change(robot, parameter, key, unit(), &mut change)?,
+            (RobotPart::Load, "force_n") => change.force_w = unit()?,
+            (RobotPart::Load, "moment_n_m") => change.moment_w = unit()?,
+            (RobotPart::Load, "point_m") => change.point_p = unit()?,
+            (RobotPart::Cable(i), key) => {
+                let cable = change.cables.get_mut(i)?;
+                match key {
+                    "anchor_m" => cable.anchor_w = unit()?,
+                    "attachment_m" => cable.attachment_p = unit()?,
+                    "load_n_per_m" => cable.load_per_length_w = unit()?,
+                    "unstrained_length_m" => cable.unstrained_length = 1.0,
+                    "entry_direction" => {
+                        let pulley = robot.cables[i].anchor.pulley.as_ref()?;
+                        cable.pulley.entry_direction_w = self.direction_change(parameter, pulley, &unit()?)?;
+                    }
+                    _ => return None,
+                }
+            }
+            (RobotPart::Pulley, key) => self.pulley_change(robot, parameter, key, unit(), &mut change)?,
+            (RobotPart::Winch, key) => self.winch_change(robot, parameter, key, &mut change)?,
+            (RobotPart::GuideWheel, key) => self.guide_wheel_change(robot, parameter, key, &mut change)?,
+            (RobotPart::Material, key) => self.material_change(parameter, key, unit(), &mut change)?,
+            _ => return None,
+        }
+
+        Some(change)
+    }
+
+    /// Change of the unit vector of a pulley with a component of a vector of any length.
+    fn direction_change(&self, parameter: &Parameter, pulley: &Pulley, unit: &Vec3) -> Option<Vec3> {
+        let (_, vector) = parameter.keys.split_last()?;
+        let components = self.list.iter().filter(|other| other.keys.split_last().is_some_and(|(_, of)| of == vector));
+        let length = components.map(|other| other.value * other.value).sum::<f64>().sqrt();
+        let direction_w = &pulley.entry_direction_w;
+        Some((unit - direction_w * direction_w.dot(unit)) / length)
+    }
+
+    /// Change of all cables over a pulley.
+    fn pulley_change(
+        &self,
+        robot: &Robot,
+        parameter: &Parameter,
+        key: &str,
+        unit: Option<Vec3>,
+        change: &mut RobotChange,
+    ) -> Option<()> {
+        let name = parameter.keys.get(1)?;
+        for (i, (cable, change)) in robot.cables.iter().zip(&mut change.cables).enumerate() {
+            let Some(pulley) = cable.anchor.pulley.as_ref().filter(|pulley| pulley.name == *name) else { continue };
+            let change = &mut change.pulley;
+            match key {
+                "radius_m" => change.radius = 1.0,
+                "inertia_kg_m2" => change.inertia = 1.0,
+                "swivel_inertia_kg_m2" => change.swivel_inertia = 1.0,
+                "entry_direction" => {
+                    let own = |other: &Parameter| other.part == RobotPart::Cable(i) && other.key == "entry_direction";
+                    if !self.list.iter().any(own) {
+                        change.entry_direction_w = self.direction_change(parameter, pulley, &unit?)?;
+                    }
+                }
+                _ => return None,
+            }
+        }
+        Some(())
+    }
+
+    /// Change of all cables to a winch. At the cable, numbers about the axis of the drum count by the square of its radius.
+    fn winch_change(&self, robot: &Robot, parameter: &Parameter, key: &str, change: &mut RobotChange) -> Option<()> {
+        let name = parameter.keys.get(1)?;
+        let value_of = |key: &str| {
+            let of_winch = |other: &&Parameter| other.part == RobotPart::Winch && other.keys.get(1) == Some(name);
+            self.list.iter().filter(of_winch).find(|other| other.key == key).map(|other| other.value)
+        };
+        // Without a radius no other number of the winch is about the axis.
+        let by_radius = value_of("drum_radius_m").map_or(0.0, |radius| radius.powi(-2));
+        let bandwidth = value_of("bandwidth_hz");
+        let ratio = value_of("gear_ratio").unwrap_or(1.0);
+
+        for (cable, change) in robot.cables.iter().zip(&mut change.cables) {
+            let Some(winch) = cable.anchor.winch.as_ref().filter(|winch| winch.name == *name) else { continue };
+            let (mass, servo) = (winch.drum_mass + winch.motor_mass, winch.servo());
+            let change = &mut change.winch;
+            match key {
+                "drum_side_length_m" => change.drum_side_length = 1.0,
+                "stiffness_n_per_m" => change.stiffness = 1.0,
+                "shaft_stiffness_n_m_per_rad" => change.stiffness = by_radius,
+                "drum_inertia_kg_m2" => change.drum_mass = by_radius,
+                "motor_inertia_kg_m2" => change.motor_mass = by_radius * ratio * ratio,
+                "gear_ratio" => change.motor_mass = 2.0 * winch.motor_mass / ratio,
+                "damping_n_m_s_per_rad" => change.damping = by_radius,
+                "drum_radius_m" => {
+                    let per_metre = -2.0 / parameter.value;
+                    change.drum_mass = per_metre * winch.drum_mass;
+                    change.motor_mass = per_metre * winch.motor_mass;
+                    change.damping = per_metre * winch.damping;
+                    if value_of("shaft_stiffness_n_m_per_rad").is_some() {
+                        change.stiffness = per_metre * winch.stiffness;
+                    }
+                    if let (Some(servo), None) = (servo, bandwidth) {
+                        change.position_gain = per_metre * servo.position_gain;
+                        change.speed_gain = per_metre * servo.speed_gain;
+                    }
+                }
+                "bandwidth_hz" => {
+                    change.position_gain = 2.0 * servo?.position_gain / parameter.value;
+                    change.speed_gain = servo?.speed_gain / parameter.value;
+                }
+                "control_damping_ratio" => change.speed_gain = 2.0 * mass * bandwidth? * TAU,
+                "position_gain_n_m_per_rad" => change.position_gain = by_radius,
+                "speed_gain_n_m_s_per_rad" => change.speed_gain = by_radius,
+                "delay_s" => change.delay = 1.0,
+                _ => return None,
+            }
+
+            // Gains by the bandwidth are proportional to the mass.
+            if let (Some(servo), Some(_)) = (servo, bandwidth) {
+                let relative = (change.drum_mass + change.motor_mass) / mass;
+                change.position_gain += relative * servo.position_gain;
+                change.speed_gain += relative * servo.speed_gain;
+            }
+        }
+        Some(())
+    }
+
+    /// Change of a guide wheel of all cables to its winch.
+    fn guide_wheel_change(
+        &self,
+        robot: &Robot,
+        parameter: &Parameter,
+        key: &str,
+        change: &mut RobotChange,
+    ) -> Option<()> {
+        let name = parameter.keys.get(1)?;
+        let radius = self.list.iter().find(|other| {
+            other.part == RobotPart::GuideWheel && other.keys.get(1) == Some(name) && other.key == "radius_m"
+        })?;
+        let mut is_known = false;
+        for (cable, change) in robot.cables.iter().zip(&mut change.cables) {
+            let wheels = cable.anchor.winch.as_ref().map_or(&[][..], |winch| &winch.guide_wheels);
+            let Some(index) = wheels.iter().position(|wheel| wheel.name == *name) else { continue };
+            is_known = true;
+            change.guide_wheels.resize(wheels.len(), GuideWheelChange::default());
+            let (wheel, change) = (&wheels[index], &mut change.guide_wheels[index]);
+            match key {
+                "distance_m" => change.distance = 1.0,
+                "radius_m" => change.mass = -2.0 * wheel.mass / radius.value,
+                "inertia_kg_m2" => change.mass = radius.value.powi(-2),
+                _ => return None,
+            }
+        }
+        is_known.then_some(())
+    }
+
+    /// Change of all cables made of a rope.
+    fn material_change(
+        &self,
+        parameter: &Parameter,
+        key: &str,
+        unit: Option<Vec3>,
+        change: &mut RobotChange,
+    ) -> Option<()> {
+        let name = parameter.keys.get(1)?;
+        let same_rope = |other: &Parameter| other.part == RobotPart::Material && other.keys.get(1) == Some(name);
+        for (i, (cable, change)) in self.robot.cables.iter().zip(&mut change.cables).enumerate() {
+            let material = &cable.material;
+            if material.name != *name {
+                continue;
+            }
+            let relative = material.axial_stiffness / parameter.value;
+            match key {
+                "axial_stiffness_n" => change.axial_stiffness = 1.0,
+                "youngs_modulus_pa" | "area_m2" => change.axial_stiffness = relative,
+                // The drag depends on the diameter, too, unless it has its own.
+                "diameter_m" => {
+                    let own_drag = self.list.iter().any(|other| other.key == "drag_diameter_m" && same_rope(other));
+                    if !own_drag {
+                        change.drag_width = material.drag_width.unwrap_or(0.0) / parameter.value;
+                    }
+                    if matches!(material.dimensions.section, Some(RopeSection::Diameter(_))) {
+                        change.axial_stiffness = 2.0 * relative;
+                    }
+                }
+                "drag_coefficient" => match material.dimensions.drag_diameter {
+                    Some(diameter) => change.drag_width = diameter,
+                    None => return None,
+                },
+                "drag_diameter_m" => change.drag_width = material.drag_width? / parameter.value,
+                "damping_ratio" | "viscous_damping_n_s_m2" => change.damping = 1.0,
+                "mass_kg_per_m" => change.mass_per_length = 1.0,
+                "load_n_per_m" => {
+                    let own = |other: &Parameter| other.part == RobotPart::Cable(i) && other.key == "load_n_per_m";
+                    if !self.list.iter().any(own) {
+                        change.load_per_length_w = unit?;
+                    }
+                }
+                _ => return None,
+            }
+        }
+        Some(())
+    }
+}
+
+/// Change of the pose that the state gives. Motions that the platform does not have are no changes.
+fn pose_change(
+    robot: &Robot,
+    parameter: &Parameter,
+    key: &str,
+    unit: Option<Vec3>,
+    change: &mut RobotChange,
+) -> Option<()> {
+    match key {
+        "position_m" => change.position_w = unit?,
+        // R = Rz(yaw) Ry(pitch) Rx(roll): each angle turns about the axis of its rotation, after those left of it.
+        "roll_pitch_yaw_deg" => {
+            let [_, pitch, yaw] = robot.written_angles_deg;
+            let axis_w = match parameter.component? {
+                "roll" => rotation::from_roll_pitch_yaw_deg(0.0, pitch, yaw) * Vec3::x(),
+                "pitch" => rotation::from_roll_pitch_yaw_deg(0.0, 0.0, yaw) * Vec3::y(),
+                "yaw" => Vec3::z(),
+                _ => return None,
+            };
+            change.rotation_w = axis_w * 1_f64.to_radians();
+        }
+        _ => return None,
+    }
+
+    let (v, turn) = (change.position_w, change.rotation_w);
+    let motion = Vec6::new(v.x, v.y, v.z, turn.x, turn.y, turn.z);
+    let beyond = motion - robot.platform.motion.allowed(&motion);
+    // Rounding of the axes is 1e-16.
+    (beyond.norm() <= 1e-12 * motion.norm()).then_some(())
+}
