@@ -127,15 +127,6 @@ pub enum GradientError {
         /// Name of the cable.
         cable: String,
     },
-    /// A rule chooses the tensions of cables over pulleys or to winches.
-    #[error(
-        "cable \"{cable}\" runs over a pulley or to a winch: tensions that follow their rule have derivatives for cables that \
-         end at fixed points; hold the lengths or the pose instead"
-    )]
-    RuleAndDrive {
-        /// Name of the cable.
-        cable: String,
-    },
     /// Gradients are not implemented for this cable model.
     #[error(
         "gradients of vibrations need the cable model `spring`, `catenary-static` or `catenary-dynamic`, not `{0}`"
