@@ -279,7 +279,7 @@ impl<'a> Gradients<'a> {
     /// ```
     ///
     /// # References
-    /// docs/theory.md, equations (60r) to (60t).
+    /// docs/theory.md, equations (60r) to (60t3).
     pub fn by_rule(robot: &'a Robot, equilibrium: &'a Equilibrium, rule: &TensionRule) -> Result<Self, GradientError> {
         Ok(Self { hold: Hold::Rule, pullback: Pullback::new(robot, equilibrium, Hold::Rule, Some(rule))? })
     }

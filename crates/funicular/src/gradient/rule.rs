@@ -3,7 +3,9 @@
 //! The tensions of more cables than degrees of freedom solve a small problem with constraints (docs/theory.md, equations
 //! (38) and (39)). Its optimality conditions, with the limits that are reached kept as equations, hold for the changed
 //! robot as well: each is a scalar that stays zero. Multiples of these scalars are added to the differential of a result
-//! until no tension counts any more (equations (60r) to (60t)).
+//! until no tension counts any more (equations (60r) to (60t)). Over pulleys the distribution holds the exit points while it
+//! chooses the tensions: its conditions see the free span, while the balance sees the whole cable (equations (60t2) and
+//! (60t3)).
 
 use super::GradientError;
 use super::adjoint::{Adjoint, CableAdjoint};
@@ -495,7 +497,8 @@ fn range_of(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> TensionRange 
     let chord_w = state.chord_w();
     let mut range = TensionRange::of(robot, i, &chord_w);
     // The drag over a pulley is that of a straight cable.
-    if let (MinimumTension::OfCable { factor }, StaticModel::Catenary) = (MinimumTension::of(robot, i, &chord_w), model) {
+    if let (MinimumTension::OfCable { factor }, StaticModel::Catenary) = (MinimumTension::of(robot, i, &chord_w), model)
+    {
         range.minimum = factor * load_of(state).norm() * chord_w.norm();
     }
     range

@@ -174,8 +174,7 @@ fn tensions_over_pulleys_follow_their_rule_with_every_number_of_the_robot() {
 
             // Shorter steps, if the first ones cross a change of the limits that are reached.
             let smooth = [0.1, 1e-2, 1e-3].into_iter().find_map(|step| {
-                let differences =
-                    drives::extrapolated(step, |h| Some(values(&case.changed(&change, h)?, stiffness)));
+                let differences = drives::extrapolated(step, |h| Some(values(&case.changed(&change, h)?, stiffness)));
                 let (differences, added) = differences?;
                 let (error, size) = distance(&found, &differences);
                 let (added, _) = distance(&added, &vec![0.0; added.len()]);
