@@ -41,6 +41,18 @@ fn platform_hz_by(text: &str, pose: [f64; 3], rule: &Value) -> f64 {
     found.modes[0].frequency_hz
 }
 
+/// Natural frequencies of the platform of a robot file at a pose, by `modes`.
+fn frequencies(text: &str, pose: [f64; 3]) -> Vec<f64> {
+    let request = json!({
+        "command": "modes", "robot": {"text": text}, "pose": pose, "target_tension_n": [350.0], "below_hz": 20.0,
+        "cable_model": "catenary-static",
+    });
+    let Ok(Results::Modes(modes)) = run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent) else {
+        panic!("modes were requested")
+    };
+    modes.modes.iter().map(|mode| mode.frequency_hz).collect()
+}
+
 /// Numbers in (−1, 1) without pattern.
 fn spread(i: usize, k: usize) -> f64 {
     2.0 * ((i as f64 + 1.0) * (k as f64 + 2.0).sqrt() * std::f64::consts::E).fract() - 1.0
@@ -134,9 +146,8 @@ fn a_redundant_robot_on_winches_has_designs_by_every_rule() {
         let found = designed(&more).unwrap();
         assert!(found.converged && found.after > 1.01 * found.before, "{rule}: {} {}", found.before, found.after);
 
-        let worst = |text: &str| {
-            poses.iter().map(|pose| platform_hz_by(text, *pose, &rule)).fold(f64::INFINITY, f64::min)
-        };
+        let worst =
+            |text: &str| poses.iter().map(|pose| platform_hz_by(text, *pose, &rule)).fold(f64::INFINITY, f64::min);
         assert!((worst(&found.robot_file) / found.after - 1.0).abs() < 1e-9, "{rule}");
         let mut best = 0.0_f64;
         for i in 0..16 {
@@ -228,15 +239,33 @@ fn frequencies_leave_a_band() {
     let found = designed(&more).unwrap();
     let row = &found.demands[0];
     assert!(row.before > 4.95 && row.before < 5.1, "{}", row.before);
-    let request = json!({
-        "command": "modes", "robot": {"text": found.robot_file}, "pose": [3.0, 2.0, 1.2], "target_tension_n": [350.0],
-        "below_hz": 20.0, "cable_model": "catenary-static",
+    let hz = frequencies(&found.robot_file, [3.0, 2.0, 1.2]);
+    assert_eq!(hz.iter().filter(|hz| **hz > 4.9501 && **hz < 5.0999).count(), 0, "{hz:?}");
+    // The band does not limit the result: no other sides are tried.
+    assert!(found.band_sides.is_empty(), "{:?}", found.band_sides);
+}
+
+/// A frequency a little below the middle of a band leaves it upwards if the robot is better so; all choices are told. The
+/// result is that of the search with this choice, and no frequency is in the band.
+#[test]
+fn frequencies_leave_a_band_to_the_farther_side_if_that_is_better() {
+    let change = json!([{"path": "cables.*.attachment_m", "plus_minus": 0.1}]);
+    let more = json!({
+        "pose": [3.0, 2.0, 1.2], "goal": "stiffness", "change": change, "cable_model": "catenary-static",
+        "avoid_hz": [4.9, 5.2],
     });
-    let Ok(Results::Modes(modes)) = run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent) else {
-        panic!("modes were requested")
-    };
-    let inside = modes.modes.iter().filter(|mode| mode.frequency_hz > 4.9501 && mode.frequency_hz < 5.0999).count();
-    assert_eq!(inside, 0, "{:?}", modes.modes.iter().map(|mode| mode.frequency_hz).collect::<Vec<_>>());
+    let found = designed(&more).unwrap();
+    let before = found.poses[0].beside_band_before_hz.unwrap();
+    assert!(before > 4.9 && before < 5.05, "{before}");
+    let [nearer, others @ ..] = found.band_sides.as_slice() else { panic!("choices of the sides") };
+    let other = others.iter().find(|tried| tried.is_chosen).expect("another choice");
+    assert_eq!(other.below[0] + 1, nearer.below[0]);
+    assert!(other.after.unwrap() > nearer.after.unwrap() && !nearer.is_chosen, "{:?}", found.band_sides);
+    assert!((other.after.unwrap() / found.after - 1.0).abs() < 1e-6, "{:?}", found.band_sides);
+    assert!(found.limits.iter().any(|sentence| sentence.contains("below the band")), "{:?}", found.limits);
+    let hz = frequencies(&found.robot_file, [3.0, 2.0, 1.2]);
+    assert_eq!(hz.iter().filter(|hz| **hz > 4.9001 && **hz < 5.1999).count(), 0, "{hz:?}");
+    assert_eq!(hz.iter().filter(|hz| **hz < 5.0).count(), other.below[0], "{hz:?}");
 }
 
 #[test]
