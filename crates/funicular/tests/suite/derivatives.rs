@@ -1,6 +1,7 @@
 //! Derivatives of equilibria and natural frequencies, against central differences with Richardson's extrapolation.
 
 mod drives;
+mod equal_drives;
 mod rule_with_drives;
 mod tension_rule;
 

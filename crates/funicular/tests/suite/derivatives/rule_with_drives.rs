@@ -200,7 +200,6 @@ fn tensions_over_pulleys_follow_their_rule_with_every_number_of_the_robot() {
             }] += 1;
         }
     }
-    println!("{compared:?} limited {limited:?} by rule {by_rule:?} refused {refused} agreeing {agreeing}");
     let total = compared[0] + compared[1];
     assert!(compared[0] > 300 && compared[1] > 50 && agreeing > total * 9 / 10, "{agreeing} of {compared:?}");
     assert!(limited[0] > 50 && limited[1] > 30, "{limited:?}");
