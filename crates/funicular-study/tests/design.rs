@@ -24,14 +24,33 @@ fn designed(more: &Value) -> Result<Designed, Error> {
 
 /// First frequency of the platform of a robot file at a pose, by `modes`.
 fn platform_hz(text: &str, pose: [f64; 3]) -> f64 {
-    let request = json!({
-        "command": "modes", "robot": {"text": text}, "pose": pose, "target_tension_n": [350.0], "below_hz": 20.0,
-        "cable_model": "catenary-static",
+    platform_hz_by(text, pose, &json!({"target_tension_n": [350.0]}))
+}
+
+/// The same with tensions by a rule.
+fn platform_hz_by(text: &str, pose: [f64; 3], rule: &Value) -> f64 {
+    let mut request = json!({
+        "command": "modes", "robot": {"text": text}, "pose": pose, "below_hz": 20.0, "cable_model": "catenary-static",
     });
+    for (key, value) in rule.as_object().unwrap() {
+        request[key] = value.clone();
+    }
     let Ok(Results::Modes(found)) = run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent) else {
         panic!("modes were requested")
     };
     found.modes[0].frequency_hz
+}
+
+/// Natural frequencies of the platform of a robot file at a pose, by `modes`.
+fn frequencies(text: &str, pose: [f64; 3]) -> Vec<f64> {
+    let request = json!({
+        "command": "modes", "robot": {"text": text}, "pose": pose, "target_tension_n": [350.0], "below_hz": 20.0,
+        "cable_model": "catenary-static",
+    });
+    let Ok(Results::Modes(modes)) = run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent) else {
+        panic!("modes were requested")
+    };
+    modes.modes.iter().map(|mode| mode.frequency_hz).collect()
 }
 
 /// Numbers in (−1, 1) without pattern.
@@ -41,7 +60,11 @@ fn spread(i: usize, k: usize) -> f64 {
 
 /// Robot with other attachment heights, as the designs below change them.
 fn with_heights(heights: &[f64]) -> String {
-    let mut text = funicular_robots::COGIRO.to_owned();
+    with_heights_of(funicular_robots::COGIRO, heights)
+}
+
+fn with_heights_of(text: &str, heights: &[f64]) -> String {
+    let mut text = text.to_owned();
     let mut from = 0;
     for height in heights {
         let at = from + text[from..].find("attachment_m = [").unwrap();
@@ -103,6 +126,66 @@ fn no_random_design_is_better_than_the_optimum() {
     assert!(best > found.before, "{best} {}", found.before);
 }
 
+/// CoGiRo with its pulleys and winches at three poses, with every rule that has derivatives: the file that is written has
+/// the frequencies that are told, and no random design within the bounds is better.
+#[test]
+fn a_redundant_robot_on_winches_has_designs_by_every_rule() {
+    let text = funicular_robots::COGIRO_WINCHES;
+    let poses = [[3.0, 2.0, 1.2], [0.0, 0.0, 1.5], [-3.0, 1.0, 2.0]];
+    let rows: Vec<[f64; 6]> = poses.iter().map(|[x, y, z]| [*x, *y, *z, 0.0, 0.0, 0.0]).collect();
+    let change = json!([{"path": "cables.*.attachment_m.z", "plus_minus": 0.1}]);
+    for rule in [
+        json!({"target_tension_n": [350.0]}),
+        json!({"target_tension_n": null, "tension_rule": "lowest"}),
+        json!({"target_tension_n": null, "tension_rule": "middle"}),
+    ] {
+        let mut more = json!({"robot": {"text": text}, "poses": rows, "goal": "platform", "change": change});
+        for (key, value) in rule.as_object().unwrap() {
+            more[key] = value.clone();
+        }
+        let found = designed(&more).unwrap();
+        assert!(found.converged && found.after > 1.01 * found.before, "{rule}: {} {}", found.before, found.after);
+
+        let worst =
+            |text: &str| poses.iter().map(|pose| platform_hz_by(text, *pose, &rule)).fold(f64::INFINITY, f64::min);
+        assert!((worst(&found.robot_file) / found.after - 1.0).abs() < 1e-9, "{rule}");
+        let mut best = 0.0_f64;
+        for i in 0..16 {
+            let heights: Vec<f64> = (0..8)
+                .map(|k| {
+                    let row = &found.values[k];
+                    // Half of the designs near the optimum, half anywhere.
+                    let (center, reach) = if i % 2 == 0 { (row.start, 0.1) } else { (row.value, 0.02) };
+                    (center + reach * spread(i, k)).clamp(row.minimum, row.maximum)
+                })
+                .collect();
+            best = best.max(worst(&with_heights_of(text, &heights)));
+        }
+        assert!(best <= found.after * (1.0 + 1e-5) && best > found.before, "{rule}: {best} {}", found.after);
+    }
+}
+
+/// Numbers of pulleys and winches can be chosen, too, and the gain of a bound is that of more room.
+#[test]
+fn pulleys_and_winches_are_values_of_a_design() {
+    let design = |more: f64| {
+        let change = json!([
+            {"path": "pulleys.*.radius_m", "minimum": 0.04, "maximum": 0.06 + more},
+            {"path": "winches.*.drum_side_length_m", "minimum": 4.9, "maximum": 5.9},
+        ]);
+        let robot = json!({"text": funicular_robots::COGIRO_WINCHES});
+        let rule = json!({"robot": robot, "pose": [2.0, 1.0, 1.5], "goal": "platform", "change": change});
+        designed(&rule).unwrap()
+    };
+    let (found, wider) = (design(0.0), design(0.001));
+    let row = &found.values[0];
+    assert!(row.at_bound == Some("maximum") && row.gain_per_unit > 0.0, "{}", row.gain_per_unit);
+    let gained = (wider.after - found.after) / 0.001;
+    // Over 1 mm the slope changes by a per cent or so; the search ends at 1e-5 of the frequency.
+    let allowed = 0.02 * gained + 1e-5 * found.after / 0.001;
+    assert!((gained - row.gain_per_unit).abs() < allowed, "{gained} {}", row.gain_per_unit);
+}
+
 /// The gain of a bound is the gain of a design with more room there.
 #[test]
 fn gains_of_bounds_are_those_of_designs_with_more_room() {
@@ -156,15 +239,33 @@ fn frequencies_leave_a_band() {
     let found = designed(&more).unwrap();
     let row = &found.demands[0];
     assert!(row.before > 4.95 && row.before < 5.1, "{}", row.before);
-    let request = json!({
-        "command": "modes", "robot": {"text": found.robot_file}, "pose": [3.0, 2.0, 1.2], "target_tension_n": [350.0],
-        "below_hz": 20.0, "cable_model": "catenary-static",
+    let hz = frequencies(&found.robot_file, [3.0, 2.0, 1.2]);
+    assert_eq!(hz.iter().filter(|hz| **hz > 4.9501 && **hz < 5.0999).count(), 0, "{hz:?}");
+    // The band does not limit the result: no other sides are tried.
+    assert!(found.band_sides.is_empty(), "{:?}", found.band_sides);
+}
+
+/// A frequency a little below the middle of a band leaves it upwards if the robot is better so; all choices are told. The
+/// result is that of the search with this choice, and no frequency is in the band.
+#[test]
+fn frequencies_leave_a_band_to_the_farther_side_if_that_is_better() {
+    let change = json!([{"path": "cables.*.attachment_m", "plus_minus": 0.1}]);
+    let more = json!({
+        "pose": [3.0, 2.0, 1.2], "goal": "stiffness", "change": change, "cable_model": "catenary-static",
+        "avoid_hz": [4.9, 5.2],
     });
-    let Ok(Results::Modes(modes)) = run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent) else {
-        panic!("modes were requested")
-    };
-    let inside = modes.modes.iter().filter(|mode| mode.frequency_hz > 4.9501 && mode.frequency_hz < 5.0999).count();
-    assert_eq!(inside, 0, "{:?}", modes.modes.iter().map(|mode| mode.frequency_hz).collect::<Vec<_>>());
+    let found = designed(&more).unwrap();
+    let before = found.poses[0].beside_band_before_hz.unwrap();
+    assert!(before > 4.9 && before < 5.05, "{before}");
+    let [nearer, others @ ..] = found.band_sides.as_slice() else { panic!("choices of the sides") };
+    let other = others.iter().find(|tried| tried.is_chosen).expect("another choice");
+    assert_eq!(other.below[0] + 1, nearer.below[0]);
+    assert!(other.after.unwrap() > nearer.after.unwrap() && !nearer.is_chosen, "{:?}", found.band_sides);
+    assert!((other.after.unwrap() / found.after - 1.0).abs() < 1e-6, "{:?}", found.band_sides);
+    assert!(found.limits.iter().any(|sentence| sentence.contains("below the band")), "{:?}", found.limits);
+    let hz = frequencies(&found.robot_file, [3.0, 2.0, 1.2]);
+    assert_eq!(hz.iter().filter(|hz| **hz > 4.9001 && **hz < 5.1999).count(), 0, "{hz:?}");
+    assert_eq!(hz.iter().filter(|hz| **hz < 5.0).count(), other.below[0], "{hz:?}");
 }
 
 #[test]

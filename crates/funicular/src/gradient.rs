@@ -127,15 +127,6 @@ pub enum GradientError {
         /// Name of the cable.
         cable: String,
     },
-    /// A rule chooses the tensions of cables over pulleys or to winches.
-    #[error(
-        "cable \"{cable}\" runs over a pulley or to a winch: tensions that follow their rule have derivatives for cables that \
-         end at fixed points; hold the lengths or the pose instead"
-    )]
-    RuleAndDrive {
-        /// Name of the cable.
-        cable: String,
-    },
     /// Gradients are not implemented for this cable model.
     #[error(
         "gradients of vibrations need the cable model `spring`, `catenary-static` or `catenary-dynamic`, not `{0}`"
@@ -288,7 +279,7 @@ impl<'a> Gradients<'a> {
     /// ```
     ///
     /// # References
-    /// docs/theory.md, equations (60r) to (60t).
+    /// docs/theory.md, equations (60r) to (60t3).
     pub fn by_rule(robot: &'a Robot, equilibrium: &'a Equilibrium, rule: &TensionRule) -> Result<Self, GradientError> {
         Ok(Self { hold: Hold::Rule, pullback: Pullback::new(robot, equilibrium, Hold::Rule, Some(rule))? })
     }

@@ -1,5 +1,6 @@
 //! `design`: values of the robot file with which the robot is best at several poses.
 
+mod band;
 mod rows;
 mod variables;
 
@@ -11,11 +12,13 @@ use crate::names::{DesignGoal, Named};
 use crate::request::{self, DesignRequest};
 use crate::text::{counted, significant};
 use anyhow::{Result, anyhow, bail};
+use band::Places;
+use band::{Sides, SidesTried};
 use funicular::math::max_min::{self, Ending, Evaluation, Found, Goal, MET, Problem, Settings};
 use funicular::math::rotation;
 use funicular::robot::State;
 use funicular::robot::parameters::Parameters;
-use rows::{AtPoses, Evaluated, PoseValues, linearisation_of_goal};
+use rows::{AtPoses, BAND, Evaluated, PoseValues, linearisation_of_goal};
 use serde::Serialize;
 use variables::{Variable, rounded, variables};
 
@@ -54,11 +57,15 @@ pub struct Designed {
     /// Demands, each at the pose where it is met least.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub demands: Vec<DemandRow>,
+    /// Choices of the sides to which frequencies leave the band, if there were several.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub band_sides: Vec<SidesTried>,
     /// True if no step gains more than the tolerance.
     pub converged: bool,
     /// Reason for the end of the search, as a sentence.
     pub ending: String,
     pub iterations: usize,
+    /// Number of evaluated robots, those of all choices of sides included.
     pub evaluations: usize,
     /// Value of the goal after each iteration.
     pub history: Vec<f64>,
@@ -156,21 +163,12 @@ pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
     if !matches!(first.robot.state, State::Pose(_)) {
         bail!("a design holds its poses: give ⟪poses⟫ or ⟪pose⟫, or the robot file a [state] with `position_m`");
     }
-    let before = poses.evaluate(&start)?;
+    let before = poses.evaluate(&start, &[])?;
     if watch.is_cancelled() {
         return Err(Cancelled.into());
     }
 
-    // The search.
-    let mut search = Search {
-        poses: &poses,
-        watch,
-        total: request.max_iterations,
-        sign: request.goal.sign(),
-        history: Vec::new(),
-        refusal: None,
-        first: Some(before.evaluation.clone()),
-    };
+    // The search, by the nearer sides of a band.
     let settings = Settings {
         goal: match &request.weights {
             Some(weights) => {
@@ -183,16 +181,34 @@ pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
         tolerance: TOLERANCE,
         max_iterations: request.max_iterations,
     };
-    let mut found =
-        max_min::maximise(&mut search, &start, &settings).ok_or_else(|| anyhow!("the start has no results"))?;
+    let mut search = Search {
+        poses: &poses,
+        watch,
+        total: request.max_iterations,
+        done: 0,
+        sign: request.goal.sign(),
+        sides: Sides::new(),
+        history: Vec::new(),
+        refusal: None,
+        first: Some(before.evaluation.clone()),
+    };
+    let nearer = search.run(&start, &settings).ok_or_else(|| anyhow!("the start has no results"))?;
+    let (chosen, tried) = other_sides(nearer, &before, &mut search, (&start, &settings));
+    let Searched { mut found, sides, history, refusal } = chosen;
     for (value, [low, high]) in found.x.iter_mut().zip(&settings.bounds) {
         *value = rounded(*value).clamp(*low, *high);
     }
-    let (history, refusal) = (search.history, search.refusal);
-    let after = poses.evaluate(&found.x)?;
+    let after = poses.evaluate(&found.x, &sides)?;
 
-    let report =
-        Report { request, poses: &poses, variables: &variables, found: &found, before: &before, after: &after };
+    let report = Report {
+        request,
+        poses: &poses,
+        variables: &variables,
+        found: &found,
+        tried: &tried,
+        before: &before,
+        after: &after,
+    };
     if found.violation > MET {
         return Err(NoSolution(report.unmet()).into());
     }
@@ -224,10 +240,11 @@ pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
         converged: found.ending == Ending::Converged,
         ending: report.ending(),
         iterations: found.iterations,
-        evaluations: found.evaluations,
+        evaluations: tried.evaluations,
         history,
         limits: report.limits(),
         robot_file: poses.text_with(&found.x)?,
+        band_sides: tried.sides,
         warnings,
     })
 }
@@ -287,12 +304,23 @@ fn check(request: &DesignRequest) -> Result<()> {
     Ok(())
 }
 
+/// True if the band to avoid limits a result, or if demands are not met.
+fn is_limited_by_band(found: &Found, poses: &AtPoses<'_>) -> bool {
+    let Ok(there) = poses.evaluate(&found.x, &[]) else { return false };
+    let mut multipliers = there.demands.iter().zip(&found.demand_multipliers);
+    found.violation > MET || multipliers.any(|((_, kind), multiplier)| *kind == BAND && *multiplier > RELEVANT)
+}
+
 /// Search with its progress.
 struct Search<'a> {
     poses: &'a AtPoses<'a>,
     watch: &'a mut dyn Watch,
+    /// Maximum number of iterations of all searches, and the number of those that are done.
     total: usize,
+    done: usize,
     sign: f64,
+    /// Sides of the band to avoid.
+    sides: Sides,
     history: Vec<f64>,
     /// Reason for which the last refused point had no results.
     refusal: Option<anyhow::Error>,
@@ -300,12 +328,85 @@ struct Search<'a> {
     first: Option<Evaluation>,
 }
 
+/// Result of a search.
+struct Searched {
+    found: Found,
+    sides: Sides,
+    history: Vec<f64>,
+    refusal: Option<anyhow::Error>,
+}
+
+/// Searches by several choices of the sides of a band.
+struct Tried {
+    /// The choices, if there were several.
+    sides: Vec<SidesTried>,
+    /// Number of choices that were left out.
+    left_out: usize,
+    evaluations: usize,
+}
+
+impl Search<'_> {
+    /// Searches from the start; `None` if it has no results.
+    fn run(&mut self, start: &[f64], settings: &Settings) -> Option<Searched> {
+        let found = max_min::maximise(self, start, settings)?;
+        self.done += found.iterations;
+        let (history, refusal) = (std::mem::take(&mut self.history), self.refusal.take());
+        Some(Searched { found, sides: std::mem::take(&mut self.sides), history, refusal })
+    }
+}
+
+/// Searches again with other sides for the frequencies that are in the band at the start, if the band limits the result of
+/// the nearer sides or is not avoided there; keeps the best result.
+fn other_sides(
+    nearer: Searched,
+    before: &Evaluated,
+    search: &mut Search<'_>,
+    (start, settings): (&[f64], &Settings),
+) -> (Searched, Tried) {
+    let mut tried = Tried { sides: Vec::new(), left_out: 0, evaluations: nearer.found.evaluations };
+    let places: Vec<Places> = before.poses.iter().filter_map(|pose| pose.places).collect();
+    let (choices, left_out) = band::others(&places);
+    if choices.is_empty() || search.is_cancelled() || !is_limited_by_band(&nearer.found, search.poses) {
+        return (nearer, tried);
+    }
+    tried.left_out = left_out;
+    search.total *= 1 + choices.len();
+
+    let is_met = |searched: &Searched| searched.found.violation <= MET;
+    let sign = search.sign;
+    let told = |searched: &Searched, below: Vec<usize>| {
+        let after = is_met(searched).then_some(sign * searched.found.value);
+        SidesTried { below, after, is_chosen: false }
+    };
+    tried.sides.push(told(&nearer, places.iter().map(|of| of.nearer_below).collect()));
+    let (mut best, mut chosen) = (nearer, 0);
+    for sides in choices {
+        if search.is_cancelled() {
+            break;
+        }
+        let below = sides.iter().zip(&places).map(|(number, of)| number.unwrap_or(of.nearer_below)).collect();
+        search.sides = sides;
+        let Some(other) = search.run(start, settings) else { continue };
+        tried.evaluations += other.found.evaluations;
+        tried.sides.push(told(&other, below));
+        let is_better = match (is_met(&other), is_met(&best)) {
+            (true, true) => other.found.value > best.found.value,
+            (is_met, was_met) => is_met && !was_met,
+        };
+        if is_better {
+            (best, chosen) = (other, tried.sides.len() - 1);
+        }
+    }
+    tried.sides[chosen].is_chosen = true;
+    (best, tried)
+}
+
 impl Problem for Search<'_> {
     fn evaluate(&mut self, x: &[f64]) -> Option<Evaluation> {
         if let Some(first) = self.first.take() {
             return Some(first);
         }
-        match self.poses.evaluate(x) {
+        match self.poses.evaluate(x, &self.sides) {
             Ok(found) => Some(found.evaluation),
             Err(error) => {
                 self.refusal = Some(error);
@@ -320,7 +421,7 @@ impl Problem for Search<'_> {
 
     fn progress(&mut self, iteration: usize, value: f64) {
         self.history.push(self.sign * value);
-        self.watch.progress(iteration, self.total, "iterations");
+        self.watch.progress(self.done + iteration, self.total, "iterations");
     }
 }
 
@@ -330,6 +431,7 @@ struct Report<'a> {
     poses: &'a AtPoses<'a>,
     variables: &'a [Variable],
     found: &'a Found,
+    tried: &'a Tried,
     before: &'a Evaluated,
     after: &'a Evaluated,
 }
@@ -463,7 +565,7 @@ impl Report<'_> {
                     before: self.before.poses[pose].beside_band_hz.unwrap_or(after),
                     after,
                     pose: pose + 1,
-                    gain_per_unit: multiplier(2, limit),
+                    gain_per_unit: multiplier(BAND, limit),
                 });
             }
         }
@@ -480,13 +582,45 @@ impl Report<'_> {
                 format!("{} {limit} {}: {after} {} at pose {}", row.name, row.unit, row.unit, row.pose)
             })
             .collect();
+        let choices = match self.tried.sides.len() {
+            0 => String::new(),
+            count => format!(" with any of {count} choices of the sides of the band"),
+        };
         let stopped = if self.found.ending == Ending::Converged { "" } else { " (the search had not ended)" };
         format!(
-            "no values within the bounds of ⟪change⟫ meet all demands{stopped}; reached after {}: {}; allow larger changes, \
+            "no values within the bounds of ⟪change⟫ meet all demands{choices}{stopped}; reached after {}: {}; allow larger changes, \
              or lower a demand",
             counted(self.found.iterations, "iteration"),
             reached.join(", ")
         )
+    }
+
+    /// Sentence on the choices of the sides of a band.
+    fn sides_tried(&self) -> Option<String> {
+        let unit = self.request.goal.in_words().1;
+        let choices: Vec<String> = self
+            .tried
+            .sides
+            .iter()
+            .enumerate()
+            .map(|(i, tried)| {
+                let numbers: Vec<String> = tried.below.iter().map(usize::to_string).collect();
+                let nearer = if i == 0 { " (the nearer sides)" } else { "" };
+                let chosen = if tried.is_chosen { ", chosen" } else { "" };
+                let after = tried
+                    .after
+                    .map_or("demands not met".to_owned(), |after| format!("{} {unit}", significant(after, 5)));
+                format!("{}{nearer}: {after}{chosen}", numbers.join(", "))
+            })
+            .collect();
+        let left_out = match self.tried.left_out {
+            0 => String::new(),
+            more => format!("; {} not tried", counted(more, "further choice")),
+        };
+        let at_each = if self.poses.count() > 1 { "at each pose " } else { "" };
+        (!choices.is_empty()).then(|| {
+            format!("Choices of the number of frequencies {at_each}below the band: {}{left_out}", choices.join("; "))
+        })
     }
 
     /// Sentences on what limits the result: poses, demands and bounds.
@@ -501,6 +635,7 @@ impl Report<'_> {
             let noun = if limiting.len() == 1 { "pose" } else { "poses" };
             sentences.push(format!("The goal is limited by {noun} {}", limiting.join(", ")));
         }
+        sentences.extend(self.sides_tried());
         for row in self.demands() {
             if row.gain_per_unit > 0.0 {
                 let gain = significant(row.gain_per_unit, 3);

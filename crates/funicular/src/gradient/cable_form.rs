@@ -143,15 +143,21 @@ impl<T> CableMotion<T> {
 impl CableForm {
     /// Cable with the static end stiffness of its catenary. `may_have_mass` for a massless cable in a model with inertia.
     pub(super) fn at_rest(anchor: &Anchor, state: &CableState, may_have_mass: bool) -> Result<Self, GradientError> {
-        let hanging = hanging(state)?;
-        let catenary = &hanging.catenary;
+        let mut form = Self::of_span(state)?;
+        if may_have_mass {
+            form.inertia = Inertia::Massless;
+        }
+        form.end = EndAtRest::of(anchor, state.drive.as_deref(), &hanging(state)?.tangent_w());
+        Ok(form)
+    }
+
+    /// Free span of a cable at rest, both ends held.
+    pub(super) fn of_span(state: &CableState) -> Result<Self, GradientError> {
+        let catenary = &hanging(state)?.catenary;
         let pieces = smooth_pieces(catenary, vec![(0.0, catenary.rope().unstrained_length)]);
         let count = |size: f64| (DIGITS_OF_REST / (2.0 * size.ln())).ceil() as usize + 4;
         let sizes: Vec<usize> = pieces.iter().map(|(_, _, size)| count(*size)).collect();
-        let inertia = if may_have_mass { Inertia::Massless } else { Inertia::None };
-        let mut form = Self::on_pieces(state, 0.0, &pieces, &sizes, &mut Rules::default(), inertia)?;
-        form.end = EndAtRest::of(anchor, state.drive.as_deref(), &hanging.tangent_w());
-        Ok(form)
+        Self::on_pieces(state, 0.0, &pieces, &sizes, &mut Rules::default(), Inertia::None)
     }
 
     /// Cable that vibrates about its catenary. `winches` is the mode of the winches; `rules` are shared by the cables.

@@ -3,13 +3,17 @@
 //! The tensions of more cables than degrees of freedom solve a small problem with constraints (docs/theory.md, equations
 //! (38) and (39)). Its optimality conditions, with the limits that are reached kept as equations, hold for the changed
 //! robot as well: each is a scalar that stays zero. Multiples of these scalars are added to the differential of a result
-//! until no tension counts any more (equations (60r) to (60t)).
+//! until no tension counts any more (equations (60r) to (60t)). Over pulleys the distribution holds the exit points while it
+//! chooses the tensions: its conditions see the free span, while the balance sees the whole cable (equations (60t2) and
+//! (60t3)).
 
 use super::GradientError;
 use super::adjoint::{Adjoint, CableAdjoint};
 use super::cable_form::CableForm;
 use super::parallel_tension::ParallelTension;
+use super::pullback::by_length;
 use crate::catenary::Catenary;
+use crate::drive::derivatives::end;
 use crate::math::{DMat, Vec3, Vec6};
 use crate::platform::Coordinates;
 use crate::robot::Robot;
@@ -24,6 +28,10 @@ const AT_LIMIT: f64 = 1e-7;
 /// Pivot over the largest one below which the optimality conditions do not determine the tensions: rounding leaves 1e-15
 /// times the number of cables.
 const SINGULAR: f64 = 1e-11;
+
+/// Tension at a drum beyond those in the free span, over it, above which the drum has the extreme tension. A weightless cable
+/// has the same tension everywhere, to rounding; the weight of a real one along the height of a wheel is 1e-6 and more.
+const DRUM_ROUNDING: f64 = 1e-13;
 
 /// Optimality conditions of the tensions, solved for their multipliers.
 pub(super) struct RuleFollower {
@@ -66,6 +74,8 @@ struct Problem<'a> {
     tensions: &'a [ParallelTension],
     /// Wrenches per parallel tension, reduced; one column per cable.
     wrenches: &'a DMat,
+    /// The same with the exit points of the cables held, as the distribution sees them.
+    held_wrenches: DMat,
     ranges: Vec<TensionRange>,
     /// Maximum tension [N].
     size: f64,
@@ -79,13 +89,16 @@ impl RuleFollower {
         (partials, tensions, wrenches): (&[CablePartials], &[ParallelTension], &DMat),
         rule: &TensionRule,
     ) -> Result<Self, GradientError> {
-        if let Some(i) = equilibrium.cables.iter().position(|state| state.drive.is_some()) {
-            return Err(GradientError::RuleAndDrive { cable: robot.cables[i].name.clone() });
-        }
-        let states = equilibrium.cables.iter().enumerate();
-        let ranges = states.map(|(i, state)| TensionRange::of(robot, i, &state.chord_w())).collect();
+        let ranges = (0..equilibrium.cables.len()).map(|i| range_of(robot, equilibrium, i)).collect();
         let size = equilibrium.cables.iter().fold(0.0, |most: f64, state| most.max(state.tension_platform));
-        let problem = Problem { robot, equilibrium, coordinates, partials, tensions, wrenches, ranges, size };
+        let mut held_wrenches = wrenches.clone();
+        for (i, state) in equilibrium.cables.iter().enumerate().filter(|(_, state)| state.drive.is_some()) {
+            let per_tension = ForceByTension::of(state)?;
+            let column = coordinates.reduce_force(&per_tension.force_w(), &state.lever_w);
+            (0..coordinates.count()).for_each(|k| held_wrenches[(k, i)] = column[k]);
+        }
+        let problem =
+            Problem { robot, equilibrium, coordinates, partials, tensions, wrenches, held_wrenches, ranges, size };
         match rule {
             TensionRule::Lowest => problem.nearest(rule, None),
             TensionRule::Closest(target) => problem.nearest(rule, Some(target)),
@@ -129,7 +142,7 @@ impl Problem<'_> {
         let (cables, n) = (self.tensions.len(), self.coordinates.count());
         let wanted = |i: usize| match target {
             Some(target) => target[i % target.len()],
-            None => self.ranges[i].minimum,
+            None => self.ranges[i].minimum + self.below_span(i),
         };
         let held: Vec<Option<Bound>> = (0..cables).map(|i| self.reached(i)).collect();
         let free: Vec<usize> = (0..cables).filter(|i| held[*i].is_none()).collect();
@@ -138,13 +151,13 @@ impl Problem<'_> {
         }
 
         // Multipliers of the balance, by least squares over the cables between their limits.
-        let columns = DMat::from_fn(free.len(), n, |row, k| self.wrenches[(k, free[row])]);
+        let columns = DMat::from_fn(free.len(), n, |row, k| self.held_wrenches[(k, free[row])]);
         let excess = |i: usize| self.parallel(i) - wanted(i);
         let right = DMat::from_fn(free.len(), 1, |row, _| excess(free[row]));
         let factors = columns.qr();
         let solved = factors.r().solve_upper_triangular(&(factors.q().transpose() * right));
         let solved = solved.ok_or(StaticDerivativeError::Singular)?;
-        let pressure = |i: usize| excess(i) - (0..n).map(|k| self.wrenches[(k, i)] * solved[(k, 0)]).sum::<f64>();
+        let pressure = |i: usize| excess(i) - (0..n).map(|k| self.held_wrenches[(k, i)] * solved[(k, 0)]).sum::<f64>();
 
         let rounding = AT_LIMIT * self.size;
         for (i, bound) in held.iter().enumerate() {
@@ -175,7 +188,7 @@ impl Problem<'_> {
             })
             .collect::<Result<Vec<_>, _>>()?;
         let found = self.solved(rule, conditions, n, |condition, k| {
-            if condition.is_stationarity { -self.wrenches[(k, condition.cable)] } else { 0.0 }
+            if condition.is_stationarity { -self.held_wrenches[(k, condition.cable)] } else { 0.0 }
         })?;
         Ok(found.of_tensions(cables))
     }
@@ -287,8 +300,18 @@ impl Problem<'_> {
         state.hanging.as_ref().map_or(state.tension_platform, |hanging| hanging.catenary.parallel_tension())
     }
 
-    /// Minimum or maximum tension in a cable [N].
+    /// Minimum or maximum tension in a cable, the drum included [N].
     fn tension(&self, i: usize, bound: Bound) -> f64 {
+        let (in_span, drum) = (self.tension_in_span(i, bound), self.state(i).tension_drum());
+        match bound {
+            Bound::Minimum => in_span.min(drum),
+            Bound::Maximum => in_span.max(drum),
+            Bound::Slackest => in_span,
+        }
+    }
+
+    /// Minimum or maximum tension in the free span of a cable [N].
+    fn tension_in_span(&self, i: usize, bound: Bound) -> f64 {
         let state = self.state(i);
         let both =
             state.hanging.as_ref().map(|hanging| [hanging.catenary.min_tension(), hanging.catenary.max_tension()]);
@@ -298,6 +321,23 @@ impl Problem<'_> {
             Bound::Maximum => high,
             Bound::Slackest => self.parallel(i),
         }
+    }
+
+    /// True if a cable has its minimum or maximum tension at its drum.
+    fn is_at_drum(&self, i: usize, bound: Bound) -> bool {
+        let state = self.state(i);
+        let (in_span, drum) = (self.tension_in_span(i, bound), state.tension_drum());
+        let beyond = match bound {
+            Bound::Minimum => in_span - drum,
+            Bound::Maximum => drum - in_span,
+            Bound::Slackest => 0.0,
+        };
+        state.drive.is_some() && beyond > DRUM_ROUNDING * drum
+    }
+
+    /// Minimum tension in the free span less that in the whole cable [N]: the minimum of the span is higher by it.
+    fn below_span(&self, i: usize) -> f64 {
+        self.tension_in_span(i, Bound::Minimum) - self.tension(i, Bound::Minimum)
     }
 
     /// Limit at which a tension is, within rounding.
@@ -316,10 +356,7 @@ impl Problem<'_> {
 
     /// Derivative of a scalar with these coefficients by the parallel tension of cable `i`.
     fn by_tension(&self, i: usize, coefficients: &CableAdjoint<f64>) -> f64 {
-        let by_length = self.partials[i].force_by_length_w.dot(&Vec3::from(coefficients.force))
-            + coefficients.length
-            + coefficients.free_length;
-        by_length / self.tensions[i].by_length
+        by_length(coefficients, &self.partials[i]) / self.tensions[i].by_length
     }
 
     /// Tension at a limit: `sign (T − limit)`, less the distance from it in proportion to the width of the limits.
@@ -361,13 +398,17 @@ impl Problem<'_> {
         self.tensions[i].add(&mut condition.coefficients, 1.0);
         if from_minimum {
             self.add_minimum(&mut condition, -1.0)?;
+            if self.is_at_drum(i, Bound::Minimum) {
+                self.add_tension_in_span(&mut condition.coefficients, i, Bound::Minimum, -1.0);
+                condition.coefficients.end[end::TENSION_DRUM] += 1.0;
+            }
         }
 
-        // The force per tension b turns with chord and load.
+        // The force per tension b turns with chord and load; the exit point is held.
         let (state, tension) = (self.state(i), &self.tensions[i]);
         let (q, d) = (load_of(state), state.chord_w());
-        let by_length = self.partials[i].force_by_length_w;
-        let by_tension = by_length / tension.by_length;
+        let per_tension = ForceByTension::of(state)?;
+        let (by_length, by_tension) = (per_tension.by_length_w, per_tension.force_w());
         let along = y_v + y_theta.cross(&state.lever_w);
         let sum = &mut condition.coefficients;
         put(&mut sum.lever, &-by_tension.cross(y_theta));
@@ -378,17 +419,25 @@ impl Problem<'_> {
         }
 
         let rate = along.dot(&by_tension);
-        let held = (along - tension.force_w * rate) / tension.by_length;
-        CableForm::at_rest(&self.robot.cables[i].anchor, state, false)?
-            .add_force_by_length(sum, &held, &by_length, &d, -1.0);
+        let held = (along - tension.force_w * rate) / per_tension.tension_by_length;
+        CableForm::of_span(state)?.add_force_by_length(sum, &held, &by_length, &d, -1.0);
         let [by_chord, by_load] = along_coefficients(&d, &q, &(by_tension * rate));
         put(&mut sum.chord, &by_chord);
         put(&mut sum.load, &by_load);
         Ok(condition)
     }
 
-    /// Adds `factor` times the coefficients of the minimum or maximum tension in a cable.
+    /// Adds `factor` times the coefficients of the minimum or maximum tension in a cable, the drum included.
     fn add_tension(&self, sum: &mut CableAdjoint<f64>, i: usize, bound: Bound, factor: f64) {
+        if self.is_at_drum(i, bound) {
+            sum.end[end::TENSION_DRUM] += factor;
+        } else {
+            self.add_tension_in_span(sum, i, bound, factor);
+        }
+    }
+
+    /// Adds `factor` times the coefficients of the minimum or maximum tension in the free span of a cable.
+    fn add_tension_in_span(&self, sum: &mut CableAdjoint<f64>, i: usize, bound: Bound, factor: f64) {
         let state = self.state(i);
         let (f, q, at_anchor) = (state.force_on_platform_w, load_of(state), force_at_anchor(state));
         let is_sagging = q != Vec3::zeros();
@@ -406,8 +455,8 @@ impl Problem<'_> {
         if is_sagging && anchor_is_higher == (bound == Bound::Maximum) {
             let along = at_anchor.normalize();
             put(&mut sum.force, &(along * factor));
-            put(&mut sum.load, &(along * (-state.unstrained_length * factor)));
-            sum.length -= along.dot(&q) * factor;
+            put(&mut sum.load, &(along * (-state.free_length() * factor)));
+            sum.free_length -= along.dot(&q) * factor;
         } else {
             put(&mut sum.force, &(f.normalize() * factor));
         }
@@ -439,6 +488,37 @@ impl Problem<'_> {
             }
         }
         Ok(())
+    }
+}
+
+/// Limits of cable `i` for the load that it carries.
+fn range_of(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> TensionRange {
+    let (state, model) = (&equilibrium.cables[i], equilibrium.model);
+    let chord_w = state.chord_w();
+    let mut range = TensionRange::of(robot, i, &chord_w);
+    // The drag over a pulley is that of a straight cable.
+    if let (MinimumTension::OfCable { factor }, StaticModel::Catenary) = (MinimumTension::of(robot, i, &chord_w), model)
+    {
+        range.minimum = factor * load_of(state).norm() * chord_w.norm();
+    }
+    range
+}
+
+/// Force of a free span on the platform by its parallel tension, both ends held: `(∂f/∂S)/(∂τ/∂S)`.
+struct ForceByTension {
+    by_length_w: Vec3,
+    tension_by_length: f64,
+}
+
+impl ForceByTension {
+    fn of(state: &CableState) -> Result<Self, GradientError> {
+        let span = state.hanging.as_ref().ok_or(StaticDerivativeError::Ideal)?;
+        let tension_by_length = span.catenary.parallel_tension_by_length();
+        Ok(Self { by_length_w: span.force_by_length_w(), tension_by_length })
+    }
+
+    fn force_w(&self) -> Vec3 {
+        self.by_length_w / self.tension_by_length
     }
 }
 
@@ -484,6 +564,7 @@ fn add_cable(sum: &mut CableAdjoint<f64>, of: &CableAdjoint<f64>, factor: f64) {
     for (sum, of) in vectors {
         sum.iter_mut().zip(of).for_each(|(sum, of)| *sum += of * factor);
     }
+    sum.end.iter_mut().zip(of.end).for_each(|(sum, of)| *sum += of * factor);
     sum.length += of.length * factor;
     sum.free_length += of.free_length * factor;
     sum.stiffness += of.stiffness * factor;

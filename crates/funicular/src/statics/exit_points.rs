@@ -80,7 +80,7 @@ fn with_exit_points<T>(
     cables: impl Fn(&mut T) -> &mut Vec<CableState>,
 ) -> Result<T, StaticsError> {
     let mut contacts = straight_contacts(robot, pose)?;
-    let mut held = robot.clone();
+    let mut held = with_straight_loads(robot, pose);
     let mut moved = f64::INFINITY;
     let mut last = None;
 
@@ -115,7 +115,7 @@ fn with_exit_points<T>(
 
         // The next round, with each cable followed at its tension first: this costs little, and saves rounds.
         for (i, state) in cables(&mut found).iter().enumerate() {
-            held.cables[i].tension_limits = limits_of_span(robot, i, state, contacts[i]);
+            held.cables[i].tension_limits = limits_of_span(robot, &held, i, state, contacts[i]);
             if let (Some(span), Some(contact)) = (&state.hanging, &mut next[i]) {
                 *contact = at_tension(&robot.cables[i], span, *contact, (FOLLOWED * moved).max(STILL));
             }
@@ -126,6 +126,20 @@ fn with_exit_points<T>(
 
     let (p, limit) = (pose.position_w, STILL);
     Err(StaticsError::NotConverged { iterations: MAX_ROUNDS, residual: moved, limit, x: p.x, y: p.y, z: p.z })
+}
+
+/// Robot whose cables carry the drag of straight cables at the pose, wherever they leave their pulleys: the drag of all
+/// statics.
+fn with_straight_loads(robot: &Robot, pose: &Pose) -> Robot {
+    let mut held = robot.clone();
+    if robot.wind_turns_with_cables() {
+        for (held, cable) in held.cables.iter_mut().zip(&robot.cables) {
+            let axis_w = cable.chord_w(pose).try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+            let width = held.material.drag_width.take().unwrap_or(0.0);
+            held.load_per_length_w += robot.wind.cross_pressure_w(&axis_w) * width;
+        }
+    }
+    held
 }
 
 /// Places of straight cables on their pulleys.
@@ -177,14 +191,21 @@ fn complete(state: &mut CableState, cable: &Cable, contact: Option<PulleyContact
     state.drive = at_rest.drive;
 }
 
-/// Tension limits of the free span of cable `i` that keep the tension at its drum within the limits of the cable.
-fn limits_of_span(robot: &Robot, i: usize, state: &CableState, contact: Option<PulleyContact>) -> TensionLimits {
+/// Tension limits of the free span of cable `i` that keep the tension at its drum within the limits of the cable. `held` is
+/// the robot with the loads of the cables.
+fn limits_of_span(
+    robot: &Robot,
+    held: &Robot,
+    i: usize,
+    state: &CableState,
+    contact: Option<PulleyContact>,
+) -> TensionLimits {
     let cable = &robot.cables[i];
     let mut limits = cable.tension_limits;
     let Some(span) = state.hanging.as_ref().filter(|_| !cable.anchor.is_fixed()) else { return limits };
     let drum = tension_at_drum(span, contact.as_ref());
 
-    let range = TensionRange::of(robot, i, &state.chord_w());
+    let range = TensionRange::with_limits(held, i, cable.limits(), &state.chord_w());
     let (above, below) = (drum - span.catenary.max_tension(), span.catenary.min_tension() - drum);
     if above > 0.0 && range.maximum.is_finite() {
         limits.maximum = Some(range.maximum - above);

@@ -3,7 +3,7 @@
 use super::equilibrium::CableState;
 use super::obstacle::Obstacle;
 use crate::math::Vec3;
-use crate::robot::Robot;
+use crate::robot::{Robot, TensionLimits};
 use std::fmt;
 
 /// Default minimum tension as a multiple of the cable's weight, used if the file gives none. A level cable then sags by
@@ -28,7 +28,12 @@ pub(crate) enum MinimumTension {
 impl MinimumTension {
     /// Source of the minimum of cable `i` with this chord: of the two defaults the larger one.
     pub(crate) fn of(robot: &Robot, i: usize, chord_w: &Vec3) -> Self {
-        if let Some(value) = robot.cables[i].limits().minimum {
+        Self::with_limits(robot, i, robot.cables[i].limits(), chord_w)
+    }
+
+    /// Source of the minimum of a cable with other limits than those of the robot.
+    fn with_limits(robot: &Robot, i: usize, limits: TensionLimits, chord_w: &Vec3) -> Self {
+        if let Some(value) = limits.minimum {
             return Self::Given(value);
         }
         let taut = TAUT * robot.line_load(i, chord_w).size * chord_w.norm();
@@ -65,12 +70,17 @@ impl TensionRange {
     /// # Ok::<(), funicular::robot::spec::SpecError>(())
     /// ```
     pub fn of(robot: &Robot, i: usize, chord_w: &Vec3) -> Self {
-        let minimum = match MinimumTension::of(robot, i, chord_w) {
+        Self::with_limits(robot, i, robot.cables[i].limits(), chord_w)
+    }
+
+    /// Limits of a cable for which others are given than those of the robot.
+    pub(crate) fn with_limits(robot: &Robot, i: usize, limits: TensionLimits, chord_w: &Vec3) -> Self {
+        let minimum = match MinimumTension::with_limits(robot, i, limits, chord_w) {
             MinimumTension::Given(value) => value,
             MinimumTension::OfCable { factor } => factor * robot.line_load(i, chord_w).size * chord_w.norm(),
             MinimumTension::OfPlatform { factor } => factor * robot.platform.mass * robot.gravity_w.norm(),
         };
-        Self { minimum, maximum: robot.cables[i].limits().maximum.unwrap_or(f64::INFINITY) }
+        Self { minimum, maximum: limits.maximum.unwrap_or(f64::INFINITY) }
     }
 
     /// Distances of a cable's tensions from these limits.

@@ -21,11 +21,12 @@ use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
 use super::exit_points;
 use super::ideal;
+use super::limits::TensionRange;
 use super::model::StaticModel;
 pub(super) use super::obstacle::Obstacle;
 use crate::drive::CableAtRest;
 use crate::platform::Coordinates;
-use crate::robot::{Pose, Robot};
+use crate::robot::{Cable, Pose, Robot};
 use cable_at_pose::CableAtPose;
 pub use cable_at_pose::TensionPlace;
 pub use payload::{LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, payload_bound};
@@ -96,13 +97,14 @@ pub fn distribute_tensions(
     model: StaticModel,
     rule: &TensionRule,
 ) -> Result<Equilibrium, StaticsError> {
-    exit_points::equilibrium(robot, pose, model, |held, last| at_exit_points(held, pose, model, rule, last))
+    exit_points::equilibrium(robot, pose, model, |held, last| at_exit_points((robot, held), pose, model, rule, last))
 }
 
 /// Tensions by [`distribute_tensions`] of cables that end at fixed points. `last` is the result for points nearby, from
-/// which a search for the nearest tensions starts; it has one optimum.
+/// which a search for the nearest tensions starts; it has one optimum. `whole` is the robot whose exit points `robot` holds:
+/// limits of the free spans keep the drums within the limits of the whole cables, to which the rule `middle` refers.
 fn at_exit_points(
-    robot: &Robot,
+    (whole, robot): (&Robot, &Robot),
     pose: &Pose,
     model: StaticModel,
     rule: &TensionRule,
@@ -124,7 +126,14 @@ fn at_exit_points(
             let target: Vec<f64> = target.iter().copied().cycle().take(cables).collect();
             search.nearest_to(&target)?;
         }
-        TensionRule::Middle => search.middle()?,
+        TensionRule::Middle => {
+            let cables = search.cables().iter().zip(&whole.cables).enumerate();
+            let range = |(i, (at_pose, cable)): (usize, (&CableAtPose, &Cable))| {
+                TensionRange::with_limits(robot, i, cable.limits(), &at_pose.hanging.chord_w())
+            };
+            let widths: Vec<f64> = cables.map(range).map(|range| range.maximum - range.minimum).collect();
+            search.middle_of(&widths)?;
+        }
         TensionRule::Stiffest => stiffest::search(&mut search)?,
     }
 

@@ -1,7 +1,9 @@
 //! Derivatives of equilibria and natural frequencies, against central differences with Richardson's extrapolation.
 
 mod drives;
+mod equal_drives;
 mod kept_shapes;
+mod rule_with_drives;
 mod tension_rule;
 
 use crate::library::library;

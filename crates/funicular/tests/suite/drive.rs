@@ -9,7 +9,7 @@ use funicular::cable::{CableModel, EndStiffness};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Mat3, Vec3};
 use funicular::modes;
-use funicular::robot::{Pose, Robot, State, TensionLimits, WinchMode};
+use funicular::robot::{Pose, Robot, State, TensionLimits, WinchMode, Wind};
 use funicular::statics::{self, StaticModel, TensionRange, TensionRule};
 use std::f64::consts::TAU;
 
@@ -66,6 +66,59 @@ fn limits_hold_at_the_drum_too() {
         assert!(margin.distance() > -1e-6 * cable.tension_drum(), "cable {i}: {}", margin.distance());
         assert!((margin.min..=margin.max).contains(&cable.tension_drum()));
     }
+}
+
+/// The pose and the lengths of it carry the same drag: that of straight cables.
+#[test]
+fn the_lengths_of_a_pose_in_wind_lead_back_to_it() {
+    let mut robot = cogiro(0.2);
+    for cable in &mut robot.cables {
+        (cable.material.mass_per_length, cable.material.drag_width) = (0.6, Some(0.02));
+    }
+    let robot = robot.with_wind(Wind { velocity_w: Vec3::new(14.0, 9.0, -2.0), ..Wind::default() });
+    let pose = Pose::new([1.0, 2.0, 1.5], [0.0, 0.0, 5.0]);
+    let rule = TensionRule::Closest(vec![500.0]);
+    let held = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &rule).unwrap();
+    let back = statics::forward(&robot, &lengths(&held), StaticModel::Catenary, Some(&pose)).unwrap();
+    let gap = statics::pose_distance(&robot, &back.pose, &pose);
+    // A residual of 1e-10 of the tensions over the stiffness; a drag along the sagging chords moves the platform.
+    assert!(gap < 1e-10, "{gap:e}");
+}
+
+/// At the optimum of `middle` as many cables as unknowns beyond the balance, and the height, share the smallest relative
+/// margin, the drums included; one with a limit at the drum is among them here.
+#[test]
+fn the_middle_of_the_limits_counts_the_drums() {
+    let mut robot = cogiro(0.4);
+    for (i, cable) in robot.cables.iter_mut().enumerate() {
+        cable.material.mass_per_length = 0.8;
+        // Ropes from winches above: the drum has the maximum tension.
+        if let Some(pulley) = &mut cable.anchor.pulley {
+            pulley.entry_direction_w = -Vec3::z();
+        }
+        // Unequal ranges, so that their widths count.
+        let maximum = Some(1500.0 + 400.0 * i as f64);
+        cable.tension_limits = TensionLimits { minimum: Some(50.0), maximum };
+    }
+    let mut at_drum = 0;
+    for position in [[1.0, 2.0, 1.5], [-2.0, 0.5, 1.0], [0.0, 0.0, 2.0]] {
+        let pose = Pose::new(position, [0.0, 0.0, 5.0]);
+        let held = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::Middle).unwrap();
+        let margins: Vec<_> = (held.cables.iter().enumerate())
+            .map(|(i, cable)| TensionRange::of(&robot, i, &cable.chord_w()).margin(cable))
+            .collect();
+        let relative: Vec<f64> = margins.iter().map(|margin| margin.relative().unwrap()).collect();
+        let smallest = relative.iter().copied().fold(f64::INFINITY, f64::min);
+        // The distribution ends when tensions change by 1e-10 of their size.
+        let holding: Vec<usize> = (0..8).filter(|&i| relative[i] - smallest < 1e-9).collect();
+        assert_eq!(holding.len(), 8 - 6 + 1, "{relative:?}");
+        let drums = held.cables.iter().zip(&margins).map(|(cable, margin)| {
+            [margin.min, margin.max].contains(&cable.tension_drum()) && cable.tension_drum() > 0.0
+        });
+        let drums: Vec<bool> = drums.collect();
+        at_drum += holding.iter().filter(|&&i| drums[i]).count();
+    }
+    assert!(at_drum > 2, "{at_drum}");
 }
 
 /// The difference from CoGiRo as published falls with the radius, the drum side left out.

@@ -1,5 +1,6 @@
 //! Robot with other values at all poses: its results and their derivatives by the values, as rows of a linear problem.
 
+use super::band::Places;
 use super::variables::Variable;
 use crate::analyses::gradient::{held, no_solution};
 use crate::at_rest::{self, AtRest};
@@ -29,6 +30,9 @@ const NEAR: f64 = 1e-3;
 /// Upper limit of the frequencies beside a band, over its last frequency: modes farther above do not reach it in a step.
 const ABOVE_BAND: f64 = 1.2;
 
+/// Kind of a demand: frequency beside a band.
+pub(crate) const BAND: usize = 2;
+
 /// Derivatives of a result by every value.
 type Slopes = Vec<f64>;
 
@@ -52,6 +56,8 @@ pub(crate) struct PoseValues {
     pub(crate) stiffness: Option<f64>,
     /// Natural frequency that is deepest in the band or nearest to it, if a band is to be avoided [Hz].
     pub(crate) beside_band_hz: Option<f64>,
+    /// Places of the natural frequencies beside and in the band.
+    pub(crate) places: Option<Places>,
 }
 
 /// Functions of the values of all poses, with the results of every pose.
@@ -61,7 +67,7 @@ pub(crate) struct Evaluated {
     pub(crate) poses: Vec<PoseValues>,
     /// Number of rows of the goal of each pose.
     pub(crate) rows_per_pose: Vec<usize>,
-    /// Pose of every demand, and its kind: 0 frequency, 1 stiffness, 2 band.
+    /// Pose of every demand, and its kind: 0 frequency, 1 stiffness, [`BAND`].
     pub(crate) demands: Vec<(usize, usize)>,
 }
 
@@ -106,22 +112,30 @@ impl<'a> AtPoses<'a> {
         error.context(format!("pose {}, ({x}, {y}, {z}) m", pose + 1))
     }
 
-    /// Results at all poses with their derivatives.
+    /// Results at all poses with their derivatives. `sides` are those of the band to avoid.
     ///
     /// # Errors
     /// Values that the robot file cannot have, a pose without equilibrium, or results without derivatives.
-    pub(crate) fn evaluate(&self, values: &[f64]) -> Result<Evaluated> {
+    pub(crate) fn evaluate(&self, values: &[f64], sides: &[Option<usize>]) -> Result<Evaluated> {
         let parameters = Parameters::from_toml(&self.text_with(values)?).map_err(|error| anyhow!("{error}"))?;
         let mut found = Evaluated::default();
         for pose in 0..self.count() {
             let at_rest = self.at_rest(parameters.robot().clone(), pose)?;
-            self.add(&parameters, &at_rest, pose, &mut found).map_err(|error| self.at_pose(pose, error))?;
+            let below = sides.get(pose).copied().flatten();
+            self.add(&parameters, &at_rest, (pose, below), &mut found).map_err(|error| self.at_pose(pose, error))?;
         }
         Ok(found)
     }
 
-    /// Adds the rows of one pose.
-    fn add(&self, parameters: &Parameters, at_rest: &AtRest, pose: usize, found: &mut Evaluated) -> Result<()> {
+    /// Adds the rows of one pose, where this number of frequencies has to be below the band; without a number each goes to the
+    /// nearer side.
+    fn add(
+        &self,
+        parameters: &Parameters,
+        at_rest: &AtRest,
+        (pose, below): (usize, Option<usize>),
+        found: &mut Evaluated,
+    ) -> Result<()> {
         let request = self.request;
         let directions = self
             .variables
@@ -193,23 +207,40 @@ impl<'a> AtPoses<'a> {
             }
         }
         if let Some([first, last]) = request.avoid_hz {
-            let (dynamics, _) = at_rest.dynamics_for_gradients(linearisation, ABOVE_BAND * last)?;
-            modes::check_count(&dynamics, ABOVE_BAND * last, modes::MAX_MODES)?;
-            let list = modes::below(&dynamics, ABOVE_BAND * last);
+            // A frequency that has to be below the band may be far above it.
+            let mut limit = ABOVE_BAND * last;
+            let (dynamics, list) = loop {
+                let (dynamics, _) = at_rest.dynamics_for_gradients(linearisation, limit)?;
+                modes::check_count(&dynamics, limit, modes::MAX_MODES)?;
+                let list = modes::below(&dynamics, limit).modes;
+                if list.len() >= below.unwrap_or(0) || limit > HIGHEST_HZ {
+                    break (dynamics, list);
+                }
+                limit *= ABOVE_BAND;
+            };
+
+            let half = 0.5 * (first + last);
+            let count = |limit: f64| list.iter().filter(|mode| mode.frequency_hz < limit).count();
+            values.places = Some(Places { below: count(first), nearer_below: count(half), not_above: count(last) });
+
             let vibration = gradients.vibration(&dynamics).map_err(no_solution)?;
             let depth = |hz: f64| (hz - first).min(last - hz);
-            for (hz, gradient) in rows_of(&vibration, &list.modes, &along) {
+            for ModeRow { hz, slopes, modes } in rows_of(&vibration, &list, &along) {
                 if values.beside_band_hz.is_none_or(|other| depth(hz) > depth(other)) {
                     values.beside_band_hz = Some(hz);
                 }
-                // Each frequency leaves the band to the nearer side.
-                let half = 0.5 * (first + last);
-                let beside = if hz < half {
-                    over(row(hz, &gradient, -1.0), -first, first)
-                } else {
-                    over(row(hz, &gradient, 1.0), last, last)
+                let goes_below = match below {
+                    // Modes that part have no row for their common motions.
+                    Some(number) if modes[0] < number && modes[1] >= number => continue,
+                    Some(number) => modes[0] < number,
+                    None => hz < half,
                 };
-                demand(2, beside);
+                let beside = if goes_below {
+                    over(row(hz, &slopes, -1.0), -first, first)
+                } else {
+                    over(row(hz, &slopes, 1.0), last, last)
+                };
+                demand(BAND, beside);
             }
         }
         found.poses.push(values);
@@ -245,17 +276,22 @@ fn lowest(
     let wanted = if is_dynamic { MODES } else { MODES.min(robot.platform.motion.count()) };
     let (dynamics, list) = modes::lowest(robot, rest, linearisation, wanted, HIGHEST_HZ)?;
     let vibration = gradients.vibration(&dynamics).map_err(no_solution)?;
-    Ok(rows_of(&vibration, &list.modes[..list.modes.len().min(wanted)], along))
+    let rows = rows_of(&vibration, &list.modes[..list.modes.len().min(wanted)], along);
+    Ok(rows.into_iter().map(|row| (row.hz, row.slopes)).collect())
 }
 
-/// Natural frequencies [Hz] with their derivatives. Modes that nearly share a frequency mix within a step: for each pair of
+/// Natural frequency with its derivatives.
+struct ModeRow {
+    hz: f64,
+    slopes: Slopes,
+    /// Numbers of the two modes whose motions it combines, the lower one first; twice the same for a mode alone.
+    modes: [usize; 2],
+}
+
+/// Natural frequencies with their derivatives. Modes that nearly share a frequency mix within a step: for each pair of
 /// them, the sum and the difference of their motions have a row as well, so that the linear problem knows all of the
 /// block of derivatives.
-fn rows_of(
-    vibration: &VibrationGradients<'_>,
-    modes: &[Mode],
-    along: &dyn Fn(&RobotChange) -> Slopes,
-) -> Vec<(f64, Slopes)> {
+fn rows_of(vibration: &VibrationGradients<'_>, modes: &[Mode], along: &dyn Fn(&RobotChange) -> Slopes) -> Vec<ModeRow> {
     let mut rows = Vec::with_capacity(modes.len());
     let mut from = 0;
     while from < modes.len() {
@@ -267,14 +303,14 @@ fn rows_of(
         let block: Vec<Vec<Slopes>> =
             vibration.block(&cluster).iter().map(|row| row.iter().map(along).collect()).collect();
         for (i, mode) in cluster.iter().enumerate() {
-            rows.push((mode.frequency_hz, block[i][i].clone()));
+            rows.push(ModeRow { hz: mode.frequency_hz, slopes: block[i][i].clone(), modes: [from + i; 2] });
             for (j, other) in cluster.iter().enumerate().skip(i + 1) {
                 let mean = (0.5 * (mode.frequency_hz.powi(2) + other.frequency_hz.powi(2))).sqrt();
                 for sign in [1.0, -1.0] {
                     let both = (0..block[i][i].len())
                         .map(|k| 0.5 * (block[i][i][k] + block[j][j][k]) + sign * block[i][j][k])
                         .collect();
-                    rows.push((mean, both));
+                    rows.push(ModeRow { hz: mean, slopes: both, modes: [from + i, from + j] });
                 }
             }
         }

@@ -7,7 +7,8 @@ use crate::math::Vec3;
 use std::array::from_fn;
 
 impl CableForm {
-    /// Adds `factor` times the coefficients of `v·∂f/∂L` with the vector `v` held.
+    /// Adds `factor` times the coefficients of `v·∂f/∂L` with the vector `v` held; L is the length of the free span, whose
+    /// ends are held.
     ///
     /// `∂f/∂L = S₀⁻¹(S₁ q − d/L)`, where S₀ and S₁ are the integrals of the compliance along the cable, contains the
     /// tension vector in S alone. With `a = S₀⁻¹ v` the differential has the integrals of (60a) over the constant `a` and
@@ -52,6 +53,6 @@ impl CableForm {
         let a_w = self.world(&a);
         add_times(&mut sum.load, &self.world(&by_load), factor);
         add_times(&mut sum.chord, &a_w, -factor / self.length);
-        sum.length += factor * dot(&a_w, &vector(chord_w)) / self.length.powi(2);
+        sum.free_length += factor * dot(&a_w, &vector(chord_w)) / self.length.powi(2);
     }
 }

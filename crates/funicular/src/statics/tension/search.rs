@@ -300,13 +300,18 @@ impl<'a> TensionSearch<'a> {
     /// Moves to the tensions as far from the limits as possible, relative to the distance between the limits.
     pub(super) fn middle(&mut self) -> Result<(), StaticsError> {
         let widths: Vec<f64> = self.cables.iter().map(|cable| cable.range.maximum - cable.range.minimum).collect();
+        self.middle_of(&widths)
+    }
+
+    /// Moves to the tensions whose distance from the limits is the largest fraction of the `widths` that it can be.
+    pub(super) fn middle_of(&mut self, widths: &[f64]) -> Result<(), StaticsError> {
         let mut stride = ProximalStepControl::default();
         let mut reach = 1.0;
 
         for _ in 0..MAX_ITERATIONS {
             self.iterations += 1;
             let linear = self.linearise();
-            let optimum = self.margin_optimum(&linear, Some(&widths), &self.tensions(), stride.climb)?;
+            let optimum = self.margin_optimum(&linear, Some(widths), &self.tensions(), stride.climb)?;
 
             if optimum.distance < -VIOLATION {
                 self.min_violation()?;
