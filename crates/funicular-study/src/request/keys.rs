@@ -31,7 +31,10 @@ pub const KEYS: &[(&str, &str)] = &[
     ("assembly", "terms of the stiffness"),
     ("in_plane_only", "leave out the out-of-plane stiffness of the cables"),
     ("winches", "winches in vibration: as in the robot file, motors clamped, at constant torque, or cables stuck"),
-    ("at_hz", "frequency of the stiffness, or of the response that is differentiated [Hz]"),
+    (
+        "at_hz",
+        "frequency of the stiffness, or of the response that is differentiated; for `uncertainty` one or a list [Hz]",
+    ),
     ("below_hz", "upper limit of the frequencies [Hz]"),
     ("from_hz", "first frequency [Hz]"),
     ("to_hz", "last frequency [Hz]"),
