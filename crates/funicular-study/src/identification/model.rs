@@ -204,6 +204,21 @@ impl<'a> IdentifiedModel<'a> {
         is_new
     }
 
+    /// Choices at the point that was linearised last: modes of frequencies, weights of observations.
+    pub(super) fn choices(&self) -> Option<(Assigned, Vec<f64>)> {
+        self.held.clone()
+    }
+
+    /// Makes choices of [`Self::choices`] again.
+    pub(super) fn choose(&mut self, choices: Option<(Assigned, Vec<f64>)>) {
+        self.held = choices;
+    }
+
+    /// True if the work was stopped.
+    pub(super) fn is_stopped(&self) -> bool {
+        (self.is_cancelled)()
+    }
+
     /// Number of residuals of the priors.
     pub(crate) fn prior_count(&self) -> usize {
         self.unknowns.iter().filter(|unknown| unknown.prior.is_some()).count()
