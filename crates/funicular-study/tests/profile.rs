@@ -136,7 +136,8 @@ fn a_value_without_a_limit_on_one_side_is_said_to_be_open() {
     // Within bounds that are nearer than the limit.
     let best = row(&identified(&stiffness(NARROW, &json!({}))), MODULUS).value;
     let fit = json!([{"path": MODULUS, "minimum": 0.9 * best, "maximum": 1.1 * best}, {"path": "platform.mass_kg"}]);
-    let found = identified(&stiffness(NARROW, &json!({"profile": [MODULUS], "fit": fit})));
+    let start = robot(&[(MODULUS, best)]);
+    let found = identified(&stiffness(NARROW, &json!({"profile": [MODULUS], "fit": fit, "robot": start})));
     let profile = row(&found, MODULUS).profile.as_ref().unwrap();
     assert_eq!((profile.interval_95, profile.open), ([None, None], [Some(OpenEnd::Bound); 2]));
     let ends = [profile.points[0].value, profile.points[profile.points.len() - 1].value];
