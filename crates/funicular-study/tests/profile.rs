@@ -61,7 +61,7 @@ fn the_profile_of_a_linear_problem_is_the_interval_of_its_deviation() {
         let row = row(&found, path);
         let (profile, [low, high]) = (row.profile.as_ref().unwrap(), row.interval_95.unwrap());
         let half = 0.5 * (high - low);
-        let [from, to] = profile.interval_95.map(Option::unwrap);
+        let [from, to] = [profile.from, profile.to].map(Option::unwrap);
         // An end is found to 1e-3 of the half width.
         assert!((from - low).abs() < 1.5e-3 * half && (to - high).abs() < 1.5e-3 * half, "{path}: {from} {to}");
         // The points are on the parabola.
@@ -100,7 +100,7 @@ fn a_curved_profile_is_asymmetric_and_agrees_with_fits_at_held_values() {
     let found = identified(&stiffness(NARROW, &json!({"profile": ["materials.*"]})));
     let row = row(&found, MODULUS);
     let profile = row.profile.as_ref().unwrap();
-    let [from, to] = profile.interval_95.map(Option::unwrap);
+    let [from, to] = [profile.from, profile.to].map(Option::unwrap);
     // Sag is proportional to the inverse stiffness: the logarithm reaches farther up than down.
     let (down, up) = ((row.value / from).ln(), (to / row.value).ln());
     assert!(up > 1.3 * down, "{down} {up}");
@@ -130,8 +130,8 @@ fn a_value_without_a_limit_on_one_side_is_said_to_be_open() {
     // With this deviation no stiffness is too large.
     let found = identified(&stiffness(WIDE, &json!({"profile": [MODULUS]})));
     let profile = row(&found, MODULUS).profile.as_ref().unwrap();
-    assert!(profile.interval_95[0].is_some() && profile.interval_95[1].is_none(), "{profile:?}");
-    assert!(profile.open[0].is_none() && profile.open[1].is_some(), "{:?}", profile.open);
+    assert!(profile.from.is_some() && profile.to.is_none(), "{profile:?}");
+    assert!(profile.open_below.is_none() && profile.open_above.is_some(), "{profile:?}");
 
     // Within bounds that are nearer than the limit.
     let best = row(&identified(&stiffness(NARROW, &json!({}))), MODULUS).value;
@@ -139,7 +139,8 @@ fn a_value_without_a_limit_on_one_side_is_said_to_be_open() {
     let start = robot(&[(MODULUS, best)]);
     let found = identified(&stiffness(NARROW, &json!({"profile": [MODULUS], "fit": fit, "robot": start})));
     let profile = row(&found, MODULUS).profile.as_ref().unwrap();
-    assert_eq!((profile.interval_95, profile.open), ([None, None], [Some(OpenEnd::Bound); 2]));
+    assert_eq!((profile.from, profile.to), (None, None));
+    assert_eq!([profile.open_below, profile.open_above], [Some(OpenEnd::Bound); 2]);
     let ends = [profile.points[0].value, profile.points[profile.points.len() - 1].value];
     assert!((ends[0] / best - 0.9).abs() < 1e-9 && (ends[1] / best - 1.1).abs() < 1e-9, "{ends:?}");
 }

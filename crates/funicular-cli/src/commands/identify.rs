@@ -237,7 +237,7 @@ impl Printed for Identified {
                 row.deviation,
                 (row.interval_95.map(|interval| interval[0]), row.interval_95.map(|interval| interval[1])),
                 (row.prior, row.prior_deviation, row.at_bound),
-                row.profile.as_ref().map_or([None; 2], |profile| profile.interval_95),
+                row.profile.as_ref().map_or([None; 2], |profile| [profile.from, profile.to]),
             ))?;
         }
         Ok(())
@@ -255,20 +255,21 @@ fn profiles(found: &Identified) -> String {
             .text_columns(&[0, 1, 8]);
     for (row, profile) in profiled {
         let digits = row.deviation.map_or(6, |deviation| digits_for(row.value, deviation));
-        let ends = profile.interval_95;
+        let ends = [profile.from, profile.to];
         let end = |k: usize| ends[k].map_or_else(|| NONE.to_owned(), |end| significant(end, digits));
         let away = |k: usize| ends[k].map_or_else(|| NONE.to_owned(), |end| significant((end - row.value).abs(), 3));
         let by_deviations = row.interval_95.map_or_else(
             || NONE.to_owned(),
             |[low, high]| format!("{}, {}", significant(row.value - low, 3), significant(high - row.value, 3)),
         );
-        let remark = profile.open.iter().zip(["below", "above"]).filter_map(|(open, side)| {
-            Some(match (*open)? {
-                OpenEnd::Bound => format!("not limited {side} within its bound"),
-                OpenEnd::Flat => format!("not limited {side}"),
-                OpenEnd::NoEquilibrium => format!("no equilibrium {side}"),
-            })
-        });
+        let remark =
+            [(profile.open_below, "below"), (profile.open_above, "above")].into_iter().filter_map(|(open, side)| {
+                Some(match open? {
+                    OpenEnd::Bound => format!("not limited {side} within its bound"),
+                    OpenEnd::Flat => format!("not limited {side}"),
+                    OpenEnd::NoEquilibrium => format!("no equilibrium {side}"),
+                })
+            });
         table.row(vec![
             row.path.clone(),
             row.unit.to_owned(),

@@ -55,10 +55,18 @@ pub enum OpenEnd {
 /// Profile of one value.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Profile {
-    /// Ends of the interval that holds the value with 95 %; absent where χ² does not reach its limit.
-    pub interval_95: [Option<f64>; 2],
-    /// Reasons for absent ends.
-    pub open: [Option<OpenEnd>; 2],
+    /// Lower end of the interval that holds the value with 95 %; absent if χ² does not reach its limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from: Option<f64>,
+    /// Upper end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub to: Option<f64>,
+    /// Reason why there is no lower end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub open_below: Option<OpenEnd>,
+    /// Reason why there is no upper end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub open_above: Option<OpenEnd>,
     /// Points, ascending, with the minimum.
     pub points: Vec<ProfilePoint>,
     /// Fits that were made.
@@ -111,9 +119,13 @@ pub(crate) fn profiles(
 
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let unknown: &Unknown = &model.unknowns[k];
+        let [from, to] = ends.map(|(end, _)| end.map(|x| unknown.value(x)));
+        let [open_below, open_above] = ends.map(|(_, open)| open);
         found.push(Profile {
-            interval_95: ends.map(|(end, _)| end.map(|x| unknown.value(x))),
-            open: ends.map(|(_, open)| open),
+            from,
+            to,
+            open_below,
+            open_above,
             falls: points.iter().any(|(_, rise)| *rise < -FALL),
             points: points
                 .into_iter()

@@ -232,13 +232,13 @@ fn profile(number: usize, row: &ValueRow) -> Option<Figure> {
         data.push(line("limit for 95 %", &[*from, *to], &[limit, limit], colour::VERMILION, "dot"));
     }
     let name = plain(&row.path);
-    let end = |k: usize| {
-        profile.interval_95[k].map_or_else(|| "open".to_owned(), |end| format!("{} {}", significant(end, 6), row.unit))
+    let end = |end: Option<f64>| {
+        end.map_or_else(|| "no lower or upper end".to_owned(), |end| format!("{} {}", significant(end, 6), row.unit))
     };
     Some(Figure::new(
         format!("figure-profile-{}", number + 1),
         320,
-        format!("Profile of {name}: χ² reaches its limit for 95 % at {} and {}.", end(0), end(1)),
+        format!("Profile of {name}: χ² reaches its limit for 95 % at {} and {}.", end(profile.from), end(profile.to)),
         &data,
         json!({
             "xaxis": axis(&format!("{name} − {} [{}]", significant(row.value, 6), row.unit), json!({})),
