@@ -287,8 +287,10 @@ fn within_range(request: &IdentifyRequest) -> Result<IdentifyRequest> {
     if from >= to {
         bail!("⟪from_hz⟫ {from} Hz is not below ⟪to_hz⟫ {to} Hz");
     }
+    // A frequency that is not possible is refused later, and not left out.
+    let counts_or_wrong = |hz: &f64| (from..=to).contains(hz) || !(hz.is_finite() && *hz >= 0.0);
     for response in request.experiments.iter_mut().flat_map(|experiment| &mut experiment.responses) {
-        let counts: Vec<bool> = response.frequency_hz.iter().map(|hz| (from..=to).contains(hz)).collect();
+        let counts: Vec<bool> = response.frequency_hz.iter().map(counts_or_wrong).collect();
         let keep = |values: &mut Vec<f64>| {
             // Lists of other lengths are refused later.
             if values.len() == counts.len() {
