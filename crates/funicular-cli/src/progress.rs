@@ -66,7 +66,8 @@ impl Drop for Progress {
 
 /// Progress bar of an analysis, drawn if stderr is a terminal. Ctrl-C stops the analysis while it exists.
 pub(crate) struct TerminalProgress {
-    bar: Option<Progress>,
+    /// Bar, and what it counts.
+    bar: Option<(Progress, &'static str)>,
     _computes: Computes,
 }
 
@@ -82,8 +83,12 @@ impl Watch for TerminalProgress {
     }
 
     fn progress(&mut self, done: usize, total: usize, what: &'static str) {
-        let bar = self.bar.get_or_insert_with(|| Progress::with_rate(total, what));
-        bar.advance(done - bar.done);
+        // Another kind of work has a bar of its own.
+        if self.bar.as_ref().is_some_and(|(_, shown)| *shown != what) {
+            self.bar = None;
+        }
+        let (bar, _) = self.bar.get_or_insert_with(|| (Progress::with_rate(total, what), what));
+        bar.advance(done.saturating_sub(bar.done));
     }
 }
 

@@ -198,3 +198,97 @@ fn a_force_that_the_file_leaves_out_deviates_like_the_weight() {
         assert!(mass > 0.0 && (force / mass - 1.0).abs() < 1e-9, "{force} {mass}");
     }
 }
+
+/// Response of the six-cable robot, whose natural frequencies below 3 Hz are 1.08 to 2.1 Hz.
+fn response(more: &Value) -> Uncertainties {
+    let mut request = json!({
+        "of": ["response"], "input": "fz", "output": "az", "at_hz": [0.5, 0.9, 1.0, 1.2, 1.3, 2.0, 3.0, 6.0],
+        "deviations": ["platform.mass_kg=0.5%"], "tolerances": ["cables.*.anchor_m=0.0002"],
+    });
+    request.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+    uncertainty(funicular_robots::YUAN2014_4MM, &request)
+}
+
+#[test]
+fn linear_deviations_of_responses_are_those_of_samples() {
+    const SAMPLES: usize = 400;
+    let found = response(&json!({"samples": 10}));
+    let sampled = response(&json!({"method": "sampled", "samples": SAMPLES}));
+    assert_eq!(found.response.as_ref().unwrap().unit, "(m/s²)/N");
+    let linear: Vec<_> =
+        results(&found).iter().zip(results(&sampled)).filter(|(one, _)| one.method == "linear").collect();
+    assert!(linear.len() >= 6, "{}", linear.len());
+    assert!(linear.iter().any(|(one, _)| one.unit == "degrees") && linear.iter().any(|(one, _)| one.unit == "dB"));
+    for (linear, sampled) in linear {
+        // 400 robots: deviation to 3.5 %, so 10 % is nearly three of these. The bend adds 1 %.
+        let ratio = linear.deviation.unwrap() / sampled.deviation.unwrap();
+        assert!((0.9..1.1).contains(&ratio), "{}: {ratio}", linear.name);
+        for k in 0..2 {
+            let apart = (linear.interval_95.unwrap()[k] - sampled.interval_95.unwrap()[k]).abs();
+            assert!(apart < 0.4 * sampled.deviation.unwrap(), "{}: {apart}", linear.name);
+        }
+        let mean = (sampled.mean.unwrap() - linear.value) / sampled.deviation.unwrap();
+        assert!(mean.abs() < 0.25, "{}: {mean}", linear.name);
+    }
+
+    // Beside the peaks the response bends, and the linear deviation is another one.
+    let beside = results(&found).iter().zip(results(&sampled)).filter(|(one, _)| one.at_hz == Some(2.0));
+    for (one, sampled) in beside {
+        assert_eq!(one.method, "sampled", "{one:?}");
+        let ratio = one.linear_deviation.unwrap() / sampled.deviation.unwrap();
+        assert!(!(0.9..1.1).contains(&ratio), "{}: {ratio}", one.name);
+    }
+}
+
+#[test]
+fn a_response_that_is_proportional_to_one_number_has_its_deviation() {
+    // Far above all natural frequencies of a robot on springs, the acceleration per force is that of a free body.
+    let robot = straight();
+    let with = |method: &str| {
+        uncertainty(
+            &robot,
+            &json!({
+                "of": ["response"], "input": "fz", "output": "az", "at_hz": 500.0, "method": method, "samples": 1000,
+                "static_model": "spring", "cable_model": "spring", "deviations": ["platform.mass_kg=2%"],
+                "input_point_m": [0.0, 0.0, 0.0], "output_point_m": [0.0, 0.0, 0.0],
+            }),
+        )
+    };
+    let [linear, sampled] = ["automatic", "sampled"].map(with);
+    let (linear, sampled) = (&results(&linear)[0], &results(&sampled)[0]);
+    assert_eq!((linear.method, linear.unit), ("linear", "dB"));
+    // A free body has 1/m + κ, κ from the lever of the force about the centre of mass: 2 % of the mass change the part 1/m.
+    // The springs, whose highest frequency is 15 Hz, add (15/500)² to the response.
+    let mass = funicular::robot::Robot::from_toml(&robot).unwrap().platform.mass;
+    let share = 1.0 / mass / 10_f64.powf(linear.value / 20.0);
+    let expected = 0.02 * share * 20.0 / std::f64::consts::LN_10;
+    assert!((linear.deviation.unwrap() / expected - 1.0).abs() < 3e-3, "{linear:?} {expected}");
+    assert!((sampled.deviation.unwrap() / linear.deviation.unwrap() - 1.0).abs() < 5e-3, "{sampled:?}");
+}
+
+#[test]
+fn responses_without_gradients_are_sampled_and_wrong_ones_refused() {
+    let found = response(&json!({"output": "cable:3@0.5:az", "at_hz": [0.5], "samples": 20}));
+    for result in results(&found) {
+        assert_eq!(result.method, "sampled", "{result:?}");
+        assert!(result.deviation.unwrap() > 0.0, "{result:?}");
+    }
+
+    for (more, message) in [
+        (json!({"at_hz": [0.0]}), "`at_hz`: at 0 Hz nothing moves"),
+        (json!({"at_hz": [1.0, 2.0, 1.0]}), "`at_hz`: 1 Hz is there twice"),
+        (json!({"at_hz": []}), "`response` needs `at_hz`"),
+        (json!({"at_hz": -1.0}), "at_hz"),
+        (json!({"input": null}), "`response` needs `input`"),
+        (json!({"output": "cable:9@0.5:az"}), "9"),
+    ] {
+        let mut request = json!({
+            "command": "uncertainty", "robot": {"text": funicular_robots::YUAN2014_4MM}, "of": ["response"],
+            "input": "fz", "output": "az", "at_hz": [1.0], "deviations": ["platform.mass_kg=1%"],
+        });
+        request.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        let request = Request::from_json(&request.to_string()).unwrap();
+        let Err(error) = run(&request, &mut Silent) else { panic!("{more} is refused") };
+        assert!(format!("{error:#}").contains(message), "{error:#}");
+    }
+}

@@ -29,6 +29,11 @@ pub(crate) struct IdentifyArgs {
     #[arg(long, value_name = "N", default_value = "10")]
     pub(crate) starts: usize,
 
+    /// Fitted values, by their paths, separated by commas, whose interval is also found by holding each value and fitting
+    /// the others again, until χ² has risen by 3.84; * stands for any key
+    #[arg(long, value_name = "PATHS", value_delimiter = ',')]
+    pub(crate) profile: Vec<String>,
+
     /// File with measured responses or natural frequencies: .uff or .unv (Universal File), or .csv (repeatable)
     #[arg(long, value_name = "FILE", help_heading = "Measurements")]
     pub(crate) measured: Vec<PathBuf>,

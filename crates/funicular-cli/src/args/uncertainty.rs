@@ -1,10 +1,11 @@
 //! Arguments of `uncertainty`.
 
-use super::groups::{LinearisedArgs, OutputArgs, RobotArgs};
+use super::groups::{LinearisedArgs, OutputArgs, PointArgs, RobotArgs};
 use super::names::{HoldName, UncertaintyMethodName};
 use super::values;
 use clap::Args;
 use funicular_study::request::DEFAULT_SAMPLES;
+use funicular_study::signals::{Input, Output};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -23,7 +24,7 @@ pub(crate) struct UncertaintyArgs {
     #[arg(long, value_name = "TOLERANCES", value_delimiter = ',')]
     pub(crate) tolerances: Vec<String>,
 
-    /// Results: pose, lengths, tensions, stiffness-min, frequencies, damping; separated by commas
+    /// Results: pose, lengths, tensions, stiffness-min, frequencies, damping, response; separated by commas
     #[arg(long, value_name = "RESULTS", value_delimiter = ',', default_value = "pose,tensions")]
     pub(crate) of: Vec<String>,
 
@@ -35,6 +36,20 @@ pub(crate) struct UncertaintyArgs {
     /// Upper limit of the frequencies [Hz]; for frequencies and damping
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) below_hz: Option<f64>,
+
+    /// Frequencies of the response [Hz], separated by commas
+    #[arg(long, value_name = "HZ", value_delimiter = ',', value_parser = values::not_negative, allow_hyphen_values = true)]
+    pub(crate) at_hz: Vec<f64>,
+
+    /// Input of the response (see `frf`)
+    #[arg(long, value_name = "INPUT", value_parser = Input::parse)]
+    pub(crate) input: Option<Input>,
+
+    /// Output of the response (see `frf`); results are its magnitudes in decibels and its phases in degrees
+    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse)]
+    pub(crate) output: Option<Output>,
+    #[command(flatten)]
+    pub(crate) points: PointArgs,
 
     /// List of poses in a CSV file: columns x_m, y_m, z_m and optionally roll_deg, pitch_deg, yaw_deg
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["pose", "lengths_m"])]

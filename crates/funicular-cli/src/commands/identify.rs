@@ -9,7 +9,7 @@ use crate::{errors, robot_file};
 use anyhow::{Context, Result, bail};
 use std::fmt::Write as _;
 
-use funicular_study::analyses::identify::{self, Identified};
+use funicular_study::analyses::identify::{self, Identified, OpenEnd};
 use funicular_study::measurements::{self, FileOptions};
 use funicular_study::request::{Experiment, FitValue, IdentifyRequest, Pose, Request, RobotText};
 use funicular_study::wording::{Words, worded};
@@ -84,6 +84,7 @@ pub(super) fn request(args: &IdentifyArgs, robot: RobotText) -> Result<IdentifyR
         frequency_noise: args.frequency_noise,
         damping_noise: args.damping_noise,
         rigid_cables: args.rigid_cables,
+        profile: args.profile.clone(),
         tensions,
         model,
     })
@@ -161,6 +162,7 @@ impl Printed for Identified {
             ]);
         }
 
+        let profiles = profiles(self);
         let tried = self.starts.len();
         let mut text = format!(
             "{}: {} from {}\n\n{table}\n\nχ² = {} for {} degrees of freedom, χ²/n = {}: {}.\n{} tried.\n",
@@ -173,6 +175,7 @@ impl Printed for Identified {
             self.verdict,
             counted(tried, "start"),
         );
+        text += &profiles;
         for strong in &self.strong_correlations {
             let _ = writeln!(text, "{strong}.");
         }
@@ -226,6 +229,8 @@ impl Printed for Identified {
             "prior",
             "prior_deviation",
             "at_bound",
+            "profile_95_from",
+            "profile_95_to",
         ])?;
         for row in &self.values {
             out.serialize((
@@ -233,8 +238,50 @@ impl Printed for Identified {
                 row.deviation,
                 (row.interval_95.map(|interval| interval[0]), row.interval_95.map(|interval| interval[1])),
                 (row.prior, row.prior_deviation, row.at_bound),
+                row.profile.as_ref().map_or([None; 2], |profile| [profile.from, profile.to]),
             ))?;
         }
         Ok(())
     }
+}
+
+/// Table of the profiles; empty if there are none.
+fn profiles(found: &Identified) -> String {
+    let profiled: Vec<_> = found.values.iter().filter_map(|row| Some((row, row.profile.as_ref()?))).collect();
+    if profiled.is_empty() {
+        return String::new();
+    }
+    let mut table =
+        Table::new(&["value", "unit", "identified", "profile 95 % from", "to", "below", "above", "deviations", ""])
+            .text_columns(&[0, 1, 8]);
+    for (row, profile) in profiled {
+        let digits = row.deviation.map_or(6, |deviation| digits_for(row.value, deviation));
+        let ends = [profile.from, profile.to];
+        let end = |k: usize| ends[k].map_or_else(|| NONE.to_owned(), |end| significant(end, digits));
+        let away = |k: usize| ends[k].map_or_else(|| NONE.to_owned(), |end| significant((end - row.value).abs(), 3));
+        let by_deviations = row.interval_95.map_or_else(
+            || NONE.to_owned(),
+            |[low, high]| format!("{}, {}", significant(row.value - low, 3), significant(high - row.value, 3)),
+        );
+        let remark =
+            [(profile.open_below, "below"), (profile.open_above, "above")].into_iter().filter_map(|(open, side)| {
+                Some(match open? {
+                    OpenEnd::Bound => format!("not limited {side} within its bound"),
+                    OpenEnd::Flat => format!("not limited {side}"),
+                    OpenEnd::NoEquilibrium => format!("no equilibrium {side}"),
+                })
+            });
+        table.row(vec![
+            row.path.clone(),
+            row.unit.to_owned(),
+            significant(row.value, digits),
+            end(0),
+            end(1),
+            away(0),
+            away(1),
+            by_deviations,
+            remark.collect::<Vec<_>>().join(", "),
+        ]);
+    }
+    format!("\n{table}\n")
 }

@@ -90,14 +90,18 @@ impl Printed for Uncertainties {
     fn text(&self) -> String {
         let groups: Vec<String> =
             self.groups.iter().map(|group| format!("{} ({})", group.name, counted(group.count, "number"))).collect();
+        let numbers = if self.inputs.len() == 1 { "deviates" } else { "deviate" };
         let mut out = format!(
-            "{}: deviations of results from {} that deviate\n{}\nHeld: {}.\nGroups: {}.\n",
+            "{}: deviations of results from {} that {numbers}\n{}\nHeld: {}.\nGroups: {}.\n",
             self.robot,
             counted(self.inputs.len(), "number"),
             self.models.line(),
             self.held_means,
             groups.join(", ")
         );
+        if let Some(of) = &self.response {
+            let _ = writeln!(out, "Response: {} to {}; magnitudes in dB of 1 {}.", of.output, of.input, of.unit);
+        }
         for (i, pose) in self.poses.iter().enumerate() {
             out += &pose_text(self, i, pose);
         }

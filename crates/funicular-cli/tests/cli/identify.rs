@@ -117,3 +117,131 @@ fn wrong_files_and_values_are_refused_with_their_place() {
     let value = &found["values"][0];
     assert!((number(&value["value"]) - 64.0).abs() < 3.0 * number(&value["deviation"]), "{value}");
 }
+
+/// Response of the six-cable robot as a Universal File, of 21 frequencies with two numbers each.
+fn written_response(folder: &std::path::Path) -> String {
+    let path = folder.join("with blanks.uff");
+    succeed(&[
+        "frf",
+        &robot("yuan2014-4mm.toml"),
+        "--from-hz",
+        "0.5",
+        "--to-hz",
+        "1.5",
+        "--points",
+        "21",
+        "--input",
+        "fz",
+        "--output",
+        "az",
+        "-o",
+        path.to_str().unwrap(),
+    ]);
+    fs::read_to_string(path).unwrap()
+}
+
+#[test]
+fn damaged_files_are_refused_in_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let good = written_response(folder.path());
+    let refused = |bytes: &[u8], says: &str| {
+        let path = folder.path().join("damaged file.uff");
+        fs::write(&path, bytes).unwrap();
+        let line = ["identify", &robot("yuan2014-4mm.toml"), "--fit", "platform.mass_kg", "--measured"];
+        let output = run(&[&line[..], &[path.to_str().unwrap()]].concat());
+        let told = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains(says) && told.trim_end().lines().count() == 1, "{says}: {told}");
+    };
+
+    let lines: Vec<&str> = good.lines().collect();
+    let begin = lines.iter().position(|line| line.trim() == "58").unwrap();
+    let form = lines[begin + 7];
+    let with_form = |form: &str| good.replace(lines[begin + 7], form);
+    // Cut off, too few points in the last line, too many, and steps of zero.
+    refused(&good.as_bytes()[..good.len() - 200], "the file ends where");
+    let counted = |points: usize| with_form(&format!("{}{points:10}{}", &form[..10], &form[20..]));
+    refused(counted(20).as_bytes(), "dataset 58 goes on after its last point");
+    refused(counted(22).as_bytes(), "dataset 58 ends after 42 of its 44 numbers");
+    let step_of_zero = with_form(&format!("{}{:>13}{}", &form[..43], "0.00000E+00", &form[56..]));
+    refused(step_of_zero.as_bytes(), "the frequencies must ascend, and 0.5 Hz follows 0.5 Hz");
+    refused(&[], "is no Universal File");
+
+    // Binary data in another byte order than the head says.
+    let binary = |order: usize| {
+        let values: Vec<u8> = (0..42).flat_map(|i| (0.01 * f64::from(i + 1)).to_le_bytes()).collect();
+        let mut bytes = lines[..begin].join("\n").into_bytes();
+        let head = format!("    58b{order:6}{:6}{:12}{:12}{:6}{:6}{:12}{:12}", 2, 11, values.len(), 0, 0, 0, 0);
+        bytes.extend(format!("\n{head}\n{}\n", lines[begin + 1..begin + 12].join("\n")).bytes());
+        bytes.extend(values);
+        bytes.extend(b"\n    -1\n");
+        bytes
+    };
+    refused(&binary(2), "the byte order 2 of the file is wrong");
+    refused(&binary(3), "byte order 3 (dataset 58b), it must be 1");
+}
+
+#[test]
+fn measurements_that_cannot_be_are_refused_in_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |text: &str, more: &[&str], says: &str| {
+        let path = folder.path().join("table.csv");
+        fs::write(&path, text).unwrap();
+        let line = ["identify", &robot("yuan2014-4mm.toml"), "--fit", "platform.mass_kg", "--measured"];
+        let output = run(&[&line[..], &[path.to_str().unwrap()], more].concat());
+        let told = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains(says) && told.trim_end().lines().count() == 1, "{says}: {told}");
+    };
+    let response = ["--response", "a=az/fz"];
+    for (text, says) in [
+        ("", "is empty: give a header"),
+        ("frequency,a_re,a_im\n1,2,3\n", "its columns are `frequency`, `a_re`, `a_im`"),
+        ("frequency_hz;a_re;a_im\n1;0,2;0,3\n", "separated by semicolons"),
+        ("frequency_hz,a_re,a_im\n1,2,3\n2,,3\n", "line 3: `a_re` is missing"),
+        ("frequency_hz,a_re,a_im\n2,2,3\n1,2,3\n", "the frequencies must ascend, and 1 Hz follows 2 Hz"),
+        ("frequency_hz,a_re,a_im\n-1,2,3\n1,2,3\n", "-1 is negative"),
+    ] {
+        refused(text, &response, says);
+    }
+    for (text, says) in [
+        ("frequency_hz,label\n1.1,100000\n", "the number of a mode, which is at most 1000"),
+        ("frequency_hz,damping_ratio\n1.1,2\n", "2 is not below 1"),
+    ] {
+        refused(text, &[], says);
+    }
+    let undamped = ["--set", "materials.rope-4mm.damping_ratio=0"];
+    refused("frequency_hz,damping_ratio\n1.1,0.01\n", &undamped, "the mode has no damping in the model");
+    let list = "frequency_hz,label\n1.1,1\n";
+    refused(list, &["--measured-lengths-m", "6.8,6.5,6.7,6.6,6.8,6.6"], "needs a pose that is held");
+    refused(
+        list,
+        &["--profile", "platform.mass"],
+        "--profile platform.mass: no fitted value has this path; did you mean",
+    );
+}
+
+#[test]
+fn a_profile_is_in_text_table_and_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    fs::write(file("list.csv"), "frequency_hz,label\n1.08,1\n1.19,2\n1.22,3\n").unwrap();
+    let yuan = robot("yuan2014-4mm.toml");
+    let (list, page) = (file("list.csv"), file("page.html"));
+    let line =
+        ["identify", &yuan, "--fit", "platform.mass_kg", "--measured", &list, "--profile", "platform", "--page", &page];
+
+    let found = json(&line);
+    let row = &found["values"][0];
+    let (from, to, value) = (number(&row["profile"]["from"]), number(&row["profile"]["to"]), number(&row["value"]));
+    assert!(from < value && value < to, "{row}");
+    assert!(row["profile"]["open_below"].is_null(), "{row}");
+    let points = row["profile"]["points"].as_array().unwrap();
+    assert!(points.iter().any(|point| number(&point["chi2_rise"]) == 0.0) && points.len() >= 9, "{row}");
+
+    assert!(fs::read_to_string(&page).unwrap().contains("figure-profile-1"));
+    let text = succeed(&line);
+    assert!(text.contains("profile 95 % from"), "{text}");
+    let table = succeed(&[&line[..], &["--format", "csv"]].concat());
+    assert!(table.contains(&format!("{from},{to}")), "{table}");
+}

@@ -91,7 +91,7 @@ def identified(request: Mapping[str, Any]) -> Identified:
 def identify_request(robot: str, fit: Any, experiments: Any, keywords: Mapping[str, Any]) -> dict[str, Any]:
     """Request of `Robot.identify`; `robot` is JSON. Keywords of the state belong to experiments that do not give them."""
     given = {key: _plain(key, value) for key, value in keywords.items() if value is not None}
-    own: tuple[str, ...] = ("starts", "from_hz", "to_hz", "response_noise", "frequency_noise", "damping_noise", "rigid_cables")
+    own: tuple[str, ...] = ("starts", "from_hz", "to_hz", "response_noise", "frequency_noise", "damping_noise", "rigid_cables", "profile")
     own += ("tension_rule", "target_tension_n", "min_tension_n", "max_tension_n")
     own += ("cable_model", "assembly", "in_plane_only", "winches")
     state = {key: value for key, value in given.items() if key not in own}

@@ -28,6 +28,9 @@ impl PyRobot {
     ///     Relative deviations of measurements that have none.
     /// rigid_cables
     ///     Natural frequencies with cables that are rigid in length; with the static model `ideal`.
+    /// profile
+    ///     Paths of fitted values whose interval of 95 % is also found by holding the value and fitting the others again;
+    ///     `details["values"]` has it under `profile`. * stands for any key.
     ///
     /// The other parameters are those of `equilibrium` and of `modes`; those of the state belong to every experiment that
     /// does not give them itself.
@@ -40,7 +43,7 @@ impl PyRobot {
     ///     The robot has no equilibrium at any start.
     #[pyo3(signature = (
         fit, experiments, *, starts=10, from_hz=None, to_hz=None, response_noise=0.02, frequency_noise=0.01,
-        damping_noise=0.1, rigid_cables=false, pose=None, lengths_m=None, static_model="catenary",
+        damping_noise=0.1, rigid_cables=false, profile=None, pose=None, lengths_m=None, static_model="catenary",
         hold_lengths_of_pose=false, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None, wind_m_s=None,
         cable_load_n_per_m=None, tension_rule=None, target_tension_n=None, min_tension_n=None, max_tension_n=None,
         cable_model=None, assembly="consistent", in_plane_only=false, winches="as-given"
@@ -58,6 +61,7 @@ impl PyRobot {
         frequency_noise: f64,
         damping_noise: f64,
         rigid_cables: bool,
+        profile: Option<Vec<String>>,
         pose: Option<Bound<'py, PyAny>>,
         lengths_m: Option<Bound<'py, PyAny>>,
         static_model: &str,
@@ -85,6 +89,7 @@ impl PyRobot {
         keywords.set_item("frequency_noise", frequency_noise)?;
         keywords.set_item("damping_noise", damping_noise)?;
         keywords.set_item("rigid_cables", rigid_cables)?;
+        keywords.set_item("profile", profile)?;
         keywords.set_item("pose", pose)?;
         keywords.set_item("lengths_m", lengths_m)?;
         keywords.set_item("static_model", static_model)?;

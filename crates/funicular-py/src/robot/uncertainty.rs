@@ -6,7 +6,7 @@ use crate::arrays::{Number, Numbers};
 use crate::errors;
 use crate::interrupt::interruptible_by_flag;
 use crate::pose::PoseLike;
-use crate::request::{StateKeywords, TensionKeywords, model, named};
+use crate::request::{StateKeywords, TensionKeywords, model, named, points};
 use crate::sweep::{self, ProgressArgument};
 use crate::threads::Threads;
 use crate::written::UncertaintyObject;
@@ -34,12 +34,15 @@ impl PyRobot {
     /// tolerances
     ///     Tolerances of numbers that are anywhere within ± their tolerance, in the same form.
     /// of
-    ///     Results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`; the first and the third if
-    ///     not given.
+    ///     Results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`; the first and the
+    ///     third if not given.
     /// hold
     ///     What stays while the numbers deviate: `lengths`, `pose`, or `rule` (the pose and the rule of the tensions).
     /// below_hz
     ///     Upper limit of the frequencies [Hz]; for frequencies and damping.
+    /// at_hz, input, output, input_point_m, output_point_m
+    ///     Frequencies [Hz], one or several, signals and points of the response. Results are its magnitudes in decibels of
+    ///     its unit, and its phases in degrees.
     /// poses
     ///     Several poses, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
     /// method
@@ -65,8 +68,8 @@ impl PyRobot {
     /// FileError
     ///     The file of the samples cannot be written, or belongs to other work.
     #[pyo3(signature = (
-        deviations=None, tolerances=None, of=None, *, hold="lengths", below_hz=None, poses=None, method="automatic",
-        samples=200, seed=0, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
+        deviations=None, tolerances=None, of=None, *, hold="lengths", below_hz=None, at_hz=None, input=None,
+        output=None, input_point_m=None, output_point_m=None, poses=None, method="automatic", samples=200, seed=0, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
         assembly="consistent", in_plane_only=false, winches="as-given", tension_rule=None, target_tension_n=None,
         min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None,
         wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, samples_file=None, resume=false,
@@ -81,6 +84,11 @@ impl PyRobot {
         of: Option<Vec<String>>,
         hold: &str,
         below_hz: Option<Number>,
+        at_hz: Option<Numbers>,
+        input: Option<String>,
+        output: Option<String>,
+        input_point_m: Option<Numbers>,
+        output_point_m: Option<Numbers>,
         poses: Option<Numbers>,
         method: &str,
         samples: usize,
@@ -131,6 +139,10 @@ impl PyRobot {
             samples,
             seed,
             below_hz: below_hz.map(|hz| hz.value("below_hz")).transpose()?,
+            at_hz: at_hz.map(|hz| hz.frequencies_of("at_hz")).transpose()?.map(|(hz, _)| hz),
+            input,
+            output,
+            points: points(input_point_m, output_point_m)?,
             poses: poses.map(sweep::poses).transpose()?,
             state: state.request()?,
             tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request()?,

@@ -1,8 +1,12 @@
 //! `identify`: values of the robot file that fit measurements best, with their deviations.
 
 use super::found;
+use super::gradient::Pattern;
 use crate::Watch;
-use crate::identification::{IdentifiedModel, Kind, StartRow, Unknown, judge, search, unknowns, unresolved_peaks};
+use crate::identification::{
+    IdentifiedModel, Kind, LIMIT as NORMAL_95, StartRow, Unknown, judge, profiles, search, unknowns, unresolved_peaks,
+};
+pub use crate::identification::{OpenEnd, Profile};
 use crate::request::{self, Experiment, IdentifyRequest};
 use crate::text::{counted, significant};
 use anyhow::{Result, bail};
@@ -11,9 +15,6 @@ use funicular::math::least_squares::Ending;
 use funicular::robot::parameters::Parameters;
 use serde::Serialize;
 use std::cell::RefCell;
-
-/// Quantile of the normal distribution for intervals that hold with 95 %.
-const NORMAL_95: f64 = 1.959_963_984_540_054;
 
 /// Fraction of the values of responses that may be far outside of the deviations without a warning.
 const MAX_OUTLIERS: f64 = 0.01;
@@ -82,6 +83,9 @@ pub struct ValueRow {
     /// `minimum` or `maximum` if the value is at this bound.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_bound: Option<&'static str>,
+    /// Profile of χ², if it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub profile: Option<Profile>,
 }
 
 /// Measured and fitted natural frequency.
@@ -146,6 +150,7 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
     let file = request.robot.read()?;
     let parameters = Parameters::from_toml(&file.text)?;
     let unknowns = unknowns(&parameters, &request.fit)?;
+    let profiled = profiled(&parameters, &unknowns, &request.profile)?;
 
     let watch = RefCell::new(watch);
     let is_cancelled = || watch.borrow().is_cancelled();
@@ -163,7 +168,7 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
         let name = model.names().nth(number).unwrap_or_default().to_owned();
         warnings.extend(unresolved_peaks(&model, &best.x, number, experiment)?.map(|text| format!("{name}: {text}")));
     }
-    let rows: Vec<ValueRow> = (unknowns.iter().zip(&values).zip(&judged.deviations))
+    let mut rows: Vec<ValueRow> = (unknowns.iter().zip(&values).zip(&judged.deviations))
         .map(|((unknown, value), deviation)| value_row(unknown, *value, *deviation))
         .collect();
     for row in &rows {
@@ -180,6 +185,15 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
         warnings.push(format!("the search has not ended after {}", counted(best.iterations, "iteration")));
     }
     warnings.extend(judged.weak.iter().cloned());
+    if !profiled.is_empty() {
+        let progress = |done: usize, total: usize| watch.borrow_mut().progress(done, total, "fits of profiles");
+        let found = profiles(&mut model, best, &profiled, &judged.deviations, judged.factor, &progress)?;
+        for (&number, profile) in profiled.iter().zip(found) {
+            let row = &mut rows[number];
+            warnings.extend(lower(row, &profile, best.chi2(), judged.factor));
+            row.profile = Some(profile);
+        }
+    }
 
     let fitted = model.predict(&best.x, None)?;
     let before = match before {
@@ -235,6 +249,37 @@ fn check(request: &IdentifyRequest) -> Result<()> {
     request::check_positive("damping_noise", request.damping_noise)
 }
 
+/// Numbers of the unknowns at the paths of profiles, in the order of the fit.
+fn profiled(parameters: &Parameters, unknowns: &[Unknown], paths: &[String]) -> Result<Vec<usize>> {
+    let mut chosen = vec![false; unknowns.len()];
+    for path in paths {
+        let pattern = Pattern::parse("profile", path)?;
+        let mut is_met = false;
+        for (unknown, chosen) in unknowns.iter().zip(&mut chosen) {
+            if pattern.matches(&parameters.list()[unknown.index].keys) {
+                (*chosen, is_met) = (true, true);
+            }
+        }
+        if !is_met {
+            let all: Vec<String> = unknowns.iter().map(|unknown| unknown.path.clone()).collect();
+            let near = crate::names::suggestion(path, &all);
+            bail!("⟪profile⟫ {path}: no fitted value has this path{near}");
+        }
+    }
+    Ok((0..unknowns.len()).filter(|&k| chosen[k]).collect())
+}
+
+/// Sentence on a profile that falls below the minimum; `None` if it does not.
+fn lower(row: &ValueRow, profile: &Profile, chi2: f64, factor: f64) -> Option<String> {
+    let lowest = profile.points.iter().min_by(|a, b| a.chi2_rise.total_cmp(&b.chi2_rise)).filter(|_| profile.falls)?;
+    Some(format!(
+        "the search has missed the best values: with {0} = {1} the measurements fit better, χ² = {2}; give ⟪set⟫ {0}={1} and          identify again",
+        row.path,
+        significant(lowest.value, 6),
+        significant(chi2 + factor * factor * lowest.chi2_rise, 5)
+    ))
+}
+
 /// Request with the frequencies of responses that count.
 fn within_range(request: &IdentifyRequest) -> Result<IdentifyRequest> {
     let mut request = request.clone();
@@ -242,8 +287,10 @@ fn within_range(request: &IdentifyRequest) -> Result<IdentifyRequest> {
     if from >= to {
         bail!("⟪from_hz⟫ {from} Hz is not below ⟪to_hz⟫ {to} Hz");
     }
+    // A frequency that is not possible is refused later, and not left out.
+    let counts_or_wrong = |hz: &f64| (from..=to).contains(hz) || !(hz.is_finite() && *hz >= 0.0);
     for response in request.experiments.iter_mut().flat_map(|experiment| &mut experiment.responses) {
-        let counts: Vec<bool> = response.frequency_hz.iter().map(|hz| (from..=to).contains(hz)).collect();
+        let counts: Vec<bool> = response.frequency_hz.iter().map(counts_or_wrong).collect();
         let keep = |values: &mut Vec<f64>| {
             // Lists of other lengths are refused later.
             if values.len() == counts.len() {
@@ -351,6 +398,7 @@ fn value_row(unknown: &Unknown, value: f64, deviation: Option<f64>) -> ValueRow 
         prior: unknown.prior.map(|prior| prior.0),
         prior_deviation: unknown.prior.map(|prior| prior.1),
         at_bound,
+        profile: None,
     }
 }
 

@@ -10,6 +10,7 @@
 mod distribution;
 mod inputs;
 mod linear;
+mod responses;
 mod results;
 mod sampling;
 mod statistics;
@@ -29,6 +30,7 @@ use anyhow::{Result, anyhow, bail};
 use funicular::robot::Robot;
 use inputs::{Distribution, Input, Inputs};
 use linear::{LinearPose, Row};
+use responses::Asked;
 use results::GROUPS;
 use sampling::{SampleSet, SampleTable, Sampling};
 use serde::Serialize;
@@ -51,6 +53,9 @@ pub struct Uncertainties {
     pub held: &'static str,
     /// Sentence that says what is held, and by which rule the rest follows.
     pub held_means: &'static str,
+    /// Frequency response among the results.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub response: Option<UncertainResponse>,
     /// Numbers that deviate.
     pub inputs: Vec<UncertainInput>,
     /// Groups of numbers, one per option.
@@ -65,6 +70,15 @@ pub struct Uncertainties {
     pub poses: Vec<PoseUncertainty>,
     #[serde(skip)]
     pub warnings: Vec<String>,
+}
+
+/// Frequency response whose magnitudes and phases are results.
+#[derive(Debug, Clone, Serialize)]
+pub struct UncertainResponse {
+    pub input: String,
+    pub output: String,
+    /// Unit; magnitudes are in decibels of it, phases in degrees.
+    pub unit: String,
 }
 
 /// Number of the robot file that deviates.
@@ -125,6 +139,9 @@ pub struct UncertainResult {
     /// Name, such as `frequency 3` or `tension of cable "2" at the anchor`.
     pub name: String,
     pub unit: &'static str,
+    /// Frequency of a response [Hz].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_hz: Option<f64>,
     /// Value of the undisturbed robot.
     pub value: f64,
     /// Standard deviation; absent if too few sampled robots have the result.
@@ -210,11 +227,13 @@ pub fn run(request: &UncertaintyRequest, watch: &mut dyn Watch) -> Result<Uncert
 pub struct UncertaintyStudy {
     request: UncertaintyRequest,
     of: Vec<&'static str>,
+    /// Frequency responses, if they are among the results.
+    asked: Option<Asked>,
     robot: Robot,
     inputs: Inputs,
     poses: Vec<Option<[f64; 6]>>,
-    /// Robot at rest at the first pose that has an equilibrium.
-    first: (usize, AtRest),
+    /// Number of the first pose that has an equilibrium, and its linear deviations.
+    first: (usize, LinearPose),
     /// Reasons of the poses before it.
     failed: Vec<String>,
 }
@@ -230,6 +249,7 @@ impl UncertaintyStudy {
     pub fn new(request: &UncertaintyRequest) -> Result<Self> {
         let of = groups(request)?;
         let robot = request.robot.read()?.robot;
+        let asked = of.contains(&"response").then(|| Asked::new(request, &robot)).transpose()?;
         let poses: Vec<Option<[f64; 6]>> = match &request.poses {
             None => vec![None],
             Some(_) if request.state.pose.is_some() || request.state.lengths_m.is_some() => {
@@ -254,7 +274,7 @@ impl UncertaintyStudy {
                 Err(error) => failed.push(format!("{error:#}")),
             }
         }
-        let Some(first) = first else {
+        let Some((first, at_rest)) = first else {
             return Err(NoSolution(format!(
                 "the robot has no equilibrium at any of {}; at the first one: {}",
                 counted(poses.len(), "pose"),
@@ -262,11 +282,10 @@ impl UncertaintyStudy {
             ))
             .into());
         };
-        let inputs = Inputs::new(request, &first.1)?;
-        let study = Self { request: request.clone(), of, robot, inputs, poses, first, failed };
+        let inputs = Inputs::new(request, &at_rest)?;
         // The linear deviations of the first pose find the errors that all poses share.
-        study.linear_at(study.first.1.clone())?;
-        Ok(study)
+        let linear = linear_at(request, &of, asked.as_ref(), &inputs, at_rest)?;
+        Ok(Self { request: request.clone(), of, asked, robot, inputs, poses, first: (first, linear), failed })
     }
 
     /// Number of poses.
@@ -279,32 +298,14 @@ impl UncertaintyStudy {
         if let Some(reason) = self.failed.get(pose) {
             return PoseOutcome(Err(reason.clone()));
         }
-        let (first, at_rest) = &self.first;
-        let at_rest =
-            if pose == *first { Ok(at_rest.clone()) } else { rest(&self.request, &self.robot, self.poses[pose]) };
-        PoseOutcome(at_rest.and_then(|at_rest| self.linear_at(at_rest)).map_err(|error| format!("{error:#}")))
-    }
-
-    fn linear_at(&self, at_rest: AtRest) -> Result<LinearPose> {
-        let mut linear = LinearPose::new(&self.request, &self.of, &self.inputs, at_rest)?;
-        match self.request.method {
-            UncertaintyMethod::Automatic => {}
-            UncertaintyMethod::Linear => {
-                if let Some(row) = linear.rows.iter().find(|row| row.derivatives.is_none()) {
-                    let name = row.kind.name(&linear.at_rest.robot);
-                    let reason = row.doubt.as_deref().unwrap_or_default();
-                    return Err(anyhow!(
-                        "{name} has no linear deviation: {reason}; leave out ⟪method⟫ linear, or this result"
-                    ));
-                }
-            }
-            UncertaintyMethod::Sampled => {
-                for row in &mut linear.rows {
-                    row.doubt.get_or_insert_with(|| "sampled as requested".to_owned());
-                }
-            }
+        let (first, linear) = &self.first;
+        if pose == *first {
+            return PoseOutcome(Ok(linear.clone()));
         }
-        Ok(linear)
+        let at_rest = rest(&self.request, &self.robot, self.poses[pose]);
+        let linear =
+            at_rest.and_then(|at_rest| linear_at(&self.request, &self.of, self.asked.as_ref(), &self.inputs, at_rest));
+        PoseOutcome(linear.map_err(|error| format!("{error:#}")))
     }
 
     /// Plan of the samples that the poses need, given in their order.
@@ -423,12 +424,14 @@ impl SamplePlan<'_> {
             poses.push(self.at_pose(i, linear, samples, single));
         }
 
-        let linearisation = at_rest::linearisation(&request.model, first.1.equilibrium.model);
+        let first = &first.1.at_rest;
+        let linearisation = at_rest::linearisation(&request.model, first.equilibrium.model);
         Uncertainties {
             robot: robot.name.clone(),
-            models: Models::of(&first.1, linearisation),
+            models: Models::of(first, linearisation),
             held: request.hold.name(),
-            held_means: super::gradient::meaning(&first.1, request.hold),
+            held_means: super::gradient::meaning(first, request.hold),
+            response: self.study.asked.as_ref().map(Asked::description),
             inputs: self.inputs(),
             groups: (inputs.groups.iter().enumerate())
                 .map(|(i, group)| InputGroup {
@@ -448,7 +451,7 @@ impl SamplePlan<'_> {
     fn inputs(&self) -> Vec<UncertainInput> {
         let inputs = &self.study.inputs;
         let several = self.poses.len() > 1;
-        let values = inputs.values(&self.study.first.1);
+        let values = inputs.values(&self.study.first.1.at_rest);
         let distributions = inputs.distributions(&values);
         let input = |((input, value), distribution): ((&Input, f64), Distribution)| {
             let follows = several && inputs.follows_state(input);
@@ -523,6 +526,7 @@ impl SamplePlan<'_> {
         UncertainResult {
             name: row.kind.name(&linear.at_rest.robot),
             unit: row.kind.unit(),
+            at_hz: row.kind.at_hz(),
             value: row.value + 0.0,
             deviation: if is_sampled { sampled.as_ref().map(|of| of.deviation) } else { spread.map(|of| of.0) },
             interval_95: if is_sampled {
@@ -570,6 +574,33 @@ fn groups(request: &UncertaintyRequest) -> Result<Vec<&'static str>> {
     Ok(of)
 }
 
+/// Linear deviations of an equilibrium, by the method of a request.
+fn linear_at(
+    request: &UncertaintyRequest,
+    of: &[&str],
+    asked: Option<&Asked>,
+    inputs: &Inputs,
+    at_rest: AtRest,
+) -> Result<LinearPose> {
+    let mut linear = LinearPose::new(request, of, asked, inputs, at_rest)?;
+    match request.method {
+        UncertaintyMethod::Automatic => {}
+        UncertaintyMethod::Linear => {
+            if let Some(row) = linear.rows.iter().find(|row| row.derivatives.is_none()) {
+                let name = row.kind.name(&linear.at_rest.robot);
+                let reason = row.doubt.as_deref().unwrap_or_default();
+                bail!("{name} has no linear deviation: {reason}; leave out ⟪method⟫ linear, or this result");
+            }
+        }
+        UncertaintyMethod::Sampled => {
+            for row in &mut linear.rows {
+                row.doubt.get_or_insert_with(|| "sampled as requested".to_owned());
+            }
+        }
+    }
+    Ok(linear)
+}
+
 /// Robot of a request at rest, at a pose of its list or at its state.
 fn rest(request: &UncertaintyRequest, robot: &Robot, pose: Option<[f64; 6]>) -> Result<AtRest> {
     let mut state = request.state.clone();
@@ -593,7 +624,7 @@ fn notes(request: &UncertaintyRequest, poses: &[PoseUncertainty]) -> Vec<String>
     let sampled = results().count() - linear;
     if linear > doubtful {
         notes.push(format!(
-            "{} linear: no cable may become slack and no frequencies may cross within the deviations",
+            "{} linear: within the deviations no cable may become slack, no frequencies may cross and no response bends",
             counted(linear - doubtful, "result")
         ));
     }

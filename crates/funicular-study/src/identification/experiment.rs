@@ -88,6 +88,11 @@ impl<'a> Prepared<'a> {
         if let Some(pose) = given.measured_pose {
             at_rest::check_pose(&robot, &pose.to_robot()?)?;
         }
+        let holds_pose =
+            given.state.pose.is_some() || matches!(robot.state, State::Pose(_)) && given.state.lengths_m.is_none();
+        if given.measured_lengths_m.is_some() && (!holds_pose || given.state.hold_lengths_of_pose) {
+            bail!("{name}: `measured_lengths_m` needs a pose that is held, from which lengths follow: give ⟪pose⟫");
+        }
         if request.rigid_cables && !given.responses.is_empty() {
             bail!(
                 "⟪rigid_cables⟫ does not go with responses, which are computed for cables that stretch: leave it out"

@@ -1,7 +1,7 @@
 //! Predictions of all measurements by a robot with other values, and their derivatives.
 
 use super::experiment::{Prepared, Solved};
-use super::observations::{Observation, Stage, left_out, weights};
+use super::observations::{Kind, Observation, Stage, left_out, weights};
 use super::unknowns::Unknown;
 use crate::at_rest::{self, AtRest};
 use crate::request::{IdentifyRequest, RobotText};
@@ -188,6 +188,18 @@ impl<'a> IdentifiedModel<'a> {
         residuals.iter().all(|residual| residual.is_finite()).then_some(residuals)
     }
 
+    /// Reason for which a residual is not finite.
+    fn not_finite(&self, values: &[Complex]) -> anyhow::Error {
+        let mut all = self.observations.iter().zip(values);
+        if all.any(|(observation, value)| observation.kind == Kind::Damping && value.re <= 0.0) {
+            return anyhow::anyhow!(
+                "a damping ratio was measured, and the mode has no damping in the model: give the ropes a `damping_ratio`, \
+                 or leave the measured one out"
+            );
+        }
+        anyhow::anyhow!("a residual is not finite: the robot or its measurements are too far apart")
+    }
+
     /// Weights of the observations at the point that was linearised last.
     pub(crate) fn weights(&self) -> &[f64] {
         self.held.as_ref().map_or(&[], |(_, weights)| weights)
@@ -202,6 +214,21 @@ impl<'a> IdentifiedModel<'a> {
         let is_new = found != self.left_out;
         self.left_out = found;
         is_new
+    }
+
+    /// Choices at the point that was linearised last: modes of frequencies, weights of observations.
+    pub(super) fn choices(&self) -> Option<(Assigned, Vec<f64>)> {
+        self.held.clone()
+    }
+
+    /// Makes choices of [`Self::choices`] again.
+    pub(super) fn choose(&mut self, choices: Option<(Assigned, Vec<f64>)>) {
+        self.held = choices;
+    }
+
+    /// True if the work was stopped.
+    pub(super) fn is_stopped(&self) -> bool {
+        (self.is_cancelled)()
     }
 
     /// Number of residuals of the priors.
@@ -295,7 +322,8 @@ impl Problem for IdentifiedModel<'_> {
         let solved = self.try_or_keep(solved)?;
         let here = Predicted::of(&solved);
         let weights = weights(&self.observations, &here.values, self.stage, &self.left_out);
-        let residuals = self.residuals_of(x, &here.values, &weights)?;
+        let residuals = self.residuals_of(x, &here.values, &weights);
+        let residuals = self.try_or_keep(residuals.ok_or_else(|| self.not_finite(&here.values)))?;
         let columns = self.derivatives(x, &solved)?;
 
         let mut jacobian = DMat::zeros(residuals.len(), x.len());

@@ -41,6 +41,9 @@ const MAX_LEFT_OUT: f64 = 0.5;
 /// Median of the magnitude of complex noise with the deviation 1: √ln 2.
 const MEDIAN_MAGNITUDE: f64 = 0.832_554_611_157_697_8;
 
+/// Maximum number of a measured mode.
+const MAX_NUMBER: usize = 1000;
+
 /// Kinds of observations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
@@ -227,6 +230,14 @@ fn of_response(
             response.imag.len()
         );
     }
+    if let Some(pair) = response.frequency_hz.windows(2).find(|pair| pair[0] >= pair[1]) {
+        bail!(
+            "{name}, response {of}: the frequencies must ascend, and {} Hz follows {} Hz: sort the lines, and give each \
+             frequency once",
+            pair[1],
+            pair[0]
+        );
+    }
     let mut values = Vec::with_capacity(count);
     for ((hz, re), im) in response.frequency_hz.iter().zip(&response.real).zip(&response.imag) {
         crate::values::not_negative(*hz).map_err(|reason| anyhow!("{name}, response {of}: {reason}"))?;
@@ -306,12 +317,23 @@ pub(super) fn observations(experiment: &Experiment, name: &str, request: &Identi
         };
         // A weight of zero is an infinite deviation.
         let deviation = relative / weight.sqrt();
+        if let Some(number) = frequency.number().filter(|number| *number > MAX_NUMBER) {
+            bail!(
+                "{name}: the label {number} of the frequency {hz} Hz is the number of a mode, which is at most \
+                 {MAX_NUMBER}: leave it out, or give a name that is no number"
+            );
+        }
         let is_assigned = frequency.number().is_none();
         found.push(Observation { kind: Kind::Frequency, measured: hz.into(), deviation, is_assigned, series: 0 });
     }
     for frequency in &experiment.frequencies {
         if let Some(damping) = frequency.damping_ratio {
             let damping = positive("damping_ratio", damping)?;
+            if damping >= 1.0 {
+                bail!(
+                    "{name}, damping_ratio: {damping} is not below 1, the ratio of a mode that does not vibrate: 0.4 % is 0.004"
+                );
+            }
             let deviation = request.damping_noise / frequency.weight.unwrap_or(1.0).sqrt();
             found.push(Observation {
                 kind: Kind::Damping,

@@ -40,6 +40,16 @@ pub fn responses_of_uff(
     nodes: &[NodePoint],
 ) -> Result<(Vec<MeasuredResponse>, Vec<String>)> {
     let (mut responses, mut notes) = (Vec::new(), Vec::new());
+    for (i, known) in nodes.iter().enumerate() {
+        if nodes[..i].iter().any(|other| other.node == known.node) {
+            bail!("⟪node⟫ {}: the node is there twice; give it one point", known.node);
+        }
+        let is_of =
+            |function: &Function| [&function.response, &function.reference].iter().any(|end| end.node == known.node);
+        if !file.functions.iter().any(is_of) {
+            notes.push(format!("{path}: no function is at node {}, whose point is not used", known.node));
+        }
+    }
     let mut others: BTreeMap<i64, usize> = BTreeMap::new();
     for function in &file.functions {
         if function.kind == RESPONSE && matches!(function.abscissa.kind, FREQUENCY | UNKNOWN | GENERAL) {

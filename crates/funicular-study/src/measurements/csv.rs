@@ -37,6 +37,9 @@ const FREQUENCY: &str = "frequency_hz";
 /// Other columns of a list.
 const LIST: [&str; 4] = ["damping_ratio", "std_hz", "weight", "label"];
 
+/// Maximum number of columns that a message names.
+const MAX_NAMED: usize = 8;
+
 /// Endings of the columns of a response: two numbers in Cartesian or polar form, and the deviation.
 const ENDINGS: [&str; 5] = ["_re", "_im", "_abs", "_phase_deg", "_std"];
 
@@ -61,14 +64,25 @@ pub fn read_csv(
     if let Some(twice) = header.iter().enumerate().find(|(i, name)| header[..*i].contains(name)) {
         bail!("{path} has the column `{}` twice: keep one of them", twice.1);
     }
+    if header.is_empty() {
+        bail!("{path} is empty: give a header and one line per frequency");
+    }
     let Some(frequency) = header.iter().position(|name| name == FREQUENCY) else {
-        bail!("{path} has no column `{FREQUENCY}`: a table of measurements begins with it");
+        if header.len() == 1 && header[0].contains(';') {
+            bail!(
+                "{path}: its columns are separated by semicolons: separate them by commas, and write points for decimals"
+            );
+        }
+        bail!(
+            "{path} has no column `{FREQUENCY}`, with which a table of measurements begins; its columns are {}",
+            header.iter().take(MAX_NAMED).map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+        );
     };
 
     // Numbers of all lines; texts of labels.
     let label = header.iter().position(|name| name == LIST[3]);
     let mut rows: Vec<Vec<Option<f64>>> = Vec::new();
-    let mut labels = Vec::new();
+    let (mut labels, mut lines) = (Vec::new(), Vec::new());
     for record in reader.records() {
         let record = record.map_err(|error| match error.kind() {
             csv::ErrorKind::UnequalLengths { pos: Some(position), expected_len, len } => anyhow!(
@@ -91,6 +105,7 @@ pub fn read_csv(
             bail!("{path}, line {}: the frequency is missing", line());
         }
         labels.push(label.and_then(|at| record.get(at)).filter(|text| !text.is_empty()).map(str::to_owned));
+        lines.push(line());
         rows.push(row);
     }
     if rows.is_empty() {
@@ -99,7 +114,7 @@ pub fn read_csv(
 
     let is_response = |name: &String| ENDINGS[..4].iter().any(|ending| name.ends_with(ending));
     if header.iter().any(is_response) {
-        let table = Table { path, header: &header, rows: &rows };
+        let table = Table { path, header: &header, rows: &rows, lines: &lines };
         return Ok(CsvContent::Responses(table.responses(frequency, names, input_point_m, output_point_m)?));
     }
 
@@ -128,13 +143,17 @@ struct Table<'a> {
     path: &'a str,
     header: &'a [String],
     rows: &'a [Vec<Option<f64>>],
+    /// Line of each row.
+    lines: &'a [usize],
 }
 
 impl Table<'_> {
     /// Numbers of a column.
     fn column(&self, at: usize) -> Result<Vec<f64>> {
-        let missing = || anyhow!("{} has a line without `{}`", self.path, self.header[at]);
-        self.rows.iter().map(|row| row[at].ok_or_else(missing)).collect()
+        let value = |(row, line): (&Vec<Option<f64>>, &usize)| {
+            row[at].ok_or_else(|| anyhow!("{}, line {line}: `{}` is missing", self.path, self.header[at]))
+        };
+        self.rows.iter().zip(self.lines).map(value).collect()
     }
 
     fn responses(

@@ -3,7 +3,8 @@
 use super::Shell;
 use super::figure::{Figure, axis, colour, line, plain, points, with};
 use super::table::{PageTable, fixed, significant};
-use crate::analyses::identify::{FittedResponse, Identified};
+use crate::analyses::identify::{FittedResponse, Identified, ValueRow};
+use crate::identification::LIMIT;
 use crate::text;
 use anyhow::Context as _;
 use askama::Template;
@@ -22,6 +23,7 @@ struct IdentifyPage<'a> {
     responses: Vec<Figure>,
     frequencies: Option<(Figure, PageTable)>,
     statics: Option<PageTable>,
+    profiles: Vec<Figure>,
     correlations: Figure,
     command_line: String,
 }
@@ -44,6 +46,7 @@ pub fn page(found: &Identified, command_line: String) -> anyhow::Result<String> 
         responses: found.responses.iter().enumerate().map(|(i, response)| curves(i, response)).collect(),
         frequencies: (!found.frequencies.is_empty()).then(|| (differences(found), frequencies(found))),
         statics: (!found.statics.is_empty()).then(|| statics(found)),
+        profiles: found.values.iter().enumerate().filter_map(|(i, row)| profile(i, row)).collect(),
         correlations: correlations(found),
         command_line,
     };
@@ -204,6 +207,44 @@ fn statics(found: &Identified) -> PageTable {
         ]);
     }
     table
+}
+
+/// Figure of the rise of χ² on both sides of a value, if its profile was computed.
+fn profile(number: usize, row: &ValueRow) -> Option<Figure> {
+    let profile = row.profile.as_ref()?;
+    let x: Vec<f64> = profile.points.iter().map(|point| point.value - row.value).collect();
+    let y: Vec<f64> = profile.points.iter().map(|point| point.chi2_rise).collect();
+    let curve = line("others fitted again", &x, &y, colour::BLUE, "solid");
+    let mut data =
+        vec![with(curve, json!({"mode": "lines+markers", "line": {"shape": "spline"}, "marker": {"size": 5}}))];
+    let limit = LIMIT * LIMIT;
+    if let (Some([low, high]), Some(from), Some(to)) = (row.interval_95, x.first(), x.last()) {
+        // The deviation's interval as the parabola of χ², whose coordinate may be a logarithm.
+        let at = |x: f64| {
+            let half = if x < 0.0 { row.value - low } else { high - row.value };
+            limit * (x / half).powi(2)
+        };
+        let parabola: Vec<f64> = (0..=60).map(|i| from + (to - from) * f64::from(i) / 60.0).collect();
+        let rises: Vec<f64> = parabola.iter().map(|x| at(*x)).collect();
+        data.push(line("by the deviation", &parabola, &rises, colour::GREY, "dash"));
+    }
+    if let (Some(from), Some(to)) = (x.first(), x.last()) {
+        data.push(line("limit for 95 %", &[*from, *to], &[limit, limit], colour::VERMILION, "dot"));
+    }
+    let name = plain(&row.path);
+    let end = |end: Option<f64>| {
+        end.map_or_else(|| "no lower or upper end".to_owned(), |end| format!("{} {}", significant(end, 6), row.unit))
+    };
+    Some(Figure::new(
+        format!("figure-profile-{}", number + 1),
+        320,
+        format!("Profile of {name}: χ² reaches its limit for 95 % at {} and {}.", end(profile.from), end(profile.to)),
+        &data,
+        json!({
+            "xaxis": axis(&format!("{name} − {} [{}]", significant(row.value, 6), row.unit), json!({})),
+            "yaxis": axis("rise of χ²", json!({"range": [-0.2, 2.0 * limit]})),
+        }),
+    ))
 }
 
 /// Figure of all correlations.

@@ -19,6 +19,9 @@ const MAX_FIGURES: usize = 40;
 const COLOURS: [&str; 7] =
     [colour::BLUE, colour::ORANGE, colour::GREEN, colour::SKY, colour::VERMILION, colour::PURPLE, colour::GREY];
 
+/// Methods, with colour and symbol of their marks.
+const METHODS: [(&str, &str, &str); 2] = [("linear", colour::BLUE, "circle"), ("sampled", colour::VERMILION, "square")];
+
 #[derive(Template)]
 #[template(path = "uncertainty.html")]
 struct UncertaintyPage<'a> {
@@ -74,8 +77,11 @@ fn bars(results: &[&UncertainResult]) -> Value {
 
 /// Figures of one pose: the results of each unit with error bars, then the shares of the groups.
 fn of_one_pose(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> {
+    // Responses at several frequencies have figures over the frequency.
+    let over_frequency = over_frequency(found, pose);
+    let is_beside = |result: &&UncertainResult| over_frequency.is_empty() || result.at_hz.is_none();
     let mut units: Vec<&str> = Vec::new();
-    for result in &pose.results {
+    for result in pose.results.iter().filter(is_beside) {
         if !units.contains(&result.unit) {
             units.push(result.unit);
         }
@@ -84,7 +90,7 @@ fn of_one_pose(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> {
     let mut figures = Vec::new();
     for unit in units {
         let of_unit: Vec<&UncertainResult> = pose.results.iter().filter(|result| result.unit == unit).collect();
-        let traces: Vec<Value> = [("linear", colour::BLUE, "circle"), ("sampled", colour::VERMILION, "square")]
+        let traces: Vec<Value> = METHODS
             .into_iter()
             .filter_map(|(method, colour, symbol)| {
                 let own: Vec<&UncertainResult> = of_unit.iter().copied().filter(|r| r.method == method).collect();
@@ -113,10 +119,57 @@ fn of_one_pose(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> {
             }),
         ));
     }
+    figures.extend(over_frequency);
     if found.groups.len() > 1 {
         figures.push(shares(found, pose));
     }
     figures
+}
+
+/// Figures of a response at several frequencies: magnitude and phase with error bars. Empty for a single frequency.
+fn over_frequency(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> {
+    let Some(response) = &found.response else { return Vec::new() };
+    let of_unit = |unit: &str| -> Vec<&UncertainResult> {
+        let mut all: Vec<&UncertainResult> =
+            pose.results.iter().filter(|result| result.at_hz.is_some() && result.unit == unit).collect();
+        all.sort_by(|a, b| a.at_hz.unwrap_or_default().total_cmp(&b.at_hz.unwrap_or_default()));
+        all
+    };
+    if of_unit("dB").len() < 2 {
+        return Vec::new();
+    }
+    let title = format!("{} / {}", plain(&response.output), plain(&response.input));
+    let magnitude = format!("magnitude [dB of 1 {}]", response.unit);
+    [("magnitude", "dB", magnitude), ("phase", "degrees", "phase [°]".to_owned())]
+        .into_iter()
+        .map(|(name, unit, label)| {
+            let all = of_unit(unit);
+            let line: Vec<f64> = all.iter().map(|result| result.value).collect();
+            let hz = |of: &[&UncertainResult]| -> Vec<f64> { of.iter().filter_map(|result| result.at_hz).collect() };
+            let mut traces = vec![json!({
+                "type": "scatter", "mode": "lines", "name": "undisturbed", "x": rounded(&hz(&all)), "y": rounded(&line),
+                "line": {"color": colour::GREY, "width": 1}, "hoverinfo": "skip",
+            })];
+            for (method, colour, symbol) in METHODS {
+                let own: Vec<&UncertainResult> = all.iter().copied().filter(|r| r.method == method).collect();
+                if !own.is_empty() {
+                    let values: Vec<f64> = own.iter().map(|result| result.value).collect();
+                    traces.push(json!({
+                        "type": "scatter", "mode": "markers", "name": method, "x": rounded(&hz(&own)),
+                        "y": rounded(&values), "error_y": bars(&own),
+                        "marker": {"color": colour, "symbol": symbol, "size": 6},
+                    }));
+                }
+            }
+            Figure::new(
+                format!("figure-response-{name}"),
+                340,
+                format!("Response {title}: {name} with the intervals that hold 95 % of all robots."),
+                &traces,
+                json!({"xaxis": axis("frequency [Hz]", json!({})), "yaxis": axis(&label, json!({}))}),
+            )
+        })
+        .collect()
 }
 
 /// Stacked bars of the shares of the groups in the variance of each result.
@@ -162,7 +215,7 @@ fn over_poses(found: &Uncertainties) -> Vec<Figure> {
     names.truncate(MAX_FIGURES);
     let figure = |(i, (name, unit)): (usize, &(&str, &str))| {
         let mut traces = Vec::new();
-        for (method, colour, symbol) in [("linear", colour::BLUE, "circle"), ("sampled", colour::VERMILION, "square")] {
+        for (method, colour, symbol) in METHODS {
             let (mut x, mut own) = (Vec::new(), Vec::new());
             for (k, pose) in found.poses.iter().enumerate() {
                 for result in pose.results.iter().filter(|result| result.name == *name && result.method == method) {

@@ -35,6 +35,9 @@ pub struct IdentifyRequest {
     /// Cables that are rigid in length: natural frequencies of the motions that they leave free.
     #[serde(default)]
     pub rigid_cables: bool,
+    /// Paths of fitted values whose profiles are computed, in which `*` stands for any key.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub profile: Vec<String>,
     /// Rule and limits of tensions.
     #[serde(flatten)]
     pub tensions: Tensions,

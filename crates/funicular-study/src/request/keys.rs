@@ -31,7 +31,10 @@ pub const KEYS: &[(&str, &str)] = &[
     ("assembly", "terms of the stiffness"),
     ("in_plane_only", "leave out the out-of-plane stiffness of the cables"),
     ("winches", "winches in vibration: as in the robot file, motors clamped, at constant torque, or cables stuck"),
-    ("at_hz", "frequency of the stiffness, or of the response that is differentiated [Hz]"),
+    (
+        "at_hz",
+        "frequency of the stiffness, or of the response that is differentiated; for `uncertainty` one or a list [Hz]",
+    ),
     ("below_hz", "upper limit of the frequencies [Hz]"),
     ("from_hz", "first frequency [Hz]"),
     ("to_hz", "last frequency [Hz]"),
@@ -98,6 +101,11 @@ pub const KEYS: &[(&str, &str)] = &[
     ("min_stiffness_n_per_m", "minimum of the minimum stiffness at every pose of a design [N/m]"),
     ("avoid_hz", "band without natural frequencies at every pose of a design: first and last frequency [Hz]"),
     ("max_iterations", "maximum number of iterations"),
+    (
+        "profile",
+        "paths of fitted values whose interval of 95 % is found by holding the value and fitting the others again; `*` \
+         stands for any key",
+    ),
     ("starts", "number of starts of the search"),
     ("response_noise", "deviation of measured responses that have none, relative to their magnitude"),
     ("frequency_noise", "relative deviation of measured natural frequencies that have none"),

@@ -2,6 +2,7 @@
 
 use super::distribution::half_width;
 use super::inputs::{Distribution, Inputs};
+use super::responses::{self, Asked, Responses};
 use super::results::{NominalModes, ResultKind, static_gradients};
 use crate::analyses::gradient::held;
 use crate::at_rest::{self, AtRest};
@@ -21,6 +22,7 @@ const TENSION_DEVIATIONS: f64 = 3.0;
 const FREQUENCY_DEVIATIONS: f64 = 2.0;
 
 /// Robot at a pose with the linear deviations of its results.
+#[derive(Clone)]
 pub(crate) struct LinearPose {
     /// Undisturbed robot at rest.
     pub(crate) at_rest: AtRest,
@@ -38,11 +40,14 @@ pub(crate) struct LinearPose {
     pub(super) limits: TensionLimits,
     /// Rule of the tensions at a held pose: that of the request, or that they change least.
     pub(super) rule: TensionRule,
+    /// Frequency responses of the undisturbed robot, if they are asked for.
+    pub(super) responses: Option<Responses>,
     /// Changes of the robot per unit of each number of the pose.
     pub(super) pose_changes: Vec<Option<RobotChange>>,
 }
 
 /// Result with its derivatives.
+#[derive(Clone)]
 pub(crate) struct Row {
     /// Result.
     pub(crate) kind: ResultKind,
@@ -107,7 +112,13 @@ impl LinearPose {
     ///
     /// # Errors
     /// A robot without such an equilibrium, or too few cables to hold its pose.
-    pub(crate) fn new(request: &UncertaintyRequest, of: &[&str], inputs: &Inputs, at_rest: AtRest) -> Result<Self> {
+    pub(crate) fn new(
+        request: &UncertaintyRequest,
+        of: &[&str],
+        asked: Option<&Asked>,
+        inputs: &Inputs,
+        at_rest: AtRest,
+    ) -> Result<Self> {
         let robot = &at_rest.robot;
         let (cables, degrees_of_freedom) = (robot.cables.len(), robot.platform.motion.count());
         if request.hold != Hold::Lengths && cables < degrees_of_freedom {
@@ -120,14 +131,17 @@ impl LinearPose {
 
         // The results and their values.
         let needs_damping = of.contains(&"damping");
-        let modes = match request.below_hz {
-            Some(hz) if needs_damping || of.contains(&"frequencies") => {
-                Some(NominalModes::new(&at_rest, linearisation, hz, needs_damping)?)
-            }
+        let below_hz = request.below_hz.filter(|_| needs_damping || of.contains(&"frequencies"));
+        let at_hz = asked.map_or(&[][..], Asked::at_hz);
+        let modes = (below_hz.is_some() || asked.is_some())
+            .then(|| NominalModes::new(&at_rest, linearisation, below_hz.unwrap_or(0.0), needs_damping, at_hz))
+            .transpose()?;
+        let responses = match (asked, &modes) {
+            (Some(asked), Some(modes)) => Some(Responses::new(asked, &at_rest, &modes.dynamics)?),
             _ => None,
         };
-        let kinds = ResultKind::of_groups(of, robot, modes.as_ref().map_or(0, |modes| modes.count));
-        let mut rows = rows(&kinds, &at_rest, modes.as_ref());
+        let kinds = ResultKind::of_groups(of, robot, modes.as_ref().map_or(0, |modes| modes.count), at_hz);
+        let mut rows = rows(&kinds, &at_rest, modes.as_ref(), responses.as_ref());
 
         // Their derivatives.
         match held(&at_rest, request.hold) {
@@ -136,9 +150,15 @@ impl LinearPose {
             Ok(gradients) => {
                 let along = Along { inputs, changes: &changes, distributions: &distributions };
                 differentiate(&mut rows, &gradients, modes.as_ref(), &along);
+                if let (Some(of), Some(modes)) = (&responses, &modes) {
+                    responses::differentiate(&mut rows, of, robot, &gradients, modes, &along);
+                }
                 test_tensions(&mut rows, robot, &gradients, &along);
                 if let Some(modes) = &modes {
                     test_frequencies(&mut rows, modes, &gradients, &along);
+                }
+                if let (Some(of), Some(modes)) = (&responses, &modes) {
+                    responses::test(&mut rows, of, robot, &gradients, modes, &along);
                 }
             }
         }
@@ -154,7 +174,18 @@ impl LinearPose {
         let is_moved = |k: usize| request.hold != Hold::Lengths && inputs.is_of_pose(k);
         let pose_changes = changes.into_iter().enumerate().map(|(k, change)| change.filter(|_| is_moved(k))).collect();
         let limits = TensionLimits { minimum: request.tensions.min_tension_n, maximum: request.tensions.max_tension_n };
-        Ok(Self { at_rest, linearisation, input_values, distributions, rows, warnings, limits, rule, pose_changes })
+        Ok(Self {
+            at_rest,
+            linearisation,
+            input_values,
+            distributions,
+            rows,
+            warnings,
+            limits,
+            rule,
+            responses,
+            pose_changes,
+        })
     }
 
     /// True if a result has to be sampled.
@@ -177,8 +208,14 @@ fn held_tensions(at_rest: &AtRest) -> TensionRule {
 }
 
 /// Results with their values, without derivatives. A value that does not exist has no row.
-fn rows(kinds: &[ResultKind], at_rest: &AtRest, modes: Option<&NominalModes>) -> Vec<Row> {
+fn rows(
+    kinds: &[ResultKind],
+    at_rest: &AtRest,
+    modes: Option<&NominalModes>,
+    responses: Option<&Responses>,
+) -> Vec<Row> {
     let value = |kind: ResultKind| match kind {
+        ResultKind::Magnitude(hz) | ResultKind::Phase(hz) => responses?.value(kind, responses?.place(hz)?),
         ResultKind::Frequency(k) => modes?.found.modes.get(k).map(|mode| mode.frequency_hz),
         ResultKind::Damping(k) => modes?.damped.get(k).map(funicular::modes::damped::DampedMode::damping_ratio),
         // A rotation is counted from here.
@@ -190,15 +227,28 @@ fn rows(kinds: &[ResultKind], at_rest: &AtRest, modes: Option<&NominalModes>) ->
 }
 
 /// Directions along which results are differentiated.
-struct Along<'a> {
+pub(super) struct Along<'a> {
     inputs: &'a Inputs,
     changes: &'a [Option<RobotChange>],
     distributions: &'a [Distribution],
 }
 
 impl Along<'_> {
+    /// Directions of all numbers; the error names a number that has none.
+    pub(super) fn directions(&self) -> Result<Vec<RobotChange>, String> {
+        let direction = |(input, change): (&super::inputs::Input, &Option<RobotChange>)| {
+            change.clone().ok_or_else(|| format!("{} has no derivative", input.path))
+        };
+        self.inputs.list.iter().zip(self.changes).map(direction).collect()
+    }
+
+    /// Distance that `factor` standard deviations of a result with these derivatives reach.
+    pub(super) fn reach(&self, derivatives: &[f64], factor: f64) -> f64 {
+        reach(derivatives, self.distributions, factor)
+    }
+
     /// Derivatives of a result by all numbers; the error names a number that has none.
-    fn of(&self, gradient: &RobotChange) -> Result<Vec<f64>, String> {
+    pub(super) fn of(&self, gradient: &RobotChange) -> Result<Vec<f64>, String> {
         let derivative = |(input, change): (&super::inputs::Input, &Option<RobotChange>)| match change {
             Some(change) => Ok(gradient.dot(change) + 0.0),
             None => Err(format!("{} has no derivative", input.path)),

@@ -1,5 +1,6 @@
 //! Results whose deviations are computed: their names, values and gradients.
 
+use super::responses::Responses;
 use crate::at_rest::AtRest;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::{GradientError, Gradients};
@@ -8,7 +9,7 @@ use funicular::robot::{Pose, Robot, RobotChange};
 use funicular::statics::{Equilibrium, Stability};
 
 /// Result of a robot at rest.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum ResultKind {
     /// Component of the pose: position, then rotation vector from the equilibrium of the undisturbed robot.
     Pose(usize),
@@ -24,10 +25,15 @@ pub(crate) enum ResultKind {
     Frequency(usize),
     /// Damping ratio of the mode with this number, from 0.
     Damping(usize),
+    /// Magnitude of the response at this frequency [Hz], in decibels of its unit.
+    Magnitude(f64),
+    /// Phase of the response at this frequency [Hz], in degrees.
+    Phase(f64),
 }
 
 /// Groups of results, by the names of a request.
-pub(crate) const GROUPS: [&str; 6] = ["pose", "lengths", "tensions", "stiffness-min", "frequencies", "damping"];
+pub(crate) const GROUPS: [&str; 7] =
+    ["pose", "lengths", "tensions", "stiffness-min", "frequencies", "damping", "response"];
 
 /// Axes of the components of a pose.
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -45,6 +51,8 @@ impl ResultKind {
             Self::MinStiffness => "minimum stiffness".to_owned(),
             Self::Frequency(k) => format!("frequency {}", k + 1),
             Self::Damping(k) => format!("damping ratio {}", k + 1),
+            Self::Magnitude(hz) => format!("magnitude of the response at {hz} Hz"),
+            Self::Phase(hz) => format!("phase of the response at {hz} Hz"),
         }
     }
 
@@ -60,6 +68,8 @@ impl ResultKind {
             Self::MinStiffness => "stiffness_min_n_per_m".to_owned(),
             Self::Frequency(k) => format!("frequency_{}_hz", k + 1),
             Self::Damping(k) => format!("damping_ratio_{}", k + 1),
+            Self::Magnitude(hz) => format!("response_at_{hz}_hz_db"),
+            Self::Phase(hz) => format!("response_at_{hz}_hz_phase_deg"),
         }
     }
 
@@ -72,6 +82,16 @@ impl ResultKind {
             Self::MinStiffness => "N/m",
             Self::Frequency(_) => "Hz",
             Self::Damping(_) => "1",
+            Self::Magnitude(_) => "dB",
+            Self::Phase(_) => "degrees",
+        }
+    }
+
+    /// Frequency of a response [Hz].
+    pub(crate) fn at_hz(self) -> Option<f64> {
+        match self {
+            Self::Magnitude(hz) | Self::Phase(hz) => Some(hz),
+            _ => None,
         }
     }
 
@@ -83,8 +103,8 @@ impl ResultKind {
         }
     }
 
-    /// Results of the groups of a request at an equilibrium with `modes` modes.
-    pub(super) fn of_groups(of: &[&str], robot: &Robot, modes: usize) -> Vec<Self> {
+    /// Results of the groups of a request at an equilibrium with `modes` modes, and responses at frequencies [Hz].
+    pub(super) fn of_groups(of: &[&str], robot: &Robot, modes: usize, at_hz: &[f64]) -> Vec<Self> {
         let cables = 0..robot.cables.len();
         let mut kinds = Vec::new();
         if of.contains(&"pose") {
@@ -106,10 +126,12 @@ impl ResultKind {
         if of.contains(&"damping") {
             kinds.extend((0..modes).map(Self::Damping));
         }
+        kinds.extend(at_hz.iter().copied().map(Self::Magnitude));
+        kinds.extend(at_hz.iter().copied().map(Self::Phase));
         kinds
     }
 
-    /// Value that needs no modes; `None` for results of modes.
+    /// Value that needs no vibration; `None` for results of vibration.
     pub(super) fn static_value(self, rest: &Equilibrium, undisturbed: &Pose) -> Option<f64> {
         let cable = |i: usize| rest.cables.get(i);
         match self {
@@ -119,7 +141,7 @@ impl ResultKind {
             Self::TensionAtPlatform(i) => cable(i).map(|cable| cable.tension_platform),
             Self::TensionAtAnchor(i) => cable(i).map(|cable| cable.tension_anchor),
             Self::MinStiffness => rest.stability.min_stiffness(),
-            Self::Frequency(_) | Self::Damping(_) => None,
+            Self::Frequency(_) | Self::Damping(_) | Self::Magnitude(_) | Self::Phase(_) => None,
         }
     }
 }
@@ -131,6 +153,7 @@ pub(super) fn values(
     rest: &Equilibrium,
     undisturbed: &Pose,
     linearisation: Linearisation,
+    responses: Option<&Responses>,
 ) -> Vec<f64> {
     let modes = kinds.iter().filter_map(|kind| kind.mode()).max().map_or(0, |last| last + 1);
     let is_unstable = matches!(rest.stability, Stability::Unstable { .. });
@@ -143,7 +166,13 @@ pub(super) fn values(
         .filter(|_| needs_damping)
         .map(|(dynamics, found)| modes::damped::damped_modes(dynamics, found).modes);
 
+    let of_responses = responses.filter(|_| !is_unstable).and_then(|of| of.changes(robot, rest, linearisation));
+
     let value = |kind: &ResultKind| match *kind {
+        ResultKind::Magnitude(hz) | ResultKind::Phase(hz) => {
+            let place = responses?.place(hz)?;
+            Some(responses?.value(*kind, place)? + of_responses.as_ref()?.get(place)?.of(*kind))
+        }
         ResultKind::Frequency(k) => found.as_ref()?.1.modes.get(k).map(|mode| mode.frequency_hz),
         ResultKind::Damping(k) => damped.as_ref()?.get(k).map(modes::damped::DampedMode::damping_ratio),
         other => other.static_value(rest, undisturbed),
@@ -151,7 +180,7 @@ pub(super) fn values(
     kinds.iter().map(|kind| value(kind).unwrap_or(f64::NAN)).collect()
 }
 
-/// Gradients of the results of an equilibrium that belong to no mode.
+/// Gradients of the results of an equilibrium that belong to no vibration.
 pub(super) fn static_gradients(
     kinds: &[ResultKind],
     gradients: &Gradients,
@@ -170,7 +199,7 @@ pub(super) fn static_gradients(
         ResultKind::TensionAtPlatform(i) => Some(Ok(platform[i].clone())),
         ResultKind::TensionAtAnchor(i) => Some(Ok(anchors[i].clone())),
         ResultKind::MinStiffness => Some(gradients.min_stiffness()),
-        ResultKind::Frequency(_) | ResultKind::Damping(_) => None,
+        ResultKind::Frequency(_) | ResultKind::Damping(_) | ResultKind::Magnitude(_) | ResultKind::Phase(_) => None,
     };
     kinds.iter().map(gradient).collect()
 }
@@ -194,7 +223,7 @@ pub(super) struct NominalModes {
 const BEYOND: f64 = 1.25;
 
 impl NominalModes {
-    /// Modes below a limit [Hz] and somewhat beyond.
+    /// Modes below a limit [Hz], or up to the highest frequency of a response if that is more, and somewhat beyond.
     ///
     /// # Errors
     /// A cable model that has no stiffness at this equilibrium.
@@ -203,9 +232,11 @@ impl NominalModes {
         linearisation: Linearisation,
         below_hz: f64,
         needs_damping: bool,
+        at_hz: &[f64],
     ) -> anyhow::Result<Self> {
-        let (dynamics, warnings) = at_rest.dynamics(linearisation, BEYOND * below_hz)?;
-        let found = modes::below(&dynamics, BEYOND * below_hz);
+        let limit_hz = BEYOND * at_hz.iter().copied().fold(below_hz, f64::max);
+        let (dynamics, warnings) = at_rest.dynamics(linearisation, limit_hz)?;
+        let found = modes::below(&dynamics, limit_hz);
         let count = found.modes.iter().filter(|mode| mode.frequency_hz < below_hz).count();
         let damped = if needs_damping { modes::damped::damped_modes(&dynamics, &found).modes } else { Vec::new() };
         Ok(Self { dynamics, found, damped, count, warnings })

@@ -164,7 +164,8 @@ impl Sampling {
                 Ok((robot, rest)) => {
                     let pose = &linear.at_rest.equilibrium.pose;
                     let kinds: Vec<ResultKind> = linear.rows.iter().map(|row| row.kind).collect();
-                    (results::values(&kinds, &robot, &rest, pose, linear.linearisation), None)
+                    let responses = linear.responses.as_ref();
+                    (results::values(&kinds, &robot, &rest, pose, linear.linearisation, responses), None)
                 }
                 Err(reason) => (Vec::new(), Some(reason)),
             };
