@@ -19,6 +19,7 @@ mod pullback;
 mod robot_form;
 mod rule;
 mod scalar;
+mod supports;
 mod vibration;
 
 pub use vibration::{DampedGradient, ResponseDerivatives, VibrationGradients};
@@ -136,6 +137,15 @@ pub enum GradientError {
         /// Name of the cable.
         cable: String,
     },
+    /// A rule chooses the tensions of cables on flexible supports.
+    #[error(
+        "cable \"{cable}\" is on a flexible support: tensions that follow their rule have derivatives on a rigid frame; hold \
+         the lengths or the pose instead"
+    )]
+    RuleAndSupports {
+        /// Name of the cable.
+        cable: String,
+    },
     /// Gradients are not implemented for this cable model.
     #[error(
         "gradients of vibrations need the cable model `spring`, `catenary-static` or `catenary-dynamic`, not `{0}`"
@@ -249,7 +259,7 @@ impl<'a> Gradients<'a> {
     /// Prepares the gradients of an equilibrium.
     ///
     /// # Errors
-    /// [`GradientError::Static`]: ideal or slack cables, flexible supports, an indifferent equilibrium, too few cables to
+    /// [`GradientError::Static`]: ideal or slack cables, an indifferent equilibrium, too few cables to
     /// hold the pose; [`GradientError::Vertical`]; [`GradientError::NoRule`] for [`Hold::Rule`], which needs [`Self::by_rule`].
     pub fn new(robot: &'a Robot, equilibrium: &'a Equilibrium, hold: Hold) -> Result<Self, GradientError> {
         if hold == Hold::Rule {

@@ -1,6 +1,7 @@
 //! Derivatives of equilibria and natural frequencies, against central differences with Richardson's extrapolation.
 
 mod drives;
+mod supports;
 mod tension_rule;
 
 use crate::library::library;
