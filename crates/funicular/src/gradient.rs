@@ -19,6 +19,7 @@ mod pullback;
 mod robot_form;
 mod rule;
 mod scalar;
+mod support_form;
 mod supports;
 mod vibration;
 
@@ -449,9 +450,12 @@ impl<'a> Gradients<'a> {
 
     /// Gradient of the static form over two motions (translation, rotation), with a coefficient of ℓ.
     fn of_static_form(&self, a: [[f64; 3]; 2], b: [[f64; 3]; 2], ell: f64) -> Result<RobotChange, GradientError> {
-        let form = RobotForm::of_statics(self.robot(), self.equilibrium())?;
+        let form = RobotForm::of_statics((self.robot(), self.pullback.settled()), self.equilibrium())?;
         let at = form.undamped(0.0);
-        let [a, b] = [a, b].map(|[v, theta]| form.motion(v, theta, &at, &[], &Driven::NONE));
+        let [a, b] = [a, b].map(|[v, theta]| {
+            let supports = form.supports.as_ref().map_or_else(Vec::new, |supports| supports.at_rest(&v, &theta));
+            form.motion(v, theta, &at, &[], &Driven { supports: &supports, near: &[], forces: None })
+        });
         Ok(self.of(|scalar| {
             form.add(scalar, &a, &b, &at, 1.0);
             scalar.ell = ell;

@@ -47,13 +47,15 @@ pub(super) struct SupportAdjoint<T> {
     pub(super) damping_ratio: T,
 }
 
-/// Coefficients of a drum side from the ground to a displaced support.
+/// Coefficients of a drum side to a displaced support.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct SideAdjoint<T> {
     /// By the vector from the drum to the entry point, besides its length, which is that of the drum side at rest.
     pub(super) vector: Vector<T>,
     /// By the length of the drum side that the robot file gives.
     pub(super) given_length: T,
+    /// By the direction in which a support carries the drum side along.
+    pub(super) entry_direction: Vector<T>,
 }
 
 /// Coefficients of one cable.
@@ -83,7 +85,7 @@ pub(super) struct CableAdjoint<T> {
     pub(super) drive: DriveAdjoint<T>,
     /// By the distance and the mass of each guide wheel; none beyond the end.
     pub(super) guides: Vec<[T; 2]>,
-    /// By its drum side, if that comes from the ground to a flexible support.
+    /// By its drum side, if a flexible support moves it.
     pub(super) side: SideAdjoint<T>,
 }
 
@@ -211,7 +213,11 @@ impl<T: Field> Adjoint<T> {
                     end: cable.end.map(&of),
                     drive: cable.drive.map(&of),
                     guides: cable.guides.iter().map(|guide| guide.map(&of)).collect(),
-                    side: SideAdjoint { vector: vector(&cable.side.vector), given_length: of(cable.side.given_length) },
+                    side: SideAdjoint {
+                        vector: vector(&cable.side.vector),
+                        given_length: of(cable.side.given_length),
+                        entry_direction: vector(&cable.side.entry_direction),
+                    },
                 })
                 .collect(),
             supports: (self.supports.iter())

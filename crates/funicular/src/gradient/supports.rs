@@ -35,14 +35,15 @@ struct CarriedCable {
     /// Load per unstrained length, and the length whose weight the support carries.
     load_w: Vec3,
     carried_length: f64,
+    /// Direction of travel at the entry point of its pulley; zero without one.
+    entry_direction_w: Vec3,
     /// Drum side, if the drum is on the ground.
     side: Option<GroundSide>,
 }
 
 /// Drum side from a drum on the ground to a displaced support.
 struct GroundSide {
-    /// Direction and length that the file gives.
-    given_direction_w: Vec3,
+    /// Length that the file gives.
     given_length: f64,
     /// Direction and length at rest, and the tension.
     direction_w: Vec3,
@@ -66,10 +67,11 @@ impl SupportsAtRest {
                 let side_w = given_direction_w * given_length + state.displacement_w;
                 let length = side_w.norm();
                 let tension = state.drive.as_ref().map_or(0.0, |drive| drive.tension_drum);
-                GroundSide { given_direction_w, given_length, direction_w: side_w / length, length, tension }
+                GroundSide { given_length, direction_w: side_w / length, length, tension }
             });
             let carried_length = state.unstrained_length - side.as_ref().map_or(0.0, |side| side.given_length);
-            Some(CarriedCable { support, load_w: load_of(state), carried_length, side })
+            let entry_direction_w = anchor.pulley.as_ref().map_or_else(Vec3::zeros, |pulley| pulley.entry_direction_w);
+            Some(CarriedCable { support, load_w: load_of(state), carried_length, entry_direction_w, side })
         });
         let cables = cables.collect();
         Some(Self { settled: equilibrium.settled(robot).into_owned(), supports, cables })
@@ -114,12 +116,13 @@ impl SupportsAtRest {
         for ((carried, of_cable), change) in self.cables.iter().zip(&scalar.cables).zip(&mut gradient.cables) {
             let Some(carried) = carried else { continue };
             add(carried.support, change.anchor_w);
+            let (a, by_direction) = (&carried.entry_direction_w, Vec3::from(of_cable.side.entry_direction));
+            change.pulley.entry_direction_w += by_direction - a * a.dot(&by_direction);
             let Some(side) = &carried.side else { continue };
 
             // The vector along the drum side is ℓ_d a + e.
             let side_w = Vec3::from(of_cable.side.vector) + side.direction_w * change.winch.drum_side_length;
             add(carried.support, side_w);
-            let a = &side.given_direction_w;
             change.winch.drum_side_length = a.dot(&side_w) + of_cable.side.given_length;
             change.pulley.entry_direction_w += (side_w - a * a.dot(&side_w)) * side.given_length;
         }

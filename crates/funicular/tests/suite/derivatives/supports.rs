@@ -1,10 +1,15 @@
 //! Gradients of robots on flexible supports, against differences of the program itself: random robots, with and without
 //! drives, two cables on a support, drums on the ground.
 
+use funicular::cable::CableModel;
+use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::{Gradients, Hold};
+use funicular::modes::damped::DampedMode;
+use funicular::modes::{self, Mode};
 use funicular::robot::parameters::{Parameters, RobotPart};
 use funicular::robot::{Robot, RobotChange};
-use funicular::statics::{self, Equilibrium, StaticModel};
+use funicular::statics::{self, CableState, Equilibrium, StaticModel};
+use std::f64::consts::TAU;
 use std::fmt::Write;
 
 /// Numbers that look random, from a seed: a linear congruential generator.
@@ -26,6 +31,22 @@ enum Behind {
     Winches,
     OnSupports,
     OnGround,
+    /// Drum sides with mass and motors under position control.
+    RodsOnSupports,
+    RodsOnGround,
+}
+
+impl Behind {
+    const ALL: [Self; 6] =
+        [Self::Nothing, Self::Winches, Self::OnSupports, Self::OnGround, Self::RodsOnSupports, Self::RodsOnGround];
+
+    fn is_on_ground(self) -> bool {
+        matches!(self, Self::OnGround | Self::RodsOnGround)
+    }
+
+    fn has_rods(self) -> bool {
+        matches!(self, Self::RodsOnSupports | Self::RodsOnGround)
+    }
 }
 
 /// Suspended robot with a random geometry: cables in pairs on three supports, or on four of which one is rigid. `count` cables, six
@@ -48,7 +69,7 @@ fn random_robot(seed: u64, behind: Behind, count: usize) -> Parameters {
     let angles: Vec<f64> = (0..count / 2).map(|k| k as f64 * std::f64::consts::TAU / (count / 2) as f64).collect();
     for k in 0..count / 2 {
         let (a, b, c) = (r(8e4, 3e4), r(1e5, 4e4), r(1.5e5, 5e4));
-        let drums = if behind == Behind::OnGround { "drums = \"on-ground\"\n" } else { "" };
+        let drums = if behind.is_on_ground() { "drums = \"on-ground\"\n" } else { "" };
         let _ = write!(
             text,
             "[supports.post{k}]\nstiffness_n_per_m = [[{a}, {}, {}], [{0}, {b}, {}], [{1}, {2}, {c}]]\nmass_kg = {}\n\
@@ -67,6 +88,11 @@ fn random_robot(seed: u64, behind: Behind, count: usize) -> Parameters {
             r(3.0, 0.5),
             r(3e5, 1e5)
         );
+    }
+    if behind.has_rods() {
+        text += "drum_side = \"rod\"\nmotor_inertia_kg_m2 = 0.15\ncontrol = \"position\"\nbandwidth_hz = 6\n\
+                 control_damping_ratio = 0.7\nintegral_action = \"no\"\ndelay_s = 0.002\n[guide_wheels.foot]\nwinch = \"drum\"\n\
+                 distance_m = 1.5\nradius_m = 0.05\ninertia_kg_m2 = 0.0005\n";
     }
     if !matches!(behind, Behind::Nothing | Behind::Winches) {
         let _ = write!(
@@ -120,38 +146,100 @@ fn lengths_of(rest: &Equilibrium) -> Vec<f64> {
     rest.cables.iter().map(|cable| cable.unstrained_length).collect()
 }
 
-/// Directions of all numbers of a file, and of the unstrained lengths, with a name and a step.
-fn directions(parameters: &Parameters) -> Vec<(String, RobotChange, f64)> {
-    let mut all = Vec::new();
+/// Directions in which numbers of one kind change together by random shares, by their kind: one for each key of the file, over
+/// all its tables and components, and one for the unstrained lengths. The unit is about a thousandth of the values.
+fn directions(parameters: &Parameters, seed: u64) -> Vec<(String, RobotChange)> {
+    let mut random = Random(seed);
+    let mut all: Vec<(String, RobotChange)> = Vec::new();
+    let cables = parameters.robot().cables.len();
+    let mut add = |kind: String, change: &RobotChange, size: f64| {
+        let found = all.iter().position(|(known, _)| *known == kind);
+        let index = found.unwrap_or_else(|| {
+            all.push((kind, RobotChange::none(cables)));
+            all.len() - 1
+        });
+        all[index].1 = sum(&all[index].1, change, size);
+    };
     for (index, parameter) in parameters.list().iter().enumerate() {
         let Some(change) = parameters.change(index) else { continue };
         if parameter.part == RobotPart::State {
             continue;
         }
-        let step = match parameter.unit {
+        let size = match parameter.unit {
             "m" => 1e-3,
             "1" => 1e-3,
-            _ => 4e-3 * parameter.value.abs().max(1e-2),
+            _ => 1e-3 * parameter.value.abs().max(1e-2),
         };
-        all.push((parameter.path(), change, step));
+        add(format!("{:?} {}", std::mem::discriminant(&parameter.part), parameter.key), &change, size * random.about(0.0, 1.0));
     }
-    for i in 0..parameters.robot().cables.len() {
-        let mut change = RobotChange::none(parameters.robot().cables.len());
+    for i in 0..cables {
+        let mut change = RobotChange::none(cables);
         change.cables[i].unstrained_length = 1.0;
-        all.push((format!("length {i}"), change, 5e-4));
+        add("lengths".to_owned(), &change, 3e-4 * random.about(0.0, 1.0));
     }
     all
 }
 
-/// Central differences at four steps, extrapolated to the eighth order.
-pub(super) fn romberg(step: f64, mut at: impl FnMut(f64) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
+/// Sum of a change and a multiple of another one.
+fn sum(one: &RobotChange, other: &RobotChange, factor: f64) -> RobotChange {
+    let mut all = one.clone();
+    all.gravity_w += other.gravity_w * factor;
+    all.mass += other.mass * factor;
+    all.inertia_p += other.inertia_p * factor;
+    all.center_of_mass_p += other.center_of_mass_p * factor;
+    all.drag_area += other.drag_area * factor;
+    all.force_w += other.force_w * factor;
+    all.moment_w += other.moment_w * factor;
+    all.point_p += other.point_p * factor;
+    all.wind_velocity_w += other.wind_velocity_w * factor;
+    all.air_density += other.air_density * factor;
+    all.translational_damping_p += other.translational_damping_p * factor;
+    all.rotational_damping_p += other.rotational_damping_p * factor;
+    for (cable, other) in all.cables.iter_mut().zip(&other.cables) {
+        cable.anchor_w += other.anchor_w * factor;
+        cable.attachment_p += other.attachment_p * factor;
+        cable.unstrained_length += other.unstrained_length * factor;
+        cable.axial_stiffness += other.axial_stiffness * factor;
+        cable.mass_per_length += other.mass_per_length * factor;
+        cable.load_per_length_w += other.load_per_length_w * factor;
+        cable.drag_width += other.drag_width * factor;
+        cable.damping += other.damping * factor;
+        cable.pulley.radius += other.pulley.radius * factor;
+        cable.pulley.entry_direction_w += other.pulley.entry_direction_w * factor;
+        cable.pulley.inertia += other.pulley.inertia * factor;
+        cable.pulley.swivel_inertia += other.pulley.swivel_inertia * factor;
+        cable.winch.drum_side_length += other.winch.drum_side_length * factor;
+        cable.winch.stiffness += other.winch.stiffness * factor;
+        cable.winch.drum_mass += other.winch.drum_mass * factor;
+        cable.winch.motor_mass += other.winch.motor_mass * factor;
+        cable.winch.damping += other.winch.damping * factor;
+        cable.winch.position_gain += other.winch.position_gain * factor;
+        cable.winch.speed_gain += other.winch.speed_gain * factor;
+        cable.winch.delay += other.winch.delay * factor;
+        cable.guide_wheels.resize(other.guide_wheels.len().max(cable.guide_wheels.len()), Default::default());
+        for (wheel, other) in cable.guide_wheels.iter_mut().zip(&other.guide_wheels) {
+            wheel.distance += other.distance * factor;
+            wheel.mass += other.mass * factor;
+        }
+    }
+    all.supports.resize(other.supports.len().max(all.supports.len()), Default::default());
+    for (support, other) in all.supports.iter_mut().zip(&other.supports) {
+        support.stiffness_w += other.stiffness_w * factor;
+        support.mass += other.mass * factor;
+        support.damping_ratio += other.damping_ratio * factor;
+    }
+    all
+}
+
+/// Central differences at three steps, extrapolated to the sixth order.
+fn romberg(mut at: impl FnMut(f64) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
     let mut rows: Vec<Vec<f64>> = Vec::new();
-    for k in 0..4 {
-        let h = step / f64::from(1 << k);
+    for k in 0..3 {
+        let h = 1.0 / f64::from(1 << k);
         let (low, high) = (at(-h)?, at(h)?);
         rows.push(low.iter().zip(&high).map(|(low, high)| (high - low) / (2.0 * h)).collect());
     }
-    for order in 1..4 {
+    for order in 1..3 {
         let factor = f64::from(1 << (2 * order));
         rows = rows
             .windows(2)
@@ -163,22 +251,21 @@ pub(super) fn romberg(step: f64, mut at: impl FnMut(f64) -> Option<Vec<f64>>) ->
     rows.pop()
 }
 
-/// Largest difference of the gradients of results from differences, over the largest entry of each row, entries being those
-/// of the steps.
+/// Largest difference of the gradients of results from differences, over the largest entry of each row.
 fn worst(
     gradients: &[RobotChange],
-    directions: &[(String, RobotChange, f64)],
+    directions: &[(String, RobotChange)],
     mut at: impl FnMut(&RobotChange, f64) -> Option<Vec<f64>>,
 ) -> (f64, String) {
     let mut largest = vec![0.0_f64; gradients.len()];
     let mut gaps: Vec<(f64, String)> = vec![(0.0, String::new()); gradients.len()];
-    for (name, change, step) in directions {
-        let Some(differences) = romberg(*step, |h| at(change, h)) else { panic!("no result beside {name}") };
+    for (name, change) in directions {
+        let Some(differences) = romberg(|h| at(change, h)) else { panic!("no result beside {name}") };
         assert_eq!(differences.len(), gradients.len());
         for (k, (gradient, difference)) in gradients.iter().zip(&differences).enumerate() {
             let found = gradient.dot(change);
-            largest[k] = largest[k].max(difference.abs() * step);
-            let gap = (found - difference).abs() * step;
+            largest[k] = largest[k].max(difference.abs());
+            let gap = (found - difference).abs();
             if gap > gaps[k].0 {
                 gaps[k] = (gap, format!("result {k} by {name}: {found} and {difference}"));
             }
@@ -188,17 +275,16 @@ fn worst(
     over.fold((0.0, String::new()), |worst, here| if here.0 > worst.0 { here } else { worst })
 }
 
-/// Pose, tensions and minimum stiffness of an equilibrium.
-fn results(rest: &Equilibrium, from: &Equilibrium, robot: &Robot) -> Option<Vec<f64>> {
+/// Pose, tensions and lengths.
+fn results(rest: &Equilibrium, from: &Equilibrium) -> Vec<f64> {
     let turn = (rest.pose.rot_wp * from.pose.rot_wp.inverse()).scaled_axis();
     let moved = rest.pose.position_w - from.pose.position_w;
     let mut values: Vec<f64> = moved.iter().chain(turn.iter()).copied().collect();
     values.extend(rest.cables.iter().map(|cable| cable.tension_platform));
     values.extend(rest.cables.iter().map(|cable| cable.tension_anchor));
-    values.extend(rest.cables.iter().map(statics::CableState::tension_drum));
+    values.extend(rest.cables.iter().map(CableState::tension_drum));
     values.extend(lengths_of(rest));
-    let _ = robot;
-    Some(values)
+    values
 }
 
 fn gradients_of(gradients: &Gradients<'_>) -> Vec<RobotChange> {
@@ -213,12 +299,21 @@ fn gradients_of(gradients: &Gradients<'_>) -> Vec<RobotChange> {
 /// Robots of these tests.
 fn robots() -> Vec<(String, Parameters)> {
     let mut all = Vec::new();
-    for (seed, behind) in [Behind::Nothing, Behind::Winches, Behind::OnSupports, Behind::OnGround].into_iter().enumerate() {
+    for (seed, behind) in (0..).zip(Behind::ALL) {
         for count in [6, 8] {
-            all.push((format!("{behind:?}, {count} cables"), random_robot(seed as u64 * 10 + count as u64, behind, count)));
+            all.push((format!("{behind:?}, {count} cables"), random_robot(seed * 10 + count as u64, behind, count)));
         }
     }
     all
+}
+
+/// Equilibrium of the changed robot with lengths held, apart from their own change.
+fn changed(robot: &Robot, rest: &Equilibrium, change: &RobotChange, h: f64) -> Option<(Robot, Equilibrium)> {
+    let changed = robot.changed(change, h);
+    let lengths: Vec<f64> =
+        lengths_of(rest).iter().zip(&change.cables).map(|(length, cable)| length + h * cable.unstrained_length).collect();
+    let at = statics::forward(&changed, &lengths, StaticModel::Catenary, Some(&rest.pose)).ok()?;
+    Some((changed, at))
 }
 
 #[test]
@@ -227,15 +322,116 @@ fn statics_on_supports_follow_every_number_at_held_lengths() {
         let robot = parameters.robot();
         let rest = at_rest(robot).unwrap_or_else(|| panic!("{name} has no equilibrium"));
         let gradients = Gradients::new(robot, &rest, Hold::Lengths).unwrap();
-        let lengths = lengths_of(&rest);
-        let (gap, what) = worst(&gradients_of(&gradients), &directions(&parameters), |change, h| {
-            let changed = robot.changed(change, h);
-            let lengths: Vec<f64> =
-                lengths.iter().zip(&change.cables).map(|(length, cable)| length + h * cable.unstrained_length).collect();
-            let at = statics::forward(&changed, &lengths, StaticModel::Catenary, Some(&rest.pose)).ok()?;
-            results(&at, &rest, &changed)
+        let (mut all, mut stiffness) = (gradients_of(&gradients), gradients.min_stiffness().unwrap());
+        std::mem::swap(&mut stiffness, &mut all[0]);
+        all.push(stiffness);
+        all.push(gradients.tangent_entry(1, 3).unwrap());
+        let (gap, what) = worst(&all, &directions(&parameters, 7), |change, h| {
+            let (robot, at) = changed(robot, &rest, change, h)?;
+            let mut values = results(&at, &rest);
+            let first = std::mem::replace(&mut values[0], at.stability.min_stiffness()?);
+            let tangent = statics::tangent_stiffness(&robot, &at)?;
+            values.extend([first, 0.5 * (tangent[(1, 3)] + tangent[(3, 1)])]);
+            Some(values)
         });
         eprintln!("{name}: {gap:e} {what}");
         assert!(gap < 1e-3, "{name}: {gap:e}, {what}");
     }
+}
+
+#[test]
+fn statics_on_supports_follow_every_number_at_a_held_pose() {
+    for (name, parameters) in robots() {
+        let robot = parameters.robot();
+        if robot.cables.len() > 6 {
+            continue;
+        }
+        let rest = at_rest(robot).unwrap_or_else(|| panic!("{name} has no equilibrium"));
+        let gradients = Gradients::new(robot, &rest, Hold::Pose).unwrap();
+        let directions = directions(&parameters, 8);
+        let (gap, what) = worst(&gradients_of(&gradients)[6..], &directions[..directions.len() - 1], |change, h| {
+            let at = statics::inverse(&robot.changed(change, h), &rest.pose, StaticModel::Catenary).ok()?;
+            Some(results(&at, &rest)[6..].to_vec())
+        });
+        eprintln!("{name}: {gap:e} {what}");
+        assert!(gap < 1e-3, "{name}: {gap:e}, {what}");
+    }
+}
+
+/// Frequencies alone in a list, damping ratios of their damped modes, and a response, of a robot at rest.
+struct Vibrating {
+    dynamics: Dynamics,
+    modes: Vec<Mode>,
+    damped: Vec<DampedMode>,
+}
+
+const BELOW_HZ: f64 = 14.0;
+
+impl Vibrating {
+    fn of(robot: &Robot, rest: &Equilibrium, cable_model: CableModel) -> Self {
+        let linearisation = Linearisation { cable_model, ..Linearisation::default() };
+        let dynamics = Dynamics::about(robot, rest, linearisation, BELOW_HZ).unwrap();
+        let found = modes::below(&dynamics, BELOW_HZ);
+        assert!(found.certified);
+        let damped = modes::damped::damped_modes(&dynamics, &found).modes;
+        Self { dynamics, modes: found.modes, damped }
+    }
+
+    /// Places of modes that keep them while the robot changes.
+    fn alone(&self) -> Vec<usize> {
+        let far = |a: f64, b: f64| (a / b - 1.0).abs() > 0.01;
+        (1..self.modes.len() - 1)
+            .filter(|k| {
+                let at = |k: usize| self.modes[k].frequency_hz;
+                far(at(*k), at(k - 1)) && far(at(*k), at(k + 1))
+            })
+            .collect()
+    }
+
+    /// Damped modes nearest to undamped ones.
+    fn damped_at(&self, k: usize) -> &DampedMode {
+        let gap = |mode: &&DampedMode| (mode.omega.re / TAU - self.modes[k].frequency_hz).abs();
+        self.damped.iter().min_by(|a, b| gap(a).total_cmp(&gap(b))).unwrap()
+    }
+}
+
+fn vibrations(cable_model: CableModel) {
+    for (name, parameters) in robots() {
+        if name.ends_with("8 cables") && cable_model != CableModel::CatenaryDynamic {
+            continue;
+        }
+        let robot = parameters.robot();
+        let rest = at_rest(robot).unwrap();
+        let here = Vibrating::of(robot, &rest, cable_model);
+        let mut chosen = here.alone();
+        chosen.truncate(4);
+        assert!(chosen.len() > 2, "{name}: {}", here.modes.len());
+
+        let gradients = Gradients::new(robot, &rest, Hold::Lengths).unwrap();
+        let vibration = gradients.vibration(&here.dynamics).unwrap();
+        let mut all: Vec<RobotChange> = chosen.iter().map(|k| vibration.frequency(&here.modes[*k]).unwrap()).collect();
+        let undamped = all.len();
+        all.extend(chosen.iter().map(|k| vibration.damped(here.damped_at(*k)).unwrap().damping_ratio));
+        let _ = undamped;
+        let (gap, what) = worst(&all, &directions(&parameters, 9), |change, h| {
+            let (robot, at) = changed(robot, &rest, change, h)?;
+            let there = Vibrating::of(&robot, &at, cable_model);
+            let mut values: Vec<f64> = chosen.iter().map(|k| there.modes[*k].frequency_hz).collect();
+            values.extend(chosen.iter().map(|k| there.damped_at(*k).damping_ratio()));
+            Some(values)
+        });
+        eprintln!("{cable_model}, {name}: {gap:e} {what}");
+        assert!(gap < 1e-3, "{name}: {gap:e}, {what}");
+    }
+}
+
+#[test]
+fn frequencies_of_springs_on_supports_follow_every_number() {
+    vibrations(CableModel::Spring);
+    vibrations(CableModel::CatenaryStatic);
+}
+
+#[test]
+fn frequencies_of_catenary_dynamic_cables_on_supports_follow_every_number() {
+    vibrations(CableModel::CatenaryDynamic);
 }
