@@ -130,7 +130,8 @@ impl<'a> Pullback<'a> {
             let followed = followed.collect();
             Some((tensions, followed))
         };
-        all.follower = Follower::Supported(hold, Box::new(SupportedFollower::new(&of_platform, &of_supports, tensions)?));
+        all.follower =
+            Follower::Supported(hold, Box::new(SupportedFollower::new(&of_platform, &of_supports, tensions)?));
         Ok(all)
     }
 

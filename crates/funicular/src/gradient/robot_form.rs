@@ -34,7 +34,7 @@ enum AnyCable {
     /// Cable of the catenary models.
     Catenary(Box<CableForm>),
     /// Spring EA/l along the chord, with its end at the pulley or the winch.
-    Spring(SpringForm),
+    Spring(Box<SpringForm>),
 }
 
 /// Spring along the chord of a cable.
@@ -105,7 +105,7 @@ impl RobotForm {
             let cable = &settled.cables[i];
             let term = dynamics.terms().iter().position(|term| term.cable() == i);
             cables.push(match (cable_model, term.map(|term| dynamics.terms()[term].form())) {
-                (CableModel::Spring, _) => AnyCable::Spring(SpringForm::of(cable, state)),
+                (CableModel::Spring, _) => AnyCable::Spring(Box::new(SpringForm::of(cable, state))),
                 (CableModel::CatenaryStatic, _) => {
                     AnyCable::Catenary(Box::new(CableForm::at_rest(&cable.anchor, state, false)?))
                 }

@@ -62,7 +62,10 @@ struct CarriedForm {
 enum SideForm {
     None,
     /// From a drum on the ground: length and tension.
-    FromGround { length: f64, tension: f64 },
+    FromGround {
+        length: f64,
+        tension: f64,
+    },
     /// Rod that moves with the support.
     Carried(Rod),
 }
@@ -270,7 +273,8 @@ pub(super) struct AlongDrumSide {
 
 impl AlongDrumSide {
     pub(super) fn of(both: &TwoEnded) -> Self {
-        let families = [Family::InPlane, Family::OutOfPlane, Family::Coupled].map(|family| both.along_drum_side(family));
+        let families =
+            [Family::InPlane, Family::OutOfPlane, Family::Coupled].map(|family| both.along_drum_side(family));
         Self { still: both.still_along_drum_side(), families }
     }
 

@@ -184,16 +184,15 @@ impl SupportedFollower {
         supports: &[Followed],
         tensions: Option<(Vec<ParallelTension>, Vec<Followed>)>,
     ) -> Result<Self, GradientError> {
-        let columns = |of: &[Followed], part: fn(&Followed) -> &DVec| {
-            DMat::from_columns(&of.iter().map(|followed| part(followed).clone()).collect::<Vec<_>>())
-        };
-        let (first, displaced): (fn(&Followed) -> &DVec, fn(&Followed) -> &DVec) = (|of| &of.first, |of| &of.supports);
-        let [mut platform_first, mut supports_first] = [platform, supports].map(|of| columns(of, first));
-        let [mut by_platform, mut own] = [platform, supports].map(|of| columns(of, displaced));
+        let first = |of: &[Followed]| DMat::from_columns(&of.iter().map(|of| of.first.clone()).collect::<Vec<_>>());
+        let displaced =
+            |of: &[Followed]| DMat::from_columns(&of.iter().map(|of| of.supports.clone()).collect::<Vec<_>>());
+        let [mut platform_first, mut supports_first] = [platform, supports].map(first);
+        let [mut by_platform, mut own] = [platform, supports].map(displaced);
 
         // Parallel tensions stand for the lengths.
         let tensions = tensions.map(|(tensions, followed)| {
-            let by_displacements = columns(&followed, displaced);
+            let by_displacements = displaced(&followed);
             for (i, tension) in tensions.iter().enumerate() {
                 platform_first.row_mut(i).unscale_mut(tension.by_length);
                 supports_first.row_mut(i).unscale_mut(tension.by_length);
@@ -216,7 +215,14 @@ impl SupportedFollower {
         let factors = first_by_platform.clone().qr();
         let solved = factors.r().solve_upper_triangular(&factors.q().transpose());
         let pseudoinverse = solved.ok_or(StaticDerivativeError::Singular)?;
-        Ok(Self { by_platform, inverse_own, first_by_supports: supports_first, first_by_platform, pseudoinverse, tensions })
+        Ok(Self {
+            by_platform,
+            inverse_own,
+            first_by_supports: supports_first,
+            first_by_platform,
+            pseudoinverse,
+            tensions,
+        })
     }
 
     /// Multipliers for a scalar with these coefficients of what follows.

@@ -305,7 +305,8 @@ impl<'g> VibrationGradients<'g> {
         let mut all = vec![Complex::new(0.0, 0.0); by_platform.nrows()];
         for (k, displacement) in all.iter_mut().enumerate() {
             let row = self.dynamics.unscaled_vector(&CVec6::from_fn(|i, _| by_platform[(k, i)]));
-            *displacement = -row.dot(x) + forces.iter().enumerate().map(|(j, force)| by_forces[(k, j)] * force).sum::<Complex>();
+            *displacement =
+                -row.dot(x) + forces.iter().enumerate().map(|(j, force)| by_forces[(k, j)] * force).sum::<Complex>();
         }
         triples(&all)
     }

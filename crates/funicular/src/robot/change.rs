@@ -192,9 +192,7 @@ impl GuideWheelChange {
 
 impl SupportChange {
     fn product((own, other): (&Self, &Self)) -> f64 {
-        own.stiffness_w.dot(&other.stiffness_w)
-            + own.mass * other.mass
-            + own.damping_ratio * other.damping_ratio
+        own.stiffness_w.dot(&other.stiffness_w) + own.mass * other.mass + own.damping_ratio * other.damping_ratio
     }
 
     /// Changes a support by `step` units of the parameter.
