@@ -302,7 +302,10 @@ impl AtRest {
         Ok((dynamics, self.warnings(Some((linearisation.cable_model, up_to_hz)))))
     }
 
-    /// Robot linearised about this equilibrium as by [`dynamics`](Self::dynamics), for gradients of its vibrations.
+    /// Robot linearised about its equilibrium as by [`dynamics`](Self::dynamics), for gradients of its vibrations.
+    ///
+    /// # Errors
+    /// A cable model that has no stiffness at this equilibrium.
     pub fn dynamics_for_gradients(
         &self,
         linearisation: Linearisation,

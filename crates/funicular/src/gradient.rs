@@ -19,6 +19,8 @@ mod pullback;
 mod robot_form;
 mod rule;
 mod scalar;
+mod support_form;
+mod supports;
 mod vibration;
 
 pub use vibration::{DampedGradient, ResponseDerivatives, VibrationGradients};
@@ -124,6 +126,15 @@ pub enum GradientError {
          give `minimum_tension_n`, or use the static model `catenary`"
     )]
     DefaultMinimum {
+        /// Name of the cable.
+        cable: String,
+    },
+    /// A rule chooses the tensions of cables on flexible supports.
+    #[error(
+        "cable \"{cable}\" is on a flexible support: tensions that follow their rule have derivatives on a rigid frame; hold \
+         the lengths or the pose instead"
+    )]
+    RuleAndSupports {
         /// Name of the cable.
         cable: String,
     },
@@ -240,7 +251,7 @@ impl<'a> Gradients<'a> {
     /// Prepares the gradients of an equilibrium.
     ///
     /// # Errors
-    /// [`GradientError::Static`]: ideal or slack cables, flexible supports, an indifferent equilibrium, too few cables to
+    /// [`GradientError::Static`]: ideal or slack cables, an indifferent equilibrium, too few cables to
     /// hold the pose; [`GradientError::Vertical`]; [`GradientError::NoRule`] for [`Hold::Rule`], which needs [`Self::by_rule`].
     pub fn new(robot: &'a Robot, equilibrium: &'a Equilibrium, hold: Hold) -> Result<Self, GradientError> {
         if hold == Hold::Rule {
@@ -430,9 +441,12 @@ impl<'a> Gradients<'a> {
 
     /// Gradient of the static form over two motions (translation, rotation), with a coefficient of ℓ.
     fn of_static_form(&self, a: [[f64; 3]; 2], b: [[f64; 3]; 2], ell: f64) -> Result<RobotChange, GradientError> {
-        let form = RobotForm::of_statics(self.robot(), self.equilibrium())?;
+        let form = RobotForm::of_statics((self.robot(), self.pullback.settled()), self.equilibrium())?;
         let at = form.undamped(0.0);
-        let [a, b] = [a, b].map(|[v, theta]| form.motion(v, theta, &at, &[], &Driven::NONE));
+        let [a, b] = [a, b].map(|[v, theta]| {
+            let supports = form.supports.as_ref().map_or_else(Vec::new, |supports| supports.at_rest(&v, &theta));
+            form.motion(v, theta, &at, &[], &Driven { supports: &supports, near: &[], forces: None })
+        });
         Ok(self.of(|scalar| {
             form.add(scalar, &a, &b, &at, 1.0);
             scalar.ell = ell;

@@ -16,7 +16,7 @@ mod winch;
 mod wind;
 
 pub use anchor::Anchor;
-pub use change::{CableChange, GuideWheelChange, PulleyChange, RobotChange, WinchChange};
+pub use change::{CableChange, GuideWheelChange, PulleyChange, RobotChange, SupportChange, WinchChange};
 pub use friction::PulleyFriction;
 pub use motion::{OutOfPlane, Plane, PlatformMotion};
 pub(crate) use pulley::Wheel;

@@ -190,6 +190,36 @@ fn vibration_follows_the_control_of_winches() {
     }
 }
 
+/// The example of a robot on posts: numbers of its supports and of the drum sides from the ground.
+#[test]
+fn a_robot_on_posts_has_derivatives_by_the_numbers_of_its_supports() {
+    let posts = super::project("docs/pulleys/posts.toml");
+    let found = json(&["gradient", &posts, "--of", "tensions,frequencies,damping", "--below-hz", "1"]);
+    let at = |step: f64, path: &str, value: f64| {
+        let set = format!("{path}={}", value + step);
+        let of = |command: &[&str]| json(&[command, &["--set", &set]].concat());
+        let modes = of(&["modes", &posts, "--below-hz", "1"]);
+        let tension = number(&of(&["statics", &posts])["cables"][4]["tension_platform_n"]);
+        [number(&modes["modes"][0]["frequency_hz"]), tension]
+    };
+    for (path, value, step) in [
+        ("supports.west.stiffness_n_per_m.xx", 1.5e5, 1e3),
+        ("supports.east-south.mass_kg", 15.0, 0.1),
+        ("winches.drum.drum_side_length_m", 3.0, 1e-3),
+    ] {
+        // A principal stiffness is the first of three numbers in the file.
+        let set = path.replace(".xx", ".0");
+        let (low, high) = (at(-step, &set, value), at(step, &set, value));
+        for (k, result) in ["frequency 1", "tension of cable \"5\" at the platform"].iter().enumerate() {
+            let expected = (high[k] - low[k]) / (2.0 * step);
+            let ours = derivative(&found, result, path);
+            // Third order of the step, and the rounding of the values, 1e-11.
+            let allowed = 1e-3 * expected.abs() + 1e-9 / step;
+            assert!((ours - expected).abs() < allowed, "{path}, {result}: {ours} {expected}");
+        }
+    }
+}
+
 #[test]
 fn requests_without_derivatives_are_refused_with_the_reason() {
     let (cogiro, winches) = (robot("cogiro.toml"), robot("cogiro-winches.toml"));

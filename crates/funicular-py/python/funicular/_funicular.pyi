@@ -204,7 +204,7 @@ class Analyses:
         Raises
         ------
         InputError
-            The robot has flexible supports or ideal cables, or a path that no number has.
+            The robot has ideal cables, or a path that no number has.
         NoSolutionError
             A cable is slack, or the equilibrium indifferent: it has no derivatives.
         """

@@ -43,7 +43,7 @@ impl PyAnalyses {
     /// Raises
     /// ------
     /// InputError
-    ///     The robot has flexible supports or ideal cables, or a path that no number has.
+    ///     The robot has ideal cables, or a path that no number has.
     /// NoSolutionError
     ///     A cable is slack, or the equilibrium indifferent: it has no derivatives.
     #[pyo3(signature = (

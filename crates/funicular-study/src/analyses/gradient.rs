@@ -326,7 +326,7 @@ impl Columns {
         }
         if columns.parameters.is_empty() {
             bail!(
-                "⟪by⟫: {} without derivatives: limits, the plane of a planar platform, friction of pulleys and supports have \
+                "⟪by⟫: {} without derivatives: limits, the plane of a planar platform and the friction of pulleys have \
                  none",
                 columns.without_derivative.join(", ")
             );

@@ -168,6 +168,13 @@ impl AnchorEnd {
         [along * a + sideways * b, along * b + sideways * c]
     }
 
+    /// Motions (σ, v) of the end per motion of the entry point along a drum side from the ground, both ends of the span held.
+    pub(crate) fn motion_by_drum_side(&self, held: &Mat3) -> [f64; 2] {
+        let [[slip, mixed], _] = self.inverse(held);
+        let pull = self.force_by_length / self.stretch_drum;
+        [-pull * slip, -pull * mixed]
+    }
+
     /// Derivative of the force on the platform with respect to the unstrained length [N/m]; `None` if the end is held,
     /// so that it is that of the span.
     pub(crate) fn force_by_length_w(&self, held: &Mat3) -> Option<Vec3> {

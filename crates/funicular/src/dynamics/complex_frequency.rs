@@ -34,6 +34,8 @@ pub(crate) struct DampedMotion {
     /// Amplitudes of the clamped modes whose poles lie near: index of the cable among those whose stiffness depends on
     /// frequency, family, index of the mode, amplitude.
     pub(crate) near: Vec<(usize, Family, usize, Complex)>,
+    /// Displacements of the supports, world axes; none on a rigid frame.
+    pub(crate) supports: Vec<Complex>,
     /// Derivative of the quadratic form of the motion with respect to ω.
     pub(crate) slope: Complex,
 }
@@ -42,7 +44,7 @@ pub(crate) struct DampedMotion {
 const SHARED_ZERO: f64 = 1e-13;
 
 impl Dynamics {
-    /// Motion at a simple zero ω [rad/s], for catenary-dynamic cables on a rigid frame; of size one.
+    /// Motion at a simple zero ω [rad/s], for cables that are catenary-dynamic or do not depend on frequency; of size one.
     pub(crate) fn damped_motion(&self, omega: Complex) -> Option<DampedMotion> {
         let no_poles = vec![Vec::new(); self.terms.len()];
         let Bordered { value, slope, .. } = self.bordered(omega, 1.0, &no_poles);
@@ -56,12 +58,13 @@ impl Dynamics {
             near.extend(poles.into_iter().map(|pole| (t, pole.family, pole.index)));
         }
 
-        // Amplitudes of clamped modes in the unit of the platform's motion, so that all entries have one size. Drives follow,
-        // whose rows are motions.
+        // Amplitudes of clamped modes in the unit of the platform's motion, so that all entries have one size. Supports follow,
+        // then drives, whose rows are motions.
         let (dof, bordered) = (self.dof(), self.dof() + near.len());
+        let first_drive = bordered + self.supports.as_ref().map_or(0, |supports| supports.count());
         let stiffest = (0..dof).map(|k| value[(k, k)].norm()).fold(0.0, f64::max);
         let unit = |k: usize| if (dof..bordered).contains(&k) { stiffest.sqrt() / omega.norm() } else { 1.0 };
-        let weight = |row: usize| if row < bordered { unit(row) } else { stiffest };
+        let weight = |row: usize| if row < first_drive { unit(row) } else { stiffest };
         let scaled = CDMat::from_fn(value.nrows(), value.ncols(), |r, c| value[(r, c)] * (weight(r) * unit(c)));
         let svd = scaled.svd(false, true);
         let mut values: Vec<(f64, usize)> = svd.singular_values.iter().copied().zip(0..).collect();
@@ -74,7 +77,7 @@ impl Dynamics {
 
         // The null vector of the transposed matrix has the forces −Δz of the drives in place of their motions z.
         let mut left = motion.clone();
-        let mut first = bordered;
+        let mut first = first_drive;
         for term in &self.terms {
             let DynamicCable::CatenaryDynamic(form) = &term.form else { continue };
             if form.has_drive_losses() {
@@ -89,7 +92,8 @@ impl Dynamics {
         let near =
             near.into_iter().enumerate().map(|(k, (t, family, index))| (t, family, index, motion[dof + k])).collect();
         let platform = CVec6::from_fn(|i, _| if i < self.dof() { motion[i] } else { Complex::new(0.0, 0.0) });
-        Some(DampedMotion { platform, near, slope })
+        let supports = motion[bordered..first_drive].to_vec();
+        Some(DampedMotion { platform, near, supports, slope })
     }
 
     /// Poles of a cable that are unknowns of their own at the square ω_c² of its frequency, as in the border.

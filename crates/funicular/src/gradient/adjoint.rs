@@ -31,6 +31,31 @@ pub(super) struct Adjoint<T> {
     pub(super) ell: T,
     /// The cables, in file order.
     pub(super) cables: Vec<CableAdjoint<T>>,
+    /// The flexible supports; none beyond the end.
+    pub(super) supports: Vec<SupportAdjoint<T>>,
+}
+
+/// Coefficients of one flexible support.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct SupportAdjoint<T> {
+    /// By its displacement at rest, beside the chords and drum sides that contain it.
+    pub(super) displacement: Vector<T>,
+    /// By its stiffness, symmetric.
+    pub(super) stiffness: [Vector<T>; 3],
+    /// By its mass and its damping ratio.
+    pub(super) mass: T,
+    pub(super) damping_ratio: T,
+}
+
+/// Coefficients of a drum side to a displaced support.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct SideAdjoint<T> {
+    /// By the vector from the drum to the entry point, besides its length, which is that of the drum side at rest.
+    pub(super) vector: Vector<T>,
+    /// By the length of the drum side that the robot file gives.
+    pub(super) given_length: T,
+    /// By the direction in which a support carries the drum side along.
+    pub(super) entry_direction: Vector<T>,
 }
 
 /// Coefficients of one cable.
@@ -60,6 +85,8 @@ pub(super) struct CableAdjoint<T> {
     pub(super) drive: DriveAdjoint<T>,
     /// By the distance and the mass of each guide wheel; none beyond the end.
     pub(super) guides: Vec<[T; 2]>,
+    /// By its drum side, if a flexible support moves it.
+    pub(super) side: SideAdjoint<T>,
 }
 
 impl<T: Field> CableAdjoint<T> {
@@ -142,7 +169,16 @@ impl<T: Field> Adjoint<T> {
             rotational_damping: [zero; 3],
             ell: T::default(),
             cables: vec![CableAdjoint::default(); cables],
+            supports: Vec::new(),
         }
+    }
+
+    /// Coefficients of a flexible support.
+    pub(super) fn support(&mut self, index: usize) -> &mut SupportAdjoint<T> {
+        if self.supports.len() <= index {
+            self.supports.resize(index + 1, SupportAdjoint::default());
+        }
+        &mut self.supports[index]
     }
 
     /// Coefficients of a scalar whose differential is a linear function of this one's: `of` is applied to each.
@@ -177,6 +213,19 @@ impl<T: Field> Adjoint<T> {
                     end: cable.end.map(&of),
                     drive: cable.drive.map(&of),
                     guides: cable.guides.iter().map(|guide| guide.map(&of)).collect(),
+                    side: SideAdjoint {
+                        vector: vector(&cable.side.vector),
+                        given_length: of(cable.side.given_length),
+                        entry_direction: vector(&cable.side.entry_direction),
+                    },
+                })
+                .collect(),
+            supports: (self.supports.iter())
+                .map(|support| SupportAdjoint {
+                    displacement: vector(&support.displacement),
+                    stiffness: matrix(&support.stiffness),
+                    mass: of(support.mass),
+                    damping_ratio: of(support.damping_ratio),
                 })
                 .collect(),
         }

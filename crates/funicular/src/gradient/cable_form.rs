@@ -12,9 +12,10 @@ use super::adjoint::CableAdjoint;
 use super::drive_form::{ControlAt, DriveAtFrequency, DriveForm};
 use super::end_form::EndAtRest;
 use super::scalar::{Field, Vector, add, add_times, cross, dot, times, vector};
+use super::support_form::{AlongDrumSide, Carrier, SideForces, Sides, add_far_amplitudes, add_far_motions};
 use crate::cable::catenary_dynamic::{
     CatenaryDynamic, CatenaryDynamicEnd, Displacements, DriveAt, DriveLosses, DriveSignal, Family,
-    POINTS_BEYOND_DEGREE, PoleResidue, smooth_pieces,
+    POINTS_BEYOND_DEGREE, PoleResidue, TwoEnded, smooth_pieces,
 };
 use crate::catenary::space::HangingCable;
 use crate::drive::derivatives::end;
@@ -68,6 +69,8 @@ struct Vibrating {
     out_of_plane: ShapeColumns,
     coupled: ShapeColumns,
     drive: Option<VibratingEnd>,
+    /// Motions along a drum side that a flexible support moves.
+    side: Option<AlongDrumSide>,
 }
 
 /// Drive at the end of a cable that vibrates.
@@ -160,11 +163,12 @@ impl CableForm {
         Self::on_pieces(state, 0.0, &pieces, &sizes, &mut Rules::default(), Inertia::None)
     }
 
-    /// Cable that vibrates about its catenary. `winches` is the mode of the winches; `rules` are shared by the cables.
+    /// Cable that vibrates about its catenary. `winches` is the mode of the winches, `both` both ends of a cable on a flexible
+    /// support; `rules` are shared by the cables.
     pub(super) fn vibrating(
         cable: &Cable,
         state: &CableState,
-        end: &CatenaryDynamicEnd,
+        (end, both): (&CatenaryDynamicEnd, Option<&TwoEnded>),
         winches: WinchMode,
         rules: &mut Rules,
     ) -> Result<Self, GradientError> {
@@ -207,6 +211,7 @@ impl CableForm {
             out_of_plane: ShapeColumns::of(&stations.out_of_plane),
             coupled: ShapeColumns::of(&stations.coupled),
             drive,
+            side: both.map(AlongDrumSide::of),
         }));
         Ok(form)
     }
@@ -262,22 +267,30 @@ impl CableForm {
     }
 
     /// Motion with the platform (translation of its origin and rotation, world axes) at a frequency. `near` are amplitudes
-    /// that do not follow from the end, `forces` act on the motions of the drive besides its own; none if empty.
+    /// that do not follow from the end, `forces` act on the motions of the drive besides its own; none if empty. `carrier` is
+    /// the motion with a flexible support.
     pub(super) fn motion<T: Field>(
         &self,
-        v: &Vector<T>,
-        theta: &Vector<T>,
+        (v, theta): (&Vector<T>, &Vector<T>),
+        carrier: Option<&Carrier<T>>,
         at: &CableAt<T>,
         near: &[NearMode<T>],
         forces: &[T],
     ) -> CableMotion<T> {
         let end_w = add(v, &cross(theta, &vector(&self.lever_w)));
-        let end: Vector<T> = from_fn(|k| dot(&end_w, &vector(&self.axes_w[k])));
+        let local = |of: &Vector<T>| -> Vector<T> { from_fn(|k| dot(of, &vector(&self.axes_w[k]))) };
+        let end = local(&end_w);
+        let far = carrier.map(|carrier| (local(&carrier.displacement_w), carrier.along));
+        let relative = |of: &Vector<T>, far: &Vector<T>| -> Vector<T> { from_fn(|k| of[k] - far[k]) };
 
         let Inertia::Modes(vibrating) = &self.inertia else {
             // Without mass the tension vector changes by the same amount all along the cable.
-            let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&end_w));
-            let mut elongation = end;
+            let (relative_w, along) = match carrier {
+                Some(carrier) => (relative(&end_w, &carrier.displacement_w), carrier.along),
+                None => (end_w, T::default()),
+            };
+            let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&relative_w, along));
+            let mut elongation = far.as_ref().map_or(end, |(far, _)| relative(&end, far));
             if let Some(of) = &self.end {
                 let followed_w = of.displacement(&at_end);
                 (0..3).for_each(|k| elongation[k] += dot(&followed_w, &vector(&self.axes_w[k])) * -1.0);
@@ -299,7 +312,7 @@ impl CableForm {
         };
 
         // Momentum: δN(s) = δN(0) − ω_c² m ∫₀ˢ δp ds.
-        let (displacement, motions) = vibrating.displacement(&end, at, near, forces);
+        let (displacement, motions) = vibrating.displacement(&end, far.as_ref(), at, near, forces);
         let (mut gathered, mut whole) = self.gathered(&displacement);
         let displacement = sums::vectors(&displacement, self.points.len());
         let factor = -(at.square * self.mass_per_length);
@@ -308,7 +321,7 @@ impl CableForm {
         }
 
         // The strains of δN along the cable add up to the motion of the far end less that of the platform end.
-        let mut moved = end;
+        let mut moved = far.as_ref().map_or(end, |(far, _)| relative(&end, far));
         if let Some(drive) = &vibrating.drive {
             for (motion, direction) in &drive.directions {
                 (0..3).for_each(|k| moved[k] += -(motions[*motion] * direction[k]));
@@ -329,9 +342,24 @@ impl CableForm {
         sum: &mut CableAdjoint<T>,
         a: &CableMotion<T>,
         b: &CableMotion<T>,
-        (own_square, at): (T, &CableAt<T>),
+        at: (T, &CableAt<T>),
         factor: T,
     ) {
+        self.add_beside(sum, a, b, &Sides::still(), at, factor);
+    }
+
+    /// Adds the same while flexible supports move the entry point along the drum side. The result are the forces of the drum
+    /// side on the entry point.
+    pub(super) fn add_beside<T: Field>(
+        &self,
+        sum: &mut CableAdjoint<T>,
+        a: &CableMotion<T>,
+        b: &CableMotion<T>,
+        sides: &Sides<T>,
+        (own_square, at): (T, &CableAt<T>),
+        factor: T,
+    ) -> SideForces<T> {
+        let mut on_side = [T::default(); 2];
         let (square, damping) = (at.square, at.by_damping);
         let zero = T::default();
         let (mut by_force, mut by_load) = ([zero; 3], [zero; 3]);
@@ -381,14 +409,16 @@ impl CableForm {
             Inertia::Modes(vibrating) => {
                 if let Some(VibratingEnd { form, along, .. }) = &vibrating.drive {
                     let at = DriveAtFrequency { square: own_square, of_rope: square, control: at.control };
-                    mass += form.add(sum, &a.end, &b.end, &at, factor);
+                    let (rope, forces) = form.add(sum, (&a.end, &b.end), sides, &at, factor);
+                    mass += rope;
+                    on_side = forces;
                     let slips = form.chain().is_some().then_some(0);
                     self.add_turn(sum, a, b, [slips, form.sideways().map(|_| *along)], factor);
                 }
             }
             Inertia::None | Inertia::Massless => {
                 if let Some(of) = &self.end {
-                    of.add(sum, &a.end, &b.end, factor);
+                    on_side = of.add(sum, (&a.end, &b.end), &sides.along, factor);
                     self.add_turn(sum, a, b, [Some(0), Some(1)], factor);
                 }
             }
@@ -396,21 +426,23 @@ impl CableForm {
         let by_square = -(factor * mass);
         sum.mass += by_square * damping[0];
         sum.damping += by_square * damping[1];
+        on_side
     }
 
-    /// Adds `factor` times the coefficients of the forces of a signal on the drive, over another motion.
+    /// Adds `factor` times the coefficients of the forces of a signal on the drive, over another motion, the first of `side`.
+    /// The result is the force of the drum side on its entry point.
     pub(super) fn add_signal<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
         (signal, servo): (DriveSignal, Option<&Servo>),
-        other: &CableMotion<T>,
+        (other, side): (&CableMotion<T>, &Sides<T>),
         (own_square, at): (T, &CableAt<T>),
         factor: T,
-    ) {
-        let Inertia::Modes(vibrating) = &self.inertia else { return };
-        let Some(VibratingEnd { form, .. }) = &vibrating.drive else { return };
+    ) -> T {
+        let Inertia::Modes(vibrating) = &self.inertia else { return T::default() };
+        let Some(VibratingEnd { form, .. }) = &vibrating.drive else { return T::default() };
         let frequency = DriveAtFrequency { square: own_square, of_rope: at.square, control: at.control };
-        form.add_signal(sum, signal, other.of_drive(), (&frequency, servo, at.by_damping), factor);
+        form.add_signal(sum, signal, (other.of_drive(), side), (&frequency, servo, at.by_damping), factor)
     }
 
     /// Adds the coefficients of the directions in which the far end moves: along the cable and sideways, by their places among
@@ -460,10 +492,12 @@ impl CableForm {
 }
 
 impl Vibrating {
-    /// Displacement of the points, axis by axis, for a motion of the platform end, and the motions of the drive.
+    /// Displacement of the points, axis by axis, for a motion of the platform end, and the motions of the drive. `far` are the
+    /// motions of the far end and along the drum side with a flexible support.
     fn displacement<T: Field>(
         &self,
         end: &Vector<T>,
+        far: Option<&(Vector<T>, T)>,
         at: &CableAt<T>,
         near: &[NearMode<T>],
         forces: &[T],
@@ -477,6 +511,16 @@ impl Vibrating {
             Some(family) => amplitudes(family, end, square, of(Family::Coupled)),
             None => Vec::new(),
         };
+        if let Some((far, along)) = far {
+            let given = |of_family: Family| move |index: usize| of(of_family).any(|near| near.1 == index);
+            let by_side = |number: usize| (self.side.as_ref(), number, *along);
+            add_far_amplitudes(&mut in_plane, &cable.in_plane, &far[..2], by_side(0), square, given(Family::InPlane));
+            let (out, is_given) = (&mut out_of_plane, given(Family::OutOfPlane));
+            add_far_amplitudes(out, &cable.out_of_plane, &far[2..], by_side(1), square, is_given);
+            if let Some(family) = &cable.coupled {
+                add_far_amplitudes(&mut coupled, family, far, by_side(2), square, given(Family::Coupled));
+            }
+        }
 
         // Motions of the drive, whose losses and forces act on the clamped modes.
         let mut motions = Vec::new();
@@ -488,6 +532,19 @@ impl Vibrating {
                 add_motions(sideways, &shapes.sideways, &[end[2]], &out_of_plane);
             } else {
                 add_motions(&mut motions, &shapes.coupled, end, &coupled);
+            }
+            if let Some((far, moved)) = far {
+                if cable.coupled.is_none() {
+                    let (along, sideways) = motions.split_at_mut(drive.along);
+                    add_far_motions(along, &shapes.along, &far[..2]);
+                    add_far_motions(sideways, &shapes.sideways, &far[2..]);
+                } else {
+                    add_far_motions(&mut motions, &shapes.coupled, far);
+                }
+                if let Some(side) = &self.side {
+                    side.add_motions(&mut motions, *moved);
+                    side.add_still([&mut in_plane, &mut out_of_plane, &mut coupled], *moved);
+                }
             }
             if let Some(losses) = &at.losses {
                 let act = losses.act_on(&mut motions, forces);
@@ -517,6 +574,15 @@ impl Vibrating {
             let (plane, normal) = displacement.split_at_mut(2 * self.points);
             self.in_plane.add(plane, &end[..2], &in_plane);
             self.out_of_plane.add(normal, &end[2..], &out_of_plane);
+        }
+        if let Some((far, _)) = far {
+            if cable.coupled.is_some() {
+                self.coupled.add_far(&mut displacement, far);
+            } else {
+                let (plane, normal) = displacement.split_at_mut(2 * self.points);
+                self.in_plane.add_far(plane, &far[..2]);
+                self.out_of_plane.add_far(normal, &far[2..]);
+            }
         }
         (displacement, motions)
     }

@@ -6,6 +6,7 @@
 
 use super::adjoint::CableAdjoint;
 use super::scalar::Field;
+use super::support_form::{SideForces, Sides};
 use crate::cable::catenary_dynamic::DriveSignal;
 use crate::drive::derivatives::end;
 use crate::drive::{AnchorEnd, ChainDescription, DriveAtRest, Piece, Place};
@@ -120,17 +121,18 @@ impl DriveForm {
         }
     }
 
-    /// Adds `factor` times the coefficients of the form over two motions. The result is the mass of the rope of the drive over
-    /// both motions, by which the form changes with −ω_c².
+    /// Adds `factor` times the coefficients of the form over two motions, in which a support moves the entry point along the
+    /// drum side. The result is the mass of the rope of the drive over both motions, by which the form changes with −ω_c², and
+    /// the forces of the drum side on the entry point.
     pub(super) fn add<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
-        a: &[T],
-        b: &[T],
+        (a, b): (&[T], &[T]),
+        sides: &Sides<T>,
         at: &DriveAtFrequency<T>,
         factor: T,
-    ) -> T {
-        let mut rope_mass = T::default();
+    ) -> (T, SideForces<T>) {
+        let (mut rope_mass, mut on_side) = (T::default(), [T::default(); 2]);
         if let Some(chain) = &self.chain {
             let slip = factor * a[0] * b[0];
             sum.end[end::WEIGHT] += slip;
@@ -142,7 +144,10 @@ impl DriveForm {
 
             let mut by_ratio = T::default();
             for (index, piece) in chain.pieces.iter().enumerate() {
-                rope_mass += self.add_piece(sum, chain, (index, piece), (a, b), at, factor, &mut by_ratio);
+                let motions = (a, b, sides);
+                let (mass, forces) = self.add_piece(sum, chain, (index, piece), motions, at, factor, &mut by_ratio);
+                rope_mass += mass;
+                on_side.iter_mut().zip(forces).for_each(|(sum, force)| *sum += force);
             }
             for (place, wheel) in &chain.guides {
                 let by_mass = -(factor * at.square * moved(*place, a) * moved(*place, b));
@@ -163,7 +168,7 @@ impl DriveForm {
             sum.drive.swivel_inertia += inertia;
             sum.end[end::DISTANCE] += inertia * (-2.0 * self.swivel_inertia / self.distance);
         }
-        rope_mass
+        (rope_mass, on_side)
     }
 
     /// Adds the coefficients of a piece of arc and drum side; see [`Self::add`].
@@ -173,13 +178,20 @@ impl DriveForm {
         sum: &mut CableAdjoint<T>,
         chain: &ChainDescription,
         (index, piece): (usize, &Piece),
-        (a, b): (&[T], &[T]),
+        (a, b, sides): (&[T], &[T], &Sides<T>),
         at: &DriveAtFrequency<T>,
         factor: T,
         by_ratio: &mut T,
-    ) -> T {
-        let at_ends = |z: &[T]| piece.ends.map(|end| end.map_or_else(T::default, |place| moved(place, z)));
-        let (ends_a, ends_b) = (at_ends(a), at_ends(b));
+    ) -> (T, SideForces<T>) {
+        // A support stretches a drum side from the ground at the wheel, and carries another one along.
+        let stretched = |along: T| if sides.from_ground && index == 0 { along * chain.ratio } else { T::default() };
+        let carried = |along: T| if sides.from_ground { T::default() } else { along };
+        let at_ends = |z: &[T], along: T| {
+            let [wheel, drum] = piece.ends.map(|end| end.map_or_else(T::default, |place| moved(place, z)));
+            [wheel + stretched(along), drum]
+        };
+        let (ends_a, ends_b) = (at_ends(a, sides.along[0]), at_ends(b, sides.along[1]));
+        let whole = sides.along.map(carried);
         let mut strained = (ends_a[0] - ends_a[1]) * (ends_b[0] - ends_b[1]);
         for wave in piece.waves.clone() {
             strained += a[wave] * b[wave] * 2.0;
@@ -189,19 +201,19 @@ impl DriveForm {
         let (mut mass, mut forces) = (T::default(), [[T::default(); 2]; 2]);
         if let Some(matrix) = &piece.mass {
             let size = 0.5 * self.mass_per_length * self.axial_stiffness / piece.spring;
-            let function = |ends: &[T; 2], z: &[T], k: usize| {
-                if k < 2 { ends[k] } else { z[piece.waves.start + k - 2] }
+            let function = |ends: &[T; 2], z: &[T], whole: T, k: usize| {
+                if k < 2 { ends[k] + whole } else { z[piece.waves.start + k - 2] }
             };
             for row in 0..matrix.nrows() {
-                let product = |ends: &[T; 2], z: &[T]| {
+                let product = |ends: &[T; 2], z: &[T], whole: T| {
                     let mut product = T::default();
                     for column in 0..matrix.ncols() {
-                        product += function(ends, z, column) * (matrix[(row, column)] * size);
+                        product += function(ends, z, whole, column) * (matrix[(row, column)] * size);
                     }
                     product
                 };
-                let (by_a, by_b) = (product(&ends_a, a), product(&ends_b, b));
-                mass += function(&ends_a, a, row) * by_b;
+                let (by_a, by_b) = (product(&ends_a, a, whole[0]), product(&ends_b, b, whole[1]));
+                mass += function(&ends_a, a, whole[0], row) * by_b;
                 if row < 2 {
                     forces[row] = [-(at.of_rope * by_a), -(at.of_rope * by_b)];
                 }
@@ -223,7 +235,18 @@ impl DriveForm {
             let per_ratio = place.factor / chain.ratio;
             *by_ratio += factor * (a[place.motion] * force[1] + b[place.motion] * force[0]) * per_ratio;
         }
-        mass
+
+        // Forces along the drum side on its entry point.
+        let on_side = if sides.from_ground && index == 0 {
+            let at_wheel = [0, 1].map(|k| pull[k] + forces[0][k]);
+            *by_ratio += factor * (at_wheel[0] * sides.along[1] + at_wheel[1] * sides.along[0]);
+            at_wheel.map(|force| force * chain.ratio)
+        } else if sides.from_ground {
+            [T::default(); 2]
+        } else {
+            [0, 1].map(|k| forces[0][k] + forces[1][k])
+        };
+        (mass, on_side)
     }
 
     /// Adds the coefficient of the compliance of a piece: of the whole rope, or of its share of the drum side.
@@ -304,17 +327,18 @@ impl DriveForm {
     }
 
     /// Adds `factor` times the coefficients of the forces on the drive per unit of a signal, over the motions `z` on which
-    /// they act; `by_damping` has the derivatives of ω_c².
+    /// they act, with the first of `side` along the drum side; `by_damping` has the derivatives of ω_c². The result is the force
+    /// of the drum side on its entry point.
     pub(super) fn add_signal<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
         signal: DriveSignal,
-        z: &[T],
+        (z, side): (&[T], &Sides<T>),
         (at, servo, by_damping): (&DriveAtFrequency<T>, Option<&Servo>, [T; 2]),
         factor: T,
-    ) {
-        let Some(chain) = &self.chain else { return };
-        let mut by_ratio = T::default();
+    ) -> T {
+        let (mut by_ratio, mut on_side) = (T::default(), T::default());
+        let Some(chain) = &self.chain else { return on_side };
         // A place at the exit point contains one over the ratio of the stretches.
         let mut add_place = |place: Place, force: T| {
             if place.is_at_exit() {
@@ -327,7 +351,7 @@ impl DriveForm {
             }
             (DriveSignal::Length, _, Some(motor)) => {
                 // C λ_E at the motor.
-                let (Some(servo), control) = (servo, &at.control) else { return };
+                let (Some(servo), control) = (servo, &at.control) else { return on_side };
                 let force = control.by_position_gain * servo.position_gain + control.by_speed_gain * servo.speed_gain;
                 let work = factor * moved(motor, z);
                 sum.end[end::STRETCH_DRUM] += work * force;
@@ -344,30 +368,40 @@ impl DriveForm {
                 add_place(drum, T::from(chain.shaft * self.stretch_drum));
             }
             (DriveSignal::Length, None, None) => {
-                self.add_held_drum(sum, chain, z, (at, by_damping), factor, &mut by_ratio);
+                on_side = self.add_held_drum(sum, chain, (z, side), (at, by_damping), factor, &mut by_ratio);
             }
             _ => {}
         }
         self.add_ratio(sum, by_ratio);
+        on_side
     }
 
-    /// Adds the coefficients of the force `λ (k + ω_c² M)` of the last piece, whose end at the drum is moved by λ.
+    /// Adds the coefficients of the force `λ (k + ω_c² M)` of the last piece, whose end at the drum is moved by λ. The result is
+    /// the force of the drum side on its entry point.
     fn add_held_drum<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
         chain: &ChainDescription,
-        z: &[T],
+        (z, side): (&[T], &Sides<T>),
         (at, by_damping): (&DriveAtFrequency<T>, [T; 2]),
         factor: T,
         by_ratio: &mut T,
-    ) {
-        let Some((index, piece)) = chain.pieces.iter().enumerate().next_back() else { return };
-        let start = piece.ends[0].map_or_else(T::default, |place| moved(place, z));
-        let (mut mass, mut mass_of_start) = (T::default(), 0.0);
+    ) -> T {
+        let Some((index, piece)) = chain.pieces.iter().enumerate().next_back() else { return T::default() };
+        let (stretches, along) = (side.from_ground && index == 0, side.along[0]);
+        let mut start = piece.ends[0].map_or_else(T::default, |place| moved(place, z));
+        if stretches {
+            start += along * chain.ratio;
+        }
+        let (mut mass, mut mass_of_start, mut mass_of_whole) = (T::default(), 0.0, 0.0);
         if let Some(matrix) = &piece.mass {
             let size = 0.5 * self.mass_per_length * self.axial_stiffness / piece.spring;
             mass = start * (matrix[(0, 1)] * size);
             mass_of_start = matrix[(0, 1)] * size;
+            if !side.from_ground {
+                mass_of_whole = (matrix[(0, 1)] + matrix[(1, 1)]) * size;
+                mass += along * mass_of_whole;
+            }
             for (k, wave) in piece.waves.clone().enumerate() {
                 mass += z[wave] * (matrix[(k + 2, 1)] * size);
             }
@@ -385,10 +419,15 @@ impl DriveForm {
             sum.mass += factor * mass * self.stretch * by_damping[0];
             sum.damping += factor * mass * self.stretch * by_damping[1];
         }
+        let per_motion = (T::from(piece.spring) + at.of_rope * mass_of_start) * self.stretch;
         if let (Some(place), true) = (piece.ends[0], piece.by_ratio[0]) {
-            let per_motion = (T::from(piece.spring) + at.of_rope * mass_of_start) * self.stretch;
             *by_ratio += factor * per_motion * z[place.motion] * (place.factor / chain.ratio);
         }
+        if stretches {
+            *by_ratio += factor * per_motion * along;
+            return per_motion * chain.ratio;
+        }
+        at.of_rope * (mass_of_whole * self.stretch)
     }
 
     /// Adds the coefficient of the ratio of the stretches.

@@ -7,11 +7,12 @@
 use super::adjoint::{Adjoint, CableAdjoint};
 use super::parallel_tension::ParallelTension;
 use super::rule::RuleFollower;
+use super::supports::{Followed, SupportedFollower, SupportsAtRest};
 use super::{GradientError, Hold};
 use crate::drive::derivatives::{DriveDerivatives, Row, place};
-use crate::math::{DMat, Mat3, Mat6, Vec3, Vec6, inverse6};
+use crate::math::{DMat, DVec, Mat3, Mat6, Vec3, Vec6, inverse6};
 use crate::platform::Coordinates;
-use crate::robot::{CableChange, GuideWheelChange, PulleyChange, Robot, RobotChange, WinchChange};
+use crate::robot::{Cable, CableChange, GuideWheelChange, PulleyChange, Robot, RobotChange, WinchChange};
 use crate::statics::derivatives::{CablePartials, StaticDerivativeError, jacobian_of, regular};
 use crate::statics::{Equilibrium, TensionRule};
 
@@ -21,6 +22,8 @@ pub(super) struct Pullback<'a> {
     pub(super) equilibrium: &'a Equilibrium,
     coordinates: Coordinates,
     cables: Vec<CablePartials>,
+    /// Flexible supports; `None` on a rigid frame.
+    pub(super) supports: Option<SupportsAtRest>,
     follower: Follower,
 }
 
@@ -39,6 +42,8 @@ enum Follower {
         /// Rule that the tensions follow; without one they change least.
         rule: Option<Box<RuleFollower>>,
     },
+    /// Displacements of flexible supports follow, with the pose or the lengths.
+    Supported(Hold, Box<SupportedFollower>),
 }
 
 /// Gradient with the motion of the platform as further coefficients.
@@ -46,6 +51,8 @@ struct Pulled {
     gradient: RobotChange,
     translation_w: Vec3,
     rotation_w: Vec3,
+    /// Displacements of the supports, three coordinates each; none on a rigid frame.
+    supports: Vec<f64>,
 }
 
 impl<'a> Pullback<'a> {
@@ -56,9 +63,14 @@ impl<'a> Pullback<'a> {
         rule: Option<&TensionRule>,
     ) -> Result<Self, GradientError> {
         let coordinates = Coordinates::of(robot);
+        let supports = SupportsAtRest::of(robot, equilibrium);
+        let settled = supports.as_ref().map_or(robot, |supports| &supports.settled);
         let cables = (0..robot.cables.len())
-            .map(|i| CablePartials::new(robot, equilibrium, i))
+            .map(|i| CablePartials::new(settled, equilibrium, i))
             .collect::<Result<Vec<_>, _>>()?;
+        if supports.is_some() {
+            return Self::with_supports(robot, equilibrium, hold, (coordinates, cables, supports));
+        }
         let follower = match hold {
             Hold::Lengths => {
                 let jacobian = jacobian_of(robot, equilibrium, cables.iter());
@@ -67,7 +79,77 @@ impl<'a> Pullback<'a> {
             }
             Hold::Pose | Hold::Rule => Follower::of_lengths(robot, equilibrium, &coordinates, &cables, rule)?,
         };
-        Ok(Self { robot, equilibrium, coordinates, cables, follower })
+        Ok(Self { robot, equilibrium, coordinates, cables, supports, follower })
+    }
+
+    /// Gradients of a robot on flexible supports.
+    fn with_supports(
+        robot: &'a Robot,
+        equilibrium: &'a Equilibrium,
+        hold: Hold,
+        (coordinates, cables, supports): (Coordinates, Vec<CablePartials>, Option<SupportsAtRest>),
+    ) -> Result<Self, GradientError> {
+        let follower = Follower::Pose(Mat6::zeros());
+        let mut all = Self { robot, equilibrium, coordinates, cables, supports, follower };
+        let (count, degrees_of_freedom) = (all.cables.len(), all.coordinates.count());
+        if hold == Hold::Rule && count > degrees_of_freedom {
+            let is_carried = |cable: &&Cable| cable.anchor.support.is_some();
+            let cable = robot.cables.iter().find(is_carried).map_or_else(String::new, |cable| cable.name.clone());
+            return Err(GradientError::RuleAndSupports { cable });
+        }
+        if hold != Hold::Lengths && count < degrees_of_freedom {
+            return Err(StaticDerivativeError::CableCount { cables: count, degrees_of_freedom }.into());
+        }
+
+        // What the balances of platform and supports contain of all that follows, by unit multipliers.
+        let settled = all.settled();
+        let of_platform: Vec<Followed> = (0..degrees_of_freedom)
+            .map(|k| {
+                let mut scalar = Adjoint::zeros(count);
+                let unit = Vec6::from_fn(|i, _| f64::from(u8::from(i == k)));
+                all.add_balance(&mut scalar, &all.coordinates.expand(&unit));
+                all.followed(&scalar, hold)
+            })
+            .collect();
+        let units = all.supports.iter().flat_map(SupportsAtRest::units);
+        let of_supports: Vec<Followed> = units.map(|scalar| all.followed(&scalar, hold)).collect();
+
+        // Of redundant cables the parallel tensions change least.
+        let tensions = if hold == Hold::Lengths || count == degrees_of_freedom {
+            None
+        } else {
+            let states = equilibrium.cables.iter().zip(&all.cables).enumerate();
+            let tensions = states
+                .map(|(i, (state, partials))| ParallelTension::of(settled, i, state, partials))
+                .collect::<Result<Vec<_>, _>>()?;
+            let followed = tensions.iter().enumerate().map(|(i, tension)| {
+                let mut scalar = Adjoint::zeros(count);
+                tension.add(&mut scalar.cables[i], 1.0);
+                all.followed(&scalar, hold)
+            });
+            let followed = followed.collect();
+            Some((tensions, followed))
+        };
+        all.follower =
+            Follower::Supported(hold, Box::new(SupportedFollower::new(&of_platform, &of_supports, tensions)?));
+        Ok(all)
+    }
+
+    /// Robot with rigid supports where they are at rest.
+    pub(super) fn settled(&self) -> &Robot {
+        self.supports.as_ref().map_or(self.robot, |supports| &supports.settled)
+    }
+
+    /// Coefficients of all that follows with this hold.
+    fn followed(&self, scalar: &Adjoint<f64>, hold: Hold) -> Followed {
+        let Pulled { gradient, translation_w, rotation_w, supports } = self.pulled(scalar);
+        let first = if hold == Hold::Lengths {
+            let reduced = self.coordinates.reduce(&six(&translation_w, &rotation_w));
+            DVec::from_iterator(self.coordinates.count(), reduced.iter().copied().take(self.coordinates.count()))
+        } else {
+            DVec::from_iterator(self.cables.len(), gradient.cables.iter().map(|cable| cable.unstrained_length))
+        };
+        Followed { first, supports: DVec::from_vec(supports) }
     }
 
     /// Gradient of the scalar with these coefficients.
@@ -108,22 +190,37 @@ impl<'a> Pullback<'a> {
                     reduced
                 };
                 self.add_balance(&mut total, &self.coordinates.expand(&reduced));
-
-                let Pulled { mut gradient, translation_w, rotation_w } = self.pulled(&total);
-                for (cable, partials) in gradient.cables.iter_mut().zip(&self.cables) {
-                    // No length counts any more, to rounding. A stiffer rope is as a longer one: without the same rounding
-                    // in the derivative by the stiffness, which is small here, that would have few digits.
-                    let (by_stiffness, by_length) = (partials.force_by_stiffness_w, partials.force_by_length_w);
-                    let as_length = by_stiffness.dot(&by_length) / by_length.norm_squared();
-                    cable.axial_stiffness -= as_length * cable.unstrained_length;
-                    cable.unstrained_length = 0.0;
+                self.at_held_pose(&total)
+            }
+            Follower::Supported(hold, follower) => {
+                let multipliers = follower.multipliers(self.followed(scalar, *hold));
+                let mut total = scalar.clone();
+                let n = self.coordinates.count();
+                let reduced = Vec6::from_fn(|k, _| if k < n { multipliers.platform[k] } else { 0.0 });
+                self.add_balance(&mut total, &self.coordinates.expand(&reduced));
+                if let Some(supports) = &self.supports {
+                    follower.add(&mut total, supports, &multipliers);
                 }
-                let motion = self.robot.platform.motion.allowed(&six(&translation_w, &rotation_w));
-                gradient.position_w = Vec3::new(motion[0], motion[1], motion[2]);
-                gradient.rotation_w = Vec3::new(motion[3], motion[4], motion[5]);
-                gradient
+                if *hold == Hold::Lengths { self.pulled(&total).gradient } else { self.at_held_pose(&total) }
             }
         }
+    }
+
+    /// Gradient by coefficients that contain the multipliers of a held pose.
+    fn at_held_pose(&self, total: &Adjoint<f64>) -> RobotChange {
+        let Pulled { mut gradient, translation_w, rotation_w, .. } = self.pulled(total);
+        for (cable, partials) in gradient.cables.iter_mut().zip(&self.cables) {
+            // No length counts any more, to rounding. A stiffer rope is as a longer one: without the same rounding in the
+            // derivative by the stiffness, which is small here, that would have few digits.
+            let (by_stiffness, by_length) = (partials.force_by_stiffness_w, partials.force_by_length_w);
+            let as_length = by_stiffness.dot(&by_length) / by_length.norm_squared();
+            cable.axial_stiffness -= as_length * cable.unstrained_length;
+            cable.unstrained_length = 0.0;
+        }
+        let motion = self.robot.platform.motion.allowed(&six(&translation_w, &rotation_w));
+        gradient.position_w = Vec3::new(motion[0], motion[1], motion[2]);
+        gradient.rotation_w = Vec3::new(motion[3], motion[4], motion[5]);
+        gradient
     }
 
     /// Adds the coefficients of λ·Φ, the product of a multiplier (moments over ℓ) with the wrench on the platform.
@@ -205,7 +302,8 @@ impl<'a> Pullback<'a> {
         gradient.translational_damping_p = tensor(&scalar.translational_damping, &translational).diagonal();
         gradient.rotational_damping_p = tensor(&scalar.rotational_damping, &rotational).diagonal();
 
-        Pulled { gradient, translation_w, rotation_w }
+        let supports = self.supports.as_ref().map_or_else(Vec::new, |supports| supports.pulled(scalar, &mut gradient));
+        Pulled { gradient, translation_w, rotation_w, supports }
     }
 }
 

@@ -6,10 +6,11 @@ use super::cable_form::{CableAt, CableForm, CableMotion, Rules};
 use super::drive_form::ControlAt;
 use super::end_form::EndAtRest;
 use super::scalar::{Field, Vector, add, add_times, cross, dot, outer, times, vector};
+use super::support_form::{Carrier, SideForces, Sides, SupportForm};
 use crate::cable::catenary_dynamic::{DriveSignal, Family, MovingEnd};
 use crate::cable::{CableModel, DynamicCable};
 use crate::drive::derivatives::end;
-use crate::dynamics::{Assembly, DynamicCableAt, Dynamics, Linearisation};
+use crate::dynamics::{Assembly, Dynamics, Linearisation};
 use crate::math::Vec3;
 use crate::robot::{Cable, Robot, Servo};
 use crate::statics::{CableState, Equilibrium};
@@ -24,6 +25,8 @@ pub(super) struct RobotForm {
     mass: f64,
     /// Position control of each motor that moves.
     servos: Vec<Option<Servo>>,
+    /// Flexible supports; `None` on a rigid frame.
+    pub(super) supports: Option<SupportForm>,
 }
 
 /// Form of one cable by its model.
@@ -31,7 +34,7 @@ enum AnyCable {
     /// Cable of the catenary models.
     Catenary(Box<CableForm>),
     /// Spring EA/l along the chord, with its end at the pulley or the winch.
-    Spring(SpringForm),
+    Spring(Box<SpringForm>),
 }
 
 /// Spring along the chord of a cable.
@@ -47,6 +50,8 @@ pub(super) struct RobotMotion<T> {
     v: Vector<T>,
     theta: Vector<T>,
     cables: Vec<Option<CableMotion<T>>>,
+    /// Displacements of the supports.
+    supports: Vec<Vector<T>>,
 }
 
 impl<T> RobotMotion<T> {
@@ -66,27 +71,26 @@ pub(super) struct At<T> {
     pub(super) square: T,
     /// Factor iω of the damping of the platform; zero for undamped motions.
     pub(super) rate: T,
+    /// Factor of the losses 2ζ of the supports: i, or zero for undamped motions.
+    pub(super) loss: T,
     /// The cables, in file order.
     pub(super) cables: Vec<CableAt<T>>,
 }
 
-/// What moves the robot besides the platform: amplitudes of clamped modes, and forces on the drive of one cable.
+/// What moves the robot besides the platform: supports, amplitudes of clamped modes, and forces on the drive of one cable.
 pub(super) struct Driven<'a, T> {
+    /// Displacements of flexible supports; none on a rigid frame.
+    pub(super) supports: &'a [Vector<T>],
     /// Amplitudes of clamped modes near the frequency.
     pub(super) near: &'a [NearAmplitude<T>],
     /// Cable with forces on the motions of its drive.
     pub(super) forces: Option<(usize, &'a [T])>,
 }
 
-impl<T> Driven<'_, T> {
-    /// Motion that follows the platform.
-    pub(super) const NONE: Self = Self { near: &[], forces: None };
-}
-
 impl RobotForm {
-    /// Form of the dynamic stiffness.
+    /// Form of the dynamic stiffness. `settled` is the robot with rigid supports where they are at rest.
     pub(super) fn of_dynamics(
-        robot: &Robot,
+        (robot, settled): (&Robot, &Robot),
         equilibrium: &Equilibrium,
         dynamics: &Dynamics,
     ) -> Result<Self, GradientError> {
@@ -98,44 +102,49 @@ impl RobotForm {
         let (mut cables, mut rules) = (Vec::with_capacity(robot.cables.len()), Rules::default());
         let mut servos = vec![None; robot.cables.len()];
         for (i, state) in equilibrium.cables.iter().enumerate() {
-            let term = dynamics.terms().iter().find(|term| term.cable() == i);
-            cables.push(match (cable_model, term.map(DynamicCableAt::form)) {
-                (CableModel::Spring, _) => AnyCable::Spring(SpringForm::of(&robot.cables[i], state)),
+            let cable = &settled.cables[i];
+            let term = dynamics.terms().iter().position(|term| term.cable() == i);
+            cables.push(match (cable_model, term.map(|term| dynamics.terms()[term].form())) {
+                (CableModel::Spring, _) => AnyCable::Spring(Box::new(SpringForm::of(cable, state))),
                 (CableModel::CatenaryStatic, _) => {
-                    AnyCable::Catenary(Box::new(CableForm::at_rest(&robot.cables[i].anchor, state, false)?))
+                    AnyCable::Catenary(Box::new(CableForm::at_rest(&cable.anchor, state, false)?))
                 }
                 (CableModel::CatenaryDynamic, Some(DynamicCable::CatenaryDynamic(end))) => {
                     servos[i] = end.cable.end.as_ref().and_then(MovingEnd::chain).and_then(|chain| chain.motor?.servo);
-                    AnyCable::Catenary(Box::new(CableForm::vibrating(
-                        &robot.cables[i],
-                        state,
-                        end,
-                        winches,
-                        &mut rules,
-                    )?))
+                    let both = dynamics.supports().and_then(|supports| supports.both_ends(term?));
+                    AnyCable::Catenary(Box::new(CableForm::vibrating(cable, state, (end, both), winches, &mut rules)?))
                 }
                 (CableModel::CatenaryDynamic, _) => {
-                    AnyCable::Catenary(Box::new(CableForm::at_rest(&robot.cables[i].anchor, state, true)?))
+                    AnyCable::Catenary(Box::new(CableForm::at_rest(&cable.anchor, state, true)?))
                 }
                 (CableModel::ShallowStatic | CableModel::ShallowDynamic, _) => {
                     return Err(GradientError::Model(cable_model));
                 }
             });
         }
-        Ok(Self { servos, ..Self::with_cables(robot, equilibrium, cables) })
+        let has_rods = cable_model == CableModel::CatenaryDynamic;
+        Ok(Self { servos, ..Self::with_cables((robot, settled), equilibrium, cables, has_rods) })
     }
 
-    /// Form of the static stiffness.
-    pub(super) fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Result<Self, GradientError> {
+    /// Form of the static stiffness. `settled` is the robot with rigid supports where they are at rest.
+    pub(super) fn of_statics(
+        (robot, settled): (&Robot, &Robot),
+        equilibrium: &Equilibrium,
+    ) -> Result<Self, GradientError> {
         let cables = (equilibrium.cables.iter().enumerate())
             .map(|(i, state)| {
-                Ok(AnyCable::Catenary(Box::new(CableForm::at_rest(&robot.cables[i].anchor, state, false)?)))
+                Ok(AnyCable::Catenary(Box::new(CableForm::at_rest(&settled.cables[i].anchor, state, false)?)))
             })
             .collect::<Result<_, GradientError>>()?;
-        Ok(Self::with_cables(robot, equilibrium, cables))
+        Ok(Self::with_cables((robot, settled), equilibrium, cables, false))
     }
 
-    fn with_cables(robot: &Robot, equilibrium: &Equilibrium, cables: Vec<AnyCable>) -> Self {
+    fn with_cables(
+        (robot, settled): (&Robot, &Robot),
+        equilibrium: &Equilibrium,
+        cables: Vec<AnyCable>,
+        has_rods: bool,
+    ) -> Self {
         let (rot, platform, load) = (&equilibrium.pose.rot_wp, &robot.platform, &robot.load);
         let center = (robot.force_at_mass_centre_w(), rot * platform.center_of_mass_p);
         let of_cable = |state: &CableState| (state.force_on_platform_w, state.lever_w);
@@ -144,7 +153,8 @@ impl RobotForm {
             dead: [center, (load.force_w, rot * load.point_p)],
             levers: equilibrium.cables.iter().map(of_cable).collect(),
             mass: platform.mass,
-            servos: vec![None; robot.cables.len()],
+            servos: vec![None; settled.cables.len()],
+            supports: SupportForm::of(robot, equilibrium, has_rods),
         }
     }
 
@@ -156,7 +166,7 @@ impl RobotForm {
             control: ControlAt::undamped(servo.as_ref()),
             ..CableAt::default()
         };
-        At { square, rate: 0.0, cables: self.servos.iter().map(cable).collect() }
+        At { square, rate: 0.0, loss: 0.0, cables: self.servos.iter().map(cable).collect() }
     }
 
     /// Motion with the platform: translation of its origin and rotation, world axes. `terms` are the cables whose stiffness
@@ -177,10 +187,12 @@ impl RobotForm {
                     .map(|(_, family, index, amplitude)| (*family, *index, *amplitude))
                     .collect();
                 let forces = driven.forces.filter(|(cable, _)| *cable == i).map_or(&[][..], |(_, forces)| forces);
-                Some(form.motion(&v, &theta, &at.cables[i], &own, forces))
+                let carrier = self.supports.as_ref().and_then(|supports| supports.carrier(i, driven.supports));
+                Some(form.motion((&v, &theta), carrier.as_ref(), &at.cables[i], &own, forces))
             }
         };
-        RobotMotion { v, theta, cables: self.cables.iter().enumerate().map(of_cable).collect() }
+        let cables = self.cables.iter().enumerate().map(of_cable).collect();
+        RobotMotion { v, theta, cables, supports: driven.supports.to_vec() }
     }
 
     /// Adds `factor` times the coefficients of the forces of a drive's signal, over another motion.
@@ -194,7 +206,15 @@ impl RobotForm {
     ) {
         if let (AnyCable::Catenary(form), Some(motion)) = (&self.cables[i], other.cable(i)) {
             let signal = (signal, self.servos[i].as_ref());
-            form.add_signal(&mut sum.cables[i], signal, motion, (at.square, &at.cables[i]), factor);
+            let side = match &self.supports {
+                Some(supports) => supports.sides(i, &other.supports, &other.supports),
+                None => Sides::still(),
+            };
+            let of_cable = &mut sum.cables[i];
+            let force = form.add_signal(of_cable, signal, (motion, &side), (at.square, &at.cables[i]), factor);
+            if let Some(supports) = &self.supports {
+                supports.add_side_force(of_cable, i, &other.supports, factor * force);
+            }
         }
     }
 
@@ -239,13 +259,26 @@ impl RobotForm {
             let (force, lever) = lever_coefficients(&vector(f), &vector(r), &a.theta, &b.theta);
             add_times(&mut of_cable.force, &force, factor);
             add_times(&mut of_cable.lever, &lever, factor);
-            match (cable, &a.cables[i], &b.cables[i]) {
+            let sides = match &self.supports {
+                Some(supports) => supports.sides(i, &a.supports, &b.supports),
+                None => Sides::still(),
+            };
+            let on_side = match (cable, &a.cables[i], &b.cables[i]) {
                 (AnyCable::Catenary(form), Some(a), Some(b)) => {
-                    form.add(of_cable, a, b, (at.square, &at.cables[i]), factor);
+                    form.add_beside(of_cable, a, b, &sides, (at.square, &at.cables[i]), factor)
                 }
-                (AnyCable::Spring(spring), ..) => spring.add(of_cable, (&a.v, &a.theta), (&b.v, &b.theta), factor),
+                (AnyCable::Spring(spring), ..) => {
+                    let carriers = [a, b].map(|of| self.supports.as_ref()?.carrier(i, &of.supports));
+                    spring.add(of_cable, (&a.v, &a.theta), (&b.v, &b.theta), &carriers, factor)
+                }
                 _ => unreachable!("every catenary has its motion"),
+            };
+            if let Some(supports) = &self.supports {
+                supports.add_cable(of_cable, i, (&a.supports, &b.supports), &on_side, (at.square, factor));
             }
+        }
+        if let Some(supports) = &self.supports {
+            supports.add_own(sum, (&a.supports, &b.supports), (at.square, at.loss), factor);
         }
     }
 }
@@ -259,22 +292,26 @@ impl SpringForm {
     }
 
     /// Adds `factor` times the coefficients of `(EA/l³)(u_a·d)(u_b·d)` over two motions (translation, rotation) of the
-    /// platform: by the chord, by the arm of the ends, by EA; u is the motion of the platform end less that of the far end.
+    /// platform: by the chord, by the arm of the ends, by EA; u is the motion of the platform end less that of the far end. The
+    /// result are the forces of a drum side from the ground on its entry point, which flexible supports move.
     fn add<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
         a: (&Vector<T>, &Vector<T>),
         b: (&Vector<T>, &Vector<T>),
+        carriers: &[Option<Carrier<T>>; 2],
         factor: T,
-    ) {
+    ) -> SideForces<T> {
         let (chord, lever) = (vector(&self.chord_w), vector(&self.lever_w));
         let [end_a, end_b] = [a, b].map(|(v, theta)| add(v, &cross(theta, &lever)));
-        let followed = |start: &Vector<T>| -> ([T; 2], Vector<T>) {
-            let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(start));
+        let followed = |start: &Vector<T>, carrier: &Option<Carrier<T>>| -> ([T; 2], Vector<T>) {
+            let (far, along) = carrier.map_or_else(Default::default, |of| (of.displacement_w, of.along));
+            let start: Vector<T> = std::array::from_fn(|k| start[k] - far[k]);
+            let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&start, along));
             let moved = self.end.as_ref().map_or_else(Default::default, |of| of.displacement(&at_end));
             (at_end, std::array::from_fn(|k| start[k] - moved[k]))
         };
-        let [(far_a, u_a), (far_b, u_b)] = [followed(&end_a), followed(&end_b)];
+        let [(far_a, u_a), (far_b, u_b)] = [followed(&end_a, &carriers[0]), followed(&end_b, &carriers[1])];
 
         let (l, ea) = (self.chord_w.norm(), self.axial_stiffness);
         let [along_a, along_b] = [dot(&u_a, &chord), dot(&u_b, &chord)];
@@ -286,14 +323,17 @@ impl SpringForm {
         add_times(&mut sum.lever, &by_end, size);
         sum.stiffness += factor * along_a * along_b * l.powi(-3);
 
+        let mut on_side = [T::default(); 2];
         if let Some(end) = &self.end {
-            end.add(sum, &far_a, &far_b, factor);
+            let sides = carriers.map(|carrier| carrier.map_or_else(T::default, |of| of.along));
+            on_side = end.add(sum, (&far_a, &far_b), &sides, factor);
             for (first, i) in [(end::TRAVEL, 0), (end::SIDEWAYS, 1)] {
                 for (sum, chord) in sum.end[first..].iter_mut().zip(chord) {
                     *sum += -(size * chord * (along_a * far_b[i] + along_b * far_a[i]));
                 }
             }
         }
+        on_side
     }
 }
 

@@ -9,7 +9,7 @@ use super::{GradientError, Gradients};
 use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::{DriveSignal, MovingEnd, NearRanges};
 use crate::dynamics::{DynamicCableAt, Dynamics};
-use crate::math::{CVec6, Complex, Vec3, Vec6};
+use crate::math::{CDMat, CVec6, Complex, Vec3, Vec6};
 use crate::modes::Mode;
 use crate::modes::damped::DampedMode;
 use crate::response::{self, Port, Quantity, Signal};
@@ -73,7 +73,8 @@ pub struct ResponseDerivatives {
 
 impl<'g> VibrationGradients<'g> {
     pub(super) fn new(gradients: &'g Gradients<'g>, dynamics: &'g Dynamics) -> Result<Self, GradientError> {
-        let form = RobotForm::of_dynamics(gradients.robot(), gradients.equilibrium(), dynamics)?;
+        let robots = (gradients.robot(), gradients.pullback.settled());
+        let form = RobotForm::of_dynamics(robots, gradients.equilibrium(), dynamics)?;
         let terms = dynamics.terms().iter().map(DynamicCableAt::cable).collect();
         Ok(Self { gradients, dynamics, form, terms })
     }
@@ -117,7 +118,8 @@ impl<'g> VibrationGradients<'g> {
         let near: Vec<NearAmplitude<f64>> =
             mode.motion.near.iter().map(|near| (near.term, near.family, near.pole, near.amplitude)).collect();
         let at = self.form.undamped(mode.frequency_hz * TAU);
-        self.form.motion(v, theta, &at, &self.terms, &Driven { near: &near, forces: None })
+        let supports = triples(&mode.motion.supports);
+        self.form.motion(v, theta, &at, &self.terms, &Driven { supports: &supports, near: &near, forces: None })
     }
 
     fn of_pair(&self, a: (&Mode, &RobotMotion<f64>), b: (&Mode, &RobotMotion<f64>)) -> RobotChange {
@@ -156,7 +158,7 @@ impl<'g> VibrationGradients<'g> {
                 at.losses = form.drive_at(at.square, &left_out).map(|motions| LossesAt::of(&motions, &losses));
             }
         }
-        At { square: omega * omega, rate: omega * Complex::i(), cables }
+        At { square: omega * omega, rate: omega * Complex::i(), loss: Complex::i(), cables }
     }
 
     /// Gradients of a damped mode, whose zero of the dynamic stiffness is simple.
@@ -175,7 +177,8 @@ impl<'g> VibrationGradients<'g> {
         let [re, im] = [|z: &Complex| z.re, |z: &Complex| z.im].map(|part| found.platform.map(|z| part(&z)));
         let [re, im] = [re, im].map(|part| self.platform_motion(&part));
         let join = |re: Vector<f64>, im: Vector<f64>| std::array::from_fn(|k| Complex::new(re[k], im[k]));
-        let driven = Driven { near: &found.near, forces: None };
+        let supports = triples(&found.supports);
+        let driven = Driven { supports: &supports, near: &found.near, forces: None };
         let motion = self.form.motion(join(re.0, im.0), join(re.1, im.1), &at, &self.terms, &driven);
         let mut by_omega = Adjoint::zeros(self.cables());
         self.form.add(&mut by_omega, &motion, &motion, &at, -found.slope.inv());
@@ -249,11 +252,18 @@ impl<'g> VibrationGradients<'g> {
         for (receptance, frequency_hz) in receptances.iter().zip(frequencies_hz) {
             let omega = frequency_hz * TAU;
             let at = self.at(omega.into(), false, &driven);
+            let followed = self.dynamics.support_response(omega);
             let solved = |place: &Place| {
-                let x = receptance * place.vector(self.dynamics, omega);
+                let (vector, on_supports) = place.vector(self.dynamics, followed.as_ref().map(|of| &of.0), omega);
+                let x = receptance * vector;
                 let (v, theta) = halves(&x);
+                let supports = self.displacements(followed.as_ref(), &x, &on_supports);
                 let forces = place.forces(self.dynamics, omega);
-                let driven = Driven { near: &[], forces: forces.as_ref().map(|(cable, forces)| (*cable, &forces[..])) };
+                let driven = Driven {
+                    supports: &supports,
+                    near: &[],
+                    forces: forces.as_ref().map(|(cable, forces)| (*cable, &forces[..])),
+                };
                 (x, forces.clone(), self.form.motion(v, theta, &at, &self.terms, &driven))
             };
             let solutions: Vec<_> = places.iter().map(solved).collect();
@@ -297,6 +307,18 @@ impl<'g> VibrationGradients<'g> {
             }
         }
         Ok(rows)
+    }
+
+    /// Displacements of the supports for a motion of the platform and forces on the supports, from [`Dynamics::support_response`].
+    fn displacements(&self, followed: Option<&(CDMat, CDMat)>, x: &CVec6, forces: &[Complex]) -> Vec<Vector<Complex>> {
+        let Some((by_platform, by_forces)) = followed else { return Vec::new() };
+        let mut all = vec![Complex::new(0.0, 0.0); by_platform.nrows()];
+        for (k, displacement) in all.iter_mut().enumerate() {
+            let row = self.dynamics.unscaled_vector(&CVec6::from_fn(|i, _| by_platform[(k, i)]));
+            *displacement =
+                -row.dot(x) + forces.iter().enumerate().map(|(j, force)| by_forces[(k, j)] * force).sum::<Complex>();
+        }
+        triples(&all)
     }
 
     /// Derivatives along directions of the scalar with these coefficients.
@@ -348,11 +370,12 @@ impl Place {
         if let PlaceKind::Drive { cable, .. } = self.kind { Some(cable) } else { None }
     }
 
-    /// Vector about the platform origin at ω [rad/s].
-    fn vector(&self, dynamics: &Dynamics, omega: f64) -> CVec6 {
+    /// Vector about the platform origin at ω [rad/s] with free supports, and the forces on these; see
+    /// [`Port::free_vector`].
+    fn vector(&self, dynamics: &Dynamics, by_platform: Option<&CDMat>, omega: f64) -> (CVec6, Vec<Complex>) {
         match &self.kind {
-            PlaceKind::OnPlatform { vector, .. } => vector.map(Complex::from),
-            PlaceKind::Drive { port, .. } => port.vector(dynamics, omega),
+            PlaceKind::OnPlatform { vector, .. } => (vector.map(Complex::from), Vec::new()),
+            PlaceKind::Drive { port, .. } => port.free_vector(dynamics, by_platform, omega),
         }
     }
 
@@ -370,6 +393,11 @@ impl Place {
             add_times(&mut scalar.rotation, &turn, factor);
         }
     }
+}
+
+/// Displacements of the supports from their coordinates, three per support.
+fn triples<T: Copy>(coordinates: &[T]) -> Vec<Vector<T>> {
+    coordinates.chunks_exact(3).map(|of| [of[0], of[1], of[2]]).collect()
 }
 
 /// Translation and rotation of a motion.

@@ -235,7 +235,7 @@ impl Port {
     /// Vector of the port about the platform origin at ω [rad/s], and its forces on the supports; the supports are free in the
     /// vector. `by_platform` are their displacements there, less their sign, per scaled motion of the platform: see
     /// [`Dynamics::support_response`]; `None` on a rigid frame.
-    pub(super) fn free_vector(
+    pub(crate) fn free_vector(
         &self,
         dynamics: &Dynamics,
         by_platform: Option<&CDMat>,

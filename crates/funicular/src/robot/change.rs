@@ -1,6 +1,6 @@
 //! Direction of change of a robot: the rate of each of its numbers with respect to one parameter.
 
-use super::{Control, Damping, Pulley, Robot, State, Winch};
+use super::{Control, Damping, Pulley, Robot, State, Support, Winch};
 use crate::math::{Mat3, Vec3};
 
 /// Rates of change of a robot's numbers with respect to one parameter: a direction in the space of all robots with the
@@ -51,6 +51,19 @@ pub struct RobotChange {
     pub rotation_w: Vec3,
     /// The cables, in file order.
     pub cables: Vec<CableChange>,
+    /// The flexible supports, in the order of [`Robot::supports`]; none changes beyond the end of the list.
+    pub supports: Vec<SupportChange>,
+}
+
+/// Rates of change of the numbers of a flexible support.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SupportChange {
+    /// Stiffness against a displacement, world axes; symmetric.
+    pub stiffness_w: Mat3,
+    /// Mass that moves with its anchors.
+    pub mass: f64,
+    /// Damping ratio.
+    pub damping_ratio: f64,
 }
 
 /// Rates of change of the numbers of one cable.
@@ -177,6 +190,19 @@ impl GuideWheelChange {
     }
 }
 
+impl SupportChange {
+    fn product((own, other): (&Self, &Self)) -> f64 {
+        own.stiffness_w.dot(&other.stiffness_w) + own.mass * other.mass + own.damping_ratio * other.damping_ratio
+    }
+
+    /// Changes a support by `step` units of the parameter.
+    fn apply(&self, support: &mut Support, step: f64) {
+        support.stiffness_w += self.stiffness_w * step;
+        support.mass += self.mass * step;
+        support.damping_ratio += self.damping_ratio * step;
+    }
+}
+
 impl CableChange {
     /// Sum of the products of all numbers with those of another one.
     fn dot(&self, other: &Self) -> f64 {
@@ -213,6 +239,7 @@ impl RobotChange {
             position_w: Vec3::zeros(),
             rotation_w: Vec3::zeros(),
             cables: vec![CableChange::default(); cables],
+            supports: Vec::new(),
         }
     }
 
@@ -225,6 +252,7 @@ impl RobotChange {
     /// one of the two is the gradient of the result. Both have the same number of cables.
     pub fn dot(&self, other: &Self) -> f64 {
         let cables: f64 = self.cables.iter().zip(&other.cables).map(|(own, other)| own.dot(other)).sum();
+        let supports: f64 = self.supports.iter().zip(&other.supports).map(SupportChange::product).sum();
         self.gravity_w.dot(&other.gravity_w)
             + self.mass * other.mass
             + self.inertia_p.dot(&other.inertia_p)
@@ -240,6 +268,7 @@ impl RobotChange {
             + self.position_w.dot(&other.position_w)
             + self.rotation_w.dot(&other.rotation_w)
             + cables
+            + supports
     }
 }
 
@@ -283,6 +312,10 @@ impl Robot {
                     wheel.mass += change.mass * step;
                 }
             }
+        }
+
+        for (support, change) in robot.supports.iter_mut().zip(&change.supports) {
+            change.apply(support, step);
         }
 
         match &mut robot.state {

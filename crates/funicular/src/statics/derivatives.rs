@@ -33,8 +33,8 @@ pub enum StaticDerivativeError {
     },
     /// Cable whose anchor is on a flexible support.
     #[error(
-        "the anchor of cable \"{cable}\" is on a flexible support: derivatives exist for anchors on a rigid frame; remove \
-         `support` from the cables"
+        "the anchor of cable \"{cable}\" is on a flexible support: derivatives along one direction exist for anchors on a \
+         rigid frame; take the gradients of the results"
     )]
     Support {
         /// Name of the cable.
@@ -233,6 +233,9 @@ struct DirectCable {
 
 impl Direct {
     fn new(robot: &Robot, equilibrium: &Equilibrium, change: &RobotChange) -> Result<Self, StaticDerivativeError> {
+        if let Some(cable) = robot.cables.iter().find(|cable| cable.anchor.support.is_some()) {
+            return Err(StaticDerivativeError::Support { cable: cable.name.clone() });
+        }
         let rot = &equilibrium.pose.rot_wp;
         let (platform, wind) = (&robot.platform, &robot.wind);
 
@@ -390,13 +393,10 @@ impl DrivePartials {
 }
 
 impl CablePartials {
-    /// Partial derivatives of cable `i`.
+    /// Partial derivatives of cable `i`; of a robot on flexible supports where these have settled.
     pub(crate) fn new(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> Result<Self, StaticDerivativeError> {
         let (state, cable) = (&equilibrium.cables[i], &robot.cables[i]);
         let hanging = state.hanging.as_ref().ok_or(StaticDerivativeError::Ideal)?;
-        if cable.anchor.support.is_some() {
-            return Err(StaticDerivativeError::Support { cable: cable.name.clone() });
-        }
         if state.is_slack() {
             return Err(StaticDerivativeError::Slack { cable: cable.name.clone() });
         }

@@ -4,6 +4,7 @@ mod drives;
 mod equal_drives;
 mod kept_shapes;
 mod rule_with_drives;
+mod supports;
 mod tension_rule;
 
 use crate::library::library;

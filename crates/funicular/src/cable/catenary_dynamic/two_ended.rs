@@ -236,6 +236,18 @@ impl TwoEnded {
         self.modes.iter().map(|mode| -mode.on_drum_side.0 / mode.pole)
     }
 
+    /// Participation of the motion along the drum side in the clamped modes of a family, and their static amplitudes per such
+    /// motion [√kg].
+    pub(crate) fn along_drum_side(&self, family: Family) -> Vec<(f64, f64)> {
+        let modes = self.modes.iter().filter(|mode| mode.family == family);
+        modes.map(|mode| (mode.participation[ALONG], -mode.on_drum_side.0 / mode.pole)).collect()
+    }
+
+    /// Static motion of each part of the drive per motion along the drum side.
+    pub(crate) fn still_along_drum_side(&self) -> Vec<f64> {
+        self.still.iter().map(|row| row[ALONG]).collect()
+    }
+
     /// Participation of the ends in a clamped mode [√kg].
     pub(crate) fn participation(&self, family: Family, index: usize) -> [f64; ENDS] {
         let found = self.modes.iter().find(|mode| mode.family == family && mode.index == index);

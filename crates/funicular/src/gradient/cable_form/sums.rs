@@ -15,19 +15,26 @@ pub(super) struct ShapeColumns {
     rows: usize,
     /// The columns: one per direction of the platform end, then one per mode.
     columns: Vec<f64>,
+    /// One column per direction of the far end, in slow motion.
+    of_far: Vec<f64>,
 }
 
 impl ShapeColumns {
     /// Columns of these displacements, axis by axis.
     pub(super) fn of<const D: usize, const N: usize>(of: &Displacements<D, N>) -> Self {
-        let mut columns = Vec::with_capacity(D * of.still.len() * (D + of.modes.len()));
+        let rows = D * of.still.len();
+        let mut columns = Vec::with_capacity(rows * (D + of.modes.len()));
+        let mut of_far = Vec::with_capacity(rows * D);
         for direction in 0..D {
-            (0..D).for_each(|axis| columns.extend(of.still.iter().map(|psi| psi[axis][direction])));
+            for axis in 0..D {
+                columns.extend(of.still.iter().map(|psi| psi[axis][direction]));
+                of_far.extend(of.still.iter().map(|psi| psi[axis][D + direction]));
+            }
         }
         for mode in &of.modes {
             (0..D).for_each(|axis| columns.extend(mode.iter().map(|phi| phi[axis])));
         }
-        Self { rows: D * of.still.len(), columns }
+        Self { rows, columns, of_far }
     }
 
     /// Adds the displacements by a motion of the platform end and amplitudes of the modes.
@@ -36,6 +43,11 @@ impl ShapeColumns {
         for (columns, factors) in [(of_end, end), (of_modes, amplitudes)] {
             add_columns(displacements, columns, factors);
         }
+    }
+
+    /// Adds the slow displacements by a motion of the far end.
+    pub(super) fn add_far<T: Field>(&self, displacements: &mut [T], far: &[T]) {
+        add_columns(displacements, &self.of_far, far);
     }
 }
 

@@ -1,16 +1,16 @@
 //! Change of the robot per unit of each parameter, along which results are differentiated.
 
 use super::{Parameter, Parameters, RobotPart};
-use crate::math::{Vec3, Vec6, rotation};
+use crate::math::{Mat3, Vec3, Vec6, rotation};
 use crate::robot::spec::key::{Component, Shape};
-use crate::robot::{GuideWheelChange, PlatformMotion, Pulley, Robot, RobotChange, RopeSection};
+use crate::robot::{GuideWheelChange, PlatformMotion, Pulley, Robot, RobotChange, RopeSection, SupportChange};
 use std::f64::consts::TAU;
 
 impl Parameters {
     /// Change of the robot per unit of a parameter, in the unit of the file: the direction for derivatives of results
     /// with respect to the parameter. A value of a rope changes all its cables, an angle of the pose turns the platform.
-    /// `None` for numbers without derivatives: limits, the plane of a planar platform and angles that leave it, friction of
-    /// pulleys, and supports.
+    /// `None` for numbers without derivatives: limits, the plane of a planar platform and angles that leave it, and friction of
+    /// pulleys.
     ///
     /// # Example
     /// ```
@@ -48,12 +48,7 @@ impl Parameters {
                 (None, PlatformMotion::Planar(plane)) => {
                     change.inertia_p = plane.normal_w() * plane.normal_w().transpose();
                 }
-                (component, _) => {
-                    let entry = Shape::Tensor.components().iter().find(|(name, _)| Some(*name) == component)?.1;
-                    let Component::Entry(i, j) = entry else { return None };
-                    change.inertia_p[(i, j)] = 1.0;
-                    change.inertia_p[(j, i)] = 1.0;
-                }
+                (component, _) => change.inertia_p = tensor_entry(component)?,
             },
             (RobotPart::Platform, "translational_damping_n_s_m") => change.translational_damping_p = unit()?,
             (RobotPart::Platform, "rotational_damping_n_m_s") => change.rotational_damping_p = unit()?,
@@ -81,6 +76,7 @@ impl Parameters {
             (RobotPart::Winch, key) => self.winch_change(robot, parameter, key, &mut change)?,
             (RobotPart::GuideWheel, key) => self.guide_wheel_change(robot, parameter, key, &mut change)?,
             (RobotPart::Material, key) => self.material_change(parameter, key, unit(), &mut change)?,
+            (RobotPart::Support, key) => support_change(robot, parameter, key, &mut change)?,
             _ => return None,
         }
 
@@ -259,6 +255,32 @@ impl Parameters {
         }
         Some(())
     }
+}
+
+/// Symmetric tensor whose entry with this name is 1.
+fn tensor_entry(component: Option<&str>) -> Option<Mat3> {
+    let entry = Shape::Tensor.components().iter().find(|(name, _)| Some(*name) == component)?.1;
+    let Component::Entry(i, j) = entry else { return None };
+    let mut tensor = Mat3::zeros();
+    (tensor[(i, j)], tensor[(j, i)]) = (1.0, 1.0);
+    Some(tensor)
+}
+
+/// Change of a flexible support.
+fn support_change(robot: &Robot, parameter: &Parameter, key: &str, change: &mut RobotChange) -> Option<()> {
+    let name = parameter.keys.get(1)?;
+    let index = robot.supports.iter().position(|support| support.name == *name)?;
+    change.supports.resize(robot.supports.len(), SupportChange::default());
+    let change = &mut change.supports[index];
+    match (key, parameter.component) {
+        // A single number is the stiffness in all directions.
+        ("stiffness_n_per_m", None) => change.stiffness_w = Mat3::identity(),
+        ("stiffness_n_per_m", component) => change.stiffness_w = tensor_entry(component)?,
+        ("mass_kg", _) => change.mass = 1.0,
+        ("damping_ratio", _) => change.damping_ratio = 1.0,
+        _ => return None,
+    }
+    Some(())
 }
 
 /// Change of the pose that the state gives. Motions that the platform does not have are no changes.
