@@ -7,10 +7,12 @@ import numpy as np
 from matplotlib import pyplot
 from style import ROBOTS, save
 
-nominal = funicular.Robot.from_file(ROBOTS / "yuan2014-4mm.toml")
+# With 2 % of damping in the ropes, 150 lines show nearly every peak, and the search ends at its first start.
+damping = {"materials.rope-4mm.damping_ratio": 0.02}
+nominal = funicular.Robot.from_file(ROBOTS / "yuan2014-4mm.toml").with_(damping)
 # The measurement: responses of a robot with other values, and 2 % of noise.
 truth = {"platform.mass_kg": 11.1, "platform.center_of_mass_m.x": 0.012, "materials.rope-4mm.youngs_modulus_pa": 2.2e10}
-hz = np.linspace(0.6, 4, 500)
+hz = np.geomspace(0.6, 4, 150)
 points = {"input_point_m": [0.03, -0.02, 0.05], "output_point_m": [0.1, 0.08, 0.02]}
 random = np.random.default_rng(2014)
 # A measurement has the lines of its analyser, narrow peaks or not.
