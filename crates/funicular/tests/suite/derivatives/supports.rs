@@ -565,7 +565,7 @@ fn damping_ratios_on_supports_follow_every_number() {
         let rest = at_rest(robot).unwrap();
         let damped = |robot: &Robot, rest: &Equilibrium| {
             let dynamics = dynamics_of(robot, rest, CableModel::CatenaryDynamic);
-            let undamped = modes::below(&dynamics, 2.0);
+            let undamped = modes::below(&dynamics, 4.5);
             (modes::damped::damped_modes(&dynamics, &undamped).modes, dynamics)
         };
         let (here, dynamics) = damped(robot, &rest);
