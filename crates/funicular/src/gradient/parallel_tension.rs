@@ -2,7 +2,7 @@
 
 use super::GradientError;
 use super::adjoint::CableAdjoint;
-use crate::drive::derivatives::{DriveDerivatives, Row, place};
+use crate::drive::derivatives::place;
 use crate::math::Vec3;
 use crate::robot::Robot;
 use crate::statics::CableState;
@@ -31,10 +31,10 @@ impl ParallelTension {
         let hanging = state.hanging.as_ref().ok_or(StaticDerivativeError::Ideal)?;
         let mut tension = Self::at_state(robot, i, state, hanging.catenary.parallel_tension_by_length())?;
         // Over a pulley the length of the cable changes the chord, too.
-        if let Some(drive) = &partials.drive {
-            let by_length = |rows: &[Row; 3]| Vec3::from_fn(|k, _| rows[k][place::LENGTH]);
-            let DriveDerivatives { force_w, chord_w, .. } = &drive.by_outer;
-            tension.by_length = tension.force_w.dot(&by_length(force_w)) + tension.chord_w.dot(&by_length(chord_w));
+        if partials.drive.is_some() {
+            let mut coefficients = CableAdjoint::default();
+            tension.add(&mut coefficients, 1.0);
+            tension.by_length = by_length(&coefficients, partials);
         }
         Ok(tension)
     }
@@ -69,4 +69,16 @@ impl ParallelTension {
             sum.chord[k] += self.chord_w[k] * factor;
         }
     }
+}
+
+/// Derivative of a scalar of the state of one cable by its unstrained length: its coefficients times all that follows the
+/// length.
+pub(super) fn by_length(cable: &CableAdjoint<f64>, partials: &CablePartials) -> f64 {
+    let Some(drive) = &partials.drive else {
+        return cable.length + cable.free_length + partials.force_by_length_w.dot(&Vec3::from(cable.force));
+    };
+    let by = &drive.by_outer;
+    let rows = by.force_w.iter().chain(&by.chord_w).chain([&by.free_length]).chain(&by.end);
+    let coefficients = cable.force.iter().chain(&cable.chord).chain([&cable.free_length]).chain(&cable.end);
+    cable.length + coefficients.zip(rows).map(|(coefficient, row)| coefficient * row[place::LENGTH]).sum::<f64>()
 }

@@ -376,15 +376,6 @@ fn cable_pulled(
     (of_cable, chord_w, lever_w)
 }
 
-/// Derivative of a scalar of one cable by its unstrained length, all that follows from the length included.
-pub(super) fn by_length(cable: &CableAdjoint<f64>, partials: &CablePartials) -> f64 {
-    let followed = match &partials.drive {
-        Some(drive) => drive_pulled(cable, &drive.by_outer).length,
-        None => cable.free_length + partials.force_by_length_w.dot(&Vec3::from(cable.force)),
-    };
-    cable.length + followed
-}
-
 /// Coefficients of the numbers on which a cable at rest depends.
 #[derive(Default)]
 struct Outer {

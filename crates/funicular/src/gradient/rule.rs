@@ -10,8 +10,7 @@
 use super::GradientError;
 use super::adjoint::{Adjoint, CableAdjoint};
 use super::cable_form::CableForm;
-use super::parallel_tension::ParallelTension;
-use super::pullback::by_length;
+use super::parallel_tension::{ParallelTension, by_length};
 use crate::catenary::Catenary;
 use crate::drive::derivatives::end;
 use crate::math::{DMat, Vec3, Vec6};

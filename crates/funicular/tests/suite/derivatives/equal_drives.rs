@@ -13,6 +13,7 @@ use funicular::robot::{
 use funicular::statics::{self, Equilibrium, StaticModel, TensionRule};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
+use std::fmt::Write as _;
 
 /// Frequency limit of the lists [Hz].
 const BELOW_HZ: f64 = 7.0;
@@ -31,11 +32,8 @@ fn symmetric_robot(number: u64) -> Option<(Robot, Equilibrium, WinchMode)> {
         .to_owned();
     for i in 0..count {
         let (sine, cosine) = turned(i).sin_cos();
-        text += &format!(
-            "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = [{}, {}, 3.0]\n",
-            2.0 * cosine,
-            2.0 * sine
-        );
+        let anchor = [2.0 * cosine, 2.0 * sine, 3.0];
+        writeln!(text, "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}").unwrap();
     }
     let mut robot = Robot::from_toml(&text).unwrap();
 
@@ -160,7 +158,7 @@ fn modes_with_equal_drives_part_by_the_eigenvalues_of_their_blocks() {
                     let all = frequencies(h)?;
                     let parted = all.get(*first..first + count)?;
                     let sum = |m: i32| parted.iter().map(|of| (of - hz).powi(m)).sum::<f64>() / h.powi(m - 1);
-                    Some((1..=*count as i32).map(sum).collect::<Vec<f64>>())
+                    Some((1_i32..).take(*count).map(sum).collect::<Vec<f64>>())
                 };
                 let smooth = STEPS.into_iter().filter(|step| step * slope < 0.05 * gap).find_map(|step| {
                     let (differences, added) = drives::extrapolated(step, &mut powers)?;
@@ -183,11 +181,8 @@ fn modes_with_equal_drives_part_by_the_eigenvalues_of_their_blocks() {
                     power = &power * &matrix;
                 }
                 let at_rest = usize::from(modes[*first].shape.iter().all(|entry| entry.abs() <= 0.0));
-                if *count == 1 {
-                    single[at_rest] += 1
-                } else {
-                    shared[at_rest] += 1
-                };
+                let counts = if *count == 1 { &mut single } else { &mut shared };
+                counts[at_rest] += 1;
             }
         }
     }
