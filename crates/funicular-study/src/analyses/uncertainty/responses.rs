@@ -140,7 +140,7 @@ impl Responses {
 
     /// Number of a frequency.
     pub(super) fn place(&self, hz: f64) -> Option<usize> {
-        self.asked.at_hz.iter().position(|other| *other == hz)
+        self.asked.at_hz.iter().position(|other| other.to_bits() == hz.to_bits())
     }
 
     /// Value of a result at the frequency with this number.
@@ -213,7 +213,7 @@ struct NearMode {
 /// small against the response.
 ///
 /// # References
-/// docs/theory.md, equation (102a).
+/// docs/theory.md, equation (94d1).
 pub(super) fn test(
     rows: &mut [Row],
     of: &Responses,
