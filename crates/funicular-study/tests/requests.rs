@@ -143,7 +143,9 @@ fn requests() -> Vec<Value> {
                 &tensions,
                 &model,
                 &json!({
-                    "of": ["pose", "frequencies"], "deviations": ["platform.mass_kg=1%"],
+                    "at_hz": [1.0, 2.5], "input": "fz", "output": "az", "input_point_m": [0.1, 0.0, 0.0],
+                    "output_point_m": [0.0, 0.1, 0.0],
+                    "of": ["pose", "frequencies", "response"], "deviations": ["platform.mass_kg=1%"],
                     "tolerances": ["cables.*.anchor_m=0.001"], "hold": "pose", "method": "sampled", "samples": 50,
                     "seed": 3, "below_hz": 5.0, "poses": [[0.0, 0.0, 0.5, 0.0, 0.0, 0.0]],
                 }),
@@ -244,6 +246,7 @@ fn requests() -> Vec<Value> {
                 &tensions,
                 &model,
                 &json!({
+                    "profile": ["platform.*"],
                     "fit": [
                         { "path": "platform.mass_kg", "minimum": 1.0, "maximum": 30.0 },
                         { "path": "platform.center_of_mass_m.x", "prior": 0.0, "prior_std": 0.03 },

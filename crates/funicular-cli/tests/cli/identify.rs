@@ -177,7 +177,7 @@ fn damaged_files_are_refused_in_one_line() {
         bytes.extend(b"\n    -1\n");
         bytes
     };
-    refused(&binary(2), "the byte order 2 of the file is wrong");
+    refused(&binary(2), "(dataset 58b) the byte order of the file is wrong");
     refused(&binary(3), "byte order 3 (dataset 58b), it must be 1");
 }
 

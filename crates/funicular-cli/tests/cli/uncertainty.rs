@@ -215,3 +215,37 @@ fn requests_that_make_no_sense_are_refused_with_the_reason() {
     let output = run(&["uncertainty", "ROBOT", "--deviations", "platform=1%", "--pose", "30,0,1"]);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
 }
+
+#[test]
+fn deviations_of_a_response_are_those_of_its_real_and_imaginary_derivatives() {
+    let response = ["--of", "response", "--at-hz", "0.5", "--input", "fz", "--output", "az"];
+    let line = ["uncertainty", "ROBOT", "--deviations", SMALL, "--method", "linear"];
+    let found = json(&[&line[..], &response[..]].concat());
+    let line = ["gradient", "ROBOT", "--by", "platform.mass_kg,cables.*.anchor_m", "--per", "tolerance"];
+    let gradient = json(&[&line[..], &["--tolerances", SMALL], &response[..]].concat());
+    assert_eq!(found["response"]["unit"], "(m/s²)/N");
+
+    let parts = gradient["results"].as_array().unwrap();
+    let [re, im] = [0, 1].map(|k| number(&parts[k]["value"]));
+    let [by_re, by_im] =
+        [0, 1].map(|k| parts[k]["derivatives"].as_array().unwrap().iter().map(number).collect::<Vec<_>>());
+    let square = re * re + im * im;
+    let relative: Vec<[f64; 2]> = (by_re.iter().zip(&by_im))
+        .map(|(dr, di)| [(dr * re + di * im) / square, (di * re - dr * im) / square])
+        .collect();
+    let results = found["poses"][0]["results"].as_array().unwrap();
+    assert_eq!(results.len(), 2);
+    for (k, (result, (value, factor))) in (results.iter())
+        .zip([
+            (10.0 * square.log10(), 20.0 / std::f64::consts::LN_10),
+            (im.atan2(re).to_degrees(), 180.0 / std::f64::consts::PI),
+        ])
+        .enumerate()
+    {
+        let deviation = factor * relative.iter().map(|part| part[k].powi(2)).sum::<f64>().sqrt();
+        assert!((number(&result["value"]) - value).abs() < 1e-9, "{result} {value}");
+        // The list of modes goes on to another limit, with another rounding; the phase is 1e-3 of the response.
+        assert!((number(&result["deviation"]) / deviation - 1.0).abs() < 1e-7, "{result} {deviation}");
+        assert_eq!((&result["method"], number(&result["at_hz"])), (&"linear".into(), 0.5));
+    }
+}

@@ -7,11 +7,13 @@
 //! The work comes in parts that do not depend on each other: poses, then chunks of sampled robots. A front end runs them
 //! on its own threads and may keep the samples in a file, as those of a sweep.
 
+mod bend;
 mod distribution;
 mod inputs;
 mod linear;
 mod responses;
 mod results;
+mod row;
 mod sampling;
 mod statistics;
 
@@ -29,9 +31,10 @@ use crate::watch::Watch;
 use anyhow::{Result, anyhow, bail};
 use funicular::robot::Robot;
 use inputs::{Distribution, Input, Inputs};
-use linear::{LinearPose, Row};
+use linear::LinearPose;
 use responses::Asked;
 use results::GROUPS;
+use row::Row;
 use sampling::{SampleSet, SampleTable, Sampling};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -431,7 +434,10 @@ impl SamplePlan<'_> {
             models: Models::of(first, linearisation),
             held: request.hold.name(),
             held_means: super::gradient::meaning(first, request.hold),
-            response: self.study.asked.as_ref().map(Asked::description),
+            response: self.study.asked.as_ref().map(|asked| {
+                let (input, output, unit) = asked.names();
+                UncertainResponse { input: input.to_owned(), output: output.to_owned(), unit }
+            }),
             inputs: self.inputs(),
             groups: (inputs.groups.iter().enumerate())
                 .map(|(i, group)| InputGroup {

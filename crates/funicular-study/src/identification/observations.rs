@@ -230,12 +230,11 @@ fn of_response(
             response.imag.len()
         );
     }
-    if let Some(pair) = response.frequency_hz.windows(2).find(|pair| pair[0] >= pair[1]) {
+    let after = response.frequency_hz.iter().skip(1);
+    if let Some((before, after)) = response.frequency_hz.iter().zip(after).find(|(before, after)| before >= after) {
         bail!(
-            "{name}, response {of}: the frequencies must ascend, and {} Hz follows {} Hz: sort the lines, and give each \
-             frequency once",
-            pair[1],
-            pair[0]
+            "{name}, response {of}: the frequencies must ascend, and {after} Hz follows {before} Hz: sort the lines, and \
+             give each frequency once"
         );
     }
     let mut values = Vec::with_capacity(count);

@@ -25,6 +25,9 @@ const UNKNOWN: i64 = 0;
 const GENERAL: i64 = 1;
 const FREQUENCY: i64 = 18;
 
+/// Magnitudes of the numbers of a response; binary data that are read in a wrong byte order are soon outside.
+const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
+
 /// Type of function of a frequency response.
 pub(crate) const RESPONSE: i64 = 4;
 
@@ -113,6 +116,14 @@ impl Response<'_> {
 
         let factor = out_sign * in_sign * self.to_si(numerator, denominator, out_turns, in_turns)?;
         let Function { abscissae, values, .. } = self.function;
+        let parts = values.iter().flat_map(|value| [value.re, value.im]).chain(abscissae.iter().copied());
+        if let Some(number) = parts.into_iter().find(|number| *number != 0.0 && !MAGNITUDES.contains(&number.abs())) {
+            bail!(
+                "{} has the number {number:e}, which nobody measures: in binary data (dataset 58b) the byte order of the \
+                 file is wrong, or the data are damaged",
+                self.place()
+            );
+        }
         let [input_point_m, output_point_m] =
             [(reference, in_turns), (response, out_turns)].map(|(end, turns)| (!turns).then(|| self.point(end.node)));
         Ok(MeasuredResponse {

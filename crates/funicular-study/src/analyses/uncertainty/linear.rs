@@ -1,9 +1,10 @@
 //! Linear deviations at one pose, and the tests of where they hold.
 
-use super::distribution::half_width;
+use super::bend;
 use super::inputs::{Distribution, Inputs};
-use super::responses::{self, Asked, Responses};
+use super::responses::{Asked, Responses};
 use super::results::{NominalModes, ResultKind, static_gradients};
+use super::row::{Along, Row};
 use crate::analyses::gradient::held;
 use crate::at_rest::{self, AtRest};
 use crate::error::NoSolution;
@@ -44,67 +45,6 @@ pub(crate) struct LinearPose {
     pub(super) responses: Option<Responses>,
     /// Changes of the robot per unit of each number of the pose.
     pub(super) pose_changes: Vec<Option<RobotChange>>,
-}
-
-/// Result with its derivatives.
-#[derive(Clone)]
-pub(crate) struct Row {
-    /// Result.
-    pub(crate) kind: ResultKind,
-    /// Value for the undisturbed robot.
-    pub(crate) value: f64,
-    /// Derivatives by the numbers that deviate; absent for a result without a gradient.
-    pub(crate) derivatives: Option<Vec<f64>>,
-    /// Reason why linear deviations cannot be trusted; absent where they can.
-    pub(crate) doubt: Option<String>,
-}
-
-impl Row {
-    /// Contributions to the variance, one per number.
-    pub(crate) fn contributions(&self, distributions: &[Distribution]) -> Option<Vec<f64>> {
-        let derivatives = self.derivatives.as_ref()?;
-        Some(derivatives.iter().zip(distributions).map(|(j, of)| (j * of.deviation()).powi(2)).collect())
-    }
-
-    /// Standard deviation, and half width of the interval that holds 95 %.
-    pub(crate) fn spread(&self, distributions: &[Distribution]) -> Option<(f64, f64)> {
-        self.derivatives.as_ref().map(|derivatives| spread(derivatives, distributions))
-    }
-
-    /// Sum of the absolute changes over all tolerances: the linear worst case, which normal deviations do not have.
-    pub(crate) fn worst(&self, distributions: &[Distribution]) -> Option<f64> {
-        let derivatives = self.derivatives.as_ref()?;
-        Some(derivatives.iter().zip(distributions).filter_map(|(j, of)| Some((j * of.half_width()?).abs())).sum())
-    }
-}
-
-/// Standard deviation of a linear result, and half width of the interval that holds 95 %.
-fn spread(derivatives: &[f64], distributions: &[Distribution]) -> (f64, f64) {
-    let (mut normal, mut half_widths) = (0.0, Vec::new());
-    for (derivative, distribution) in derivatives.iter().zip(distributions) {
-        match distribution {
-            Distribution::Normal(deviation) => normal += (derivative * deviation).powi(2),
-            Distribution::Uniform(width) => half_widths.push((derivative * width).abs()),
-        }
-    }
-    let variance = normal + half_widths.iter().map(|width| width * width / 3.0).sum::<f64>();
-    (variance.sqrt(), half_width(normal, &half_widths))
-}
-
-/// Distance that `factor` standard deviations reach, within the tolerances where they bound it.
-fn reach(derivatives: &[f64], distributions: &[Distribution], factor: f64) -> f64 {
-    let (mut normal, mut uniform, mut bound) = (0.0, 0.0, 0.0);
-    for (derivative, distribution) in derivatives.iter().zip(distributions) {
-        let deviation = (derivative * distribution.deviation()).powi(2);
-        match distribution.half_width() {
-            None => normal += deviation,
-            Some(width) => {
-                uniform += deviation;
-                bound += (derivative * width).abs();
-            }
-        }
-    }
-    (factor * (normal + uniform).sqrt()).min(factor * normal.sqrt() + bound)
 }
 
 impl LinearPose {
@@ -151,14 +91,14 @@ impl LinearPose {
                 let along = Along { inputs, changes: &changes, distributions: &distributions };
                 differentiate(&mut rows, &gradients, modes.as_ref(), &along);
                 if let (Some(of), Some(modes)) = (&responses, &modes) {
-                    responses::differentiate(&mut rows, of, robot, &gradients, modes, &along);
+                    bend::differentiate(&mut rows, of, robot, &gradients, modes, &along);
                 }
                 test_tensions(&mut rows, robot, &gradients, &along);
                 if let Some(modes) = &modes {
                     test_frequencies(&mut rows, modes, &gradients, &along);
                 }
                 if let (Some(of), Some(modes)) = (&responses, &modes) {
-                    responses::test(&mut rows, of, robot, &gradients, modes, &along);
+                    bend::test(&mut rows, of, robot, &gradients, modes, &along);
                 }
             }
         }
@@ -215,7 +155,8 @@ fn rows(
     responses: Option<&Responses>,
 ) -> Vec<Row> {
     let value = |kind: ResultKind| match kind {
-        ResultKind::Magnitude(hz) | ResultKind::Phase(hz) => responses?.value(kind, responses?.place(hz)?),
+        ResultKind::Magnitude(hz) => responses.and_then(|of| Some(of.decibels(of.place(hz)?))),
+        ResultKind::Phase(hz) => responses.and_then(|of| Some(of.degrees(of.place(hz)?))),
         ResultKind::Frequency(k) => modes?.found.modes.get(k).map(|mode| mode.frequency_hz),
         ResultKind::Damping(k) => modes?.damped.get(k).map(funicular::modes::damped::DampedMode::damping_ratio),
         // A rotation is counted from here.
@@ -224,37 +165,6 @@ fn rows(
     };
     let row = |kind: &ResultKind| Some(Row { kind: *kind, value: value(*kind)?, derivatives: None, doubt: None });
     kinds.iter().filter_map(row).collect()
-}
-
-/// Directions along which results are differentiated.
-pub(super) struct Along<'a> {
-    inputs: &'a Inputs,
-    changes: &'a [Option<RobotChange>],
-    distributions: &'a [Distribution],
-}
-
-impl Along<'_> {
-    /// Directions of all numbers; the error names a number that has none.
-    pub(super) fn directions(&self) -> Result<Vec<RobotChange>, String> {
-        let direction = |(input, change): (&super::inputs::Input, &Option<RobotChange>)| {
-            change.clone().ok_or_else(|| format!("{} has no derivative", input.path))
-        };
-        self.inputs.list.iter().zip(self.changes).map(direction).collect()
-    }
-
-    /// Distance that `factor` standard deviations of a result with these derivatives reach.
-    pub(super) fn reach(&self, derivatives: &[f64], factor: f64) -> f64 {
-        reach(derivatives, self.distributions, factor)
-    }
-
-    /// Derivatives of a result by all numbers; the error names a number that has none.
-    pub(super) fn of(&self, gradient: &RobotChange) -> Result<Vec<f64>, String> {
-        let derivative = |(input, change): (&super::inputs::Input, &Option<RobotChange>)| match change {
-            Some(change) => Ok(gradient.dot(change) + 0.0),
-            None => Err(format!("{} has no derivative", input.path)),
-        };
-        self.inputs.list.iter().zip(self.changes).map(derivative).collect()
-    }
 }
 
 /// Adds the derivatives of all rows, or the reasons why they have none.
@@ -308,7 +218,7 @@ fn test_tensions(rows: &mut [Row], robot: &Robot, gradients: &Gradients, along: 
             continue;
         }
         let distance = if chosen { margin.distance().min(margin.min) } else { margin.min };
-        let reached = reach(&derivatives, along.distributions, TENSION_DEVIATIONS);
+        let reached = along.reach(&derivatives, TENSION_DEVIATIONS);
         if reached >= distance {
             let reason = tension_reason(robot, i, chosen, reached, distance);
             for row in rows.iter_mut() {
@@ -344,18 +254,16 @@ fn test_frequencies(rows: &mut [Row], modes: &NominalModes, gradients: &Gradient
         let (gap, reached) = match (list.get(k + 1), derivatives.get(k + 1)) {
             (Some(next), Some(Some(other))) => {
                 let difference: Vec<f64> = other.iter().zip(own).map(|(a, b)| a - b).collect();
-                let reached = reach(&difference, along.distributions, FREQUENCY_DEVIATIONS);
+                let reached = along.reach(&difference, FREQUENCY_DEVIATIONS);
                 (next.frequency_hz - list[k].frequency_hz, reached)
             }
             // A neighbour that shares its frequency has no single derivative; its own deviation is taken as equal.
             (Some(next), _) => {
-                let reached = 2.0 * reach(own, along.distributions, FREQUENCY_DEVIATIONS);
+                let reached = 2.0 * along.reach(own, FREQUENCY_DEVIATIONS);
                 (next.frequency_hz - list[k].frequency_hz, reached)
             }
             // No further mode up to the end of the list.
-            (None, _) => {
-                (modes.found.below_hz - list[k].frequency_hz, reach(own, along.distributions, FREQUENCY_DEVIATIONS))
-            }
+            (None, _) => (modes.found.below_hz - list[k].frequency_hz, along.reach(own, FREQUENCY_DEVIATIONS)),
         };
         if reached >= gap {
             let number = |value: f64| crate::text::significant(value, 3);

@@ -169,9 +169,13 @@ pub(super) fn values(
     let of_responses = responses.filter(|_| !is_unstable).and_then(|of| of.changes(robot, rest, linearisation));
 
     let value = |kind: &ResultKind| match *kind {
-        ResultKind::Magnitude(hz) | ResultKind::Phase(hz) => {
+        ResultKind::Magnitude(hz) => {
             let place = responses?.place(hz)?;
-            Some(responses?.value(*kind, place)? + of_responses.as_ref()?.get(place)?.of(*kind))
+            Some(responses?.decibels(place) + of_responses.as_ref()?.get(place)?.decibels())
+        }
+        ResultKind::Phase(hz) => {
+            let place = responses?.place(hz)?;
+            Some(responses?.degrees(place) + of_responses.as_ref()?.get(place)?.degrees())
         }
         ResultKind::Frequency(k) => found.as_ref()?.1.modes.get(k).map(|mode| mode.frequency_hz),
         ResultKind::Damping(k) => damped.as_ref()?.get(k).map(modes::damped::DampedMode::damping_ratio),
