@@ -274,8 +274,8 @@ impl<'a> IdentifiedModel<'a> {
         Some(columns)
     }
 
-    /// Derivatives of the predictions of an experiment by a coordinate, by central differences over a step; one-sided ones at a bound
-    /// or beside a robot without equilibrium.
+    /// Derivatives of the predictions of an experiment by a coordinate, by central differences over a step; one-sided
+    /// ones at a bound or beside a robot without equilibrium.
     fn differences(&mut self, x: &[f64], number: usize, here: &Solved, k: usize, step: f64) -> Option<Vec<Complex>> {
         let (low, high) = self.unknowns[k].coordinate_bounds();
         let mut at = |shift: f64| -> Option<Vec<Complex>> {

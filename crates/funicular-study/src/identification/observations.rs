@@ -330,7 +330,7 @@ pub(super) fn observations(experiment: &Experiment, name: &str, request: &Identi
             let damping = positive("damping_ratio", damping)?;
             if damping >= 1.0 {
                 bail!(
-                    "{name}, damping_ratio: {damping} is not below 1, the ratio of a mode that does not vibrate: 0.4 % is 0.004"
+                    "{name}, damping_ratio: {damping} is not below 1, where nothing vibrates any more: 0.4 % is 0.004"
                 );
             }
             let deviation = request.damping_noise / frequency.weight.unwrap_or(1.0).sqrt();
