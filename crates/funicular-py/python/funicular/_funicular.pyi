@@ -779,7 +779,7 @@ class Robot(Analyses):
         RobotFileError
             The text is not a valid robot file; the message shows its lines.
         """
-    def identify(self, /, fit: Any, experiments: Any, *, starts: SupportsIndex = 10, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex = 0.02, frequency_noise: SupportsFloat | SupportsIndex = 0.01, damping_noise: SupportsFloat | SupportsIndex = 0.1, rigid_cables: bool = False, pose: Any | None = None, lengths_m: Any | None = None, static_model: str = "catenary", hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: Any | None = None, moment_n_m: Any | None = None, load_point_m: Any | None = None, wind_m_s: Any | None = None, cable_load_n_per_m: Any | None = None, tension_rule: str | None = None, target_tension_n: Any | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> Identified:
+    def identify(self, /, fit: Any, experiments: Any, *, starts: SupportsIndex = 10, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex = 0.02, frequency_noise: SupportsFloat | SupportsIndex = 0.01, damping_noise: SupportsFloat | SupportsIndex = 0.1, rigid_cables: bool = False, profile: SupportsGetItem[int, str] | None = None, pose: Any | None = None, lengths_m: Any | None = None, static_model: str = "catenary", hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: Any | None = None, moment_n_m: Any | None = None, load_point_m: Any | None = None, wind_m_s: Any | None = None, cable_load_n_per_m: Any | None = None, tension_rule: str | None = None, target_tension_n: Any | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> Identified:
         """
         Finds the values of the robot file that fit measurements best, with their deviations.
 
@@ -801,6 +801,9 @@ class Robot(Analyses):
             Relative deviations of measurements that have none.
         rigid_cables
             Natural frequencies with cables that are rigid in length; with the static model `ideal`.
+        profile
+            Paths of fitted values whose interval of 95 % is also found by holding the value and fitting the others again;
+            `details["values"]` has it under `profile`. * stands for any key.
 
         The other parameters are those of `equilibrium` and of `modes`; those of the state belong to every experiment that
         does not give them itself.
@@ -983,7 +986,7 @@ class Robot(Analyses):
         """
         Returns the text of the robot file with all changes.
         """
-    def uncertainty(self, /, deviations: Any | None = None, tolerances: Any | None = None, of: SupportsGetItem[int, str] | None = None, *, hold: str = "lengths", below_hz: SupportsFloat | SupportsIndex | None = None, poses: ArrayLike | None = None, method: str = "automatic", samples: SupportsIndex = 200, seed: SupportsIndex = 0, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, samples_file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Uncertainty:
+    def uncertainty(self, /, deviations: Any | None = None, tolerances: Any | None = None, of: SupportsGetItem[int, str] | None = None, *, hold: str = "lengths", below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: ArrayLike | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, poses: ArrayLike | None = None, method: str = "automatic", samples: SupportsIndex = 200, seed: SupportsIndex = 0, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, samples_file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Uncertainty:
         """
         Computes the deviations of results from deviations or tolerances of numbers of the robot file.
 
@@ -999,12 +1002,15 @@ class Robot(Analyses):
         tolerances
             Tolerances of numbers that are anywhere within ± their tolerance, in the same form.
         of
-            Results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`; the first and the third if
-            not given.
+            Results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`; the first and the
+            third if not given.
         hold
             What stays while the numbers deviate: `lengths`, `pose`, or `rule` (the pose and the rule of the tensions).
         below_hz
             Upper limit of the frequencies [Hz]; for frequencies and damping.
+        at_hz, input, output, input_point_m, output_point_m
+            Frequencies [Hz], one or several, signals and points of the response. Results are its magnitudes in decibels of
+            its unit, and its phases in degrees.
         poses
             Several poses, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
         method
