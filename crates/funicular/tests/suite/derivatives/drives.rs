@@ -336,7 +336,8 @@ fn linearised(robot: &Robot, rest: &Equilibrium, winches: WinchMode, cable_model
 }
 
 /// True if the error of a derivative is that of the differences: 1e-8 of the largest derivative of the row, what the
-/// extrapolation adds, and rounding of the value over the step.
+/// extrapolation adds, and noise of the value over the step. The noise is what forward statics leaves: responses of light
+/// cables in wind scatter by 6e-10, and differences by this over their step, while the gradient stays the same.
 fn agrees(ours: f64, (difference, added): (f64, f64), largest: f64, rounding: f64) -> bool {
     (ours - difference).abs() <= 1e-8 * largest + added + rounding
 }
@@ -412,6 +413,7 @@ fn compare(
     values: &dyn Fn(&Robot, &Equilibrium) -> Option<Vec<f64>>,
 ) -> Result<(), TestCaseError> {
     let step = 0.02;
+    let smallest_step = 0.25 * step;
     let here = values(robot, rest).unwrap();
     let rows: Vec<Vec<f64>> = (0..all.len()).map(ours).collect();
     for (d, (what, change)) in all.iter().enumerate().skip(first).step_by(count) {
@@ -423,7 +425,7 @@ fn compare(
         for (i, difference) in differences.iter().enumerate() {
             let largest = rows.iter().fold(0.0, |most: f64, row| most.max(row[i].abs()));
             prop_assert!(
-                agrees(rows[d][i], (*difference, added[i]), largest, digits * here[i].abs() / step),
+                agrees(rows[d][i], (*difference, added[i]), largest, digits * here[i].abs() / smallest_step),
                 "{what}, value {i} {}: {} {difference}, largest {largest}, added {}",
                 here[i],
                 rows[d][i],
