@@ -222,7 +222,7 @@ fn a_robot_on_posts_has_derivatives_by_the_numbers_of_its_supports() {
 
 #[test]
 fn requests_without_derivatives_are_refused_with_the_reason() {
-    let (cogiro, winches) = (robot("cogiro.toml"), robot("cogiro-winches.toml"));
+    let cogiro = robot("cogiro.toml");
     for (arguments, expected) in [
         (&["gradient", "ROBOT"][..], "`frequencies` needs --below-hz"),
         (&["gradient", "ROBOT", "--of", "tension"], "did you mean `tensions`?"),
@@ -252,10 +252,6 @@ fn requests_without_derivatives_are_refused_with_the_reason() {
                 "stiffest",
             ],
             "rule `stiffest` have no derivatives",
-        ),
-        (
-            &["gradient", &winches, "--of", "lengths", "--hold", "rule", "--pose", "0,0,1.5"],
-            "runs over a pulley or to a winch: tensions that follow their rule have derivatives",
         ),
         (&["gradient", &cogiro, "--of", "pose", "--pose", "0,0,1.5", "--static-model", "ideal"], "need elastic cables"),
         (
