@@ -272,8 +272,13 @@ fn profiled(parameters: &Parameters, unknowns: &[Unknown], paths: &[String]) -> 
 /// Sentence on a profile that falls below the minimum; `None` if it does not.
 fn lower(row: &ValueRow, profile: &Profile, chi2: f64, factor: f64) -> Option<String> {
     let lowest = profile.points.iter().min_by(|a, b| a.chi2_rise.total_cmp(&b.chi2_rise)).filter(|_| profile.falls)?;
+    // Measurements without noise hold the value to more digits than the search: there is nothing to say.
+    let same = 1e-6 * row.value.abs();
+    if (lowest.value - row.value).abs() <= same {
+        return None;
+    }
     Some(format!(
-        "the search has missed the best values: with {0} = {1} the measurements fit better, χ² = {2}; give ⟪set⟫ {0}={1} and          identify again",
+        "the search has missed the best values: with {0} = {1} the measurements fit better, χ² = {2}; give ⟪set⟫ {0}={1} and identify again",
         row.path,
         significant(lowest.value, 6),
         significant(chi2 + factor * factor * lowest.chi2_rise, 5)

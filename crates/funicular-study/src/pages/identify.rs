@@ -256,7 +256,8 @@ fn correlations(found: &Identified) -> Figure {
     })];
     Figure::new(
         "figure-correlations",
-        160 + 34 * found.values.len(),
+        // The margins with the names, and a row per value; below that the numbers of the scale touch.
+        260 + 34 * found.values.len(),
         "Correlations of the values, priors included.",
         &data,
         json!({"margin": {"l": 230, "b": 170}, "yaxis": {"autorange": "reversed"}}),
