@@ -17,7 +17,7 @@ SWITCHES = {
     *("--platform", "--hold-lengths-of-pose", "--friction-interval", "--rigid-cables"),
 }
 # Options that may be given several times.
-LISTS = {"reduce": {"--input", "--output"}}
+LISTS = {"reduce": {"--input", "--output"}, "identify": {"--profile"}}
 
 
 def commands(executable: str) -> list[str]:
@@ -128,7 +128,7 @@ def chosen(text: str) -> dict[str, Any]:
 
 # Options of `identify` that belong to the request; the others belong to its experiment.
 OF_REQUEST = {"starts", "from_hz", "to_hz", "response_noise", "frequency_noise", "damping_noise", "rigid_cables"}
-OF_REQUEST |= {"tension_rule", "target_tension_n", "min_tension_n", "max_tension_n"}
+OF_REQUEST |= {"profile", "tension_rule", "target_tension_n", "min_tension_n", "max_tension_n"}
 OF_REQUEST |= {"cable_model", "assembly", "in_plane_only", "winches"}
 
 

@@ -63,6 +63,8 @@ MORE = [
     f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1%,materials=2% --of tensions,frequencies,damping --below-hz 1.3 "
     "--method linear --pose 0,0,0.5 --hold-lengths-of-pose",
     f"funicular uncertainty robots/cogiro.toml {TENSIONS} {STATE} --tolerances cables.*.anchor_m=0.001 --hold pose --of lengths,stiffness-min",
+    f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1% --of response --at-hz 0.8,1.2 --input fz --output az "
+    "--input-point-m 0.1,0,0 --output-point-m 0,0.1,0",
     f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1% --method sampled --samples 20 --seed 3 {LENGTHS} {MODEL}",
     f"funicular cable {ROBOT} --name 3 {RANGE}",
     f"funicular cable {ROBOT} --name 3 {RANGE} --log --pose 0,0,0.5 {STATE} --cable-model shallow-dynamic "
@@ -84,7 +86,8 @@ MORE = [
     "funicular identify robots/cogiro.toml --fit platform.mass_kg=80:200 --prior platform.mass_kg=93±10 --measured response.csv "
     "--response a1=az/fz --input-point-m 0.1,0,0 --output-point-m 0,0,0.1 --from-hz 0.5 --to-hz 3 --response-noise 0.03 "
     f"--starts 1 --pose 1,2,1.5 --hold-lengths-of-pose {MODEL}",
-    f"funicular identify {ROBOT} --fit platform.mass_kg --measured test.uff --node 1=0.1,0,0 --node 2=0,0,0.1 --starts 1 {STATE}",
+    f"funicular identify {ROBOT} --fit platform.mass_kg --measured test.uff --node 1=0.1,0,0 --node 2=0,0,0.1 --starts 1 "
+    f"--profile platform.mass_kg {STATE}",
     f"funicular identify {ROBOT} --fit platform.center_of_mass_m.x --prior platform.center_of_mass_m.x=0±0.02 {LENGTHS} "
     "--measured-pose 0.02,0.01,0.45,0.1,2.9,-0.2 --position-std-m 0.002 --rotation-std-deg 0.2 "
     "--measured-tensions-n 17,36,40,15,50,52 --tension-std-n 2",

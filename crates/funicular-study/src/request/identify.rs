@@ -36,7 +36,7 @@ pub struct IdentifyRequest {
     #[serde(default)]
     pub rigid_cables: bool,
     /// Paths of fitted values whose profiles are computed, in which `*` stands for any key.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     pub profile: Vec<String>,
     /// Rule and limits of tensions.
     #[serde(flatten)]
