@@ -27,7 +27,7 @@ fn platform_hz(text: &str, pose: [f64; 3]) -> f64 {
     platform_hz_by(text, pose, &json!({"target_tension_n": [350.0]}))
 }
 
-/// The same with tensions by a rule.
+/// Gradients with tensions that follow a rule.
 fn platform_hz_by(text: &str, pose: [f64; 3], rule: &Value) -> f64 {
     let mut request = json!({
         "command": "modes", "robot": {"text": text}, "pose": pose, "below_hz": 20.0, "cable_model": "catenary-static",

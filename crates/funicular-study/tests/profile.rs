@@ -107,7 +107,7 @@ fn a_curved_profile_is_asymmetric_and_agrees_with_fits_at_held_values() {
     let [low, high] = row.interval_95.unwrap();
     assert!(((row.value / low).ln() - (high / row.value).ln()).abs() < 1e-9, "the deviation is symmetric");
 
-    // The same robot with this stiffness in its file, and the mass fitted alone.
+    // A robot with this stiffness in its file, and the mass fitted alone.
     let factor = found.deviation_factor.powi(2);
     let rise = |value: f64| {
         let fit = json!([{"path": "platform.mass_kg"}]);

@@ -251,8 +251,8 @@ impl<'a> Gradients<'a> {
     /// Prepares the gradients of an equilibrium.
     ///
     /// # Errors
-    /// [`GradientError::Static`]: ideal or slack cables, an indifferent equilibrium, too few cables to
-    /// hold the pose; [`GradientError::Vertical`]; [`GradientError::NoRule`] for [`Hold::Rule`], which needs [`Self::by_rule`].
+    /// [`GradientError::Static`]: ideal or slack cables, an indifferent equilibrium, too few cables to hold the pose;
+    /// [`GradientError::Vertical`]; [`GradientError::NoRule`] for [`Hold::Rule`], which needs [`Self::by_rule`].
     pub fn new(robot: &'a Robot, equilibrium: &'a Equilibrium, hold: Hold) -> Result<Self, GradientError> {
         if hold == Hold::Rule {
             return Err(GradientError::NoRule);

@@ -139,7 +139,7 @@ pub struct CatenaryDynamicEnd {
     pub(crate) shapes: Option<Box<Stations>>,
 }
 
-/// What happens to the shapes of the clamped modes of a cable once its poles and residues are known.
+/// Choice to drop or to keep the shapes of the clamped modes of a cable once its poles and residues are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shapes {
     /// They are never formed.

@@ -101,7 +101,7 @@ impl<'a> Pullback<'a> {
             return Err(StaticDerivativeError::CableCount { cables: count, degrees_of_freedom }.into());
         }
 
-        // What the balances of platform and supports contain of all that follows, by unit multipliers.
+        // Balances of platform and supports with unit multipliers: the coefficients of all that follows.
         let settled = all.settled();
         let of_platform: Vec<Followed> = (0..degrees_of_freedom)
             .map(|k| {
@@ -114,7 +114,7 @@ impl<'a> Pullback<'a> {
         let units = all.supports.iter().flat_map(SupportsAtRest::units);
         let of_supports: Vec<Followed> = units.map(|scalar| all.followed(&scalar, hold)).collect();
 
-        // Of redundant cables the parallel tensions change least.
+        // The parallel tensions of redundant cables change least.
         let tensions = if hold == Hold::Lengths || count == degrees_of_freedom {
             None
         } else {

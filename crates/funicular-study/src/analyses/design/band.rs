@@ -52,7 +52,7 @@ pub(crate) fn others(poses: &[Places]) -> (Vec<Sides>, usize) {
     let fewest = concerned().map(|of| of.below).min().unwrap_or(0);
     let most = concerned().map(|of| of.not_above).max().unwrap_or(0);
 
-    // The same number everywhere.
+    // Every way of asking gives this number.
     let common = |number: usize| -> Sides {
         poses.iter().map(|of| of.in_band().then(|| number.clamp(of.below, of.not_above))).collect()
     };
