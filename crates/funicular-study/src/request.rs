@@ -212,11 +212,15 @@ impl Request {
         let Value::Object(understood) = request.to_value() else {
             unreachable!("a request is serialised as an object")
         };
-        let unknown = given.keys().find(|key| !understood.contains_key(*key));
-        if let Some(unknown) = unknown.or_else(|| identify::unknown_key(&given, &understood)) {
+        if let Some(unknown) = given.keys().find(|key| !understood.contains_key(*key)) {
             let names: Vec<String> = KEYS.iter().map(|(key, _)| (*key).to_owned()).collect();
             let nearest = suggestion(unknown, &names);
             return Err(anyhow!("a request of `{}` has no key `{unknown}`{nearest}", request.command()).into());
+        }
+        if let Some(unknown) = identify::unknown_key(&given, &understood) {
+            let is_of_requests = KEYS.iter().any(|(key, _)| key == unknown);
+            let place = if is_of_requests { "; it is a key of requests and stands beside `experiments`" } else { "" };
+            return Err(anyhow!("an experiment has no key `{unknown}`{place}").into());
         }
 
         Ok(request)

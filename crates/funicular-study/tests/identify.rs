@@ -410,6 +410,7 @@ fn requests_that_cannot_be_answered_say_why() {
         ("experiments", json!([]), "`experiments` is empty"),
         ("experiments", json!([{}]), "has no measurement"),
         ("experiments", json!([{"frequencys": []}, {"lengths": [1.0]}]), "has no key `lengths`"),
+        ("experiments", json!([{"profile": ["platform.mass_kg"]}]), "`profile`; it is a key of requests and stands"),
         ("experiments", json!([{"cables": ["9"], "frequencies": [{"frequency_hz": 2.0}]}]), "no cable \"9\""),
         ("experiments", json!([{"frequencies": [{"frequency_hz": -2.0}]}]), "-2 is not positive"),
         ("experiments", json!([{"measured_tensions_n": [1.0]}]), "1 numbers for 6 cables"),

@@ -68,9 +68,15 @@ pub(super) fn request(args: &IdentifyArgs, robot: RobotText) -> Result<IdentifyR
 
     let mut fit = args.fit.clone();
     for prior in &args.prior {
-        let Some(value) = fit.iter_mut().find(|value| value.path == prior.path) else {
-            bail!("⟪prior⟫ {}: no ⟪fit⟫ has this path", prior.path);
+        let Some(place) = fit.iter().position(|value| value.path == prior.path) else {
+            let fitted: Vec<&str> = fit.iter().map(|value| value.path.as_str()).collect();
+            bail!(
+                "⟪prior⟫ {}: no ⟪fit⟫ has this path; ⟪fit⟫ is given for each value by itself, and was given for `{}`",
+                prior.path,
+                fitted.join("`, `"),
+            );
         };
+        let value = &mut fit[place];
         *value = FitValue { prior: prior.prior, prior_std: prior.prior_std, ..value.clone() };
     }
     Ok(IdentifyRequest {

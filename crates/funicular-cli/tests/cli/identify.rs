@@ -94,6 +94,7 @@ fn wrong_files_and_values_are_refused_with_their_place() {
         ("a.csv", "frequency_hz,a_re,a_im\n1,2,3\n", &[], "give --response a=OUTPUT/INPUT"),
         ("a.csv", "frequency_hz\nx\n", &[], "line 2, column `frequency_hz`: `x` is not a number"),
         ("a.csv", "frequency_hz\n1\n", &["--prior", "platform.inertia_kg_m2=1±1"], "no --fit has this path"),
+        ("a.csv", "frequency_hz\n1\n", &["--prior", "platform.mass=1±1"], "and was given for `platform.mass_kg`"),
     ] {
         let told = measured(name, text, more);
         assert!(told.contains(says), "{told}");
