@@ -217,11 +217,7 @@ impl Request {
             let nearest = suggestion(unknown, &names);
             return Err(anyhow!("a request of `{}` has no key `{unknown}`{nearest}", request.command()).into());
         }
-        if let Some(unknown) = identify::unknown_key(&given, &understood) {
-            let is_of_requests = KEYS.iter().any(|(key, _)| key == unknown);
-            let place = if is_of_requests { "; it is a key of requests and stands beside `experiments`" } else { "" };
-            return Err(anyhow!("an experiment has no key `{unknown}`{place}").into());
-        }
+        identify::check_keys(&given, &understood)?;
 
         Ok(request)
     }

@@ -1,5 +1,6 @@
 //! Request of `identify`: measurements in one or several states, and the values to find.
 
+use super::keys::KEYS;
 use super::parts::{Model, Pose, RobotText, State, Tensions};
 use crate::measurements::{MeasuredFrequency, MeasuredResponse};
 use serde::{Deserialize, Serialize};
@@ -58,9 +59,7 @@ impl IdentifyRequest {
             .map_err(|error| anyhow::anyhow!("it is not a list of experiments: {error}"))?;
         let understood = serde_json::to_value(&experiments)?;
         let as_key = |list: Value| Map::from_iter([("experiments".to_owned(), list)]);
-        if let Some(unknown) = unknown_key(&as_key(given), &as_key(understood)) {
-            anyhow::bail!("an experiment has no key `{unknown}`");
-        }
+        check_keys(&as_key(given), &as_key(understood))?;
         Ok(experiments)
     }
 }
@@ -126,16 +125,25 @@ pub struct Experiment {
     pub length_std_m: Option<f64>,
 }
 
-/// Key of an experiment that no experiment has. Fields that are spread over groups cannot refuse one themselves.
-pub(super) fn unknown_key<'a>(given: &'a Map<String, Value>, understood: &Map<String, Value>) -> Option<&'a String> {
-    let (Value::Array(given), Value::Array(understood)) = (given.get("experiments")?, understood.get("experiments")?)
+/// Checks that experiments have no unknown key. Fields that are spread over groups cannot refuse one themselves.
+///
+/// # Errors
+/// A key that no experiment has.
+pub(super) fn check_keys(given: &Map<String, Value>, understood: &Map<String, Value>) -> anyhow::Result<()> {
+    let (Some(Value::Array(given)), Some(Value::Array(understood))) =
+        (given.get("experiments"), understood.get("experiments"))
     else {
-        return None;
+        return Ok(());
     };
-    given.iter().zip(understood).find_map(|pair| {
+    let unknown = given.iter().zip(understood).find_map(|pair| {
         let (Value::Object(given), Value::Object(understood)) = pair else { return None };
         given.iter().find(|(key, value)| !understood.contains_key(*key) && !is_empty(value)).map(|(key, _)| key)
-    })
+    });
+    let Some(unknown) = unknown else { return Ok(()) };
+
+    let is_of_requests = KEYS.iter().any(|(key, _)| key == unknown);
+    let place = if is_of_requests { "; it is a key of requests and stands beside `experiments`" } else { "" };
+    anyhow::bail!("an experiment has no key `{unknown}`{place}")
 }
 
 /// True for a value that is not written again because it is empty.
