@@ -212,17 +212,32 @@ const space = (function () {
       .forEach(function (part) { part.draw(); });
     texts.forEach(function (draw) { draw(); });
   }
-  // Address of a scene as SVG. Plotly draws title, legend and colour bar as lines and texts, and the scene as a picture
-  // of pixels, which is replaced.
+  // Place of a scene inside its figure, in pixels.
+  function boundsOf(place) {
+    const full = place._fullLayout, inner = full._size, [x, y] = [full.scene.domain.x, full.scene.domain.y];
+    return { x: inner.l + inner.w * x[0], y: inner.t + inner.h * (1 - y[1]), width: inner.w * (x[1] - x[0]), height: inner.h * (y[1] - y[0]) };
+  }
+  // Title, legend and colour bar of a figure, as plotly writes them to SVG. Its traces lie in a plane and have one point
+  // that is not drawn: plotly would draw a scene once more as pixels, which takes seconds without a graphics card.
+  function surroundings(place) {
+    const data = place.data.map(function (trace) {
+      const point = trace.x.length > 0 ? [null] : [];
+      return Object.assign({}, trace, { type: "scatter", x: point, y: point });
+    });
+    const layout = Object.assign({}, place.layout, { xaxis: { visible: false }, yaxis: { visible: false } });
+    delete layout.scene;
+    return Plotly.toImage({ data: data, layout: layout }, { format: "svg", width: place.clientWidth, height: place.clientHeight });
+  }
+  // Address of a scene as SVG.
   async function svgOf(place) {
-    const flat = await Plotly.toImage(place, { format: "svg", width: place.clientWidth, height: place.clientHeight });
+    const flat = await surroundings(place), bounds = boundsOf(place), record = recorder(bounds.width, bounds.height);
     const tree = new DOMParser().parseFromString(decodeURIComponent(flat.slice(flat.indexOf(",") + 1)), "image/svg+xml");
-    const picture = tree.querySelector("image"), width = Number(picture.getAttribute("width")), height = Number(picture.getAttribute("height"));
-    const record = recorder(width, height);
-    paint(record, place, width, height);
-    const drawn = new DOMParser().parseFromString(record.text(), "image/svg+xml").documentElement;
-    ["x", "y"].forEach(function (name) { drawn.setAttribute(name, picture.getAttribute(name)); });
-    picture.replaceWith(tree.importNode(drawn, true));
+    paint(record, place, bounds.width, bounds.height);
+    const drawn = tree.importNode(new DOMParser().parseFromString(record.text(), "image/svg+xml").documentElement, true);
+    ["x", "y"].forEach(function (name) { drawn.setAttribute(name, bounds[name]); });
+    // Under title, legend and colour bar.
+    const over = tree.querySelector(".infolayer");
+    if (over) { over.before(drawn); } else { tree.documentElement.append(drawn); }
     return address(new XMLSerializer().serializeToString(tree));
   }
   return { path: path, stroke: stroke, scales: scales, recorder: recorder, address: address, svgOf: svgOf };
