@@ -240,6 +240,10 @@ trait Rows {
     fn each(&self, take: &mut dyn FnMut(Chunk) -> io::Result<()>) -> io::Result<()>;
 }
 
+/// Rows per row group of a Parquet file and per batch of a table in memory.
+#[cfg(any(feature = "arrow", feature = "parquet"))]
+const GROUP_ROWS: usize = 1 << 16;
+
 /// Ending added to the name of a file of rows for the journal of an unfinished run.
 const JOURNAL: &str = ".partial";
 

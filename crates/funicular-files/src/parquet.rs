@@ -4,7 +4,7 @@ mod arrow_schema;
 mod columns;
 
 use crate::sealed::{self, Seal, SealingWriter};
-use crate::{FilesError, Format, Rows};
+use crate::{FilesError, Format, GROUP_ROWS, Rows};
 use ::parquet::basic::Compression;
 use ::parquet::errors::ParquetError;
 use ::parquet::file::metadata::KeyValue;
@@ -18,9 +18,6 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
 use std::sync::Arc;
-
-/// Rows per row group; this many are in memory at a time.
-pub(crate) const GROUP_ROWS: usize = 1 << 16;
 
 /// Keys of the file's metadata.
 const PLAN: &str = "funicular.plan";

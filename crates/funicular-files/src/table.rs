@@ -1,8 +1,8 @@
 //! Rows of a sweep in memory: the result of a sweep without a file, or the content of a file.
 
 use crate::arrow::{self, ColumnBuilders};
-use crate::parquet::{GROUP_ROWS, ParquetFile};
-use crate::{FilesError, Format, Rows, journal, merge, write_complete};
+use crate::parquet::ParquetFile;
+use crate::{FilesError, Format, GROUP_ROWS, Rows, journal, merge, write_complete};
 use arrow_array::RecordBatch;
 use arrow_schema::{ArrowError, Schema};
 use funicular_study::sweep::{Chunk, Record, Values};

@@ -341,7 +341,7 @@ fn numbers(at_rest: &AtRest, modes: Option<&Modes>, size: FrameSize) -> Vec<f64>
         }
         None => [0.0; 4],
     });
-    debug_assert_eq!(numbers.len(), HEADER);
+    assert_eq!(numbers.len(), HEADER);
 
     // Cables.
     for (i, cable) in equilibrium.cables.iter().enumerate() {

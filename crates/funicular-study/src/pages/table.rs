@@ -57,7 +57,7 @@ impl PageTable {
 
     /// Adds a row with a class of the style sheet.
     pub(crate) fn marked_row(&mut self, class: &'static str, cells: Vec<String>) {
-        debug_assert_eq!(cells.len(), self.columns.len(), "a cell for every column of {}", self.id);
+        assert_eq!(cells.len(), self.columns.len(), "a cell for every column of {}", self.id);
         self.rows.push(TableRow { class, cells });
         self.tall = self.rows.len() > TALL;
     }

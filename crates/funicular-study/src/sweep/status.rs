@@ -46,7 +46,7 @@ pub const CODES: [(&str, &str); 18] = [
 
 impl Status {
     pub(super) fn new(code: &'static str, reason: &(impl ToString + ?Sized)) -> Self {
-        debug_assert!(CODES.iter().any(|known| known.0 == code));
+        assert!(CODES.iter().any(|known| known.0 == code));
         Self { code, reason: reason.to_string() }
     }
 

@@ -258,7 +258,7 @@ impl Problem<'_> {
         let (cables, n) = (self.tensions.len(), self.coordinates.count());
         let size = cables + extra;
         let mut matrix = DMat::zeros(size, n + conditions.len());
-        debug_assert!(matrix.is_square(), "as many multipliers as unknowns");
+        assert!(matrix.is_square(), "as many multipliers as unknowns");
         for i in 0..cables {
             (0..n).for_each(|k| matrix[(i, k)] = self.wrenches[(k, i)]);
         }
@@ -567,5 +567,5 @@ fn add_cable(sum: &mut CableAdjoint<f64>, of: &CableAdjoint<f64>, factor: f64) {
     sum.length += of.length * factor;
     sum.free_length += of.free_length * factor;
     sum.stiffness += of.stiffness * factor;
-    debug_assert!(of.mass == 0.0 && of.damping == 0.0, "conditions of rest have no inertia");
+    assert!(of.mass == 0.0 && of.damping == 0.0, "conditions of rest have no inertia");
 }

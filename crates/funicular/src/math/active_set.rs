@@ -51,7 +51,7 @@ impl Polyhedron {
     pub(crate) fn add<'a>(&mut self, normal: impl Iterator<Item = &'a f64>, sign: f64, last: Option<f64>, level: f64) {
         let from = self.normals.len();
         self.normals.extend(normal.map(|x| sign * x).chain(last));
-        debug_assert_eq!(self.normals.len() - from, self.dimension);
+        assert_eq!(self.normals.len() - from, self.dimension);
         if self.normals[from..].iter().all(|x| x.abs() < NO_NORMAL) {
             self.normals[from..].fill(0.0);
         }

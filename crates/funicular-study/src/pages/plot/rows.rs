@@ -201,7 +201,7 @@ impl Rows {
     fn count(&mut self, chunk: &Chunk, first: usize, of_series: &[usize], columns: &[Column]) {
         let head = self.coordinates.len();
         if let [Values::Flag(feasible), Values::Text(status), Values::Text(reasons)] = &chunk.columns[head..head + 3] {
-            debug_assert_eq!(columns[head].kind, ColumnKind::Flag);
+            assert_eq!(columns[head].kind, ColumnKind::Flag);
             self.feasible += feasible.iter().filter(|feasible| **feasible).count();
             for (status, reason) in status.iter().zip(reasons) {
                 let code = code_of(status.as_deref());

@@ -66,7 +66,7 @@ impl Issue {
 impl SpecError {
     /// Sorts the issues by place and finds lines and columns.
     pub(super) fn new(text: &str, mut issues: Vec<Issue>) -> Self {
-        debug_assert!(!issues.is_empty(), "a refused file has a reason");
+        assert!(!issues.is_empty(), "a refused file has a reason");
         issues.sort_by_key(|issue| issue.span.start);
         let lines = Lines::of(text);
         for issue in &mut issues {
