@@ -43,7 +43,7 @@ impl CableModel {
     pub const ALL: [Self; 5] =
         [Self::Spring, Self::ShallowStatic, Self::CatenaryStatic, Self::ShallowDynamic, Self::CatenaryDynamic];
 
-    /// Name of the model on the command line and in files.
+    /// Name of the model in requests and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Spring => "spring",

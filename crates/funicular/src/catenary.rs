@@ -303,7 +303,7 @@ impl Catenary {
     /// Minimum ratio of parallel tension to weight (w times chord) above which both end tensions grow with it at any
     /// slope. A level cable that sags further (its minimum end tension is at v = 1.1997) gets heavier at its ends, not
     /// lighter.
-    pub(crate) const SLACKEST: f64 = 1.0 / 2.4;
+    pub(crate) const MIN_TENSION_TO_WEIGHT: f64 = 1.0 / 2.4;
 
     /// Minimum tension anywhere in the cable [N]: at its lowest point if that is between the ends, else at the lower
     /// end.

@@ -40,7 +40,7 @@ impl Assembly {
     /// Both choices.
     pub const ALL: [Self; 2] = [Self::Consistent, Self::WithoutGeometricStiffness];
 
-    /// Name on the command line and in files.
+    /// Name in requests and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Consistent => "consistent",
@@ -49,7 +49,7 @@ impl Assembly {
     }
 }
 
-/// Options of the linearisation.
+/// Choices of the linearisation: cable model, assembly, directions and winches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Linearisation {
     /// Model of the cables.
@@ -138,7 +138,7 @@ pub struct Dynamics {
     terms: Vec<DynamicCableAt>,
     /// Flexible supports; `None` on a rigid frame.
     supports: Option<Box<Supports>>,
-    /// Options with which it was made.
+    /// Linearisation with which it was made.
     pub linearisation: Linearisation,
     /// Damping and mass per length [kg/m] of each cable.
     damping: Vec<(Damping, f64)>,
@@ -509,7 +509,7 @@ impl Dynamics {
     }
 }
 
-/// Refuses the option that does not exist for anchors on flexible supports.
+/// Refuses motion in plane alone for a robot with anchors on flexible supports.
 fn refuse_on_supports(robot: &Robot, linearisation: Linearisation) -> Result<(), DynamicsError> {
     let Some(cable) = robot.cables.iter().find(|cable| cable.anchor.support.is_some()) else { return Ok(()) };
     if linearisation.in_plane_only {

@@ -148,6 +148,16 @@ pub(crate) enum Shapes {
     Kept,
 }
 
+impl Shapes {
+    /// Stations at which the shapes are formed.
+    fn stations(self) -> StationPositions<'static> {
+        match self {
+            Self::Dropped => StationPositions::ArcLengths(&[]),
+            Self::Kept => StationPositions::GaussPoints,
+        }
+    }
+}
+
 /// Clamped modes that a cable has kept, and the modes that replace the others: per family the number of modes that are
 /// kept, and the weights of the others in the modes that replace them, by columns.
 #[derive(Debug, Clone, PartialEq)]
@@ -188,9 +198,8 @@ impl CatenaryDynamicEnd {
         if in_plane_only && end.as_ref().is_some_and(MovingEnd::couples) {
             return Err(CatenaryDynamicError::Skew);
         }
-        let places = if shapes == Shapes::Kept { Places::Points } else { Places::At(&[]) };
         let (cable, stations) =
-            CatenaryDynamic::condensed(&hanging.catenary, end, mass_per_length, limit, places, &[])?;
+            CatenaryDynamic::condensed(&hanging.catenary, end, mass_per_length, limit, shapes.stations(), &[])?;
         let (axes, directions) = (LocalAxes::of_hanging(hanging), EndDirections::of(hanging));
         let shapes = (shapes == Shapes::Kept).then(|| Box::new(stations));
         Ok(Self { cable, axes, damping, mass_per_length, in_plane_only, kept: None, directions, shapes })
@@ -487,7 +496,7 @@ impl CatenaryDynamic {
         loaded: bool,
     ) -> Result<(Self, Stations), CatenaryDynamicError> {
         let cuts = if loaded { arc_lengths } else { &[] };
-        Self::condensed(catenary, end, mass_per_length, limit, Places::At(arc_lengths), cuts)
+        Self::condensed(catenary, end, mass_per_length, limit, StationPositions::ArcLengths(arc_lengths), cuts)
     }
 
     /// Dynamic stiffness and displacements as by [`with_stations`](Self::with_stations), with nodes of the mesh at the arc
@@ -497,7 +506,7 @@ impl CatenaryDynamic {
         end: Option<MovingEnd>,
         mass_per_length: f64,
         limit: f64,
-        places: Places,
+        positions: StationPositions,
         cuts: &[f64],
     ) -> Result<(Self, Stations), CatenaryDynamicError> {
         let mut mesh = Mesh::new(catenary, mass_per_length, limit, cuts, end.is_some())?;
@@ -510,8 +519,8 @@ impl CatenaryDynamic {
 
             // Poles and residues, with the drive among the stations.
             let found = match &end {
-                Some(end) if couples => Families::together(catenary, &mesh, end, limit, places)?,
-                _ => Families::apart(catenary, &mesh, end.as_ref(), limit, places)?,
+                Some(end) if couples => Families::together(catenary, &mesh, end, limit, positions)?,
+                _ => Families::apart(catenary, &mesh, end.as_ref(), limit, positions)?,
             };
 
             // Accept the discretisation if it is fine enough, otherwise refine it.
@@ -584,20 +593,20 @@ struct Families {
     arc_lengths: Vec<f64>,
 }
 
-/// Stations of a cable.
+/// Positions of the stations of a cable.
 #[derive(Clone, Copy)]
-enum Places<'a> {
+enum StationPositions<'a> {
     /// At these arc lengths from the start [m].
-    At(&'a [f64]),
+    ArcLengths(&'a [f64]),
     /// At the points of the Gauss rules of the elements.
-    Points,
+    GaussPoints,
 }
 
-impl Places<'_> {
+impl StationPositions<'_> {
     fn arc_lengths(self, mesh: &Mesh, tables: &[ElementTable]) -> Vec<f64> {
         match self {
-            Self::At(arc_lengths) => arc_lengths.to_vec(),
-            Self::Points => mesh.points(tables),
+            Self::ArcLengths(arc_lengths) => arc_lengths.to_vec(),
+            Self::GaussPoints => mesh.points(tables),
         }
     }
 }
@@ -609,7 +618,7 @@ impl Families {
         mesh: &Mesh,
         end: Option<&MovingEnd>,
         limit: f64,
-        places: Places,
+        positions: StationPositions,
     ) -> Result<Self, CatenaryDynamicError> {
         let held = MovingEnd { along: None, sideways: None };
         let end = end.unwrap_or(&held);
@@ -617,7 +626,7 @@ impl Families {
             end.still(catenary.tangent(), catenary.out_of_plane_stiffness())?;
 
         let tables = mesh.tables();
-        let arc_lengths = places.arc_lengths(mesh, &tables);
+        let arc_lengths = positions.arc_lengths(mesh, &tables);
         let in_plane = mesh.condense(&tables, in_plane, end.guide_in_plane().as_ref(), limit, &arc_lengths)?;
         let out_of_plane =
             mesh.condense(&tables, out_of_plane, end.guide_out_of_plane().as_ref(), limit, &arc_lengths)?;
@@ -631,11 +640,11 @@ impl Families {
         mesh: &Mesh,
         end: &MovingEnd,
         limit: f64,
-        places: Places,
+        positions: StationPositions,
     ) -> Result<Self, CatenaryDynamicError> {
         let (still, flexibility) = end.still_coupled(catenary.tangent(), catenary.out_of_plane_stiffness())?;
         let tables = mesh.tables();
-        let arc_lengths = places.arc_lengths(mesh, &tables);
+        let arc_lengths = positions.arc_lengths(mesh, &tables);
         let coupled = mesh.condense(&tables, still, Some(&end.guide()), limit, &arc_lengths)?;
         let error = coupled.error;
         Ok(Self {

@@ -122,7 +122,7 @@ mod tests {
         ) {
             let (span, rise) = ((1.0 - slope * slope).sqrt(), slope);
             let rope = Rope { unstrained_length: 1.0, weight_per_length: 1.0, axial_stiffness: 10f64.powf(stiffness) };
-            let tension = Catenary::SLACKEST * (100.0 / Catenary::SLACKEST).powf(part);
+            let tension = Catenary::MIN_TENSION_TO_WEIGHT * (100.0 / Catenary::MIN_TENSION_TO_WEIGHT).powf(part);
             let [less, more] = [tension, 1.001 * tension].map(|t| Catenary::with_parallel_tension(span, rise, rope, t));
             prop_assert!(more.max_tension() > less.max_tension());
             prop_assert!(more.min_tension() > less.min_tension());
@@ -143,7 +143,7 @@ mod tests {
             let mut last: Option<[f64; 2]> = None;
             for k in 0..=STEPS {
                 let part = f64::from(k) / f64::from(STEPS);
-                let tension = Catenary::SLACKEST * (high / Catenary::SLACKEST).powf(part);
+                let tension = Catenary::MIN_TENSION_TO_WEIGHT * (high / Catenary::MIN_TENSION_TO_WEIGHT).powf(part);
                 let cable = Catenary::with_parallel_tension(span, rise, rope, tension);
                 let by_tension = 1.0 / cable.parallel_tension_by_length();
                 let bend = (cable.vertical_mean - tension * slope) * slope.signum();

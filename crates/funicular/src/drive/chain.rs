@@ -12,7 +12,7 @@ pub(crate) use description::{ChainDescription, Piece};
 use super::DriveAtRest;
 use crate::math::{Complex, DMat, legendre};
 use crate::robot::{Anchor, Servo, WinchMode};
-use parts::{Layout, Parts};
+use parts::{MotionOrder, Parts};
 
 /// Motions behind the exit point of a cable, as a chain from the wheel to the motor.
 #[derive(Debug, Clone, PartialEq)]
@@ -117,13 +117,13 @@ impl Servo {
 }
 
 /// Chain under construction.
-struct Assembly {
+struct ChainMatrices {
     stiffness: DMat,
     mass: DMat,
     cable_mass: DMat,
 }
 
-impl Assembly {
+impl ChainMatrices {
     /// Chain of `n` motions without stiffness and mass.
     fn new(n: usize) -> Self {
         Self { stiffness: DMat::zeros(n, n), mass: DMat::zeros(n, n), cable_mass: DMat::zeros(n, n) }
@@ -145,7 +145,7 @@ impl Assembly {
 
     /// Adds the drum side, which stretches between σ, the guide wheels and its end at the drum. The result is the end at the
     /// drum, and the mass of a rod between each motion and a motion of the whole rod [kg].
-    fn drum_side(&mut self, parts: &Parts, layout: &Layout) -> (DrumEnd, Vec<f64>) {
+    fn drum_side(&mut self, parts: &Parts, layout: &MotionOrder) -> (DrumEnd, Vec<f64>) {
         let mut end = DrumEnd {
             by_motion: vec![(0.0, 0.0); layout.count],
             own: (0.0, 0.0),
@@ -181,7 +181,7 @@ impl Assembly {
 
     /// Adds the mass of a piece of the drum side that is a rod, and its waves. Functions are hats at both of its ends, then
     /// polynomials that vanish there. The result is the mass over these functions.
-    fn rod(&mut self, parts: &Parts, layout: &Layout, piece: usize, carried: &mut [f64]) -> DMat {
+    fn rod(&mut self, parts: &Parts, layout: &MotionOrder, piece: usize, carried: &mut [f64]) -> DMat {
         let half = 0.5 * parts.rod_length(piece);
         let functions = layout.waves[piece].len() + 2;
         let mass = legendre::element_mass(functions - 1) * (half * parts.mass_per_length);
@@ -202,7 +202,7 @@ impl Assembly {
     }
 
     /// Adds drum, shaft and motor.
-    fn winch(&mut self, parts: &Parts, layout: &Layout) {
+    fn winch(&mut self, parts: &Parts, layout: &MotionOrder) {
         let (Some(winch), Some(drum)) = (parts.winch, layout.drum) else { return };
         self.heavy(winch.drum_mass, drum);
         if parts.shaft.is_finite() {
@@ -233,7 +233,7 @@ impl DrumEnd {
 const SLIP: Place = Place { motion: 0, factor: 1.0 };
 
 /// Force on the motions per unstrained length that is paid out: see [`DriveChain::by_length`].
-fn by_length(parts: &Parts, layout: &Layout, drum_end: &DrumEnd) -> Vec<(f64, f64)> {
+fn by_length(parts: &Parts, layout: &MotionOrder, drum_end: &DrumEnd) -> Vec<(f64, f64)> {
     match (layout.drum, layout.motor) {
         (_, Some(_)) => Vec::new(),
         (Some(drum), None) => {
@@ -257,8 +257,8 @@ impl DriveChain {
         limit: f64,
     ) -> Option<Self> {
         let parts = Parts::of(anchor, drive, (axial_stiffness, mass_per_length), mode)?;
-        let layout = Layout::of(&parts, limit);
-        let mut chain = Assembly::new(layout.count);
+        let layout = MotionOrder::of(&parts, limit);
+        let mut chain = ChainMatrices::new(layout.count);
 
         // Wheel and weight of the cable on it, drum side, then drum, shaft and motor.
         chain.stiffness[(0, 0)] += drive.end.weight;
@@ -277,7 +277,7 @@ impl DriveChain {
         let drum_side = if parts.has_rope() { (0..layout.count).map(on_drum_side).collect() } else { Vec::new() };
         chain.winch(&parts, &layout);
 
-        let Assembly { stiffness, mass, cable_mass } = chain;
+        let ChainMatrices { stiffness, mass, cable_mass } = chain;
         let damping = parts.winch.map_or(0.0, |winch| winch.damping);
         let motor = layout.motor.map(|place| Motor { place, damping, servo: parts.servo() });
         let (drum, stretch_drum) = (layout.drum, drive.end.stretch_drum);
@@ -379,8 +379,8 @@ mod tests {
                 pieces: vec![3.0 / 2e5],
                 guides: Vec::new(),
             };
-            let layout = Layout::of(&parts, limit);
-            let mut chain = Assembly::new(layout.count);
+            let layout = MotionOrder::of(&parts, limit);
+            let mut chain = ChainMatrices::new(layout.count);
             chain.drum_side(&parts, &layout);
             for omega in [0.3 * limit, 0.77 * limit, limit] {
                 let d = &chain.stiffness - &chain.cable_mass * (omega * omega);

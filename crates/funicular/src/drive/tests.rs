@@ -7,14 +7,14 @@ use proptest::prelude::*;
 
 /// Cable with a load against z.
 #[derive(Debug, Clone)]
-struct Case {
+struct HangingCase {
     cable: Cable,
     load: LineLoad,
     start_w: Vec3,
     length: f64,
 }
 
-impl Case {
+impl HangingCase {
     fn hang(&self) -> CableAtRest {
         CableAtRest::hang(self.start_w, &self.cable, &self.load, self.length)
     }
@@ -54,9 +54,9 @@ fn pulley(radius: f64, entry_direction_w: Vec3) -> Pulley {
     Pulley::new("wheel", radius, entry_direction_w)
 }
 
-/// Case with tilted axes, pulleys up to half a metre, winches from soft to rigid, cables from slack to stretched by
+/// HangingCase with tilted axes, pulleys up to half a metre, winches from soft to rigid, cables from slack to stretched by
 /// 0.1 %.
-fn cases(tilt: f64) -> impl Strategy<Value = Case> {
+fn cases(tilt: f64) -> impl Strategy<Value = HangingCase> {
     let place = (-1.0f64..=1.0, -1.0f64..=1.0, -1.0f64..=0.6).prop_map(|(x, y, z)| Vec3::new(x, y, z));
     let axis = (-tilt..=tilt, -tilt..=tilt).prop_map(|(x, y)| Vec3::new(x, y, 1.0).normalize());
     let drive = (-2.3f64..-0.3, 0.0f64..5.0, 3.0f64..8.0, any::<bool>());
@@ -79,7 +79,7 @@ fn cases(tilt: f64) -> impl Strategy<Value = Case> {
         }
         let length = ((anchor.exit_w(&start_w) - start_w).norm() + anchor.length_beyond(&start_w)) * (1.0 + longer);
         let load = LineLoad { up_w: Vec3::z(), size: 10f64.powf(weight) };
-        Some(Case { cable: cable(anchor, 10f64.powf(axial_stiffness)), load, start_w, length })
+        Some(HangingCase { cable: cable(anchor, 10f64.powf(axial_stiffness)), load, start_w, length })
     })
 }
 

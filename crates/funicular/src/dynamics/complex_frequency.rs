@@ -206,9 +206,9 @@ impl Dynamics {
             }
         }
         if let Some(supports) = &self.supports {
-            let own_square = (omega * omega, 2.0 * omega);
+            let support_square = (omega * omega, 2.0 * omega);
             let rows =
-                supports.rows(&self.terms, &SupportsAt { squares, own_square, losses, width: NEAR_POLE_FRACTION });
+                supports.rows(&self.terms, &SupportsAt { squares, support_square, losses, width: NEAR_POLE_FRACTION });
             add_supports(&mut all, &rows.coupling.0, &rows.own.0, f, first_support);
             add_supports(&mut all_slope, &rows.coupling.1, &rows.own.1, f, first_support);
             for (k, (participation, (square, square_slope))) in on_supports.iter().zip(&near_squares).enumerate() {

@@ -30,14 +30,14 @@ pub(crate) struct Supports {
     /// Imaginary part of the stiffness of damped supports [N/m].
     loss: DMat,
     /// Cables on supports, per cable whose stiffness depends on frequency.
-    carried: Vec<Option<Carried>>,
+    carried: Vec<Option<CableOnSupport>>,
     /// First coordinate of the support of each cable of the robot; `None` for a rigid anchor.
     of_cable: Vec<Option<usize>>,
 }
 
 /// Cable on a support, whose stiffness depends on frequency.
 #[derive(Debug, Clone, PartialEq)]
-struct Carried {
+struct CableOnSupport {
     /// True if its drum stays on the ground.
     from_ground: bool,
     /// First coordinate of its support.
@@ -48,7 +48,7 @@ struct Carried {
     directions_w: [Vec3; ENDS],
 }
 
-impl Carried {
+impl CableOnSupport {
     /// Motion of the ends by the supports' displacements.
     fn motion(&self, supports: &[f64]) -> [f64; ENDS] {
         let e = Vec3::from_column_slice(&supports[self.first..self.first + 3]);
@@ -98,7 +98,7 @@ pub(super) struct SupportsAt {
     /// Square ω_c² of each cable whose stiffness depends on frequency.
     pub(super) squares: Vec<(Complex, Complex)>,
     /// Square ω² of the supports.
-    pub(super) own_square: (Complex, Complex),
+    pub(super) support_square: (Complex, Complex),
     /// Fraction of the damping that acts on the supports.
     pub(super) losses: f64,
     /// Relative distance to poles that are left out.
@@ -163,7 +163,7 @@ impl<'a> SupportsBuilder<'a> {
         let still = Vec3::zeros();
         let directions_w = [still, still, still, e, n, b, side.direction_w];
         let both = TwoEnded::new(end, side.from_ground);
-        self.supports.carried.push(Some(Carried {
+        self.supports.carried.push(Some(CableOnSupport {
             from_ground: side.from_ground,
             first: 3 * support,
             both,
@@ -194,7 +194,7 @@ impl Supports {
 
     /// Rows of the supports at a frequency, without the losses of drives.
     pub(super) fn rows(&self, terms: &[DynamicCableAt], at: &SupportsAt) -> SupportRows {
-        let (square, slope) = at.own_square;
+        let (square, slope) = at.support_square;
         let loss = Complex::new(0.0, at.losses);
         let own = self.stiffness.map(Complex::from) + self.loss.map(|loss_of| loss * loss_of)
             - self.mass.map(|mass| square * mass);
@@ -439,7 +439,7 @@ impl SupportRows {
     fn add(
         &mut self,
         term: &DynamicCableAt,
-        carried: &Carried,
+        carried: &CableOnSupport,
         ends: &[[Complex; ENDS]; ENDS],
         factor: Complex,
         to_slope: bool,
@@ -471,14 +471,14 @@ impl Dynamics {
     /// Undamped frequency at x = ω²; derivatives are by x.
     pub(super) fn undamped_at(&self, x: f64, width: f64) -> SupportsAt {
         let square = (Complex::from(x), Complex::new(1.0, 0.0));
-        SupportsAt { squares: vec![square; self.terms.len()], own_square: square, losses: 0.0, width }
+        SupportsAt { squares: vec![square; self.terms.len()], support_square: square, losses: 0.0, width }
     }
 
     /// Damped frequency ω [rad/s]; derivatives are zero.
     fn damped_at(&self, omega: f64) -> SupportsAt {
         let zero = Complex::new(0.0, 0.0);
         let squares = self.terms.iter().map(|term| (self.cable_square(term.cable, omega), zero)).collect();
-        SupportsAt { squares, own_square: (Complex::from(omega * omega), zero), losses: 1.0, width: 0.0 }
+        SupportsAt { squares, support_square: (Complex::from(omega * omega), zero), losses: 1.0, width: 0.0 }
     }
 
     /// Rows of the supports at ω [rad/s] with all damping.

@@ -458,7 +458,7 @@ impl ZeroSearch<'_> {
             let mut last = (*from, phase(*from));
             // The phase changes over distances like those to the zeros; a longer piece might miss a full turn at a
             // cluster.
-            let pieces = ((to - from).norm() / (LONGEST_PIECE * margin)).ceil() as usize;
+            let pieces = ((to - from).norm() / (MAX_PIECE * margin)).ceil() as usize;
             for piece in 1..=pieces {
                 let point = from + (to - from) * (piece as f64 / pieces as f64);
                 let next = (point, phase(point));
@@ -499,7 +499,7 @@ const MARGIN: f64 = 2.0;
 const MIN_MARGIN: f64 = 0.01;
 /// Maximum length of a piece of the boundary, over its distance from the zeros: within it the phase of one zero changes
 /// by less than half a radian.
-const LONGEST_PIECE: f64 = 0.5;
+const MAX_PIECE: f64 = 0.5;
 
 /// Maximum step of a search, relative to its frequency.
 const MAX_STEP: f64 = 0.1;

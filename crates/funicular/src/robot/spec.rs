@@ -126,7 +126,7 @@ const WIND: &[Key] = &[
         "velocity_m_s",
         "velocity_m_s = [8.0, 0.0, 0.0]",
         "m/s",
-        Range::Magnitude(Wind::FASTEST),
+        Range::Magnitude(Wind::MAX_SPEED),
         "velocity of the air, world axes",
     )
     .or([0.0; 3]),
@@ -356,11 +356,11 @@ fn read_wind(reader: &mut Reader, root: &Section) -> Option<Wind> {
     let velocity = reader.vector_or_default(&section, "velocity_m_s");
     if let (Some(velocity), Some(value)) = (velocity, section.get("velocity_m_s")) {
         let speed = Vec3::from(velocity).norm();
-        if speed > Wind::FASTEST {
+        if speed > Wind::MAX_SPEED {
             reader
                 .issue(
                     value.span(),
-                    format!("`velocity_m_s` is a wind of {speed} m/s, it must be at most {} m/s", Wind::FASTEST),
+                    format!("`velocity_m_s` is a wind of {speed} m/s, it must be at most {} m/s", Wind::MAX_SPEED),
                 )
                 .help("faster air is compressed, and drag no longer grows with its square");
             return None;

@@ -58,8 +58,8 @@ impl Support {
 }
 
 impl Robot {
-    /// This robot with rigid anchors where its supports have been displaced [m, world axes], one displacement per support: the
-    /// anchors and, for drums on the ground, the lengths of the drum sides.
+    /// Robot with rigid anchors at the displaced positions. `displacements_w` is the displacement of each support [m, world
+    /// axes]. It moves the anchors and, for drums on the ground, changes the lengths of the drum sides.
     #[must_use]
     pub(crate) fn displaced(&self, displacements_w: &[Vec3]) -> Self {
         let mut robot = self.clone();

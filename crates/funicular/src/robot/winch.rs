@@ -102,7 +102,7 @@ impl WinchMode {
     /// All modes.
     pub const ALL: [Self; 4] = [Self::AsGiven, Self::Clamped, Self::Torque, Self::Stuck];
 
-    /// Name on the command line and in files.
+    /// Name in requests and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::AsGiven => "as-given",

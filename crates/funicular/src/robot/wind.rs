@@ -17,7 +17,7 @@ impl Wind {
     pub const AIR_DENSITY: f64 = 1.225;
 
     /// Maximum wind speed [m/s]: a third of the speed of sound, up to which the compressibility of air hardly matters.
-    pub const FASTEST: f64 = 110.0;
+    pub const MAX_SPEED: f64 = 110.0;
 
     /// Force on a body per area and drag coefficient [N/m²], along the wind: `½ ρ |u| u`.
     pub fn pressure_w(&self) -> Vec3 {

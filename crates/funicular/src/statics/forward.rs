@@ -320,7 +320,7 @@ enum LastStep {
     /// It was no gain; the next step starts from the same pose with a larger shift.
     Refused,
     /// It was no gain with the residual below its limit: rounding allows nothing better.
-    DrownedInRounding,
+    BelowRounding,
 }
 
 /// Minimum reference diagonal of the stiffness for the shifts, over the stiffness of all cables pulling in one
@@ -335,7 +335,7 @@ const MAX_RESIDUAL_RATIO: f64 = 0.9;
 /// Residual below which a step may be taken for its residual alone. The energy has some 14 digits and falls with the
 /// square of the residual, so it decides nothing below 1e-7. Above 1e-4 it decides, and residuals would lead to
 /// saddles.
-const ENERGY_DROWNS: f64 = 1e-4;
+const ENERGY_WITHOUT_DIGITS: f64 = 1e-4;
 
 /// Factors of the shift after a step taken at full length, and after a step that needed a larger shift before. Newton's
 /// convergence needs the shift gone within a few steps; but in a narrow valley (stiff ropes, a light platform, slack
@@ -391,7 +391,7 @@ impl<'a, 's> Descent<'a, 's> {
         if self.here.residual < CONVERGED {
             return self.leave_saddle(&stiffness, Exit::Converged);
         }
-        if near && self.last == LastStep::DrownedInRounding {
+        if near && self.last == LastStep::BelowRounding {
             return self.leave_saddle(&stiffness, Exit::AtRounding);
         }
 
@@ -407,7 +407,7 @@ impl<'a, 's> Descent<'a, 's> {
         if self.is_gain(&step, &next) {
             self.take(next, length, diagonal);
         } else if near {
-            self.last = LastStep::DrownedInRounding;
+            self.last = LastStep::BelowRounding;
         } else {
             return self.refuse(diagonal);
         }
@@ -433,7 +433,7 @@ impl<'a, 's> Descent<'a, 's> {
         let expected = step.dot(&self.here.wrench);
         let lower = next.energy - self.search.work(step) < self.here.energy - ARMIJO * expected;
         let smaller_residual =
-            next.residual < MAX_RESIDUAL_RATIO * self.here.residual && self.here.residual < ENERGY_DROWNS;
+            next.residual < MAX_RESIDUAL_RATIO * self.here.residual && self.here.residual < ENERGY_WITHOUT_DIGITS;
         next.residual.is_finite() && (lower || smaller_residual)
     }
 

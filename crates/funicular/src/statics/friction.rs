@@ -78,7 +78,7 @@ impl Interval {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// Interval of a quantity at this distance from a value.
+    /// Interval shifted by `value`.
     fn about(self, value: f64) -> Self {
         Self { min: value + self.min, max: value + self.max }
     }

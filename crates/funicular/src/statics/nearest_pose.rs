@@ -34,7 +34,7 @@ const MAX_STEPS: usize = 300;
 
 /// Remaining approach along the surface, over the size of the robot, at which the pose counts as nearest; and the value
 /// that is accepted if rounding allows no further approach.
-const NEAREST: f64 = 1e-11;
+const MAX_APPROACH: f64 = 1e-11;
 const NEAR: f64 = 1e-6;
 
 /// Minimum ratio of a cable's length after a step to its length before. At zero a step could take a cable away; near 1
@@ -152,7 +152,7 @@ pub fn nearest_equilibrium(
     let mut search = SurfaceSearch::new(robot, requested, model)?;
     let size = search.size;
     for _ in 0..MAX_STEPS {
-        if search.could_move() <= NEAREST * size {
+        if search.could_move() <= MAX_APPROACH * size {
             break;
         }
         if !search.step() && !search.shorten() {

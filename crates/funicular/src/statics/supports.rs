@@ -61,7 +61,7 @@ impl Equilibrium {
 }
 
 /// Cable on a support, at rest.
-struct Carried<'a> {
+struct SupportedCable<'a> {
     anchor: &'a Anchor,
     support: &'a Support,
     displacement_w: Vec3,
@@ -71,7 +71,7 @@ struct Carried<'a> {
     tension_drum: f64,
 }
 
-impl<'a> Carried<'a> {
+impl<'a> SupportedCable<'a> {
     fn new(
         (anchor, support): (&'a Anchor, &'a Support),
         displacement_w: Vec3,
@@ -185,7 +185,9 @@ pub(super) fn settled_in_rounds<T>(
 fn forces(robot: &Robot, cables: &[CableState]) -> Vec<Vec3> {
     let mut all = vec![Vec3::zeros(); robot.supports.len()];
     for (i, state) in cables.iter().enumerate() {
-        if let (Some(support), Some(carried)) = (robot.cables[i].anchor.support, Carried::of_state(robot, i, state)) {
+        if let (Some(support), Some(carried)) =
+            (robot.cables[i].anchor.support, SupportedCable::of_state(robot, i, state))
+        {
             all[support] += carried.force_w();
         }
     }
@@ -195,14 +197,14 @@ fn forces(robot: &Robot, cables: &[CableState]) -> Vec<Vec3> {
 /// Static stiffness of cable `i` for a motion of its support; `None` if its anchor is rigid. `held` is the stiffness of its
 /// span.
 pub(crate) fn on_support(robot: &Robot, i: usize, state: &CableState, held: &Mat3) -> Option<OnSupport> {
-    let carried = Carried::of_state(robot, i, state)?;
+    let carried = SupportedCable::of_state(robot, i, state)?;
     Some(drive::on_support(held, state.drive.as_deref(), carried.drum_side()))
 }
 
 /// Direction of the drum side of cable `i` from the ground to its support, unit vector, world axes, and derivative of the tension
 /// at the drum with respect to the unstrained length [N/m], both ends held. `None` unless the drum is on the ground.
 pub(super) fn pull_by_length(robot: &Robot, i: usize, state: &CableState) -> Option<(Vec3, f64)> {
-    let side = Carried::of_state(robot, i, state)?.drum_side()?;
+    let side = SupportedCable::of_state(robot, i, state)?.drum_side()?;
     let (span, drive) = (state.hanging.as_ref()?, state.drive.as_deref()?);
     let by_drum_side = drive.end.drum_side_tension(&span.tangent_w(), &Vec3::zeros(), 0.0, 1.0);
     Some((side.direction_w, -drive.end.stretch_drum * by_drum_side))
@@ -222,7 +224,7 @@ pub(crate) struct SupportSide {
 
 /// Drum side of cable `i` of a robot at rest; `None` if its anchor is rigid.
 pub(crate) fn support_side(robot: &Robot, i: usize, state: &CableState) -> Option<SupportSide> {
-    let carried = Carried::of_state(robot, i, state)?;
+    let carried = SupportedCable::of_state(robot, i, state)?;
     let carried_w = carried.load_w - carried.force_on_platform_w;
     if let Some(DrumSideAtRest { direction_w, length, tension }) = carried.drum_side() {
         let sideways_w = (Mat3::identity() - direction_w * direction_w.transpose()) * (tension / length);
@@ -267,7 +269,7 @@ pub(super) fn on_settled(
     unstrained_length: f64,
     displacements_w: &[Vec3],
 ) -> Option<OnSupport> {
-    let carried = Carried::of_trial(robot, i, cable, unstrained_length, displacements_w)?;
+    let carried = SupportedCable::of_trial(robot, i, cable, unstrained_length, displacements_w)?;
     Some(drive::on_support(&cable.span.tangent_w(), cable.drive.as_deref(), carried.drum_side()))
 }
 
@@ -323,7 +325,7 @@ struct Settling<'a> {
 }
 
 /// Support at one displacement.
-struct Trial {
+struct SupportTrial {
     displacement_w: Vec3,
     /// Force of its cables less that of its own stiffness [N].
     imbalance_w: Vec3,
@@ -334,16 +336,17 @@ struct Trial {
 }
 
 impl Settling<'_> {
-    fn at(&self, displacement_w: Vec3) -> Trial {
+    fn at(&self, displacement_w: Vec3) -> SupportTrial {
         let support = &self.robot.supports[self.support];
         let own_w = support.stiffness_w * displacement_w;
         let mut trial =
-            Trial { displacement_w, imbalance_w: -own_w, size: own_w.norm(), stiffness_w: support.stiffness_w };
+            SupportTrial { displacement_w, imbalance_w: -own_w, size: own_w.norm(), stiffness_w: support.stiffness_w };
         for &i in self.members {
             let cable = hang(self.robot, self.loaded, self.lengths, self.pose, i, &displacement_w);
             let anchor = &self.robot.cables[i].anchor;
             let parts = (Some(&cable.span), cable.drive.as_deref());
-            let carried = Carried::new((anchor, support), displacement_w, cable.force_w(), parts, self.lengths[i]);
+            let carried =
+                SupportedCable::new((anchor, support), displacement_w, cable.force_w(), parts, self.lengths[i]);
             let force_w = carried.force_w();
             trial.imbalance_w += force_w;
             trial.size += force_w.norm() + carried.load_w.norm();
@@ -388,7 +391,7 @@ pub(super) fn energy(robot: &Robot, cables: &[CableAtRest], lengths: &[f64], dis
         (robot.supports.iter().zip(displacements_w)).map(|(support, e)| 0.5 * e.dot(&(support.stiffness_w * e))).sum();
     let lifted: f64 = (cables.iter().zip(lengths).enumerate())
         .filter(|(_, (cable, _))| cable.drive.is_some())
-        .filter_map(|(i, (cable, length))| Carried::of_trial(robot, i, cable, *length, displacements_w))
+        .filter_map(|(i, (cable, length))| SupportedCable::of_trial(robot, i, cable, *length, displacements_w))
         .map(|carried| carried.load_w.dot(&carried.displacement_w))
         .sum();
     of_supports - lifted

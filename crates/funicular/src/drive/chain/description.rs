@@ -1,6 +1,6 @@
 //! Parts of a chain with their places, for derivatives of its energy by their numbers.
 
-use super::parts::{Layout, Parts};
+use super::parts::{MotionOrder, Parts};
 use super::{Place, SLIP};
 use crate::drive::DriveAtRest;
 use crate::math::{DMat, legendre};
@@ -51,7 +51,7 @@ impl ChainDescription {
         limit: f64,
     ) -> Option<Self> {
         let parts = Parts::of(anchor, drive, rope, mode)?;
-        let layout = Layout::of(&parts, limit);
+        let layout = MotionOrder::of(&parts, limit);
         let pieces = (layout.nodes.windows(2).enumerate())
             .map(|(piece, ends)| Piece {
                 spring: parts.spring(piece),

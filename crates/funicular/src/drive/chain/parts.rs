@@ -124,7 +124,7 @@ impl<'a> Parts<'a> {
 }
 
 /// Order of the motions: σ, guide wheels, waves of the drum side, drum, motor.
-pub(super) struct Layout {
+pub(super) struct MotionOrder {
     pub(super) count: usize,
     /// Guide wheels, as motions of the cable there.
     pub(super) guides: Vec<Place>,
@@ -138,7 +138,7 @@ pub(super) struct Layout {
     pub(super) motor: Option<Place>,
 }
 
-impl Layout {
+impl MotionOrder {
     pub(super) fn of(parts: &Parts, limit: f64) -> Self {
         let motion = |motion: usize| Place { motion, factor: 1.0 };
         let guides: Vec<Place> = (1..=parts.guides.len()).map(motion).collect();

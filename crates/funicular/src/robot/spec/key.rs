@@ -32,7 +32,7 @@ pub struct Key {
 /// Kind of the value of a key.
 #[derive(Debug, Clone, Copy)]
 pub enum KeyValue {
-    /// Text on one line, for tables and command lines.
+    /// Text on one line, for tables and file names.
     Name,
     /// Text of any length.
     Text,

@@ -1,7 +1,7 @@
 //! `[platform]`: mass, motion, and an inertia tensor that a body can have.
 
 use super::key::{Absent, Key, KeyValue, Shape};
-use super::range::{MAX_NUMBER, MIN_NUMBER, Range};
+use super::range::{MAX_MAGNITUDE, MIN_POSITIVE, Range};
 use super::read::{Reader, Section, Value, is_zero, known, parsed, shortened};
 use super::tensor::{self, rounded};
 use crate::math::{Mat3, Vec3};
@@ -139,7 +139,7 @@ pub(super) fn motion(reader: &mut Reader, root: &Section) -> Option<PlatformMoti
         (Some(axis), _) => axis,
         (None, Some(value)) => {
             let three = Vec3::from(reader.vector_as(known(KEYS, "plane_normal"), value)?);
-            if three.norm() < MIN_NUMBER {
+            if three.norm() < MIN_POSITIVE {
                 reader
                     .issue(value.span(), "`plane_normal` has no direction")
                     .help("give the normal of the plane, any length");
@@ -258,7 +258,7 @@ fn box_example(root: &Section, mass: f64) -> Option<String> {
     // Second moments m a²/12 are rounded, not their sums: so the moments of a flat box stay those of a body.
     let second = size.map(|side| rounded(mass * side * side / 12.0, 4));
     let moments = [second[1] + second[2], second[0] + second[2], second[0] + second[1]];
-    if !moments.iter().all(|moment| *moment > MIN_NUMBER && *moment < MAX_NUMBER) {
+    if !moments.iter().all(|moment| *moment > MIN_POSITIVE && *moment < MAX_MAGNITUDE) {
         return None;
     }
     let [xx, yy, zz] = moments.map(|moment| rounded(moment, 10));
@@ -316,7 +316,7 @@ fn possible(reader: &mut Reader, tensor: &Mat3, value: &Value) -> Option<()> {
     );
 
     // Below 1e-12 of the largest moment, the sign of the smallest is rounding.
-    if least < MIN_NUMBER * largest.max(1.0) {
+    if least < MIN_POSITIVE * largest.max(1.0) {
         reader
             .issue(value.span(), format!("`inertia_kg_m2` is not positive definite: {shown}"))
             .help("give the tensor about the centre of mass in platform axes; its off-diagonal entries are −∫xy dm");

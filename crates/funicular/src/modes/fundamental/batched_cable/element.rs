@@ -266,7 +266,7 @@ fn factor<S: Simd, const D: usize, const H: usize>(
 
     // Eliminate from the last unknown down, four at a time.
     let n = D * functions;
-    let odd = (n - kept) % ABREAST;
+    let odd = (n - kept) % BATCH;
     let first = n - odd;
     match odd {
         1 => eliminate::<S, 1>(part, matrix, first, min_pivot),
@@ -274,13 +274,13 @@ fn factor<S: Simd, const D: usize, const H: usize>(
         3 => eliminate::<S, 3>(part, matrix, first, min_pivot),
         _ => {}
     }
-    for t in (kept..first).step_by(ABREAST).rev() {
-        eliminate::<S, ABREAST>(part, matrix, t, min_pivot);
+    for t in (kept..first).step_by(BATCH).rev() {
+        eliminate::<S, BATCH>(part, matrix, t, min_pivot);
     }
 }
 
 /// Number of unknowns eliminated at a time, which is also the number of products per number loaded and stored.
-const ABREAST: usize = 4;
+const BATCH: usize = 4;
 
 /// Eliminates unknowns t, t + 1, … t + R − 1, the last of the remaining ones.
 #[inline(always)]
