@@ -137,16 +137,7 @@ pub(super) fn motion(reader: &mut Reader, root: &Section) -> Option<PlatformMoti
 
     let normal_w = match (axis, normal) {
         (Some(axis), _) => axis,
-        (None, Some(value)) => {
-            let three = Vec3::from(reader.vector_as(known(KEYS, "plane_normal"), value)?);
-            if three.norm() < MIN_POSITIVE {
-                reader
-                    .issue(value.span(), "`plane_normal` has no direction")
-                    .help("give the normal of the plane, any length");
-                return None;
-            }
-            three
-        }
+        (None, Some(value)) => plane_normal(reader, value)?,
         (None, None) => {
             let span = table.get("motion").map_or(0..0, toml::Spanned::span);
             reader
@@ -161,6 +152,16 @@ pub(super) fn motion(reader: &mut Reader, root: &Section) -> Option<PlatformMoti
         None => 0.0,
     };
     Plane::new(normal_w, offset).map(PlatformMotion::Planar)
+}
+
+/// Normal of the plane of a planar platform, of any length.
+fn plane_normal(reader: &mut Reader, value: &Value) -> Option<Vec3> {
+    let normal = Vec3::from(reader.vector_as(known(KEYS, "plane_normal"), value)?);
+    if normal.norm() < MIN_POSITIVE {
+        reader.issue(value.span(), "`plane_normal` has no direction").help("give the normal of the plane, any length");
+        return None;
+    }
+    Some(normal)
 }
 
 fn known_word(reader: &mut Reader, value: &Value) -> Option<&'static str> {
@@ -185,20 +186,13 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
 
     let mass = reader.required(&section, "mass_kg").and_then(|v| reader.number_of(&section, "mass_kg", v));
 
-    let required_inertia = |reader: &mut Reader| {
-        let found_before = reader.issues.len();
-        let value = reader.required(&section, "inertia_kg_m2");
-        if value.is_none()
-            && let Some(issue) = reader.issues.get_mut(found_before)
-            && let Some(example) = mass.and_then(|mass| box_example(root, mass))
-        {
-            issue.help(example);
-        }
-        value
-    };
     let inertia = match motion {
-        Some(PlatformMotion::Rigid) => required_inertia(reader).and_then(|v| inertia(reader, v)),
-        Some(PlatformMotion::Planar(plane)) => required_inertia(reader).and_then(|v| planar_inertia(reader, v, &plane)),
+        Some(PlatformMotion::Rigid) => {
+            required_inertia(reader, root, &section, mass).and_then(|value| inertia(reader, value))
+        }
+        Some(PlatformMotion::Planar(plane)) => {
+            required_inertia(reader, root, &section, mass).and_then(|value| planar_inertia(reader, value, &plane))
+        }
         Some(PlatformMotion::PointMass) => {
             if let Some(value) = section.get("inertia_kg_m2") {
                 reader
@@ -210,19 +204,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
         None => None,
     };
 
-    let center_of_mass = match section.get("center_of_mass_m") {
-        Some(value) => {
-            let center = reader.vector(&section, "center_of_mass_m", value);
-            if motion == Some(PlatformMotion::PointMass) && center.is_some_and(|center| !is_zero(&center)) {
-                reader
-                    .issue(value.span(), "a point mass is its own centre, `center_of_mass_m` must be zero or absent")
-                    .help("remove the line, or set `motion = \"rigid\"`");
-            }
-            center
-        }
-        None => Some([0.0; 3]),
-    };
-
+    let center_of_mass = center_of_mass(reader, &section, motion);
     let drag_area = reader.number_or_default(&section, "drag_area_m2");
 
     let translational = damping(reader, &section, "translational_damping_n_s_m");
@@ -242,6 +224,36 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
         center_of_mass_p: Vec3::from(center_of_mass?),
         motion: motion?,
     })
+}
+
+/// Centre of mass, zero if the file has none; that of a point mass has to be zero.
+fn center_of_mass(reader: &mut Reader, section: &Section, motion: Option<PlatformMotion>) -> Option<[f64; 3]> {
+    let Some(value) = section.get("center_of_mass_m") else { return Some([0.0; 3]) };
+    let center = reader.vector(section, "center_of_mass_m", value);
+    if motion == Some(PlatformMotion::PointMass) && center.is_some_and(|center| !is_zero(&center)) {
+        reader
+            .issue(value.span(), "a point mass is its own centre, `center_of_mass_m` must be zero or absent")
+            .help("remove the line, or set `motion = \"rigid\"`");
+    }
+    center
+}
+
+/// Value of the inertia tensor, which a platform that turns needs. If it is missing, the issue shows an example.
+fn required_inertia<'t>(
+    reader: &mut Reader,
+    root: &Section,
+    section: &Section<'t>,
+    mass: Option<f64>,
+) -> Option<&'t Value<'t>> {
+    let found_before = reader.issues.len();
+    let value = reader.required(section, "inertia_kg_m2");
+    if value.is_none()
+        && let Some(issue) = reader.issues.get_mut(found_before)
+        && let Some(example) = mass.and_then(|mass| box_example(root, mass))
+    {
+        issue.help(example);
+    }
+    value
 }
 
 /// Remedy for a missing tensor: the moments of a homogeneous box with the size of the attachments. `None` if the file
