@@ -345,9 +345,12 @@ impl EndStiffness {
         }
         let without_b =
             |k: Mat3| if in_plane_only { k - axes.b * axes.b.transpose() * axes.b.dot(&(k * axes.b)) } else { k };
+
         // A cable over a pulley or to a winch is in series with its anchor end.
         let drive = state.drive.as_deref();
         let in_series = |held: Mat3| drive.map_or(held, |drive| drive.end.in_series_with(&held));
+
+        let limit = up_to_hz * TAU;
         Ok(match model {
             CableModel::Spring if state.is_slack() => Self::Constant(Mat3::zeros()),
             CableModel::Spring => Self::Constant(in_series(spring::stiffness(&sag).in_world(&axes))),
@@ -357,7 +360,6 @@ impl EndStiffness {
             CableModel::CatenaryStatic => Self::Constant(without_b(state.tangent_w().ok_or(NoStiffness::Rigid)?)),
             CableModel::ShallowDynamic if robot.has_moving_ends() => {
                 let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
-                let limit = up_to_hz * TAU;
                 let end = moving_end(robot, i, state, &axes, winches, limit);
                 // Without any mass the cable and its drive are springs.
                 if sag.mass_per_length == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
@@ -376,7 +378,7 @@ impl EndStiffness {
             }
             CableModel::CatenaryDynamic => {
                 let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
-                let (m, damping, limit) = (material.mass_per_length, material.damping, up_to_hz * TAU);
+                let (m, damping) = (material.mass_per_length, material.damping);
                 let end = moving_end(robot, i, state, &LocalAxes::of_hanging(hanging), winches, limit);
                 // Without any mass the cable and its drive are springs.
                 if m == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {

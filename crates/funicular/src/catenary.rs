@@ -261,6 +261,7 @@ impl Catenary {
     pub fn tangent(&self) -> [[f64; 2]; 2] {
         let Rope { unstrained_length: length, weight_per_length: w, axial_stiffness: ea } = self.rope;
         let (x, z) = (self.span, self.rise);
+
         match self.slope {
             Slope::Slack => [[0.0; 2]; 2],
             Slope::Straight => {

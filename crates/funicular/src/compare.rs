@@ -158,7 +158,7 @@ pub struct Advice {
 
 /// Finds the modes below `below_hz` [Hz] with every cable model and compares them with the catenary-dynamic model. If a
 /// catenary-dynamic cable would need too many unknowns, the reference is the shallow-dynamic model. The cable model in
-/// `linearisation` is ignored; its other options apply to all models. The criterion selects the modes that count.
+/// `linearisation` is ignored; its other fields apply to all models. The criterion selects the modes that count.
 ///
 /// # Errors
 /// [`DynamicsError`] if the reference does not exist at this equilibrium (a cable without tension, ideal cables).
@@ -262,6 +262,7 @@ impl ModelResult {
 fn frozen_sag(models: &[ModelResult], clamped_hz: f64, criterion: Criterion) -> Option<FrozenSag> {
     let of = |model: CableModel| models.iter().find(|result| result.model == model);
     let springs = &of(CableModel::Spring)?.matches;
+
     [CableModel::CatenaryStatic, CableModel::ShallowStatic].into_iter().find_map(|model| {
         let mut worse: Vec<(&Match, &Match)> = Vec::new();
         for with_sag in &of(model)?.matches {

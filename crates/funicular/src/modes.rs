@@ -307,6 +307,7 @@ impl List<'_> {
             .map(|(i, fraction)| fraction * self.dynamics.cable_damping_ratio(i, omega))
             .sum();
         let by_platform = self.dynamics.platform_damping_along(&motion.platform) / (2.0 * omega);
+
         self.modes.push(Mode {
             frequency_hz: omega / TAU,
             multiplicity: several,

@@ -399,6 +399,7 @@ impl CatenaryDynamicEnd {
             family,
             index,
         };
+
         let of_plane = near.in_plane.clone().map(|index| {
             let [e, n, ..] = in_plane.participation[index];
             pole(Family::InPlane, index, [e, n, 0.0], &in_plane.poles)
@@ -413,6 +414,7 @@ impl CatenaryDynamicEnd {
                 pole(Family::Coupled, index, [e, n, b], &family.poles)
             })
         });
+
         of_plane.chain(of_normal).chain(of_coupled).collect()
     }
 }

@@ -176,6 +176,7 @@ impl ChainMatrices {
                 }
             }
         }
+
         (end, carried)
     }
 

@@ -61,6 +61,7 @@ fn cases(tilt: f64) -> impl Strategy<Value = HangingCase> {
     let axis = (-tilt..=tilt, -tilt..=tilt).prop_map(|(x, y)| Vec3::new(x, y, 1.0).normalize());
     let drive = (-2.3f64..-0.3, 0.0f64..5.0, 3.0f64..8.0, any::<bool>());
     let rope = (4.5f64..6.5, -0.001f64..0.2, -3.0f64..1.0);
+
     (place, axis, drive, rope).prop_filter_map("no room beside the wheel", |(place, axis, drive, rope)| {
         let (radius, drum_side_length, stiffness, is_rigid) = drive;
         let (axial_stiffness, longer, weight) = rope;

@@ -12,7 +12,7 @@
 use super::{DynamicCableAt, Dynamics, Supports};
 use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::{
-    CarrierMotion, CatenaryDynamicEnd, DriveForm, DrivePart, DriveSignal, ENDS, InPowersOfS,
+    CarrierMotion, CatenaryDynamicEnd, DriveForm, DrivePart, DriveSignal, ENDS, InPowersOfS, PoleResidue,
 };
 use crate::math::{DMat, Mat3, Mat6, Vec3, Vec6};
 use crate::robot::Damping;
@@ -212,7 +212,6 @@ impl Dynamics {
         let cable = &end.cable;
         let with_out_of_plane = !self.linearisation.in_plane_only;
         let (plane, normal) = (&cable.in_plane, &cable.out_of_plane);
-        let (damping, mass_per_length) = self.damping[term.cable];
 
         // The drive.
         let motions = self.supports().and_then(|supports| supports.carrier_motions(t)).map(|(_, motions)| motions);
@@ -230,22 +229,7 @@ impl Dynamics {
         }
 
         if let Some(coupled) = &cable.coupled {
-            let at_end =
-                |matrix: &[[f64; 6]; 6]| self.unscaled_block(&term.congruent(&Mat3::from_fn(|i, j| matrix[i][j])));
-            let modes = coupled.participation.iter().zip(&coupled.poles).map(|(g, pole)| {
-                let direction = term.vector([g[0], g[1], g[2]]);
-                ClampedMode { participation: self.unscaled_row(&direction), pole: *pole, out_of_plane: false }
-            });
-            let (end_stiffness, end_mass) = (at_end(&coupled.stiffness), at_end(&coupled.mass));
-            return CableBlocks {
-                cable: term.cable,
-                end_stiffness,
-                end_mass,
-                modes: modes.collect(),
-                damping,
-                mass_per_length,
-                drive,
-            };
+            return self.blocks_of_coupled(term, coupled, drive);
         }
 
         // The end.
@@ -271,6 +255,27 @@ impl Dynamics {
             .chain(out_of_plane.map(|(direction, pole)| mode(direction, pole, true)))
             .collect();
 
+        let (damping, mass_per_length) = self.damping[term.cable];
+        CableBlocks { cable: term.cable, end_stiffness, end_mass, modes, damping, mass_per_length, drive }
+    }
+
+    /// Blocks of a cable with a rigid anchor whose end couples motions in plane and out of plane, with its drive.
+    fn blocks_of_coupled(
+        &self,
+        term: &DynamicCableAt,
+        coupled: &PoleResidue<6, 6>,
+        drive: Vec<DrivePartBlock>,
+    ) -> CableBlocks {
+        let at_end = |matrix: &[[f64; 6]; 6]| self.unscaled_block(&term.congruent(&Mat3::from_fn(|i, j| matrix[i][j])));
+        let (end_stiffness, end_mass) = (at_end(&coupled.stiffness), at_end(&coupled.mass));
+
+        let mode = |(g, pole): (&[f64; 6], &f64)| {
+            let direction = term.vector([g[0], g[1], g[2]]);
+            ClampedMode { participation: self.unscaled_row(&direction), pole: *pole, out_of_plane: false }
+        };
+        let modes = coupled.participation.iter().zip(&coupled.poles).map(mode).collect();
+
+        let (damping, mass_per_length) = self.damping[term.cable];
         CableBlocks { cable: term.cable, end_stiffness, end_mass, modes, damping, mass_per_length, drive }
     }
 

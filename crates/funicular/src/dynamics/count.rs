@@ -95,6 +95,7 @@ impl BorderedStiffness {
                 }
             }
         }
+
         Self { regular, borders, on_supports }
     }
 

@@ -422,6 +422,7 @@ impl Supports {
                 (3..ENDS).flat_map(|i| (3..ENDS).map(move |j| (i, j))).map(|(i, j)| by(i, j) * ends[i] * ends[j]).sum();
             2.0 * mixed + own
         };
+
         terms.iter().enumerate().map(of).collect()
     }
 

@@ -42,6 +42,7 @@ impl Modes {
         if self.certified {
             return None;
         }
+
         let Self { modes, count_below, unstable_directions, below_hz, .. } = self;
         let listed = counted(modes.len(), "mode");
         let inexact = modes.iter().max_by(|a, b| a.residual.total_cmp(&b.residual));
@@ -96,6 +97,7 @@ impl DampedModes {
                 fastest.ringing_hz()
             ));
         }
+
         match self.overdamped {
             0 if undamped.certified && !self.certified => Some(
                 "the damped list is not certified: one of its searches did not settle, or its count differs; damping \

@@ -364,8 +364,10 @@ impl ZeroSearch<'_> {
         /// Radius of the circle, relative to |ω|: ten thousand times [`ONE_ZERO`]. Another zero inside changes the
         /// number, and the zeros are then sought one by one.
         const RADIUS: f64 = 1e-4;
+
         /// Maximum difference of the number of zeros inside from a whole number; anything well below a half would do.
         const WHOLE: f64 = 0.1;
+
         let radius = RADIUS * zero.omega.norm();
         let mut moments = [Complex::new(0.0, 0.0); 3];
         for k in 0..POINTS {
@@ -377,6 +379,7 @@ impl ZeroSearch<'_> {
                 power *= at;
             }
         }
+
         let many = zero.members.len() as f64;
         let [count, first, second] = moments;
         let mean = first / many;
@@ -423,6 +426,7 @@ impl ZeroSearch<'_> {
             }
             zeros.pop();
         }
+
         (found.len() == count).then_some(found)
     }
 
@@ -521,11 +525,14 @@ fn turn_between(
     const MAX_DEPTH: usize = 30;
     // Maximum change of phase over an interval [rad]: a third of the half turn from which on it would be ambiguous.
     const MAX_CHANGE: f64 = 1.0;
+
     // Maximum difference between the change over the interval and the sum of its halves, which is zero or a full turn
     // except for rounding.
     const MAX_LOSS: f64 = 0.1;
+
     // Maximum difference between the changes over the two halves: beyond it the phase bends within the interval.
     const MAX_BEND: f64 = 0.5;
+
     let middle = 0.5 * (from.0 + to.0);
     let middle = (middle, phase(middle));
     let whole = wrapped(to.1 - from.1);
@@ -533,8 +540,10 @@ fn turn_between(
     if !(whole.is_finite() && first.is_finite()) || depth > MAX_DEPTH {
         return None;
     }
+
     if whole.abs() < MAX_CHANGE && (first + second - whole).abs() < MAX_LOSS && (first - second).abs() < MAX_BEND {
         return Some(whole);
     }
+
     Some(turn_between(phase, from, middle, depth + 1)? + turn_between(phase, middle, to, depth + 1)?)
 }

@@ -214,6 +214,7 @@ mod tests {
             ("control = \"torque\"\n", 5e-4),
             ("stiffness_n_per_m = 5e5\ndrum_inertia_kg_m2 = 20.0\n", 5e-4),
         ];
+
         for (motor, inertia) in motors {
             let text = funicular_robots::COGIRO_WINCHES
                 .replacen("gear_ratio = 3\n", &format!("gear_ratio = 3\n{motor}"), 1)

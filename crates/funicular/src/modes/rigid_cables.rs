@@ -165,6 +165,7 @@ fn mode(platform: &PlatformTerms, x: Vec6, omega: f64, damping: f64, residual: f
     let largest = motion_w[motion_w.iamax()];
     let shape = std::array::from_fn(|i| motion_w[i] / largest / if i < 3 { 1.0 } else { platform.coordinates.ell() });
     let energies = vec![0.0; cables];
+
     Mode {
         frequency_hz: omega / TAU,
         multiplicity: 1,

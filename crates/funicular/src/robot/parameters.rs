@@ -211,6 +211,7 @@ impl Parameters {
             }
             (place, _) => place,
         };
+
         self.list.iter().position(|parameter| {
             let named = parameter.component.and_then(|name| shape.place(&[name]));
             at_key(&parameter) && named == place

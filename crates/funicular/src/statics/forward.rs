@@ -52,14 +52,17 @@ pub fn forward(
     if model == StaticModel::Ideal && cables > dof {
         return Err(StaticsError::CableCount { cables, dof });
     }
+
     if let Some(start) = start {
         robot.platform.motion.check(start)?;
     }
+
     let pose = start.copied().unwrap_or_else(|| initial_pose::pose_from_lengths(robot, lengths));
     if model == StaticModel::Ideal && robot.has_supports() {
         let solve = |rigid: &Robot| forward(rigid, lengths, model, Some(&pose));
         return supports::settled_in_rounds(robot, solve, |found: &mut Equilibrium| &mut found.cables);
     }
+
     match model {
         StaticModel::Ideal if cables < dof => ideal::forward_of_few(robot, lengths, pose, |lengths, start| {
             descend_to_equilibrium(robot, lengths, StaticModel::Spring, start)

@@ -210,6 +210,7 @@ impl<'a> SurfaceSearch<'a> {
         let missing = gap(robot, &here.pose, requested);
         let iterations = here.iterations;
         let (bend, damping) = (Mat6::identity(), 0.0);
+
         Ok(Self {
             robot,
             requested,

@@ -381,6 +381,7 @@ impl Settling<'_> {
             }
             here = next;
         }
+
         here.displacement_w
     }
 }

@@ -1,6 +1,7 @@
 //! Rules of ARCHITECTURE.md that the sources can be read for.
 
 mod circles;
+mod names;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -22,14 +23,15 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
 
 #[test]
 fn only_math_names_nalgebra() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut naming: Vec<PathBuf> = sources(&root)
+    let path_of_nalgebra = ["nalgebra", "::"].concat();
+    let mut naming: Vec<PathBuf> = ["src", "tests", "benches"]
         .into_iter()
-        .filter(|path| fs::read_to_string(path).unwrap().contains("nalgebra"))
-        .map(|path| path.strip_prefix(&root).unwrap().to_owned())
+        .flat_map(|folder| sources(&root().join(folder)))
+        .filter(|path| fs::read_to_string(path).unwrap().contains(&path_of_nalgebra))
+        .map(|path| path.strip_prefix(root()).unwrap().to_owned())
         .collect();
     naming.sort();
-    assert_eq!(naming, [Path::new("math.rs")], "take the type from math.rs, or give it a name there");
+    assert_eq!(naming, [Path::new("src/math.rs")], "take the type from math.rs, or give it a name there");
 }
 
 /// Text of every source of a crate, without its tests, with its path below `crates`.
@@ -55,16 +57,51 @@ fn option(text: &str) -> Option<&str> {
     })
 }
 
+/// Texts between quotes on a line, without what is inserted into them between braces and without their code between
+/// backticks; and the comment at its end.
+fn words_of(line: &str) -> (Vec<String>, Option<&str>) {
+    let (code, comment) = match line.split_once("//") {
+        Some((code, comment)) if code.matches('"').count() % 2 == 0 => (code, Some(comment)),
+        _ => (line, None),
+    };
+    let outside_braces = |text: &str| -> String {
+        text.split('{').map(|part| part.split_once('}').map_or(part, |(_, after)| after)).collect()
+    };
+    (code.split('"').skip(1).step_by(2).map(outside_braces).collect(), comment)
+}
+
+/// Word of a front end in a text: its user's command line, or one of its options. Code between backticks is no text.
+fn word_of_front_end(text: &str) -> Option<&'static str> {
+    let text: String = text.split('`').step_by(2).collect::<Vec<_>>().join(" ").to_lowercase();
+    if text.contains("command line") {
+        return Some("command line");
+    }
+    let mut words = text.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+    words.any(|word| word == "option" || word == "options").then_some("option")
+}
+
 #[test]
 fn core_and_files_name_no_option() {
     // Each front end writes the names of options in its own way: messages name them by their keys, ⟪mass_kg⟫, which are
     // those of the study's requests. The core knows no requests at all.
     assert_eq!(option("raise it with `--min-tension-n`, or -- else"), Some("--min-tension-n"));
     assert_eq!(option("a --- b -- 3 x--y"), None);
+    assert_eq!(word_of_front_end("Name on the command line."), Some("command line"));
+    assert_eq!(word_of_front_end("Options of the model"), Some("option"));
+    assert_eq!(word_of_front_end("an `option` that `SearchOptions` has, optional"), None);
+    assert_eq!(words_of("let options = f(\"give {option}\"); // a"), (vec!["give ".to_owned()], Some(" a")));
     for name in ["funicular", "funicular-files"] {
         for (path, text) in texts(name) {
-            assert_eq!(option(&text), None, "{}: carry the data, and let funicular-study word it", path.display());
-            assert!(name != "funicular" || !text.contains('⟪'), "{}: the study names options", path.display());
+            let shown = path.display();
+            assert_eq!(option(&text), None, "{shown}: carry the data, and let funicular-study word it");
+            assert!(name != "funicular" || !text.contains('⟪'), "{shown}: the study names options");
+            for line in text.lines() {
+                let (literals, comment) = words_of(line);
+                // Comments of the files may say that a caller's option names a file; the core does not know of callers.
+                let comment = comment.filter(|_| name == "funicular");
+                let found = literals.iter().map(String::as_str).chain(comment).find_map(word_of_front_end);
+                assert_eq!(found, None, "{shown}: say it in words that every front end shares: {line}");
+            }
         }
     }
 }

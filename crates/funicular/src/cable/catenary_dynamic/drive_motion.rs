@@ -66,9 +66,11 @@ impl DriveAt {
                 &left_out.out_of_plane,
             );
         }
+
         if let Some(coupled) = &cable.coupled {
             at.add(coupled, &drive.coupled, 0..count, [0, 1, 2], x, &left_out.coupled);
         }
+
         at
     }
 

@@ -246,6 +246,7 @@ impl DriveForce {
             }
             (DriveSignal::Tension | DriveSignal::DrumTension, _) => return None,
         }
+
         Some(force)
     }
 

@@ -92,9 +92,11 @@ impl<const D: usize, const N: usize> Partition<D, N> {
                 (row[j], row[outer + j]) = (to_outer[0][(i, j)], to_outer[1][(i, j)]);
             }
         }
+
         for (station, unknown) in stations.iter().enumerate() {
             rows[unknown * row_length + 2 * outer + D * station] = 1.0;
         }
+
         Self {
             unknowns,
             outer,

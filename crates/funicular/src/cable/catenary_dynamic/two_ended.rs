@@ -83,6 +83,7 @@ impl TwoEnded {
                 self.mass[*place][*other] += family.mass[i][j];
             }
         }
+
         for (index, (pole, g)) in family.poles.iter().zip(&family.participation).enumerate() {
             let mut participation = [0.0; ENDS];
             places.iter().zip(g).for_each(|(place, g)| participation[*place] = *g);
@@ -98,6 +99,7 @@ impl TwoEnded {
                 drive: motions,
             });
         }
+
         if let Some((first, rows)) = still {
             for (row, still) in self.still[first..].iter_mut().zip(rows) {
                 places.iter().zip(&still[0]).for_each(|(place, psi)| row[*place] += psi);
@@ -265,9 +267,11 @@ impl InternalMotion {
         for (sum, moved) in self.in_plane_ends.iter_mut().zip(by_end.in_plane_ends) {
             *sum += moved;
         }
+
         for (sum, moved) in self.out_of_plane_ends.iter_mut().zip(by_end.out_of_plane_ends) {
             *sum += moved;
         }
+
         let families = [
             (&mut self.in_plane, by_end.in_plane, Family::InPlane),
             (&mut self.out_of_plane, by_end.out_of_plane, Family::OutOfPlane),

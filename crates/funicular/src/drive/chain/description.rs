@@ -62,6 +62,7 @@ impl ChainDescription {
                 mass: parts.is_rod().then(|| legendre::element_mass(layout.waves[piece].len() + 1)),
             })
             .collect();
+
         let wheels = anchor.winch.as_ref().map_or(&[][..], |winch| &winch.guide_wheels);
         let heavy = wheels.iter().enumerate().filter(|(_, wheel)| wheel.mass > 0.0).map(|(index, _)| index);
         Some(Self {

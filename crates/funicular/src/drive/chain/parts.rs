@@ -67,6 +67,7 @@ impl<'a> Parts<'a> {
             (WinchMode::Torque, Some(_)) => Control::Torque,
             (WinchMode::AsGiven, Some(winch)) => winch.control,
         };
+
         let (pieces, guides) = pieces(anchor, drive, axial_stiffness);
         let AnchorEnd { stretch, stretch_drum, .. } = drive.end;
         let parts = Self {
@@ -80,6 +81,7 @@ impl<'a> Parts<'a> {
             pieces,
             guides,
         };
+
         (parts.has_rope() || parts.drum_moves()).then_some(parts)
     }
 

@@ -118,6 +118,7 @@ impl Parameters {
                 _ => return None,
             }
         }
+
         Some(())
     }
 
@@ -205,6 +206,7 @@ impl Parameters {
                 _ => return None,
             }
         }
+
         is_known.then_some(())
     }
 
@@ -253,6 +255,7 @@ impl Parameters {
                 _ => return None,
             }
         }
+
         Some(())
     }
 }

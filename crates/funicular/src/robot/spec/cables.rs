@@ -162,19 +162,7 @@ fn read_one(
     motion: Option<PlatformMotion>,
     names: &mut BTreeMap<String, Range<usize>>,
 ) -> CableEntry {
-    let name = reader.required(section, "name").and_then(|value| {
-        let name = reader.name("name", value)?;
-        if let Some(first) = names.get(&name) {
-            reader
-                .issue(value.span(), format!("two cables are called \"{}\"", shortened(&name)))
-                .context(first.clone(), "the first is here")
-                .help("results are listed by name: give every cable its own");
-            return None;
-        }
-        names.insert(name.clone(), value.span());
-        Some(name)
-    });
-
+    let name = unique_name(reader, section, names);
     let material = reader.required(section, "material").and_then(|_| {
         // Without [materials] every cable would repeat an issue that has been reported once.
         reader.reference(section, "material", "materials", materials).flatten()
@@ -217,6 +205,21 @@ fn read_one(
         length,
         length_mistyped: section.mistyped(&["unstrained_length_m"]),
     }
+}
+
+/// Reads the name of a cable, which none of the cables before it has; `names` are their names with their places.
+fn unique_name(reader: &mut Reader, section: &Section, names: &mut BTreeMap<String, Range<usize>>) -> Option<String> {
+    let value = reader.required(section, "name")?;
+    let name = reader.name("name", value)?;
+    if let Some(first) = names.get(&name) {
+        reader
+            .issue(value.span(), format!("two cables are called \"{}\"", shortened(&name)))
+            .context(first.clone(), "the first is here")
+            .help("results are listed by name: give every cable its own");
+        return None;
+    }
+    names.insert(name.clone(), value.span());
+    Some(name)
 }
 
 /// Reads the attachment; it is the origin for a point mass.

@@ -403,6 +403,7 @@ mod tests {
             check(climbing(&many).as_ref(), columns, right, bounds, true)?;
             compare(nearest(&few), nearest(&many), &start, Some(0.0))?;
             compare(highest(&few), highest(&many), &start, None)?;
+
             compare(climbing(&few), climbing(&many), &start, Some(0.1))?;
         }
     }

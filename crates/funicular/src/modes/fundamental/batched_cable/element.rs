@@ -171,6 +171,7 @@ impl ElementBatch {
                 min_pivot,
             );
         }
+
         self.functions = functions;
     }
 
@@ -378,6 +379,7 @@ fn substitute<S: Simd>(simd: S, factor: &[Line], n: usize, kept: &[Lane]) -> Lan
     for (line, lane) in all.iter_mut().zip(kept) {
         line.0 = *lane;
     }
+
     for part in Part::all(simd) {
         let mut t = kept.len();
         if (n - t) % 2 == 1 {
@@ -411,6 +413,7 @@ fn substitute<S: Simd>(simd: S, factor: &[Line], n: usize, kept: &[Lane]) -> Lan
             t += 2;
         }
     }
+
     all
 }
 
