@@ -110,8 +110,8 @@ pub struct LocalStiffness<T> {
     pub normal: T,
     /// Out of plane.
     pub out_of_plane: T,
-    /// Between chord and out of plane, and between normal and out of plane: zero unless the far end of the cable couples
-    /// them, as a pulley with an inclined swivel axis does.
+    /// Between chord and out of plane, and between normal and out of plane: zero unless the far end of the cable
+    /// couples them, as a pulley with an inclined swivel axis does.
     pub across: [T; 2],
 }
 
@@ -243,7 +243,8 @@ pub enum NoStiffness {
 pub enum DynamicCable {
     /// Starossek's closed form for shallow sag, the far end held.
     ShallowDynamic(ShallowDynamic),
-    /// Vibration by poles and residues: about the elastic catenary, or that of a shallow span with its pulley and winch.
+    /// Vibration by poles and residues: about the elastic catenary, or that of a shallow span with its pulley and
+    /// winch.
     CatenaryDynamic(Box<CatenaryDynamicEnd>),
 }
 
@@ -307,8 +308,8 @@ impl DynamicCable {
 
 impl EndStiffness {
     /// End stiffness of cable `i` of a robot at an equilibrium, valid up to the frequency `up_to_hz` [Hz]. Only the
-    /// catenary-dynamic model uses that frequency and the `winches`. `in_plane_only` leaves out all stiffness out of the
-    /// cable's plane, as the paper does.
+    /// catenary-dynamic model uses that frequency and the `winches`. `in_plane_only` leaves out all stiffness out of
+    /// the cable's plane, as the paper does.
     ///
     /// # Errors
     /// [`NoStiffness`]: an ideal cable has no stiffness in the catenary models, a cable without tension none in the
@@ -391,8 +392,8 @@ impl EndStiffness {
     }
 }
 
-/// Static stiffness of the free span of cable `i` in a model, its far end held; 3×3, world axes [N/m]. `None` for a rigid
-/// cable in a catenary model.
+/// Static stiffness of the free span of cable `i` in a model, its far end held; 3×3, world axes [N/m]. `None` for a
+/// rigid cable in a catenary model.
 pub(crate) fn span_stiffness(robot: &Robot, i: usize, state: &CableState, model: CableModel) -> Option<Mat3> {
     let straight = |stiffness: fn(&Sag) -> LocalStiffness<f64>| {
         stiffness(&Sag::of(robot, i, state)).in_world(&LocalAxes::of_cable(robot, i, state))
@@ -405,8 +406,8 @@ pub(crate) fn span_stiffness(robot: &Robot, i: usize, state: &CableState, model:
     }
 }
 
-/// End of cable `i` of a robot at its pulley or winch, with the drive behind it, in the `axes` of the cable's model and for
-/// frequencies up to `limit` [rad/s]; `None` for an end that is held.
+/// End of cable `i` of a robot at its pulley or winch, with the drive behind it, in the `axes` of the cable's model and
+/// for frequencies up to `limit` [rad/s]; `None` for an end that is held.
 pub(crate) fn moving_end(
     robot: &Robot,
     i: usize,

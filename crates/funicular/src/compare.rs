@@ -61,7 +61,7 @@ pub struct Comparison {
     pub compared: Vec<usize>,
     /// Reference model, with which the others are compared.
     pub reference: CableModel,
-    /// One result per model, in the order of [`CableModel::ALL`].
+    /// Result of each model, in the order of [`CableModel::ALL`].
     pub models: Vec<ModelResult>,
     /// Recommended model.
     pub advice: Advice,
@@ -119,8 +119,8 @@ pub struct ModelResult {
     ///
     /// For a constant stiffness the counterpart is the mode with the most similar platform motion, with a MAC of at
     /// least [`SAME_MOTION`] and a frequency within a factor of two. For a dynamic model, most of whose modes hardly
-    /// move the platform, it is the nearest in frequency. If only modes of the platform are compared, the motion decides
-    /// for every model.
+    /// move the platform, it is the nearest in frequency. If only modes of the platform are compared, the motion
+    /// decides for every model.
     pub matches: Vec<Match>,
     /// Number of compared modes of the reference without a counterpart.
     pub missed: usize,
@@ -301,8 +301,8 @@ fn frequencies_within(tolerance: f64, found: &[Mode], truth: &[Mode]) -> Vec<boo
 }
 
 /// Pairs every mode with the compared reference mode of the most similar platform motion, weighted by the platform's
-/// energy fraction in that mode; for all modes of a dynamic model, with the nearest in frequency. Each reference mode is
-/// used once.
+/// energy fraction in that mode; for all modes of a dynamic model, with the nearest in frequency. Each reference mode
+/// is used once.
 ///
 /// If modes of the platform are compared, the platform's energy fraction in the model's own mode has the same weight: a
 /// dynamic model has cable modes with the same platform motion. Of modes that share it the nearest in frequency counts.
@@ -428,8 +428,8 @@ impl Advisor<'_> {
     fn for_all_modes(&self, simplest: CableModel, reference: CableModel) -> String {
         let Self { truth, below_hz, .. } = self;
 
-        // Vibrations of the cables below the limit. A cable with fixed ends gives no lower bound for them: with the moving
-        // platform there are modes of the cables below it.
+        // Vibrations of the cables below the limit. A cable with fixed ends gives no lower bound for them: with the
+        // moving platform there are modes of the cables below it.
         let mut of_cables = truth.modes.iter().filter(|m| m.platform_energy_fraction < 0.5).map(|m| m.frequency_hz);
         let first_of_cables = of_cables.next();
         let cable_modes = usize::from(first_of_cables.is_some()) + of_cables.count();

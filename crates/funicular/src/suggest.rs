@@ -1,7 +1,7 @@
 //! "Did you mean": the known name nearest to a mistyped one. All messages share one measure and one limit.
 
-/// Minimum similarity (Jaro-Winkler, 0 to 1) at which a known name is suggested: `mas` has 0.87 with `mass_kg`, which is
-/// meant; `mass_kg_per_m` has 0.66 with `name`, which is not.
+/// Minimum similarity (Jaro-Winkler, 0 to 1) at which a known name is suggested: `mas` has 0.87 with `mass_kg`, which
+/// is meant; `mass_kg_per_m` has 0.66 with `name`, which is not.
 const MIN_SIMILARITY: f64 = 0.8;
 
 /// Maximum length of a name [bytes]. Longer text is no name, and its comparison would take long.

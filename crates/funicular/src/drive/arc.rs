@@ -5,8 +5,8 @@ use crate::catenary::space::HangingCable;
 use crate::math::dual::{Real, dot};
 use crate::robot::{Anchor, PulleyContact, Wheel};
 
-/// Nodes and weights of the 6-point Gauss rule on [−1, 1]; the other three nodes mirror these. The tension changes along
-/// the arc by the weight of a piece as long as the wheel, a smooth and small change: six points give all digits.
+/// Nodes and weights of the 6-point Gauss rule on [−1, 1]; the other three nodes mirror these. The tension changes
+/// along the arc by the weight of a piece as long as the wheel, a smooth and small change: six points give all digits.
 const GAUSS: [(f64, f64); 3] = [
     (0.238_619_186_083_196_9, 0.467_913_934_572_691),
     (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
@@ -28,8 +28,8 @@ pub(super) struct Given<T> {
     pub(super) axial_stiffness: T,
     /// Place on the wheel; `None` without a pulley.
     pub(super) wheel: Option<Wheel<T>>,
-    /// Length from the entry point to the drum [m], and length that the winch pays out per tension [m/N]; `None` without a
-    /// winch.
+    /// Length from the entry point to the drum [m], and length that the winch pays out per tension [m/N]; `None`
+    /// without a winch.
     pub(super) winch: Option<(T, T)>,
 }
 
@@ -167,7 +167,8 @@ impl<T: Real> Beyond<T> {
         }
     }
 
-    /// Adds the drum side of a length and the winch, which yields by an unstrained length per tension at the entry point.
+    /// Adds the drum side of a length and the winch, which yields by an unstrained length per tension at the entry
+    /// point.
     #[inline]
     fn add_drum_side(&mut self, ea: T, (length, by_tension): (T, T)) {
         let tension = self.tension_entry;
@@ -181,8 +182,8 @@ impl<T: Real> Beyond<T> {
     }
 }
 
-/// Points of the rim with the length of arc that belongs to each, for integrals over the arc: angles from the entry point
-/// [rad], and lengths [m].
+/// Points of the rim with the length of arc that belongs to each, for integrals over the arc: angles from the entry
+/// point [rad], and lengths [m].
 pub(super) fn arc_nodes<T: Real>(wheel: &Wheel<T>) -> impl Iterator<Item = (T, T)> + use<T> {
     let (half, radius) = (wheel.wrap * 0.5, wheel.radius);
     let both = |(node, weight): (f64, f64)| [(node, weight), (-node, weight)];

@@ -30,8 +30,8 @@ const MAX_HALVINGS: usize = 8;
 /// Residual below which a step is taken although it does not reduce the residual, because rounding is as large.
 const ROUNDING: f64 = 1e-13;
 
-/// Maximum number of rounds of the slow method, and of steps for one length. Each round reduces the change of the angles
-/// by the ratio of the radius to the span; each step at least halves an interval.
+/// Maximum number of rounds of the slow method, and of steps for one length. Each round reduces the change of the
+/// angles by the ratio of the radius to the span; each step at least halves an interval.
 const MAX_ROUNDS: usize = 200;
 const MAX_LENGTH_STEPS: usize = 100;
 

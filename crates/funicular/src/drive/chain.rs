@@ -1,8 +1,9 @@
 //! Motions behind the exit point of a cable, and their stiffness and mass: wheel, drum side, drum, shaft and motor.
 //!
-//! The first motion is the slip σ of the cable on the wheel, towards the platform. Behind it follow guide wheels with mass,
-//! the waves of a drum side with mass, the drum and the motor, as motions of the cable there towards the wheel. What cannot
-//! move has no motion: a rigid winch is a wall (docs/theory.md, equations (75) to (79)).
+//! The first motion is σ, that of the cable along itself at the wheel, towards the platform; the wheel turns with it.
+//! Behind it follow guide wheels with mass, the waves of a drum side with mass, the drum and the motor, as motions of
+//! the cable there towards the wheel. A part that cannot move has no motion: a rigid winch is a wall (docs/theory.md,
+//! equations (75) to (79)).
 
 mod description;
 mod parts;
@@ -27,8 +28,8 @@ pub struct DriveChain {
     pub drum: Option<Place>,
     /// Motor, if it can move.
     pub motor: Option<Motor>,
-    /// Force on the motions per unstrained length that is paid out at a drum or by a motor that is held [N/m], and that
-    /// by the mass of the cable, per ω² [kg]; empty if a control moves the drum.
+    /// Force on each motion per unstrained length that a held drum or motor pays out: by stiffness [N/m], and by the
+    /// mass of the cable per ω² [kg]. Empty if a control moves the drum.
     pub(crate) by_length: Vec<(f64, f64)>,
     /// Drum side as each motion feels it; empty if the drum is at the exit point.
     pub(crate) drum_side: Vec<OnDrumSide>,
@@ -45,26 +46,26 @@ pub struct DriveChain {
 pub(crate) struct OnDrumSide {
     /// Stiffness between the motion and the end of the drum side at the wheel [N/m].
     pub(crate) stiffness: f64,
-    /// Mass between them [kg].
+    /// Mass between the motion and that end [kg].
     pub(crate) mass: f64,
     /// Mass between the motion and a motion of the whole drum side along itself [kg].
     pub(crate) carried_mass: f64,
 }
 
-/// Force at the end of the drum side at the drum, towards the wheel as the drum feels it, over the stretch: stiffness
-/// [N/m] and mass [kg] pairs.
+/// End of the drum side at the drum: pairs of stiffness [N/m] and mass [kg] give the force on it over the stretch,
+/// towards the wheel.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct DrumEnd {
-    /// Between that end and each motion.
+    /// Pairs between this end and each motion.
     pub(crate) by_motion: Vec<(f64, f64)>,
-    /// Between that end and itself; it moves by the stretch at the exit point times a length that is paid out by a drum that is
-    /// held.
+    /// Pair between this end and itself. A held drum that pays out a length moves the end by this length times the
+    /// stretch at the exit point.
     pub(crate) own: (f64, f64),
-    /// Between that end and the end at the wheel; zero if guide wheels lie between them.
+    /// Pair between this end and the end at the wheel; zero if guide wheels lie between them.
     pub(crate) by_wheel: (f64, f64),
-    /// Mass between that end and a motion of the whole drum side along itself [kg].
+    /// Mass between this end and a motion of the whole drum side along itself [kg].
     pub(crate) carried_mass: f64,
-    /// Tension at the drum per force on that end: the ratio of the stretch at the exit point to that at the drum.
+    /// Tension at the drum per force on this end: the ratio of the stretch at the exit point to that at the drum.
     pub(crate) ratio: f64,
 }
 
@@ -87,7 +88,7 @@ impl Place {
 /// Motor that can move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motor {
-    /// Its place.
+    /// Place of the motor in the chain.
     pub place: Place,
     /// Viscous damping at the cable [N s/m].
     pub damping: f64,
@@ -143,8 +144,8 @@ impl ChainMatrices {
         self.mass[(at.motion, at.motion)] += mass * at.factor * at.factor;
     }
 
-    /// Adds the drum side, which stretches between σ, the guide wheels and its end at the drum. The result is the end at the
-    /// drum, and the mass of a rod between each motion and a motion of the whole rod [kg].
+    /// Adds the drum side, which stretches between σ, the guide wheels and its end at the drum. The result is the end
+    /// at the drum, and the mass of a rod between each motion and a motion of the whole rod [kg].
     fn drum_side(&mut self, parts: &Parts, layout: &MotionOrder) -> (DrumEnd, Vec<f64>) {
         let mut end = DrumEnd {
             by_motion: vec![(0.0, 0.0); layout.count],
@@ -180,8 +181,8 @@ impl ChainMatrices {
         (end, carried)
     }
 
-    /// Adds the mass of a piece of the drum side that is a rod, and its waves. Functions are hats at both of its ends, then
-    /// polynomials that vanish there. The result is the mass over these functions.
+    /// Adds the mass of a piece of the drum side that is a rod, and its waves. Functions are hats at both of its ends,
+    /// then polynomials that vanish there. The result is the mass over these functions.
     fn rod(&mut self, parts: &Parts, layout: &MotionOrder, piece: usize, carried: &mut [f64]) -> DMat {
         let half = 0.5 * parts.rod_length(piece);
         let functions = layout.waves[piece].len() + 2;
@@ -230,8 +231,8 @@ impl DrumEnd {
     }
 }
 
-/// Slip of the cable on the wheel: the first motion of every chain.
-const SLIP: Place = Place { motion: 0, factor: 1.0 };
+/// Motion σ of the cable along itself at the wheel: the first motion of every chain.
+const AT_WHEEL: Place = Place { motion: 0, factor: 1.0 };
 
 /// Force on the motions per unstrained length that is paid out: see [`DriveChain::by_length`].
 fn by_length(parts: &Parts, layout: &MotionOrder, drum_end: &DrumEnd) -> Vec<(f64, f64)> {
@@ -264,7 +265,7 @@ impl DriveChain {
         // Wheel and weight of the cable on it, drum side, then drum, shaft and motor.
         chain.stiffness[(0, 0)] += drive.end.weight;
         if let Some(pulley) = &anchor.pulley {
-            chain.heavy(pulley.inertia / (pulley.radius * pulley.radius), SLIP);
+            chain.heavy(pulley.inertia / (pulley.radius * pulley.radius), AT_WHEEL);
         }
         for (mass, place) in parts.guides.iter().zip(&layout.guides) {
             chain.heavy(*mass, *place);
@@ -301,7 +302,7 @@ impl DriveChain {
         self.stiffness.nrows()
     }
 
-    /// False: a chain has at least the slip of the cable on its wheel.
+    /// False: a chain has at least the motion of the cable at its wheel.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -318,7 +319,8 @@ impl DriveChain {
         })
     }
 
-    /// Viscous damping of each motion [N s/m]: that of the motor, and the speed gain of its control. A delay is left out.
+    /// Viscous damping of each motion [N s/m]: that of the motor, and the speed gain of its control. A delay is left
+    /// out.
     pub(crate) fn viscous_damping(&self) -> Vec<f64> {
         let mut damping = vec![0.0; self.len()];
         if let Some(motor) = &self.motor {
@@ -336,10 +338,10 @@ impl DriveChain {
         Some(total.cholesky()?.inverse())
     }
 
-    /// Dynamic stiffness of each motion besides that of the undamped chain, at the complex ω [N/m], with its derivative
-    /// by ω: no two motions share a mass or a loss. The undamped matrices move with ω_c² (`square`, with its derivative by
-    /// ω), because the cable has damping of its own; wheel, drum and motor have ω². `losses` is the fraction of the
-    /// damping that acts.
+    /// Difference between the dynamic stiffness of each motion and that of the undamped chain at the complex ω [N/m],
+    /// with its derivative by ω; no two motions share a mass or a loss. The undamped matrices contain the square ω_c²
+    /// of the cable (`square`, with its derivative by ω), because the cable has its own damping; wheel, drum and motor
+    /// have ω². `losses` is the fraction of the damping that acts.
     pub(crate) fn beyond_undamped(
         &self,
         omega: Complex,
@@ -364,7 +366,8 @@ mod tests {
     use super::*;
     use crate::robot::{Control, DrumSide, Winch};
 
-    /// A rod whose end is held: its condensed stiffness is EA κ cot κs, up to the highest frequency that it is made for.
+    /// A rod whose end is held: its condensed stiffness is EA κ cot κs, up to the highest frequency that it is made
+    /// for.
     #[test]
     fn a_rod_has_the_axial_waves_of_its_length() {
         let winch = Winch { drum_side: DrumSide::Rod, ..Winch::rigid("winch", 0.0) };

@@ -54,8 +54,8 @@ fn pulley(radius: f64, entry_direction_w: Vec3) -> Pulley {
     Pulley::new("wheel", radius, entry_direction_w)
 }
 
-/// HangingCase with tilted axes, pulleys up to half a metre, winches from soft to rigid, cables from slack to stretched by
-/// 0.1 %.
+/// HangingCase with tilted axes, pulleys up to half a metre, winches from soft to rigid, cables from slack to stretched
+/// by 0.1 %.
 fn cases(tilt: f64) -> impl Strategy<Value = HangingCase> {
     let place = (-1.0f64..=1.0, -1.0f64..=1.0, -1.0f64..=0.6).prop_map(|(x, y, z)| Vec3::new(x, y, z));
     let axis = (-tilt..=tilt, -tilt..=tilt).prop_map(|(x, y)| Vec3::new(x, y, 1.0).normalize());
@@ -113,7 +113,8 @@ proptest! {
         prop_assert!((psi(drive.tension_drum) - psi(tension) - drop).abs() < 1e-12 * psi(tension).max(1.0));
     }
 
-    /// The tolerance is that of the differences: rounding of the energy over the step, and the fourth power of the step.
+    /// The tolerance is that of the differences: rounding of the energy over the step, and the fourth power of the
+    /// step.
     #[test]
     fn the_force_is_the_slope_of_the_energy(case in cases(0.0)) {
         let found = case.hang();

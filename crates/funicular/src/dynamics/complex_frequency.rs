@@ -8,8 +8,8 @@
 //!        [ −s g_kᵀ     ω_k² − s ]      s = ω_c²(ω)
 //! ```
 //!
-//! The motions z of a drive with losses are unknowns, too: the forces Δ z of its losses act on platform and clamped modes
-//! by T and φ_k, and `z = T x + φ_k q_k − R Δ z` (docs/theory.md, equation (82)).
+//! The motions z of a drive with losses are unknowns, too: the forces Δ z of its losses act on platform and clamped
+//! modes by T and φ_k, and `z = T x + φ_k q_k − R Δ z` (docs/theory.md, equation (82)).
 
 use super::supports::SupportsAt;
 use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
@@ -44,7 +44,8 @@ pub(crate) struct DampedMotion {
 const SHARED_ZERO: f64 = 1e-13;
 
 impl Dynamics {
-    /// Motion at a simple zero ω [rad/s], for cables that are catenary-dynamic or do not depend on frequency; of size one.
+    /// Motion at a simple zero ω [rad/s], for cables that are catenary-dynamic or do not depend on frequency; of size
+    /// one.
     pub(crate) fn damped_motion(&self, omega: Complex) -> Option<DampedMotion> {
         let no_poles = vec![Vec::new(); self.terms.len()];
         let Bordered { value, slope, .. } = self.bordered(omega, 1.0, &no_poles);
@@ -58,8 +59,8 @@ impl Dynamics {
             near.extend(poles.into_iter().map(|pole| (t, pole.family, pole.index)));
         }
 
-        // Amplitudes of clamped modes in the unit of the platform's motion, so that all entries have one size. Supports follow,
-        // then drives, whose rows are motions.
+        // Amplitudes of clamped modes in the unit of the platform's motion, so that all entries have one size. Supports
+        // follow, then drives, whose rows are motions.
         let (dof, bordered) = (self.dof(), self.dof() + near.len());
         let first_drive = bordered + self.supports.as_ref().map_or(0, |supports| supports.count());
         let stiffest = (0..dof).map(|k| value[(k, k)].norm()).fold(0.0, f64::max);
@@ -131,8 +132,8 @@ impl Dynamics {
         value.lu().determinant().arg() + pole_phase
     }
 
-    /// Bordered dynamic stiffness at a complex ω [rad/s] with the fraction `losses` of the damping. `poles` are the squares
-    /// of the clamped frequencies of each cable whose factors complete the determinant.
+    /// Bordered dynamic stiffness at a complex ω [rad/s] with the fraction `losses` of the damping. `poles` are the
+    /// squares of the clamped frequencies of each cable whose factors complete the determinant.
     fn bordered(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> Bordered {
         let mut parts = BorderedParts::of_platform(self, omega, losses);
         for (t, poles) in poles.iter().enumerate() {
@@ -375,7 +376,8 @@ impl DriveRows {
         }
     }
 
-    /// Adds the entries between these motions, from the row `first` on, and the supports, from the row `first_support` on.
+    /// Adds the entries between these motions, from the row `first` on, and the supports, from the row `first_support`
+    /// on.
     fn add_to_supports(&self, value: &mut CDMat, slope: &mut CDMat, first_support: usize, first: usize) {
         for (j, (row, (delta, delta_slope))) in self.on_supports.iter().zip(&self.loss).enumerate() {
             let column = first + j;

@@ -63,8 +63,8 @@ struct BorderedStiffness {
     regular: Mat6,
     /// w and 1/κ of each border.
     borders: Vec<(Vec6, f64)>,
-    /// Forces of the borders of catenary-dynamic cables on the supports; empty on a rigid frame. With supports all cables
-    /// whose stiffness depends on frequency have that form.
+    /// Forces of the borders of catenary-dynamic cables on the supports; empty on a rigid frame. With supports all
+    /// cables whose stiffness depends on frequency have that form.
     on_supports: Vec<Vec<f64>>,
 }
 
@@ -99,8 +99,8 @@ impl BorderedStiffness {
         Self { regular, borders, on_supports }
     }
 
-    /// Matrix over the platform, the borders and the supports, by columns, and its size. The stiffness is divided by its
-    /// maximum, so that platform and borders are of similar magnitude.
+    /// Matrix over the platform, the borders and the supports, by columns, and its size. The stiffness is divided by
+    /// its maximum, so that platform and borders are of similar magnitude.
     fn matrix(&self, dynamics: &Dynamics, omega: f64) -> (Vec<f64>, usize) {
         let (m, first) = (dynamics.dof(), dynamics.dof() + self.borders.len());
         let n = first + dynamics.supports().map_or(0, Supports::count);

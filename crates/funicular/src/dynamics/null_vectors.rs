@@ -268,8 +268,8 @@ impl BorderedPencil {
 }
 
 impl NullVector {
-    /// Parts the energies of the drives from those of their cables, which contain them so far, and adds the losses of the
-    /// drives to the damping. `total` is twice the kinetic energy over ω².
+    /// Parts the energies of the drives from those of their cables, which contain them so far, and adds the losses of
+    /// the drives to the damping. `total` is twice the kinetic energy over ω².
     fn part_drives(&mut self, dynamics: &Dynamics, omega: f64, total: f64) {
         for (t, term) in dynamics.terms.iter().enumerate() {
             let DynamicCable::CatenaryDynamic(form) = &term.form else { continue };

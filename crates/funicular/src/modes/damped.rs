@@ -72,8 +72,8 @@ const MAX_STEPS: f64 = 20.0;
 /// start anywhere in the region: strong damping, as of a servo, moves zeros far from their undamped frequencies.
 const MAX_ROUNDS: usize = 60;
 const ROUNDS_AT_MODES: usize = 5;
-/// Maximum damping ratio of starts anywhere in the region, and the steps of their sequence, which fills the region evenly
-/// (powers of the inverse of the plastic number, 1.3247…, as an additive sequence in two dimensions).
+/// Maximum damping ratio of starts anywhere in the region, and the steps of their sequence, which fills the region
+/// evenly (powers of the inverse of the plastic number, 1.3247…, as an additive sequence in two dimensions).
 const MAX_START_RATIO: f64 = 0.9;
 const SPREAD: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 /// Relative step below which the search of a zero has converged.
@@ -81,13 +81,13 @@ const SETTLED: f64 = 4e-15;
 /// Maximum number of rounds of Newton steps. Four are usual; the maximum is a guard for clusters, where convergence is
 /// linear at first.
 const MAX_NEWTON_ROUNDS: usize = 60;
-/// Ratio of Re ω to |ω| up to which a motion counts as decaying without oscillation: its damping ratio is then within 5e-7
-/// of one. With viscous damping alone its ω is imaginary, except for an error of at most [`WANTED_ERROR`]; the constant
-/// damping ratio of cables moves it off the axis, by 1e-5 for servos with three times the critical damping.
+/// Ratio of Re ω to |ω| up to which a motion counts as decaying without oscillation: its damping ratio is then within
+/// 5e-7 of one. With viscous damping alone its ω is imaginary, except for an error of at most [`WANTED_ERROR`]; the
+/// constant damping ratio of cables moves it off the axis, by 1e-5 for servos with three times the critical damping.
 const IMAGINARY: f64 = 1e-3;
-/// Distance of the starts of modes that share an undamped zero from their mean, over the damping ratio, and the angle of
-/// the first of them in units of the angle between them. The distance is below one, so that no start crosses the real
-/// axis; the angle is none at which starts lie symmetric to an axis, on which searches would move alike.
+/// Distance of the starts of modes that share an undamped zero from their mean, over the damping ratio, and the angle
+/// of the first of them in units of the angle between them. The distance is below one, so that no start crosses the
+/// real axis; the angle is none at which starts lie symmetric to an axis, on which searches would move alike.
 const APART: f64 = 0.3;
 const FIRST_ANGLE: f64 = 0.3;
 /// Relative distance of a new start from the place of another zero: far more than the spread of a multiple zero
@@ -388,8 +388,8 @@ impl ZeroSearch<'_> {
     }
 
     /// Number of zeros in the region that are not listed: those of the undamped robot and the turns of the phase of the
-    /// quotient of both determinants along the boundary, less the listed ones; with the left edge of the region [rad/s].
-    /// `None` if they are fewer than listed, or not countable.
+    /// quotient of both determinants along the boundary, less the listed ones; with the left edge of the region
+    /// [rad/s]. `None` if they are fewer than listed, or not countable.
     fn unlisted(&self, modes: &[DampedMode], limit: f64, right: f64) -> Option<(usize, f64)> {
         let Some(min_re) = modes.iter().map(|mode| mode.omega.re).reduce(f64::min) else { return Some((0, right)) };
         let left = 0.5 * min_re;

@@ -111,8 +111,8 @@ fn degenerate_groups(modes: &[Tracked]) -> Vec<std::ops::Range<usize>> {
     degenerate_groups
 }
 
-/// Pairs (row, column) with the maximum sum of values from 0 to 1 (Hungarian method); their number is that of the shorter
-/// side.
+/// Pairs (row, column) with the maximum sum of values from 0 to 1 (Hungarian method); their number is that of the
+/// shorter side.
 ///
 /// # Example
 /// ```

@@ -48,7 +48,7 @@ pub enum RobotPart {
     State,
 }
 
-/// One number of a robot file.
+/// Number of a robot file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
     /// Keys from the top of the file to the number, the name of the component last: `cables`, `3`, `anchor_m`, `z`.

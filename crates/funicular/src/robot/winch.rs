@@ -29,8 +29,8 @@ pub struct Winch {
     pub control: Control,
 }
 
-/// Wheel with inertia that guides the cable between entry point and drum. It changes vibration alone: at rest the lengths
-/// around guide wheels are part of the drum side.
+/// Wheel with inertia that guides the cable between entry point and drum. It changes vibration alone: at rest the
+/// lengths around guide wheels are part of the drum side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GuideWheel {
     /// Name in the robot file.
@@ -70,7 +70,8 @@ pub struct Servo {
     pub position_gain: f64,
     /// Gain K_d at the cable [N s/m].
     pub speed_gain: f64,
-    /// Slow integral action, which leaves no error at rest. Without it the winch yields at rest by the tension over K_p.
+    /// Slow integral action, which leaves no error at rest. Without it the winch yields at rest by the tension over
+    /// K_p.
     pub integral: bool,
     /// Delay τ of the loop [s].
     pub delay: f64,
@@ -134,8 +135,8 @@ impl Winch {
         if let Control::Position(servo) = self.control { Some(servo) } else { None }
     }
 
-    /// Length by which the winch pays out cable per tension at rest [m/N]: that of its mechanical stiffness, and that of
-    /// a control without integral action.
+    /// Length by which the winch pays out cable per tension at rest [m/N]: that of its mechanical stiffness, and that
+    /// of a control without integral action.
     pub fn compliance(&self) -> f64 {
         let by_control = match self.control {
             Control::Position(servo) if !servo.integral => 1.0 / servo.position_gain,

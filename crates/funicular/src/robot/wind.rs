@@ -29,7 +29,7 @@ impl Wind {
         magnified(&self.velocity_w) * (0.5 * self.air_density)
     }
 
-    /// This wind in air of density 1 kg/m³: all its forces are proportional to the density.
+    /// Wind of the same velocity in air of density 1 kg/m³; all forces of a wind are proportional to the density.
     pub(crate) fn at_unit_density(&self) -> Self {
         Self { air_density: 1.0, ..*self }
     }

@@ -18,7 +18,7 @@ use crate::platform::load_size;
 use crate::robot::{PlatformMotion, Pose, Robot};
 use std::f64::consts::TAU;
 
-/// One of several equilibria for the same lengths.
+/// Equilibrium, perhaps one of several for the same lengths.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
     /// Equilibrium, stable or not.

@@ -7,7 +7,7 @@ use super::loaded_cable::LoadedCable;
 use super::model::StaticModel;
 use super::residual::{check_lengths, elastic_rounding, scaled_residual};
 use super::stiffness::assembled;
-use super::supports::{self, Settled};
+use super::supports::{self, CablesOnSupports};
 use super::{energy, ideal, initial_pose};
 use crate::drive::CableAtRest;
 use crate::math::{Mat6, Vec3, Vec6, symmetric};
@@ -24,8 +24,8 @@ const MAX_ITERATIONS: usize = 5000;
 /// `spring` and `catenary`, any number of cables: minimises the potential energy of cables and platform by Newton's
 /// method with shifted stiffness. So it finds a stable equilibrium if there is one near, or an indifferent one.
 /// `ideal`, as many cables as degrees of freedom: closes the lengths; all tensions have to be positive. `ideal`, fewer
-/// cables: a stable or indifferent equilibrium as well. `start` is the start pose; without it the search begins at the pose at which straight cables of these lengths come closest to
-/// closing.
+/// cables: a stable or indifferent equilibrium as well. `start` is the start pose; without it the search begins at the
+/// pose at which straight cables of these lengths come closest to closing.
 ///
 /// # Errors
 /// [`StaticsError`]: lengths that do not fit the robot; more ideal cables than degrees of freedom, or ideal cables that
@@ -60,7 +60,7 @@ pub fn forward(
     let pose = start.copied().unwrap_or_else(|| initial_pose::pose_from_lengths(robot, lengths));
     if model == StaticModel::Ideal && robot.has_supports() {
         let solve = |rigid: &Robot| forward(rigid, lengths, model, Some(&pose));
-        return supports::settled_in_rounds(robot, solve, |found: &mut Equilibrium| &mut found.cables);
+        return supports::on_flexible_supports(robot, solve, |found: &mut Equilibrium| &mut found.cables);
     }
 
     match model {
@@ -122,7 +122,7 @@ impl<'a> EnergySearch<'a> {
 
     pub(super) fn at(&self, pose: Pose) -> TrialPose {
         let (cables, displacements_w): (Vec<CableAtRest>, Vec<Vec3>) = if self.robot.has_supports() {
-            let settled = Settled::at(self.robot, &self.loaded, self.lengths, &pose);
+            let settled = CablesOnSupports::at(self.robot, &self.loaded, self.lengths, &pose);
             (settled.cables, settled.displacements_w)
         } else {
             let hung = self.loaded.iter().zip(self.lengths).map(|(cable, &length)| cable.hang(&pose, length));
@@ -181,7 +181,7 @@ impl<'a> EnergySearch<'a> {
         let mut total = assembled(self.robot, &trial.pose, parts);
         if self.robot.has_supports() {
             let carried = trial.cables.iter().zip(self.lengths).enumerate().filter_map(|(i, (cable, length))| {
-                let on_support = supports::on_settled(self.robot, i, cable, *length, &trial.displacements_w)?;
+                let on_support = supports::stiffness_on_support(self.robot, i, cable, *length, &trial.displacements_w)?;
                 Some((i, on_support, cable.span.start_w - trial.pose.position_w))
             });
             total -= supports::lost_stiffness(self.robot, carried);
@@ -318,11 +318,12 @@ enum Exit {
 /// Outcome of the last step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum LastStep {
-    /// It was taken, or there was no step yet.
+    /// Taken, or no step yet.
     Taken,
-    /// It was no gain; the next step starts from the same pose with a larger shift.
+    /// Refused, since it did not reduce energy or residual; the next step starts from the same pose with a larger
+    /// shift.
     Refused,
-    /// It was no gain with the residual below its limit: rounding allows nothing better.
+    /// Refused with the residual below its limit: rounding allows no lower residual.
     BelowRounding,
 }
 
@@ -381,7 +382,7 @@ impl<'a, 's> Descent<'a, 's> {
         Self { search, here, shift: 0.0, last: LastStep::Taken, escapes: 0, min_diagonal }
     }
 
-    /// One step, taken or refused; or the end of the descent.
+    /// Step, taken or refused; or the end of the descent.
     fn iterate(&mut self) -> ControlFlow<Exit> {
         let stiffness = self.search.stiffness(&self.here);
         let near = self.here.residual < self.here.limit;

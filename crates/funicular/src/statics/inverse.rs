@@ -27,8 +27,8 @@ pub(super) fn determinate(robot: &Robot, pose: &Pose, model: StaticModel) -> Res
     exit_points::equilibrium(robot, pose, model, |held, _| at_exit_points(held, pose, model))
 }
 
-/// Unstrained lengths and tensions that hold the platform at a pose with as many cables as degrees of freedom, which end
-/// at fixed points.
+/// Unstrained lengths and tensions that hold the platform at a pose with as many cables as degrees of freedom, which
+/// end at fixed points.
 ///
 /// Straight cables have a linear solution. Sagging cables start from it, with half of each cable's weight on the
 /// platform. A Newton iteration on the lengths follows. Its steps are taken in the tension parallel to the chord, in

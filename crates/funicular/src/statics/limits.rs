@@ -104,7 +104,7 @@ pub struct TensionMargin {
     pub max: f64,
 }
 
-/// One of the two limits of a tension.
+/// Lower or upper limit of a tension.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Limit {
     /// Minimum tension.

@@ -106,7 +106,8 @@ fn core_and_files_name_no_option() {
     }
 }
 
-/// Calls of the operating system compile for WebAssembly too, and fail there when they run. So the sources are read for them.
+/// Calls of the operating system compile for WebAssembly too, and fail there when they run. So the sources are read for
+/// them.
 #[test]
 fn core_and_study_have_no_disk_no_threads_and_no_clock() {
     for name in ["funicular", "funicular-study"] {

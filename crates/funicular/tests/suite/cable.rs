@@ -1,8 +1,8 @@
 //! Deliberately plain finite-element cable, compared with every cable model.
 //!
-//! It has straight bars with two nodes and consistent mass. From the program it uses only the equilibrium: the places
-//! of the nodes, and the tension in the middle of each bar. (The bar's own stretch would give the tension with an error
-//! of EA (κh)²/24, which is large in a stiff rope.)
+//! The cable has straight bars with two nodes and consistent mass. From the program it uses only the equilibrium: the
+//! places of the nodes, and the tension in the middle of each bar. (The bar's own stretch would give the tension with
+//! an error of EA (κh)²/24, which is large in a stiff rope.)
 
 mod catenary_dynamic;
 mod shallow_dynamic;

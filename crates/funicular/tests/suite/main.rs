@@ -1,5 +1,5 @@
-//! One test binary: limits, identities, properties and broken robot files, each module's in the file of its name.
-//! Comparisons with other programs' and published numbers are in `funicular_study::validation`.
+//! One test binary: limits, identities, properties and broken robot files, each module's in the file of its name
+//! (CONTRIBUTING.md). Comparisons with other programs' and published numbers are in `funicular_study::validation`.
 #![allow(missing_docs)]
 #![allow(clippy::excessive_precision, clippy::unreadable_literal, clippy::approx_constant)] // published values keep their digits
 
@@ -15,7 +15,6 @@ mod dynamics;
 mod library;
 mod modes;
 mod platform;
-mod plausibility;
 mod pose_error;
 mod random;
 mod reduced_model;

@@ -1,7 +1,7 @@
 //! Parts of a chain with their places, for derivatives of its energy by their numbers.
 
 use super::parts::{MotionOrder, Parts};
-use super::{Place, SLIP};
+use super::{AT_WHEEL, Place};
 use crate::drive::DriveAtRest;
 use crate::math::{DMat, legendre};
 use crate::robot::{Anchor, WinchMode};
@@ -42,7 +42,8 @@ pub(crate) struct Piece {
 }
 
 impl ChainDescription {
-    /// Parts of the chain of [`DriveChain::of`](super::DriveChain::of); `None` if the cable cannot move at its exit point.
+    /// Parts of the chain of [`DriveChain::of`](super::DriveChain::of); `None` if the cable cannot move at its exit
+    /// point.
     pub(crate) fn of(
         anchor: &Anchor,
         drive: &DriveAtRest,
@@ -80,6 +81,6 @@ impl ChainDescription {
 impl Place {
     /// True for a drum or motor at the exit point, whose place contains the ratio of the stretches.
     pub(crate) fn is_at_exit(self) -> bool {
-        self.motion == SLIP.motion
+        self.motion == AT_WHEEL.motion
     }
 }

@@ -343,7 +343,8 @@ mod tests {
         ]
     }
 
-    /// End over a wheel, with a drum on a spring and a motor behind a shaft; masses [kg] of all three and of the swivel.
+    /// End over a wheel, with a drum on a spring and a motor behind a shaft; masses [kg] of all three and of the
+    /// swivel.
     fn moving(catenary: &Catenary, [wheel, drum, motor, swivel]: [f64; 4]) -> MovingEnd {
         let tension = catenary.tension_at_end();
         let (h, v) = (catenary.horizontal_force(), catenary.vertical_force_at_end());

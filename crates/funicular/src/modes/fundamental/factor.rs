@@ -67,8 +67,8 @@ fn negative_pivots(k: &KeptStiffness, lane: usize) -> usize {
     pivots.into_iter().filter(|pivot| not_positive(*pivot)).count()
 }
 
-/// Eliminates the bubbles of a group of cables. The result also has the stiffness of each cable in the coordinates of the
-/// platform, its lower triangle by columns.
+/// Eliminates the bubbles of a group of cables. The result also has the stiffness of each cable in the coordinates of
+/// the platform, its lower triangle by columns.
 #[inline(always)]
 fn eliminate_bubbles<S: Simd>(simd: S, k: &KeptStiffness, lever_axes: &LeverAxes) -> (Bubbles, [Lane; 21]) {
     let mut bubbles = Bubbles::default();
@@ -106,8 +106,8 @@ fn eliminate_bubbles<S: Simd>(simd: S, k: &KeptStiffness, lever_axes: &LeverAxes
     (bubbles, entries)
 }
 
-/// Factors the stiffness of the platform with `n` degrees of freedom in place: L below the diagonal, inverse pivots on it.
-/// The result is the number of pivots that are not positive.
+/// Factors the stiffness of the platform with `n` degrees of freedom in place: L below the diagonal, inverse pivots on
+/// it. The result is the number of pivots that are not positive.
 #[inline(always)]
 fn factor_platform(d: &mut Mat6, n: usize) -> usize {
     let mut negative = 0;

@@ -184,8 +184,8 @@ impl RobotPencil {
     }
 }
 
-/// Lever axes of a group of the cables with mass, which are given with their indices in the robot. `reduce` gives a force
-/// on a lever arm in the platform's coordinates.
+/// Lever axes of a group of the cables with mass, which are given with their indices in the robot. `reduce` gives a
+/// force on a lever arm in the platform's coordinates.
 fn lever_axes_of(
     group: &CableGroup,
     massive: &[(usize, &HangingCable)],

@@ -8,8 +8,8 @@ use super::winches::{self, WINCH};
 use crate::math::Vec3;
 use crate::robot::{Anchor, Pulley, PulleyFriction, Winch};
 
-/// Coefficient of friction that must not be reached. Ropes in grooves have 0.1 to 0.5, rubber on steel has about 1; a value
-/// from 2 on is likely one in per cent.
+/// Coefficient of friction that must not be reached. Ropes in grooves have 0.1 to 0.5, rubber on steel has about 1; a
+/// value from 2 on is likely one in per cent.
 const FRICTION_LIMIT: f64 = 2.0;
 
 /// Keys of `[pulleys.NAME]`.

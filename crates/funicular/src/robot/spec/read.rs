@@ -77,9 +77,9 @@ pub(in crate::robot) struct Numbers<'t> {
     pub changed: &'t [usize],
 }
 
-/// Collects the issues of one reading.
+/// Reader of a robot file, which collects the issues.
 ///
-/// Its methods return `None` if and only if they have reported an issue.
+/// A method returns `None` if and only if it has reported an issue.
 pub(super) struct Reader<'t> {
     text: &'t str,
     /// Numbers that replace those of the text.
@@ -316,8 +316,8 @@ impl<'t> Reader<'t> {
         None
     }
 
-    /// Tables `[kind.NAME]` of a value that holds them, each read by `read_one` from its name and its keys. `singular` is
-    /// one of them in words.
+    /// Tables `[kind.NAME]` of a value that holds them, each read by `read_one` from its name and its keys. `singular`
+    /// is one of them in words.
     pub(super) fn named_tables<'v, T>(
         &mut self,
         kind: &str,

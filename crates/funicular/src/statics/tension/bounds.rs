@@ -161,8 +161,8 @@ impl Bounds {
         outside
     }
 
-    /// Shares of the active rows in the remainder of a vector with the components `part`: cable by cable, and of the pin
-    /// for the rest `lacking` of the height.
+    /// Shares of the active rows in the remainder of a vector with the components `part`: cable by cable, and of the
+    /// pin for the rest `lacking` of the height.
     #[inline]
     fn share(&mut self, part: impl Fn(usize) -> f64, multipliers: &Vec6, mut lacking: f64) {
         self.shares.clear();

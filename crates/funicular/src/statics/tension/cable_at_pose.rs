@@ -12,8 +12,8 @@ use crate::statics::model::StaticModel;
 /// Cable at the pose.
 ///
 /// At a given geometry the tension τ parallel to the chord, (10a), determines the cable: the horizontal force is
-/// exactly τ cos α, the vertical force is nearly linear in τ, and above [`Catenary::MIN_TENSION_TO_WEIGHT`] every tension in the
-/// cable grows with τ. So limits at the ends are limits of τ.
+/// exactly τ cos α, the vertical force is nearly linear in τ, and above [`Catenary::MIN_TENSION_TO_WEIGHT`] every
+/// tension in the cable grows with τ. So limits at the ends are limits of τ.
 #[derive(Debug, Clone)]
 pub(super) struct CableAtPose {
     pub hanging: HangingCable,

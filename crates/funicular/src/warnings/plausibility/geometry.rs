@@ -64,7 +64,7 @@ fn against_others(points: &[Vec3], i: usize) -> (f64, f64) {
 /// Minimum number of cables of which one with a point far from those of the others is suspicious.
 const MIN_OTHERS: usize = 4;
 
-/// One cable whose anchor or attachment is far from those of all others.
+/// Cable whose anchor or attachment is far from those of all others.
 fn single_cable(robot: &Robot) -> Option<Implausible> {
     let cables = &robot.cables;
     if cables.len() < MIN_OTHERS {

@@ -43,8 +43,8 @@ fn both_ends(sag: &Sag, square: Complex) -> CDMat {
     k
 }
 
-/// Drive of the robots of this file over (σ, v, w), or (σ, v, w, g) with a guide wheel: rigid winches of 60 kg with this
-/// control, wheels and swivels with mass. The guide wheel divides the drum side, from 5 m, at its distance.
+/// Drive of the robots of this file over (σ, v, w), or (σ, v, w, g) with a guide wheel: rigid winches of 60 kg with
+/// this control, wheels and swivels with mass. The guide wheel divides the drum side, from 5 m, at its distance.
 fn of_drive(robot: &Robot, state: &CableState, control: Complex, omega: f64) -> CDMat {
     let (anchor, drive) = (&robot.cables[0].anchor, state.drive.as_ref().unwrap());
     let ea = robot.cables[0].material.axial_stiffness;
@@ -154,8 +154,8 @@ fn the_stiffness_is_that_of_the_closed_form_with_both_ends() {
     }
 }
 
-/// Number of poles below a frequency: those of the span with both ends held, and the negative eigenvalues of the matrix of
-/// slip, swivel and drum.
+/// Number of poles below a frequency: those of the span with both ends held, and the negative eigenvalues of the matrix
+/// of slip, swivel and drum.
 #[test]
 fn the_count_of_poles_is_that_of_the_span_and_of_the_drive() {
     for (robot, rest) in robots(servo(6e4, 0.0)) {
@@ -317,8 +317,8 @@ fn the_platform_follows_a_slow_base() {
     }
 }
 
-/// With less mass the shallow span with its drive approaches the catenary-dynamic one: by the square of the sag, and by the
-/// axial inertia, which is in proportion to the mass.
+/// With less mass the shallow span with its drive approaches the catenary-dynamic one: by the square of the sag, and by
+/// the axial inertia, which is in proportion to the mass.
 #[test]
 fn taut_cables_with_drives_are_those_of_the_catenary() {
     let gap = |weight: f64| {

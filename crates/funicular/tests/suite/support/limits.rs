@@ -56,7 +56,8 @@ fn the_paper_has_no_supports() {
     let in_plane = Linearisation { in_plane_only: true, ..Linearisation::default() };
     assert_eq!(
         Dynamics::about(&robot, &rest, in_plane, 5.0).unwrap_err().to_string(),
-        "the anchor of cable \"1\" is on a flexible support, which moves in all directions: leave `in-plane-only` out"
+        "the anchor of cable \"1\" is on a flexible support, which moves in all directions: include the \
+         stiffness out of plane"
     );
 }
 

@@ -16,8 +16,8 @@ use std::f64::consts::TAU;
 /// Limit of the models [Hz].
 const BELOW: f64 = 3.0;
 
-/// Body of 12 kg as a point, hung from three cables: two on one post and one on a mast. `drive` and `length` are those of each
-/// cable, `post` is more of the table of the post.
+/// Body of 12 kg as a point, hung from three cables: two on one post and one on a mast. `drive` and `length` are those
+/// of each cable, `post` is more of the table of the post.
 fn hung(drive: &str, lengths: [f64; 3], post: &str) -> Robot {
     let of_cable = |name: &str, anchor: &str, support: &str, length: f64| {
         format!(
@@ -175,8 +175,8 @@ fn with_heavy_drum_sides_from_the_ground_every_signal_is_exact() {
     is_exact_with_all_modes(&case, &[Length], &[DrumTension]);
 }
 
-/// A model of few modes is as good as it says, also beside the constant damping ratios of supports and cables; so is its state
-/// space for controllers.
+/// A model of few modes is as good as it says, also beside the constant damping ratios of supports and cables; so is
+/// its state space for controllers.
 #[test]
 fn small_models_are_as_good_as_they_say() {
     let text = "damping_ratio = 0.02\ndrums = \"on-ground\"\n";

@@ -1,4 +1,5 @@
-//! Responses of robots on supports: derivatives of forward statics, reciprocity, closed forms, and motions of the frame.
+//! Responses of robots on supports: derivatives of forward statics, reciprocity, closed forms, and motions of the
+//! frame.
 
 use super::{Behind, at_rest, closed_form, cogiro, lengths, platform_responses, taut, with_servos};
 use funicular::cable::CableModel;
@@ -140,8 +141,9 @@ fn closed_form_of_anchors(robot: &Robot, rest: &Equilibrium, square: Complex) ->
     robot.cables.iter().zip(&rest.cables).map(of_cable).sum()
 }
 
-/// Turning motion of the base and motion of the foot of one support, at any frequency: against the closed form of straight
-/// cables. A base that turns moves every anchor differently; the mass of a support is in the middle of its anchors.
+/// Turning motion of the base and motion of the foot of one support, at any frequency: against the closed form of
+/// straight cables. A base that turns moves every anchor differently; the mass of a support is in the middle of its
+/// anchors.
 #[test]
 fn a_turning_base_and_a_moving_foot_have_their_closed_form() {
     let robot = taut("damping_ratio = 0.02\n");
@@ -229,8 +231,9 @@ fn closed_form_by_cable(robot: &Robot, rest: &Equilibrium, square: Complex) -> V
     robot.cables.iter().zip(&rest.cables).map(of_cable).collect()
 }
 
-/// Towards zero frequency, motions of the frame are forward statics of the moved robot: a base that turns with anchors, swivel
-/// axes and springs of the supports, and the foot of a support. A drum on the ground stays there while the foot moves.
+/// Towards zero frequency, motions of the frame are forward statics of the moved robot: a base that turns with anchors,
+/// swivel axes and springs of the supports, and the foot of a support. A drum on the ground stays there while the foot
+/// moves.
 #[test]
 fn slow_motions_of_the_frame_are_statics_of_the_moved_robot() {
     let outputs = [Vec3::x(), Vec3::y(), Vec3::z()];
@@ -309,8 +312,8 @@ fn slow_motions_of_the_frame_are_statics_of_the_moved_robot() {
     }
 }
 
-/// The base moves all feet, so that its response is the sum of those to the feet if the drums are on the supports: with servos,
-/// and with drum sides that have mass.
+/// The base moves all feet, so that its response is the sum of those to the feet if the drums are on the supports: with
+/// servos, and with drum sides that have mass.
 #[test]
 fn the_base_is_the_sum_of_the_feet() {
     for behind in [Behind::Nothing, Behind::DrumsOnSupports] {

@@ -51,8 +51,8 @@ pub(super) struct ForceShapes {
 }
 
 impl ForceShapes {
-    /// Sets lane `i` to the element between two arc lengths [m] of a cable. The components of e along the horizontal and
-    /// up are `axis`.
+    /// Sets lane `i` to the element between two arc lengths [m] of a cable. The components of e along the horizontal
+    /// and up are `axis`.
     pub(super) fn set(&mut self, i: usize, cable: &CableSpan, axis: [f64; 2], from: f64, to: f64) {
         let CableSpan { catenary, mass_per_length, .. } = cable;
         let rope = catenary.rope();
@@ -198,8 +198,8 @@ impl ElementBatch {
     }
 }
 
-/// Integrals of the components of C, from their `coefficients`, times the slopes of the functions f and j ≤ f, of which H
-/// are hats.
+/// Integrals of the components of C, from their `coefficients`, times the slopes of the functions f and j ≤ f, of which
+/// H are hats.
 #[inline(always)]
 fn slope_products<S: Simd, const H: usize>(
     part: Part<S>,

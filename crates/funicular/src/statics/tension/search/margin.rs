@@ -15,9 +15,9 @@ pub(in crate::statics::tension) const HOLDS: f64 = 1e-9;
 pub(super) struct MarginOptimum {
     /// Tensions [N].
     pub(super) tau: Vec<f64>,
-    /// This distance, in units of the widths.
+    /// Minimum distance from the limits, in units of the widths.
     pub(super) distance: f64,
-    /// This distance [N].
+    /// Minimum distance from the limits [N].
     pub(super) height: f64,
     /// Limits that hold it.
     pub(super) held_by: Vec<(usize, Limit)>,

@@ -1,9 +1,9 @@
 //! Robot of bars: every cable is a row of straight two-node bars with consistent mass, the platform is a rigid body.
 //!
-//! It is derived from the energy, without the library's dynamics. From the program it uses only the equilibrium (places
-//! and tensions along the cables, forces on the platform). Natural frequencies are counted: by Sylvester's law the
-//! signs of the pivots of a block elimination, cable by cable from the anchor to the platform, are those of the
-//! eigenvalues of `K − ω² M`.
+//! Its matrices are derived from the energy, without the library's dynamics. From the program the robot uses only the
+//! equilibrium (places and tensions along the cables, forces on the platform). Natural frequencies are counted: by
+//! Sylvester's law the signs of the pivots of a block elimination, cable by cable from the anchor to the platform, are
+//! those of the eigenvalues of `K − ω² M`.
 
 use funicular::math::{DMat, Mat3, Mat6, Vec3, Vec6, skew};
 use funicular::robot::{PlatformMotion, Robot};

@@ -21,7 +21,7 @@ pub(crate) enum Purpose {
     Proper,
     /// Rigid platform on 4 or 5 cables.
     TooFewCables,
-    /// One cable without mass is longer than its chord.
+    /// Robot with a slack cable: it has no mass and is longer than its chord.
     Slack,
     /// Robot whose frequency limit is up to a thousand times the limit of a list of modest length.
     FarTooHigh,
@@ -108,7 +108,7 @@ impl RobotGenerator {
         self.0.random_bool(part)
     }
 
-    /// One attempt; `None` if the cables cannot hold the platform.
+    /// Random robot; `None` if the cables cannot hold the platform.
     fn attempt(&mut self, index: u64, purpose: Purpose, arrangement: Arrangement) -> Option<RandomRobot> {
         let size = self.decades(-0.3, 1.0);
         let mut places = match arrangement {

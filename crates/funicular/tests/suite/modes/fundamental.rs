@@ -1,5 +1,7 @@
 //! First natural frequency alone against the first mode of the complete list.
 
+mod with_drives;
+
 use crate::library::library;
 use crate::random::campaign::robots::{self, Purpose};
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
@@ -12,25 +14,25 @@ use std::f64::consts::TAU;
 const YUAN: &str = funicular_robots::YUAN2014_4MM;
 
 /// Fault of the first mode of a robot, compared with the list up to a tenth above it; energies with the usual accuracy.
-pub(super) fn fault(robot: &Robot, rest: &Equilibrium, first: &First) -> Option<String> {
+fn fault(robot: &Robot, rest: &Equilibrium, first: &First) -> Option<String> {
     fault_beyond(robot, rest, first, &ErrorBounds { energy: |_| 1e-6, stiffest: 0.0 })
 }
 
 /// ErrorBounds of the errors of a first mode.
-pub(super) struct ErrorBounds {
+struct ErrorBounds {
     /// Error of the energies as a function of the relative distance to the next frequency.
-    pub(super) energy: fn(f64) -> f64,
+    energy: fn(f64) -> f64,
     /// Stiffness of the stiffest spring [N/m], whose rounding changes the frequency; 0 to leave it out.
-    pub(super) stiffest: f64,
+    stiffest: f64,
 }
 
-/// Rounding of a soft motion's stiffness over the stiffest spring: the elimination of some fifty unknowns, twice. A drum
-/// of 1 kg at constant torque behind 14 cm of a steel rope of 2e7 N leaves 140 units in the last place, found by
+/// Rounding of a soft motion's stiffness over the stiffest spring: the elimination of some fifty unknowns, twice. A
+/// drum of 1 kg at constant torque behind 14 cm of a steel rope of 2e7 N leaves 140 units in the last place, found by
 /// comparison with longer ropes.
 const STIFFNESS_ROUNDING: f64 = 128.0 * f64::EPSILON;
 
 /// Fault of the first mode beyond some bounds.
-pub(super) fn fault_beyond(robot: &Robot, rest: &Equilibrium, first: &First, bounds: &ErrorBounds) -> Option<String> {
+fn fault_beyond(robot: &Robot, rest: &Equilibrium, first: &First, bounds: &ErrorBounds) -> Option<String> {
     let limit = 1.1 * first.frequency_hz;
     let all = modes::below(&Dynamics::about(robot, rest, Linearisation::default(), limit).unwrap(), limit);
     let Some(mode) = all.modes.first() else { return Some(format!("none below {limit} Hz")) };
