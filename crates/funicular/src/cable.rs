@@ -14,7 +14,7 @@ pub mod spring;
 use crate::catenary::space::HangingCable;
 use crate::drive::DriveChain;
 use crate::math::{Complex, Mat3, Vec3, any_normal};
-use crate::robot::{Robot, WinchMode};
+use crate::robot::{Damping, Robot, WinchMode};
 use crate::statics::CableState;
 use catenary_dynamic::{CatenaryDynamicEnd, EndDirections, MovingEnd, Shapes};
 use shallow_dynamic::ShallowDynamic;
@@ -360,18 +360,11 @@ impl EndStiffness {
             }
             CableModel::CatenaryStatic => Self::Constant(without_b(state.tangent_w().ok_or(NoStiffness::Rigid)?)),
             CableModel::ShallowDynamic if robot.has_moving_ends() => {
-                let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
                 let end = moving_end(robot, i, state, &axes, winches, limit);
-                // Without any mass the cable and its drive are springs.
-                if sag.mass_per_length == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
-                    let still = shallow_static::stiffness(&sag).in_world(&axes);
-                    return Ok(Self::Constant(without_b(in_series(still))));
+                match shallow_span(state, (&sag, axes), end, material.damping, in_plane_only, limit)? {
+                    Some(cable) => Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable))),
+                    None => Self::Constant(without_b(in_series(shallow_static::stiffness(&sag).in_world(&axes)))),
                 }
-                let directions = EndDirections::in_axes(hanging, &axes);
-                let (damping, span) = (material.damping, &sag);
-                let cable =
-                    CatenaryDynamicEnd::of_shallow_span(span, (axes, directions), end, damping, in_plane_only, limit)?;
-                Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable)))
             }
             CableModel::ShallowDynamic => {
                 let cable = ShallowDynamic::new(sag, axes, material.damping, in_plane_only);
@@ -390,6 +383,24 @@ impl EndStiffness {
             }
         })
     }
+}
+
+/// Shallow span whose far end may move, by poles and residues; `None` if cable and drive have no mass and are springs.
+fn shallow_span(
+    state: &CableState,
+    (sag, axes): (&Sag, LocalAxes),
+    end: Option<MovingEnd>,
+    damping: Damping,
+    in_plane_only: bool,
+    limit: f64,
+) -> Result<Option<CatenaryDynamicEnd>, NoStiffness> {
+    let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
+    if sag.mass_per_length == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
+        return Ok(None);
+    }
+    let directions = EndDirections::in_axes(hanging, &axes);
+    let cable = CatenaryDynamicEnd::of_shallow_span(sag, (axes, directions), end, damping, in_plane_only, limit)?;
+    Ok(Some(cable))
 }
 
 /// Static stiffness of the free span of cable `i` in a model, its far end held; 3×3, world axes [N/m]. `None` for a

@@ -98,10 +98,10 @@ impl FrozenSag {
             more => format!(" (and at {})", crate::counted(more, "further mode")),
         };
         format!(
-            "At {frequency_hz:.4} Hz{others} `{model}` ({:+.1} %) is worse than `spring` ({:+.1} %). This mode lies above \
-             the first resonance of a cable with fixed ends, {clamped_hz:.3} Hz: there the inertia of the cables keeps their sag from \
-             following the platform, so that a cable answers like a spring, while a static model lets the sag follow at \
-             every frequency and is too soft.",
+            "At {frequency_hz:.4} Hz{others} `{model}` ({:+.1} %) is worse than `spring` ({:+.1} %). This mode lies \
+             above the first resonance of a cable with fixed ends, {clamped_hz:.3} Hz: there the inertia of the cables \
+             keeps their sag from following the platform, so that a cable answers like a spring, while a static model \
+             lets the sag follow at every frequency and is too soft.",
             100.0 * static_difference,
             100.0 * spring_difference
         )
@@ -448,8 +448,8 @@ impl Advisor<'_> {
         let total = truth.modes.len();
         let first = first_of_cables.map_or(String::new(), |hz| format!(" (the first at {hz:.3} Hz)"));
         let constant = format!(
-            "{string}; with the moving platform {cable_modes} of the {total} modes there have most of their energy in the \
-             cables{first}, and a constant cable stiffness misses {lost} of them"
+            "{string}; with the moving platform {cable_modes} of the {total} modes there have most of their energy in \
+             the cables{first}, and a constant cable stiffness misses {lost} of them"
         );
 
         match simplest {
@@ -465,8 +465,8 @@ impl Advisor<'_> {
             }
             CableModel::ShallowDynamic => {
                 format!(
-                    "Use `shallow-dynamic`: it has all {total} modes below {below_hz} Hz within {percent} % of those by \
-                     `{reference}`; {constant}"
+                    "Use `shallow-dynamic`: it has all {total} modes below {below_hz} Hz within {percent} % of those \
+                     by `{reference}`; {constant}"
                 )
             }
             _ => format!(
@@ -482,16 +482,16 @@ impl Advisor<'_> {
         let modes = crate::counted(total, "platform mode");
         if total == 0 {
             return format!(
-                "No mode below {below_hz} Hz has at least {} % of its kinetic energy in the platform: raise the limit, or \
-                 require a smaller share",
+                "No mode below {below_hz} Hz has at least {} % of its kinetic energy in the platform: raise the limit, \
+                 or require a smaller share",
                 100.0 * share
             );
         }
         if simplest != reference {
             let difference = self.result(simplest).and_then(|m| m.largest_difference).unwrap_or(0.0);
             return format!(
-                "Use `{simplest}` for the platform: it has {} below {below_hz} Hz within {percent} % of `{reference}`, the \
-                 largest difference is {:+.2} %",
+                "Use `{simplest}` for the platform: it has {} below {below_hz} Hz within {percent} % of `{reference}`, \
+                 the largest difference is {:+.2} %",
                 if total == 1 { "the one platform mode".to_owned() } else { format!("all {modes}") },
                 100.0 * difference
             );

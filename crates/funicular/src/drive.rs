@@ -95,7 +95,7 @@ impl CableAtRest {
         balance::at_length(start_w, &cable.anchor, load, rope)
     }
 
-    /// Cable with a free span that leaves the pulley at `contact`; the unstrained length follows.
+    /// Cable with a free span that leaves the pulley at `contact`; its unstrained length follows from both.
     pub(crate) fn with_span(span: HangingCable, anchor: &Anchor, contact: Option<PulleyContact>) -> Self {
         if anchor.is_fixed() {
             return Self::fixed(span);

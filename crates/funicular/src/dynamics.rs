@@ -141,7 +141,7 @@ impl Dynamics {
         Self::with_shapes(robot, equilibrium, linearisation, up_to_hz, Shapes::Dropped)
     }
 
-    /// Robot as by [`about`](Self::about), which keeps the shapes of the clamped modes along its catenary-dynamic
+    /// Robot linearised as by [`about`](Self::about), with the shapes of the clamped modes along its catenary-dynamic
     /// cables. [`Gradients::vibration`](crate::gradient::Gradients::vibration) needs them, and otherwise computes all
     /// clamped modes a second time.
     ///

@@ -82,8 +82,8 @@ pub enum CatenaryDynamicError {
     NoTension,
     /// The end of the cable couples the motions in plane, which alone are wanted, with those out of plane.
     #[error(
-        "the swivel axis of its pulley is not parallel to the load of the cable, so that its motions in plane and out of \
-         plane are coupled: leave `in-plane-only` out"
+        "the swivel axis of its pulley is not parallel to the load of the cable, so that its motions in plane and out \
+         of plane are coupled: leave `in-plane-only` out"
     )]
     Skew,
     /// Nothing holds the drum: the cable would run over its pulley.

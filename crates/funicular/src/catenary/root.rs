@@ -96,7 +96,7 @@ struct Equation {
 }
 
 /// F at a value of v, over L0².
-struct Value {
+struct EquationValue {
     value: f64,
     /// Derivative of F by v.
     slope: f64,
@@ -109,7 +109,7 @@ struct Value {
 impl Equation {
     /// F and its derivatives at v.
     #[inline]
-    fn at(&self, v: f64) -> Value {
+    fn at(&self, v: f64) -> EquationValue {
         let Self { x, x2, z2, k, chord2_minus_1 } = *self;
         let h = Hyperbolic::of(v);
         let across = v + k;
@@ -132,11 +132,11 @@ impl Equation {
         let b_by_v = k * inverse_cosh * inverse_cosh / (along * along);
         let vertical_slope = 2.0 * z2 * b * b_by_v;
         let slope = 2.0 * (x * a) * (x * a_by_v) + vertical_slope;
-        Value { value, slope, vertical, vertical_slope }
+        EquationValue { value, slope, vertical, vertical_slope }
     }
 }
 
-impl Value {
+impl EquationValue {
     /// Newton's step to the left from v, of F or, for deep sag, of its logarithm: there F grows like e^{2v}, and the
     /// logarithm is nearly straight.
     #[inline]

@@ -10,8 +10,8 @@ use crate::robot::{PulleyContact, Wheel};
 /// from the axis is 1e-16 of the radius.
 const MIN_WRAP: f64 = 1e-8;
 
-/// End of a cable at its exit point, as the free span meets it. It can move along the cable (σ, towards the
-/// platform) and sideways with the swivelling wheel (v).
+/// Far end of the free span, at the exit point. It can move along the cable (σ, towards the platform) and sideways with
+/// the swivelling wheel (v).
 ///
 /// In the plane of the wheel, rolling has no effect of first order: the exit point is a pin that slides along the
 /// cable. The forces of the end on a displacement (σ, v) are −S (σ, v).
@@ -32,7 +32,7 @@ pub struct AnchorEnd {
     pub(crate) stretch_drum: f64,
     /// Stiffness along the cable by its weight, −q·t/λ [N/m]: σ lifts or lowers it.
     pub(crate) weight: f64,
-    /// Direction of the cable at the exit point towards the platform, unit vector, world axes; that of σ.
+    /// Direction of the cable at the exit point towards the platform, unit vector, world axes; direction of σ.
     pub(crate) travel_w: Vec3,
 }
 
@@ -57,7 +57,7 @@ pub(crate) struct OnSupport {
 }
 
 impl OnSupport {
-    /// Anchor that moves with everything behind it, from the stiffness at the platform.
+    /// Stiffness for a motion of the anchor with its whole drive, from the stiffness at the platform.
     pub(super) fn moving_together(total: Mat3) -> Self {
         Self { force_w: total, stiffness_w: total }
     }
@@ -176,8 +176,8 @@ impl AnchorEnd {
         [-pull * sigma, -pull * mixed]
     }
 
-    /// Derivative of the force on the platform with respect to the unstrained length [N/m]; `None` if the end is held,
-    /// so that it is that of the span.
+    /// Derivative of the force on the platform with respect to the unstrained length [N/m]; `None` if the end is held:
+    /// then it is the derivative of the span.
     pub(crate) fn force_by_length_w(&self, held: &Mat3) -> Option<Vec3> {
         let along = held * self.along_w?;
         let [[a, b], _] = self.inverse(held);

@@ -91,8 +91,8 @@ impl DampedModes {
         if let Some(fastest) = self.modes.iter().filter(grows).min_by(|a, b| a.omega.im.total_cmp(&b.omega.im)) {
             let count = self.modes.iter().filter(grows).count();
             return Some(format!(
-                "the control of the motors is unstable: {} by themselves, the fastest at {:.4} Hz; reduce its gain or its \
-                 delay",
+                "the control of the motors is unstable: {} by themselves, the fastest at {:.4} Hz; reduce its gain or \
+                 its delay",
                 if count == 1 { "one motion grows".to_owned() } else { format!("{count} motions grow") },
                 fastest.ringing_hz()
             ));

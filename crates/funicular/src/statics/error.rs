@@ -85,8 +85,8 @@ pub enum StaticsError {
     },
     /// The attachment of a cable is inside the wheel of its pulley.
     #[error(
-        "cable \"{cable}\" ends inside the wheel of its pulley at this pose: its attachment is {distance:.4} m from the \
-         wheel's centre, the radius is {radius} m; move the platform away, or check `radius_m` and `anchor_m`"
+        "cable \"{cable}\" ends inside the wheel of its pulley at this pose: its attachment is {distance:.4} m from \
+         the wheel's centre, the radius is {radius} m; move the platform away, or check `radius_m` and `anchor_m`"
     )]
     InsidePulley {
         /// Name of the cable.

@@ -25,8 +25,9 @@ pub enum FrictionError {
     NoFriction,
     /// The pose is held, and the support of a cable with friction yields to its drum on the ground.
     #[error(
-        "friction on the pulley of cable \"{cable}\" changes the pull of its drum on the ground, and with it the place of its \
-         flexible support: pose and tensions cannot both be held; give unstrained lengths, or set `drums = \"on-support\"`"
+        "friction on the pulley of cable \"{cable}\" changes the pull of its drum on the ground, and with it the place \
+         of its flexible support: pose and tensions cannot both be held; give unstrained lengths, or set `drums = \
+         \"on-support\"`"
     )]
     Supports {
         /// Name of the cable.

@@ -15,7 +15,7 @@ pub(super) struct Families {
     pub(super) coupled: Option<Condensed<3, 6, 6>>,
     /// Static response of the motions at the end to forces on them.
     pub(super) flexibility: DMat,
-    /// Estimated relative error of the poles.
+    /// Estimated relative error of the clamped frequencies below the limit.
     pub(super) error: f64,
     /// Arc lengths of the stations.
     pub(super) arc_lengths: Vec<f64>,

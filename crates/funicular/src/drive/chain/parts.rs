@@ -54,7 +54,7 @@ fn pieces(anchor: &Anchor, drive: &DriveAtRest, axial_stiffness: f64) -> (Vec<f6
 }
 
 impl<'a> Parts<'a> {
-    /// Parts behind an end; `None` if nothing of them moves.
+    /// Parts behind an end; `None` if none of them moves.
     pub(super) fn of(
         anchor: &'a Anchor,
         drive: &DriveAtRest,
@@ -103,7 +103,7 @@ impl<'a> Parts<'a> {
         if let Control::Position(servo) = self.control { Some(servo) } else { None }
     }
 
-    /// Stiffness of a piece of arc and drum side on σ [N/m]; that of all pieces is k_r of equation (75).
+    /// Stiffness of a piece of arc and drum side on σ [N/m]; all pieces in series have the stiffness k_r of equation (75).
     pub(super) fn spring(&self, piece: usize) -> f64 {
         1.0 / (self.stretch * self.stretch * self.pieces[piece])
     }
@@ -132,7 +132,7 @@ pub(super) struct MotionOrder {
     /// Guide wheels, as motions of the cable there.
     pub(super) guides: Vec<Place>,
     /// Ends of the pieces of the drum side from σ to the drum, as parts of their elongation: the motion of the cable
-    /// there but for the stretch. `None` for a drum that is held; empty if the drum is at the exit point.
+    /// there without the factor of the stretch. `None` for a drum that is held; empty if the drum is at the exit point.
     pub(super) nodes: Vec<Option<Place>>,
     /// Motions that are waves of each piece of the drum side.
     pub(super) waves: Vec<Range<usize>>,

@@ -46,8 +46,8 @@ pub(super) const KEYS: &[Key] = &[
         "entry_direction = [0.0, 0.0, 1.0]",
         "1",
         Limits::Any,
-        "direction in which the cable travels at its anchor towards the platform, and axis of the swivel, world axes; of \
-         any length",
+        "direction in which the cable travels at its anchor towards the platform, and axis of the swivel, world axes; \
+         of any length",
     )
     .without(Absent::Means("that of its pulley")),
     Key::other("winch", r#"winch = "drum""#, KeyValue::Name, "winch of the cable: a NAME of `[winches.NAME]`")
@@ -92,8 +92,8 @@ pub(super) const KEYS: &[Key] = &[
         "unstrained_length_m = 6.5",
         "m",
         Limits::Positive,
-        "unstrained length of the cable from its attachment to its anchor; with a pulley or a winch to the drum, the arc \
-         on the wheel and the drum side included",
+        "unstrained length of the cable from its attachment to its anchor; with a pulley or a winch to the drum, the \
+         arc on the wheel and the drum side included",
     )
     .without(Absent::Means("no length; all cables have one, or none has")),
 ];

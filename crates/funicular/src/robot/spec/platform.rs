@@ -15,9 +15,7 @@ const FLAT: f64 = 1e-6;
 
 /// Keys of `[platform]`.
 pub(super) const KEYS: &[Key] = &[
-    Key::numeric(
-        Shape::Number,
-        "mass_kg", "mass_kg = 10.0", "kg", Range::Positive, "mass of the platform"),
+    Key::numeric(Shape::Number, "mass_kg", "mass_kg = 10.0", "kg", Range::Positive, "mass of the platform"),
     Key::other("motion", r#"motion = "rigid""#, KeyValue::Word(MOTIONS), "degrees of freedom of the platform")
         .without(Absent::DefaultWord("rigid")),
     Key::numeric(
@@ -44,9 +42,9 @@ pub(super) const KEYS: &[Key] = &[
         "inertia_kg_m2 = [0.1, 0.1, 0.2]",
         "kg m²",
         Range::Any,
-        "inertia tensor about the centre of mass, platform axes: three principal moments or three rows of three numbers; \
-         for a planar platform also one number, the moment about the normal; the tensor has to be one that a body can \
-         have",
+        "inertia tensor about the centre of mass, platform axes: three principal moments or three rows of three \
+         numbers; for a planar platform also one number, the moment about the normal; the tensor has to be one that a \
+         body can have",
     )
     .without(Absent::Depends("required, except for a point mass, for which it is refused")),
     Key::numeric(
@@ -276,8 +274,8 @@ fn box_example(root: &Section, mass: f64) -> Option<String> {
     let [xx, yy, zz] = moments.map(|moment| rounded(moment, 10));
     let [a, b, c] = size.map(|side| rounded(side, 4));
     Some(format!(
-        "add it, for example `inertia_kg_m2 = [{xx}, {yy}, {zz}]`: moments m(b² + c²)/12, m(a² + c²)/12 and \
-         m(a² + b²)/12 of a homogeneous box of {mass} kg with the size of the attachments, {a} × {b} × {c} m; replace this \
+        "add it, for example `inertia_kg_m2 = [{xx}, {yy}, {zz}]`: moments m(b² + c²)/12, m(a² + c²)/12 and m(a² + \
+         b²)/12 of a homogeneous box of {mass} kg with the size of the attachments, {a} × {b} × {c} m; replace this \
          starting value by that of the real platform"
     ))
 }

@@ -221,9 +221,10 @@ fn radius(reader: &mut Reader, section: &Section) -> Option<Option<f64>> {
     let about_the_axis = about_the_axis.into_iter().skip(usize::from(section.get("stiffness_n_per_m").is_some()));
     let Some(key) = about_the_axis.into_iter().find(|key| section.get(key).is_some()) else { return Some(None) };
     if !section.mistyped(&["drum_radius_m"]) {
-        reader
-            .issue(section.span.clone(), format!("{} has `{key}`, but no `drum_radius_m`", section.label()))
-            .help("add it, for example `drum_radius_m = 0.0675`; at the cable a stiffness, an inertia or a damping counts by its square");
+        reader.issue(section.span.clone(), format!("{} has `{key}`, but no `drum_radius_m`", section.label())).help(
+            "add it, for example `drum_radius_m = 0.0675`; at the cable a stiffness, an inertia or a damping counts \
+                 by its square",
+        );
     }
 
     None

@@ -294,8 +294,8 @@ impl Tally {
         }
         eprintln!("{} faults", self.wrong.len());
         eprintln!(
-            "{} gaps counted with {} bars; {} frequencies alone between two counts, median width {:.1e}; {clustered} in \
-             {} groups, median width {:.1e}",
+            "{} gaps counted with {} bars; {} frequencies alone between two counts, median width {:.1e}; {clustered} \
+             in {} groups, median width {:.1e}",
             self.gaps,
             self.bars,
             self.alone.len(),
