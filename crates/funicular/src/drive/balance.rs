@@ -157,6 +157,7 @@ impl Problem<'_> {
                 (next.imbalance.amax() < before.max(ROUNDING)).then_some(next)
             });
 
+            // End after a small step.
             here = next?;
             if size <= LAST_STEP {
                 return Some(here.unknowns);

@@ -77,7 +77,7 @@ const ROUNDS_AT_MODES: usize = 5;
 const MAX_START_RATIO: f64 = 0.9;
 const SPREAD: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 /// Relative step below which the search of a zero has converged.
-const SETTLED: f64 = 4e-15;
+const CONVERGED: f64 = 4e-15;
 /// Maximum number of rounds of Newton steps. Four are usual; the maximum is a guard for clusters, where convergence is
 /// linear at first.
 const MAX_NEWTON_ROUNDS: usize = 60;
@@ -88,7 +88,7 @@ const IMAGINARY: f64 = 1e-3;
 /// Distance of the starts of modes that share an undamped zero from their mean, over the damping ratio, and the angle
 /// of the first of them in units of the angle between them. The distance is below one, so that no start crosses the
 /// real axis; the angle is none at which starts lie symmetric to an axis, on which searches would move alike.
-const APART: f64 = 0.3;
+const START_DISTANCE: f64 = 0.3;
 const FIRST_ANGLE: f64 = 0.3;
 /// Relative distance of a new start from the place of another zero: far more than the spread of a multiple zero
 /// ([`ONE_ZERO`]) and far less than [`MAX_STEP`]. Angle of that start [rad]: on no axis.
@@ -241,7 +241,7 @@ impl ZeroSearch<'_> {
         for _ in 0..MAX_NEWTON_ROUNDS {
             let mut moved = false;
             for i in 0..zeros.len() {
-                if zeros[i].error <= SETTLED {
+                if zeros[i].error <= CONVERGED {
                     continue;
                 }
 
@@ -285,7 +285,7 @@ impl ZeroSearch<'_> {
                 // Separate starts around the undamped zero, at a distance in proportion to the damping.
                 let mode = &modes[member];
                 let turn = Complex::from_polar(
-                    APART * mode.damping_ratio,
+                    START_DISTANCE * mode.damping_ratio,
                     TAU * (k as f64 + FIRST_ANGLE) / zero.members.len() as f64,
                 );
                 let omega = mode.frequency_hz * TAU * (Complex::new(1.0, mode.damping_ratio) + turn);
@@ -478,10 +478,10 @@ impl ZeroSearch<'_> {
 /// Frequency at or slightly above the limit [rad/s], in the widest gap between undamped modes. Damping shifts the
 /// frequencies, and none may cross the edge of the region in which they are counted.
 fn free_of_modes(dynamics: &Dynamics, limit: f64) -> f64 {
-    let at = |k: usize| limit * (1.0 + BEYOND * k as f64 / LOOKS as f64);
+    let at = |k: usize| limit * (1.0 + GAP_RANGE * k as f64 / GAP_POINTS as f64);
     let (mut widest, mut first) = (0..0, 0);
     let mut count = dynamics.modes_below(at(0));
-    for k in 1..=LOOKS {
+    for k in 1..=GAP_POINTS {
         let next = dynamics.modes_below(at(k));
         if next != count {
             (first, count) = (k, next);
@@ -493,9 +493,9 @@ fn free_of_modes(dynamics: &Dynamics, limit: f64) -> f64 {
 }
 
 /// Width of the range above the limit in which a gap between modes is sought, relative to the limit.
-const BEYOND: f64 = 0.05;
+const GAP_RANGE: f64 = 0.05;
 /// Number of points of this range at which modes are counted.
-const LOOKS: usize = 64;
+const GAP_POINTS: usize = 64;
 
 /// Distance of the boundary of the counted region from the zeros: over the largest imaginary part of a zero, and its
 /// minimum over the frequency limit. Not tuned: the nearer the boundary, the more points its phase needs.

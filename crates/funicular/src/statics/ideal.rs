@@ -139,6 +139,7 @@ pub(super) fn forward_of_few(
             return Ok(found);
         }
 
+        // Shorten the unstrained lengths by the gaps.
         for (length, gap) in unstrained.iter_mut().zip(gaps) {
             *length = (*length + gap).max(MIN_SHORTENED * *length);
         }

@@ -187,6 +187,8 @@ fn sagging_cables(
     } else {
         starts::search(robot, pose, loaded, accept)
     };
+
+    // The better of both searches.
     if let Some(searched) = searched {
         starts += searched.starts;
         let iterations = found.iterations + searched.best.iterations;
@@ -198,6 +200,8 @@ fn sagging_cables(
     if accept(&found) {
         return Ok(found.collected(robot, pose));
     }
+
+    // No equilibrium: say why.
     let Some(i) = negative else {
         let (p, CableSearch { residual, iterations, .. }) = (pose.position_w, found);
         return Err(StaticsError::NotConverged { iterations, residual, limit: RESIDUAL_LIMIT, x: p.x, y: p.y, z: p.z });

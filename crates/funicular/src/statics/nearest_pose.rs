@@ -48,7 +48,7 @@ const NEARLY_SQUARE: f64 = 1e-4;
 
 /// Maximum ratio of the remaining approach after such a step to that before. Nearer to 1, rounding counts as progress;
 /// far below, the last steps along a strongly curved surface are refused.
-const STRAIGHTER: f64 = 0.9;
+const MAX_APPROACH_RATIO: f64 = 0.9;
 
 /// Damping of the step: its first value, its factor after each refused step (its inverse after each step taken), the
 /// value below which it is zero, and the value at which the search ends. The reference is the curvature of the surface,
@@ -250,7 +250,7 @@ impl<'a> SurfaceSearch<'a> {
         // Near the end the distance drowns in rounding; then the direction decides.
         let nearer = missing.norm() < self.missing.norm();
         let straighter =
-            could.norm() < NEARLY_SQUARE * self.missing.norm() && next_could.norm() < STRAIGHTER * could.norm();
+            could.norm() < NEARLY_SQUARE * self.missing.norm() && next_could.norm() < MAX_APPROACH_RATIO * could.norm();
         if !nearer && !straighter {
             return false;
         }

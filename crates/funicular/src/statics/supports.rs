@@ -371,7 +371,8 @@ impl SupportBalance<'_> {
             if here.imbalance_w.norm() <= BALANCED * here.size {
                 break;
             }
-            // A step of Newton's method, shortened until it is a gain.
+
+            // Newton's step, halved until it reduces the residual.
             let Some(factor) = here.stiffness_w.cholesky() else { break };
             let mut step_w = factor.solve(&here.imbalance_w);
             let mut next = self.at(here.displacement_w + step_w);
@@ -383,6 +384,7 @@ impl SupportBalance<'_> {
                 step_w *= 0.5;
                 next = self.at(here.displacement_w + step_w);
             }
+
             // Rounding allows no better balance.
             if next.imbalance_w.norm() >= here.imbalance_w.norm() {
                 break;

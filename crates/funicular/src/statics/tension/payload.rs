@@ -29,7 +29,7 @@ use crate::statics::model::StaticModel;
 const MAX_ITERATIONS: usize = 100;
 
 /// Change of tensions and payload weight in a step, over their size, at which the iteration ends.
-const STILL: f64 = 1e-10;
+const CONVERGED: f64 = 1e-10;
 
 /// Relative distance within which a tension counts as at its limit, in the list of limits that bind.
 const AT_LIMIT: f64 = 1e-6;
@@ -204,6 +204,7 @@ impl PayloadSearch<'_> {
         while self.iterations < MAX_ITERATIONS {
             self.iterations += 1;
 
+            // Solve the problem linearised about the present tensions.
             let linear = self.search.linearise();
             let Some(optimum) = self.step(&linear, weight, stride.climb)? else {
                 return Err(StaticsError::NoPayload);
@@ -218,10 +219,11 @@ impl PayloadSearch<'_> {
             if change.is_nan() {
                 break;
             }
-            if change <= STILL {
+            if change <= CONVERGED {
                 return Ok(optimum);
             }
 
+            // Take the step, and choose the size of the next.
             stride.next(change, size, sign * optimum.weight);
             self.search.set(&optimum.tau);
             weight = optimum.weight;
@@ -231,7 +233,7 @@ impl PayloadSearch<'_> {
         Err(StaticsError::TensionsNotConverged {
             iterations: self.iterations,
             change: stride.last_change,
-            limit: STILL,
+            limit: CONVERGED,
             residual: self.search.linearise().residual,
             x: p.x,
             y: p.y,
