@@ -147,7 +147,7 @@ pub struct Material {
 pub struct RopeDimensions {
     /// Cross-section that was multiplied by Young's modulus; `None` if the file gives the axial stiffness itself.
     pub section: Option<RopeSection>,
-    /// Diameter that the wind meets [m]; `None` if the file gives no drag.
+    /// Diameter for the drag of the wind [m]; `None` if the file gives no drag.
     pub drag_diameter: Option<f64>,
 }
 

@@ -67,8 +67,8 @@ pub struct CatenaryDynamic {
     /// Polynomial degree of each element.
     pub degrees: Vec<usize>,
     /// Motions that the end has; `None` for an end that is held. They belong to the inside of the cable, and are
-    /// relative to what carries the end: the components of the end in stiffness, mass and participations are the motion
-    /// of that carrier, with wheel and drum.
+    /// relative to the carrier of the end: the components of the end in stiffness, mass and participations are the motion
+    /// of this carrier, with wheel and drum.
     pub end: Option<MovingEnd>,
     /// Motions of the drive at that end.
     pub drive: Option<DriveMotion>,
@@ -80,10 +80,10 @@ pub enum CatenaryDynamicError {
     /// A point of the cable has no tension: a slack massless cable, or a loop that hangs straight down.
     #[error("the cable has no tension at its lowest point: it has no linear vibration")]
     NoTension,
-    /// The end of the cable couples the motions in plane, which alone are wanted, with those out of plane.
+    /// The end of the cable couples motions in plane and out of plane, but only motions in plane are requested.
     #[error(
         "the swivel axis of its pulley is not parallel to the load of the cable, so that its motions in plane and out \
-         of plane are coupled: leave `in-plane-only` out"
+         of plane are coupled: include the stiffness out of plane"
     )]
     Skew,
     /// Nothing holds the drum: the cable would run over its pulley.

@@ -31,7 +31,7 @@ pub struct DriveChain {
     /// Force on each motion per unstrained length that a held drum or motor pays out: by stiffness [N/m], and by the
     /// mass of the cable per ω² [kg]. Empty if a control moves the drum.
     pub(crate) by_length: Vec<(f64, f64)>,
-    /// Drum side as each motion feels it; empty if the drum is at the exit point.
+    /// Force of the drum side on each motion; empty if the drum is at the exit point.
     pub(crate) drum_side: Vec<OnDrumSide>,
     /// Mass of a drum side with mass [kg]; zero for one without.
     pub(crate) drum_side_mass: f64,

@@ -95,7 +95,7 @@ pub enum WinchMode {
     Clamped,
     /// Motors with constant torque.
     Torque,
-    /// Cables that stick to their pulleys: what lies behind does not move.
+    /// Cables that stick to their pulleys: no part behind the pulley moves.
     Stuck,
 }
 

@@ -1,4 +1,4 @@
-//! Motions of the drive at the end of a cable, and what its losses add to the undamped model.
+//! Motions of the drive at the end of a cable, and the terms that its losses add to the undamped model.
 //!
 //! The clamped modes of a cable contain the motions of its drive. What an undamped model cannot hold is added
 //! afterwards, exactly: with the motion `z = T u − R p` of the drive under the motion u of the platform end and the
@@ -93,7 +93,7 @@ impl DriveAt {
         rows
     }
 
-    /// Adds what the modes of one family move: the motions `rows`, by the components `axes` of the platform end.
+    /// Adds the motions `rows` by the modes of one family, for the components `axes` of the platform end.
     fn add<const D: usize, const N: usize, const E: usize>(
         &mut self,
         family: &PoleResidue<N, E>,
@@ -285,7 +285,7 @@ impl CatenaryDynamicEnd {
         self.cable.end.as_ref().and_then(MovingEnd::chain)
     }
 
-    /// Stiffness at ω [rad/s] that comes from what the undamped model of the drive leaves out [N/m]; `None` without it.
+    /// Stiffness at ω [rad/s] by the losses that the undamped model of the drive leaves out [N/m]; `None` without losses.
     pub(crate) fn drive_stiffness(&self, omega: f64) -> Option<LocalStiffness<Complex>> {
         if !self.has_drive_losses() {
             return None;

@@ -103,7 +103,8 @@ impl<'a> Parts<'a> {
         if let Control::Position(servo) = self.control { Some(servo) } else { None }
     }
 
-    /// Stiffness of a piece of arc and drum side on σ [N/m]; all pieces in series have the stiffness k_r of equation (75).
+    /// Stiffness of a piece of arc and drum side on σ [N/m]; all pieces in series have the stiffness k_r of equation
+    /// (75).
     pub(super) fn spring(&self, piece: usize) -> f64 {
         1.0 / (self.stretch * self.stretch * self.pieces[piece])
     }

@@ -302,7 +302,7 @@ fn control(reader: &mut Reader, section: &Section, mass: f64, by_radius: impl Fn
     Some(Control::Position(servo))
 }
 
-/// Damping ratio of a position control that has a bandwidth; `None` if the file gives what does not go with a
+/// Damping ratio of a position control that has a bandwidth; `None` if the file gives a value that does not go with a
 /// bandwidth, or a winch without mass.
 fn damping_ratio_with_bandwidth(reader: &mut Reader, section: &Section, mass: f64) -> Option<f64> {
     if let Some(value) = section.get("speed_gain_n_m_s_per_rad") {

@@ -41,8 +41,8 @@ const MIN_SLOPE: f64 = 1e-3;
 /// the few operations that a limit takes.
 const LIMIT_ROUNDING: f64 = 1e-13;
 
-/// Ratio to the change at the last setback below which that setback is behind, so that steps may grow again. Below
-/// [`SETBACK_FACTOR`]: one short step of a linear problem leaves that part of the change, which is no recovery yet.
+/// Maximum change of the tensions, over that at the last setback, at which steps may grow again. It is below
+/// [`SETBACK_FACTOR`]: one short step of a linear problem leaves this part of the change, which is no recovery yet.
 const MAX_CHANGE_RECOVERED: f64 = 0.3;
 
 /// Factor by which setbacks shorten the step of a search for the nearest tensions, and the minimum fraction of a step.

@@ -65,7 +65,7 @@ pub const STRAIN: [f64; 2] = [0.0, 0.02];
 /// Drag coefficient of a rope: 1.0 to 1.2 for a smooth one, up to 2.5 for a chain.
 pub const DRAG_COEFFICIENT: [f64; 2] = [0.2, 3.0];
 
-/// Diameter that the wind meets [m]; ice makes it larger than that of the rope.
+/// Diameter for the drag of the wind [m]; ice makes it larger than the diameter of the rope.
 pub const DRAG_DIAMETER: [f64; 2] = [2e-4, 0.3];
 
 /// Relative difference from a weight up to which a load counts as that weight: g is 9.80665, 9.81 (3.4e-4) or 9.8 m/s²
