@@ -11,7 +11,7 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::response::{Port, Signal};
 use funicular::robot::{self, PlatformMotion, Pose, Robot, State, TensionLimits, Wind};
-use funicular::statics::{self, Equilibrium, Solution, StaticModel, TensionRule};
+use funicular::statics::{self, Equilibrium, Solution, StaticModel, StaticsError, TensionRule};
 use funicular::warnings;
 
 /// Robot at an equilibrium.
@@ -103,15 +103,9 @@ pub fn refuse_no_pose(robot: &Robot) -> Result<()> {
 /// Refuses a robot with neither known lengths nor a known pose.
 ///
 /// # Errors
-/// A message that says which value to give.
-pub fn refuse_no_state(robot: &Robot) -> Result<()> {
-    if robot.state == State::Unknown {
-        bail!(
-            "the robot has no state: give ⟪lengths_m⟫ or ⟪pose⟫, or give every cable of the robot file an \
-             `unstrained_length_m`, or the file a [state] with `position_m`"
-        );
-    }
-    Ok(())
+/// [`StaticsError::NoState`].
+pub fn refuse_no_state(robot: &Robot) -> Result<(), StaticsError> {
+    if robot.state == State::Unknown { Err(StaticsError::NoState) } else { Ok(()) }
 }
 
 /// Robot with the tension limits of a request.
@@ -238,10 +232,10 @@ fn with_load(mut robot: Robot, load: &Load) -> Result<Robot> {
     };
     if let Some(velocity_w) = wind_m_s.map(Vec3::from) {
         let speed = velocity_w.norm();
-        if speed > Wind::FASTEST {
+        if speed > Wind::MAX_SPEED {
             bail!(
                 "⟪wind_m_s⟫ is a wind of {speed} m/s, it must be at most {} m/s: air is compressible at higher speeds",
-                Wind::FASTEST
+                Wind::MAX_SPEED
             );
         }
         robot.wind.velocity_w = velocity_w;

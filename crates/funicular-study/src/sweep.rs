@@ -41,7 +41,7 @@ use anyhow::{Context as _, Result, anyhow, bail};
 use funicular::math::rotation;
 use funicular::robot::parameters::{Parameter, Parameters};
 use funicular::robot::{PlatformMotion, Pose, Robot, State};
-use funicular::statics;
+use funicular::statics::{self, StaticsError};
 use funicular::warnings;
 use serde_json::{Map, Value, json};
 
@@ -289,10 +289,7 @@ fn resolve(robot: &Robot, point: &mut EachPoint) -> Result<(Vec<Quantity>, Optio
     let rule = at_rest::rule(&point.tensions)?;
     let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
     if rule.is_some() && cables <= dof {
-        bail!(
-            "a tension rule has nothing to choose: {cables} cables for {dof} degrees of freedom have one set of \
-             tensions per pose; leave out ⟪tension_rule⟫ and ⟪target_tension_n⟫"
-        );
+        return Err(StaticsError::NothingToChoose { cables, dof }.into());
     }
     let tension_rule = rule.unwrap_or_default();
     if cables > dof {

@@ -120,8 +120,8 @@ fn first_frequencies(c: &mut Criterion) {
     }
 }
 
-/// A thousand poses all over the workspace of CoGiRo, eight cables: from fixed points, and over pulleys from winches whose
-/// wheels, swivels and motors have inertia, under position control.
+/// A thousand poses all over the workspace of CoGiRo, eight cables: from fixed points, and over pulleys from winches
+/// whose wheels, swivels and motors have inertia, under position control.
 fn first_frequencies_of_eight_cables(c: &mut Criterion) {
     let with_control = "gear_ratio = 3\ncontrol = \"position\"\nbandwidth_hz = 5\n";
     let with_inertia = "radius_m = 0.05\ninertia_kg_m2 = 5e-4\nswivel_inertia_kg_m2 = 3e-3\n";

@@ -14,7 +14,7 @@ pub mod spring;
 use crate::catenary::space::HangingCable;
 use crate::drive::DriveChain;
 use crate::math::{Complex, Mat3, Vec3, any_normal};
-use crate::robot::{Robot, WinchMode};
+use crate::robot::{Damping, Robot, WinchMode};
 use crate::statics::CableState;
 use catenary_dynamic::{CatenaryDynamicEnd, EndDirections, MovingEnd, Shapes};
 use shallow_dynamic::ShallowDynamic;
@@ -43,7 +43,7 @@ impl CableModel {
     pub const ALL: [Self; 5] =
         [Self::Spring, Self::ShallowStatic, Self::CatenaryStatic, Self::ShallowDynamic, Self::CatenaryDynamic];
 
-    /// Name of the model on the command line and in files.
+    /// Name of the model in requests and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Spring => "spring",
@@ -110,8 +110,8 @@ pub struct LocalStiffness<T> {
     pub normal: T,
     /// Out of plane.
     pub out_of_plane: T,
-    /// Between chord and out of plane, and between normal and out of plane: zero unless the far end of the cable couples
-    /// them, as a pulley with an inclined swivel axis does.
+    /// Between chord and out of plane, and between normal and out of plane: zero unless the far end of the cable
+    /// couples them, as a pulley with an inclined swivel axis does.
     pub across: [T; 2],
 }
 
@@ -243,7 +243,8 @@ pub enum NoStiffness {
 pub enum DynamicCable {
     /// Starossek's closed form for shallow sag, the far end held.
     ShallowDynamic(ShallowDynamic),
-    /// Vibration by poles and residues: about the elastic catenary, or that of a shallow span with its pulley and winch.
+    /// Vibration by poles and residues: about the elastic catenary, or that of a shallow span with its pulley and
+    /// winch.
     CatenaryDynamic(Box<CatenaryDynamicEnd>),
 }
 
@@ -307,8 +308,8 @@ impl DynamicCable {
 
 impl EndStiffness {
     /// End stiffness of cable `i` of a robot at an equilibrium, valid up to the frequency `up_to_hz` [Hz]. Only the
-    /// catenary-dynamic model uses that frequency and the `winches`. `in_plane_only` leaves out all stiffness out of the
-    /// cable's plane, as the paper does.
+    /// catenary-dynamic model uses that frequency and the `winches`. `in_plane_only` leaves out all stiffness out of
+    /// the cable's plane, as the paper does.
     ///
     /// # Errors
     /// [`NoStiffness`]: an ideal cable has no stiffness in the catenary models, a cable without tension none in the
@@ -345,9 +346,12 @@ impl EndStiffness {
         }
         let without_b =
             |k: Mat3| if in_plane_only { k - axes.b * axes.b.transpose() * axes.b.dot(&(k * axes.b)) } else { k };
+
         // A cable over a pulley or to a winch is in series with its anchor end.
         let drive = state.drive.as_deref();
         let in_series = |held: Mat3| drive.map_or(held, |drive| drive.end.in_series_with(&held));
+
+        let limit = up_to_hz * TAU;
         Ok(match model {
             CableModel::Spring if state.is_slack() => Self::Constant(Mat3::zeros()),
             CableModel::Spring => Self::Constant(in_series(spring::stiffness(&sag).in_world(&axes))),
@@ -356,19 +360,11 @@ impl EndStiffness {
             }
             CableModel::CatenaryStatic => Self::Constant(without_b(state.tangent_w().ok_or(NoStiffness::Rigid)?)),
             CableModel::ShallowDynamic if robot.has_moving_ends() => {
-                let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
-                let limit = up_to_hz * TAU;
                 let end = moving_end(robot, i, state, &axes, winches, limit);
-                // Without any mass the cable and its drive are springs.
-                if sag.mass_per_length == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
-                    let still = shallow_static::stiffness(&sag).in_world(&axes);
-                    return Ok(Self::Constant(without_b(in_series(still))));
+                match shallow_span(state, (&sag, axes), end, material.damping, in_plane_only, limit)? {
+                    Some(cable) => Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable))),
+                    None => Self::Constant(without_b(in_series(shallow_static::stiffness(&sag).in_world(&axes)))),
                 }
-                let directions = EndDirections::in_axes(hanging, &axes);
-                let (damping, span) = (material.damping, &sag);
-                let cable =
-                    CatenaryDynamicEnd::of_shallow_span(span, (axes, directions), end, damping, in_plane_only, limit)?;
-                Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable)))
             }
             CableModel::ShallowDynamic => {
                 let cable = ShallowDynamic::new(sag, axes, material.damping, in_plane_only);
@@ -376,7 +372,7 @@ impl EndStiffness {
             }
             CableModel::CatenaryDynamic => {
                 let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
-                let (m, damping, limit) = (material.mass_per_length, material.damping, up_to_hz * TAU);
+                let (m, damping) = (material.mass_per_length, material.damping);
                 let end = moving_end(robot, i, state, &LocalAxes::of_hanging(hanging), winches, limit);
                 // Without any mass the cable and its drive are springs.
                 if m == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
@@ -389,8 +385,26 @@ impl EndStiffness {
     }
 }
 
-/// Static stiffness of the free span of cable `i` in a model, its far end held; 3×3, world axes [N/m]. `None` for a rigid
-/// cable in a catenary model.
+/// Shallow span whose far end may move, by poles and residues; `None` if cable and drive have no mass and are springs.
+fn shallow_span(
+    state: &CableState,
+    (sag, axes): (&Sag, LocalAxes),
+    end: Option<MovingEnd>,
+    damping: Damping,
+    in_plane_only: bool,
+    limit: f64,
+) -> Result<Option<CatenaryDynamicEnd>, NoStiffness> {
+    let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
+    if sag.mass_per_length == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
+        return Ok(None);
+    }
+    let directions = EndDirections::in_axes(hanging, &axes);
+    let cable = CatenaryDynamicEnd::of_shallow_span(sag, (axes, directions), end, damping, in_plane_only, limit)?;
+    Ok(Some(cable))
+}
+
+/// Static stiffness of the free span of cable `i` in a model, its far end held; 3×3, world axes [N/m]. `None` for a
+/// rigid cable in a catenary model.
 pub(crate) fn span_stiffness(robot: &Robot, i: usize, state: &CableState, model: CableModel) -> Option<Mat3> {
     let straight = |stiffness: fn(&Sag) -> LocalStiffness<f64>| {
         stiffness(&Sag::of(robot, i, state)).in_world(&LocalAxes::of_cable(robot, i, state))
@@ -403,8 +417,8 @@ pub(crate) fn span_stiffness(robot: &Robot, i: usize, state: &CableState, model:
     }
 }
 
-/// End of cable `i` of a robot at its pulley or winch, with the drive behind it, in the `axes` of the cable's model and for
-/// frequencies up to `limit` [rad/s]; `None` for an end that is held.
+/// End of cable `i` of a robot at its pulley or winch, with the drive behind it, in the `axes` of the cable's model and
+/// for frequencies up to `limit` [rad/s]; `None` for an end that is held.
 pub(crate) fn moving_end(
     robot: &Robot,
     i: usize,

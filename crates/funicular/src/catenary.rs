@@ -15,8 +15,10 @@
 
 mod load;
 mod parallel;
+mod root;
 pub mod space;
 
+use root::{Hyperbolic, root};
 use thiserror::Error;
 
 /// Invalid input of [`Catenary::between`].
@@ -259,6 +261,7 @@ impl Catenary {
     pub fn tangent(&self) -> [[f64; 2]; 2] {
         let Rope { unstrained_length: length, weight_per_length: w, axial_stiffness: ea } = self.rope;
         let (x, z) = (self.span, self.rise);
+
         match self.slope {
             Slope::Slack => [[0.0; 2]; 2],
             Slope::Straight => {
@@ -303,7 +306,7 @@ impl Catenary {
     /// Minimum ratio of parallel tension to weight (w times chord) above which both end tensions grow with it at any
     /// slope. A level cable that sags further (its minimum end tension is at v = 1.1997) gets heavier at its ends, not
     /// lighter.
-    pub(crate) const SLACKEST: f64 = 1.0 / 2.4;
+    pub(crate) const MIN_TENSION_TO_WEIGHT: f64 = 1.0 / 2.4;
 
     /// Minimum tension anywhere in the cable [N]: at its lowest point if that is between the ends, else at the lower
     /// end.
@@ -406,167 +409,6 @@ impl Catenary {
         let slope_by_k = xa * xa / across + zb * zb / along;
         let by_length = (length + slope_by_k * k_by_length) / half_slope;
         (-x * a * a / half_slope, -z * b * b / half_slope, by_length, slope_by_k / half_slope)
-    }
-}
-
-/// Values of sinh, cosh and their differences without cancellation.
-#[derive(Debug, Clone, Copy)]
-struct Hyperbolic {
-    sinh: f64,
-    cosh: f64,
-    /// sinh v − v.
-    sinh_minus_v: f64,
-    /// v cosh v − sinh v.
-    v_cosh_minus_sinh: f64,
-}
-
-impl Hyperbolic {
-    #[inline]
-    fn of(v: f64) -> Self {
-        if v < 1.0 {
-            // Taylor series of sinh v − v; at v = 1 the first omitted term, v¹⁹/19!, is 8e-18.
-            const C: [f64; 8] = [
-                1.0 / 6.0,
-                1.0 / 120.0,
-                1.0 / 5_040.0,
-                1.0 / 362_880.0,
-                1.0 / 39_916_800.0,
-                1.0 / 6_227_020_800.0,
-                1.0 / 1_307_674_368_000.0,
-                1.0 / 355_687_428_096_000.0,
-            ];
-            let v2 = v * v;
-            let v4 = v2 * v2;
-            // Two short chains instead of one long one.
-            let even = ((C[6] * v4 + C[4]) * v4 + C[2]) * v4 + C[0];
-            let odd = ((C[7] * v4 + C[5]) * v4 + C[3]) * v4 + C[1];
-            let sinh_minus_v = v * v2 * (even + odd * v2);
-            let sinh = v + sinh_minus_v;
-            let cosh = (1.0 + sinh * sinh).sqrt();
-            let cosh_minus_1 = sinh * sinh / (1.0 + cosh);
-            Self { sinh, cosh, sinh_minus_v, v_cosh_minus_sinh: v * cosh_minus_1 - sinh_minus_v }
-        } else {
-            let e = v.exp();
-            let (sinh, cosh) = (0.5 * (e - 1.0 / e), 0.5 * (e + 1.0 / e));
-            Self { sinh, cosh, sinh_minus_v: sinh - v, v_cosh_minus_sinh: v * cosh - sinh }
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy)]
-struct Root {
-    v: f64,
-    hyperbolic: Hyperbolic,
-}
-
-/// Root of F for `x = span/L0`, `z = rise/L0` and k, by Newton's method inside a bracket.
-#[inline]
-fn root(x: f64, z: f64, k: f64) -> Root {
-    let (x2, z2) = (x * x, z * z);
-    let chord = hypot(x, z);
-    let stretch = chord - 1.0;
-    let chord2_minus_1 = stretch * (chord + 1.0);
-
-    // Start.
-    let mut v = start(x, z, k, chord, stretch);
-    let (mut low, mut high) = (0.0, f64::INFINITY);
-
-    // Robots take 2 or 3 passes. Of a million cables over eight decades of sag, slope and strain, 99.5 % took at most 4
-    // and the worst 14. The limit is a guard.
-    for _ in 0..80 {
-        // F and its slope.
-        let h = Hyperbolic::of(v);
-        let across = v + k;
-        let (a, inverse_cosh) = (h.sinh / across, 1.0 / h.cosh);
-        let tanh = h.sinh * inverse_cosh;
-        let along = tanh + k;
-        let b = tanh / along;
-
-        // F = (xa)² + (zb)² − 1, written as differences from 1 so that a taut cable keeps its digits.
-        let value = if a < 2.0 {
-            let one_minus_a = (k - h.sinh_minus_v) / across;
-            let one_minus_b = k / along;
-            chord2_minus_1 - x2 * one_minus_a * (1.0 + a) - z2 * one_minus_b * (1.0 + b)
-        } else {
-            (x * a).powi(2) + z2 * b * b - 1.0
-        };
-
-        let a_by_v = (k * h.cosh + h.v_cosh_minus_sinh) / (across * across);
-        let b_by_v = k * inverse_cosh * inverse_cosh / (along * along);
-        let slope = 2.0 * (x * a) * (x * a_by_v) + 2.0 * z2 * b * b_by_v;
-
-        // The bracket.
-        if value > 0.0 {
-            high = v;
-        } else {
-            low = v;
-        }
-        let rest = 1.0 - z2 * b * b;
-
-        // Deep sag: F grows like e^{2v}, so its logarithm is nearly straight.
-        let step = if v > 1.0 && rest > 0.0 && value.abs() > 0.01 * rest && value > -rest {
-            let ratio = value / rest;
-            ratio.ln_1p() * (rest + value) / (slope + 2.0 * z2 * b * b_by_v * ratio)
-        } else {
-            value / slope
-        };
-
-        // Newton's method squares the error: after a step below 1e-8 no further step counts.
-        if step.abs() <= 1e-8 * v {
-            v -= step;
-            break;
-        }
-
-        // Keep the next value inside the bracket.
-        let next = v - step;
-        v = if next > low && next < high {
-            next
-        } else if high.is_infinite() {
-            2.0 * low + 1.0
-        } else if low > 0.0 {
-            (low * high).sqrt()
-        } else {
-            0.1 * high
-        };
-    }
-
-    Root { v, hyperbolic: Hyperbolic::of(v) }
-}
-
-/// Start value for [`root`]: the cubic of the flat cable for small sag, the logarithm for deep sag.
-#[inline]
-fn start(x: f64, z: f64, k: f64, chord: f64, stretch: f64) -> f64 {
-    // Flat: (x/c)² v³/6 + (c − 1) v − k = 0, which is exact for a taut massless cable of any strain.
-    let scale = 6.0 * chord * chord / (x * x);
-    let (p, q) = (scale * stretch, scale * k);
-    let v = if x == 0.0 || !q.is_finite() || !p.is_finite() {
-        // Vertical: tanh v = k/(c − 1).
-        let tanh = k / stretch;
-        return if tanh < 1.0 { tanh.atanh() } else { 1.0 };
-    } else if p >= 0.0 {
-        let cube_root = q.cbrt();
-        if p * cube_root > q { q / p } else { cube_root }
-    } else {
-        let inextensible = (-p).sqrt();
-        let elastic = q / (-2.0 * p);
-        let cube_root = if elastic > inextensible { q.cbrt() } else { elastic };
-        inextensible + if elastic < cube_root { elastic } else { cube_root }
-    };
-
-    if v < 1.5 {
-        // The cubic is convex for v > 0 and the start is not left of its root: two steps leave about one per cent.
-        let mut v = v;
-        for _ in 0..2 {
-            let v2 = v * v;
-            v = (2.0 * v * v2 + q) / (3.0 * v2 + p);
-        }
-        v
-    } else {
-        let b = 1.0 / (1.0 + k);
-        let ratio = (1.0 - z * z * b * b).max(1e-300).sqrt() / x;
-        let first = (2.0 * ratio).ln().max(0.5);
-        let second = (2.0 * ratio * (first + k)).ln().max(0.5);
-        (2.0 * ratio * (second + k)).ln().max(0.5)
     }
 }
 

@@ -61,7 +61,7 @@ pub struct Comparison {
     pub compared: Vec<usize>,
     /// Reference model, with which the others are compared.
     pub reference: CableModel,
-    /// One result per model, in the order of [`CableModel::ALL`].
+    /// Result of each model, in the order of [`CableModel::ALL`].
     pub models: Vec<ModelResult>,
     /// Recommended model.
     pub advice: Advice,
@@ -98,10 +98,10 @@ impl FrozenSag {
             more => format!(" (and at {})", crate::counted(more, "further mode")),
         };
         format!(
-            "At {frequency_hz:.4} Hz{others} `{model}` ({:+.1} %) is worse than `spring` ({:+.1} %). This mode lies above \
-             the first resonance of a cable with fixed ends, {clamped_hz:.3} Hz: there the inertia of the cables keeps their sag from \
-             following the platform, so that a cable answers like a spring, while a static model lets the sag follow at \
-             every frequency and is too soft.",
+            "At {frequency_hz:.4} Hz{others} `{model}` ({:+.1} %) is worse than `spring` ({:+.1} %). This mode lies \
+             above the first resonance of a cable with fixed ends, {clamped_hz:.3} Hz: there the inertia of the cables \
+             keeps their sag from following the platform, so that a cable answers like a spring, while a static model \
+             lets the sag follow at every frequency and is too soft.",
             100.0 * static_difference,
             100.0 * spring_difference
         )
@@ -119,8 +119,8 @@ pub struct ModelResult {
     ///
     /// For a constant stiffness the counterpart is the mode with the most similar platform motion, with a MAC of at
     /// least [`SAME_MOTION`] and a frequency within a factor of two. For a dynamic model, most of whose modes hardly
-    /// move the platform, it is the nearest in frequency. If only modes of the platform are compared, the motion decides
-    /// for every model.
+    /// move the platform, it is the nearest in frequency. If only modes of the platform are compared, the motion
+    /// decides for every model.
     pub matches: Vec<Match>,
     /// Number of compared modes of the reference without a counterpart.
     pub missed: usize,
@@ -158,7 +158,7 @@ pub struct Advice {
 
 /// Finds the modes below `below_hz` [Hz] with every cable model and compares them with the catenary-dynamic model. If a
 /// catenary-dynamic cable would need too many unknowns, the reference is the shallow-dynamic model. The cable model in
-/// `linearisation` is ignored; its other options apply to all models. The criterion selects the modes that count.
+/// `linearisation` is ignored; its other fields apply to all models. The criterion selects the modes that count.
 ///
 /// # Errors
 /// [`DynamicsError`] if the reference does not exist at this equilibrium (a cable without tension, ideal cables).
@@ -262,6 +262,7 @@ impl ModelResult {
 fn frozen_sag(models: &[ModelResult], clamped_hz: f64, criterion: Criterion) -> Option<FrozenSag> {
     let of = |model: CableModel| models.iter().find(|result| result.model == model);
     let springs = &of(CableModel::Spring)?.matches;
+
     [CableModel::CatenaryStatic, CableModel::ShallowStatic].into_iter().find_map(|model| {
         let mut worse: Vec<(&Match, &Match)> = Vec::new();
         for with_sag in &of(model)?.matches {
@@ -300,8 +301,8 @@ fn frequencies_within(tolerance: f64, found: &[Mode], truth: &[Mode]) -> Vec<boo
 }
 
 /// Pairs every mode with the compared reference mode of the most similar platform motion, weighted by the platform's
-/// energy fraction in that mode; for all modes of a dynamic model, with the nearest in frequency. Each reference mode is
-/// used once.
+/// energy fraction in that mode; for all modes of a dynamic model, with the nearest in frequency. Each reference mode
+/// is used once.
 ///
 /// If modes of the platform are compared, the platform's energy fraction in the model's own mode has the same weight: a
 /// dynamic model has cable modes with the same platform motion. Of modes that share it the nearest in frequency counts.
@@ -427,8 +428,8 @@ impl Advisor<'_> {
     fn for_all_modes(&self, simplest: CableModel, reference: CableModel) -> String {
         let Self { truth, below_hz, .. } = self;
 
-        // Vibrations of the cables below the limit. A cable with fixed ends gives no lower bound for them: with the moving
-        // platform there are modes of the cables below it.
+        // Vibrations of the cables below the limit. A cable with fixed ends gives no lower bound for them: with the
+        // moving platform there are modes of the cables below it.
         let mut of_cables = truth.modes.iter().filter(|m| m.platform_energy_fraction < 0.5).map(|m| m.frequency_hz);
         let first_of_cables = of_cables.next();
         let cable_modes = usize::from(first_of_cables.is_some()) + of_cables.count();
@@ -447,8 +448,8 @@ impl Advisor<'_> {
         let total = truth.modes.len();
         let first = first_of_cables.map_or(String::new(), |hz| format!(" (the first at {hz:.3} Hz)"));
         let constant = format!(
-            "{string}; with the moving platform {cable_modes} of the {total} modes there have most of their energy in the \
-             cables{first}, and a constant cable stiffness misses {lost} of them"
+            "{string}; with the moving platform {cable_modes} of the {total} modes there have most of their energy in \
+             the cables{first}, and a constant cable stiffness misses {lost} of them"
         );
 
         match simplest {
@@ -464,8 +465,8 @@ impl Advisor<'_> {
             }
             CableModel::ShallowDynamic => {
                 format!(
-                    "Use `shallow-dynamic`: it has all {total} modes below {below_hz} Hz within {percent} % of those by \
-                     `{reference}`; {constant}"
+                    "Use `shallow-dynamic`: it has all {total} modes below {below_hz} Hz within {percent} % of those \
+                     by `{reference}`; {constant}"
                 )
             }
             _ => format!(
@@ -481,16 +482,16 @@ impl Advisor<'_> {
         let modes = crate::counted(total, "platform mode");
         if total == 0 {
             return format!(
-                "No mode below {below_hz} Hz has at least {} % of its kinetic energy in the platform: raise the limit, or \
-                 require a smaller share",
+                "No mode below {below_hz} Hz has at least {} % of its kinetic energy in the platform: raise the limit, \
+                 or require a smaller share",
                 100.0 * share
             );
         }
         if simplest != reference {
             let difference = self.result(simplest).and_then(|m| m.largest_difference).unwrap_or(0.0);
             return format!(
-                "Use `{simplest}` for the platform: it has {} below {below_hz} Hz within {percent} % of `{reference}`, the \
-                 largest difference is {:+.2} %",
+                "Use `{simplest}` for the platform: it has {} below {below_hz} Hz within {percent} % of `{reference}`, \
+                 the largest difference is {:+.2} %",
                 if total == 1 { "the one platform mode".to_owned() } else { format!("all {modes}") },
                 100.0 * difference
             );

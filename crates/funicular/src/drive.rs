@@ -1,14 +1,14 @@
 //! Cable at rest between the platform and its winch: the free span, the arc on the pulley, the drum side and the winch.
 //!
-//! Friction and weight beyond the entry point are left out; [`DriveAtRest::with_friction`] adds the friction of the pulley
-//! to a cable that was found without it. In a cable without friction the sum ψ(T) + q·p, with
-//! ψ(T) = T + T²/2EA, is constant from the platform to the entry point; between entry point and drum the tension is that
-//! at the entry point. The unknowns are the place of the cable on the pulley (wrap and swivel angle) and the unstrained
-//! length of the free span. The conditions are that the cable leaves the wheel along its tangent, that the swivel is
-//! balanced, and that the unstrained lengths of all pieces add up (docs/theory.md, section 18).
+//! Friction and weight beyond the entry point are left out; [`DriveAtRest::with_friction`] adds the friction of the
+//! pulley to a cable that was found without it. In a cable without friction the sum ψ(T) + q·p, with ψ(T) = T + T²/2EA,
+//! is constant from the platform to the entry point; between entry point and drum the tension is that at the entry
+//! point. The unknowns are the place of the cable on the pulley (wrap and swivel angle) and the unstrained length of
+//! the free span. The conditions are that the cable leaves the wheel along its tangent, that the swivel is balanced,
+//! and that the unstrained lengths of all pieces add up (docs/theory.md, section 18).
 //!
-//! With respect to the platform, such a cable is a hanging cable in series with its anchor end: [`AnchorEnd`]. It has an
-//! energy, whose gradient is the force of the cable. So the searches for equilibria treat all cables alike.
+//! With respect to the platform, such a cable is a hanging cable in series with its anchor end: [`AnchorEnd`]. It has
+//! an energy, whose gradient is the force of the cable. So the searches for equilibria treat all cables alike.
 
 mod anchor_end;
 mod arc;
@@ -84,8 +84,8 @@ impl CableAtRest {
         Self { span, drive: None }
     }
 
-    /// Cable of an unstrained length [m], drum side included, that ends at `start_w` on the platform. `load` is its load
-    /// per unstrained length.
+    /// Cable of an unstrained length [m], drum side included, that ends at `start_w` on the platform. `load` is its
+    /// load per unstrained length.
     #[inline]
     pub(crate) fn hang(start_w: Vec3, cable: &Cable, load: &LineLoad, unstrained_length: f64) -> Self {
         let rope = rope_of(cable, load, unstrained_length);
@@ -95,7 +95,7 @@ impl CableAtRest {
         balance::at_length(start_w, &cable.anchor, load, rope)
     }
 
-    /// Cable with a free span that leaves the pulley at `contact`; the unstrained length follows.
+    /// Cable with a free span that leaves the pulley at `contact`; its unstrained length follows from both.
     pub(crate) fn with_span(span: HangingCable, anchor: &Anchor, contact: Option<PulleyContact>) -> Self {
         if anchor.is_fixed() {
             return Self::fixed(span);
@@ -144,8 +144,8 @@ pub(crate) fn tangent_w(span: &HangingCable, drive: Option<&DriveAtRest>) -> Mat
     drive.map_or(held, |drive| drive.end.in_series_with(&held))
 }
 
-/// Static stiffness of a cable for a motion of its anchor. `held` is the stiffness of its span; `side` is its drum side, if
-/// its drum stays on the ground.
+/// Static stiffness of a cable for a motion of its anchor. `held` is the stiffness of its span; `side` is its drum
+/// side, if its drum stays on the ground.
 pub(crate) fn on_support(held: &Mat3, drive: Option<&DriveAtRest>, side: Option<DrumSideAtRest>) -> OnSupport {
     match (drive, side) {
         (None, _) => OnSupport::moving_together(*held),

@@ -4,22 +4,23 @@
 mod blocks;
 mod complex_frequency;
 mod count;
+mod error;
 mod min_stiffness;
 mod null_vectors;
 mod supports;
 
 pub(crate) use blocks::{CableBlocks, CableRow, PlatformBlocks, SupportBlocks};
+pub use error::DynamicsError;
 pub(crate) use null_vectors::NullVector;
 
-use crate::cable::catenary_dynamic::{CatenaryDynamicError, EndSignal, Shapes};
-use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, span_stiffness};
+use crate::cable::catenary_dynamic::{EndSignal, Shapes};
+use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, span_stiffness};
 use crate::math::{CMat6, CVec6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6, order};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
 use crate::robot::{Damping, PlatformMotion, Robot, WinchMode};
 use crate::statics::{CableState, Equilibrium};
 pub(crate) use supports::Supports;
 use supports::SupportsBuilder;
-use thiserror::Error;
 
 /// Relative distance of ω² to a pole of a catenary-dynamic cable below which the pole's mode is a separate unknown of
 /// the matrices. Counts and modes are the same at 1e-2 and at 1e-6.
@@ -40,7 +41,7 @@ impl Assembly {
     /// Both choices.
     pub const ALL: [Self; 2] = [Self::Consistent, Self::WithoutGeometricStiffness];
 
-    /// Name on the command line and in files.
+    /// Name in requests and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Consistent => "consistent",
@@ -49,7 +50,7 @@ impl Assembly {
     }
 }
 
-/// Options of the linearisation.
+/// Choices of the linearisation: cable model, assembly, directions and winches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Linearisation {
     /// Model of the cables.
@@ -60,66 +61,6 @@ pub struct Linearisation {
     pub in_plane_only: bool,
     /// Winches in vibration.
     pub winches: WinchMode,
-}
-
-/// Reason for which a robot cannot be linearised.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum DynamicsError {
-    /// A cable has no stiffness by poles and residues: a catenary-dynamic one, or a shallow one with a drive.
-    #[error("cable \"{cable}\": {reason}")]
-    CatenaryDynamic {
-        /// Name of the cable.
-        cable: String,
-        /// Reason.
-        reason: CatenaryDynamicError,
-    },
-    /// A cable carries no tension.
-    #[error(
-        "cable \"{cable}\" has no tension: the {model} model does not exist for it; choose a state in which all cables \
-         are taut, or the model `spring` or `catenary-static`"
-    )]
-    NoTension {
-        /// Name of the cable.
-        cable: String,
-        /// Requested model.
-        model: CableModel,
-    },
-    /// The anchor of a cable is on a flexible support.
-    #[error(
-        "the anchor of cable \"{cable}\" is on a flexible support, which moves in all directions: leave `in-plane-only` out"
-    )]
-    Support {
-        /// Name of the cable.
-        cable: String,
-    },
-    /// An equilibrium with ideal cables has no tangent stiffness.
-    #[error(
-        "ideal cables are rigid: they have no stiffness in the models `catenary-static` and `catenary-dynamic`; use \
-         the static model `catenary` or `spring`"
-    )]
-    Rigid,
-}
-
-impl DynamicsError {
-    /// True if the request is valid and the robot has no linear vibration at this equilibrium, because a cable has no
-    /// tension; otherwise another model or frequency limit helps.
-    pub fn is_no_solution(&self) -> bool {
-        match self {
-            Self::NoTension { .. } => true,
-            Self::CatenaryDynamic { reason, .. } => *reason == CatenaryDynamicError::NoTension,
-            Self::Rigid | Self::Support { .. } => false,
-        }
-    }
-
-    /// Error for the cable of this name, which has no stiffness in a model.
-    pub fn of_cable(name: &str, model: CableModel, reason: NoStiffness) -> Self {
-        let cable = name.to_owned();
-        match reason {
-            NoStiffness::Rigid => Self::Rigid,
-            NoStiffness::NoTension => Self::NoTension { cable, model },
-            NoStiffness::CatenaryDynamic(reason) => Self::CatenaryDynamic { cable, reason },
-        }
-    }
 }
 
 /// Robot linearised about an equilibrium.
@@ -138,7 +79,7 @@ pub struct Dynamics {
     terms: Vec<DynamicCableAt>,
     /// Flexible supports; `None` on a rigid frame.
     supports: Option<Box<Supports>>,
-    /// Options with which it was made.
+    /// Linearisation with which it was made.
     pub linearisation: Linearisation,
     /// Damping and mass per length [kg/m] of each cable.
     damping: Vec<(Damping, f64)>,
@@ -200,9 +141,9 @@ impl Dynamics {
         Self::with_shapes(robot, equilibrium, linearisation, up_to_hz, Shapes::Dropped)
     }
 
-    /// Robot as by [`about`](Self::about), which keeps the shapes of the clamped modes along its catenary-dynamic cables.
-    /// [`Gradients::vibration`](crate::gradient::Gradients::vibration) needs them, and otherwise computes all clamped modes a
-    /// second time.
+    /// Robot linearised as by [`about`](Self::about), with the shapes of the clamped modes along its catenary-dynamic
+    /// cables. [`Gradients::vibration`](crate::gradient::Gradients::vibration) needs them, and otherwise computes all
+    /// clamped modes a second time.
     ///
     /// # Errors
     /// The errors of [`about`](Self::about).
@@ -509,7 +450,7 @@ impl Dynamics {
     }
 }
 
-/// Refuses the option that does not exist for anchors on flexible supports.
+/// Refuses motion in plane alone for a robot with anchors on flexible supports.
 fn refuse_on_supports(robot: &Robot, linearisation: Linearisation) -> Result<(), DynamicsError> {
     let Some(cable) = robot.cables.iter().find(|cable| cable.anchor.support.is_some()) else { return Ok(()) };
     if linearisation.in_plane_only {

@@ -30,8 +30,8 @@ pub enum Kind {
     Platform,
     /// The cables have at least three quarters of the energy.
     Cable,
-    /// The drives of the cables, with flexible supports, have at least three quarters of the energy: wheels, drums, motors
-    /// and posts.
+    /// The drives of the cables, with flexible supports, have at least three quarters of the energy: wheels, drums,
+    /// motors and posts.
     Drive,
     /// Neither the platform nor the cables nor the drives have three quarters of the energy.
     Mixed,
@@ -83,10 +83,11 @@ pub struct Mode {
     pub platform_energy_fraction: f64,
     /// Fraction of the kinetic energy that each cable has, in the order of the file, without its drive.
     pub cable_energy_fractions: Vec<f64>,
-    /// Fraction of the kinetic energy that the drive of each cable has: wheel, swivel, drum and motor. Empty if no drive
-    /// has inertia.
+    /// Fraction of the kinetic energy that the drive of each cable has: wheel, swivel, drum and motor. Empty if no
+    /// drive has inertia.
     pub drive_energy_fractions: Vec<f64>,
-    /// Fraction of the kinetic energy that each flexible support has, in the order of the robot. Empty on a rigid frame.
+    /// Fraction of the kinetic energy that each flexible support has, in the order of the robot. Empty on a rigid
+    /// frame.
     pub support_energy_fractions: Vec<f64>,
     /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1. Zero
     /// if the platform is at rest.
@@ -168,8 +169,8 @@ pub fn below(dynamics: &Dynamics, below_hz: f64) -> Modes {
     Modes { modes, below_hz, count_below, unstable_directions, certified }
 }
 
-/// Natural modes in a range of frequencies [Hz], undamped, with multiplicity, ascending: a part of the list of [`below`]
-/// without its certificate, in time that does not depend on the number of modes below the range.
+/// Natural modes in a range of frequencies [Hz], undamped, with multiplicity, ascending: a part of the list of
+/// [`below`] without its certificate, in time that does not depend on the number of modes below the range.
 pub fn within(dynamics: &Dynamics, from_hz: f64, to_hz: f64) -> Vec<Mode> {
     let limit = to_hz * TAU;
     let poles = dynamics.clamped_frequencies_below(limit);
@@ -185,8 +186,8 @@ pub fn count_within(dynamics: &Dynamics, from_hz: f64, to_hz: f64) -> usize {
     dynamics.modes_below(to_hz * TAU).saturating_sub(dynamics.modes_below(from_hz * TAU))
 }
 
-/// Modes between two angular frequencies with known counts, ascending; `poles` are all clamped frequencies between them.
-/// The flag is true if the count has not decreased anywhere.
+/// Modes between two angular frequencies with known counts, ascending; `poles` are all clamped frequencies between
+/// them. The flag is true if the count has not decreased anywhere.
 fn in_interval(
     dynamics: &Dynamics,
     (mut from, mut count): (f64, usize),
@@ -307,6 +308,7 @@ impl List<'_> {
             .map(|(i, fraction)| fraction * self.dynamics.cable_damping_ratio(i, omega))
             .sum();
         let by_platform = self.dynamics.platform_damping_along(&motion.platform) / (2.0 * omega);
+
         self.modes.push(Mode {
             frequency_hz: omega / TAU,
             multiplicity: several,

@@ -50,7 +50,7 @@ pub struct Robot {
     /// State given by the file: unstrained lengths or a pose.
     pub state: State,
     /// Roll, pitch, yaw that the pose of `state` was written with [degrees]; zero if it was written in another way.
-    /// They have the full turns that a rotation does not keep, and serve [`crate::warnings::plausibility`] alone.
+    /// A rotation does not keep full turns; these angles do, for [`crate::warnings::plausibility`] alone.
     pub written_angles_deg: [f64; 3],
 }
 
@@ -147,7 +147,7 @@ pub struct Material {
 pub struct RopeDimensions {
     /// Cross-section that was multiplied by Young's modulus; `None` if the file gives the axial stiffness itself.
     pub section: Option<RopeSection>,
-    /// Diameter that the wind meets [m]; `None` if the file gives no drag.
+    /// Diameter for the drag of the wind [m]; `None` if the file gives no drag.
     pub drag_diameter: Option<f64>,
 }
 
@@ -180,14 +180,14 @@ pub struct TensionLimits {
 }
 
 impl TensionLimits {
-    /// These limits, completed by those of `other` where this one has none.
+    /// Limits with those of `other` where these have none.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self { minimum: self.minimum.or(other.minimum), maximum: self.maximum.or(other.maximum) }
     }
 }
 
-/// One cable, from the platform to its anchor.
+/// Cable, from the platform to its anchor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cable {
     /// Name in the robot file; unique.
@@ -283,7 +283,7 @@ impl Robot {
         if mean > 0.0 { mean } else { 1.0 }
     }
 
-    /// This robot with tension limits for every cable, which take precedence over those of its file.
+    /// Copy of the robot with tension limits for every cable, which take precedence over those of its file.
     #[must_use]
     pub fn with_tension_limits(&self, limits: TensionLimits) -> Self {
         let mut robot = self.clone();
@@ -293,7 +293,7 @@ impl Robot {
         robot
     }
 
-    /// This robot with another load on its platform.
+    /// Copy of the robot with another load on its platform.
     #[must_use]
     pub fn with_load(&self, load: Load) -> Self {
         let mut robot = self.clone();
@@ -301,7 +301,7 @@ impl Robot {
         robot
     }
 
-    /// This robot in another wind.
+    /// Copy of the robot in another wind.
     #[must_use]
     pub fn with_wind(&self, wind: Wind) -> Self {
         let mut robot = self.clone();
@@ -309,8 +309,8 @@ impl Robot {
         robot
     }
 
-    /// This robot with a dead load per unstrained length on every cable, world axes [N/m], which replaces that of its
-    /// file.
+    /// Copy of the robot with a dead load per unstrained length on every cable, world axes [N/m], which replaces the
+    /// load of its file.
     #[must_use]
     pub fn with_cable_load(&self, load_per_length_w: Vec3) -> Self {
         let mut robot = self.clone();
@@ -320,7 +320,7 @@ impl Robot {
         robot
     }
 
-    /// This robot with another platform mass [kg]; inertia tensor and centre of mass stay.
+    /// Copy of the robot with another platform mass [kg]; inertia tensor and centre of mass stay.
     #[must_use]
     pub fn with_mass(&self, mass: f64) -> Self {
         let mut robot = self.clone();

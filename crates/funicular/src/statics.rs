@@ -1,5 +1,5 @@
-//! Static equilibrium: forward statics gives the pose from lengths ([`forward`]), inverse statics the lengths from a
-//! pose ([`inverse`]).
+//! Static equilibrium: forward statics computes the pose from lengths ([`forward`]), inverse statics computes the
+//! lengths from a pose ([`inverse`]).
 //!
 //! | Question | Function |
 //! |---|---|
@@ -13,7 +13,7 @@
 //! | nearest pose that fewer cables can hold (under-constrained) | [`nearest_equilibrium`] |
 //! | stiffness of an equilibrium | [`tangent_stiffness`], in wind [`tangent_with_drag`] |
 //! | derivatives of an equilibrium with respect to a number of the robot | [`derivatives`] |
-//! | pose and tensions between which friction of pulleys leaves the robot | [`friction_interval`] |
+//! | intervals of pose and tensions that friction of pulleys permits | [`friction_interval`] |
 //! | wrench at any pose, energy, nearness to a singular pose | [`wrench`], [`energy`], [`tension_gain`] |
 //!
 //! Every solution contains an [`Equilibrium`]; every refusal is a [`StaticsError`].
@@ -31,8 +31,8 @@ mod energy; // potential energy, minimised by forward statics
 mod exit_points; // exit points of cables over pulleys, which follow from the tensions
 mod initial_pose; // start pose from the lengths
 mod loaded_cable; // cable with its load, before its length is known
-mod residual;
-mod supports; // flexible supports, which settle under the forces of their cables // residual of the balance at a pose, and its rounding
+mod residual; // residual of the balance at a pose, and its rounding
+mod supports; // balance of flexible supports under the forces of their cables
 
 // Solvers.
 mod equilibria; // all equilibria of given lengths that a search finds

@@ -1,8 +1,8 @@
 //! "Did you mean": the known name nearest to a mistyped one. All messages share one measure and one limit.
 
-/// Minimum likeness (Jaro-Winkler, 0 to 1) at which a known name is suggested: `mas` has 0.87 with `mass_kg`, which is
-/// meant; `mass_kg_per_m` has 0.66 with `name`, which is not.
-const MIN_LIKENESS: f64 = 0.8;
+/// Minimum similarity (Jaro-Winkler, 0 to 1) at which a known name is suggested: `mas` has 0.87 with `mass_kg`, which
+/// is meant; `mass_kg_per_m` has 0.66 with `name`, which is not.
+const MIN_SIMILARITY: f64 = 0.8;
 
 /// Maximum length of a name [bytes]. Longer text is no name, and its comparison would take long.
 const MAX_LENGTH: usize = 100;
@@ -54,11 +54,11 @@ pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
         .into_iter()
         .filter(|name| word.len().max(name.len()) <= MAX_LENGTH)
         .map(|name| (strsim::jaro_winkler(&word, &name.to_lowercase()), name))
-        .filter(|(likeness, _)| *likeness >= MIN_LIKENESS)
+        .filter(|(similarity, _)| *similarity >= MIN_SIMILARITY)
         // Equal candidates: the first one wins, so that the answer does not depend on the order of comparison.
-        .fold(None, |best: Option<(f64, &str)>, (likeness, name)| match best {
-            Some((most, _)) if most >= likeness => best,
-            _ => Some((likeness, name)),
+        .fold(None, |best: Option<(f64, &str)>, (similarity, name)| match best {
+            Some((most, _)) if most >= similarity => best,
+            _ => Some((similarity, name)),
         })
         .map(|(_, name)| name)
 }
@@ -71,7 +71,7 @@ mod tests {
     fn an_earlier_name_is_answered_with_the_name_of_today() {
         assert_eq!(nearest("exact", ["spring", "catenary-dynamic"]), Some("catenary-dynamic"));
         assert_eq!(nearest("Freedoms", ["mass_kg", "motion"]), Some("motion"));
-        // If the new name is not among the known ones, likeness decides.
+        // If the new name is not among the known ones, similarity decides.
         assert_eq!(nearest("exact", ["spring", "exact_length"]), Some("exact_length"));
         assert_eq!(nearest("exact", ["spring"]), None);
     }
@@ -94,6 +94,6 @@ mod tests {
         ] {
             assert_eq!(nearest(word, keys), expected, "{word}");
         }
-        assert!(strsim::jaro_winkler("mass_kg_per_m", "name") < MIN_LIKENESS);
+        assert!(strsim::jaro_winkler("mass_kg_per_m", "name") < MIN_SIMILARITY);
     }
 }

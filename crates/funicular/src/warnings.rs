@@ -184,8 +184,8 @@ impl fmt::Display for Warning {
             ),
             Self::SlackAtDrum { cable, tension } => write!(
                 f,
-                "cable \"{cable}\" has a tension of {tension:.2} N at its drum: it would lift off its pulley; raise the \
-                 tension"
+                "cable \"{cable}\" has a tension of {tension:.2} N at its drum: it would lift off its pulley; raise \
+                 the tension"
             ),
             Self::Breaks { cable, tension, breaking_load } => write!(
                 f,
@@ -279,8 +279,8 @@ fn too_deep(cables: &[DeepSag], model: CableModel) -> String {
         format!("\"{cable}\" sags by {ratio:.4} of its chord{error}")
     };
     format!(
-        "cable {}, the limit is 1/20: the {model} model is outside its range; use the model `catenary-dynamic`, or raise \
-         the tension",
+        "cable {}, the limit is 1/20: the {model} model is outside its range; use the model `catenary-dynamic`, or \
+         raise the tension",
         cables.iter().map(one).collect::<Vec<_>>().join(", ")
     )
 }

@@ -18,6 +18,7 @@ mod carrier;
 mod drive_forms;
 mod drive_motion;
 mod drive_signals;
+mod families;
 mod internal_motion;
 mod mesh;
 mod moving_end;
@@ -44,9 +45,8 @@ use crate::catenary::Catenary;
 use crate::catenary::space::HangingCable;
 use crate::math::{Complex, DMat};
 use crate::robot::Damping;
-use mesh::{ElementTable, Mesh};
-use moving_end::Still;
-use partition::Condensed;
+use families::{Families, StationPositions};
+use mesh::Mesh;
 use std::ops::Range;
 use thiserror::Error;
 
@@ -66,9 +66,9 @@ pub struct CatenaryDynamic {
     pub error: f64,
     /// Polynomial degree of each element.
     pub degrees: Vec<usize>,
-    /// Motions that the end has; `None` for an end that is held. They belong to the inside of the cable, and are relative
-    /// to what carries the end: the components of the end in stiffness, mass and participations are the motion of that
-    /// carrier, with wheel and drum.
+    /// Motions that the end has; `None` for an end that is held. They belong to the inside of the cable, and are
+    /// relative to the carrier of the end: the components of the end in stiffness, mass and participations are the motion
+    /// of this carrier, with wheel and drum.
     pub end: Option<MovingEnd>,
     /// Motions of the drive at that end.
     pub drive: Option<DriveMotion>,
@@ -80,10 +80,10 @@ pub enum CatenaryDynamicError {
     /// A point of the cable has no tension: a slack massless cable, or a loop that hangs straight down.
     #[error("the cable has no tension at its lowest point: it has no linear vibration")]
     NoTension,
-    /// The end of the cable couples the motions in plane, which alone are wanted, with those out of plane.
+    /// The end of the cable couples motions in plane and out of plane, but only motions in plane are requested.
     #[error(
-        "the swivel axis of its pulley is not parallel to the load of the cable, so that its motions in plane and out of \
-         plane are coupled: leave `in-plane-only` out"
+        "the swivel axis of its pulley is not parallel to the load of the cable, so that its motions in plane and out \
+         of plane are coupled: include the stiffness out of plane"
     )]
     Skew,
     /// Nothing holds the drum: the cable would run over its pulley.
@@ -134,18 +134,28 @@ pub struct CatenaryDynamicEnd {
     pub(crate) kept: Option<Box<KeptModes>>,
     /// Directions of the cable at its ends.
     directions: EndDirections,
-    /// Displacements of the points at which motions along the cable are integrated, by all clamped modes; `None` unless they
-    /// have been kept.
+    /// Displacements of the points at which motions along the cable are integrated, by all clamped modes; `None` unless
+    /// they have been kept.
     pub(crate) shapes: Option<Box<Stations>>,
 }
 
 /// Choice to drop or to keep the shapes of the clamped modes of a cable once its poles and residues are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shapes {
-    /// They are never formed.
+    /// Shapes are never formed.
     Dropped,
-    /// They are kept, for gradients.
+    /// Shapes are kept, for gradients.
     Kept,
+}
+
+impl Shapes {
+    /// Stations at which the shapes are formed.
+    fn stations(self) -> StationPositions<'static> {
+        match self {
+            Self::Dropped => StationPositions::ArcLengths(&[]),
+            Self::Kept => StationPositions::GaussPoints,
+        }
+    }
 }
 
 /// Clamped modes that a cable has kept, and the modes that replace the others: per family the number of modes that are
@@ -188,16 +198,15 @@ impl CatenaryDynamicEnd {
         if in_plane_only && end.as_ref().is_some_and(MovingEnd::couples) {
             return Err(CatenaryDynamicError::Skew);
         }
-        let places = if shapes == Shapes::Kept { Places::Points } else { Places::At(&[]) };
         let (cable, stations) =
-            CatenaryDynamic::condensed(&hanging.catenary, end, mass_per_length, limit, places, &[])?;
+            CatenaryDynamic::condensed(&hanging.catenary, end, mass_per_length, limit, shapes.stations(), &[])?;
         let (axes, directions) = (LocalAxes::of_hanging(hanging), EndDirections::of(hanging));
         let shapes = (shapes == Shapes::Kept).then(|| Box::new(stations));
         Ok(Self { cable, axes, damping, mass_per_length, in_plane_only, kept: None, directions, shapes })
     }
 
-    /// Platform end of a shallow sagging span with a drive, valid up to ω = `limit` [rad/s]. `end` is its end at the pulley
-    /// or the winch, `None` for an end that is held; it and the `directions` are in the `axes` of the chord.
+    /// Platform end of a shallow sagging span with a drive, valid up to ω = `limit` [rad/s]. `end` is its end at the
+    /// pulley or the winch, `None` for an end that is held; it and the `directions` are in the `axes` of the chord.
     ///
     /// # Errors
     /// [`CatenaryDynamicError`].
@@ -217,7 +226,7 @@ impl CatenaryDynamicEnd {
     }
 
     /// Copy that keeps the poles below x and has a few poles in place of the others: see [`PoleResidue::compressed`].
-    /// These represent the losses of the drive and its `signals`, too.
+    /// The replacing poles represent the losses of the drive and its `signals`, too.
     pub(crate) fn with_poles_below(&self, x: f64, signals: &[EndSignal]) -> Self {
         let mut cut = Self { shapes: None, ..self.clone() };
         let [of_plane, of_normal, of_coupled] = self.forces_on_modes(signals);
@@ -390,6 +399,7 @@ impl CatenaryDynamicEnd {
             family,
             index,
         };
+
         let of_plane = near.in_plane.clone().map(|index| {
             let [e, n, ..] = in_plane.participation[index];
             pole(Family::InPlane, index, [e, n, 0.0], &in_plane.poles)
@@ -404,6 +414,7 @@ impl CatenaryDynamicEnd {
                 pole(Family::Coupled, index, [e, n, b], &family.poles)
             })
         });
+
         of_plane.chain(of_normal).chain(of_coupled).collect()
     }
 }
@@ -473,8 +484,8 @@ impl CatenaryDynamic {
     }
 
     /// Dynamic stiffness as by [`new`](Self::new), and the displacements of the points at the given unstrained arc
-    /// lengths from the start [m]. With `loaded`, forces may act at these points; each of them then costs an element. An
-    /// `end` that can move is part of the inside of the cable.
+    /// lengths from the start [m]. With `loaded`, forces may act at these points; each of them then costs an element.
+    /// An `end` that can move is part of the inside of the cable.
     ///
     /// # Errors
     /// [`CatenaryDynamicError`].
@@ -487,17 +498,17 @@ impl CatenaryDynamic {
         loaded: bool,
     ) -> Result<(Self, Stations), CatenaryDynamicError> {
         let cuts = if loaded { arc_lengths } else { &[] };
-        Self::condensed(catenary, end, mass_per_length, limit, Places::At(arc_lengths), cuts)
+        Self::condensed(catenary, end, mass_per_length, limit, StationPositions::ArcLengths(arc_lengths), cuts)
     }
 
-    /// Dynamic stiffness and displacements as by [`with_stations`](Self::with_stations), with nodes of the mesh at the arc
-    /// lengths `cuts`.
+    /// Dynamic stiffness and displacements as by [`with_stations`](Self::with_stations), with nodes of the mesh at the
+    /// arc lengths `cuts`.
     fn condensed(
         catenary: &Catenary,
         end: Option<MovingEnd>,
         mass_per_length: f64,
         limit: f64,
-        places: Places,
+        positions: StationPositions,
         cuts: &[f64],
     ) -> Result<(Self, Stations), CatenaryDynamicError> {
         let mut mesh = Mesh::new(catenary, mass_per_length, limit, cuts, end.is_some())?;
@@ -510,8 +521,8 @@ impl CatenaryDynamic {
 
             // Poles and residues, with the drive among the stations.
             let found = match &end {
-                Some(end) if couples => Families::together(catenary, &mesh, end, limit, places)?,
-                _ => Families::apart(catenary, &mesh, end.as_ref(), limit, places)?,
+                Some(end) if couples => Families::together(catenary, &mesh, end, limit, positions)?,
+                _ => Families::apart(catenary, &mesh, end.as_ref(), limit, positions)?,
             };
 
             // Accept the discretisation if it is fine enough, otherwise refine it.
@@ -569,111 +580,6 @@ impl CatenaryDynamic {
             Some(family) => local_of_coupled(family.effective_mass(x, 0..0)),
             None => local(self.in_plane.effective_mass(x, 0..0), self.out_of_plane.effective_mass(x, 0..0)),
         }
-    }
-}
-
-/// Poles and residues of the families of a discretised cable, with the displacements of its stations and of the motions at
-/// its end.
-struct Families {
-    in_plane: Condensed<2, 4, 3>,
-    out_of_plane: Condensed<1, 2, 1>,
-    coupled: Option<Condensed<3, 6, 6>>,
-    flexibility: DMat,
-    error: f64,
-    /// Arc lengths of the stations.
-    arc_lengths: Vec<f64>,
-}
-
-/// Stations of a cable.
-#[derive(Clone, Copy)]
-enum Places<'a> {
-    /// At these arc lengths from the start [m].
-    At(&'a [f64]),
-    /// At the points of the Gauss rules of the elements.
-    Points,
-}
-
-impl Places<'_> {
-    fn arc_lengths(self, mesh: &Mesh, tables: &[ElementTable]) -> Vec<f64> {
-        match self {
-            Self::At(arc_lengths) => arc_lengths.to_vec(),
-            Self::Points => mesh.points(tables),
-        }
-    }
-}
-
-impl Families {
-    /// Motions in plane and out of plane for themselves.
-    fn apart(
-        catenary: &Catenary,
-        mesh: &Mesh,
-        end: Option<&MovingEnd>,
-        limit: f64,
-        places: Places,
-    ) -> Result<Self, CatenaryDynamicError> {
-        let held = MovingEnd { along: None, sideways: None };
-        let end = end.unwrap_or(&held);
-        let Still { in_plane, out_of_plane, flexibility } =
-            end.still(catenary.tangent(), catenary.out_of_plane_stiffness())?;
-
-        let tables = mesh.tables();
-        let arc_lengths = places.arc_lengths(mesh, &tables);
-        let in_plane = mesh.condense(&tables, in_plane, end.guide_in_plane().as_ref(), limit, &arc_lengths)?;
-        let out_of_plane =
-            mesh.condense(&tables, out_of_plane, end.guide_out_of_plane().as_ref(), limit, &arc_lengths)?;
-        let error = in_plane.error.max(out_of_plane.error);
-        Ok(Self { in_plane, out_of_plane, coupled: None, flexibility, error, arc_lengths })
-    }
-
-    /// Motions in plane and out of plane, which the end couples.
-    fn together(
-        catenary: &Catenary,
-        mesh: &Mesh,
-        end: &MovingEnd,
-        limit: f64,
-        places: Places,
-    ) -> Result<Self, CatenaryDynamicError> {
-        let (still, flexibility) = end.still_coupled(catenary.tangent(), catenary.out_of_plane_stiffness())?;
-        let tables = mesh.tables();
-        let arc_lengths = places.arc_lengths(mesh, &tables);
-        let coupled = mesh.condense(&tables, still, Some(&end.guide()), limit, &arc_lengths)?;
-        let error = coupled.error;
-        Ok(Self {
-            in_plane: Condensed::none(),
-            out_of_plane: Condensed::none(),
-            coupled: Some(coupled),
-            flexibility,
-            error,
-            arc_lengths,
-        })
-    }
-
-    /// Cable, and its stations; the motions at its end, which follow the stations, belong to the cable.
-    fn split(mut self, end: Option<MovingEnd>, limit: f64, degrees: Vec<usize>) -> (CatenaryDynamic, Stations) {
-        let arc_lengths = self.arc_lengths;
-        let first = arc_lengths.len();
-        let mut coupled_stations = Displacements::none();
-        let mut drive = DriveMotion {
-            along: Displacements::none(),
-            sideways: Displacements::none(),
-            coupled: Displacements::none(),
-            flexibility: self.flexibility,
-        };
-        let coupled = self.coupled.map(|mut coupled| {
-            drive.coupled = coupled.stations.split_off(first);
-            coupled_stations = coupled.stations;
-            Box::new(coupled.ends)
-        });
-        if coupled.is_none() {
-            drive.along = self.in_plane.stations.split_off(first);
-            drive.sideways = self.out_of_plane.stations.split_off(first);
-        }
-
-        let drive = end.is_some().then_some(drive);
-        let (in_plane, out_of_plane) = (self.in_plane.stations, self.out_of_plane.stations);
-        let stations = Stations { arc_lengths, in_plane, out_of_plane, coupled: coupled_stations };
-        let (in_plane, out_of_plane) = (self.in_plane.ends, self.out_of_plane.ends);
-        (CatenaryDynamic { in_plane, out_of_plane, coupled, limit, error: self.error, degrees, end, drive }, stations)
     }
 }
 

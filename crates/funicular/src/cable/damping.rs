@@ -31,8 +31,8 @@ impl Damping {
         }
     }
 
-    /// Derivatives of `ω_c²` at a complex ω by the mass per length [kg/m], and by the damping ratio or the viscous damping
-    /// per length.
+    /// Derivatives of `ω_c²` at a complex ω by the mass per length [kg/m], and by the damping ratio or the viscous
+    /// damping per length.
     pub(crate) fn square_by_values(self, omega: Complex, mass_per_length: f64) -> [Complex; 2] {
         match self {
             Self::Ratio(_) => [Complex::new(0.0, 0.0), omega * omega * Complex::new(0.0, -2.0)],

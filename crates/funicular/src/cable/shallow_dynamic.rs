@@ -264,8 +264,10 @@ impl ShallowDynamic {
         if root_scale == 0.0 {
             return Vec::new();
         }
+
         let last = omega * root_scale;
         let mut halves = Vec::new();
+
         // Half angles h = Ω/2: antisymmetric modes jπ, symmetric modes of the string (j − ½)π.
         for j in 1..=(last / FRAC_PI_2).floor() as usize {
             let h = j as f64 * FRAC_PI_2;
@@ -278,6 +280,7 @@ impl ShallowDynamic {
                 halves.push(self.symmetric_root(h));
             }
         }
+
         let mut frequencies: Vec<f64> = halves.into_iter().map(|h| h / root_scale).filter(|f| *f < omega).collect();
         frequencies.sort_by(f64::total_cmp);
         frequencies

@@ -102,6 +102,7 @@ mod tests {
             let cable = Catenary::with_parallel_tension(span, rise, rope, tension);
             prop_assert!((cable.parallel_tension() / tension - 1.0).abs() < 1e-12);
             let again = Catenary::solve(span, rise, cable.rope());
+
             // Rounding of the length in a rope that hardly stretches; it grows with the length of a slack cable.
             let tolerance = 1e-14 * (axial_stiffness / tension).max(100.0);
             let gap = (again.parallel_tension() / tension - 1.0).abs();
@@ -122,7 +123,7 @@ mod tests {
         ) {
             let (span, rise) = ((1.0 - slope * slope).sqrt(), slope);
             let rope = Rope { unstrained_length: 1.0, weight_per_length: 1.0, axial_stiffness: 10f64.powf(stiffness) };
-            let tension = Catenary::SLACKEST * (100.0 / Catenary::SLACKEST).powf(part);
+            let tension = Catenary::MIN_TENSION_TO_WEIGHT * (100.0 / Catenary::MIN_TENSION_TO_WEIGHT).powf(part);
             let [less, more] = [tension, 1.001 * tension].map(|t| Catenary::with_parallel_tension(span, rise, rope, t));
             prop_assert!(more.max_tension() > less.max_tension());
             prop_assert!(more.min_tension() > less.min_tension());
@@ -141,9 +142,10 @@ mod tests {
             let rope = Rope { unstrained_length: 1.0, weight_per_length: 1.0, axial_stiffness };
             let high = axial_stiffness.min(1000.0);
             let mut last: Option<[f64; 2]> = None;
+
             for k in 0..=STEPS {
                 let part = f64::from(k) / f64::from(STEPS);
-                let tension = Catenary::SLACKEST * (high / Catenary::SLACKEST).powf(part);
+                let tension = Catenary::MIN_TENSION_TO_WEIGHT * (high / Catenary::MIN_TENSION_TO_WEIGHT).powf(part);
                 let cable = Catenary::with_parallel_tension(span, rise, rope, tension);
                 let by_tension = 1.0 / cable.parallel_tension_by_length();
                 let bend = (cable.vertical_mean - tension * slope) * slope.signum();

@@ -6,15 +6,15 @@ use crate::math::dual::{Real, dot};
 use crate::math::{Mat3, Vec3};
 use crate::robot::{PulleyContact, Wheel};
 
-/// Wrap angle [rad] below which the exit point is on the swivel axis and cannot move sideways. At 1e-8 its distance from
-/// the axis is 1e-16 of the radius.
+/// Wrap angle [rad] below which the exit point is on the swivel axis and cannot move sideways. At 1e-8 its distance
+/// from the axis is 1e-16 of the radius.
 const MIN_WRAP: f64 = 1e-8;
 
-/// End of a cable at its exit point, as the free span meets it. It can slip along the cable (σ, towards the platform)
-/// and move sideways with the swivelling wheel (v).
+/// Far end of the free span, at the exit point. It can move along the cable (σ, towards the platform) and sideways with
+/// the swivelling wheel (v).
 ///
-/// In the plane of the wheel, rolling has no effect of first order: the exit point is a pin that slides along the cable.
-/// The forces of the end on a displacement (σ, v) are −S (σ, v).
+/// In the plane of the wheel, rolling has no effect of first order: the exit point is a pin that slides along the
+/// cable. The forces of the end on a displacement (σ, v) are −S (σ, v).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AnchorEnd {
     /// Direction of σ: along the cable towards the platform, unit vector, world axes; `None` if the end is held.
@@ -30,9 +30,9 @@ pub struct AnchorEnd {
     /// Stretch λ at the exit point, and λ_E between entry point and drum.
     pub(crate) stretch: f64,
     pub(crate) stretch_drum: f64,
-    /// Stiffness along the cable by its weight, −q·t/λ [N/m]: slip lifts or lowers it.
+    /// Stiffness along the cable by its weight, −q·t/λ [N/m]: σ lifts or lowers it.
     pub(crate) weight: f64,
-    /// Direction of the cable at the exit point towards the platform, unit vector, world axes; that of σ.
+    /// Direction of the cable at the exit point towards the platform, unit vector, world axes; direction of σ.
     pub(crate) travel_w: Vec3,
 }
 
@@ -57,7 +57,7 @@ pub(crate) struct OnSupport {
 }
 
 impl OnSupport {
-    /// Anchor that moves with everything behind it, from the stiffness at the platform.
+    /// Stiffness for a motion of the anchor with its whole drive, from the stiffness at the platform.
     pub(super) fn moving_together(total: Mat3) -> Self {
         Self { force_w: total, stiffness_w: total }
     }
@@ -168,15 +168,16 @@ impl AnchorEnd {
         [along * a + sideways * b, along * b + sideways * c]
     }
 
-    /// Motions (σ, v) of the end per motion of the entry point along a drum side from the ground, both ends of the span held.
+    /// Motions (σ, v) of the end per motion of the entry point along a drum side from the ground, both ends of the span
+    /// held.
     pub(crate) fn motion_by_drum_side(&self, held: &Mat3) -> [f64; 2] {
-        let [[slip, mixed], _] = self.inverse(held);
+        let [[sigma, mixed], _] = self.inverse(held);
         let pull = self.force_by_length / self.stretch_drum;
-        [-pull * slip, -pull * mixed]
+        [-pull * sigma, -pull * mixed]
     }
 
-    /// Derivative of the force on the platform with respect to the unstrained length [N/m]; `None` if the end is held,
-    /// so that it is that of the span.
+    /// Derivative of the force on the platform with respect to the unstrained length [N/m]; `None` if the end is held:
+    /// then it is the derivative of the span.
     pub(crate) fn force_by_length_w(&self, held: &Mat3) -> Option<Vec3> {
         let along = held * self.along_w?;
         let [[a, b], _] = self.inverse(held);
@@ -191,19 +192,19 @@ impl AnchorEnd {
         held * (along_w * b + sideways_w * c)
     }
 
-    /// Change of the tension of a drum side, as a force on its entry point along it, by a given motion [N]: the exit point
-    /// moves with the anchor by `exit_w`, a generalised force acts on the motion sideways, and the entry point moves along a
-    /// drum side from the ground by `stretched`. The platform is held; zero if the end is held.
+    /// Change of the tension of a drum side, as a force on its entry point along it, by a given motion [N]: the exit
+    /// point moves with the anchor by `exit_w`, a generalised force acts on the motion sideways, and the entry point
+    /// moves along a drum side from the ground by `stretched`. The platform is held; zero if the end is held.
     pub(crate) fn drum_side_tension(&self, held: &Mat3, exit_w: &Vec3, on_swivel: f64, stretched: f64) -> f64 {
         let Some(by_length_w) = self.force_by_length_w(held) else { return 0.0 };
-        let [[slip, mixed], _] = self.inverse(held);
+        let [[sigma, mixed], _] = self.inverse(held);
         let pull = self.force_by_length / self.stretch_drum;
-        let own = pull * self.stretch / self.stretch_drum - pull * pull * slip;
+        let own = pull * self.stretch / self.stretch_drum - pull * pull * sigma;
         own * stretched - by_length_w.dot(exit_w) / self.stretch_drum + pull * mixed * on_swivel
     }
 
-    /// Stiffness of a cable between platform and anchor for a motion of the anchor whose drum stays on the ground. `held` is
-    /// the stiffness of the span.
+    /// Stiffness of a cable between platform and anchor for a motion of the anchor whose drum stays on the ground.
+    /// `held` is the stiffness of the span.
     ///
     /// # References
     /// docs/theory.md, equation (91).
@@ -214,8 +215,8 @@ impl AnchorEnd {
 
         // Change of the tension at the drum with the length of the drum side, the platform held.
         let pull = self.force_by_length / self.stretch_drum;
-        let [[slip, _], _] = self.inverse(held);
-        let own = pull * self.stretch / self.stretch_drum - pull * pull * slip;
+        let [[sigma, _], _] = self.inverse(held);
+        let own = pull * self.stretch / self.stretch_drum - pull * pull * sigma;
 
         let DrumSideAtRest { direction_w, length, tension } = side;
         let mixed = by_drum_side_w * direction_w.transpose();

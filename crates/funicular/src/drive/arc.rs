@@ -5,8 +5,8 @@ use crate::catenary::space::HangingCable;
 use crate::math::dual::{Real, dot};
 use crate::robot::{Anchor, PulleyContact, Wheel};
 
-/// Nodes and weights of the 6-point Gauss rule on [−1, 1]; the other three nodes mirror these. The tension changes along
-/// the arc by the weight of a piece as long as the wheel, a smooth and small change: six points give all digits.
+/// Nodes and weights of the 6-point Gauss rule on [−1, 1]; the other three nodes mirror these. The tension changes
+/// along the arc by the weight of a piece as long as the wheel, a smooth and small change: six points give all digits.
 const GAUSS: [(f64, f64); 3] = [
     (0.238_619_186_083_196_9, 0.467_913_934_572_691),
     (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
@@ -28,8 +28,8 @@ pub(super) struct Given<T> {
     pub(super) axial_stiffness: T,
     /// Place on the wheel; `None` without a pulley.
     pub(super) wheel: Option<Wheel<T>>,
-    /// Length from the entry point to the drum [m], and length that the winch pays out per tension [m/N]; `None` without a
-    /// winch.
+    /// Length from the entry point to the drum [m], and length that the winch pays out per tension [m/N]; `None`
+    /// without a winch.
     pub(super) winch: Option<(T, T)>,
 }
 
@@ -103,11 +103,10 @@ impl<T: Real> Beyond<T> {
     /// # References
     /// docs/theory.md, equations (64) to (67).
     pub(super) fn at(given: &Given<T>) -> Self {
-        let Given { force_w, load_w, axial_stiffness: ea, wheel, winch } = *given;
-        let (zero, one) = (T::from(0.0), T::from(1.0));
+        let Given { force_w, axial_stiffness: ea, wheel, winch, .. } = *given;
+        let zero = T::from(0.0);
         let tension = dot(&force_w, &force_w).sqrt();
-        let stretch = one + tension / ea;
-        let potential = tension * 0.5 * (one + stretch);
+        let stretch = T::from(1.0) + tension / ea;
 
         let mut beyond = Self {
             force_w,
@@ -126,53 +125,65 @@ impl<T: Real> Beyond<T> {
             energy: zero,
         };
 
-        // Arc on the wheel.
-        let mut stretch_entry = stretch;
-        if let Some(wheel) = wheel {
-            let exit = wheel.offset_w(wheel.wrap);
-            for (angle, arc) in arc_nodes(&wheel) {
-                let offset = wheel.offset_w(angle);
-                let lift: [T; 3] = std::array::from_fn(|k| exit[k] - offset[k]);
-                let potential = potential + dot(&load_w, &lift);
-                let stretch = stretch_of(potential, ea);
-                let tension = tension_of(potential, stretch);
-                // Unstrained length of the piece that belongs to the node.
-                let length = arc / stretch;
-                beyond.arc_length = beyond.arc_length + length;
-                beyond.rope_compliance = beyond.rope_compliance + length / (ea * stretch * stretch);
-                beyond.moment = beyond.moment + length * dot(&offset, &wheel.center_w);
-                beyond.energy = beyond.energy + length * (tension * 0.5 * tension / ea - dot(&load_w, &offset));
-            }
-            let potential = potential + dot(&load_w, &exit);
-            stretch_entry = stretch_of(potential, ea);
-            beyond.tension_entry = tension_of(potential, stretch_entry);
-
-            let lever = wheel.distance_from_axis() * tension;
-            if lever.value() > 0.0 {
-                beyond.kink = (-dot(&load_w, &wheel.sideways_w) * beyond.moment / lever).arcsin();
-            }
+        if let Some(wheel) = &wheel {
+            beyond.add_arc(given, wheel);
         }
-
-        // Drum side and winch.
-        beyond.stretch_entry = stretch_entry;
-        if let Some((length, by_tension)) = winch {
-            let tension = beyond.tension_entry;
-            beyond.winch_yield = tension * by_tension;
-            beyond.drum_side_length = (length - beyond.winch_yield) / stretch_entry;
-            let squared = stretch_entry * stretch_entry;
-            beyond.drum_side_compliance = beyond.drum_side_length / (ea * squared);
-            beyond.rope_compliance = beyond.rope_compliance + beyond.drum_side_compliance;
-            beyond.compliance = beyond.compliance + by_tension / squared;
-            beyond.energy = beyond.energy + tension * 0.5 * tension * (beyond.drum_side_length / ea + by_tension);
+        if let Some(winch) = winch {
+            beyond.add_drum_side(ea, winch);
         }
         beyond.compliance = beyond.compliance + beyond.rope_compliance;
 
         beyond
     }
+
+    /// Adds the arc on the wheel.
+    #[inline]
+    fn add_arc(&mut self, given: &Given<T>, wheel: &Wheel<T>) {
+        let Given { load_w, axial_stiffness: ea, .. } = *given;
+        let exit = wheel.offset_w(wheel.wrap);
+        let at_exit = self.tension * 0.5 * (T::from(1.0) + self.stretch);
+        for (angle, arc) in arc_nodes(wheel) {
+            let offset = wheel.offset_w(angle);
+            let lift: [T; 3] = std::array::from_fn(|k| exit[k] - offset[k]);
+            let potential = at_exit + dot(&load_w, &lift);
+            let stretch = stretch_of(potential, ea);
+            let tension = tension_of(potential, stretch);
+            // Unstrained length of the piece that belongs to the node.
+            let length = arc / stretch;
+            self.arc_length = self.arc_length + length;
+            self.rope_compliance = self.rope_compliance + length / (ea * stretch * stretch);
+            self.moment = self.moment + length * dot(&offset, &wheel.center_w);
+            self.energy = self.energy + length * (tension * 0.5 * tension / ea - dot(&load_w, &offset));
+        }
+
+        // Entry point.
+        let potential = at_exit + dot(&load_w, &exit);
+        self.stretch_entry = stretch_of(potential, ea);
+        self.tension_entry = tension_of(potential, self.stretch_entry);
+
+        let lever = wheel.distance_from_axis() * self.tension;
+        if lever.value() > 0.0 {
+            self.kink = (-dot(&load_w, &wheel.sideways_w) * self.moment / lever).arcsin();
+        }
+    }
+
+    /// Adds the drum side of a length and the winch, which yields by an unstrained length per tension at the entry
+    /// point.
+    #[inline]
+    fn add_drum_side(&mut self, ea: T, (length, by_tension): (T, T)) {
+        let tension = self.tension_entry;
+        self.winch_yield = tension * by_tension;
+        self.drum_side_length = (length - self.winch_yield) / self.stretch_entry;
+        let squared = self.stretch_entry * self.stretch_entry;
+        self.drum_side_compliance = self.drum_side_length / (ea * squared);
+        self.rope_compliance = self.rope_compliance + self.drum_side_compliance;
+        self.compliance = self.compliance + by_tension / squared;
+        self.energy = self.energy + tension * 0.5 * tension * (self.drum_side_length / ea + by_tension);
+    }
 }
 
-/// Points of the rim with the length of arc that belongs to each, for integrals over the arc: angles from the entry point
-/// [rad], and lengths [m].
+/// Points of the rim with the length of arc that belongs to each, for integrals over the arc: angles from the entry
+/// point [rad], and lengths [m].
 pub(super) fn arc_nodes<T: Real>(wheel: &Wheel<T>) -> impl Iterator<Item = (T, T)> + use<T> {
     let (half, radius) = (wheel.wrap * 0.5, wheel.radius);
     let both = |(node, weight): (f64, f64)| [(node, weight), (-node, weight)];

@@ -27,11 +27,11 @@ const MIN_SHORTENED: f64 = 0.2;
 /// Maximum number of halvings of a step that does not reduce the imbalance.
 const MAX_HALVINGS: usize = 8;
 
-/// Imbalance below which a step is taken although it is no gain: it is rounding.
+/// Residual below which a step is taken although it does not reduce the residual, because rounding is as large.
 const ROUNDING: f64 = 1e-13;
 
-/// Maximum number of rounds of the slow method, and of steps for one length. Each round reduces the change of the angles
-/// by the ratio of the radius to the span; each step at least halves an interval.
+/// Maximum number of rounds of the slow method, and of steps for one length. Each round reduces the change of the
+/// angles by the ratio of the radius to the span; each step at least halves an interval.
 const MAX_ROUNDS: usize = 200;
 const MAX_LENGTH_STEPS: usize = 100;
 
@@ -157,6 +157,7 @@ impl Problem<'_> {
                 (next.imbalance.amax() < before.max(ROUNDING)).then_some(next)
             });
 
+            // End after a small step.
             here = next?;
             if size <= LAST_STEP {
                 return Some(here.unknowns);

@@ -1,8 +1,9 @@
 //! Motions behind the exit point of a cable, and their stiffness and mass: wheel, drum side, drum, shaft and motor.
 //!
-//! The first motion is the slip σ of the cable on the wheel, towards the platform. Behind it follow guide wheels with mass,
-//! the waves of a drum side with mass, the drum and the motor, as motions of the cable there towards the wheel. What cannot
-//! move has no motion: a rigid winch is a wall (docs/theory.md, equations (75) to (79)).
+//! The first motion is σ, that of the cable along itself at the wheel, towards the platform; the wheel turns with it.
+//! Behind it follow guide wheels with mass, the waves of a drum side with mass, the drum and the motor, as motions of
+//! the cable there towards the wheel. A part that cannot move has no motion: a rigid winch is a wall (docs/theory.md,
+//! equations (75) to (79)).
 
 mod description;
 mod parts;
@@ -12,7 +13,7 @@ pub(crate) use description::{ChainDescription, Piece};
 use super::DriveAtRest;
 use crate::math::{Complex, DMat, legendre};
 use crate::robot::{Anchor, Servo, WinchMode};
-use parts::{Layout, Parts};
+use parts::{MotionOrder, Parts};
 
 /// Motions behind the exit point of a cable, as a chain from the wheel to the motor.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,10 +28,10 @@ pub struct DriveChain {
     pub drum: Option<Place>,
     /// Motor, if it can move.
     pub motor: Option<Motor>,
-    /// Force on the motions per unstrained length that is paid out at a drum or by a motor that is held [N/m], and that
-    /// by the mass of the cable, per ω² [kg]; empty if a control moves the drum.
+    /// Force on each motion per unstrained length that a held drum or motor pays out: by stiffness [N/m], and by the
+    /// mass of the cable per ω² [kg]. Empty if a control moves the drum.
     pub(crate) by_length: Vec<(f64, f64)>,
-    /// Drum side as each motion feels it; empty if the drum is at the exit point.
+    /// Force of the drum side on each motion; empty if the drum is at the exit point.
     pub(crate) drum_side: Vec<OnDrumSide>,
     /// Mass of a drum side with mass [kg]; zero for one without.
     pub(crate) drum_side_mass: f64,
@@ -45,26 +46,26 @@ pub struct DriveChain {
 pub(crate) struct OnDrumSide {
     /// Stiffness between the motion and the end of the drum side at the wheel [N/m].
     pub(crate) stiffness: f64,
-    /// Mass between them [kg].
+    /// Mass between the motion and that end [kg].
     pub(crate) mass: f64,
     /// Mass between the motion and a motion of the whole drum side along itself [kg].
     pub(crate) carried_mass: f64,
 }
 
-/// Force at the end of the drum side at the drum, towards the wheel as the drum feels it, over the stretch: stiffness
-/// [N/m] and mass [kg] pairs.
+/// End of the drum side at the drum: pairs of stiffness [N/m] and mass [kg] give the force on it over the stretch,
+/// towards the wheel.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct DrumEnd {
-    /// Between that end and each motion.
+    /// Pairs between this end and each motion.
     pub(crate) by_motion: Vec<(f64, f64)>,
-    /// Between that end and itself; it moves by the stretch at the exit point times a length that is paid out by a drum that is
-    /// held.
+    /// Pair between this end and itself. A held drum that pays out a length moves the end by this length times the
+    /// stretch at the exit point.
     pub(crate) own: (f64, f64),
-    /// Between that end and the end at the wheel; zero if guide wheels lie between them.
+    /// Pair between this end and the end at the wheel; zero if guide wheels lie between them.
     pub(crate) by_wheel: (f64, f64),
-    /// Mass between that end and a motion of the whole drum side along itself [kg].
+    /// Mass between this end and a motion of the whole drum side along itself [kg].
     pub(crate) carried_mass: f64,
-    /// Tension at the drum per force on that end: the ratio of the stretch at the exit point to that at the drum.
+    /// Tension at the drum per force on this end: the ratio of the stretch at the exit point to that at the drum.
     pub(crate) ratio: f64,
 }
 
@@ -87,7 +88,7 @@ impl Place {
 /// Motor that can move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motor {
-    /// Its place.
+    /// Place of the motor in the chain.
     pub place: Place,
     /// Viscous damping at the cable [N s/m].
     pub damping: f64,
@@ -117,13 +118,13 @@ impl Servo {
 }
 
 /// Chain under construction.
-struct Assembly {
+struct ChainMatrices {
     stiffness: DMat,
     mass: DMat,
     cable_mass: DMat,
 }
 
-impl Assembly {
+impl ChainMatrices {
     /// Chain of `n` motions without stiffness and mass.
     fn new(n: usize) -> Self {
         Self { stiffness: DMat::zeros(n, n), mass: DMat::zeros(n, n), cable_mass: DMat::zeros(n, n) }
@@ -143,9 +144,9 @@ impl Assembly {
         self.mass[(at.motion, at.motion)] += mass * at.factor * at.factor;
     }
 
-    /// Adds the drum side, which stretches between σ, the guide wheels and its end at the drum. The result is the end at the
-    /// drum, and the mass of a rod between each motion and a motion of the whole rod [kg].
-    fn drum_side(&mut self, parts: &Parts, layout: &Layout) -> (DrumEnd, Vec<f64>) {
+    /// Adds the drum side, which stretches between σ, the guide wheels and its end at the drum. The result is the end
+    /// at the drum, and the mass of a rod between each motion and a motion of the whole rod [kg].
+    fn drum_side(&mut self, parts: &Parts, layout: &MotionOrder) -> (DrumEnd, Vec<f64>) {
         let mut end = DrumEnd {
             by_motion: vec![(0.0, 0.0); layout.count],
             own: (0.0, 0.0),
@@ -176,12 +177,13 @@ impl Assembly {
                 }
             }
         }
+
         (end, carried)
     }
 
-    /// Adds the mass of a piece of the drum side that is a rod, and its waves. Functions are hats at both of its ends, then
-    /// polynomials that vanish there. The result is the mass over these functions.
-    fn rod(&mut self, parts: &Parts, layout: &Layout, piece: usize, carried: &mut [f64]) -> DMat {
+    /// Adds the mass of a piece of the drum side that is a rod, and its waves. Functions are hats at both of its ends,
+    /// then polynomials that vanish there. The result is the mass over these functions.
+    fn rod(&mut self, parts: &Parts, layout: &MotionOrder, piece: usize, carried: &mut [f64]) -> DMat {
         let half = 0.5 * parts.rod_length(piece);
         let functions = layout.waves[piece].len() + 2;
         let mass = legendre::element_mass(functions - 1) * (half * parts.mass_per_length);
@@ -202,7 +204,7 @@ impl Assembly {
     }
 
     /// Adds drum, shaft and motor.
-    fn winch(&mut self, parts: &Parts, layout: &Layout) {
+    fn winch(&mut self, parts: &Parts, layout: &MotionOrder) {
         let (Some(winch), Some(drum)) = (parts.winch, layout.drum) else { return };
         self.heavy(winch.drum_mass, drum);
         if parts.shaft.is_finite() {
@@ -229,11 +231,11 @@ impl DrumEnd {
     }
 }
 
-/// Slip of the cable on the wheel: the first motion of every chain.
-const SLIP: Place = Place { motion: 0, factor: 1.0 };
+/// Motion σ of the cable along itself at the wheel: the first motion of every chain.
+const AT_WHEEL: Place = Place { motion: 0, factor: 1.0 };
 
 /// Force on the motions per unstrained length that is paid out: see [`DriveChain::by_length`].
-fn by_length(parts: &Parts, layout: &Layout, drum_end: &DrumEnd) -> Vec<(f64, f64)> {
+fn by_length(parts: &Parts, layout: &MotionOrder, drum_end: &DrumEnd) -> Vec<(f64, f64)> {
     match (layout.drum, layout.motor) {
         (_, Some(_)) => Vec::new(),
         (Some(drum), None) => {
@@ -257,13 +259,13 @@ impl DriveChain {
         limit: f64,
     ) -> Option<Self> {
         let parts = Parts::of(anchor, drive, (axial_stiffness, mass_per_length), mode)?;
-        let layout = Layout::of(&parts, limit);
-        let mut chain = Assembly::new(layout.count);
+        let layout = MotionOrder::of(&parts, limit);
+        let mut chain = ChainMatrices::new(layout.count);
 
         // Wheel and weight of the cable on it, drum side, then drum, shaft and motor.
         chain.stiffness[(0, 0)] += drive.end.weight;
         if let Some(pulley) = &anchor.pulley {
-            chain.heavy(pulley.inertia / (pulley.radius * pulley.radius), SLIP);
+            chain.heavy(pulley.inertia / (pulley.radius * pulley.radius), AT_WHEEL);
         }
         for (mass, place) in parts.guides.iter().zip(&layout.guides) {
             chain.heavy(*mass, *place);
@@ -277,7 +279,7 @@ impl DriveChain {
         let drum_side = if parts.has_rope() { (0..layout.count).map(on_drum_side).collect() } else { Vec::new() };
         chain.winch(&parts, &layout);
 
-        let Assembly { stiffness, mass, cable_mass } = chain;
+        let ChainMatrices { stiffness, mass, cable_mass } = chain;
         let damping = parts.winch.map_or(0.0, |winch| winch.damping);
         let motor = layout.motor.map(|place| Motor { place, damping, servo: parts.servo() });
         let (drum, stretch_drum) = (layout.drum, drive.end.stretch_drum);
@@ -300,7 +302,7 @@ impl DriveChain {
         self.stiffness.nrows()
     }
 
-    /// False: a chain has at least the slip of the cable on its wheel.
+    /// False: a chain has at least the motion of the cable at its wheel.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -317,7 +319,8 @@ impl DriveChain {
         })
     }
 
-    /// Viscous damping of each motion [N s/m]: that of the motor, and the speed gain of its control. A delay is left out.
+    /// Viscous damping of each motion [N s/m]: that of the motor, and the speed gain of its control. A delay is left
+    /// out.
     pub(crate) fn viscous_damping(&self) -> Vec<f64> {
         let mut damping = vec![0.0; self.len()];
         if let Some(motor) = &self.motor {
@@ -335,10 +338,10 @@ impl DriveChain {
         Some(total.cholesky()?.inverse())
     }
 
-    /// Dynamic stiffness of each motion besides that of the undamped chain, at the complex ω [N/m], with its derivative
-    /// by ω: no two motions share a mass or a loss. The undamped matrices move with ω_c² (`square`, with its derivative by
-    /// ω), because the cable has damping of its own; wheel, drum and motor have ω². `losses` is the fraction of the
-    /// damping that acts.
+    /// Difference between the dynamic stiffness of each motion and that of the undamped chain at the complex ω [N/m],
+    /// with its derivative by ω; no two motions share a mass or a loss. The undamped matrices contain the square ω_c²
+    /// of the cable (`square`, with its derivative by ω), because the cable has its own damping; wheel, drum and motor
+    /// have ω². `losses` is the fraction of the damping that acts.
     pub(crate) fn beyond_undamped(
         &self,
         omega: Complex,
@@ -363,7 +366,8 @@ mod tests {
     use super::*;
     use crate::robot::{Control, DrumSide, Winch};
 
-    /// A rod whose end is held: its condensed stiffness is EA κ cot κs, up to the highest frequency that it is made for.
+    /// A rod whose end is held: its condensed stiffness is EA κ cot κs, up to the highest frequency that it is made
+    /// for.
     #[test]
     fn a_rod_has_the_axial_waves_of_its_length() {
         let winch = Winch { drum_side: DrumSide::Rod, ..Winch::rigid("winch", 0.0) };
@@ -379,8 +383,8 @@ mod tests {
                 pieces: vec![3.0 / 2e5],
                 guides: Vec::new(),
             };
-            let layout = Layout::of(&parts, limit);
-            let mut chain = Assembly::new(layout.count);
+            let layout = MotionOrder::of(&parts, limit);
+            let mut chain = ChainMatrices::new(layout.count);
             chain.drum_side(&parts, &layout);
             for omega in [0.3 * limit, 0.77 * limit, limit] {
                 let d = &chain.stiffness - &chain.cable_mass * (omega * omega);

@@ -7,14 +7,14 @@ use proptest::prelude::*;
 
 /// Cable with a load against z.
 #[derive(Debug, Clone)]
-struct Case {
+struct HangingCase {
     cable: Cable,
     load: LineLoad,
     start_w: Vec3,
     length: f64,
 }
 
-impl Case {
+impl HangingCase {
     fn hang(&self) -> CableAtRest {
         CableAtRest::hang(self.start_w, &self.cable, &self.load, self.length)
     }
@@ -54,13 +54,14 @@ fn pulley(radius: f64, entry_direction_w: Vec3) -> Pulley {
     Pulley::new("wheel", radius, entry_direction_w)
 }
 
-/// Case with tilted axes, pulleys up to half a metre, winches from soft to rigid, cables from slack to stretched by
-/// 0.1 %.
-fn cases(tilt: f64) -> impl Strategy<Value = Case> {
+/// HangingCase with tilted axes, pulleys up to half a metre, winches from soft to rigid, cables from slack to stretched
+/// by 0.1 %.
+fn cases(tilt: f64) -> impl Strategy<Value = HangingCase> {
     let place = (-1.0f64..=1.0, -1.0f64..=1.0, -1.0f64..=0.6).prop_map(|(x, y, z)| Vec3::new(x, y, z));
     let axis = (-tilt..=tilt, -tilt..=tilt).prop_map(|(x, y)| Vec3::new(x, y, 1.0).normalize());
     let drive = (-2.3f64..-0.3, 0.0f64..5.0, 3.0f64..8.0, any::<bool>());
     let rope = (4.5f64..6.5, -0.001f64..0.2, -3.0f64..1.0);
+
     (place, axis, drive, rope).prop_filter_map("no room beside the wheel", |(place, axis, drive, rope)| {
         let (radius, drum_side_length, stiffness, is_rigid) = drive;
         let (axial_stiffness, longer, weight) = rope;
@@ -79,7 +80,7 @@ fn cases(tilt: f64) -> impl Strategy<Value = Case> {
         }
         let length = ((anchor.exit_w(&start_w) - start_w).norm() + anchor.length_beyond(&start_w)) * (1.0 + longer);
         let load = LineLoad { up_w: Vec3::z(), size: 10f64.powf(weight) };
-        Some(Case { cable: cable(anchor, 10f64.powf(axial_stiffness)), load, start_w, length })
+        Some(HangingCase { cable: cable(anchor, 10f64.powf(axial_stiffness)), load, start_w, length })
     })
 }
 
@@ -112,7 +113,8 @@ proptest! {
         prop_assert!((psi(drive.tension_drum) - psi(tension) - drop).abs() < 1e-12 * psi(tension).max(1.0));
     }
 
-    /// The tolerance is that of the differences: rounding of the energy over the step, and the fourth power of the step.
+    /// The tolerance is that of the differences: rounding of the energy over the step, and the fourth power of the
+    /// step.
     #[test]
     fn the_force_is_the_slope_of_the_energy(case in cases(0.0)) {
         let found = case.hang();

@@ -1,8 +1,8 @@
 //! Blocks of a second-order model: the platform, and per catenary-dynamic cable its end and its clamped modes.
 //!
 //! With the amplitudes q_k of the clamped modes as coordinates beside the platform's motion x, the matrices of a
-//! catenary-dynamic cable do not depend on frequency (docs/theory.md, section 13). Displacements of flexible supports stand
-//! beside x: together they are the coordinates of the ends.
+//! catenary-dynamic cable do not depend on frequency (docs/theory.md, section 13). Displacements of flexible supports
+//! stand beside x: together they are the coordinates of the ends.
 //!
 //! ```text
 //! K_c = [ K_s   0   ]      M_c = [ M_s   g_k ]
@@ -12,7 +12,7 @@
 use super::{DynamicCableAt, Dynamics, Supports};
 use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::{
-    CarrierMotion, CatenaryDynamicEnd, DriveForm, DrivePart, DriveSignal, ENDS, InPowersOfS,
+    CarrierMotion, CatenaryDynamicEnd, DriveForm, DrivePart, DriveSignal, ENDS, InPowersOfS, PoleResidue,
 };
 use crate::math::{DMat, Mat3, Mat6, Vec3, Vec6};
 use crate::robot::Damping;
@@ -25,8 +25,8 @@ pub(crate) struct PlatformBlocks {
     pub(crate) stiffness: DMat,
 }
 
-/// Matrices of flexible supports over their displacements, three per support, with the stiffness of cables that does not
-/// depend on frequency.
+/// Matrices of flexible supports over their displacements, three per support, with the stiffness of cables that does
+/// not depend on frequency.
 pub(crate) struct SupportBlocks {
     /// Stiffness [N/m].
     pub(crate) stiffness: DMat,
@@ -68,8 +68,8 @@ pub(crate) struct DrivePartBlock {
     pub(crate) massless: f64,
 }
 
-/// Row over the coordinates of the ends, which are the platform's and then those of the supports, and the amplitudes of the
-/// clamped modes of a cable.
+/// Row over the coordinates of the ends, which are the platform's and then those of the supports, and the amplitudes of
+/// the clamped modes of a cable.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CableRow {
     pub(crate) ends: Vec<f64>,
@@ -133,16 +133,16 @@ impl Dynamics {
         end.direct_signal(input, output)
     }
 
-    /// Row of a motion of the carrier of a cable's far end; the cable is given by its index among the terms. `None` if it is not
-    /// catenary-dynamic.
+    /// Row of a motion of the carrier of a cable's far end; the cable is given by its index among the terms. `None` if
+    /// it is not catenary-dynamic.
     pub(crate) fn carrier_row(&self, term: usize, motion: &CarrierMotion) -> Option<InPowersOfS<CableRow>> {
         let DynamicCable::CatenaryDynamic(end) = &self.terms[term].form else { return None };
         Some(self.rows(term, end.carrier_form(motion), |carrier| end.between_carriers(carrier, motion)))
     }
 
     /// Row over the supports of the motion of a point on a cable, given by its index in the order of the file:
-    /// `by_far_end_w` has its displacement per displacement of the far end along each axis of the world, and `amplitudes` its
-    /// motion in the clamped modes.
+    /// `by_far_end_w` has its displacement per displacement of the far end along each axis of the world, and
+    /// `amplitudes` its motion in the clamped modes.
     pub(crate) fn station_row_on_supports(&self, cable: usize, by_far_end_w: [f64; 3], amplitudes: &[f64]) -> Vec<f64> {
         let mut row = vec![0.0; self.support_count()];
         let Some((supports, first)) = self.supports().and_then(|of| Some((of, of.of_cable(cable)?))) else {
@@ -156,15 +156,15 @@ impl Dynamics {
         row
     }
 
-    /// Motions (e, n, b) of the platform end and of the far end of a cable per unit of a signal of its drive; the cable is given by
-    /// its index among the terms.
+    /// Motions (e, n, b) of the platform end and of the far end of a cable per unit of a signal of its drive; the cable
+    /// is given by its index among the terms.
     pub(crate) fn ends_of_signal(&self, term: usize, signal: DriveSignal) -> [[f64; 3]; 2] {
         let DynamicCable::CatenaryDynamic(end) = &self.terms[term].form else { return [[0.0; 3]; 2] };
         end.ends_of_signal(signal)
     }
 
-    /// Output of the drive of a cable, or its tension, per motion of the carrier of its far end with all coordinates at rest;
-    /// `None` without such a signal.
+    /// Output of the drive of a cable, or its tension, per motion of the carrier of its far end with all coordinates at
+    /// rest; `None` without such a signal.
     pub(crate) fn direct_by_carrier(
         &self,
         term: usize,
@@ -175,8 +175,8 @@ impl Dynamics {
         end.direct_by_carrier(motion, output)
     }
 
-    /// Row of a form of a cable, given by its index among the terms. `by_carrier` is its value per displacement of a support
-    /// along each axis of the world, the amplitudes of the clamped modes at rest.
+    /// Row of a form of a cable, given by its index among the terms. `by_carrier` is its value per displacement of a
+    /// support along each axis of the world, the amplitudes of the clamped modes at rest.
     ///
     /// The coordinate of a clamped mode is its amplitude without the static one by a drum side that is stretched.
     fn row(&self, term: usize, form: DriveForm, by_carrier: [f64; 3]) -> CableRow {
@@ -212,7 +212,6 @@ impl Dynamics {
         let cable = &end.cable;
         let with_out_of_plane = !self.linearisation.in_plane_only;
         let (plane, normal) = (&cable.in_plane, &cable.out_of_plane);
-        let (damping, mass_per_length) = self.damping[term.cable];
 
         // The drive.
         let motions = self.supports().and_then(|supports| supports.carrier_motions(t)).map(|(_, motions)| motions);
@@ -230,22 +229,7 @@ impl Dynamics {
         }
 
         if let Some(coupled) = &cable.coupled {
-            let at_end =
-                |matrix: &[[f64; 6]; 6]| self.unscaled_block(&term.congruent(&Mat3::from_fn(|i, j| matrix[i][j])));
-            let modes = coupled.participation.iter().zip(&coupled.poles).map(|(g, pole)| {
-                let direction = term.vector([g[0], g[1], g[2]]);
-                ClampedMode { participation: self.unscaled_row(&direction), pole: *pole, out_of_plane: false }
-            });
-            let (end_stiffness, end_mass) = (at_end(&coupled.stiffness), at_end(&coupled.mass));
-            return CableBlocks {
-                cable: term.cable,
-                end_stiffness,
-                end_mass,
-                modes: modes.collect(),
-                damping,
-                mass_per_length,
-                drive,
-            };
+            return self.blocks_of_coupled(term, coupled, drive);
         }
 
         // The end.
@@ -271,11 +255,32 @@ impl Dynamics {
             .chain(out_of_plane.map(|(direction, pole)| mode(direction, pole, true)))
             .collect();
 
+        let (damping, mass_per_length) = self.damping[term.cable];
         CableBlocks { cable: term.cable, end_stiffness, end_mass, modes, damping, mass_per_length, drive }
     }
 
-    /// Blocks of a cable on a support, given by its index among the terms, with its drive. The support moves the ends along
-    /// `directions_w` and has its coordinates from the index `first` on.
+    /// Blocks of a cable with a rigid anchor whose end couples motions in plane and out of plane, with its drive.
+    fn blocks_of_coupled(
+        &self,
+        term: &DynamicCableAt,
+        coupled: &PoleResidue<6, 6>,
+        drive: Vec<DrivePartBlock>,
+    ) -> CableBlocks {
+        let at_end = |matrix: &[[f64; 6]; 6]| self.unscaled_block(&term.congruent(&Mat3::from_fn(|i, j| matrix[i][j])));
+        let (end_stiffness, end_mass) = (at_end(&coupled.stiffness), at_end(&coupled.mass));
+
+        let mode = |(g, pole): (&[f64; 6], &f64)| {
+            let direction = term.vector([g[0], g[1], g[2]]);
+            ClampedMode { participation: self.unscaled_row(&direction), pole: *pole, out_of_plane: false }
+        };
+        let modes = coupled.participation.iter().zip(&coupled.poles).map(mode).collect();
+
+        let (damping, mass_per_length) = self.damping[term.cable];
+        CableBlocks { cable: term.cable, end_stiffness, end_mass, modes, damping, mass_per_length, drive }
+    }
+
+    /// Blocks of a cable on a support, given by its index among the terms, with its drive. The support moves the ends
+    /// along `directions_w` and has its coordinates from the index `first` on.
     fn blocks_of_both_ends(
         &self,
         t: usize,

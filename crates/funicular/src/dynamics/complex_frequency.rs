@@ -8,14 +8,14 @@
 //!        [ −s g_kᵀ     ω_k² − s ]      s = ω_c²(ω)
 //! ```
 //!
-//! The motions z of a drive with losses are unknowns, too: the forces Δ z of its losses act on platform and clamped modes
-//! by T and φ_k, and `z = T x + φ_k q_k − R Δ z` (docs/theory.md, equation (82)).
+//! The motions z of a drive with losses are unknowns, too: the forces Δ z of its losses act on platform and clamped
+//! modes by T and φ_k, and `z = T x + φ_k q_k − R Δ z` (docs/theory.md, equation (82)).
 
 use super::supports::SupportsAt;
 use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
 use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveAt, DriveLosses, Family, NearPole, NearRanges};
 use crate::cable::{DynamicCable, LocalStiffness};
-use crate::math::{CDMat, CMat6, CVec6, Complex, order};
+use crate::math::{CDMat, CMat6, CVec6, Complex, Vec6, order};
 
 /// Dynamic stiffness at a complex frequency, bordered by near poles, and its derivative.
 struct Bordered {
@@ -44,7 +44,8 @@ pub(crate) struct DampedMotion {
 const SHARED_ZERO: f64 = 1e-13;
 
 impl Dynamics {
-    /// Motion at a simple zero ω [rad/s], for cables that are catenary-dynamic or do not depend on frequency; of size one.
+    /// Motion at a simple zero ω [rad/s], for cables that are catenary-dynamic or do not depend on frequency; of size
+    /// one.
     pub(crate) fn damped_motion(&self, omega: Complex) -> Option<DampedMotion> {
         let no_poles = vec![Vec::new(); self.terms.len()];
         let Bordered { value, slope, .. } = self.bordered(omega, 1.0, &no_poles);
@@ -58,8 +59,8 @@ impl Dynamics {
             near.extend(poles.into_iter().map(|pole| (t, pole.family, pole.index)));
         }
 
-        // Amplitudes of clamped modes in the unit of the platform's motion, so that all entries have one size. Supports follow,
-        // then drives, whose rows are motions.
+        // Amplitudes of clamped modes in the unit of the platform's motion, so that all entries have one size. Supports
+        // follow, then drives, whose rows are motions.
         let (dof, bordered) = (self.dof(), self.dof() + near.len());
         let first_drive = bordered + self.supports.as_ref().map_or(0, |supports| supports.count());
         let stiffest = (0..dof).map(|k| value[(k, k)].norm()).fold(0.0, f64::max);
@@ -131,101 +132,180 @@ impl Dynamics {
         value.lu().determinant().arg() + pole_phase
     }
 
+    /// Bordered dynamic stiffness at a complex ω [rad/s] with the fraction `losses` of the damping. `poles` are the
+    /// squares of the clamped frequencies of each cable whose factors complete the determinant.
     fn bordered(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> Bordered {
+        let mut parts = BorderedParts::of_platform(self, omega, losses);
+        for (t, poles) in poles.iter().enumerate() {
+            parts.add_cable(t, poles);
+        }
+        parts.assembled()
+    }
+}
+
+/// Parts of the bordered dynamic stiffness, to which one cable after the other is added. Every derivative is by ω.
+struct BorderedParts<'d> {
+    dynamics: &'d Dynamics,
+    omega: Complex,
+    /// Fraction of the damping that acts.
+    losses: f64,
+    /// Stiffness of platform and cables without the poles near ω.
+    value: CMat6,
+    slope: CMat6,
+    /// Logarithmic derivative and phase of the product over the poles that are not near.
+    pole_slope: Complex,
+    pole_phase: f64,
+    /// Near poles of all cables.
+    borders: Vec<BorderRow>,
+    /// Motions of drives with losses.
+    drives: Vec<DriveRows>,
+    /// Square ω_c² of each cable, and its derivative.
+    squares: Vec<(Complex, Complex)>,
+}
+
+/// Pole near ω, whose clamped mode is an unknown of its own.
+struct BorderRow {
+    /// g_k in the platform's coordinates [√kg].
+    participation: Vec6,
+    /// g_k over the displacements of the supports [√kg]; empty on a rigid frame.
+    on_supports: Vec<f64>,
+    /// ω_k² [rad²/s²].
+    pole: f64,
+    /// Square ω_c² of its cable, and its derivative.
+    square: (Complex, Complex),
+}
+
+impl<'d> BorderedParts<'d> {
+    /// Platform without cables.
+    fn of_platform(dynamics: &'d Dynamics, omega: Complex, losses: f64) -> Self {
         let i = Complex::i();
-        let platform_damping = self.platform_damping * losses;
+        let Dynamics { constant, mass, .. } = dynamics;
+        let damping = dynamics.platform_damping * losses;
+        let value =
+            CMat6::from_fn(|r, c| constant[(r, c)] + i * omega * damping[(r, c)] - omega * omega * mass[(r, c)]);
+        let slope = CMat6::from_fn(|r, c| i * damping[(r, c)] - 2.0 * omega * mass[(r, c)]);
+        Self {
+            dynamics,
+            omega,
+            losses,
+            value,
+            slope,
+            pole_slope: Complex::new(0.0, 0.0),
+            pole_phase: 0.0,
+            borders: Vec::new(),
+            drives: Vec::new(),
+            squares: Vec::with_capacity(dynamics.terms.len()),
+        }
+    }
 
-        // The platform.
-        let mut value = CMat6::from_fn(|r, c| {
-            self.constant[(r, c)] + i * omega * platform_damping[(r, c)] - omega * omega * self.mass[(r, c)]
-        });
-        let mut slope = CMat6::from_fn(|r, c| i * platform_damping[(r, c)] - 2.0 * omega * self.mass[(r, c)]);
+    /// Adds cable `t` of those whose stiffness depends on frequency.
+    fn add_cable(&mut self, t: usize, poles: &[f64]) {
+        let term = &self.dynamics.terms[t];
+        let (damping, mass_per_length) = self.dynamics.damping[term.cable];
+        let square = damping.times(self.losses).square_with_slope(self.omega, mass_per_length);
+        self.squares.push(square);
 
-        // The cables, without the poles near ω.
-        let (mut pole_slope, mut pole_phase) = (Complex::new(0.0, 0.0), 0.0);
-        let (mut borders, mut drives) = (Vec::new(), Vec::new());
-        let (mut squares, mut on_supports) = (Vec::with_capacity(self.terms.len()), Vec::new());
-        for (t, (term, poles)) in self.terms.iter().zip(poles).enumerate() {
-            let (damping, mass_per_length) = self.damping[term.cable];
-            let (square, square_slope) = damping.times(losses).square_with_slope(omega, mass_per_length);
-            let (stiffness, mass, near) = match &term.form {
-                DynamicCable::ShallowDynamic(form) => {
-                    let (stiffness, mass) = form.at(square);
-                    (stiffness, mass, Vec::new())
-                }
-                DynamicCable::CatenaryDynamic(form) => form.complex_beside_poles(square, NEAR_POLE_FRACTION),
-            };
-            squares.push((square, square_slope));
-            add_scaled(&mut value, term, &stiffness, Complex::new(1.0, 0.0));
-            add_scaled(&mut slope, term, &mass, -square_slope);
+        // Stiffness without the poles near ω.
+        let (stiffness, mass, near) = match &term.form {
+            DynamicCable::ShallowDynamic(form) => {
+                let (stiffness, mass) = form.at(square.0);
+                (stiffness, mass, Vec::new())
+            }
+            DynamicCable::CatenaryDynamic(form) => form.complex_beside_poles(square.0, NEAR_POLE_FRACTION),
+        };
+        add_scaled(&mut self.value, term, &stiffness, Complex::new(1.0, 0.0));
+        add_scaled(&mut self.slope, term, &mass, -square.1);
 
-            // Poles that are not near are factors of the product.
-            let is_near = |pole: f64| near.iter().any(|near| near.pole.to_bits() == pole.to_bits());
-            for pole in poles.iter().filter(|pole| !is_near(**pole)) {
-                let gap = pole - square;
-                pole_slope -= square_slope / gap;
-                pole_phase += gap.arg();
-            }
-            if let DynamicCable::CatenaryDynamic(form) = &term.form {
-                let left_out = form.near(square.re, NEAR_POLE_FRACTION);
-                if let Some(motions) = form.drive_at(square, &left_out).filter(|_| form.has_drive_losses()) {
-                    let losses = form.beyond_undamped(omega, losses);
-                    let first_border = borders.len();
-                    let mut rows = DriveRows::new(term, form, &motions, &losses, (&near, first_border), square_slope);
-                    if let Some(supports) = &self.supports {
-                        rows.on_supports = supports.drive(t, square, &left_out).unwrap_or_default();
-                        rows.on_supports.iter_mut().flatten().for_each(|(_, slope)| *slope *= square_slope);
-                    }
-                    drives.push(rows);
-                }
-            }
-            if let Some(supports) = &self.supports {
-                on_supports.extend(near.iter().map(|near| supports.participation(t, near)));
-            }
-            borders.extend(near.iter().map(|near| (term.vector(near.direction), near.pole, square, square_slope)));
+        // Poles that are not near are factors of the product.
+        let is_near = |pole: f64| near.iter().any(|near| near.pole.to_bits() == pole.to_bits());
+        for pole in poles.iter().filter(|pole| !is_near(**pole)) {
+            let gap = pole - square.0;
+            self.pole_slope -= square.1 / gap;
+            self.pole_phase += gap.arg();
         }
 
-        // The border: each near pole is a separate unknown.
-        let (f, mut first) = (self.dof(), self.dof() + borders.len());
-        let first_support = first;
-        first += self.supports.as_ref().map_or(0, |supports| supports.count());
-        let n = first + drives.iter().map(|drive| drive.loss.len()).sum::<usize>();
-        let (mut all, mut all_slope) = (CDMat::zeros(n, n), CDMat::zeros(n, n));
-        all.view_mut((0, 0), (f, f)).copy_from(&value.view((0, 0), (f, f)));
-        all_slope.view_mut((0, 0), (f, f)).copy_from(&slope.view((0, 0), (f, f)));
-        let near_squares: Vec<(Complex, Complex)> =
-            borders.iter().map(|(_, _, square, slope)| (*square, *slope)).collect();
-        for (k, (g, pole, square, square_slope)) in borders.into_iter().enumerate() {
-            all[(f + k, f + k)] = pole - square;
-            all_slope[(f + k, f + k)] = -square_slope;
-            for r in 0..f {
-                for (entry, at) in [(&mut all, -square * g[r]), (&mut all_slope, -square_slope * g[r])] {
-                    entry[(r, f + k)] = at;
-                    entry[(f + k, r)] = at;
-                }
-            }
+        // Motions of the drive, and the near poles, which are unknowns.
+        self.drives.extend(self.drive_rows(t, square, &near));
+        let supports = self.dynamics.supports();
+        self.borders.extend(near.iter().map(|near| BorderRow {
+            participation: term.vector(near.direction),
+            on_supports: supports.map_or_else(Vec::new, |supports| supports.participation(t, near)),
+            pole: near.pole,
+            square,
+        }));
+    }
+
+    /// Rows of the drive of cable `t`, whose near poles follow those of the cables before; `None` without losses.
+    fn drive_rows(&self, t: usize, (square, square_slope): (Complex, Complex), near: &[NearPole]) -> Option<DriveRows> {
+        let term = &self.dynamics.terms[t];
+        let DynamicCable::CatenaryDynamic(form) = &term.form else { return None };
+        if !form.has_drive_losses() {
+            return None;
         }
-        if let Some(supports) = &self.supports {
-            let own_square = (omega * omega, 2.0 * omega);
-            let rows =
-                supports.rows(&self.terms, &SupportsAt { squares, own_square, losses, width: NEAR_POLE_FRACTION });
-            add_supports(&mut all, &rows.coupling.0, &rows.own.0, f, first_support);
-            add_supports(&mut all_slope, &rows.coupling.1, &rows.own.1, f, first_support);
-            for (k, (participation, (square, square_slope))) in on_supports.iter().zip(&near_squares).enumerate() {
-                for (j, g) in participation.iter().enumerate() {
-                    for (entry, at) in [(&mut all, -square * *g), (&mut all_slope, -square_slope * *g)] {
-                        entry[(first_support + j, f + k)] = at;
-                        entry[(f + k, first_support + j)] = at;
-                    }
-                }
-            }
+        let left_out = form.near(square.re, NEAR_POLE_FRACTION);
+        let motions = form.drive_at(square, &left_out)?;
+        let losses = form.beyond_undamped(self.omega, self.losses);
+        let mut rows = DriveRows::new(term, form, &motions, &losses, (near, self.borders.len()), square_slope);
+        if let Some(supports) = self.dynamics.supports() {
+            rows.on_supports = supports.drive(t, square, &left_out).unwrap_or_default();
+            rows.on_supports.iter_mut().flatten().for_each(|(_, slope)| *slope *= square_slope);
         }
-        for drive in drives {
-            drive.add(&mut all, &mut all_slope, f, first);
-            drive.add_to_supports(&mut all, &mut all_slope, first_support, first);
+        Some(rows)
+    }
+
+    /// Matrix over the platform, the near poles, the supports and the motions of drives, in this order.
+    fn assembled(self) -> Bordered {
+        let dynamics = self.dynamics;
+        let f = dynamics.dof();
+        let first_support = f + self.borders.len();
+        let first_drive = first_support + dynamics.supports().map_or(0, |supports| supports.count());
+        let n = first_drive + self.drives.iter().map(|drive| drive.loss.len()).sum::<usize>();
+
+        // The platform, then each near pole with its row.
+        let (mut value, mut slope) = (CDMat::zeros(n, n), CDMat::zeros(n, n));
+        value.view_mut((0, 0), (f, f)).copy_from(&self.value.view((0, 0), (f, f)));
+        slope.view_mut((0, 0), (f, f)).copy_from(&self.slope.view((0, 0), (f, f)));
+        for (k, border) in self.borders.iter().enumerate() {
+            border.add((&mut value, &mut slope), f, f + k, first_support);
+        }
+
+        // The supports.
+        if let Some(supports) = dynamics.supports() {
+            let (omega, losses) = (self.omega, self.losses);
+            let support_square = (omega * omega, 2.0 * omega);
+            let at = SupportsAt { squares: self.squares, support_square, losses, width: NEAR_POLE_FRACTION };
+            let rows = supports.rows(&dynamics.terms, &at);
+            add_supports(&mut value, &rows.coupling.0, &rows.own.0, f, first_support);
+            add_supports(&mut slope, &rows.coupling.1, &rows.own.1, f, first_support);
+        }
+
+        // The drives.
+        let mut first = first_drive;
+        for drive in self.drives {
+            drive.add(&mut value, &mut slope, f, first);
+            drive.add_to_supports(&mut value, &mut slope, first_support, first);
             first += drive.loss.len();
         }
-        Bordered { value: all, slope: all_slope, pole_slope, pole_phase }
+        Bordered { value, slope, pole_slope: self.pole_slope, pole_phase: self.pole_phase }
+    }
+}
+
+impl BorderRow {
+    /// Adds row and column `own` of this pole to a matrix and its derivative, in which the platform's `dof` coordinates
+    /// come first and the supports begin at `first_support`.
+    fn add(&self, (value, slope): (&mut CDMat, &mut CDMat), dof: usize, own: usize, first_support: usize) {
+        let (square, square_slope) = self.square;
+        value[(own, own)] = self.pole - square;
+        slope[(own, own)] = -square_slope;
+
+        let by_platform = self.participation.iter().take(dof).enumerate();
+        let by_supports = self.on_supports.iter().enumerate().map(|(j, g)| (first_support + j, g));
+        for (other, g) in by_platform.chain(by_supports) {
+            for (matrix, entry) in [(&mut *value, -square * *g), (&mut *slope, -square_slope * *g)] {
+                matrix[(other, own)] = entry;
+                matrix[(own, other)] = entry;
+            }
+        }
     }
 }
 
@@ -295,10 +375,9 @@ impl DriveRows {
             }
         }
     }
-}
 
-impl DriveRows {
-    /// Adds the entries between these motions, from the row `first` on, and the supports, from the row `first_support` on.
+    /// Adds the entries between these motions, from the row `first` on, and the supports, from the row `first_support`
+    /// on.
     fn add_to_supports(&self, value: &mut CDMat, slope: &mut CDMat, first_support: usize, first: usize) {
         for (j, (row, (delta, delta_slope))) in self.on_supports.iter().zip(&self.loss).enumerate() {
             let column = first + j;

@@ -47,77 +47,98 @@ impl Dynamics {
     /// `[[D, w], [wᵀ, −1/κ]]`, whose last entry passes through zero at the pole of κ. So no term overflows and no
     /// digits are lost: s{D + κ w wᵀ} = s{bordered} − [κ > 0].
     fn negative_eigenvalues(&self, omega: f64) -> usize {
-        let mut matrix = self.constant - self.mass * (omega * omega);
+        let bordered = BorderedStiffness::at(self, omega);
+        if bordered.borders.is_empty() && self.supports.is_none() {
+            return symmetric::negative_eigenvalues(&bordered.regular, self.dof());
+        }
 
-        // The matrix without the terms that are large near a pole.
+        let (mut matrix, n) = bordered.matrix(self, omega);
+        let positive = bordered.borders.iter().filter(|(_, inverse)| *inverse > 0.0).count();
+        symmetric::negative_eigenvalues_in(&mut matrix, n) - positive
+    }
+}
+
+/// Stiffness D without the terms κ w wᵀ that are large near a pole, and these terms as borders.
+struct BorderedStiffness {
+    regular: Mat6,
+    /// w and 1/κ of each border.
+    borders: Vec<(Vec6, f64)>,
+    /// Forces of the borders of catenary-dynamic cables on the supports; empty on a rigid frame. With supports all
+    /// cables whose stiffness depends on frequency have that form.
+    on_supports: Vec<Vec<f64>>,
+}
+
+impl BorderedStiffness {
+    /// Stiffness at ω [rad/s].
+    fn at(dynamics: &Dynamics, omega: f64) -> Self {
+        let x = omega * omega;
+        let mut regular = dynamics.constant - dynamics.mass * x;
         let mut borders: Vec<(Vec6, f64)> = Vec::new();
         let mut on_supports: Vec<Vec<f64>> = Vec::new();
-        for (t, term) in self.terms.iter().enumerate() {
+        for (t, term) in dynamics.terms.iter().enumerate() {
             match &term.form {
                 DynamicCable::ShallowDynamic(form) => {
-                    let of = Entire::real(omega * omega * form.gamma_by_square);
+                    let of = Entire::real(x * form.gamma_by_square);
                     if is_regular(&of, form) {
-                        add_local(&mut matrix, term, &form.undamped(omega), |k, product| k * product);
+                        add_local(&mut regular, term, &form.undamped(omega), |k, product| k * product);
                     } else {
-                        add_bordered(&mut matrix, &mut borders, term, form, &of);
+                        add_bordered(&mut regular, &mut borders, term, form, &of);
                     }
                 }
                 DynamicCable::CatenaryDynamic(form) => {
-                    let x = omega * omega;
-                    let (regular, poles) = form.beside_poles(x, NEAR_POLE_FRACTION);
-                    add_local(&mut matrix, term, &regular, |k, product| k * product);
+                    let (stiffness, poles) = form.beside_poles(x, NEAR_POLE_FRACTION);
+                    add_local(&mut regular, term, &stiffness, |k, product| k * product);
                     borders.extend(poles.iter().map(|near| (term.vector(near.direction), (x - near.pole) / (x * x))));
-                    if let Some(supports) = &self.supports {
+                    if let Some(supports) = dynamics.supports() {
                         on_supports.extend(poles.iter().map(|near| supports.participation(t, near)));
                     }
                 }
             }
         }
 
-        if borders.is_empty() && self.supports.is_none() {
-            return symmetric::negative_eigenvalues(&matrix, self.dof());
-        }
+        Self { regular, borders, on_supports }
+    }
 
-        // The bordered matrix. The stiffness is divided by its size, so that platform and borders are of similar
-        // magnitude.
-        let (m, first) = (self.dof(), self.dof() + borders.len());
-        let n = first + self.supports.as_ref().map_or(0, |supports| supports.count());
-        let size = matrix.amax().max(f64::MIN_POSITIVE);
+    /// Matrix over the platform, the borders and the supports, by columns, and its size. The stiffness is divided by
+    /// its maximum, so that platform and borders are of similar magnitude.
+    fn matrix(&self, dynamics: &Dynamics, omega: f64) -> (Vec<f64>, usize) {
+        let (m, first) = (dynamics.dof(), dynamics.dof() + self.borders.len());
+        let n = first + dynamics.supports().map_or(0, Supports::count);
+        let size = self.regular.amax().max(f64::MIN_POSITIVE);
+
+        // Platform and borders.
         let mut a = vec![0.0; n * n];
         for j in 0..m {
             for i in 0..m {
-                a[j * n + i] = matrix[(i, j)] / size;
+                a[j * n + i] = self.regular[(i, j)] / size;
             }
-            for (k, (w, _)) in borders.iter().enumerate() {
+            for (k, (w, _)) in self.borders.iter().enumerate() {
                 a[j * n + m + k] = w[j];
                 a[(m + k) * n + j] = w[j];
             }
         }
-        for (k, (_, inverse)) in borders.iter().enumerate() {
+        for (k, (_, inverse)) in self.borders.iter().enumerate() {
             a[(m + k) * n + m + k] = -inverse * size;
         }
 
-        // The supports.
-        if let Some(supports) = &self.supports {
-            let rows = supports.rows(&self.terms, &self.undamped_at(omega * omega, NEAR_POLE_FRACTION));
-            for j in 0..supports.count() {
-                for i in 0..m {
-                    let entry = rows.coupling.0[(i, j)].re / size;
-                    a[(first + j) * n + i] = entry;
-                    a[i * n + first + j] = entry;
-                }
-                for (k, participation) in on_supports.iter().enumerate() {
-                    a[(first + j) * n + m + k] = participation[j];
-                    a[(m + k) * n + first + j] = participation[j];
-                }
-                for i in 0..supports.count() {
-                    a[(first + j) * n + first + i] = rows.own.0[(i, j)].re / size;
-                }
+        // Supports.
+        let Some(supports) = dynamics.supports() else { return (a, n) };
+        let rows = supports.rows(&dynamics.terms, &dynamics.undamped_at(omega * omega, NEAR_POLE_FRACTION));
+        for j in 0..supports.count() {
+            for i in 0..m {
+                let entry = rows.coupling.0[(i, j)].re / size;
+                a[(first + j) * n + i] = entry;
+                a[i * n + first + j] = entry;
+            }
+            for (k, participation) in self.on_supports.iter().enumerate() {
+                a[(first + j) * n + m + k] = participation[j];
+                a[(m + k) * n + first + j] = participation[j];
+            }
+            for i in 0..supports.count() {
+                a[(first + j) * n + first + i] = rows.own.0[(i, j)].re / size;
             }
         }
-
-        let positive = borders.iter().filter(|(_, inverse)| *inverse > 0.0).count();
-        symmetric::negative_eigenvalues_in(&mut a, n) - positive
+        (a, n)
     }
 }
 

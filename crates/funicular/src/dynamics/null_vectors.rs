@@ -91,7 +91,7 @@ impl Dynamics {
         let x = omega * omega;
         let pencil = BorderedPencil::at(self, x);
         let (a, m) = pencil.matrices(self.dof(), x);
-        let (a, m, still) = without_massless(a, m, self.dof() + pencil.near.len());
+        let (a, m, massless) = without_massless(a, m, self.dof() + pencil.near.len());
 
         // The mass of platform and cables is positive definite, because the motions are independent.
         let Some(factor) = m.cholesky() else { return Vec::new() };
@@ -103,7 +103,7 @@ impl Dynamics {
         nearest_zero(all.eigenvalues.as_slice(), several)
             .map(|k| {
                 let v = l.tr_solve_lower_triangular(&all.eigenvectors.column(k)).expect("the factor is regular");
-                let v = still.as_ref().map_or_else(|| v.as_slice().to_vec(), |still| still.completed(v.as_slice()));
+                let v = massless.as_ref().map_or_else(|| v.as_slice().to_vec(), |rest| rest.completed(v.as_slice()));
                 pencil.null_vector(self, omega, &v, all.eigenvalues[k].abs() / x)
             })
             .collect()
@@ -208,29 +208,16 @@ impl BorderedPencil {
     fn null_vector(&self, dynamics: &Dynamics, omega: f64, v: &[f64], residual: f64) -> NullVector {
         let dof = dynamics.dof();
         let platform = Vec6::from_fn(|i, _| if i < dof { v[i] } else { 0.0 });
-
-        // Energies of the cables: those that follow the platform, and those of the near modes.
-        let mut cable_energies = vec![0.0; dynamics.cable_count()];
-        for (term, moving) in dynamics.terms.iter().zip(&self.cable_masses) {
-            cable_energies[term.cable] = platform.dot(&(moving * platform));
-        }
         let supports = v[dof + self.near.len()..].to_vec();
-        let mut near = Vec::with_capacity(self.near.len());
-        for (NearMode { motion, participation, on_supports, .. }, &amplitude) in self.near.iter().zip(&v[dof..]) {
-            let cable = dynamics.terms[motion.term].cable;
-            let by_supports: f64 = on_supports.iter().zip(&supports).map(|(g, e)| g * e).sum();
-            cable_energies[cable] += amplitude * (amplitude + 2.0 * (participation.dot(&platform) + by_supports));
-            near.push(NearMotion { amplitude, ..*motion });
-        }
+        let (near, mut cable_energies) = self.cable_motions(dynamics, (&platform, &supports), &v[dof..]);
 
         // The supports, and what their motion adds to the energies of their cables.
         let (mut support_energies, mut support_loss) = (Vec::new(), 0.0);
         if let Some(of) = dynamics.supports() {
             (support_energies, support_loss) = of.energies(&supports);
             let at = dynamics.undamped_at(omega * omega, NEAR_POLE_FRACTION);
-            for (term, added) in
-                dynamics.terms.iter().zip(of.added_energies(&dynamics.terms, &at, &platform, &supports))
-            {
+            let added = of.added_energies(&dynamics.terms, &at, &platform, &supports);
+            for (term, added) in dynamics.terms.iter().zip(added) {
                 cable_energies[term.cable] += added;
             }
         }
@@ -241,58 +228,90 @@ impl BorderedPencil {
         for energy in cable_energies.iter_mut().chain(&mut support_energies) {
             *energy /= total;
         }
+        let mut motion = NullVector {
+            platform,
+            near,
+            supports,
+            platform_energy: platform_energy / total,
+            cable_energies,
+            drive_energies: Vec::new(),
+            support_energies,
+            drive_damping: support_loss / (2.0 * omega * omega * total),
+            residual,
+        };
+        motion.part_drives(dynamics, omega, total);
+        motion
+    }
 
-        // Energies and losses of the drives, which the cables contain so far.
-        let (mut drive_energies, mut drive_damping) = (Vec::new(), support_loss / (2.0 * omega * omega * total));
+    /// Amplitudes of the near modes of all cables, and the energy of each cable of the robot: of its motion with the
+    /// platform, and of its near modes. `amplitudes` are in the order of the near modes.
+    fn cable_motions(
+        &self,
+        dynamics: &Dynamics,
+        (platform, supports): (&Vec6, &[f64]),
+        amplitudes: &[f64],
+    ) -> (Vec<NearMotion>, Vec<f64>) {
+        let mut energies = vec![0.0; dynamics.cable_count()];
+        for (term, moving) in dynamics.terms.iter().zip(&self.cable_masses) {
+            energies[term.cable] = platform.dot(&(moving * platform));
+        }
+
+        let mut near = Vec::with_capacity(self.near.len());
+        for (NearMode { motion, participation, on_supports, .. }, &amplitude) in self.near.iter().zip(amplitudes) {
+            let cable = dynamics.terms[motion.term].cable;
+            let by_supports: f64 = on_supports.iter().zip(supports).map(|(g, e)| g * e).sum();
+            energies[cable] += amplitude * (amplitude + 2.0 * (participation.dot(platform) + by_supports));
+            near.push(NearMotion { amplitude, ..*motion });
+        }
+        (near, energies)
+    }
+}
+
+impl NullVector {
+    /// Parts the energies of the drives from those of their cables, which contain them so far, and adds the losses of
+    /// the drives to the damping. `total` is twice the kinetic energy over ω².
+    fn part_drives(&mut self, dynamics: &Dynamics, omega: f64, total: f64) {
         for (t, term) in dynamics.terms.iter().enumerate() {
             let DynamicCable::CatenaryDynamic(form) = &term.form else { continue };
             if !(form.has_drive_mass() || form.has_drive_losses()) {
                 continue;
             }
-            drive_energies.resize(dynamics.cable_count(), 0.0);
-            let of_cable: Vec<(usize, Family, f64)> = (near.iter().filter(|near| near.term == t))
+
+            // Motions of this cable: of its near modes, and of its far end with the support.
+            let of_cable: Vec<(usize, Family, f64)> = (self.near.iter().filter(|near| near.term == t))
                 .map(|near| (near.pole, near.family, near.amplitude))
                 .collect();
-            let carrier = dynamics.supports().and_then(|of| of.both_ends(t).zip(of.ends(t, &supports)));
+            let carrier = dynamics.supports().and_then(|of| of.both_ends(t).zip(of.ends(t, &self.supports)));
             let by_support =
                 carrier.map(|(both, ends)| move |x: f64, left_out: &NearRanges| both.drive_by(x, left_out, &ends));
             let by_support = by_support.as_ref().map(|of| of as &MotionsOfDrive);
-            let (mass, loss) = form.drive_share(omega, term.displacement(&platform), &of_cable, by_support);
-            drive_energies[term.cable] = mass / total;
-            cable_energies[term.cable] -= mass / total;
-            drive_damping += loss / (2.0 * omega * omega * total);
-        }
-        let platform_energy = platform_energy / total;
-        NullVector {
-            platform,
-            near,
-            supports,
-            platform_energy,
-            cable_energies,
-            drive_energies,
-            support_energies,
-            drive_damping,
-            residual,
+
+            let (mass, loss) = form.drive_share(omega, term.displacement(&self.platform), &of_cable, by_support);
+            self.drive_energies.resize(dynamics.cable_count(), 0.0);
+            self.drive_energies[term.cable] = mass / total;
+            self.cable_energies[term.cable] -= mass / total;
+            self.drive_damping += loss / (2.0 * omega * omega * total);
         }
     }
 }
 
 /// Coordinates without mass, which follow the others.
 struct Massless {
-    /// Places of the coordinates with mass, and of those without.
-    moving: Vec<usize>,
-    still: Vec<usize>,
+    /// Places of the coordinates with mass.
+    with_mass: Vec<usize>,
+    /// Places of the coordinates without mass.
+    without_mass: Vec<usize>,
     /// Coordinates without mass per coordinate with mass.
     follow: DMat,
 }
 
 impl Massless {
     /// Vector over all coordinates from one over those with mass.
-    fn completed(&self, moving: &[f64]) -> Vec<f64> {
-        let mut all = vec![0.0; self.moving.len() + self.still.len()];
-        self.moving.iter().zip(moving).for_each(|(place, value)| all[*place] = *value);
-        for (row, place) in self.follow.row_iter().zip(&self.still) {
-            all[*place] = row.iter().zip(moving).map(|(follow, value)| follow * value).sum();
+    fn completed(&self, motion: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; self.with_mass.len() + self.without_mass.len()];
+        self.with_mass.iter().zip(motion).for_each(|(place, value)| all[*place] = *value);
+        for (row, place) in self.follow.row_iter().zip(&self.without_mass) {
+            all[*place] = row.iter().zip(motion).map(|(follow, value)| follow * value).sum();
         }
         all
     }
@@ -300,16 +319,17 @@ impl Massless {
 
 /// Matrices without the coordinates of supports that have no mass, which begin at `first`; `None` if all have some.
 fn without_massless(a: DMat, m: DMat, first: usize) -> (DMat, DMat, Option<Massless>) {
-    let (still, moving): (Vec<usize>, Vec<usize>) = (0..a.nrows()).partition(|i| *i >= first && m[(*i, *i)] == 0.0);
-    if still.is_empty() {
+    let (without_mass, with_mass): (Vec<usize>, Vec<usize>) =
+        (0..a.nrows()).partition(|i| *i >= first && m[(*i, *i)] == 0.0);
+    if without_mass.is_empty() {
         return (a, m, None);
     }
     let block = |of: &DMat, rows: &[usize], columns: &[usize]| of.select_rows(rows).select_columns(columns);
-    let held = block(&a, &still, &still).lu().solve(&block(&a, &still, &moving));
-    let follow = -held.unwrap_or_else(|| DMat::zeros(still.len(), moving.len()));
-    let reduced = block(&a, &moving, &moving) + block(&a, &moving, &still) * &follow;
-    let mass = block(&m, &moving, &moving);
-    (reduced, mass, Some(Massless { moving, still, follow }))
+    let held = block(&a, &without_mass, &without_mass).lu().solve(&block(&a, &without_mass, &with_mass));
+    let follow = -held.unwrap_or_else(|| DMat::zeros(without_mass.len(), with_mass.len()));
+    let reduced = block(&a, &with_mass, &with_mass) + block(&a, &with_mass, &without_mass) * &follow;
+    let mass = block(&m, &with_mass, &with_mass);
+    (reduced, mass, Some(Massless { with_mass, without_mass, follow }))
 }
 
 /// Indices of the `several` values of smallest magnitude, in ascending order of magnitude.

@@ -30,14 +30,14 @@ pub(crate) struct Supports {
     /// Imaginary part of the stiffness of damped supports [N/m].
     loss: DMat,
     /// Cables on supports, per cable whose stiffness depends on frequency.
-    carried: Vec<Option<Carried>>,
+    carried: Vec<Option<CableOnSupport>>,
     /// First coordinate of the support of each cable of the robot; `None` for a rigid anchor.
     of_cable: Vec<Option<usize>>,
 }
 
 /// Cable on a support, whose stiffness depends on frequency.
 #[derive(Debug, Clone, PartialEq)]
-struct Carried {
+struct CableOnSupport {
     /// True if its drum stays on the ground.
     from_ground: bool,
     /// First coordinate of its support.
@@ -48,15 +48,15 @@ struct Carried {
     directions_w: [Vec3; ENDS],
 }
 
-impl Carried {
+impl CableOnSupport {
     /// Motion of the ends by the supports' displacements.
     fn motion(&self, supports: &[f64]) -> [f64; ENDS] {
         let e = Vec3::from_column_slice(&supports[self.first..self.first + 3]);
         self.directions_w.map(|direction| direction.dot(&e))
     }
 
-    /// True if a motion of the frame moves the entry point along the drum side as the support does: both with the drum, or
-    /// both without it.
+    /// True if a motion of the frame moves the entry point along the drum side as the support does: both with the drum,
+    /// or both without it.
     fn moves_like(&self, moved: &CarrierMotion) -> bool {
         moved.with_drum != self.from_ground
     }
@@ -67,15 +67,15 @@ impl Carried {
         [0.0, 0.0, 0.0, e, n, b, if self.moves_like(moved) { moved.along_drum_side } else { 0.0 }]
     }
 
-    /// Forces on the motions of the drive by a motion of the frame beside that of the ends: constant part [N], and part per
-    /// ω_c² [kg m].
+    /// Forces on the motions of the drive by a motion of the frame beside that of the ends: constant part [N], and part
+    /// per ω_c² [kg m].
     fn forces_beside_ends(&self, form: &CatenaryDynamicEnd, moved: &CarrierMotion) -> Vec<(f64, f64)> {
         let along_drum_side = if self.moves_like(moved) { 0.0 } else { moved.along_drum_side };
         form.forces_by_carrier(&CarrierMotion { along_drum_side, ..*moved })
     }
 
-    /// Mass [kg m] between the entry point of a drum side from the ground, along it, and a base that moves with the whole drum
-    /// side.
+    /// Mass [kg m] between the entry point of a drum side from the ground, along it, and a base that moves with the
+    /// whole drum side.
     fn mass_beside_ends(&self, form: &CatenaryDynamicEnd, moved: &CarrierMotion) -> f64 {
         if self.moves_like(moved) {
             return 0.0;
@@ -98,7 +98,7 @@ pub(super) struct SupportsAt {
     /// Square ω_c² of each cable whose stiffness depends on frequency.
     pub(super) squares: Vec<(Complex, Complex)>,
     /// Square ω² of the supports.
-    pub(super) own_square: (Complex, Complex),
+    pub(super) support_square: (Complex, Complex),
     /// Fraction of the damping that acts on the supports.
     pub(super) losses: f64,
     /// Relative distance to poles that are left out.
@@ -163,7 +163,7 @@ impl<'a> SupportsBuilder<'a> {
         let still = Vec3::zeros();
         let directions_w = [still, still, still, e, n, b, side.direction_w];
         let both = TwoEnded::new(end, side.from_ground);
-        self.supports.carried.push(Some(Carried {
+        self.supports.carried.push(Some(CableOnSupport {
             from_ground: side.from_ground,
             first: 3 * support,
             both,
@@ -194,7 +194,7 @@ impl Supports {
 
     /// Rows of the supports at a frequency, without the losses of drives.
     pub(super) fn rows(&self, terms: &[DynamicCableAt], at: &SupportsAt) -> SupportRows {
-        let (square, slope) = at.own_square;
+        let (square, slope) = at.support_square;
         let loss = Complex::new(0.0, at.losses);
         let own = self.stiffness.map(Complex::from) + self.loss.map(|loss_of| loss * loss_of)
             - self.mass.map(|mass| square * mass);
@@ -271,8 +271,8 @@ impl Supports {
         Some(carried.both.drive(x, left_out).into_iter().map(by_supports).collect())
     }
 
-    /// Motion of the carrier of a cable's end per displacement of its support along each axis of the world, with the first
-    /// coordinate of that support. The cable is given by its index among the terms; `None` for a rigid anchor.
+    /// Motion of the carrier of a cable's end per displacement of its support along each axis of the world, with the
+    /// first coordinate of that support. The cable is given by its index among the terms; `None` for a rigid anchor.
     pub(crate) fn carrier_motions(&self, term: usize) -> Option<(usize, [CarrierMotion; 3])> {
         let carried = self.carried[term].as_ref()?;
         let [.., e, n, b, along] = carried.directions_w;
@@ -285,15 +285,15 @@ impl Supports {
         Some((carried.first, [0, 1, 2].map(motion)))
     }
 
-    /// Adds the forces of inertia that act on the displacements of the supports while their feet move, by three coordinates
-    /// per support.
+    /// Adds the forces of inertia that act on the displacements of the supports while their feet move, by three
+    /// coordinates per support.
     pub(crate) fn add_inertia_of_feet(&self, forces: &mut [Complex], feet: &[f64], omega: f64) {
         let inertia = &self.mass * DVec::from_column_slice(feet) * (omega * omega);
         forces.iter_mut().zip(inertia.iter()).for_each(|(force, inertia)| *force += inertia);
     }
 
-    /// Adds the forces on the support of a cable, given by its index among the terms, while the frame moves its anchor and
-    /// perhaps its drum.
+    /// Adds the forces on the support of a cable, given by its index among the terms, while the frame moves its anchor
+    /// and perhaps its drum.
     pub(crate) fn add_forces_by_carrier(
         &self,
         forces: &mut [Complex],
@@ -309,7 +309,8 @@ impl Supports {
         let mut on_ends: [Complex; ENDS] =
             std::array::from_fn(|i| -(0..ENDS).map(|j| stiffness[i][j] * ends[j]).sum::<Complex>());
 
-        // The drive: its losses, the swivel that turns, and the mass of a drum side from the ground, which moves with the base.
+        // The drive: its losses, the swivel that turns, and the mass of a drum side from the ground, which moves with
+        // the base.
         if let Some(motions) = form.drive_at(square, &all) {
             let delta = form.beyond_undamped(omega.into(), 1.0);
             let transfer: Vec<[Complex; ENDS]> =
@@ -333,35 +334,35 @@ impl Supports {
         }
     }
 
-    /// Stiffness and mass that do not depend on frequency [N/m, kg], and the imaginary part of the stiffness of damped supports
-    /// [N/m].
+    /// Stiffness and mass that do not depend on frequency [N/m, kg], and the imaginary part of the stiffness of damped
+    /// supports [N/m].
     pub(super) fn constant_parts(&self) -> [&DMat; 3] {
         [&self.stiffness, &self.mass, &self.loss]
     }
 
-    /// Stiffness between the platform, in scaled coordinates, and the supports by cables whose stiffness does not depend on
-    /// frequency [N/m].
+    /// Stiffness between the platform, in scaled coordinates, and the supports by cables whose stiffness does not
+    /// depend on frequency [N/m].
     pub(super) fn constant_coupling(&self) -> &DMat {
         &self.coupling
     }
 
-    /// Directions in which the support of a cable, given by its index among the terms, moves each end of it, world axes, with
-    /// the first coordinate of that support; `None` for a rigid anchor.
+    /// Directions in which the support of a cable, given by its index among the terms, moves each end of it, world
+    /// axes, with the first coordinate of that support; `None` for a rigid anchor.
     pub(super) fn directions_w(&self, term: usize) -> Option<(usize, &[Vec3; ENDS])> {
         self.carried[term].as_ref().map(|carried| (carried.first, &carried.directions_w))
     }
 
-    /// Static amplitudes of the clamped modes of a cable on a support per displacement of the support along each axis of the
-    /// world; the cable is given by its index among the terms. A drum side from the ground pulls at them. `None` for a rigid
-    /// anchor.
+    /// Static amplitudes of the clamped modes of a cable on a support per displacement of the support along each axis
+    /// of the world; the cable is given by its index among the terms. A drum side from the ground pulls at them. `None`
+    /// for a rigid anchor.
     pub(super) fn static_amplitudes(&self, term: usize) -> Option<[Vec<f64>; 3]> {
         let carried = self.carried[term].as_ref()?;
         let along = carried.directions_w[ENDS - 1];
         Some([0, 1, 2].map(|k| carried.both.static_amplitudes().map(|amplitude| amplitude * along[k]).collect()))
     }
 
-    /// Forces of inertia on the supports per acceleration of the frame, which moves their feet by three coordinates per support
-    /// [kg].
+    /// Forces of inertia on the supports per acceleration of the frame, which moves their feet by three coordinates per
+    /// support [kg].
     pub(crate) fn inertia_of_feet(&self, feet: &[f64]) -> Vec<f64> {
         (-&self.mass * DVec::from_column_slice(feet)).as_slice().to_vec()
     }
@@ -397,8 +398,8 @@ impl Supports {
         self.carried[term].as_ref().map(|carried| &carried.both)
     }
 
-    /// Moving mass that displacements of supports add to each cable whose stiffness depends on frequency, for a scaled motion
-    /// of the platform, without near poles [kg m²].
+    /// Moving mass that displacements of supports add to each cable whose stiffness depends on frequency, for a scaled
+    /// motion of the platform, without near poles [kg m²].
     pub(super) fn added_energies(
         &self,
         terms: &[DynamicCableAt],
@@ -422,6 +423,7 @@ impl Supports {
                 (3..ENDS).flat_map(|i| (3..ENDS).map(move |j| (i, j))).map(|(i, j)| by(i, j) * ends[i] * ends[j]).sum();
             2.0 * mixed + own
         };
+
         terms.iter().enumerate().map(of).collect()
     }
 
@@ -439,7 +441,7 @@ impl SupportRows {
     fn add(
         &mut self,
         term: &DynamicCableAt,
-        carried: &Carried,
+        carried: &CableOnSupport,
         ends: &[[Complex; ENDS]; ENDS],
         factor: Complex,
         to_slope: bool,
@@ -471,14 +473,14 @@ impl Dynamics {
     /// Undamped frequency at x = ω²; derivatives are by x.
     pub(super) fn undamped_at(&self, x: f64, width: f64) -> SupportsAt {
         let square = (Complex::from(x), Complex::new(1.0, 0.0));
-        SupportsAt { squares: vec![square; self.terms.len()], own_square: square, losses: 0.0, width }
+        SupportsAt { squares: vec![square; self.terms.len()], support_square: square, losses: 0.0, width }
     }
 
     /// Damped frequency ω [rad/s]; derivatives are zero.
     fn damped_at(&self, omega: f64) -> SupportsAt {
         let zero = Complex::new(0.0, 0.0);
         let squares = self.terms.iter().map(|term| (self.cable_square(term.cable, omega), zero)).collect();
-        SupportsAt { squares, own_square: (Complex::from(omega * omega), zero), losses: 1.0, width: 0.0 }
+        SupportsAt { squares, support_square: (Complex::from(omega * omega), zero), losses: 1.0, width: 0.0 }
     }
 
     /// Rows of the supports at ω [rad/s] with all damping.
@@ -489,14 +491,14 @@ impl Dynamics {
         rows
     }
 
-    /// Stiffness `B Y⁻¹ Bᵀ` that the platform loses because its supports yield, at ω [rad/s] with all damping; scaled. Not
-    /// finite at a frequency at which undamped supports vibrate with the platform at rest.
+    /// Stiffness `B Y⁻¹ Bᵀ` that the platform loses because its supports yield, at ω [rad/s] with all damping; scaled.
+    /// Not finite at a frequency at which undamped supports vibrate with the platform at rest.
     pub(super) fn damped_loss(&self, supports: &Supports, omega: f64) -> CMat6 {
         lost(&self.damped_rows(supports, omega))
     }
 
-    /// Y⁻¹ B ᵀ and Y⁻¹ at ω [rad/s] with all damping: displacements of supports, less their sign, per scaled motion of the
-    /// platform, and per force on them. `None` on a rigid frame.
+    /// Y⁻¹ B ᵀ and Y⁻¹ at ω [rad/s] with all damping: displacements of supports, less their sign, per scaled motion of
+    /// the platform, and per force on them. `None` on a rigid frame.
     pub(crate) fn support_response(&self, omega: f64) -> Option<(CDMat, CDMat)> {
         let rows = self.damped_rows(self.supports()?, omega);
         let count = rows.own.0.nrows();

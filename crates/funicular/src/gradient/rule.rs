@@ -343,7 +343,7 @@ impl Problem<'_> {
     fn reached(&self, i: usize) -> Option<Bound> {
         let (range, rounding) = (&self.ranges[i], AT_LIMIT * self.size);
         let state = self.state(i);
-        let slackest = Catenary::SLACKEST * load_of(state).norm() * state.chord();
+        let slackest = Catenary::MIN_TENSION_TO_WEIGHT * load_of(state).norm() * state.chord();
         if self.tension(i, Bound::Minimum) <= range.minimum + rounding {
             Some(Bound::Minimum)
         } else if self.tension(i, Bound::Maximum) >= range.maximum - rounding {
@@ -371,7 +371,7 @@ impl Problem<'_> {
             let state = self.state(i);
             let (q, d) = (load_of(state), state.chord_w());
             self.tensions[i].add(&mut condition.coefficients, sign);
-            let factor = -sign * Catenary::SLACKEST;
+            let factor = -sign * Catenary::MIN_TENSION_TO_WEIGHT;
             put(&mut condition.coefficients.load, &(q.normalize() * (d.norm() * factor)));
             put(&mut condition.coefficients.chord, &(d.normalize() * (q.norm() * factor)));
             return Ok(condition);

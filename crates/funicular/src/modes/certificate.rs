@@ -42,6 +42,7 @@ impl Modes {
         if self.certified {
             return None;
         }
+
         let Self { modes, count_below, unstable_directions, below_hz, .. } = self;
         let listed = counted(modes.len(), "mode");
         let inexact = modes.iter().max_by(|a, b| a.residual.total_cmp(&b.residual));
@@ -90,12 +91,13 @@ impl DampedModes {
         if let Some(fastest) = self.modes.iter().filter(grows).min_by(|a, b| a.omega.im.total_cmp(&b.omega.im)) {
             let count = self.modes.iter().filter(grows).count();
             return Some(format!(
-                "the control of the motors is unstable: {} by themselves, the fastest at {:.4} Hz; reduce its gain or its \
-                 delay",
+                "the control of the motors is unstable: {} by themselves, the fastest at {:.4} Hz; reduce its gain or \
+                 its delay",
                 if count == 1 { "one motion grows".to_owned() } else { format!("{count} motions grow") },
                 fastest.ringing_hz()
             ));
         }
+
         match self.overdamped {
             0 if undamped.certified && !self.certified => Some(
                 "the damped list is not certified: one of its searches did not settle, or its count differs; damping \

@@ -72,23 +72,23 @@ const MAX_STEPS: f64 = 20.0;
 /// start anywhere in the region: strong damping, as of a servo, moves zeros far from their undamped frequencies.
 const MAX_ROUNDS: usize = 60;
 const ROUNDS_AT_MODES: usize = 5;
-/// Maximum damping ratio of starts anywhere in the region, and the steps of their sequence, which fills the region evenly
-/// (powers of the inverse of the plastic number, 1.3247…, as an additive sequence in two dimensions).
+/// Maximum damping ratio of starts anywhere in the region, and the steps of their sequence, which fills the region
+/// evenly (powers of the inverse of the plastic number, 1.3247…, as an additive sequence in two dimensions).
 const MAX_START_RATIO: f64 = 0.9;
 const SPREAD: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 /// Relative step below which the search of a zero has converged.
-const SETTLED: f64 = 4e-15;
+const CONVERGED: f64 = 4e-15;
 /// Maximum number of rounds of Newton steps. Four are usual; the maximum is a guard for clusters, where convergence is
 /// linear at first.
 const MAX_NEWTON_ROUNDS: usize = 60;
-/// Ratio of Re ω to |ω| up to which a motion counts as decaying without oscillation: its damping ratio is then within 5e-7
-/// of one. With viscous damping alone its ω is imaginary, except for an error of at most [`WANTED_ERROR`]; the constant
-/// damping ratio of cables moves it off the axis, by 1e-5 for servos with three times the critical damping.
+/// Ratio of Re ω to |ω| up to which a motion counts as decaying without oscillation: its damping ratio is then within
+/// 5e-7 of one. With viscous damping alone its ω is imaginary, except for an error of at most [`WANTED_ERROR`]; the
+/// constant damping ratio of cables moves it off the axis, by 1e-5 for servos with three times the critical damping.
 const IMAGINARY: f64 = 1e-3;
-/// Distance of the starts of modes that share an undamped zero from their mean, over the damping ratio, and the angle of
-/// the first of them in units of the angle between them. The distance is below one, so that no start crosses the real
-/// axis; the angle is none at which starts lie symmetric to an axis, on which searches would move alike.
-const APART: f64 = 0.3;
+/// Distance of the starts of modes that share an undamped zero from their mean, over the damping ratio, and the angle
+/// of the first of them in units of the angle between them. The distance is below one, so that no start crosses the
+/// real axis; the angle is none at which starts lie symmetric to an axis, on which searches would move alike.
+const START_DISTANCE: f64 = 0.3;
 const FIRST_ANGLE: f64 = 0.3;
 /// Relative distance of a new start from the place of another zero: far more than the spread of a multiple zero
 /// ([`ONE_ZERO`]) and far less than [`MAX_STEP`]. Angle of that start [rad]: on no axis.
@@ -241,7 +241,7 @@ impl ZeroSearch<'_> {
         for _ in 0..MAX_NEWTON_ROUNDS {
             let mut moved = false;
             for i in 0..zeros.len() {
-                if zeros[i].error <= SETTLED {
+                if zeros[i].error <= CONVERGED {
                     continue;
                 }
 
@@ -285,7 +285,7 @@ impl ZeroSearch<'_> {
                 // Separate starts around the undamped zero, at a distance in proportion to the damping.
                 let mode = &modes[member];
                 let turn = Complex::from_polar(
-                    APART * mode.damping_ratio,
+                    START_DISTANCE * mode.damping_ratio,
                     TAU * (k as f64 + FIRST_ANGLE) / zero.members.len() as f64,
                 );
                 let omega = mode.frequency_hz * TAU * (Complex::new(1.0, mode.damping_ratio) + turn);
@@ -364,8 +364,10 @@ impl ZeroSearch<'_> {
         /// Radius of the circle, relative to |ω|: ten thousand times [`ONE_ZERO`]. Another zero inside changes the
         /// number, and the zeros are then sought one by one.
         const RADIUS: f64 = 1e-4;
+
         /// Maximum difference of the number of zeros inside from a whole number; anything well below a half would do.
         const WHOLE: f64 = 0.1;
+
         let radius = RADIUS * zero.omega.norm();
         let mut moments = [Complex::new(0.0, 0.0); 3];
         for k in 0..POINTS {
@@ -377,6 +379,7 @@ impl ZeroSearch<'_> {
                 power *= at;
             }
         }
+
         let many = zero.members.len() as f64;
         let [count, first, second] = moments;
         let mean = first / many;
@@ -385,8 +388,8 @@ impl ZeroSearch<'_> {
     }
 
     /// Number of zeros in the region that are not listed: those of the undamped robot and the turns of the phase of the
-    /// quotient of both determinants along the boundary, less the listed ones; with the left edge of the region [rad/s].
-    /// `None` if they are fewer than listed, or not countable.
+    /// quotient of both determinants along the boundary, less the listed ones; with the left edge of the region
+    /// [rad/s]. `None` if they are fewer than listed, or not countable.
     fn unlisted(&self, modes: &[DampedMode], limit: f64, right: f64) -> Option<(usize, f64)> {
         let Some(min_re) = modes.iter().map(|mode| mode.omega.re).reduce(f64::min) else { return Some((0, right)) };
         let left = 0.5 * min_re;
@@ -423,6 +426,7 @@ impl ZeroSearch<'_> {
             }
             zeros.pop();
         }
+
         (found.len() == count).then_some(found)
     }
 
@@ -458,7 +462,7 @@ impl ZeroSearch<'_> {
             let mut last = (*from, phase(*from));
             // The phase changes over distances like those to the zeros; a longer piece might miss a full turn at a
             // cluster.
-            let pieces = ((to - from).norm() / (LONGEST_PIECE * margin)).ceil() as usize;
+            let pieces = ((to - from).norm() / (MAX_PIECE * margin)).ceil() as usize;
             for piece in 1..=pieces {
                 let point = from + (to - from) * (piece as f64 / pieces as f64);
                 let next = (point, phase(point));
@@ -474,10 +478,10 @@ impl ZeroSearch<'_> {
 /// Frequency at or slightly above the limit [rad/s], in the widest gap between undamped modes. Damping shifts the
 /// frequencies, and none may cross the edge of the region in which they are counted.
 fn free_of_modes(dynamics: &Dynamics, limit: f64) -> f64 {
-    let at = |k: usize| limit * (1.0 + BEYOND * k as f64 / LOOKS as f64);
+    let at = |k: usize| limit * (1.0 + GAP_RANGE * k as f64 / GAP_POINTS as f64);
     let (mut widest, mut first) = (0..0, 0);
     let mut count = dynamics.modes_below(at(0));
-    for k in 1..=LOOKS {
+    for k in 1..=GAP_POINTS {
         let next = dynamics.modes_below(at(k));
         if next != count {
             (first, count) = (k, next);
@@ -489,9 +493,9 @@ fn free_of_modes(dynamics: &Dynamics, limit: f64) -> f64 {
 }
 
 /// Width of the range above the limit in which a gap between modes is sought, relative to the limit.
-const BEYOND: f64 = 0.05;
+const GAP_RANGE: f64 = 0.05;
 /// Number of points of this range at which modes are counted.
-const LOOKS: usize = 64;
+const GAP_POINTS: usize = 64;
 
 /// Distance of the boundary of the counted region from the zeros: over the largest imaginary part of a zero, and its
 /// minimum over the frequency limit. Not tuned: the nearer the boundary, the more points its phase needs.
@@ -499,7 +503,7 @@ const MARGIN: f64 = 2.0;
 const MIN_MARGIN: f64 = 0.01;
 /// Maximum length of a piece of the boundary, over its distance from the zeros: within it the phase of one zero changes
 /// by less than half a radian.
-const LONGEST_PIECE: f64 = 0.5;
+const MAX_PIECE: f64 = 0.5;
 
 /// Maximum step of a search, relative to its frequency.
 const MAX_STEP: f64 = 0.1;
@@ -521,11 +525,14 @@ fn turn_between(
     const MAX_DEPTH: usize = 30;
     // Maximum change of phase over an interval [rad]: a third of the half turn from which on it would be ambiguous.
     const MAX_CHANGE: f64 = 1.0;
+
     // Maximum difference between the change over the interval and the sum of its halves, which is zero or a full turn
     // except for rounding.
     const MAX_LOSS: f64 = 0.1;
+
     // Maximum difference between the changes over the two halves: beyond it the phase bends within the interval.
     const MAX_BEND: f64 = 0.5;
+
     let middle = 0.5 * (from.0 + to.0);
     let middle = (middle, phase(middle));
     let whole = wrapped(to.1 - from.1);
@@ -533,8 +540,10 @@ fn turn_between(
     if !(whole.is_finite() && first.is_finite()) || depth > MAX_DEPTH {
         return None;
     }
+
     if whole.abs() < MAX_CHANGE && (first + second - whole).abs() < MAX_LOSS && (first - second).abs() < MAX_BEND {
         return Some(whole);
     }
+
     Some(turn_between(phase, from, middle, depth + 1)? + turn_between(phase, middle, to, depth + 1)?)
 }

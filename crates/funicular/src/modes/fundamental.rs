@@ -27,7 +27,7 @@
 //! | `pencil` | the robot as a pencil; rough search, then search with all unknowns |
 //!
 //! **Oracle.** [`below`](super::below) counts and separates all natural frequencies below a limit by the poles of the
-//! cables; it shares neither mesh nor search with this module. tests/suite/modes/first.rs compares both over the
+//! cables; it shares neither mesh nor search with this module. tests/suite/modes/fundamental.rs compares both over the
 //! library, random robots and slack cables to 1e-9 of the frequency. The tests of `batched_cable` compare its stiffness
 //! with the stiffness by poles.
 //!
@@ -69,8 +69,8 @@ pub struct First {
     pub platform_energy_fraction: f64,
     /// Fraction of the kinetic energy that each cable has, in the order of the file, without its drive.
     pub cable_energy_fractions: Vec<f64>,
-    /// Fraction of the kinetic energy that the drive of each cable has: wheel, swivel, drum and motor. Empty if no drive
-    /// has inertia.
+    /// Fraction of the kinetic energy that the drive of each cable has: wheel, swivel, drum and motor. Empty if no
+    /// drive has inertia.
     pub drive_energy_fractions: Vec<f64>,
     /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1. Zero
     /// if the platform is at rest.
@@ -100,9 +100,9 @@ pub enum FirstError {
 
 /// Lowest natural frequency of a robot with catenary-dynamic cables, undamped, and its mode.
 ///
-/// It equals the first mode of [`below`](super::below) with [`Linearisation::default`], but is about twenty times
-/// faster, and more with slack cables. Robots whose stiffness is not positive definite, and searches that rounding
-/// keeps from ending, use [`lowest_by_count`].
+/// The result equals the first mode of [`below`](super::below) with [`Linearisation::default`], but is about twenty
+/// times faster, and more with slack cables. Robots whose stiffness is not positive definite, and searches that
+/// rounding keeps from ending, use [`lowest_by_count`].
 ///
 /// # Errors
 /// [`FirstError`]: a cable has no tension or does not hang, or nothing vibrates.
@@ -214,6 +214,7 @@ mod tests {
             ("control = \"torque\"\n", 5e-4),
             ("stiffness_n_per_m = 5e5\ndrum_inertia_kg_m2 = 20.0\n", 5e-4),
         ];
+
         for (motor, inertia) in motors {
             let text = funicular_robots::COGIRO_WINCHES
                 .replacen("gear_ratio = 3\n", &format!("gear_ratio = 3\n{motor}"), 1)

@@ -101,12 +101,12 @@ pub fn lowest(
 /// All natural modes below a limit that the search chooses, at most `highest_hz`, with at least one mode that has the
 /// fraction `share` of its kinetic energy in the platform: [`Modes::first_platform`] gives its index.
 ///
-/// The limit is doubled until the list, which the count confirms, has such a mode. So no mode of the platform is missed,
-/// however many cable modes lie below it.
+/// The limit is doubled until the list, which the count confirms, has such a mode. So no mode of the platform is
+/// missed, however many cable modes lie below it.
 ///
 /// # Errors
-/// [`PlatformModeError`]: a cable has no stiffness in the model, no such mode is below `highest_hz`, or more modes than a list
-/// may have are below it.
+/// [`PlatformModeError`]: a cable has no stiffness in the model, no such mode is below `highest_hz`, or more modes than
+/// a list may have are below it.
 ///
 /// # Example
 /// ```

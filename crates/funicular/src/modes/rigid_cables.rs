@@ -1,8 +1,8 @@
 //! Natural modes of a robot on straight cables without mass whose lengths do not change.
 //!
 //! The platform keeps the motions that change no length to first order, the null space of the cables' unit wrenches. A
-//! robot with fewer cables than degrees of freedom swings in them. The stiffness of these motions comes from the tensions
-//! and the weight alone: turning cables, moving exit points, and lever arms of static forces.
+//! robot with fewer cables than degrees of freedom swings in them. The stiffness of these motions comes from the
+//! tensions and the weight alone: turning cables, moving exit points, and lever arms of static forces.
 
 use super::{Kind, Mode, Modes, RESIDUAL_LIMIT};
 use crate::dynamics::{NullVector, PlatformTerms, constant_cable, platform_damping, platform_terms};
@@ -37,11 +37,11 @@ pub enum RigidCablesError {
     Massless,
 }
 
-/// Natural modes below `below_hz` [Hz] with cables that are straight, without mass and rigid in length, undamped. Winches
-/// and supports are rigid, too, and motors held; pulleys have no inertia.
+/// Natural modes below `below_hz` [Hz] with cables that are straight, without mass and rigid in length, undamped.
+/// Winches and supports are rigid, too, and motors held; pulleys have no inertia.
 ///
-/// There are as many modes and unstable directions as the cables leave motions free: usually the degrees of freedom less
-/// the number of cables. The equilibrium has the static model `ideal` or `spring`. A slack cable holds nothing.
+/// There are as many modes and unstable directions as the cables leave motions free: usually the degrees of freedom
+/// less the number of cables. The equilibrium has the static model `ideal` or `spring`. A slack cable holds nothing.
 ///
 /// # Errors
 /// [`RigidCablesError`]: an equilibrium with sagging cables, or a motion without mass.
@@ -165,6 +165,7 @@ fn mode(platform: &PlatformTerms, x: Vec6, omega: f64, damping: f64, residual: f
     let largest = motion_w[motion_w.iamax()];
     let shape = std::array::from_fn(|i| motion_w[i] / largest / if i < 3 { 1.0 } else { platform.coordinates.ell() });
     let energies = vec![0.0; cables];
+
     Mode {
         frequency_hz: omega / TAU,
         multiplicity: 1,

@@ -111,8 +111,8 @@ fn degenerate_groups(modes: &[Tracked]) -> Vec<std::ops::Range<usize>> {
     degenerate_groups
 }
 
-/// Pairs (row, column) with the maximum sum of values from 0 to 1 (Hungarian method); their number is that of the shorter
-/// side.
+/// Pairs (row, column) with the maximum sum of values from 0 to 1 (Hungarian method); their number is that of the
+/// shorter side.
 ///
 /// # Example
 /// ```
@@ -218,8 +218,10 @@ mod tests {
             }
             best
         }
+
         // A fixed sequence without pattern: fractions of multiples of the golden ratio.
         let number = |k: usize| (k as f64 * 0.618_033_988_749_894_9).fract();
+
         for (rows, columns) in [(1, 1), (3, 3), (4, 6), (6, 6)] {
             for seed in 0..20 {
                 let values: Vec<Vec<f64>> = (0..rows)

@@ -27,15 +27,15 @@ use crate::math::{Rotation, Vec3};
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Anchor {
-    /// Point at which the cable leaves the frame [m]. With a pulley: the entry point, at which the cable coming from the
-    /// drum touches the wheel.
+    /// Point at which the cable leaves the frame [m]. With a pulley: the entry point, at which the cable coming from
+    /// the drum touches the wheel.
     pub point_w: Vec3,
     /// Swivelling pulley at this point; without it the cable turns about the point itself.
     pub pulley: Option<Pulley>,
     /// Winch behind this point; without it the cable ends here, or on a rigid drum beside it.
     pub winch: Option<Winch>,
-    /// Index of the flexible support that carries this anchor, in [`Robot::supports`](super::Robot::supports); `None` for a
-    /// rigid frame. The point is then its place without forces.
+    /// Index of the flexible support that carries this anchor, in [`Robot::supports`](super::Robot::supports); `None`
+    /// for a rigid frame. The point is then its place without forces.
     pub support: Option<usize>,
 }
 

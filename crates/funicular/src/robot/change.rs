@@ -273,8 +273,8 @@ impl RobotChange {
 }
 
 impl Robot {
-    /// This robot after `step` units of the parameter. Unstrained lengths change if the robot's state gives them, the
-    /// pose if the state gives that. The result is not checked: a mass can become negative.
+    /// Copy of the robot after `step` units of the parameter. Unstrained lengths change if the state gives lengths, the
+    /// pose changes if the state gives a pose. The result is not checked: a mass can become negative.
     #[must_use]
     pub fn changed(&self, change: &RobotChange, step: f64) -> Self {
         let mut robot = self.clone();

@@ -9,7 +9,7 @@ mod change_per_unit;
 mod list;
 mod paths;
 
-pub use super::spec::range::Range;
+pub use super::spec::range::{MAX_MAGNITUDE, MIN_POSITIVE, Range};
 pub use paths::{ComponentOfKey, component, is_optional_table, unit, unknown_component};
 
 use super::Robot;
@@ -48,7 +48,7 @@ pub enum RobotPart {
     State,
 }
 
-/// One number of a robot file.
+/// Number of a robot file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
     /// Keys from the top of the file to the number, the name of the component last: `cables`, `3`, `anchor_m`, `z`.
@@ -75,17 +75,30 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// Path by which a command changes the parameter: keys separated by dots, quoted if they contain other characters
-    /// than letters, digits, _ and -.
+    /// Path by which a request changes the parameter: keys as [`quoted_key`] writes them, separated by dots.
     pub fn path(&self) -> String {
-        let bare =
-            |key: &str| !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
-        let quoted = |key: &String| match key {
-            key if bare(key) => key.clone(),
-            key if !key.contains('\'') => format!("'{key}'"),
-            key => format!("\"{}\"", key.replace('\\', "\\\\").replace('"', "\\\"")),
-        };
-        self.keys.iter().map(quoted).collect::<Vec<_>>().join(".")
+        self.keys.iter().map(|key| quoted_key(key)).collect::<Vec<_>>().join(".")
+    }
+}
+
+/// Key as part of a path: bare if it consists of letters, digits, _ and -, otherwise in quotes.
+///
+/// # Example
+/// ```
+/// use funicular::robot::parameters::quoted_key;
+///
+/// assert_eq!(quoted_key("steel-4_mm"), "steel-4_mm");
+/// assert_eq!(quoted_key("steel 4.0 mm"), "'steel 4.0 mm'");
+/// assert_eq!(quoted_key("rope's end"), "\"rope's end\"");
+/// ```
+pub fn quoted_key(key: &str) -> String {
+    let is_bare = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+    if is_bare {
+        key.to_owned()
+    } else if key.contains('\'') {
+        format!("\"{}\"", key.replace('\\', "\\\\").replace('"', "\\\""))
+    } else {
+        format!("'{key}'")
     }
 }
 
@@ -198,6 +211,7 @@ impl Parameters {
             }
             (place, _) => place,
         };
+
         self.list.iter().position(|parameter| {
             let named = parameter.component.and_then(|name| shape.place(&[name]));
             at_key(&parameter) && named == place

@@ -1,8 +1,8 @@
 //! Swivelling pulley: its data, and the place of a cable on it.
 //!
 //! The wheel swivels about an axis through the entry point E. The axis has the direction a in which the cable travels
-//! at E towards the platform. At the swivel angle γ the wheel's centre is at E + rρ, ρ being the unit vector normal to a
-//! in the plane of the wheel. The cable touches the wheel over the wrap angle β and leaves it at the exit point
+//! at E towards the platform. At the swivel angle γ the wheel's centre is at E + rρ, ρ being the unit vector normal to
+//! a in the plane of the wheel. The cable touches the wheel over the wrap angle β and leaves it at the exit point
 //! (docs/theory.md, equations (61) to (63)).
 
 use super::friction::PulleyFriction;
@@ -21,7 +21,8 @@ pub struct Pulley {
     pub name: String,
     /// Radius r of the cable's centre line on the wheel [m], positive.
     pub radius: f64,
-    /// Unit vector a along which the cable travels at the entry point, towards the platform; the swivel axis, world axes.
+    /// Unit vector a along which the cable travels at the entry point, towards the platform; the swivel axis, world
+    /// axes.
     pub entry_direction_w: Vec3,
     /// Moment of inertia of the wheel about its axle [kg m²].
     pub inertia: f64,
@@ -52,8 +53,8 @@ impl Pulley {
         Self { name: name.to_owned(), radius, entry_direction_w, inertia: 0.0, swivel_inertia: 0.0, friction: None }
     }
 
-    /// Distance of a point from the wheel's centre [m]; the wheel swivels towards the point. `reach_w` is the point from
-    /// the entry point.
+    /// Distance of a point from the wheel's centre [m]; the wheel swivels towards the point. `reach_w` is the point
+    /// from the entry point.
     pub fn distance_from_center(&self, reach_w: &Vec3) -> f64 {
         let along = reach_w.dot(&self.entry_direction_w);
         let across = (reach_w - self.entry_direction_w * along).norm();
@@ -62,8 +63,8 @@ impl Pulley {
 
     /// Place of a straight cable that ends at `reach_w` from the entry point [m].
     ///
-    /// An end inside the wheel has no tangent; the result is then the place at which the end would be on the rim. An end
-    /// on the swivel axis leaves the swivel angle open; the result has any.
+    /// An end inside the wheel has no tangent; the result is then the place at which the end would be on the rim. An
+    /// end on the swivel axis leaves the swivel angle open; the result has any.
     ///
     /// # Example
     /// ```

@@ -48,9 +48,9 @@ impl DrumPlace {
 }
 
 impl Support {
-    /// Direction of the drum side of an anchor on this support, at its entry point towards the platform, if the drum is on
-    /// the ground; unit vector, world axes. `None` if the drum moves with the support: without a pulley the file does not
-    /// say where the drum side comes from.
+    /// Direction of the drum side of an anchor on this support, at its entry point towards the platform, if the drum is
+    /// on the ground; unit vector, world axes. `None` if the drum moves with the support: without a pulley the file
+    /// does not say where the drum side comes from.
     pub(crate) fn drum_side_from_ground(&self, anchor: &Anchor) -> Option<Vec3> {
         let from_ground = self.drum == DrumPlace::OnGround && anchor.drum_side_length() > 0.0;
         anchor.pulley.as_ref().filter(|_| from_ground).map(|pulley| pulley.entry_direction_w)
@@ -58,8 +58,8 @@ impl Support {
 }
 
 impl Robot {
-    /// This robot with rigid anchors where its supports have been displaced [m, world axes], one displacement per support: the
-    /// anchors and, for drums on the ground, the lengths of the drum sides.
+    /// Robot with rigid anchors at the displaced positions. `displacements_w` is the displacement of each support [m,
+    /// world axes]. It moves the anchors and, for drums on the ground, changes the lengths of the drum sides.
     #[must_use]
     pub(crate) fn displaced(&self, displacements_w: &[Vec3]) -> Self {
         let mut robot = self.clone();
@@ -70,8 +70,8 @@ impl Robot {
         robot
     }
 
-    /// True if the far end of a cable may move in vibration: over a pulley, to a winch or on a flexible support. Also true for
-    /// a robot whose supports are held.
+    /// True if the far end of a cable may move in vibration: over a pulley, to a winch or on a flexible support. Also
+    /// true for a robot whose supports are held.
     pub(crate) fn has_moving_ends(&self) -> bool {
         !self.supports.is_empty() || self.cables.iter().any(|cable| !cable.anchor.is_fixed())
     }

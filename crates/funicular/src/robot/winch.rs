@@ -29,8 +29,8 @@ pub struct Winch {
     pub control: Control,
 }
 
-/// Wheel with inertia that guides the cable between entry point and drum. It changes vibration alone: at rest the lengths
-/// around guide wheels are part of the drum side.
+/// Wheel with inertia that guides the cable between entry point and drum. It changes vibration alone: at rest the
+/// lengths around guide wheels are part of the drum side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GuideWheel {
     /// Name in the robot file.
@@ -70,7 +70,8 @@ pub struct Servo {
     pub position_gain: f64,
     /// Gain K_d at the cable [N s/m].
     pub speed_gain: f64,
-    /// Slow integral action, which leaves no error at rest. Without it the winch yields at rest by the tension over K_p.
+    /// Slow integral action, which leaves no error at rest. Without it the winch yields at rest by the tension over
+    /// K_p.
     pub integral: bool,
     /// Delay τ of the loop [s].
     pub delay: f64,
@@ -94,7 +95,7 @@ pub enum WinchMode {
     Clamped,
     /// Motors with constant torque.
     Torque,
-    /// Cables that stick to their pulleys: what lies behind does not move.
+    /// Cables that stick to their pulleys: no part behind the pulley moves.
     Stuck,
 }
 
@@ -102,7 +103,7 @@ impl WinchMode {
     /// All modes.
     pub const ALL: [Self; 4] = [Self::AsGiven, Self::Clamped, Self::Torque, Self::Stuck];
 
-    /// Name on the command line and in files.
+    /// Name in requests and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::AsGiven => "as-given",
@@ -134,8 +135,8 @@ impl Winch {
         if let Control::Position(servo) = self.control { Some(servo) } else { None }
     }
 
-    /// Length by which the winch pays out cable per tension at rest [m/N]: that of its mechanical stiffness, and that of
-    /// a control without integral action.
+    /// Length by which the winch pays out cable per tension at rest [m/N]: that of its mechanical stiffness, and that
+    /// of a control without integral action.
     pub fn compliance(&self) -> f64 {
         let by_control = match self.control {
             Control::Position(servo) if !servo.integral => 1.0 / servo.position_gain,

@@ -17,7 +17,7 @@ impl Wind {
     pub const AIR_DENSITY: f64 = 1.225;
 
     /// Maximum wind speed [m/s]: a third of the speed of sound, up to which the compressibility of air hardly matters.
-    pub const FASTEST: f64 = 110.0;
+    pub const MAX_SPEED: f64 = 110.0;
 
     /// Force on a body per area and drag coefficient [N/m²], along the wind: `½ ρ |u| u`.
     pub fn pressure_w(&self) -> Vec3 {
@@ -29,7 +29,7 @@ impl Wind {
         magnified(&self.velocity_w) * (0.5 * self.air_density)
     }
 
-    /// This wind in air of density 1 kg/m³: all its forces are proportional to the density.
+    /// Wind of the same velocity in air of density 1 kg/m³; all forces of a wind are proportional to the density.
     pub(crate) fn at_unit_density(&self) -> Self {
         Self { air_density: 1.0, ..*self }
     }

@@ -56,8 +56,8 @@ pub fn drag_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> 
     Some(Coordinates::of(robot).allowed_matrix(&total))
 }
 
-/// Force of cable `i` on the platform by its chord through the turn of the drag, 3×3, world axes [N/m]. Over a pulley the
-/// chord turns with the exit point of a straight cable, whose drag it is.
+/// Force of cable `i` on the platform by its chord through the turn of the drag, 3×3, world axes [N/m]. Over a pulley
+/// the chord turns with the exit point of a straight cable, because the drag is that of a straight cable.
 fn force_by_turn_w(robot: &Robot, i: usize, state: &CableState) -> Option<Mat3> {
     let hanging = state.hanging.as_ref()?;
     let Some(drive) = &state.drive else {

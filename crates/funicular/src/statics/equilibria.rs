@@ -18,7 +18,7 @@ use crate::platform::load_size;
 use crate::robot::{PlatformMotion, Pose, Robot};
 use std::f64::consts::TAU;
 
-/// One of several equilibria for the same lengths.
+/// Equilibrium, perhaps one of several for the same lengths.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
     /// Equilibrium, stable or not.
@@ -65,8 +65,8 @@ impl Candidates {
 /// Number of starts without a find after which the list counts as complete (ten times as many while the sum shows that
 /// some are missing), and maximum number of starts. With catenaries, 400 starts give the same lists, up to 50 long, for
 /// all robots of the library as 4,000. Springs, whose stiffness jumps when they go slack, may need some 10,000 starts.
-const IDLE: usize = 400;
-const MORE_WHILE_WANTING: usize = 10;
+const IDLE_STARTS: usize = 400;
+const IDLE_FACTOR_WHILE_MISSING: usize = 10;
 const MAX_STARTS: usize = 20_000;
 
 /// Number of starts of the search for another stable equilibrium.
@@ -76,7 +76,7 @@ const FEW_STARTS: usize = 40;
 const MAX_FOUND: usize = 200;
 
 /// Distance over the size of the platform below which two equilibria count as one.
-const SAME: f64 = 1e-5;
+const SAME_POSE: f64 = 1e-5;
 
 /// Eigenvalue, relative to the largest, below which a direction is indifferent.
 const INDIFFERENT: f64 = 1e-9;
@@ -133,7 +133,7 @@ pub fn all_equilibria(
 
     while starts < max_starts && search.found.len() < MAX_FOUND {
         let wanting = search.expected().is_some_and(|expected| expected != search.index_sum());
-        if starts >= last_find + if wanting { MORE_WHILE_WANTING * IDLE } else { IDLE } {
+        if starts >= last_find + if wanting { IDLE_FACTOR_WHILE_MISSING * IDLE_STARTS } else { IDLE_STARTS } {
             break;
         }
         starts += 1;
@@ -178,7 +178,7 @@ pub fn another_stable_equilibrium(robot: &Robot, equilibrium: &Equilibrium) -> O
     for k in 1..=FEW_STARTS {
         if let Some(other) = search.start(k).and_then(|start| search.downhill(start))
             && !(one.0.indifferent > 0 && search.same_plateau(&one, &other))
-            && pose_distance(robot, &other.pose, &equilibrium.pose) > SAME * search.size
+            && pose_distance(robot, &other.pose, &equilibrium.pose) > SAME_POSE * search.size
         {
             search.take(&other);
         }
@@ -298,7 +298,7 @@ impl<'a> EquilibriumSearch<'a> {
         let new = (candidate, trial.energy);
 
         let known = self.found.iter().any(|old| {
-            distance_of(&old.0.equilibrium.pose) <= SAME * self.size
+            distance_of(&old.0.equilibrium.pose) <= SAME_POSE * self.size
                 || (old.0.indifferent > 0 && indifferent > 0 && self.level(old.1, new.1))
         });
         if !known {

@@ -85,8 +85,8 @@ pub enum StaticsError {
     },
     /// The attachment of a cable is inside the wheel of its pulley.
     #[error(
-        "cable \"{cable}\" ends inside the wheel of its pulley at this pose: its attachment is {distance:.4} m from the \
-         wheel's centre, the radius is {radius} m; move the platform away, or check `radius_m` and `anchor_m`"
+        "cable \"{cable}\" ends inside the wheel of its pulley at this pose: its attachment is {distance:.4} m from \
+         the wheel's centre, the radius is {radius} m; move the platform away, or check `radius_m` and `anchor_m`"
     )]
     InsidePulley {
         /// Name of the cable.
@@ -108,7 +108,7 @@ pub enum StaticsError {
     NegativeTension {
         /// Name of the cable with the most negative tension.
         cable: String,
-        /// Its tension [N], not positive.
+        /// Tension of this cable [N], not positive.
         tension: f64,
         /// Direction in which no cable pulls.
         obstacle: Option<Box<Obstacle>>,
@@ -124,7 +124,7 @@ pub enum StaticsError {
     NotFound {
         /// Name of the straight cable with the most negative tension.
         cable: String,
-        /// Its tension if straight [N], not positive.
+        /// Tension of this cable if straight [N], not positive.
         tension: f64,
         /// Number of starts of the search; zero if only a cable longer than twice its chord could hold the pose.
         starts: usize,
@@ -144,7 +144,7 @@ pub enum StaticsError {
     LengthsPush {
         /// Name of the cable with the most negative tension.
         cable: String,
-        /// Its tension [N], negative.
+        /// Tension of this cable [N], negative.
         tension: f64,
         /// Position of the platform [m].
         x: f64,
@@ -153,7 +153,7 @@ pub enum StaticsError {
         /// Position of the platform [m].
         z: f64,
     },
-    /// It is proved that no tensions within the limits hold the pose.
+    /// No tensions within the limits hold the pose, which is proved.
     #[error("{}", beyond_limits(.0))]
     BeyondLimits(LimitViolation),
     /// No tensions within the limits were found, and there is no proof that there are none: the balance of sagging

@@ -2,8 +2,8 @@
 //! points.
 //!
 //! The solvers of inverse statics hold the exit points: they see a robot whose cables end there. Their result gives the
-//! directions in which the cables leave the wheels, and so new exit points. As the direction of a cable changes, its exit
-//! point moves along the cable, so that the next directions hardly change and the rounds converge.
+//! directions in which the cables leave the wheels, and so new exit points. As the direction of a cable changes, its
+//! exit point moves along the cable, so that the next directions hardly change and the rounds converge.
 
 use super::collect::with_stability;
 use super::equilibrium::{CableState, Equilibrium};
@@ -16,34 +16,34 @@ use crate::drive::{CableAtRest, contact_of_span, tension_at_drum};
 use crate::math::Vec3;
 use crate::robot::{Anchor, Cable, Pose, PulleyContact, Robot, TensionLimits};
 
-/// Motion of an exit point from one round to the next, over the size of the cable, at which the rounds end: rounding of
-/// the directions leaves 1e-16 times the radius over that size.
-const STILL: f64 = 1e-15;
+/// Convergence: maximum motion of an exit point in a round, over the size of its cable. Rounding of the directions
+/// leaves 1e-16 times the radius over this size.
+const CONVERGED: f64 = 1e-15;
 
 /// Maximum number of rounds, a guard.
 const MAX_ROUNDS: usize = 40;
 
-/// Motion of an exit point at one tension, over its motion in a round, at which the cable is followed: the tensions change
-/// the exit points of the next round by a millionth.
-const FOLLOWED: f64 = 1e-6;
+/// Tolerance of the exit point of a cable whose tension is given, over its motion in the round before: the tensions of
+/// the next round change the exit point by about a millionth of this motion.
+const TOLERANCE_AT_TENSION: f64 = 1e-6;
 
-/// Maximum number of times that a cable is followed at one tension, a guard: each time the exit point moves by the ratio
-/// of the radius to the span, or less.
-const MAX_FOLLOWED: usize = 8;
+/// Maximum number of iterations for the exit point of a cable whose tension is given, a guard. Each reduces the motion
+/// of the exit point by the ratio of the radius to the span, or more.
+const MAX_ITERATIONS_AT_TENSION: usize = 8;
 
 /// Equilibrium at a pose by a solver that holds the exit points of the cables and leaves the stability open. The solver
 /// may start from the result of the round before.
 ///
 /// # Errors
-/// Those of the solver; [`StaticsError::InsidePulley`] for an attachment inside a wheel; no convergence.
+/// Errors of `solve`; [`StaticsError::InsidePulley`] for an attachment inside a wheel; [`StaticsError::NotConverged`].
 pub(super) fn equilibrium(
     robot: &Robot,
     pose: &Pose,
     model: StaticModel,
     solve: impl Fn(&Robot, Option<&Equilibrium>) -> Result<Equilibrium, StaticsError>,
 ) -> Result<Equilibrium, StaticsError> {
-    let found = if follows(robot, model) {
-        followed(robot, pose, model, solve, |equilibrium| &mut equilibrium.cables)?
+    let found = if depend_on_tensions(robot, model) {
+        with_places(robot, pose, model, solve, |equilibrium| &mut equilibrium.cables)?
     } else {
         solve(robot, None)?
     };
@@ -52,13 +52,14 @@ pub(super) fn equilibrium(
 
 /// True if the exit points or the lengths depend on the tensions. Straight and rigid cables without weight leave their
 /// pulleys as the geometry says.
-pub(super) fn follows(robot: &Robot, model: StaticModel) -> bool {
+pub(super) fn depend_on_tensions(robot: &Robot, model: StaticModel) -> bool {
     robot.has_supports() || model != StaticModel::Ideal && robot.cables.iter().any(|cable| !cable.anchor.is_fixed())
 }
 
-/// Result of a solver at a pose, with the exit points and the displacements of supports that belong to it. The solver gets
-/// the result of the round before. `cables` gives access to the cables of a result; a result without cables is final.
-pub(super) fn followed<T>(
+/// Result at a pose with the exit points of its tensions, and on flexible supports with their displacements. `solve`
+/// holds both, and gets the result of the round before. `cables` gives access to the cables of a result; a result
+/// without cables is final.
+pub(super) fn with_places<T>(
     robot: &Robot,
     pose: &Pose,
     model: StaticModel,
@@ -67,12 +68,16 @@ pub(super) fn followed<T>(
 ) -> Result<T, StaticsError> {
     // Every round of the supports starts from the exit points of straight cables.
     let at_rigid = |rigid: &Robot| {
-        if follows(rigid, model) { with_exit_points(rigid, pose, &solve, &cables) } else { solve(rigid, None) }
+        if depend_on_tensions(rigid, model) {
+            with_exit_points(rigid, pose, &solve, &cables)
+        } else {
+            solve(rigid, None)
+        }
     };
-    if robot.has_supports() { supports::settled_in_rounds(robot, at_rigid, &cables) } else { at_rigid(robot) }
+    if robot.has_supports() { supports::on_flexible_supports(robot, at_rigid, &cables) } else { at_rigid(robot) }
 }
 
-/// Result of a solver at a pose with rigid supports, with the exit points that belong to it; see [`followed`].
+/// Result at a pose with the exit points of its tensions, for a robot with rigid supports.
 fn with_exit_points<T>(
     robot: &Robot,
     pose: &Pose,
@@ -91,7 +96,7 @@ fn with_exit_points<T>(
         }
         let mut found = solve(&held, last.as_ref())?;
 
-        // The places on the pulleys that follow.
+        // Places on the pulleys for the tensions of this round.
         let states = cables(&mut found);
         let mut next: Vec<Option<PulleyContact>> = (robot.cables.iter().zip(&*states).zip(&contacts))
             .map(|((cable, state), contact)| contact_of_span(state.hanging.as_ref()?, &cable.anchor, contact.as_ref()))
@@ -104,27 +109,28 @@ fn with_exit_points<T>(
             })
             .fold(0.0, f64::max);
 
-        // End, if they are those that were held, or if rounding moves them.
-        let at_rounding = moved < STILL.sqrt() && moved >= before;
-        if states.is_empty() || moved <= STILL || at_rounding {
+        // End, if they are the held ones, or if only rounding moves them.
+        let at_rounding = moved < CONVERGED.sqrt() && moved >= before;
+        if states.is_empty() || moved <= CONVERGED || at_rounding {
             for ((cable, state), contact) in robot.cables.iter().zip(states).zip(&contacts) {
                 complete(state, cable, *contact);
             }
             return Ok(found);
         }
 
-        // The next round, with each cable followed at its tension first: this costs little, and saves rounds.
+        // Next round. Each exit point is first iterated at the tension of its cable: this costs little, and saves
+        // rounds.
         for (i, state) in cables(&mut found).iter().enumerate() {
             held.cables[i].tension_limits = limits_of_span(robot, &held, i, state, contacts[i]);
             if let (Some(span), Some(contact)) = (&state.hanging, &mut next[i]) {
-                *contact = at_tension(&robot.cables[i], span, *contact, (FOLLOWED * moved).max(STILL));
+                *contact = at_tension(&robot.cables[i], span, *contact, (TOLERANCE_AT_TENSION * moved).max(CONVERGED));
             }
         }
         contacts = next;
         last = Some(found);
     }
 
-    let (p, limit) = (pose.position_w, STILL);
+    let (p, limit) = (pose.position_w, CONVERGED);
     Err(StaticsError::NotConverged { iterations: MAX_ROUNDS, residual: moved, limit, x: p.x, y: p.y, z: p.z })
 }
 
@@ -162,21 +168,21 @@ fn exit_w(cable: &Cable, contact: Option<&PulleyContact>) -> Vec3 {
     cable.anchor.point_w + contact.map_or_else(Vec3::zeros, PulleyContact::exit_offset_w)
 }
 
-/// Place on its pulley of a cable with the tension of a span, from a place near it: direction and exit point follow each
-/// other until the exit point moves by the fraction `still` of the size of the cable.
-fn at_tension(cable: &Cable, span: &HangingCable, near: PulleyContact, still: f64) -> PulleyContact {
+/// Place on its pulley of a cable with the tension of a span, from a place near it. Direction and exit point are
+/// computed in turn until the exit point moves by less than `tolerance` times the size of the cable.
+fn at_tension(cable: &Cable, span: &HangingCable, near: PulleyContact, tolerance: f64) -> PulleyContact {
     let (tension, rope, up_w) = (span.catenary.parallel_tension(), span.catenary.rope(), span.axes_w().1);
     let mut contact = near;
     if tension <= 0.0 {
         return contact;
     }
-    for _ in 0..MAX_FOLLOWED {
+    for _ in 0..MAX_ITERATIONS_AT_TENSION {
         let end_w = exit_w(cable, Some(&contact));
         let span = HangingCable::with_parallel_tension(span.start_w, end_w, up_w, rope, tension);
         let Some(next) = contact_of_span(&span, &cable.anchor, Some(&contact)) else { break };
         let moved = (exit_w(cable, Some(&next)) - end_w).norm();
         contact = next;
-        if moved <= still * (span.chord_w().norm() + cable.anchor.reference_w().norm()) {
+        if moved <= tolerance * (span.chord_w().norm() + cable.anchor.reference_w().norm()) {
             break;
         }
     }
@@ -191,8 +197,8 @@ fn complete(state: &mut CableState, cable: &Cable, contact: Option<PulleyContact
     state.drive = at_rest.drive;
 }
 
-/// Tension limits of the free span of cable `i` that keep the tension at its drum within the limits of the cable. `held` is
-/// the robot with the loads of the cables.
+/// Tension limits of the free span of cable `i` that keep the tension at its drum within the limits of the cable.
+/// `held` is the robot with the loads of the cables.
 fn limits_of_span(
     robot: &Robot,
     held: &Robot,

@@ -7,7 +7,7 @@ use super::loaded_cable::LoadedCable;
 use super::model::StaticModel;
 use super::residual::{check_lengths, elastic_rounding, scaled_residual};
 use super::stiffness::assembled;
-use super::supports::{self, Settled};
+use super::supports::{self, CablesOnSupports};
 use super::{energy, ideal, initial_pose};
 use crate::drive::CableAtRest;
 use crate::math::{Mat6, Vec3, Vec6, symmetric};
@@ -24,8 +24,8 @@ const MAX_ITERATIONS: usize = 5000;
 /// `spring` and `catenary`, any number of cables: minimises the potential energy of cables and platform by Newton's
 /// method with shifted stiffness. So it finds a stable equilibrium if there is one near, or an indifferent one.
 /// `ideal`, as many cables as degrees of freedom: closes the lengths; all tensions have to be positive. `ideal`, fewer
-/// cables: a stable or indifferent equilibrium as well. `start` is the start pose; without it the search begins at the pose at which straight cables of these lengths come closest to
-/// closing.
+/// cables: a stable or indifferent equilibrium as well. `start` is the start pose; without it the search begins at the
+/// pose at which straight cables of these lengths come closest to closing.
 ///
 /// # Errors
 /// [`StaticsError`]: lengths that do not fit the robot; more ideal cables than degrees of freedom, or ideal cables that
@@ -52,14 +52,17 @@ pub fn forward(
     if model == StaticModel::Ideal && cables > dof {
         return Err(StaticsError::CableCount { cables, dof });
     }
+
     if let Some(start) = start {
         robot.platform.motion.check(start)?;
     }
+
     let pose = start.copied().unwrap_or_else(|| initial_pose::pose_from_lengths(robot, lengths));
     if model == StaticModel::Ideal && robot.has_supports() {
         let solve = |rigid: &Robot| forward(rigid, lengths, model, Some(&pose));
-        return supports::settled_in_rounds(robot, solve, |found: &mut Equilibrium| &mut found.cables);
+        return supports::on_flexible_supports(robot, solve, |found: &mut Equilibrium| &mut found.cables);
     }
+
     match model {
         StaticModel::Ideal if cables < dof => ideal::forward_of_few(robot, lengths, pose, |lengths, start| {
             descend_to_equilibrium(robot, lengths, StaticModel::Spring, start)
@@ -119,7 +122,7 @@ impl<'a> EnergySearch<'a> {
 
     pub(super) fn at(&self, pose: Pose) -> TrialPose {
         let (cables, displacements_w): (Vec<CableAtRest>, Vec<Vec3>) = if self.robot.has_supports() {
-            let settled = Settled::at(self.robot, &self.loaded, self.lengths, &pose);
+            let settled = CablesOnSupports::at(self.robot, &self.loaded, self.lengths, &pose);
             (settled.cables, settled.displacements_w)
         } else {
             let hung = self.loaded.iter().zip(self.lengths).map(|(cable, &length)| cable.hang(&pose, length));
@@ -178,7 +181,7 @@ impl<'a> EnergySearch<'a> {
         let mut total = assembled(self.robot, &trial.pose, parts);
         if self.robot.has_supports() {
             let carried = trial.cables.iter().zip(self.lengths).enumerate().filter_map(|(i, (cable, length))| {
-                let on_support = supports::on_settled(self.robot, i, cable, *length, &trial.displacements_w)?;
+                let on_support = supports::stiffness_on_support(self.robot, i, cable, *length, &trial.displacements_w)?;
                 Some((i, on_support, cable.span.start_w - trial.pose.position_w))
             });
             total -= supports::lost_stiffness(self.robot, carried);
@@ -315,12 +318,13 @@ enum Exit {
 /// Outcome of the last step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum LastStep {
-    /// It was taken, or there was no step yet.
+    /// Taken, or no step yet.
     Taken,
-    /// It was no gain; the next step starts from the same pose with a larger shift.
+    /// Refused, since it did not reduce energy or residual; the next step starts from the same pose with a larger
+    /// shift.
     Refused,
-    /// It was no gain with the residual below its limit: rounding allows nothing better.
-    DrownedInRounding,
+    /// Refused with the residual below its limit: rounding allows no lower residual.
+    BelowRounding,
 }
 
 /// Minimum reference diagonal of the stiffness for the shifts, over the stiffness of all cables pulling in one
@@ -335,7 +339,7 @@ const MAX_RESIDUAL_RATIO: f64 = 0.9;
 /// Residual below which a step may be taken for its residual alone. The energy has some 14 digits and falls with the
 /// square of the residual, so it decides nothing below 1e-7. Above 1e-4 it decides, and residuals would lead to
 /// saddles.
-const ENERGY_DROWNS: f64 = 1e-4;
+const ENERGY_WITHOUT_DIGITS: f64 = 1e-4;
 
 /// Factors of the shift after a step taken at full length, and after a step that needed a larger shift before. Newton's
 /// convergence needs the shift gone within a few steps; but in a narrow valley (stiff ropes, a light platform, slack
@@ -378,7 +382,7 @@ impl<'a, 's> Descent<'a, 's> {
         Self { search, here, shift: 0.0, last: LastStep::Taken, escapes: 0, min_diagonal }
     }
 
-    /// One step, taken or refused; or the end of the descent.
+    /// Step, taken or refused; or the end of the descent.
     fn iterate(&mut self) -> ControlFlow<Exit> {
         let stiffness = self.search.stiffness(&self.here);
         let near = self.here.residual < self.here.limit;
@@ -391,7 +395,7 @@ impl<'a, 's> Descent<'a, 's> {
         if self.here.residual < CONVERGED {
             return self.leave_saddle(&stiffness, Exit::Converged);
         }
-        if near && self.last == LastStep::DrownedInRounding {
+        if near && self.last == LastStep::BelowRounding {
             return self.leave_saddle(&stiffness, Exit::AtRounding);
         }
 
@@ -407,7 +411,7 @@ impl<'a, 's> Descent<'a, 's> {
         if self.is_gain(&step, &next) {
             self.take(next, length, diagonal);
         } else if near {
-            self.last = LastStep::DrownedInRounding;
+            self.last = LastStep::BelowRounding;
         } else {
             return self.refuse(diagonal);
         }
@@ -433,7 +437,7 @@ impl<'a, 's> Descent<'a, 's> {
         let expected = step.dot(&self.here.wrench);
         let lower = next.energy - self.search.work(step) < self.here.energy - ARMIJO * expected;
         let smaller_residual =
-            next.residual < MAX_RESIDUAL_RATIO * self.here.residual && self.here.residual < ENERGY_DROWNS;
+            next.residual < MAX_RESIDUAL_RATIO * self.here.residual && self.here.residual < ENERGY_WITHOUT_DIGITS;
         next.residual.is_finite() && (lower || smaller_residual)
     }
 

@@ -25,8 +25,9 @@ pub enum FrictionError {
     NoFriction,
     /// The pose is held, and the support of a cable with friction yields to its drum on the ground.
     #[error(
-        "friction on the pulley of cable \"{cable}\" changes the pull of its drum on the ground, and with it the place of its \
-         flexible support: pose and tensions cannot both be held; give unstrained lengths, or set `drums = \"on-support\"`"
+        "friction on the pulley of cable \"{cable}\" changes the pull of its drum on the ground, and with it the place \
+         of its flexible support: pose and tensions cannot both be held; give unstrained lengths, or set `drums = \
+         \"on-support\"`"
     )]
     Supports {
         /// Name of the cable.
@@ -78,7 +79,7 @@ impl Interval {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// Interval of a quantity at this distance from a value.
+    /// Interval shifted by `value`.
     fn about(self, value: f64) -> Self {
         Self { min: value + self.min, max: value + self.max }
     }
@@ -254,8 +255,8 @@ struct Motion {
     supports: Vec<Vec3>,
 }
 
-/// Motion by the friction of each cable: per unstrained length of the cable [m/m], and per force with which its drum on the
-/// ground pulls less at its support [m/N]. Zero for ideal cables, which have no strain.
+/// Motion by the friction of each cable: per unstrained length of the cable [m/m], and per force with which its drum on
+/// the ground pulls less at its support [m/N]. Zero for ideal cables, which have no strain.
 fn motions_by_friction(robot: &Robot, equilibrium: &Equilibrium) -> Result<Vec<[Motion; 2]>, FrictionError> {
     let still = || Motion { platform: [0.0; 6], supports: vec![Vec3::zeros(); robot.supports.len()] };
     let Some(jacobian) = derivatives::balance_jacobian(robot, equilibrium) else {
@@ -372,8 +373,8 @@ impl Extremes {
         Interval::between(self.excess_lengths[0], self.excess_lengths[1])
     }
 
-    /// Effect of the friction on a quantity, by its gains with respect to the length of the cable without friction that has the
-    /// same force, and to the relief of its support from the pull of the drum.
+    /// Effect of the friction on a quantity, by its gains with respect to the length of the cable without friction that
+    /// has the same force, and to the relief of its support from the pull of the drum.
     fn effect(&self, gains: [f64; 2]) -> Interval {
         Interval::between(self.after(0, gains), self.after(1, gains))
     }
@@ -410,8 +411,8 @@ impl Extremes {
     }
 }
 
-/// Change of a cable's tensions per unit of one effect of friction: per unstrained length of a cable, with all other lengths
-/// held [N/m], or per relief of its support [-].
+/// Change of a cable's tensions per unit of one effect of friction: per unstrained length of a cable, with all other
+/// lengths held [N/m], or per relief of its support [-].
 #[derive(Debug, Clone, Copy, Default)]
 struct TensionGain {
     platform: f64,

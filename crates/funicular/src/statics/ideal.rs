@@ -88,8 +88,8 @@ pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equ
     Ok(collect(robot, pose, &tensions, iterations))
 }
 
-/// Maximum number of rounds of [`forward_of_few`], a guard: a round leaves about the strain of the cables as a fraction of
-/// the gap, so that two to six are observed.
+/// Maximum number of rounds of [`forward_of_few`], a guard: a round leaves about the strain of the cables as a fraction
+/// of the gap, so that two to six are observed.
 const MAX_ROUNDS: usize = 60;
 
 /// Minimum ratio of an unstrained length in one round to that before, so that lengths stay positive.
@@ -100,7 +100,7 @@ const MIN_SHORTENED: f64 = 0.5;
 /// `springs` solves the problem for straight cables that stretch: from unstrained lengths [m] and a start to a stable
 /// equilibrium. The unstrained lengths are shortened until the stretched cables have the given lengths. Rigid cables of
 /// these lengths then have the equilibrium, too, since the forces of straight cables do not depend on their stiffness.
-/// It is stable for rigid cables if it is for cables that stretch.
+/// An equilibrium that is stable for cables that stretch is stable for rigid ones.
 ///
 /// # References
 /// docs/theory.md, section 14.
@@ -139,6 +139,7 @@ pub(super) fn forward_of_few(
             return Ok(found);
         }
 
+        // Shorten the unstrained lengths by the gaps.
         for (length, gap) in unstrained.iter_mut().zip(gaps) {
             *length = (*length + gap).max(MIN_SHORTENED * *length);
         }

@@ -27,8 +27,8 @@ pub(super) fn determinate(robot: &Robot, pose: &Pose, model: StaticModel) -> Res
     exit_points::equilibrium(robot, pose, model, |held, _| at_exit_points(held, pose, model))
 }
 
-/// Unstrained lengths and tensions that hold the platform at a pose with as many cables as degrees of freedom, which end
-/// at fixed points.
+/// Unstrained lengths and tensions that hold the platform at a pose with as many cables as degrees of freedom, which
+/// end at fixed points.
 ///
 /// Straight cables have a linear solution. Sagging cables start from it, with half of each cable's weight on the
 /// platform. A Newton iteration on the lengths follows. Its steps are taken in the tension parallel to the chord, in
@@ -187,6 +187,8 @@ fn sagging_cables(
     } else {
         starts::search(robot, pose, loaded, accept)
     };
+
+    // The better of both searches.
     if let Some(searched) = searched {
         starts += searched.starts;
         let iterations = found.iterations + searched.best.iterations;
@@ -198,6 +200,8 @@ fn sagging_cables(
     if accept(&found) {
         return Ok(found.collected(robot, pose));
     }
+
+    // No equilibrium: say why.
     let Some(i) = negative else {
         let (p, CableSearch { residual, iterations, .. }) = (pose.position_w, found);
         return Err(StaticsError::NotConverged { iterations, residual, limit: RESIDUAL_LIMIT, x: p.x, y: p.y, z: p.z });

@@ -104,7 +104,7 @@ pub struct TensionMargin {
     pub max: f64,
 }
 
-/// One of the two limits of a tension.
+/// Lower or upper limit of a tension.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Limit {
     /// Minimum tension.
@@ -127,8 +127,8 @@ impl Limit {
 const REACHED: f64 = 1e-6;
 
 /// Rounding of a margin over the tension. The search for tensions ends when a step changes them by less than 1e-10 of
-/// their size (`STILL` in `tension/search.rs`), which bounds it. Observed at robots of the library and others: up to
-/// 1e-14. A violation that matters, see [`REACHED`], is four decades larger.
+/// their size (`CONVERGED` in `tension/search.rs`), which bounds it. Observed at robots of the library and others: up
+/// to 1e-14. A violation that matters, see [`REACHED`], is four decades larger.
 const MARGIN_ROUNDING: f64 = 1e-10;
 
 impl TensionMargin {

@@ -34,7 +34,7 @@ const MAX_STEPS: usize = 300;
 
 /// Remaining approach along the surface, over the size of the robot, at which the pose counts as nearest; and the value
 /// that is accepted if rounding allows no further approach.
-const NEAREST: f64 = 1e-11;
+const MAX_APPROACH: f64 = 1e-11;
 const NEAR: f64 = 1e-6;
 
 /// Minimum ratio of a cable's length after a step to its length before. At zero a step could take a cable away; near 1
@@ -48,7 +48,7 @@ const NEARLY_SQUARE: f64 = 1e-4;
 
 /// Maximum ratio of the remaining approach after such a step to that before. Nearer to 1, rounding counts as progress;
 /// far below, the last steps along a strongly curved surface are refused.
-const STRAIGHTER: f64 = 0.9;
+const MAX_APPROACH_RATIO: f64 = 0.9;
 
 /// Damping of the step: its first value, its factor after each refused step (its inverse after each step taken), the
 /// value below which it is zero, and the value at which the search ends. The reference is the curvature of the surface,
@@ -129,8 +129,9 @@ pub fn nearest_equilibrium(
 ) -> Result<NearestEquilibrium, StaticsError> {
     if robot.has_supports() {
         let solve = |rigid: &Robot| nearest_equilibrium(rigid, requested, model);
-        let mut found =
-            supports::settled_in_rounds(robot, solve, |found: &mut NearestEquilibrium| &mut found.equilibrium.cables)?;
+        let mut found = supports::on_flexible_supports(robot, solve, |found: &mut NearestEquilibrium| {
+            &mut found.equilibrium.cables
+        })?;
         found.equilibrium = with_stability(robot, found.equilibrium);
         return Ok(found);
     }
@@ -152,7 +153,7 @@ pub fn nearest_equilibrium(
     let mut search = SurfaceSearch::new(robot, requested, model)?;
     let size = search.size;
     for _ in 0..MAX_STEPS {
-        if search.could_move() <= NEAREST * size {
+        if search.could_move() <= MAX_APPROACH * size {
             break;
         }
         if !search.step() && !search.shorten() {
@@ -210,6 +211,7 @@ impl<'a> SurfaceSearch<'a> {
         let missing = gap(robot, &here.pose, requested);
         let iterations = here.iterations;
         let (bend, damping) = (Mat6::identity(), 0.0);
+
         Ok(Self {
             robot,
             requested,
@@ -248,7 +250,7 @@ impl<'a> SurfaceSearch<'a> {
         // Near the end the distance drowns in rounding; then the direction decides.
         let nearer = missing.norm() < self.missing.norm();
         let straighter =
-            could.norm() < NEARLY_SQUARE * self.missing.norm() && next_could.norm() < STRAIGHTER * could.norm();
+            could.norm() < NEARLY_SQUARE * self.missing.norm() && next_could.norm() < MAX_APPROACH_RATIO * could.norm();
         if !nearer && !straighter {
             return false;
         }

@@ -56,8 +56,8 @@ const LEVEL: f64 = 1e-12;
 /// Cosine of the angle between the load and gravity below which the load counts as sideways, 60°.
 const SIDEWAYS: f64 = 0.5;
 
-/// Share of the load that has to stay unbalanced; less is rounding. The directions of cables have an error of 1e-16, and
-/// a pose whose balance has a condition number above 1e10 is refused as singular.
+/// Share of the load that has to stay unbalanced; less is rounding. The directions of cables have an error of 1e-16,
+/// and a pose whose balance has a condition number above 1e10 is refused as singular.
 const MIN_UNBALANCED: f64 = 1e-9;
 
 /// Share of a motion below which its translation or its rotation is left out of a message.

@@ -4,7 +4,7 @@ use super::equilibrium::{CableState, Equilibrium};
 use super::error::StaticsError;
 use super::loaded_cable::LoadedCable;
 use super::model::StaticModel;
-use super::supports::Settled;
+use super::supports::CablesOnSupports;
 use crate::math::Vec6;
 use crate::platform::{Coordinates, balance, load_size};
 use crate::robot::{Pose, Robot};
@@ -18,7 +18,7 @@ pub fn wrench(robot: &Robot, pose: &Pose, lengths: &[f64], model: StaticModel) -
     check_lengths(robot, lengths)?;
     if robot.has_supports() {
         let loaded = LoadedCable::all(robot, pose, model);
-        let settled = Settled::at(robot, &loaded, lengths, pose);
+        let settled = CablesOnSupports::at(robot, &loaded, lengths, pose);
         let forces = settled.cables.iter().map(|cable| (cable.force_w(), cable.span.start_w - pose.position_w));
         return Ok(balance(robot, pose, forces).0);
     }

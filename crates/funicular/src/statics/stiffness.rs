@@ -12,8 +12,8 @@ use crate::robot::{Pose, Robot};
 /// Every load keeps its direction: in wind this is the stiffness with the drag of the equilibrium held. The stiffness
 /// with a drag that turns with the cables is [`tangent_with_drag`].
 ///
-/// Flexible supports yield. `None` for ideal cables, which have no finite stiffness. Zero for motions that the platform does not have. The
-/// antisymmetric half of a moment's stiffness is left out: such a moment has no energy.
+/// Flexible supports yield. `None` for ideal cables, which have no finite stiffness. Zero for motions that the platform
+/// does not have. The antisymmetric half of a moment's stiffness is left out: such a moment has no energy.
 ///
 /// # References
 /// docs/theory.md, equations (14) and (91).
@@ -34,7 +34,8 @@ pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat
     Some(Coordinates::of(robot).allowed_matrix(&whole))
 }
 
-/// Sum of the stiffness of cables (3×3, force on the platform, lever arm) and that of weight and load at a pose.
+/// Sum of the stiffness of cables and the geometric stiffness of weight and load at a pose. A cable is given by its 3×3
+/// stiffness, its force on the platform and its lever arm.
 pub(super) fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = (Mat3, Vec3, Vec3)>) -> Mat6 {
     let mut total = Mat6::zeros();
     for (stiffness, force, lever) in cables {

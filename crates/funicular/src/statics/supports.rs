@@ -1,8 +1,8 @@
 //! Flexible supports at rest: each yields until its stiffness balances the forces of its cables.
 //!
 //! With the platform held, the energy of the cables and of one support is a function of its displacement e alone. So a
-//! support settles by Newton's method in three unknowns, and to the platform a cable on a support has still an energy, whose
-//! second derivative is the stiffness below (docs/theory.md, equations (90) and (91)).
+//! support settles by Newton's method in three unknowns, and to the platform a cable on a support has still an energy,
+//! whose second derivative is the stiffness below (docs/theory.md, equations (90) and (91)).
 
 use super::equilibrium::{CableState, Equilibrium};
 use super::error::StaticsError;
@@ -14,24 +14,27 @@ use crate::platform::wrench_columns;
 use crate::robot::{Anchor, Pose, Robot, Support};
 use std::borrow::Cow;
 
-/// Maximum number of steps in which a support settles, a guard: two to six are usual.
+/// Maximum number of Newton steps for the balance of a support, a guard: two to six are usual.
 const MAX_STEPS: usize = 60;
 
 /// Maximum number of halvings of a step that does not reduce the imbalance.
 const MAX_HALVINGS: usize = 30;
 
-/// Maximum number of rounds in which supports follow the forces at a pose, a guard. A round reduces the motion by the ratio
-/// of the tension over the length of a cable to the stiffness of its support.
+/// Maximum number of rounds at a pose, a guard. Each round displaces the supports by the forces of the round before. It
+/// reduces their motion by the ratio of the tension over the length of a cable to the stiffness of its support.
 const MAX_ROUNDS: usize = 60;
 
-/// Motion of a support from one round to the next, over the length of the cables, at which the rounds end: rounding of the
-/// forces leaves 1e-16 of the displacement.
-const STILL: f64 = 1e-15;
+/// Convergence: maximum motion of a support in a round, over the length of the longest cable. Rounding of the forces
+/// leaves 1e-16 of the displacement.
+const CONVERGED: f64 = 1e-15;
 
-/// Imbalance of a support over the forces on it at which it has settled, and below which a step without gain shows that
-/// rounding allows no better balance: rounding of the chords leaves 1e-16 times the stiffness over the tensions.
-const SETTLED: f64 = 1e-15;
-const NEARLY_SETTLED: f64 = 1e-9;
+/// Maximum residual force on a support that is in balance, over the forces on it. Rounding of the chords leaves 1e-16
+/// times the stiffness over the tensions.
+const BALANCED: f64 = 1e-15;
+
+/// Residual force, over the forces on the support, below which a step that does not reduce it is not halved: rounding
+/// allows no better balance.
+const NEARLY_BALANCED: f64 = 1e-9;
 
 /// Displacements of all supports of a robot at an equilibrium, in the order of [`Robot::supports`] [m].
 fn displacements(robot: &Robot, cables: &[CableState]) -> Vec<Vec3> {
@@ -45,7 +48,8 @@ fn displacements(robot: &Robot, cables: &[CableState]) -> Vec<Vec3> {
 }
 
 impl Equilibrium {
-    /// Robot with rigid supports where they are at this equilibrium; the robot itself if its supports are rigid.
+    /// Robot with rigid supports at their displaced positions of this equilibrium; the robot itself if it has no
+    /// flexible supports.
     pub fn settled<'a>(&self, robot: &'a Robot) -> Cow<'a, Robot> {
         if robot.has_supports() {
             Cow::Owned(robot.displaced(&displacements(robot, &self.cables)))
@@ -54,14 +58,15 @@ impl Equilibrium {
         }
     }
 
-    /// Displacement of each support of a robot at this equilibrium, in the order of [`Robot::supports`], world axes [m].
+    /// Displacement of each support of a robot at this equilibrium, in the order of [`Robot::supports`], world axes
+    /// [m].
     pub fn support_displacements(&self, robot: &Robot) -> Vec<Vec3> {
         displacements(robot, &self.cables)
     }
 }
 
 /// Cable on a support, at rest.
-struct Carried<'a> {
+struct SupportedCable<'a> {
     anchor: &'a Anchor,
     support: &'a Support,
     displacement_w: Vec3,
@@ -71,7 +76,7 @@ struct Carried<'a> {
     tension_drum: f64,
 }
 
-impl<'a> Carried<'a> {
+impl<'a> SupportedCable<'a> {
     fn new(
         (anchor, support): (&'a Anchor, &'a Support),
         displacement_w: Vec3,
@@ -95,7 +100,7 @@ impl<'a> Carried<'a> {
         Some(Self::new((anchor, support), state.displacement_w, force_w, parts, state.unstrained_length))
     }
 
-    /// Cable that hangs with its support at one of these displacements; `None` if its anchor is rigid.
+    /// Cable that hangs with its support at its displacement in `displacements_w`; `None` if its anchor is rigid.
     fn of_trial(
         robot: &'a Robot,
         i: usize,
@@ -138,8 +143,9 @@ fn displace(robot: &Robot, cables: &mut [CableState], displacements_w: &[Vec3]) 
     }
 }
 
-/// Next displacement of each support, and the largest change of one [m], from the forces of cables at displacements.
-fn followed(robot: &Robot, cables: &[CableState], displacements_w: &[Vec3]) -> (Vec<Vec3>, f64) {
+/// Displacement of each support by the forces of its cables, and the maximum of the distances from the present
+/// displacements [m].
+fn displaced_by_forces(robot: &Robot, cables: &[CableState], displacements_w: &[Vec3]) -> (Vec<Vec3>, f64) {
     let next: Vec<Vec3> = (robot.supports.iter().zip(forces(robot, cables)))
         .map(|(support, force_w)| support.stiffness_w.try_inverse().unwrap_or_else(Mat3::zeros) * force_w)
         .collect();
@@ -147,12 +153,12 @@ fn followed(robot: &Robot, cables: &[CableState], displacements_w: &[Vec3]) -> (
     (next, moved)
 }
 
-/// Result of a solver for rigid supports, with settled supports: each round holds them where the forces of the round
-/// before move them. `cables` gives access to the cables of a result.
+/// Result on flexible supports of a solver for rigid ones. Each round solves with the supports held where the forces of
+/// the round before displace them. `cables` gives access to the cables of a result.
 ///
 /// # Errors
-/// Those of the solver; no convergence.
-pub(super) fn settled_in_rounds<T>(
+/// Errors of `solve`; [`StaticsError::NotConverged`].
+pub(super) fn on_flexible_supports<T>(
     robot: &Robot,
     solve: impl Fn(&Robot) -> Result<T, StaticsError>,
     cables: impl Fn(&mut T) -> &mut Vec<CableState>,
@@ -166,18 +172,18 @@ pub(super) fn settled_in_rounds<T>(
         let states = cables(&mut found);
         displace(robot, states, &displacements_w);
 
-        // The displacements that follow; the rounds end where rounding moves the supports.
+        // Displace the supports. The rounds end where only rounding moves them.
         let before = moved;
         let next;
-        (next, moved) = followed(robot, states, &displacements_w);
+        (next, moved) = displaced_by_forces(robot, states, &displacements_w);
         let size = states.iter().map(CableState::chord).fold(0.0, f64::max);
         at_w = states.first().map_or(at_w, |state| state.attachment_w);
-        if moved <= STILL * size || (moved < STILL.sqrt() * size && moved >= before) {
+        if moved <= CONVERGED * size || (moved < CONVERGED.sqrt() * size && moved >= before) {
             return Ok(found);
         }
         displacements_w = next;
     }
-    let (iterations, residual, limit) = (MAX_ROUNDS, moved, STILL);
+    let (iterations, residual, limit) = (MAX_ROUNDS, moved, CONVERGED);
     Err(StaticsError::NotConverged { iterations, residual, limit, x: at_w.x, y: at_w.y, z: at_w.z })
 }
 
@@ -185,30 +191,33 @@ pub(super) fn settled_in_rounds<T>(
 fn forces(robot: &Robot, cables: &[CableState]) -> Vec<Vec3> {
     let mut all = vec![Vec3::zeros(); robot.supports.len()];
     for (i, state) in cables.iter().enumerate() {
-        if let (Some(support), Some(carried)) = (robot.cables[i].anchor.support, Carried::of_state(robot, i, state)) {
+        if let (Some(support), Some(carried)) =
+            (robot.cables[i].anchor.support, SupportedCable::of_state(robot, i, state))
+        {
             all[support] += carried.force_w();
         }
     }
     all
 }
 
-/// Static stiffness of cable `i` for a motion of its support; `None` if its anchor is rigid. `held` is the stiffness of its
-/// span.
+/// Static stiffness of cable `i` for a motion of its support; `None` if its anchor is rigid. `held` is the stiffness of
+/// its span.
 pub(crate) fn on_support(robot: &Robot, i: usize, state: &CableState, held: &Mat3) -> Option<OnSupport> {
-    let carried = Carried::of_state(robot, i, state)?;
+    let carried = SupportedCable::of_state(robot, i, state)?;
     Some(drive::on_support(held, state.drive.as_deref(), carried.drum_side()))
 }
 
-/// Direction of the drum side of cable `i` from the ground to its support, unit vector, world axes, and derivative of the tension
-/// at the drum with respect to the unstrained length [N/m], both ends held. `None` unless the drum is on the ground.
+/// Direction of the drum side of cable `i` from the ground to its support, unit vector, world axes, and derivative of
+/// the tension at the drum with respect to the unstrained length [N/m], both ends held. `None` unless the drum is on
+/// the ground.
 pub(super) fn pull_by_length(robot: &Robot, i: usize, state: &CableState) -> Option<(Vec3, f64)> {
-    let side = Carried::of_state(robot, i, state)?.drum_side()?;
+    let side = SupportedCable::of_state(robot, i, state)?.drum_side()?;
     let (span, drive) = (state.hanging.as_ref()?, state.drive.as_deref()?);
     let by_drum_side = drive.end.drum_side_tension(&span.tangent_w(), &Vec3::zeros(), 0.0, 1.0);
     Some((side.direction_w, -drive.end.stretch_drum * by_drum_side))
 }
 
-/// Drum side of a cable on a support, as vibrations meet it.
+/// Drum side of a cable on a support, for small vibrations.
 pub(crate) struct SupportSide {
     /// Direction in which the entry point moves along the drum side, unit vector, world axes; zero without a drum side.
     pub(crate) direction_w: Vec3,
@@ -222,7 +231,7 @@ pub(crate) struct SupportSide {
 
 /// Drum side of cable `i` of a robot at rest; `None` if its anchor is rigid.
 pub(crate) fn support_side(robot: &Robot, i: usize, state: &CableState) -> Option<SupportSide> {
-    let carried = Carried::of_state(robot, i, state)?;
+    let carried = SupportedCable::of_state(robot, i, state)?;
     let carried_w = carried.load_w - carried.force_on_platform_w;
     if let Some(DrumSideAtRest { direction_w, length, tension }) = carried.drum_side() {
         let sideways_w = (Mat3::identity() - direction_w * direction_w.transpose()) * (tension / length);
@@ -233,8 +242,8 @@ pub(crate) fn support_side(robot: &Robot, i: usize, state: &CableState) -> Optio
     Some(SupportSide { direction_w, from_ground: false, sideways_w: Mat3::zeros(), carried_w })
 }
 
-/// Stiffness that the platform loses because supports yield, at rest: 6×6 about the platform origin, world axes. Each cable
-/// has its stiffness for a motion of its support, its index and its lever arm.
+/// Stiffness that the platform loses because supports yield, at rest: 6×6 about the platform origin, world axes. Each
+/// cable has its stiffness for a motion of its support, its index and its lever arm.
 pub(super) fn lost_stiffness(robot: &Robot, cables: impl Iterator<Item = (usize, OnSupport, Vec3)>) -> Mat6 {
     let mut own: Vec<Mat3> = robot.supports.iter().map(|support| support.stiffness_w).collect();
     let mut columns = vec![[Vec6::zeros(); 3]; own.len()];
@@ -259,32 +268,33 @@ pub(super) fn lost_stiffness(robot: &Robot, cables: impl Iterator<Item = (usize,
     lost
 }
 
-/// Stiffness for a motion of its support of cable `i`, which hangs with a settled support; `None` if its anchor is rigid.
-pub(super) fn on_settled(
+/// Stiffness of cable `i` for a motion of its support, which is in balance; `None` if its anchor is rigid.
+pub(super) fn stiffness_on_support(
     robot: &Robot,
     i: usize,
     cable: &CableAtRest,
     unstrained_length: f64,
     displacements_w: &[Vec3],
 ) -> Option<OnSupport> {
-    let carried = Carried::of_trial(robot, i, cable, unstrained_length, displacements_w)?;
+    let carried = SupportedCable::of_trial(robot, i, cable, unstrained_length, displacements_w)?;
     Some(drive::on_support(&cable.span.tangent_w(), cable.drive.as_deref(), carried.drum_side()))
 }
 
-/// Cables of a robot at a pose with settled supports: the cables, and the displacement of each support.
-pub(super) struct Settled {
+/// Cables of a robot at a pose with its supports in balance, and the displacement of each support [m].
+pub(super) struct CablesOnSupports {
     pub(super) cables: Vec<CableAtRest>,
     pub(super) displacements_w: Vec<Vec3>,
 }
 
-impl Settled {
+impl CablesOnSupports {
     /// Hangs all cables, whose unstrained lengths are known, at a pose.
     pub(super) fn at(robot: &Robot, loaded: &[LoadedCable], lengths: &[f64], pose: &Pose) -> Self {
         let mut displacements_w = vec![Vec3::zeros(); robot.supports.len()];
         for (support, displacement_w) in displacements_w.iter_mut().enumerate() {
             let members: Vec<usize> =
                 (0..robot.cables.len()).filter(|i| robot.cables[*i].anchor.support == Some(support)).collect();
-            *displacement_w = Settling { robot, loaded, lengths, pose, support, members: &members }.displacement_w();
+            *displacement_w =
+                SupportBalance { robot, loaded, lengths, pose, support, members: &members }.displacement_w();
         }
         let cables = (0..robot.cables.len())
             .map(|i| {
@@ -311,8 +321,8 @@ fn hang(
     LoadedCable { cable: &cable, ..loaded[i] }.hang(pose, lengths[i])
 }
 
-/// One support with its cables at a pose.
-struct Settling<'a> {
+/// Balance of a support with its cables at a pose.
+struct SupportBalance<'a> {
     robot: &'a Robot,
     loaded: &'a [LoadedCable<'a>],
     lengths: &'a [f64],
@@ -322,10 +332,10 @@ struct Settling<'a> {
     members: &'a [usize],
 }
 
-/// Support at one displacement.
-struct Trial {
+/// Support at a displacement.
+struct SupportTrial {
     displacement_w: Vec3,
-    /// Force of its cables less that of its own stiffness [N].
+    /// Residual: force of its cables less the force of its stiffness [N].
     imbalance_w: Vec3,
     /// Sum of all forces on it [N].
     size: f64,
@@ -333,17 +343,18 @@ struct Trial {
     stiffness_w: Mat3,
 }
 
-impl Settling<'_> {
-    fn at(&self, displacement_w: Vec3) -> Trial {
+impl SupportBalance<'_> {
+    fn at(&self, displacement_w: Vec3) -> SupportTrial {
         let support = &self.robot.supports[self.support];
         let own_w = support.stiffness_w * displacement_w;
         let mut trial =
-            Trial { displacement_w, imbalance_w: -own_w, size: own_w.norm(), stiffness_w: support.stiffness_w };
+            SupportTrial { displacement_w, imbalance_w: -own_w, size: own_w.norm(), stiffness_w: support.stiffness_w };
         for &i in self.members {
             let cable = hang(self.robot, self.loaded, self.lengths, self.pose, i, &displacement_w);
             let anchor = &self.robot.cables[i].anchor;
             let parts = (Some(&cable.span), cable.drive.as_deref());
-            let carried = Carried::new((anchor, support), displacement_w, cable.force_w(), parts, self.lengths[i]);
+            let carried =
+                SupportedCable::new((anchor, support), displacement_w, cable.force_w(), parts, self.lengths[i]);
             let force_w = carried.force_w();
             trial.imbalance_w += force_w;
             trial.size += force_w.norm() + carried.load_w.norm();
@@ -357,14 +368,15 @@ impl Settling<'_> {
     fn displacement_w(&self) -> Vec3 {
         let mut here = self.at(Vec3::zeros());
         for _ in 0..MAX_STEPS {
-            if here.imbalance_w.norm() <= SETTLED * here.size {
+            if here.imbalance_w.norm() <= BALANCED * here.size {
                 break;
             }
-            // A step of Newton's method, shortened until it is a gain.
+
+            // Newton's step, halved until it reduces the residual.
             let Some(factor) = here.stiffness_w.cholesky() else { break };
             let mut step_w = factor.solve(&here.imbalance_w);
             let mut next = self.at(here.displacement_w + step_w);
-            let halvings = if here.imbalance_w.norm() <= NEARLY_SETTLED * here.size { 0 } else { MAX_HALVINGS };
+            let halvings = if here.imbalance_w.norm() <= NEARLY_BALANCED * here.size { 0 } else { MAX_HALVINGS };
             for _ in 0..halvings {
                 if next.imbalance_w.norm() < here.imbalance_w.norm() {
                     break;
@@ -372,12 +384,14 @@ impl Settling<'_> {
                 step_w *= 0.5;
                 next = self.at(here.displacement_w + step_w);
             }
+
             // Rounding allows no better balance.
             if next.imbalance_w.norm() >= here.imbalance_w.norm() {
                 break;
             }
             here = next;
         }
+
         here.displacement_w
     }
 }
@@ -388,7 +402,7 @@ pub(super) fn energy(robot: &Robot, cables: &[CableAtRest], lengths: &[f64], dis
         (robot.supports.iter().zip(displacements_w)).map(|(support, e)| 0.5 * e.dot(&(support.stiffness_w * e))).sum();
     let lifted: f64 = (cables.iter().zip(lengths).enumerate())
         .filter(|(_, (cable, _))| cable.drive.is_some())
-        .filter_map(|(i, (cable, length))| Carried::of_trial(robot, i, cable, *length, displacements_w))
+        .filter_map(|(i, (cable, length))| SupportedCable::of_trial(robot, i, cable, *length, displacements_w))
         .map(|carried| carried.load_w.dot(&carried.displacement_w))
         .sum();
     of_supports - lifted

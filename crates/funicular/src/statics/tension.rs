@@ -35,8 +35,8 @@ use search::TensionSearch;
 /// Rule that selects one of all possible tension distributions of a robot with more cables than degrees of freedom.
 ///
 /// The rules compare the tension τ of each cable parallel to its chord, (10a), which is between those of its ends. The
-/// limits hold for the complete cable, both ends and the drum included. Over a pulley τ is that of the free span, and the
-/// rule compares tensions at the exit points of its result.
+/// limits hold for the complete cable, both ends and the drum included. Over a pulley τ is that of the free span, and
+/// the rule compares tensions at the exit points of its result.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum TensionRule {
     /// Lowest tensions: minimum sum of squares of the excess over the minimum, (38).
@@ -101,8 +101,9 @@ pub fn distribute_tensions(
 }
 
 /// Tensions by [`distribute_tensions`] of cables that end at fixed points. `last` is the result for points nearby, from
-/// which a search for the nearest tensions starts; it has one optimum. `whole` is the robot whose exit points `robot` holds:
-/// limits of the free spans keep the drums within the limits of the whole cables, to which the rule `middle` refers.
+/// which a search for the nearest tensions starts; it has one optimum. `whole` is the robot whose exit points `robot`
+/// holds: limits of the free spans keep the drums within the limits of the whole cables, to which the rule `middle`
+/// refers.
 fn at_exit_points(
     (whole, robot): (&Robot, &Robot),
     pose: &Pose,

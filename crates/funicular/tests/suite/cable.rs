@@ -1,8 +1,8 @@
 //! Deliberately plain finite-element cable, compared with every cable model.
 //!
-//! It has straight bars with two nodes and consistent mass. From the program it uses only the equilibrium: the places
-//! of the nodes, and the tension in the middle of each bar. (The bar's own stretch would give the tension with an error
-//! of EA (κh)²/24, which is large in a stiff rope.)
+//! The cable has straight bars with two nodes and consistent mass. From the program it uses only the equilibrium: the
+//! places of the nodes, and the tension in the middle of each bar. (The bar's own stretch would give the tension with
+//! an error of EA (κh)²/24, which is large in a stiff rope.)
 
 mod catenary_dynamic;
 mod shallow_dynamic;
@@ -17,12 +17,12 @@ use std::f64::consts::{PI, TAU};
 
 /// Stiffness and mass over the nodes, with components (horizontal, up, out of plane) per node; first and last are the
 /// ends.
-struct Bars {
+struct CableOfBars {
     stiffness: DMat,
     mass: DMat,
 }
 
-impl Bars {
+impl CableOfBars {
     fn new(cable: &Catenary, mass_per_length: f64, count: usize) -> Self {
         let rope = cable.rope();
         let h = rope.unstrained_length / count as f64;
@@ -94,7 +94,8 @@ fn the_catenary_dynamic_cable_is_the_limit_of_ever_more_bars() {
     for given in CABLES {
         let cable = cable(given);
         let catenary_dynamic = CatenaryDynamic::new(&cable, MASS_PER_LENGTH, LIMIT).unwrap();
-        let (coarse, fine) = (Bars::new(&cable, MASS_PER_LENGTH, 60), Bars::new(&cable, MASS_PER_LENGTH, 120));
+        let (coarse, fine) =
+            (CableOfBars::new(&cable, MASS_PER_LENGTH, 60), CableOfBars::new(&cable, MASS_PER_LENGTH, 120));
         for frequency in [0.2, 0.9, 2.3, 3.6] {
             let omega = frequency * TAU;
             let poles = catenary_dynamic.in_plane.poles.iter().chain(&catenary_dynamic.out_of_plane.poles);
@@ -135,7 +136,7 @@ fn the_catenary_dynamic_cable_has_as_many_clamped_modes_as_the_bars() {
             .map(|pole| pole.sqrt())
             .collect();
         ours.sort_by(f64::total_cmp);
-        let bars = Bars::new(&cable, MASS_PER_LENGTH, 120).clamped();
+        let bars = CableOfBars::new(&cable, MASS_PER_LENGTH, 120).clamped();
         let below = ours.iter().filter(|omega| **omega < LIMIT).count();
         assert!(below > 3);
         for (k, (a, b)) in ours.iter().zip(&bars).take(below).enumerate() {
@@ -163,7 +164,7 @@ fn the_shallow_dynamic_model_agrees_with_the_bars_where_sag_is_shallow() {
         assert!(sag.ratio() < 0.02, "{}", sag.ratio());
         let axes = LocalAxes::of_chord(&Vec3::zeros(), &Vec3::new(given.0, 0.0, given.1), &Vec3::z());
         let form = ShallowDynamic::new(sag, axes, Damping::Ratio(0.0), false);
-        let bars = Bars::new(&cable, MASS_PER_LENGTH, 120).clamped();
+        let bars = CableOfBars::new(&cable, MASS_PER_LENGTH, 120).clamped();
         let closed = form.clamped_frequencies_below(LIMIT);
         assert!(closed.len() > 3);
         for (a, b) in closed.iter().zip(&bars) {

@@ -34,7 +34,8 @@ fn a_cable_without_tension_is_reported_and_not_hidden_behind_another_reference()
     let mut rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
 
     // A loop that hangs straight down: its chord is 1 m high and 1 nm wide, its length 3 m. The horizontal force is
-    // 1e-11 of the weight, and parallel to the chord there still is a tension, so that the shallow-dynamic model exists.
+    // 1e-11 of the weight, and parallel to the chord there still is a tension, so that the shallow-dynamic model
+    // exists.
     let rope = Rope { unstrained_length: 3.0, ..rest.cables[0].hanging.as_ref().unwrap().catenary.rope() };
     let start_w = rest.cables[0].attachment_w;
     let end_w = start_w + Vec3::new(1e-9, 0.0, 1.0);

@@ -85,8 +85,8 @@ fn the_lengths_of_a_pose_in_wind_lead_back_to_it() {
     assert!(gap < 1e-10, "{gap:e}");
 }
 
-/// At the optimum of `middle` as many cables as unknowns beyond the balance, and the height, share the smallest relative
-/// margin, the drums included; one with a limit at the drum is among them here.
+/// At the optimum of `middle` as many cables as unknowns beyond the balance, and the height, share the smallest
+/// relative margin, the drums included; one with a limit at the drum is among them here.
 #[test]
 fn the_middle_of_the_limits_counts_the_drums() {
     let mut robot = cogiro(0.4);

@@ -49,7 +49,7 @@ pub(crate) fn independent_robots() -> Vec<(String, Robot, Equilibrium)> {
     independent().map(at_rest).collect()
 }
 
-/// One robot of reference/independent.json.
+/// Robot of reference/independent.json.
 pub(crate) fn independent_robot(id: &str) -> Robot {
     independent().find(|(other, _)| other == id).expect(id).1
 }

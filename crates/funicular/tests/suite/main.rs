@@ -1,7 +1,8 @@
-//! One test binary: limits, identities, properties and broken robot files, each module's in the file of its name.
-//! Comparisons with other programs' and published numbers are in `funicular_study::validation`.
+//! One test binary: limits, identities, properties and broken robot files, each module's in the file of its name
+//! (CONTRIBUTING.md). Comparisons with other programs' and published numbers are in `funicular_study::validation`.
 #![allow(missing_docs)]
-#![allow(clippy::excessive_precision, clippy::unreadable_literal, clippy::approx_constant)] // published values keep their digits
+// Published values keep their digits.
+#![allow(clippy::excessive_precision, clippy::unreadable_literal, clippy::approx_constant)]
 
 mod architecture;
 mod cable;
@@ -15,7 +16,6 @@ mod dynamics;
 mod library;
 mod modes;
 mod platform;
-mod plausibility;
 mod pose_error;
 mod random;
 mod reduced_model;

@@ -1,8 +1,7 @@
 //! Natural frequencies against other algorithms and identities.
 
 mod damped;
-mod first;
-mod first_with_drives;
+mod fundamental;
 mod rigid_cables;
 mod tracking;
 

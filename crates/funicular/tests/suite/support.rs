@@ -13,11 +13,10 @@ mod statics;
 mod vibration;
 
 use funicular::dynamics::Dynamics;
-use funicular::math::Complex;
+use funicular::math::{CDMat, CMat3, Complex};
 use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::{Control, DrumPlace, DrumSide, Pose, Robot, Servo};
 use funicular::statics::{Equilibrium, StaticModel};
-use nalgebra::{DMatrix, Matrix3};
 use std::fmt::Write;
 
 /// Drive behind the cables of a robot of these tests.
@@ -129,17 +128,17 @@ fn taut(post: &str) -> Robot {
 }
 
 /// Dynamic stiffness of platform and both supports of [`taut`] at the squares ω² and ω_c²: exact for straight cables.
-fn closed_form(robot: &Robot, rest: &Equilibrium, own: Complex, square: Complex, losses: f64) -> DMatrix<Complex> {
-    let mut all = DMatrix::from_element(9, 9, Complex::new(0.0, 0.0));
-    let mut add = |row: usize, column: usize, matrix: &Matrix3<Complex>| {
+fn closed_form(robot: &Robot, rest: &Equilibrium, own: Complex, square: Complex, losses: f64) -> CDMat {
+    let mut all = CDMat::from_element(9, 9, Complex::new(0.0, 0.0));
+    let mut add = |row: usize, column: usize, matrix: &CMat3| {
         let mut view = all.view_mut((row, column), (3, 3));
         view += matrix;
     };
-    add(0, 0, &(Matrix3::identity() * (-own * robot.platform.mass)));
+    add(0, 0, &(CMat3::identity() * (-own * robot.platform.mass)));
     for (k, support) in robot.supports.iter().enumerate() {
         let stiffness =
             support.stiffness_w.map(Complex::from) * Complex::new(1.0, 2.0 * losses * support.damping_ratio);
-        add(3 + 3 * k, 3 + 3 * k, &(stiffness - Matrix3::identity() * (own * support.mass)));
+        add(3 + 3 * k, 3 + 3 * k, &(stiffness - CMat3::identity() * (own * support.mass)));
     }
     for (cable, state) in robot.cables.iter().zip(&rest.cables) {
         let (ea, m, length) = (cable.material.axial_stiffness, cable.material.mass_per_length, state.unstrained_length);
@@ -152,7 +151,7 @@ fn closed_form(robot: &Robot, rest: &Equilibrium, own: Complex, square: Complex,
             (c * kappa * phase.cos() / phase.sin(), -c * kappa / phase.sin())
         };
         let ((k, far), (k_across, far_across)) = (wave(ea), wave(across));
-        let block = |along_t: Complex, across_t: Complex| along * along_t + (Matrix3::identity() - along) * across_t;
+        let block = |along_t: Complex, across_t: Complex| along * along_t + (CMat3::identity() - along) * across_t;
         add(0, 0, &block(k, k_across));
         if let Some(support) = cable.anchor.support {
             let at = 3 + 3 * support;

@@ -1,5 +1,7 @@
 //! Warnings about results outside the range of a model.
 
+mod plausibility;
+
 use crate::library::at_rest;
 use funicular::cable::{CableModel, EndStiffness};
 use funicular::math::Vec3;

@@ -21,10 +21,11 @@ pub(crate) struct CarrierMotion {
 }
 
 impl CarrierMotion {
-    /// Motions of the ends of the drum side with the carrier, the motions of the drive held: its end at the drum, that at
-    /// the wheel, and the whole drum side along itself.
+    /// Motions of the ends of the drum side with the carrier, the motions of the drive held: its end at the drum, that
+    /// at the wheel, and the whole drum side along itself.
     ///
-    /// The elongation of the drum side is measured with the stretch at the exit point, `ratio` times that at the entry point.
+    /// The elongation of the drum side is measured with the stretch at the exit point, `ratio` times that at the entry
+    /// point.
     pub(super) fn of_drum_side(&self, ratio: f64) -> [f64; 3] {
         if self.with_drum { [0.0, 0.0, self.along_drum_side] } else { [0.0, ratio * self.along_drum_side, 0.0] }
     }
@@ -49,14 +50,14 @@ impl CatenaryDynamicEnd {
             .collect();
 
         // A chain without a drum side has no such force; the swivel turns with the carrier.
-        let (slip, _) = self.cable.end.as_ref().map_or((0, 0), super::MovingEnd::counts);
-        forces.resize(slip, (0.0, 0.0));
+        let (along, _) = self.cable.end.as_ref().map_or((0, 0), super::MovingEnd::counts);
+        forces.resize(along, (0.0, 0.0));
         forces.resize(self.motions(), (motion.on_swivel, 0.0));
         forces
     }
 
-    /// Motion along `cable` for a motion of the carrier at ω [rad/s], the platform end held. The cable is this one, perhaps in
-    /// another discretisation.
+    /// Motion along `cable` for a motion of the carrier at ω [rad/s], the platform end held. The cable is this one,
+    /// perhaps in another discretisation.
     pub(crate) fn motion_by_carrier(
         &self,
         cable: &CatenaryDynamic,
@@ -68,9 +69,9 @@ impl CatenaryDynamicEnd {
         self.motion_by_far_end(cable, motion.displacement, given, omega)
     }
 
-    /// Motion along `cable` per unit of a signal of the drive or tension at ω [rad/s]: by an input, the platform end held, and
-    /// by reciprocity the output per force on a point of the cable. The cable is this one, perhaps in another discretisation.
-    /// `None` if the cable has no such signal.
+    /// Motion along `cable` per unit of a signal of the drive or tension at ω [rad/s]: by an input, the platform end
+    /// held, and by reciprocity the output per force on a point of the cable. The cable is this one, perhaps in another
+    /// discretisation. `None` if the cable has no such signal.
     pub(crate) fn motion_by_signal(
         &self,
         cable: &CatenaryDynamic,
@@ -90,8 +91,8 @@ impl CatenaryDynamicEnd {
         Some(self.motion_by_far_end(cable, [0.0; 3], given, omega))
     }
 
-    /// Motions (e, n, b) of the platform end and of the far end per unit of a signal: that of an input, or by reciprocity the
-    /// force on the end that is measured. Zero for signals that act on the motions of a drive.
+    /// Motions (e, n, b) of the platform end and of the far end per unit of a signal: that of an input, or by
+    /// reciprocity the force on the end that is measured. Zero for signals that act on the motions of a drive.
     pub(crate) fn ends_of_signal(&self, signal: DriveSignal) -> [[f64; 3]; 2] {
         let along = |[h, v]: [f64; 2], factor: f64| [factor * h, factor * v, 0.0];
         let (held, is_far_end) = ([0.0; 3], self.chain().is_none() && self.cable.coupled.is_none());
@@ -103,8 +104,8 @@ impl CatenaryDynamicEnd {
         }
     }
 
-    /// Motion along `cable` for a motion of the far end and the forces `given` on the first motions of the drive at ω [rad/s],
-    /// the platform end held.
+    /// Motion along `cable` for a motion of the far end and the forces `given` on the first motions of the drive at ω
+    /// [rad/s], the platform end held.
     fn motion_by_far_end(
         &self,
         cable: &CatenaryDynamic,
@@ -226,8 +227,8 @@ impl CatenaryDynamicEnd {
         self.chain().and_then(|chain| chain.drum_end.as_ref()).map_or(1.0, |end| end.ratio)
     }
 
-    /// Force on the carrier along a motion per unit of an input, the platform end held, at ω [rad/s]; by reciprocity the output
-    /// of such a motion. `None` if the cable has no such signal.
+    /// Force on the carrier along a motion per unit of an input, the platform end held, at ω [rad/s]; by reciprocity
+    /// the output of such a motion. `None` if the cable has no such signal.
     pub(crate) fn signal_by_carrier(&self, motion: &CarrierMotion, signal: DriveSignal, omega: f64) -> Option<Complex> {
         if signal != DriveSignal::Length {
             return self.response_to_carrier(motion, signal, omega);
@@ -250,8 +251,8 @@ impl CatenaryDynamicEnd {
         self.coupled().is_none().then(|| -(force(2) * h + force(3) * v))
     }
 
-    /// Motions of the drive at ω [rad/s], what its losses add, the motions by the carrier alone, and the forces on them
-    /// [N] that the carrier brings about. `None` without a drive.
+    /// Motions of the drive at ω [rad/s], the terms that its losses add, the motions by the carrier alone, and the forces
+    /// of the carrier on them [N]. `None` without a drive.
     fn drive_under_carrier(
         &self,
         motion: &CarrierMotion,

@@ -1,7 +1,8 @@
-//! Motions, losses and signals of a drive as linear forms over the platform end and the amplitudes of the clamped modes.
+//! Motions, losses and signals of a drive as linear forms over the platform end and the amplitudes of the clamped
+//! modes.
 //!
-//! A second-order model has these as its coordinates. There the losses of a drive are a damping matrix, and a signal is a
-//! row that is a polynomial of s = iω (docs/theory.md, equations (45a) to (45d)).
+//! A second-order model has these as its coordinates. There the losses of a drive are a damping matrix, and a signal is
+//! a row that is a polynomial of s = iω (docs/theory.md, equations (45a) to (45d)).
 
 use super::drive_signals::DriveForce;
 use super::{CarrierMotion, CatenaryDynamicEnd, DriveSignal, Family, MovingEnd};
@@ -9,8 +10,8 @@ use crate::math::DMat;
 use crate::robot::Damping;
 use std::array::from_fn;
 
-/// Linear form over the displacement (e, n, b) of the platform end and the amplitudes of the clamped modes, in plane and
-/// then out of plane.
+/// Linear form over the displacement (e, n, b) of the platform end and the amplitudes of the clamped modes, in plane
+/// and then out of plane.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct DriveForm {
     pub(crate) end: [f64; 3],
@@ -56,8 +57,8 @@ const ROUNDING: f64 = 1e-8;
 pub(crate) type InPowersOfS<T> = [T; 3];
 
 impl CatenaryDynamicEnd {
-    /// Poles of the clamped modes: in plane and, unless these are left out, out of plane; or both together, for an end that
-    /// couples them.
+    /// Poles of the clamped modes: in plane and, unless these are left out, out of plane; or both together, for an end
+    /// that couples them.
     fn mode_poles(&self) -> impl Iterator<Item = f64> + '_ {
         let out_of_plane = self.out_of_plane().map_or(&[][..], |family| &family.poles);
         let coupled = self.coupled().map_or(&[][..], |family| &family.poles);
@@ -75,14 +76,14 @@ impl CatenaryDynamicEnd {
 
         // Slow motion with the platform end.
         let along = drive.along.still.len();
-        for (form, still) in forms.iter_mut().zip(&drive.along.still) {
-            form.end = [still[0][0], still[0][1], 0.0];
+        for (form, psi) in forms.iter_mut().zip(&drive.along.still) {
+            form.end = [psi[0][0], psi[0][1], 0.0];
         }
-        for (form, still) in forms.iter_mut().skip(along).zip(&drive.sideways.still) {
-            form.end = [0.0, 0.0, still[0][0]];
+        for (form, psi) in forms.iter_mut().skip(along).zip(&drive.sideways.still) {
+            form.end = [0.0, 0.0, psi[0][0]];
         }
-        for (form, still) in forms.iter_mut().zip(&drive.coupled.still) {
-            form.end = [still[0][0], still[0][1], still[0][2]];
+        for (form, psi) in forms.iter_mut().zip(&drive.coupled.still) {
+            form.end = [psi[0][0], psi[0][1], psi[0][2]];
         }
 
         // Clamped modes.
@@ -99,8 +100,8 @@ impl CatenaryDynamicEnd {
         forms
     }
 
-    /// Static response of the motions to forces on them that the clamped modes do not have: that of motions without mass
-    /// [m/N].
+    /// Static response of the motions to forces on them that the clamped modes do not have: that of motions without
+    /// mass [m/N].
     fn massless_flexibility(&self, motions: &[DriveForm]) -> DMat {
         let Some(drive) = &self.cable.drive else { return DMat::zeros(0, 0) };
         let poles: Vec<f64> = self.mode_poles().collect();
@@ -149,10 +150,10 @@ impl CatenaryDynamicEnd {
         }
     }
 
-    /// Coefficients of `still + s rate + ω_c² square` in powers of s.
-    fn in_powers(&self, still: Vec<f64>, rate: &[f64], square: &[f64]) -> InPowersOfS<Vec<f64>> {
+    /// Coefficients of `constant + s rate + ω_c² square` in powers of s.
+    fn in_powers(&self, constant: Vec<f64>, rate: &[f64], square: &[f64]) -> InPowersOfS<Vec<f64>> {
         let by_rate = rate.iter().zip(square).map(|(rate, square)| rate - self.viscous_rate() * square).collect();
-        [still, by_rate, square.iter().map(|square| -square).collect()]
+        [constant, by_rate, square.iter().map(|square| -square).collect()]
     }
 
     /// Force on the motions of the chain per unit of an input, or row of an output over them. `None` without such a
@@ -161,12 +162,12 @@ impl CatenaryDynamicEnd {
         let chain = self.chain()?;
         if signal == DriveSignal::DrumTension {
             let end = chain.drum_end.as_ref()?;
-            let (still, square): (Vec<f64>, Vec<f64>) =
+            let (constant, square): (Vec<f64>, Vec<f64>) =
                 end.by_motion.iter().map(|(k, mass)| (-k * end.ratio, mass * end.ratio)).unzip();
-            return Some(self.in_powers(still, &vec![0.0; square.len()], &square));
+            return Some(self.in_powers(constant, &vec![0.0; square.len()], &square));
         }
-        let DriveForce { still, rate, square, .. } = DriveForce::of(chain, signal)?;
-        Some(self.in_powers(still, &rate, &square))
+        let DriveForce { constant, rate, square, .. } = DriveForce::of(chain, signal)?;
+        Some(self.in_powers(constant, &rate, &square))
     }
 
     /// Row of a signal: generalised force on platform end and amplitudes per unit of an input, and the output per
@@ -190,23 +191,23 @@ impl CatenaryDynamicEnd {
         }))
     }
 
-    /// Form of `still + s rate + s² acceleration + ω_c² square`, in powers of s.
+    /// Form of `constant + s rate + s² acceleration + ω_c² square`, in powers of s.
     fn form_in_powers(
         &self,
-        still: DriveForm,
+        constant: DriveForm,
         mut rate: DriveForm,
         mut acceleration: DriveForm,
         square: &DriveForm,
     ) -> InPowersOfS<DriveForm> {
         rate.add(-self.viscous_rate(), square);
         acceleration.add(-1.0, square);
-        [still, rate, acceleration]
+        [constant, rate, acceleration]
     }
 
     /// Tension at the platform: minus the force along the cable that holds its platform end.
     fn tension_form(&self) -> InPowersOfS<DriveForm> {
         let [h, v] = self.directions.from_platform;
-        let (mut still, mut rate, mut acceleration, mut square) =
+        let (mut constant, mut rate, mut acceleration, mut square) =
             (self.zero_form(), self.zero_form(), self.zero_form(), self.zero_form());
 
         // The cable: K_s, and −ω_c² times the rows of its mass.
@@ -219,7 +220,7 @@ impl CatenaryDynamicEnd {
                 |matrix: &[[f64; 4]; 4]| from_fn(|j| if j < 2 { matrix[0][j] * h + matrix[1][j] * v } else { 0.0 });
             (row(&family.stiffness), row(&family.mass))
         };
-        still.end = stiffness.map(|entry| -entry);
+        constant.end = stiffness.map(|entry| -entry);
         square.end = mass;
         let in_plane = self.in_plane().participation.iter().map(|g| g[0] * h + g[1] * v);
         let out_of_plane = self.out_of_plane().map_or(0, |family| family.poles.len());
@@ -235,7 +236,7 @@ impl CatenaryDynamicEnd {
             acceleration.add(-along * part.mass, &part.motion);
             rate.add(-along * part.damping, &part.motion);
         }
-        self.form_in_powers(still, rate, acceleration, &square)
+        self.form_in_powers(constant, rate, acceleration, &square)
     }
 
     /// Tension at a far end that is held, and force on platform and amplitudes if it moves by `factor` towards the
@@ -246,13 +247,13 @@ impl CatenaryDynamicEnd {
         }
         let ([h, v], family) = (self.directions.to_platform, self.in_plane());
         let moved = |matrix: &[[f64; 4]; 4], i: usize| factor * (matrix[i][2] * h + matrix[i][3] * v);
-        let (mut still, mut square) = (self.zero_form(), self.zero_form());
-        still.end = [-moved(&family.stiffness, 0), -moved(&family.stiffness, 1), 0.0];
+        let (mut constant, mut square) = (self.zero_form(), self.zero_form());
+        constant.end = [-moved(&family.stiffness, 0), -moved(&family.stiffness, 1), 0.0];
         square.end = [moved(&family.mass, 0), moved(&family.mass, 1), 0.0];
         for (amplitude, g) in square.modes.iter_mut().zip(&family.participation) {
             *amplitude = factor * (g[2] * h + g[3] * v);
         }
-        Some(self.form_in_powers(still, self.zero_form(), self.zero_form(), &square))
+        Some(self.form_in_powers(constant, self.zero_form(), self.zero_form(), &square))
     }
 
     /// Row of a motion of the carrier: generalised force on platform end and amplitudes per unit of it.
@@ -260,25 +261,25 @@ impl CatenaryDynamicEnd {
     /// # References
     /// docs/theory.md, equation (45e).
     pub(crate) fn carrier_form(&self, motion: &CarrierMotion) -> InPowersOfS<DriveForm> {
-        let (mut still, mut rate, mut acceleration, mut square) =
+        let (mut constant, mut rate, mut acceleration, mut square) =
             (self.zero_form(), self.zero_form(), self.zero_form(), self.zero_form());
         let [e, n, b] = motion.displacement;
 
         // The cable: K_s and −ω_c² times its mass between both ends, and the participations of the far end.
         let participations: Vec<f64> = if let Some(family) = self.coupled() {
             let by = |row: &[f64; 6]| row[3] * e + row[4] * n + row[5] * b;
-            still.end = from_fn(|i| -by(&family.stiffness[i]));
+            constant.end = from_fn(|i| -by(&family.stiffness[i]));
             square.end = from_fn(|i| by(&family.mass[i]));
             family.participation.iter().map(by).collect()
         } else {
             let family = self.in_plane();
             let by = |row: &[f64; 4]| row[2] * e + row[3] * n;
             for i in 0..2 {
-                (still.end[i], square.end[i]) = (-by(&family.stiffness[i]), by(&family.mass[i]));
+                (constant.end[i], square.end[i]) = (-by(&family.stiffness[i]), by(&family.mass[i]));
             }
             let mut all: Vec<f64> = family.participation.iter().map(by).collect();
             if let Some(family) = self.out_of_plane() {
-                (still.end[2], square.end[2]) = (-family.stiffness[0][1] * b, family.mass[0][1] * b);
+                (constant.end[2], square.end[2]) = (-family.stiffness[0][1] * b, family.mass[0][1] * b);
                 all.extend(family.participation.iter().map(|g| g[1] * b));
             }
             all
@@ -287,7 +288,7 @@ impl CatenaryDynamicEnd {
 
         // Forces on the drive, then those of its masses and losses, which move with the carrier.
         for (form, (force, mass)) in self.motion_forms().iter().zip(self.forces_by_carrier(motion)) {
-            still.add(force, form);
+            constant.add(force, form);
             square.add(mass, form);
         }
         for part in self.drive_parts() {
@@ -296,11 +297,11 @@ impl CatenaryDynamicEnd {
             acceleration.add(-along * part.mass, &part.motion);
             rate.add(-along * part.damping, &part.motion);
         }
-        self.form_in_powers(still, rate, acceleration, &square)
+        self.form_in_powers(constant, rate, acceleration, &square)
     }
 
-    /// Force on the carrier along one motion per unit of another motion of it, with all coordinates at rest: by reciprocity
-    /// symmetric.
+    /// Force on the carrier along one motion per unit of another motion of it, with all coordinates at rest: by
+    /// reciprocity symmetric.
     ///
     /// # References
     /// docs/theory.md, equation (92c).
@@ -319,7 +320,7 @@ impl CatenaryDynamicEnd {
             });
             (in_plane + normal, in_plane_mass + normal_mass)
         };
-        let (mut still, mut rate, mut acceleration, mut square) = (-stiffness, 0.0, 0.0, mass);
+        let (mut constant, mut rate, mut acceleration, mut square) = (-stiffness, 0.0, 0.0, mass);
 
         // Motions of the drive with the carrier, forces on them, and those without mass by these forces.
         if let Some(drive) = &self.cable.drive {
@@ -329,12 +330,12 @@ impl CatenaryDynamicEnd {
             let (z1, z2) = (moved(c1), moved(c2));
             let (f1, f2) = (self.forces_by_carrier(one), self.forces_by_carrier(other));
             for (z, f) in [(&z1, &f2), (&z2, &f1)] {
-                still += z.iter().zip(f).map(|(z, (force, _))| z * force).sum::<f64>();
+                constant += z.iter().zip(f).map(|(z, (force, _))| z * force).sum::<f64>();
                 square += z.iter().zip(f).map(|(z, (_, mass))| z * mass).sum::<f64>();
             }
             let rest = self.massless_flexibility(&self.motion_forms());
             for (i, (force, _)) in f1.iter().enumerate() {
-                still += force * f2.iter().enumerate().map(|(j, (other, _))| rest[(i, j)] * other).sum::<f64>();
+                constant += force * f2.iter().enumerate().map(|(j, (other, _))| rest[(i, j)] * other).sum::<f64>();
             }
             for part in self.drive_parts() {
                 let along = |c: [f64; 3]| part.with_carrier.iter().zip(c).map(|(part, c)| part * c).sum::<f64>();
@@ -350,24 +351,24 @@ impl CatenaryDynamicEnd {
             let [[_, at_wheel, whole], [_, other_at_wheel, other_whole]] =
                 [one, other].map(|motion| motion.of_drum_side(self.drum_side_ratio()));
             if let Some(side) = chain.drum_side.first() {
-                still -= side.stiffness * at_wheel * other_at_wheel;
+                constant -= side.stiffness * at_wheel * other_at_wheel;
                 square += side.mass * at_wheel * other_at_wheel
                     + side.carried_mass * (at_wheel * other_whole + whole * other_at_wheel);
             }
             square += chain.drum_side_mass * whole * other_whole;
         }
-        [still, rate - self.viscous_rate() * square, acceleration - square]
+        [constant, rate - self.viscous_rate() * square, acceleration - square]
     }
 
-    /// Output of the cable's drive, or its tension, per motion of the carrier with all coordinates at rest; for a commanded
-    /// length, by reciprocity the force on the carrier. `None` without such a signal.
+    /// Output of the cable's drive, or its tension, per motion of the carrier with all coordinates at rest; for a
+    /// commanded length, by reciprocity the force on the carrier. `None` without such a signal.
     pub(crate) fn direct_by_carrier(&self, motion: &CarrierMotion, output: DriveSignal) -> Option<InPowersOfS<f64>> {
         if output == DriveSignal::Tension {
             // The force of the motion on the platform end, along the cable.
             let [h, v] = self.directions.from_platform;
             return Some(self.carrier_form(motion).map(|form| form.end[0] * h + form.end[1] * v));
         }
-        let in_powers = |still: f64, square: f64| [still, -self.viscous_rate() * square, -square];
+        let in_powers = |constant: f64, square: f64| [constant, -self.viscous_rate() * square, -square];
         let Some(chain) = self.chain() else {
             // The far end itself moves.
             let factor = match output {
@@ -389,8 +390,8 @@ impl CatenaryDynamicEnd {
         let rest = self.massless_flexibility(&self.motion_forms());
         let rows = self.row_in_powers(output)?;
         let with_carrier = self.cable.drive.as_ref()?.with_carrier();
-        let (still, square): (Vec<f64>, Vec<f64>) = self.forces_by_carrier(motion).into_iter().unzip();
-        let mut motions = self.in_powers(still, &vec![0.0; square.len()], &square).map(|forces| {
+        let (constant, square): (Vec<f64>, Vec<f64>) = self.forces_by_carrier(motion).into_iter().unzip();
+        let mut motions = self.in_powers(constant, &vec![0.0; square.len()], &square).map(|forces| {
             let moved = |i: usize| forces.iter().enumerate().map(|(j, force)| rest[(i, j)] * force).sum::<f64>();
             (0..forces.len()).map(moved).collect::<Vec<f64>>()
         });
@@ -427,7 +428,7 @@ impl CatenaryDynamicEnd {
         }
         // A length that is paid out by a drum that is held moves an end whose own tension is the output.
         let pays_out = (input, output) == (DriveSignal::Length, DriveSignal::DrumTension);
-        let in_powers = |still: f64, square: f64| [still, -self.viscous_rate() * square, -square];
+        let in_powers = |constant: f64, square: f64| [constant, -self.viscous_rate() * square, -square];
         let Some(chain) = self.chain() else {
             let ([h, v], family) = (self.directions.to_platform, self.in_plane());
             let own = |matrix: &[[f64; 4]; 4]| {
@@ -454,8 +455,8 @@ impl CatenaryDynamicEnd {
         Some(direct)
     }
 
-    /// Weights of the clamped modes of each family in the forces of lossy parts and of signals: what modes that replace
-    /// others have to represent beside the platform end.
+    /// Weights of the clamped modes of each family in the forces of lossy parts and of signals. Modes that replace others
+    /// have to represent these forces beside those on the platform end.
     pub(super) fn forces_on_modes(&self, signals: &[EndSignal]) -> [Vec<Vec<f64>>; 3] {
         let in_plane = self.in_plane().poles.len();
         let coupled = self.mode_poles().count() - self.coupled().map_or(0, |family| family.poles.len());

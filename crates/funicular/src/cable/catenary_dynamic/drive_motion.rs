@@ -1,9 +1,9 @@
-//! Motions of the drive at the end of a cable, and what its losses add to the undamped model.
+//! Motions of the drive at the end of a cable, and the terms that its losses add to the undamped model.
 //!
-//! The clamped modes of a cable contain the motions of its drive. What an undamped model cannot hold is added afterwards,
-//! exactly: with the motion `z = T u − R p` of the drive under the motion u of the platform end and the forces p that the
-//! drive has besides, `p = Δ z`, the cable has the stiffness `K + Tᵀ Δ (1 + R Δ)⁻¹ T` (docs/theory.md, equations (80) and
-//! (81)).
+//! The clamped modes of a cable contain the motions of its drive. What an undamped model cannot hold is added
+//! afterwards, exactly: with the motion `z = T u − R p` of the drive under the motion u of the platform end and the
+//! forces p that the drive has besides, `p = Δ z`, the cable has the stiffness `K + Tᵀ Δ (1 + R Δ)⁻¹ T`
+//! (docs/theory.md, equations (80) and (81)).
 
 use super::moving_end::MovingEnd;
 use super::{CatenaryDynamic, CatenaryDynamicEnd, Displacements, Family, InternalMotion, NearRanges, PoleResidue};
@@ -66,9 +66,11 @@ impl DriveAt {
                 &left_out.out_of_plane,
             );
         }
+
         if let Some(coupled) = &cable.coupled {
             at.add(coupled, &drive.coupled, 0..count, [0, 1, 2], x, &left_out.coupled);
         }
+
         at
     }
 
@@ -91,7 +93,7 @@ impl DriveAt {
         rows
     }
 
-    /// Adds what the modes of one family move: the motions `rows`, by the components `axes` of the platform end.
+    /// Adds the motions `rows` by the modes of one family, for the components `axes` of the platform end.
     fn add<const D: usize, const N: usize, const E: usize>(
         &mut self,
         family: &PoleResidue<N, E>,
@@ -247,7 +249,7 @@ impl DriveMotion {
 }
 
 impl InternalMotion {
-    /// This motion with the losses of the drive at the end of the cable: their forces `Δ z` act on the clamped modes.
+    /// Motion with the losses of the drive at the end of the cable: the forces `Δ z` act on the clamped modes.
     #[must_use]
     pub(crate) fn with_drive(mut self, cable: &CatenaryDynamic, losses: &DriveLosses, square: Complex) -> Self {
         let Some(drive) = &cable.drive else { return self };
@@ -283,7 +285,7 @@ impl CatenaryDynamicEnd {
         self.cable.end.as_ref().and_then(MovingEnd::chain)
     }
 
-    /// Stiffness at ω [rad/s] that comes from what the undamped model of the drive leaves out [N/m]; `None` without it.
+    /// Stiffness at ω [rad/s] by the losses that the undamped model of the drive leaves out [N/m]; `None` without losses.
     pub(crate) fn drive_stiffness(&self, omega: f64) -> Option<LocalStiffness<Complex>> {
         if !self.has_drive_losses() {
             return None;
@@ -336,7 +338,8 @@ impl CatenaryDynamicEnd {
 
     /// Kinetic energy of the drive over ω²/2 [kg m²], and the work of its losses, by which its damping grows [N m], in
     /// a motion of the platform end (e, n, b) at the undamped ω [rad/s]. `near` has the amplitudes of the clamped modes
-    /// that are unknowns of their own; `by_support` gives the motions of the drive by a support at x = ω², without some poles.
+    /// that are unknowns of their own; `by_support` gives the motions of the drive by a support at x = ω², without some
+    /// poles.
     pub(crate) fn drive_share(
         &self,
         omega: f64,
@@ -387,8 +390,8 @@ impl CatenaryDynamicEnd {
         self.cable.drive.as_ref().map_or_else(Vec::new, |motion| motion.in_mode(family, index))
     }
 
-    /// Dynamic stiffness that the drive has besides that of the undamped model, per motion, at the complex ω [N/m], with
-    /// its derivative by ω. `losses` is the fraction of the damping that acts.
+    /// Dynamic stiffness that the drive has besides that of the undamped model, per motion, at the complex ω [N/m],
+    /// with its derivative by ω. `losses` is the fraction of the damping that acts.
     pub(crate) fn beyond_undamped(&self, omega: Complex, losses: f64) -> DriveLosses {
         let square = self.damping.times(losses).square_with_slope(omega, self.mass_per_length);
         let along = self.chain().map(|chain| chain.beyond_undamped(omega, square, losses));

@@ -14,7 +14,8 @@ pub enum DriveSignal {
     /// Force on the drum at the cable [N] as an input, motion of the cable at the drum [m] as an output; both towards
     /// the wheel.
     Drum,
-    /// Force of the motor at the cable [N] as an input, motion of the motor at the cable [m] as an output; both pay out.
+    /// Force of the motor at the cable [N] as an input, motion of the motor at the cable [m] as an output; both pay
+    /// out.
     Motor,
     /// Tension of the cable at the platform [N]; an output.
     Tension,
@@ -120,8 +121,8 @@ impl CatenaryDynamicEnd {
         Some(std::array::from_fn(|s| row.iter().zip(&moved).map(|(row, moved)| moved[s] * row).sum()))
     }
 
-    /// Tension at a far end that is held per motion (e, n, b) of the platform end, or the force on that one per motion of
-    /// the far end towards the platform [N/m]. `None` for an end that couples the families.
+    /// Tension at a far end that is held per motion (e, n, b) of the platform end, or the force on that one per motion
+    /// of the far end towards the platform [N/m]. `None` for an end that couples the families.
     fn at_held_end(&self, omega: f64) -> Option<[Complex; 3]> {
         let (square, [h, v], family) = (self.square(omega), self.directions.to_platform, &self.cable.in_plane);
         let towards = |i: usize| -(family.entry(i, 2, square) * h + family.entry(i, 3, square) * v);
@@ -188,8 +189,8 @@ impl CatenaryDynamicEnd {
         x * h + y * v
     }
 
-    /// Forces on the motions of the drive per unit of an input, and by reciprocity the row of drum and motor; `None` for
-    /// tensions, and for a cable without such a signal.
+    /// Forces on the motions of the drive per unit of an input, and by reciprocity the row of drum and motor; `None`
+    /// for tensions, and for a cable without such a signal.
     pub(crate) fn signal_forces(&self, signal: DriveSignal, omega: f64) -> Option<Vec<Complex>> {
         let mut forces = self.forces_of(self.chain()?, signal, omega)?;
         forces.resize(self.motions(), Complex::new(0.0, 0.0));
@@ -209,10 +210,10 @@ impl CatenaryDynamicEnd {
 }
 
 /// Force on the motions of a drive per unit of an input, or the row of the motion of drum or motor:
-/// `(still + iω rate) e^{−iωτ} + ω_c² square`.
+/// `(constant + iω rate) e^{−iωτ} + ω_c² square`.
 pub(super) struct DriveForce {
     /// Constant part [N/m or 1].
-    pub(super) still: Vec<f64>,
+    pub(super) constant: Vec<f64>,
     /// Force per rate of the input, by the speed gain of a control [N s/m].
     pub(super) rate: Vec<f64>,
     /// Force by the mass of a cable whose end is moved [kg].
@@ -225,34 +226,37 @@ impl DriveForce {
     /// Force of a signal on a chain; `None` without such a signal.
     pub(super) fn of(chain: &DriveChain, signal: DriveSignal) -> Option<Self> {
         let zeros = || vec![0.0; chain.len()];
-        let mut force = Self { still: zeros(), rate: zeros(), square: zeros(), delay: 0.0 };
+        let mut force = Self { constant: zeros(), rate: zeros(), square: zeros(), delay: 0.0 };
         match (signal, &chain.motor) {
             (DriveSignal::Drum, _) => {
                 let drum = chain.drum?;
-                force.still[drum.motion] = drum.factor;
+                force.constant[drum.motion] = drum.factor;
             }
             (DriveSignal::Motor, motor) => {
                 let place = (*motor)?.place;
-                force.still[place.motion] = place.factor;
+                force.constant[place.motion] = place.factor;
             }
             (DriveSignal::Length, Some(motor)) => {
                 let (servo, place) = (motor.servo?, motor.place);
-                force.still[place.motion] = servo.position_gain * chain.stretch_drum * place.factor;
+                force.constant[place.motion] = servo.position_gain * chain.stretch_drum * place.factor;
                 force.rate[place.motion] = servo.speed_gain * chain.stretch_drum * place.factor;
                 force.delay = servo.delay;
             }
             (DriveSignal::Length, None) => {
-                (force.still, force.square) = chain.by_length.iter().copied().unzip();
+                (force.constant, force.square) = chain.by_length.iter().copied().unzip();
             }
             (DriveSignal::Tension | DriveSignal::DrumTension, _) => return None,
         }
+
         Some(force)
     }
 
     /// Force at ω [rad/s] with `square` = ω_c².
     fn at(&self, omega: f64, square: Complex) -> Vec<Complex> {
         let delayed = Complex::from_polar(1.0, -omega * self.delay);
-        let parts = self.still.iter().zip(&self.rate).zip(&self.square);
-        parts.map(|((still, rate), moved)| Complex::new(*still, omega * rate) * delayed + square * *moved).collect()
+        let parts = self.constant.iter().zip(&self.rate).zip(&self.square);
+        parts
+            .map(|((constant, rate), moved)| Complex::new(*constant, omega * rate) * delayed + square * *moved)
+            .collect()
     }
 }

@@ -177,8 +177,8 @@ impl InternalMotion {
 }
 
 impl Stations {
-    /// Displacement (horizontal, up, out of plane) of station `at` for displacements of the start and of the far end, with the
-    /// amplitudes of the clamped modes at rest.
+    /// Displacement (horizontal, up, out of plane) of station `at` for displacements of the start and of the far end,
+    /// with the amplitudes of the clamped modes at rest.
     pub(crate) fn still(&self, at: usize, start: [f64; 3], end: [f64; 3]) -> [f64; 3] {
         let ([a, b, c], [d, e, f]) = (start.map(Complex::from), end.map(Complex::from));
         if !self.coupled.still.is_empty() {

@@ -46,9 +46,9 @@ impl ElementTable {
 }
 
 /// Points of the Gauss rule beyond the degree of an element. Products of two slopes of degree p − 1 need p points; the
-/// additional ones are for C, whose coefficients fall by the size of the Bernstein ellipse per degree. The rule is exact
-/// up to twice the points, so that eight of them leave 1.5^-16 = 2e-3 of the highest products only, and those with the
-/// low modes far less.
+/// additional ones are for C, whose coefficients fall by the size of the Bernstein ellipse per degree. The rule is
+/// exact up to twice the points, so that eight of them leave 1.5^-16 = 2e-3 of the highest products only, and those
+/// with the low modes far less.
 const POINTS_FOR_TANGENT: usize = 8;
 
 /// Degree per radian of a wave's phase over an element. A half wave needs π/2 degrees, 0.5 per radian (docs/theory.md,
@@ -59,8 +59,9 @@ const DEGREE_PER_RADIAN: f64 = 0.53;
 /// exponentially.
 const DEGREES_OF_TRANSITION: f64 = 2.2;
 
-/// Degrees that every element has besides, and the exponent of the decrease that the coefficients of C get: e^-13, whose
-/// square, 5e-12, is the error of a frequency. Fitted to the estimate of the error; 6 and 14 were the values before.
+/// Degrees that every element has besides, and the exponent of the decrease that the coefficients of C get: e^-13,
+/// whose square, 5e-12, is the error of a frequency. Fitted to the estimate of the error; 6 and 14 were the values
+/// before.
 const BASE_DEGREE: f64 = 4.0;
 const DECREASE_OF_TANGENT: f64 = 13.0;
 
@@ -181,8 +182,8 @@ impl<'a> Mesh<'a> {
     }
 
     /// Condenses D components per point onto the two ends (N = 2D), whose static stiffness is `still`, and finds the
-    /// displacements of the points at the arc lengths `stations`. An `end` that can move is part of the inside, with the
-    /// motions behind it; their displacements follow those of the stations.
+    /// displacements of the points at the arc lengths `stations`. An `end` that can move is part of the inside, with
+    /// the motions behind it; their displacements follow those of the stations.
     pub(super) fn condense<const D: usize, const N: usize, const E: usize>(
         &self,
         tables: &[ElementTable],
@@ -199,8 +200,8 @@ impl<'a> Mesh<'a> {
         partition.reduce(still, limit)
     }
 
-    /// Stiffness and mass of all functions, assembled element by element in the blocks of a [`Partition`]. There is room
-    /// for `behind` further stations.
+    /// Stiffness and mass of all functions, assembled element by element in the blocks of a [`Partition`]. There is
+    /// room for `behind` further stations.
     fn assemble<const D: usize, const N: usize>(
         &self,
         tables: &[ElementTable],
@@ -267,8 +268,8 @@ impl<'a> Mesh<'a> {
         (s > from || e == 0) && (s <= to || e + 1 == self.elements.len())
     }
 
-    /// Stiffness per entry of C (hh, hv, vv; one out of plane; or all four) and mass of an element over its hats and bubbles,
-    /// [`BEYOND`] included.
+    /// Stiffness per entry of C (hh, hv, vv; one out of plane; or all four) and mass of an element over its hats and
+    /// bubbles, [`BEYOND`] included.
     fn element_matrices<const D: usize>(&self, element: &Element, table: &ElementTable) -> (Vec<DMat>, DMat) {
         let half = 0.5 * (element.to - element.from);
         let middle = 0.5 * (element.to + element.from);

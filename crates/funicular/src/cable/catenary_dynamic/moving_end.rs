@@ -3,8 +3,8 @@
 //!
 //! The motions of the drive are inner unknowns of the cable, so that its clamped modes contain them, and the count of
 //! natural frequencies with them (docs/theory.md, section 18). An end that moves along the cable in its plane, and
-//! sideways normal to it, keeps the motions in plane and out of plane apart. On a pulley with an inclined swivel axis, or
-//! in wind, it couples them.
+//! sideways normal to it, keeps the motions in plane and out of plane apart. On a pulley with an inclined swivel axis,
+//! or in wind, it couples them.
 
 use super::CatenaryDynamicError;
 use super::partition::Guide;
@@ -50,8 +50,8 @@ pub struct EndSideways {
 const IN_PLANE: f64 = 1e-8;
 
 impl MovingEnd {
-    /// Motion of the end of a cable at its pulley and winch, in the axes of its model; `None` if it is held. `chain` is the
-    /// drive behind it, and `swivel_mass` the mass that the swivel adds to the motion sideways [kg].
+    /// Motion of the end of a cable at its pulley and winch, in the axes of its model; `None` if it is held. `chain` is
+    /// the drive behind it, and `swivel_mass` the mass that the swivel adds to the motion sideways [kg].
     pub(crate) fn of(axes: &LocalAxes, end: &AnchorEnd, chain: Option<DriveChain>, swivel_mass: f64) -> Option<Self> {
         if chain.is_none() && end.sideways_w.is_none() {
             return None;
@@ -147,9 +147,13 @@ impl MovingEnd {
         Guide { directions, stiffness, mass }
     }
 
-    /// Static stiffness of both ends in plane and out of plane, from those of the start with the end held, and the static
-    /// response of all motions at the end to forces on them.
-    pub(super) fn still(&self, held: [[f64; 2]; 2], held_out_of_plane: f64) -> Result<Still, CatenaryDynamicError> {
+    /// Static stiffness of both ends in plane and out of plane, from those of the start with the end held, and the
+    /// static response of all motions at the end to forces on them.
+    pub(super) fn static_stiffness(
+        &self,
+        held: [[f64; 2]; 2],
+        held_out_of_plane: f64,
+    ) -> Result<StaticEnds, CatenaryDynamicError> {
         let ([[mut hh, mut hv], [_, mut vv]], mut o) = (held, held_out_of_plane);
         let (along, count) = self.counts();
         let mut flexibility = DMat::zeros(count, count);
@@ -165,15 +169,15 @@ impl MovingEnd {
             o -= o * o / (o + stiffness);
         }
         let in_plane = [[hh, hv, -hh, -hv], [hv, vv, -hv, -vv], [-hh, -hv, hh, hv], [-hv, -vv, hv, vv]];
-        Ok(Still { in_plane, out_of_plane: [[o, -o], [-o, o]], flexibility })
+        Ok(StaticEnds { in_plane, out_of_plane: [[o, -o], [-o, o]], flexibility })
     }
 
-    /// Static stiffness of both ends for an end that couples the families, and the static response of all motions at the
-    /// end to forces on them.
+    /// Static stiffness of both ends for an end that couples the families, and the static response of all motions at
+    /// the end to forces on them.
     ///
     /// # References
     /// docs/theory.md, equation (70): the motions of the end are in series with the cable.
-    pub(super) fn still_coupled(
+    pub(super) fn static_stiffness_coupled(
         &self,
         [[hh, hv], [_, vv]]: [[f64; 2]; 2],
         o: f64,
@@ -197,18 +201,18 @@ impl MovingEnd {
                 left -= a * b.transpose() * flexibility[(*i, *j)];
             }
         }
-        let mut still = [[0.0; 6]; 6];
-        for (i, row) in still.iter_mut().enumerate() {
+        let mut ends = [[0.0; 6]; 6];
+        for (i, row) in ends.iter_mut().enumerate() {
             for (j, entry) in row.iter_mut().enumerate() {
                 *entry = if (i < 3) == (j < 3) { left[(i % 3, j % 3)] } else { -left[(i % 3, j % 3)] };
             }
         }
-        Ok((still, flexibility))
+        Ok((ends, flexibility))
     }
 }
 
 /// Static stiffness of both ends of a cable, and flexibility of the motions at its end.
-pub(super) struct Still {
+pub(super) struct StaticEnds {
     pub(super) in_plane: [[f64; 4]; 4],
     pub(super) out_of_plane: [[f64; 2]; 2],
     pub(super) flexibility: DMat,

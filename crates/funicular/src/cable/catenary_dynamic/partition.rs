@@ -34,7 +34,7 @@ pub(super) struct Partition<const D: usize, const N: usize> {
     /// K_ii and M_ii, by columns.
     stiffness: Vec<f64>,
     mass: Vec<f64>,
-    /// One row per inner unknown: K_io and M_io of the outer unknowns, then the function's values at the stations.
+    /// Row of each inner unknown: K_io and M_io of the outer unknowns, then the function's values at the stations.
     rows: Vec<f64>,
     /// Length of a row.
     row_length: usize,
@@ -55,8 +55,8 @@ pub(super) struct Guide<const D: usize> {
     pub(super) mass: DMat,
 }
 
-/// Pairs of components (row, column) that the tangent C couples, with the number of the entry of C: out of plane its only
-/// one, in plane hh, hv, vv, with all components together these and then the one out of plane.
+/// Pairs of components (row, column) that the tangent C couples, with the number of the entry of C: out of plane its
+/// only one, in plane hh, hv, vv, with all components together these and then the one out of plane.
 fn components<const D: usize>() -> impl Iterator<Item = ((usize, usize), usize)> {
     let entry = |row: usize, column: usize| match (row, column) {
         (2, 2) => Some(3),
@@ -92,9 +92,11 @@ impl<const D: usize, const N: usize> Partition<D, N> {
                 (row[j], row[outer + j]) = (to_outer[0][(i, j)], to_outer[1][(i, j)]);
             }
         }
+
         for (station, unknown) in stations.iter().enumerate() {
             rows[unknown * row_length + 2 * outer + D * station] = 1.0;
         }
+
         Self {
             unknowns,
             outer,
@@ -186,9 +188,9 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         }
     }
 
-    /// Restricts the inner function `node`, the end of the cable, to the motions of a guide. The motions that move it take
-    /// the places of its D unknowns, the others follow all unknowns. Each motion is a station of its own, in its first
-    /// component, from `first_station` on.
+    /// Restricts the inner function `node`, the end of the cable, to the motions of a guide. The motions that move it
+    /// take the places of its D unknowns, the others follow all unknowns. Each motion is a station of its own, in its
+    /// first component, from `first_station` on.
     pub(super) fn guide(&mut self, node: usize, guide: &Guide<D>, first_station: usize) {
         let Guide { directions, stiffness, mass } = guide;
         let (n, first) = (self.unknowns, D * node);

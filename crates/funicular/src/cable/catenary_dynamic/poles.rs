@@ -21,8 +21,8 @@ pub struct PoleResidue<const N: usize, const E: usize> {
     residues: [Vec<f64>; E],
 }
 
-/// Entries of the start's block of a symmetric matrix: out of plane only the first exists, in plane the first three, with
-/// both families together all six.
+/// Entries of the start's block of a symmetric matrix: out of plane only the first exists, in plane the first three,
+/// with both families together all six.
 const ENTRIES: [(usize, usize); 6] = [(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)];
 
 /// Entries of the start's block of a symmetric matrix over both ends.
@@ -166,8 +166,8 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
     ///
     /// The modes beyond `count` may move only in the shapes W = P⁻¹ G of their response to slow motion of the first
     /// `moving` end components, and to slow `forces` on the modes (Rayleigh and Ritz). So `Gᵀ (P − x)⁻¹ G` keeps its
-    /// value and its slope at x = 0, and the forces have their static response. The second result has the weights of the
-    /// modes beyond `count` in each new mode, by columns of unit modal mass.
+    /// value and its slope at x = 0, and the forces have their static response. The second result has the weights of
+    /// the modes beyond `count` in each new mode, by columns of unit modal mass.
     pub(crate) fn compressed(&self, count: usize, moving: usize, forces: &[Vec<f64>]) -> (Self, DMat) {
         let beyond = self.poles.len() - count;
         let g = DMat::from_fn(beyond, N, |k, i| self.participation[count + k][i]);

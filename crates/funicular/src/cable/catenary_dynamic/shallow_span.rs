@@ -1,22 +1,23 @@
 //! Shallow sagging span whose far end moves with a pulley and the drive behind it, by poles and residues.
 //!
-//! This is the cable of Starossek with both of its ends free to move: transverse motion v(s) and b(s) of a string along the
-//! chord, and one increment of the chordwise tension, which is the elongation times EA/L_e. The elongation is linear in the
-//! motions, so that sag is a stiffness of rank one (docs/theory.md, equations (21), (86) and (87)). The closed form of
-//! [`ShallowDynamic`](crate::cable::shallow_dynamic::ShallowDynamic) holds the far end. With the motions of a drive as
-//! further inner unknowns the poles are no longer those of a formula. So the span is discretised by polynomials, exactly
-//! as a catenary-dynamic cable is, and counts, modes, losses and signals are those of such a cable.
+//! The span is the cable of Starossek with both of its ends free to move: transverse motion v(s) and b(s) of a string
+//! along the chord, and one increment of the chordwise tension, which is the elongation times EA/L_e. The elongation is
+//! linear in the motions, so that sag is a stiffness of rank one (docs/theory.md, equations (21), (86) and (87)). The
+//! closed form of [`ShallowDynamic`](crate::cable::shallow_dynamic::ShallowDynamic) holds the far end. With the motions
+//! of a drive as further inner unknowns the poles are no longer those of a formula. So the span is discretised by
+//! polynomials, exactly as a catenary-dynamic cable is, and counts, modes, losses and signals are those of such a
+//! cable.
 
 use super::mesh::{self, BEYOND};
-use super::moving_end::{MovingEnd, Still};
+use super::moving_end::{MovingEnd, StaticEnds};
 use super::partition::{Blocks, Condensed, Guide, Partition};
 use super::{CatenaryDynamic, CatenaryDynamicError, Families, MAX_REFINEMENTS, MAX_UNKNOWNS, WANTED_ERROR};
 use crate::cable::{Sag, shallow_static};
 use crate::math::{DMat, legendre};
 use std::ops::Range;
 
-/// Span condensed onto its ends, for frequencies up to ω = `limit` [rad/s]. `end` is its far end, in the axes of the chord;
-/// `None` for one that is held.
+/// Span condensed onto its ends, for frequencies up to ω = `limit` [rad/s]. `end` is its far end, in the axes of the
+/// chord; `None` for one that is held.
 ///
 /// # Errors
 /// [`CatenaryDynamicError`].
@@ -50,8 +51,8 @@ struct ShallowSpan<'a> {
     degree: usize,
 }
 
-/// Components of the motion of a family with `count` components: out of plane alone, along the chord and normal to it, or
-/// all three. Those in the range are transverse; before them is that along the chord.
+/// Components of the motion of a family with `count` components: out of plane alone, along the chord and normal to it,
+/// or all three. Those in the range are transverse; before them is that along the chord.
 fn transverse(count: usize) -> Range<usize> {
     count.min(2) - 1..count
 }
@@ -66,7 +67,7 @@ impl ShallowSpan<'_> {
     /// Motions in plane and out of plane for themselves.
     fn apart(&self, end: &MovingEnd, limit: f64) -> Result<Families, CatenaryDynamicError> {
         let (held, held_out_of_plane) = self.held();
-        let Still { in_plane, out_of_plane, flexibility } = end.still(held, held_out_of_plane)?;
+        let StaticEnds { in_plane, out_of_plane, flexibility } = end.static_stiffness(held, held_out_of_plane)?;
 
         let in_plane = self.condense(end.guide_in_plane().as_ref(), in_plane, limit)?;
         let out_of_plane = self.condense(end.guide_out_of_plane().as_ref(), out_of_plane, limit)?;
@@ -77,8 +78,8 @@ impl ShallowSpan<'_> {
     /// Motions in plane and out of plane, which the end couples.
     fn together(&self, end: &MovingEnd, limit: f64) -> Result<Families, CatenaryDynamicError> {
         let (held, held_out_of_plane) = self.held();
-        let (still, flexibility) = end.still_coupled(held, held_out_of_plane)?;
-        let coupled = self.condense(Some(&end.guide()), still, limit)?;
+        let (ends, flexibility) = end.static_stiffness_coupled(held, held_out_of_plane)?;
+        let coupled = self.condense(Some(&end.guide()), ends, limit)?;
         let error = coupled.error;
         Ok(Families {
             in_plane: Condensed::none(),
@@ -95,8 +96,8 @@ impl ShallowSpan<'_> {
         self.degree - 1 + BEYOND
     }
 
-    /// Stiffness and mass of the span over the D components of the platform end, those of the far end, and the bubbles of
-    /// each transverse component.
+    /// Stiffness and mass of the span over the D components of the platform end, those of the far end, and the bubbles
+    /// of each transverse component.
     ///
     /// # References
     /// docs/theory.md, equation (87).
@@ -127,7 +128,8 @@ impl ShallowSpan<'_> {
             }
         }
 
-        // Sag: the elongation of the chord and of the first bubble, the only function whose mean the ends do not cancel.
+        // Sag: the elongation of the chord and of the first bubble, the only function whose mean the ends do not
+        // cancel.
         if D > 1 {
             let elongation = [(place(0, 0), -1.0), (place(0, 1), 1.0), (place(1, 2), epsilon / 6f64.sqrt())];
             for (i, a) in elongation {
@@ -153,7 +155,8 @@ impl ShallowSpan<'_> {
         let (inner, outer): (Vec<usize>, Vec<usize>) = (N..total).partition(|place| !beyond(place - N));
         let outer: Vec<usize> = (0..N).chain(outer).collect();
 
-        // Every inner unknown as motions of the span: its bubbles, then the motions of the guide, which move the far end.
+        // Every inner unknown as motions of the span: its bubbles, then the motions of the guide, which move the far
+        // end.
         let motions = guide.map_or(0, |guide| guide.stiffness.nrows());
         let unknowns = inner.len() + motions;
         let mut of_span = DMat::zeros(total, unknowns);

@@ -1,9 +1,9 @@
 //! Dynamic stiffness of a cable between its platform end and an anchor that moves with a flexible support.
 //!
-//! The seven motions are those of the platform end and of the exit point, both in (e, n, b), and the motion of the entry
-//! point along the drum side: it stretches a drum side whose drum stays on the ground, and carries one along whose drum
-//! moves with the support. For that motion a clamped mode has the participation `μ − κ/ω_k²`, κ and μ being its work on the
-//! stiffness and the mass between drum side and drive (docs/theory.md, equation (93)).
+//! The seven motions are those of the platform end and of the exit point, both in (e, n, b), and the motion of the
+//! entry point along the drum side: it stretches a drum side whose drum stays on the ground, and carries one along
+//! whose drum moves with the support. For that motion a clamped mode has the participation `μ − κ/ω_k²`, κ and μ being
+//! its work on the stiffness and the mass between drum side and drive (docs/theory.md, equation (93)).
 
 use super::{CatenaryDynamic, CatenaryDynamicEnd, DriveMotion, Family, InternalMotion, NearRanges, PoleResidue};
 use crate::math::{Complex, DMat};
@@ -68,7 +68,8 @@ impl TwoEnded {
         both
     }
 
-    /// Adds a family, whose components are these motions, with the static motions of the drive in it from a first one on.
+    /// Adds a family, whose components are these motions, with the static motions of the drive in it from a first one
+    /// on.
     fn add<const D: usize, const N: usize, const E: usize>(
         &mut self,
         family: &PoleResidue<N, E>,
@@ -83,6 +84,7 @@ impl TwoEnded {
                 self.mass[*place][*other] += family.mass[i][j];
             }
         }
+
         for (index, (pole, g)) in family.poles.iter().zip(&family.participation).enumerate() {
             let mut participation = [0.0; ENDS];
             places.iter().zip(g).for_each(|(place, g)| participation[*place] = *g);
@@ -98,6 +100,7 @@ impl TwoEnded {
                 drive: motions,
             });
         }
+
         if let Some((first, rows)) = still {
             for (row, still) in self.still[first..].iter_mut().zip(rows) {
                 places.iter().zip(&still[0]).for_each(|(place, psi)| row[*place] += psi);
@@ -197,7 +200,8 @@ impl TwoEnded {
         (value, slope)
     }
 
-    /// Motions of the drive per motion of the ends at x = ω_c² without the poles `left_out`, and their derivatives by x.
+    /// Motions of the drive per motion of the ends at x = ω_c² without the poles `left_out`, and their derivatives by
+    /// x.
     pub(crate) fn drive(&self, x: Complex, left_out: &NearRanges) -> Vec<([Complex; ENDS], [Complex; ENDS])> {
         let mut rows: Vec<([Complex; ENDS], [Complex; ENDS])> =
             (self.still.iter()).map(|row| (row.map(Complex::from), [Complex::new(0.0, 0.0); ENDS])).collect();
@@ -225,8 +229,8 @@ impl TwoEnded {
         [&self.stiffness, &self.mass]
     }
 
-    /// Clamped modes, in plane and then out of plane: participation of the ends [√kg], pole [rad²/s²], and true for a mode out
-    /// of plane.
+    /// Clamped modes, in plane and then out of plane: participation of the ends [√kg], pole [rad²/s²], and true for a
+    /// mode out of plane.
     pub(crate) fn clamped_modes(&self) -> impl Iterator<Item = (&[f64; ENDS], f64, bool)> {
         self.modes.iter().map(|mode| (&mode.participation, mode.pole, mode.family == Family::OutOfPlane))
     }
@@ -236,8 +240,8 @@ impl TwoEnded {
         self.modes.iter().map(|mode| -mode.on_drum_side.0 / mode.pole)
     }
 
-    /// Participation of the motion along the drum side in the clamped modes of a family, and their static amplitudes per such
-    /// motion [√kg].
+    /// Participation of the motion along the drum side in the clamped modes of a family, and their static amplitudes
+    /// per such motion [√kg].
     pub(crate) fn along_drum_side(&self, family: Family) -> Vec<(f64, f64)> {
         let modes = self.modes.iter().filter(|mode| mode.family == family);
         modes.map(|mode| (mode.participation[ALONG], -mode.on_drum_side.0 / mode.pole)).collect()
@@ -256,8 +260,8 @@ impl TwoEnded {
 }
 
 impl InternalMotion {
-    /// Adds the motion by a support, which moves the far end, to one that follows from the platform end alone. `ends` is the
-    /// motion of the ends by the support, at x = ω_c².
+    /// Adds the motion by a support, which moves the far end, to one that follows from the platform end alone. `ends`
+    /// is the motion of the ends by the support, at x = ω_c².
     pub(crate) fn add_carrier(&mut self, cable: &CatenaryDynamic, both: &TwoEnded, ends: [Complex; ENDS], x: Complex) {
         let [_, _, _, e, n, b, along] = ends;
         let still = Complex::new(0.0, 0.0);
@@ -265,9 +269,11 @@ impl InternalMotion {
         for (sum, moved) in self.in_plane_ends.iter_mut().zip(by_end.in_plane_ends) {
             *sum += moved;
         }
+
         for (sum, moved) in self.out_of_plane_ends.iter_mut().zip(by_end.out_of_plane_ends) {
             *sum += moved;
         }
+
         let families = [
             (&mut self.in_plane, by_end.in_plane, Family::InPlane),
             (&mut self.out_of_plane, by_end.out_of_plane, Family::OutOfPlane),
@@ -324,8 +330,8 @@ mod tests {
         }
     }
 
-    /// The motion along the drum side acts on the drive by the forces `−(k − x m)`. So its entries follow from the motions
-    /// of the drive: `T (k − x m)` to the ends, and `k₀ − x m₀ − (k − x m)ᵀ R (k − x m)` to itself.
+    /// The motion along the drum side acts on the drive by the forces `−(k − x m)`. So its entries follow from the
+    /// motions of the drive: `T (k − x m)` to the ends, and `k₀ − x m₀ − (k − x m)ᵀ R (k − x m)` to itself.
     #[test]
     fn the_drum_side_acts_through_the_drive() {
         let cases = [(0.0, DrumSide::Massless), (0.0, DrumSide::Rod), (0.6, DrumSide::Rod)];
@@ -374,7 +380,8 @@ mod tests {
         }
     }
 
-    /// The derivative by x is that of differences, and amplitudes by a motion along the drum side lead to its stiffness.
+    /// The derivative by x is that of differences, and amplitudes by a motion along the drum side lead to its
+    /// stiffness.
     #[test]
     fn slopes_are_those_of_differences() {
         let form = driven(0.6, DrumSide::Rod);

@@ -1,7 +1,7 @@
 //! Parts of a chain with their places, for derivatives of its energy by their numbers.
 
-use super::parts::{Layout, Parts};
-use super::{Place, SLIP};
+use super::parts::{MotionOrder, Parts};
+use super::{AT_WHEEL, Place};
 use crate::drive::DriveAtRest;
 use crate::math::{DMat, legendre};
 use crate::robot::{Anchor, WinchMode};
@@ -42,7 +42,8 @@ pub(crate) struct Piece {
 }
 
 impl ChainDescription {
-    /// Parts of the chain of [`DriveChain::of`](super::DriveChain::of); `None` if the cable cannot move at its exit point.
+    /// Parts of the chain of [`DriveChain::of`](super::DriveChain::of); `None` if the cable cannot move at its exit
+    /// point.
     pub(crate) fn of(
         anchor: &Anchor,
         drive: &DriveAtRest,
@@ -51,7 +52,7 @@ impl ChainDescription {
         limit: f64,
     ) -> Option<Self> {
         let parts = Parts::of(anchor, drive, rope, mode)?;
-        let layout = Layout::of(&parts, limit);
+        let layout = MotionOrder::of(&parts, limit);
         let pieces = (layout.nodes.windows(2).enumerate())
             .map(|(piece, ends)| Piece {
                 spring: parts.spring(piece),
@@ -62,6 +63,7 @@ impl ChainDescription {
                 mass: parts.is_rod().then(|| legendre::element_mass(layout.waves[piece].len() + 1)),
             })
             .collect();
+
         let wheels = anchor.winch.as_ref().map_or(&[][..], |winch| &winch.guide_wheels);
         let heavy = wheels.iter().enumerate().filter(|(_, wheel)| wheel.mass > 0.0).map(|(index, _)| index);
         Some(Self {
@@ -79,6 +81,6 @@ impl ChainDescription {
 impl Place {
     /// True for a drum or motor at the exit point, whose place contains the ratio of the stretches.
     pub(crate) fn is_at_exit(self) -> bool {
-        self.motion == SLIP.motion
+        self.motion == AT_WHEEL.motion
     }
 }

@@ -1,13 +1,13 @@
 //! Parts from which the chain behind an exit point is built, and the order of its motions.
 
-use super::{Place, SLIP};
+use super::{AT_WHEEL, Place};
 use crate::drive::{AnchorEnd, DriveAtRest};
 use crate::robot::{Anchor, Control, DrumSide, GuideWheel, Servo, Winch, WinchMode};
 use std::ops::Range;
 
-/// Polynomial degree of a drum side with mass per radian of an axial wave's phase, and its degrees besides. A wave needs
-/// 0.5 degrees per radian; the rest is margin. The stiffness is then exact to 1e-10, which a test checks up to 50 radians;
-/// with 0.5 it is 4e-10 there.
+/// Polynomial degree of a drum side with mass per radian of an axial wave's phase, and its degrees besides. A wave
+/// needs 0.5 degrees per radian; the rest is margin. The stiffness is then exact to 1e-10, which a test checks up to 50
+/// radians; with 0.5 it is 4e-10 there.
 const DEGREE_PER_RADIAN: f64 = 0.7;
 const BASE_DEGREE: f64 = 8.0;
 
@@ -24,14 +24,15 @@ pub(super) struct Parts<'a> {
     /// Stretch at the exit point, and at the drum.
     pub(super) stretch: f64,
     pub(super) stretch_drum: f64,
-    /// Compliance of each piece of arc and drum side [m/N], from the exit point on; the arc belongs to the first. Empty if the
-    /// drum is at the exit point.
+    /// Compliance of each piece of arc and drum side [m/N], from the exit point on; the arc belongs to the first. Empty
+    /// if the drum is at the exit point.
     pub(super) pieces: Vec<f64>,
     /// Masses of the guide wheels between the pieces [kg].
     pub(super) guides: Vec<f64>,
 }
 
-/// Compliance of each piece of arc and drum side between guide wheels with mass [m/N], and the masses of these wheels [kg].
+/// Compliance of each piece of arc and drum side between guide wheels with mass [m/N], and the masses of these wheels
+/// [kg].
 fn pieces(anchor: &Anchor, drive: &DriveAtRest, axial_stiffness: f64) -> (Vec<f64>, Vec<f64>) {
     let whole = drive.end.rope_compliance;
     if whole <= 0.0 {
@@ -53,7 +54,7 @@ fn pieces(anchor: &Anchor, drive: &DriveAtRest, axial_stiffness: f64) -> (Vec<f6
 }
 
 impl<'a> Parts<'a> {
-    /// Parts behind an end; `None` if nothing of them moves.
+    /// Parts behind an end; `None` if none of them moves.
     pub(super) fn of(
         anchor: &'a Anchor,
         drive: &DriveAtRest,
@@ -67,6 +68,7 @@ impl<'a> Parts<'a> {
             (WinchMode::Torque, Some(_)) => Control::Torque,
             (WinchMode::AsGiven, Some(winch)) => winch.control,
         };
+
         let (pieces, guides) = pieces(anchor, drive, axial_stiffness);
         let AnchorEnd { stretch, stretch_drum, .. } = drive.end;
         let parts = Self {
@@ -80,6 +82,7 @@ impl<'a> Parts<'a> {
             pieces,
             guides,
         };
+
         (parts.has_rope() || parts.drum_moves()).then_some(parts)
     }
 
@@ -100,7 +103,8 @@ impl<'a> Parts<'a> {
         if let Control::Position(servo) = self.control { Some(servo) } else { None }
     }
 
-    /// Stiffness of a piece of arc and drum side on σ [N/m]; that of all pieces is k_r of equation (75).
+    /// Stiffness of a piece of arc and drum side on σ [N/m]; all pieces in series have the stiffness k_r of equation
+    /// (75).
     pub(super) fn spring(&self, piece: usize) -> f64 {
         1.0 / (self.stretch * self.stretch * self.pieces[piece])
     }
@@ -124,12 +128,12 @@ impl<'a> Parts<'a> {
 }
 
 /// Order of the motions: σ, guide wheels, waves of the drum side, drum, motor.
-pub(super) struct Layout {
+pub(super) struct MotionOrder {
     pub(super) count: usize,
     /// Guide wheels, as motions of the cable there.
     pub(super) guides: Vec<Place>,
-    /// Ends of the pieces of the drum side from σ to the drum, as parts of their elongation: the motion of the cable there but
-    /// for the stretch. `None` for a drum that is held; empty if the drum is at the exit point.
+    /// Ends of the pieces of the drum side from σ to the drum, as parts of their elongation: the motion of the cable
+    /// there without the factor of the stretch. `None` for a drum that is held; empty if the drum is at the exit point.
     pub(super) nodes: Vec<Option<Place>>,
     /// Motions that are waves of each piece of the drum side.
     pub(super) waves: Vec<Range<usize>>,
@@ -138,7 +142,7 @@ pub(super) struct Layout {
     pub(super) motor: Option<Place>,
 }
 
-impl Layout {
+impl MotionOrder {
     pub(super) fn of(parts: &Parts, limit: f64) -> Self {
         let motion = |motion: usize| Place { motion, factor: 1.0 };
         let guides: Vec<Place> = (1..=parts.guides.len()).map(motion).collect();
@@ -160,7 +164,7 @@ impl Layout {
             count += 1;
             motion(count - 1)
         };
-        let drum = parts.drum_moves().then(|| if parts.has_rope() { another() } else { SLIP.times(1.0 / ratio) });
+        let drum = parts.drum_moves().then(|| if parts.has_rope() { another() } else { AT_WHEEL.times(1.0 / ratio) });
         let motor = match drum {
             Some(drum) if parts.motor_moves() => Some(if parts.shaft.is_finite() { another() } else { drum }),
             _ => None,
@@ -168,14 +172,15 @@ impl Layout {
 
         let mut nodes = Vec::new();
         if parts.has_rope() {
-            nodes.push(Some(SLIP));
+            nodes.push(Some(AT_WHEEL));
             nodes.extend(guides.iter().map(|guide| Some(guide.times(ratio))));
             nodes.push(drum.map(|drum| drum.times(ratio)));
         }
         Self { count, guides, nodes, waves, drum, motor }
     }
 
-    /// Place of a function of a piece of the drum side: its end towards the exit point, that towards the drum, then its waves.
+    /// Place of a function of a piece of the drum side: its end towards the exit point, that towards the drum, then its
+    /// waves.
     pub(super) fn place(&self, piece: usize, function: usize) -> Option<Place> {
         match function {
             0 | 1 => self.nodes[piece + function],

@@ -343,7 +343,8 @@ mod tests {
         ]
     }
 
-    /// End over a wheel, with a drum on a spring and a motor behind a shaft; masses [kg] of all three and of the swivel.
+    /// End over a wheel, with a drum on a spring and a motor behind a shaft; masses [kg] of all three and of the
+    /// swivel.
     fn moving(catenary: &Catenary, [wheel, drum, motor, swivel]: [f64; 4]) -> MovingEnd {
         let tension = catenary.tension_at_end();
         let (h, v) = (catenary.horizontal_force(), catenary.vertical_force_at_end());
@@ -365,6 +366,7 @@ mod tests {
             drum_end: None,
             stretch_drum: 1.0,
         };
+
         let sideways = EndSideways { direction: [0.0, 0.0, 1.0], stiffness: 500.0, coupling: 0.0, mass: swivel };
         MovingEnd { along: Some(EndAlong { direction, chain }), sideways: Some(sideways) }
     }
@@ -406,6 +408,7 @@ mod tests {
             };
             let places: Vec<_> = groups.iter().enumerate().flat_map(lanes).collect();
             prop_assert_eq!(places.len(), cables.len());
+
             for (k, lane, i) in places {
                 let (group, kept, oracle) = (&groups[k], &kept[k], &oracles[i]);
                 prop_assert!(kept.min_pivot[lane] > 0.0);
@@ -441,6 +444,7 @@ mod tests {
             let spans: Vec<_> = (cables.iter().enumerate())
                 .map(|(i, catenary)| CableSpan { catenary, mass_per_length: MASS, end: end(i) })
                 .collect();
+
             for group in &mut CableGroup::groups(&spans).unwrap() {
                 let kept = group.kept(x, 30);
                 for (lane, i) in group.members().iter().enumerate() {
@@ -483,6 +487,7 @@ mod tests {
             let lanes = |value: f64| [value; LANES];
             let motion = group.moved([lanes(n), lanes(e), lanes(0.0)], [lanes(n), lanes(0.0)]);
             let mass = group.mass(&motion, &motion).map(|lane| lane[0]);
+
             for (mass, change) in mass.into_iter().zip(change) {
                 prop_assert!((mass - change).abs() < 1e-5 * mass.max(1e-3), "{mass} for {change}");
             }

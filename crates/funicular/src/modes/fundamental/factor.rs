@@ -1,7 +1,7 @@
 //! Factorisation of the pencil at a shift: bubbles first, then the platform.
 
 use super::batched_cable::KeptStiffness;
-use super::lever_axes::RobotMotion;
+use super::lever_axes::{LeverAxes, RobotMotion};
 use super::pencil::RobotPencil;
 use crate::math::Mat6;
 use crate::math::simd::{LANES, Lane, Part, sum};
@@ -40,75 +40,92 @@ impl pulp::WithSimd for FactorisePencil<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Factor {
         let Self { pencil, kept, x } = self;
-        let n = pencil.dof;
-        let mut d = pencil.constant - pencil.mass * x;
+        let mut platform = pencil.constant - pencil.mass * x;
         let mut negative = 0;
         let mut all = Vec::with_capacity(kept.len());
         for ((k, lever_axes), cables) in kept.iter().zip(&pencil.lever_axes).zip(&pencil.members) {
-            // Signs of the pivots of each cable.
-            for lane in 0..cables.len() {
-                let pivots = [k.min_pivot[lane], k.min_pivot[lane], k.in_plane[5][lane], k.out_of_plane[2][lane]];
-                negative += pivots.into_iter().filter(|pivot| not_positive(*pivot)).count();
-            }
-
-            // Eliminate the bubbles and transform the rest to the platform's coordinates.
-            let mut bubbles = Bubbles::default();
-            let [nn, en, ee, qn, qe, qq] = &k.in_plane;
-            let [oo, bo, bb] = &k.out_of_plane;
-            let mut entries = [[0.0; LANES]; 21];
-            for part in Part::all(simd) {
-                let (qn, qe, bo) = (part.of(qn), part.of(qe), part.of(bo));
-                let (inverse, inverse_out_of_plane) = (part.inverse(part.of(qq)), part.inverse(part.of(bb)));
-                let (by_qn, by_qe) = (part.neg(part.mul(qn, inverse)), part.neg(part.mul(qe, inverse)));
-                let nn = part.mul_add(qn, by_qn, part.of(nn));
-                let en = part.mul_add(qn, by_qe, part.of(en));
-                let ee = part.mul_add(qe, by_qe, part.of(ee));
-                let oo = part.mul_add(bo, part.neg(part.mul(bo, inverse_out_of_plane)), part.of(oo));
-
-                let mut entry = entries.iter_mut();
-                for j in 0..6 {
-                    let (normal, along) = (part.of(&lever_axes.normal[j]), part.of(&lever_axes.along[j]));
-                    let by_n = part.mul_add(nn, normal, part.mul(en, along));
-                    let by_e = part.mul_add(en, normal, part.mul(ee, along));
-                    let by_b = part.mul(oo, part.of(&lever_axes.out[j]));
-                    for (i, entry) in (j..6).zip(&mut entry) {
-                        part.set(entry, lever_axes.wrench(part, i, [by_n, by_e, by_b]));
-                    }
-                }
-
-                part.set(&mut bubbles.normal, qn);
-                part.set(&mut bubbles.along, qe);
-                part.set(&mut bubbles.out, bo);
-                part.set(&mut bubbles.inverse, inverse);
-                part.set(&mut bubbles.inverse_out_of_plane, inverse_out_of_plane);
-            }
-
+            negative += (0..cables.len()).map(|lane| negative_pivots(k, lane)).sum::<usize>();
+            let (bubbles, entries) = eliminate_bubbles(simd, k, lever_axes);
             let mut entry = entries.iter();
             for j in 0..6 {
                 for (i, entry) in (j..6).zip(&mut entry) {
-                    d[(i, j)] += sum(entry);
+                    platform[(i, j)] += sum(entry);
                 }
             }
             all.push(bubbles);
         }
 
-        // The platform.
-        for k in 0..n {
-            negative += usize::from(not_positive(d[(k, k)]));
-            let inverse = 1.0 / d[(k, k)];
-            for j in k + 1..n {
-                let factor = d[(j, k)] * inverse;
-                for i in j..n {
-                    d[(i, j)] -= d[(i, k)] * factor;
-                }
-            }
-            for j in k + 1..n {
-                d[(j, k)] *= inverse;
-            }
-            d[(k, k)] = inverse;
-        }
-        Factor { platform: d, bubbles: all, negative }
+        negative += factor_platform(&mut platform, pencil.dof);
+        Factor { platform, bubbles: all, negative }
     }
+}
+
+/// Number of pivots of a cable in a group that are not positive.
+#[inline(always)]
+fn negative_pivots(k: &KeptStiffness, lane: usize) -> usize {
+    let pivots = [k.min_pivot[lane], k.min_pivot[lane], k.in_plane[5][lane], k.out_of_plane[2][lane]];
+    pivots.into_iter().filter(|pivot| not_positive(*pivot)).count()
+}
+
+/// Eliminates the bubbles of a group of cables. The result also has the stiffness of each cable in the coordinates of
+/// the platform, its lower triangle by columns.
+#[inline(always)]
+fn eliminate_bubbles<S: Simd>(simd: S, k: &KeptStiffness, lever_axes: &LeverAxes) -> (Bubbles, [Lane; 21]) {
+    let mut bubbles = Bubbles::default();
+    let [nn, en, ee, qn, qe, qq] = &k.in_plane;
+    let [oo, bo, bb] = &k.out_of_plane;
+    let mut entries = [[0.0; LANES]; 21];
+    for part in Part::all(simd) {
+        // Stiffness of the platform end alone.
+        let (qn, qe, bo) = (part.of(qn), part.of(qe), part.of(bo));
+        let (inverse, inverse_out_of_plane) = (part.inverse(part.of(qq)), part.inverse(part.of(bb)));
+        let (by_qn, by_qe) = (part.neg(part.mul(qn, inverse)), part.neg(part.mul(qe, inverse)));
+        let nn = part.mul_add(qn, by_qn, part.of(nn));
+        let en = part.mul_add(qn, by_qe, part.of(en));
+        let ee = part.mul_add(qe, by_qe, part.of(ee));
+        let oo = part.mul_add(bo, part.neg(part.mul(bo, inverse_out_of_plane)), part.of(oo));
+
+        // In the coordinates of the platform.
+        let mut entry = entries.iter_mut();
+        for j in 0..6 {
+            let (normal, along) = (part.of(&lever_axes.normal[j]), part.of(&lever_axes.along[j]));
+            let by_n = part.mul_add(nn, normal, part.mul(en, along));
+            let by_e = part.mul_add(en, normal, part.mul(ee, along));
+            let by_b = part.mul(oo, part.of(&lever_axes.out[j]));
+            for (i, entry) in (j..6).zip(&mut entry) {
+                part.set(entry, lever_axes.wrench(part, i, [by_n, by_e, by_b]));
+            }
+        }
+
+        part.set(&mut bubbles.normal, qn);
+        part.set(&mut bubbles.along, qe);
+        part.set(&mut bubbles.out, bo);
+        part.set(&mut bubbles.inverse, inverse);
+        part.set(&mut bubbles.inverse_out_of_plane, inverse_out_of_plane);
+    }
+    (bubbles, entries)
+}
+
+/// Factors the stiffness of the platform with `n` degrees of freedom in place: L below the diagonal, inverse pivots on
+/// it. The result is the number of pivots that are not positive.
+#[inline(always)]
+fn factor_platform(d: &mut Mat6, n: usize) -> usize {
+    let mut negative = 0;
+    for k in 0..n {
+        negative += usize::from(not_positive(d[(k, k)]));
+        let inverse = 1.0 / d[(k, k)];
+        for j in k + 1..n {
+            let factor = d[(j, k)] * inverse;
+            for i in j..n {
+                d[(i, j)] -= d[(i, k)] * factor;
+            }
+        }
+        for j in k + 1..n {
+            d[(j, k)] *= inverse;
+        }
+        d[(k, k)] = inverse;
+    }
+    negative
 }
 
 /// True for negative pivots, zero and NaN.

@@ -7,7 +7,7 @@ use crate::cable::{LocalAxes, Sag, moving_end};
 use crate::catenary::space::HangingCable;
 use crate::dynamics::{self, PlatformTerms};
 use crate::math::simd::{LANES, Line, Part, sum};
-use crate::math::{Mat6, Vec6};
+use crate::math::{Mat6, Vec3, Vec6};
 use crate::robot::{PlatformMotion, Robot, WinchMode};
 use crate::statics::Equilibrium;
 use pulp::Simd;
@@ -80,20 +80,11 @@ impl RobotPencil {
 
         // Groups of cables side by side, with their axes.
         let groups = CableGroup::groups(&spans)?;
-        let (mut lever_axes, mut members) = (Vec::with_capacity(groups.len()), Vec::with_capacity(groups.len()));
-        for group in &groups {
-            let mut axes = LeverAxes::default();
-            for (lane, at) in group.members().iter().enumerate() {
-                let (cable, hanging): (usize, &HangingCable) = massive[*at];
-                let (level_w, up_w) = hanging.axes_w();
-                let [cos, sin] = group.axis(lane);
-                let (e, n) = (level_w * cos + up_w * sin, up_w * cos - level_w * sin);
-                let lever = &equilibrium.cables[cable].lever_w;
-                axes.set(lane, [n, e, e.cross(&n)].map(|u| coordinates.reduce_force(&u, lever)));
-            }
-            lever_axes.push(axes);
-            members.push(group.members().iter().map(|at| massive[*at].0).collect());
-        }
+        let reduce = |force: &Vec3, lever: &Vec3| coordinates.reduce_force(force, lever);
+        let axes = |group: &CableGroup| lever_axes_of(group, &massive, equilibrium, reduce);
+        let lever_axes = groups.iter().map(axes).collect();
+        let cables_of = |group: &CableGroup| group.members().iter().map(|at| massive[*at].0).collect();
+        let members = groups.iter().map(cables_of).collect();
 
         let mass_columns = from_fn(|j| Line(from_fn(|i| if i < 6 { mass[(i, j)] } else { 0.0 })));
         let (dof, cable_count) = (coordinates.count(), robot.cables.len());
@@ -191,4 +182,24 @@ impl RobotPencil {
         let [a, b] = [a, b].map(|motion| Vec6::from_column_slice(&motion.platform()[..6]));
         a.dot(&(self.mass * b))
     }
+}
+
+/// Lever axes of a group of the cables with mass, which are given with their indices in the robot. `reduce` gives a
+/// force on a lever arm in the platform's coordinates.
+fn lever_axes_of(
+    group: &CableGroup,
+    massive: &[(usize, &HangingCable)],
+    equilibrium: &Equilibrium,
+    reduce: impl Fn(&Vec3, &Vec3) -> Vec6,
+) -> LeverAxes {
+    let mut axes = LeverAxes::default();
+    for (lane, at) in group.members().iter().enumerate() {
+        let (cable, hanging) = massive[*at];
+        let (level_w, up_w) = hanging.axes_w();
+        let [cos, sin] = group.axis(lane);
+        let (e, n) = (level_w * cos + up_w * sin, up_w * cos - level_w * sin);
+        let lever = &equilibrium.cables[cable].lever_w;
+        axes.set(lane, [n, e, e.cross(&n)].map(|u| reduce(&u, lever)));
+    }
+    axes
 }

@@ -252,17 +252,7 @@ impl pulp::WithSimd for Iteration<'_> {
             let mut minimum = f64::INFINITY;
             for k in 0..count {
                 factor.solve(simd, pencil, &images[k], &mut motions[k]);
-
-                // Make the motions orthogonal, or all of them would converge to the first mode.
-                let (done, rest) = motions.split_at_mut(k);
-                let (images_done, images_rest) = images.split_at_mut(k);
-                let (forces_done, forces_rest) = forces.split_at_mut(k);
-                let (motion, image, force) = (&mut rest[0], &mut images_rest[0], &mut forces_rest[0]);
-                for i in 0..k {
-                    let component = forces_done[i].dot(simd, motion);
-                    motion.add(simd, -component, &done[i]);
-                    image.add(simd, -component, &images_done[i]);
-                }
+                let (motion, image, force) = orthogonal(simd, k, &mut motions, &mut images, &mut forces);
 
                 // Scale to unit length, together with force and image.
                 pencil.inertia(simd, metric, motion, force);
@@ -298,6 +288,28 @@ impl pulp::WithSimd for Iteration<'_> {
 
         Iterated { motions, work, ends }
     }
+}
+
+/// Makes motion `k` orthogonal to those before it, or all of them would converge to the first mode. The result is this
+/// motion with its image and its force, which is still that of the motion before.
+#[inline(always)]
+fn orthogonal<'m, S: Simd>(
+    simd: S,
+    k: usize,
+    motions: &'m mut [RobotMotion],
+    images: &'m mut [RobotMotion],
+    forces: &'m mut [RobotMotion],
+) -> (&'m mut RobotMotion, &'m mut RobotMotion, &'m mut RobotMotion) {
+    let (done, rest) = motions.split_at_mut(k);
+    let (images_done, images_rest) = images.split_at_mut(k);
+    let (forces_done, forces_rest) = forces.split_at_mut(k);
+    let (motion, image, force) = (&mut rest[0], &mut images_rest[0], &mut forces_rest[0]);
+    for i in 0..k {
+        let component = forces_done[i].dot(simd, motion);
+        motion.add(simd, -component, &done[i]);
+        image.add(simd, -component, &images_done[i]);
+    }
+    (motion, image, force)
 }
 
 /// Job for vector registers: the sum `Σ factor motion`.

@@ -17,9 +17,9 @@ const MAX_TANGENTS: usize = 3;
 /// Relative change of x below which these condensations end.
 const CLOSE_ENOUGH: f64 = 0.2;
 
-/// Shifts over the square that the search before has found. A search ends sooner from below its result, because above it
-/// another motion may be the nearest: 0.95 below an accurate square; 0.75 below a rough one; 0.7 where the condensation
-/// itself has to stay below a square that is far too high.
+/// Shifts over the square that the search before has found. A search ends sooner from below its result, because above
+/// it another motion may be the nearest: 0.95 below an accurate square; 0.75 below a rough one; 0.7 where the
+/// condensation itself has to stay below a square that is far too high.
 const BELOW_FOUND: f64 = 0.95;
 const BELOW_ROUGH: f64 = 0.75;
 const BELOW_TOO_HIGH: f64 = 0.7;

@@ -8,9 +8,9 @@ use std::f64::consts::TAU;
 
 impl Parameters {
     /// Change of the robot per unit of a parameter, in the unit of the file: the direction for derivatives of results
-    /// with respect to the parameter. A value of a rope changes all its cables, an angle of the pose turns the platform.
-    /// `None` for numbers without derivatives: limits, the plane of a planar platform and angles that leave it, and friction of
-    /// pulleys.
+    /// with respect to the parameter. A value of a rope changes all its cables, an angle of the pose turns the
+    /// platform. `None` for numbers without derivatives: limits, the plane of a planar platform and angles that leave
+    /// it, and friction of pulleys.
     ///
     /// # Example
     /// ```
@@ -25,8 +25,8 @@ impl Parameters {
         self.change_of(index, &self.robot)
     }
 
-    /// Change per unit of a parameter as [`Self::change`], of a robot that has been changed since it was read, such as by
-    /// another pose.
+    /// Change per unit of a parameter as [`Self::change`], of a robot that has been changed since it was read, such as
+    /// by another pose.
     pub fn change_of(&self, index: usize, robot: &Robot) -> Option<RobotChange> {
         let parameter = self.list.get(index)?;
         let mut change = RobotChange::none(robot.cables.len());
@@ -118,10 +118,12 @@ impl Parameters {
                 _ => return None,
             }
         }
+
         Some(())
     }
 
-    /// Change of all cables to a winch. At the cable, numbers about the axis of the drum count by the square of its radius.
+    /// Change of all cables to a winch. At the cable, numbers about the axis of the drum count by the square of its
+    /// radius.
     fn winch_change(&self, robot: &Robot, parameter: &Parameter, key: &str, change: &mut RobotChange) -> Option<()> {
         let name = parameter.keys.get(1)?;
         let value_of = |key: &str| {
@@ -205,6 +207,7 @@ impl Parameters {
                 _ => return None,
             }
         }
+
         is_known.then_some(())
     }
 
@@ -253,6 +256,7 @@ impl Parameters {
                 _ => return None,
             }
         }
+
         Some(())
     }
 }

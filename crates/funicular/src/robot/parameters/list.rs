@@ -45,35 +45,16 @@ pub(super) fn owned_table(table: &DeTable<'_>, numbers: &mut Vec<(usize, f64)>) 
 pub(super) fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
     let mut list = Vec::new();
     let mut table = |part: RobotPart, header: &str, path: &[&str], table: &DeTable| {
-        let keys = TABLES.iter().find(|table| table.header == header).map_or(&[][..], |table| table.keys);
-        for key in keys {
-            let KeyValue::Numbers(numbers) = &key.value else { continue };
-            let found = match table.get(key.name) {
-                Some(value) => numbers_at(value.get_ref(), &value.span(), numbers.shape),
-                None => defaults(key, numbers.shape, table, robot),
-            };
-            for (component, value, places) in found {
-                let names = path.iter().copied().chain([key.name]).chain(component);
-                list.push(Parameter {
-                    keys: names.map(str::to_owned).collect(),
-                    part,
-                    key: key.name,
-                    component,
-                    value,
-                    unit: numbers.unit,
-                    range: numbers.range,
-                    about: key.about,
-                    given: !places.is_empty(),
-                    places,
-                });
-            }
-        }
+        add_table(&mut list, robot, part, (header, path), table);
     };
 
+    // The robot and its platform.
     table(RobotPart::Robot, TOP, &[], root);
     if let Some(DeValue::Table(platform)) = root.get("platform").map(Spanned::get_ref) {
         table(RobotPart::Platform, "[platform]", &["platform"], platform);
     }
+
+    // Tables with names.
     let named = [
         ("materials", RobotPart::Material),
         ("pulleys", RobotPart::Pulley),
@@ -89,6 +70,8 @@ pub(super) fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
             }
         }
     }
+
+    // The cables.
     if let Some(DeValue::Array(cables)) = root.get("cables").map(Spanned::get_ref) {
         for (i, (entry, cable)) in cables.iter().zip(&robot.cables).enumerate() {
             if let DeValue::Table(entry) = entry.get_ref() {
@@ -96,6 +79,8 @@ pub(super) fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
             }
         }
     }
+
+    // Tables that may be absent, whose defaults count.
     let absent = DeTable::new();
     for (part, name) in [(RobotPart::Load, "loads"), (RobotPart::Wind, "wind"), (RobotPart::State, "state")] {
         match root.get(name).map(Spanned::get_ref) {
@@ -108,7 +93,40 @@ pub(super) fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
     list
 }
 
-/// One number of a key: name of its component, value, first byte at each place where it stands.
+/// Adds all numbers of a table with a header, at a path of keys.
+fn add_table(
+    list: &mut Vec<Parameter>,
+    robot: &Robot,
+    part: RobotPart,
+    (header, path): (&str, &[&str]),
+    table: &DeTable,
+) {
+    let keys = TABLES.iter().find(|table| table.header == header).map_or(&[][..], |table| table.keys);
+    for key in keys {
+        let KeyValue::Numbers(numbers) = &key.value else { continue };
+        let found = match table.get(key.name) {
+            Some(value) => numbers_at(value.get_ref(), &value.span(), numbers.shape),
+            None => defaults(key, numbers.shape, table, robot),
+        };
+        for (component, value, places) in found {
+            let names = path.iter().copied().chain([key.name]).chain(component);
+            list.push(Parameter {
+                keys: names.map(str::to_owned).collect(),
+                part,
+                key: key.name,
+                component,
+                value,
+                unit: numbers.unit,
+                range: numbers.range,
+                about: key.about,
+                given: !places.is_empty(),
+                places,
+            });
+        }
+    }
+}
+
+/// Number of a key: name of its component, value, first byte at each place where it stands.
 type KeyNumber = (Option<&'static str>, f64, Vec<usize>);
 
 /// Numbers that the file gives for a key.

@@ -1,4 +1,4 @@
-//! What the path of a number says without a robot: its key, component and unit.
+//! Key, component and unit that follow from the path of a number alone, without a robot.
 
 use crate::robot::spec::key::{Absent, Component, Key, KeyValue, Numeric};
 use crate::robot::spec::{TABLES, TOP};

@@ -46,8 +46,8 @@ pub(super) const KEYS: &[Key] = &[
         "entry_direction = [0.0, 0.0, 1.0]",
         "1",
         Limits::Any,
-        "direction in which the cable travels at its anchor towards the platform, and axis of the swivel, world axes; of \
-         any length",
+        "direction in which the cable travels at its anchor towards the platform, and axis of the swivel, world axes; \
+         of any length",
     )
     .without(Absent::Means("that of its pulley")),
     Key::other("winch", r#"winch = "drum""#, KeyValue::Name, "winch of the cable: a NAME of `[winches.NAME]`")
@@ -92,8 +92,8 @@ pub(super) const KEYS: &[Key] = &[
         "unstrained_length_m = 6.5",
         "m",
         Limits::Positive,
-        "unstrained length of the cable from its attachment to its anchor; with a pulley or a winch to the drum, the arc \
-         on the wheel and the drum side included",
+        "unstrained length of the cable from its attachment to its anchor; with a pulley or a winch to the drum, the \
+         arc on the wheel and the drum side included",
     )
     .without(Absent::Means("no length; all cables have one, or none has")),
 ];
@@ -162,19 +162,7 @@ fn read_one(
     motion: Option<PlatformMotion>,
     names: &mut BTreeMap<String, Range<usize>>,
 ) -> CableEntry {
-    let name = reader.required(section, "name").and_then(|value| {
-        let name = reader.name("name", value)?;
-        if let Some(first) = names.get(&name) {
-            reader
-                .issue(value.span(), format!("two cables are called \"{}\"", shortened(&name)))
-                .context(first.clone(), "the first is here")
-                .help("results are listed by name: give every cable its own");
-            return None;
-        }
-        names.insert(name.clone(), value.span());
-        Some(name)
-    });
-
+    let name = unique_name(reader, section, names);
     let material = reader.required(section, "material").and_then(|_| {
         // Without [materials] every cable would repeat an issue that has been reported once.
         reader.reference(section, "material", "materials", materials).flatten()
@@ -217,6 +205,21 @@ fn read_one(
         length,
         length_mistyped: section.mistyped(&["unstrained_length_m"]),
     }
+}
+
+/// Reads the name of a cable, which none of the cables before it has; `names` are their names with their places.
+fn unique_name(reader: &mut Reader, section: &Section, names: &mut BTreeMap<String, Range<usize>>) -> Option<String> {
+    let value = reader.required(section, "name")?;
+    let name = reader.name("name", value)?;
+    if let Some(first) = names.get(&name) {
+        reader
+            .issue(value.span(), format!("two cables are called \"{}\"", shortened(&name)))
+            .context(first.clone(), "the first is here")
+            .help("results are listed by name: give every cable its own");
+        return None;
+    }
+    names.insert(name.clone(), value.span());
+    Some(name)
 }
 
 /// Reads the attachment; it is the origin for a point mass.

@@ -8,8 +8,8 @@ use super::winches::{self, WINCH};
 use crate::math::Vec3;
 use crate::robot::{Anchor, Pulley, PulleyFriction, Winch};
 
-/// Coefficient of friction that must not be reached. Ropes in grooves have 0.1 to 0.5, rubber on steel has about 1; a value
-/// from 2 on is likely one in per cent.
+/// Coefficient of friction that must not be reached. Ropes in grooves have 0.1 to 0.5, rubber on steel has about 1; a
+/// value from 2 on is likely one in per cent.
 const FRICTION_LIMIT: f64 = 2.0;
 
 /// Keys of `[pulleys.NAME]`.
@@ -28,8 +28,8 @@ pub(super) const PULLEY: &[Key] = &[
         "entry_direction = [0.0, 0.0, 1.0]",
         "1",
         Range::Any,
-        "direction in which the cable travels at its anchor towards the platform, and axis of the swivel, world axes; of \
-         any length",
+        "direction in which the cable travels at its anchor towards the platform, and axis of the swivel, world axes; \
+         of any length",
     )
     .without(Absent::Depends("required here, or for every cable over this pulley")),
     Key::numeric(
@@ -158,8 +158,8 @@ fn read_friction(reader: &mut Reader, section: &Section, wheel: Option<f64>) -> 
             .issue(at_second.span(), format!("`{second}` does not go with `{first}`"))
             .context(at_first.span(), "already given here")
             .help(
-                "give one of the three: the friction of a cable that slides, the efficiency of the wheel, or the friction \
-                 of its bearing",
+                "give one of the three: the friction of a cable that slides, the efficiency of the wheel, or the \
+                 friction of its bearing",
             );
         return None;
     }
@@ -251,8 +251,8 @@ pub(super) fn anchor(reader: &mut Reader, cable: &Section, drives: &Drives) -> O
                 let message =
                     format!("neither {} nor [pulleys.{}] has an `entry_direction`", cable.label(), pulley.name);
                 reader.issue(span, message).help(
-                    "give one of them the direction in which the cable comes to the wheel: `[0.0, 0.0, 1.0]` for a winch \
-                     on the ground below",
+                    "give one of them the direction in which the cable comes to the wheel: `[0.0, 0.0, 1.0]` for a \
+                     winch on the ground below",
                 );
                 return None;
             };

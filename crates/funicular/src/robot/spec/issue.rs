@@ -27,7 +27,7 @@ pub struct SpecError {
     issues: Vec<Issue>,
 }
 
-/// One problem and its place.
+/// Problem of a robot file, and its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Issue {
     /// Range of bytes of the text that the issue refers to.

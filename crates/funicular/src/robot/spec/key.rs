@@ -32,11 +32,11 @@ pub struct Key {
 /// Kind of the value of a key.
 #[derive(Debug, Clone, Copy)]
 pub enum KeyValue {
-    /// Text on one line, for tables and command lines.
+    /// Text on one line, for tables and file names.
     Name,
     /// Text of any length.
     Text,
-    /// One of these words, each with its meaning.
+    /// Word from a list, each with its meaning.
     Word(&'static [(&'static str, &'static str)]),
     /// Table of the file.
     Table,
@@ -77,13 +77,13 @@ pub struct Numeric {
 /// Arrangement of the numbers of a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
-    /// One number.
+    /// Single number.
     Number,
     /// Three numbers x, y, z.
     Vector,
     /// Three numbers roll, pitch, yaw.
     Angles,
-    /// One moment, three principal moments, or three rows of three numbers.
+    /// Moment, three principal moments, or three rows of three numbers.
     Tensor,
 }
 
@@ -164,13 +164,13 @@ impl Key {
         Self { name, example, about, value, absent: Absent::Refused }
     }
 
-    /// This key with another effect if the file leaves it out.
+    /// Key with another effect if the file leaves it out.
     pub(super) const fn without(mut self, absent: Absent) -> Self {
         self.absent = absent;
         self
     }
 
-    /// This key with default numbers.
+    /// Key with default numbers.
     pub(super) const fn or(self, default: [f64; 3]) -> Self {
         self.without(Absent::Default(default))
     }

@@ -3,7 +3,7 @@
 
 use super::key::{Absent, Key, Shape};
 use super::limits;
-use super::range::{MAX_NUMBER, MIN_NUMBER, Range};
+use super::range::{MAX_MAGNITUDE, MIN_POSITIVE, Range};
 use super::read::{Named, Reader, Section};
 use crate::math::Vec3;
 use crate::robot::{Damping, Material, RopeDimensions, RopeSection};
@@ -293,14 +293,16 @@ impl StiffnessKeys {
 
 /// Checks the product E A: both factors may be within the limits and the product not.
 fn product_in_limits(reader: &mut Reader, section: &Section, stiffness: f64) -> Option<f64> {
-    if (MIN_NUMBER..=MAX_NUMBER).contains(&stiffness) {
+    if (MIN_POSITIVE..=MAX_MAGNITUDE).contains(&stiffness) {
         return Some(stiffness);
     }
     let span = section.get("youngs_modulus_pa").map_or(section.span.clone(), toml::Spanned::span);
     reader
         .issue(
             span,
-            format!("the axial stiffness is {stiffness:e} N, it must be between {MIN_NUMBER:e} and {MAX_NUMBER:e} N"),
+            format!(
+                "the axial stiffness is {stiffness:e} N, it must be between {MIN_POSITIVE:e} and {MAX_MAGNITUDE:e} N"
+            ),
         )
         .help("check the units: Pa, and m or m²");
     None

@@ -1,7 +1,7 @@
 //! `[platform]`: mass, motion, and an inertia tensor that a body can have.
 
 use super::key::{Absent, Key, KeyValue, Shape};
-use super::range::{MAX_NUMBER, MIN_NUMBER, Range};
+use super::range::{MAX_MAGNITUDE, MIN_POSITIVE, Range};
 use super::read::{Reader, Section, Value, is_zero, known, parsed, shortened};
 use super::tensor::{self, rounded};
 use crate::math::{Mat3, Vec3};
@@ -15,9 +15,7 @@ const FLAT: f64 = 1e-6;
 
 /// Keys of `[platform]`.
 pub(super) const KEYS: &[Key] = &[
-    Key::numeric(
-        Shape::Number,
-        "mass_kg", "mass_kg = 10.0", "kg", Range::Positive, "mass of the platform"),
+    Key::numeric(Shape::Number, "mass_kg", "mass_kg = 10.0", "kg", Range::Positive, "mass of the platform"),
     Key::other("motion", r#"motion = "rigid""#, KeyValue::Word(MOTIONS), "degrees of freedom of the platform")
         .without(Absent::DefaultWord("rigid")),
     Key::numeric(
@@ -44,9 +42,9 @@ pub(super) const KEYS: &[Key] = &[
         "inertia_kg_m2 = [0.1, 0.1, 0.2]",
         "kg m²",
         Range::Any,
-        "inertia tensor about the centre of mass, platform axes: three principal moments or three rows of three numbers; \
-         for a planar platform also one number, the moment about the normal; the tensor has to be one that a body can \
-         have",
+        "inertia tensor about the centre of mass, platform axes: three principal moments or three rows of three \
+         numbers; for a planar platform also one number, the moment about the normal; the tensor has to be one that a \
+         body can have",
     )
     .without(Absent::Depends("required, except for a point mass, for which it is refused")),
     Key::numeric(
@@ -137,16 +135,7 @@ pub(super) fn motion(reader: &mut Reader, root: &Section) -> Option<PlatformMoti
 
     let normal_w = match (axis, normal) {
         (Some(axis), _) => axis,
-        (None, Some(value)) => {
-            let three = Vec3::from(reader.vector_as(known(KEYS, "plane_normal"), value)?);
-            if three.norm() < MIN_NUMBER {
-                reader
-                    .issue(value.span(), "`plane_normal` has no direction")
-                    .help("give the normal of the plane, any length");
-                return None;
-            }
-            three
-        }
+        (None, Some(value)) => plane_normal(reader, value)?,
         (None, None) => {
             let span = table.get("motion").map_or(0..0, toml::Spanned::span);
             reader
@@ -161,6 +150,16 @@ pub(super) fn motion(reader: &mut Reader, root: &Section) -> Option<PlatformMoti
         None => 0.0,
     };
     Plane::new(normal_w, offset).map(PlatformMotion::Planar)
+}
+
+/// Normal of the plane of a planar platform, of any length.
+fn plane_normal(reader: &mut Reader, value: &Value) -> Option<Vec3> {
+    let normal = Vec3::from(reader.vector_as(known(KEYS, "plane_normal"), value)?);
+    if normal.norm() < MIN_POSITIVE {
+        reader.issue(value.span(), "`plane_normal` has no direction").help("give the normal of the plane, any length");
+        return None;
+    }
+    Some(normal)
 }
 
 fn known_word(reader: &mut Reader, value: &Value) -> Option<&'static str> {
@@ -185,20 +184,13 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
 
     let mass = reader.required(&section, "mass_kg").and_then(|v| reader.number_of(&section, "mass_kg", v));
 
-    let required_inertia = |reader: &mut Reader| {
-        let found_before = reader.issues.len();
-        let value = reader.required(&section, "inertia_kg_m2");
-        if value.is_none()
-            && let Some(issue) = reader.issues.get_mut(found_before)
-            && let Some(example) = mass.and_then(|mass| box_example(root, mass))
-        {
-            issue.help(example);
-        }
-        value
-    };
     let inertia = match motion {
-        Some(PlatformMotion::Rigid) => required_inertia(reader).and_then(|v| inertia(reader, v)),
-        Some(PlatformMotion::Planar(plane)) => required_inertia(reader).and_then(|v| planar_inertia(reader, v, &plane)),
+        Some(PlatformMotion::Rigid) => {
+            required_inertia(reader, root, &section, mass).and_then(|value| inertia(reader, value))
+        }
+        Some(PlatformMotion::Planar(plane)) => {
+            required_inertia(reader, root, &section, mass).and_then(|value| planar_inertia(reader, value, &plane))
+        }
         Some(PlatformMotion::PointMass) => {
             if let Some(value) = section.get("inertia_kg_m2") {
                 reader
@@ -210,19 +202,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
         None => None,
     };
 
-    let center_of_mass = match section.get("center_of_mass_m") {
-        Some(value) => {
-            let center = reader.vector(&section, "center_of_mass_m", value);
-            if motion == Some(PlatformMotion::PointMass) && center.is_some_and(|center| !is_zero(&center)) {
-                reader
-                    .issue(value.span(), "a point mass is its own centre, `center_of_mass_m` must be zero or absent")
-                    .help("remove the line, or set `motion = \"rigid\"`");
-            }
-            center
-        }
-        None => Some([0.0; 3]),
-    };
-
+    let center_of_mass = center_of_mass(reader, &section, motion);
     let drag_area = reader.number_or_default(&section, "drag_area_m2");
 
     let translational = damping(reader, &section, "translational_damping_n_s_m");
@@ -244,6 +224,36 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
     })
 }
 
+/// Centre of mass, zero if the file has none; that of a point mass has to be zero.
+fn center_of_mass(reader: &mut Reader, section: &Section, motion: Option<PlatformMotion>) -> Option<[f64; 3]> {
+    let Some(value) = section.get("center_of_mass_m") else { return Some([0.0; 3]) };
+    let center = reader.vector(section, "center_of_mass_m", value);
+    if motion == Some(PlatformMotion::PointMass) && center.is_some_and(|center| !is_zero(&center)) {
+        reader
+            .issue(value.span(), "a point mass is its own centre, `center_of_mass_m` must be zero or absent")
+            .help("remove the line, or set `motion = \"rigid\"`");
+    }
+    center
+}
+
+/// Value of the inertia tensor, which a platform that turns needs. If it is missing, the issue shows an example.
+fn required_inertia<'t>(
+    reader: &mut Reader,
+    root: &Section,
+    section: &Section<'t>,
+    mass: Option<f64>,
+) -> Option<&'t Value<'t>> {
+    let found_before = reader.issues.len();
+    let value = reader.required(section, "inertia_kg_m2");
+    if value.is_none()
+        && let Some(issue) = reader.issues.get_mut(found_before)
+        && let Some(example) = mass.and_then(|mass| box_example(root, mass))
+    {
+        issue.help(example);
+    }
+    value
+}
+
 /// Remedy for a missing tensor: the moments of a homogeneous box with the size of the attachments. `None` if the file
 /// has no attachments that span at least a rectangle.
 fn box_example(root: &Section, mass: f64) -> Option<String> {
@@ -258,14 +268,14 @@ fn box_example(root: &Section, mass: f64) -> Option<String> {
     // Second moments m a²/12 are rounded, not their sums: so the moments of a flat box stay those of a body.
     let second = size.map(|side| rounded(mass * side * side / 12.0, 4));
     let moments = [second[1] + second[2], second[0] + second[2], second[0] + second[1]];
-    if !moments.iter().all(|moment| *moment > MIN_NUMBER && *moment < MAX_NUMBER) {
+    if !moments.iter().all(|moment| *moment > MIN_POSITIVE && *moment < MAX_MAGNITUDE) {
         return None;
     }
     let [xx, yy, zz] = moments.map(|moment| rounded(moment, 10));
     let [a, b, c] = size.map(|side| rounded(side, 4));
     Some(format!(
-        "add it, for example `inertia_kg_m2 = [{xx}, {yy}, {zz}]`: moments m(b² + c²)/12, m(a² + c²)/12 and \
-         m(a² + b²)/12 of a homogeneous box of {mass} kg with the size of the attachments, {a} × {b} × {c} m; replace this \
+        "add it, for example `inertia_kg_m2 = [{xx}, {yy}, {zz}]`: moments m(b² + c²)/12, m(a² + c²)/12 and m(a² + \
+         b²)/12 of a homogeneous box of {mass} kg with the size of the attachments, {a} × {b} × {c} m; replace this \
          starting value by that of the real platform"
     ))
 }
@@ -316,7 +326,7 @@ fn possible(reader: &mut Reader, tensor: &Mat3, value: &Value) -> Option<()> {
     );
 
     // Below 1e-12 of the largest moment, the sign of the smallest is rounding.
-    if least < MIN_NUMBER * largest.max(1.0) {
+    if least < MIN_POSITIVE * largest.max(1.0) {
         reader
             .issue(value.span(), format!("`inertia_kg_m2` is not positive definite: {shown}"))
             .help("give the tensor about the centre of mass in platform axes; its off-diagonal entries are −∫xy dm");

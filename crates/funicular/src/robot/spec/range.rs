@@ -3,10 +3,10 @@
 use std::fmt;
 
 /// Maximum magnitude of any number of a robot file: products of four such numbers stay far inside the range of `f64`.
-pub(super) const MAX_NUMBER: f64 = 1e12;
+pub const MAX_MAGNITUDE: f64 = 1e12;
 
 /// Minimum of a quantity that has to be positive, so that quotients stay inside the range of `f64`, too.
-pub(super) const MIN_NUMBER: f64 = 1e-12;
+pub const MIN_POSITIVE: f64 = 1e-12;
 
 /// Range of the values that a parameter may take.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,9 +29,9 @@ impl Range {
     /// Minimum. For a component of a vector with limited magnitude: the minimum if the other components are zero.
     pub fn minimum(self) -> f64 {
         match self {
-            Self::Any => -MAX_NUMBER,
+            Self::Any => -MAX_MAGNITUDE,
             Self::NotNegative | Self::Below(_) => 0.0,
-            Self::Positive | Self::UpTo(_) => MIN_NUMBER,
+            Self::Positive | Self::UpTo(_) => MIN_POSITIVE,
             Self::Magnitude(limit) => -limit,
         }
     }
@@ -39,7 +39,7 @@ impl Range {
     /// Maximum, or the limit that a number has to stay below.
     pub fn maximum(self) -> f64 {
         match self {
-            Self::Any | Self::NotNegative | Self::Positive => MAX_NUMBER,
+            Self::Any | Self::NotNegative | Self::Positive => MAX_MAGNITUDE,
             Self::Below(limit) | Self::UpTo(limit) | Self::Magnitude(limit) => limit,
         }
     }

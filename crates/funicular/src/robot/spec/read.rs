@@ -1,7 +1,7 @@
 //! Reading single values: types, signs and sizes, names, known keys. Every message points at the value.
 
 use super::key::{Absent, Key, KeyValue, Numeric};
-use super::range::{MAX_NUMBER, MIN_NUMBER, Range as Limits};
+use super::range::{MAX_MAGNITUDE, MIN_POSITIVE, Range as Limits};
 use super::{Issue, TABLES};
 use crate::suggest::nearest;
 use std::collections::BTreeMap;
@@ -77,9 +77,9 @@ pub(in crate::robot) struct Numbers<'t> {
     pub changed: &'t [usize],
 }
 
-/// Collects the issues of one reading.
+/// Reader of a robot file, which collects the issues.
 ///
-/// Its methods return `None` if and only if they have reported an issue.
+/// A method returns `None` if and only if it has reported an issue.
 pub(super) struct Reader<'t> {
     text: &'t str,
     /// Numbers that replace those of the text.
@@ -201,15 +201,15 @@ impl<'t> Reader<'t> {
         let number: f64 = number.unwrap_or(f64::INFINITY);
         let limit = if number.is_nan() || (number.is_infinite() && self.written(value.span()).contains("inf")) {
             Some("it must be finite".to_owned())
-        } else if number.abs() > MAX_NUMBER {
-            Some(format!("the limit is {MAX_NUMBER:e} in magnitude"))
+        } else if number.abs() > MAX_MAGNITUDE {
+            Some(format!("the limit is {MAX_MAGNITUDE:e} in magnitude"))
         } else if range.is_positive() && number <= 0.0 {
             Some("it must be positive".to_owned())
         } else if range.is_not_negative() && number < 0.0 {
             Some("it must not be negative".to_owned())
-        } else if range.is_one_sided() && number != 0.0 && number < MIN_NUMBER {
+        } else if range.is_one_sided() && number != 0.0 && number < MIN_POSITIVE {
             let or_zero = if range.is_positive() { "" } else { "zero or " };
-            Some(format!("it must be {or_zero}at least {MIN_NUMBER:e}"))
+            Some(format!("it must be {or_zero}at least {MIN_POSITIVE:e}"))
         } else {
             None
         };
@@ -291,7 +291,7 @@ impl<'t> Reader<'t> {
         Some(text)
     }
 
-    /// Text that serves as a name in tables and on the command line: not blank, no control characters.
+    /// Name, as tables and requests show it: text that is not blank and has no control characters.
     pub(super) fn name(&mut self, key: &str, value: &Value) -> Option<String> {
         let text = self.text(key, value)?;
         self.check_name(key, &text, value.span())?;
@@ -316,8 +316,8 @@ impl<'t> Reader<'t> {
         None
     }
 
-    /// Tables `[kind.NAME]` of a value that holds them, each read by `read_one` from its name and its keys. `singular` is
-    /// one of them in words.
+    /// Tables `[kind.NAME]` of a value that holds them, each read by `read_one` from its name and its keys. `singular`
+    /// is one of them in words.
     pub(super) fn named_tables<'v, T>(
         &mut self,
         kind: &str,

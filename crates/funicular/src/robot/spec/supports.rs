@@ -20,8 +20,8 @@ pub(super) const SUPPORT: &[Key] = &[
         "stiffness_n_per_m = [2e6, 2e6, 5e7]",
         "N/m",
         Range::Any,
-        "stiffness against a displacement of its anchors, world axes: one number for all directions, three along x, y and \
-         z, or three rows of three numbers",
+        "stiffness against a displacement of its anchors, world axes: one number for all directions, three along x, y \
+         and z, or three rows of three numbers",
     ),
     Key::numeric(
         Shape::Number,

@@ -206,6 +206,7 @@ fn radius(reader: &mut Reader, section: &Section) -> Option<Option<f64>> {
     if let Some(value) = section.get("drum_radius_m") {
         return reader.number_of(section, "drum_radius_m", value).map(Some);
     }
+
     let about_the_axis = [
         "shaft_stiffness_n_m_per_rad",
         "drum_inertia_kg_m2",
@@ -215,14 +216,17 @@ fn radius(reader: &mut Reader, section: &Section) -> Option<Option<f64>> {
         "position_gain_n_m_per_rad",
         "speed_gain_n_m_s_per_rad",
     ];
+
     // Two stiffnesses are an error of their own.
     let about_the_axis = about_the_axis.into_iter().skip(usize::from(section.get("stiffness_n_per_m").is_some()));
     let Some(key) = about_the_axis.into_iter().find(|key| section.get(key).is_some()) else { return Some(None) };
     if !section.mistyped(&["drum_radius_m"]) {
-        reader
-            .issue(section.span.clone(), format!("{} has `{key}`, but no `drum_radius_m`", section.label()))
-            .help("add it, for example `drum_radius_m = 0.0675`; at the cable a stiffness, an inertia or a damping counts by its square");
+        reader.issue(section.span.clone(), format!("{} has `{key}`, but no `drum_radius_m`", section.label())).help(
+            "add it, for example `drum_radius_m = 0.0675`; at the cable a stiffness, an inertia or a damping counts \
+                 by its square",
+        );
     }
+
     None
 }
 
@@ -263,19 +267,7 @@ fn control(reader: &mut Reader, section: &Section, mass: f64, by_radius: impl Fn
     let mut number = |key: &str| section.get(key).map(|value| reader.number_of(section, key, value));
     let servo = match ["bandwidth_hz", "position_gain_n_m_per_rad"].map(&mut number) {
         [Some(bandwidth), None] => {
-            if let Some(value) = section.get("speed_gain_n_m_s_per_rad") {
-                reader
-                    .issue(value.span(), "`speed_gain_n_m_s_per_rad` does not go with `bandwidth_hz`")
-                    .help("give `control_damping_ratio` with the bandwidth, or both gains");
-                return None;
-            }
-            if mass == 0.0 {
-                reader
-                    .issue(section.span.clone(), format!("{} has `bandwidth_hz`, but no inertia", section.label()))
-                    .help("add `drum_inertia_kg_m2` or `motor_inertia_kg_m2`, or give `position_gain_n_m_per_rad`");
-                return None;
-            }
-            let damping_ratio = reader.number_or_default(section, "control_damping_ratio")?;
+            let damping_ratio = damping_ratio_with_bandwidth(reader, section, mass)?;
             Servo::of_bandwidth(mass, bandwidth?, damping_ratio, integral, delay)
         }
         [None, Some(gain)] => {
@@ -308,4 +300,22 @@ fn control(reader: &mut Reader, section: &Section, mass: f64, by_radius: impl Fn
         }
     };
     Some(Control::Position(servo))
+}
+
+/// Damping ratio of a position control that has a bandwidth; `None` if the file gives a value that does not go with a
+/// bandwidth, or a winch without mass.
+fn damping_ratio_with_bandwidth(reader: &mut Reader, section: &Section, mass: f64) -> Option<f64> {
+    if let Some(value) = section.get("speed_gain_n_m_s_per_rad") {
+        reader
+            .issue(value.span(), "`speed_gain_n_m_s_per_rad` does not go with `bandwidth_hz`")
+            .help("give `control_damping_ratio` with the bandwidth, or both gains");
+        return None;
+    }
+    if mass == 0.0 {
+        reader
+            .issue(section.span.clone(), format!("{} has `bandwidth_hz`, but no inertia", section.label()))
+            .help("add `drum_inertia_kg_m2` or `motor_inertia_kg_m2`, or give `position_gain_n_m_per_rad`");
+        return None;
+    }
+    reader.number_or_default(section, "control_damping_ratio")
 }

@@ -48,8 +48,8 @@ const WELL_HANDED_OVER: f64 = 0.01;
 
 /// Range of start tensions over the cable's weight, if the platform weighs less: a level cable sags by its full chord
 /// at the lower end, by a sixteenth of it at the upper one.
-const DEEPEST: f64 = 0.2;
-const TAUTEST: f64 = 2.0;
+const MIN_TENSION_TO_WEIGHT: f64 = 0.2;
+const MAX_TENSION_TO_WEIGHT: f64 = 2.0;
 
 /// Largest change of the logarithm of a tension or of a length in one step.
 const MAX_CHANGE: f64 = 2.0;
@@ -126,7 +126,7 @@ fn start(robot: &Robot, pose: &Pose, loaded: &[LoadedCable<'_>], k: usize) -> Ve
     let hung = cables.map(|(cable, spread)| {
         let chord = cable.chord_w(pose).norm();
         let weight = (cable.load.size * chord).max(MIN_STRAIN * cable.axial_stiffness());
-        let (low, high) = (DEEPEST * weight, load_size(robot).max(TAUTEST * weight));
+        let (low, high) = (MIN_TENSION_TO_WEIGHT * weight, load_size(robot).max(MAX_TENSION_TO_WEIGHT * weight));
         let part = ((k as f64 + 1.0) * spread).fract();
         cable.hang_with_tension(pose, low * (high / low).powf(part))
     });

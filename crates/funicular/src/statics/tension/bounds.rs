@@ -148,18 +148,33 @@ impl Bounds {
             self.rest[cables] = height;
         }
 
-        // The remainder of the vector is a combination of the active rows, cable by cable, and of the pin for the
-        // height.
+        self.share(part, &multipliers, lift - height);
+
+        // Check for a part outside.
+        let reach = cable.map_or(0.0, |i| (1.0 - self.balance[i].norm_squared()).max(0.0));
+        let size = (reach + lift * lift).sqrt();
+        let length = self.rest.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let outside = size > NO_NORMAL && length > DEPENDENT * size && self.active.len() < self.dimension();
+        if !outside {
+            self.rest.fill(0.0);
+        }
+        outside
+    }
+
+    /// Shares of the active rows in the remainder of a vector with the components `part`: cable by cable, and of the
+    /// pin for the rest `lacking` of the height.
+    #[inline]
+    fn share(&mut self, part: impl Fn(usize) -> f64, multipliers: &Vec6, mut lacking: f64) {
         self.shares.clear();
         self.shares.resize(self.active.len(), 0.0);
-        let mut lacking = lift - height;
-        for i in 0..cables {
+        for i in 0..self.balance.len() {
             if let Some(at) = self.holder[i] {
                 let row = self.rows[self.active[at]];
-                self.shares[at] = row.sign * (part(i) - self.rest[i] - self.balance[i].dot(&multipliers));
+                self.shares[at] = row.sign * (part(i) - self.rest[i] - self.balance[i].dot(multipliers));
                 lacking -= row.lift * self.shares[at];
             }
         }
+
         if let Some(at) = self.pin {
             let pin = self.rows[self.active[at]];
             // On a cable held by another row, the pin takes over a part of it.
@@ -172,16 +187,6 @@ impl Bounds {
                 self.shares[at] -= exchange * share;
             }
         }
-
-        // Check for a part outside.
-        let reach = cable.map_or(0.0, |i| (1.0 - self.balance[i].norm_squared()).max(0.0));
-        let size = (reach + lift * lift).sqrt();
-        let length = self.rest.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let outside = size > NO_NORMAL && length > DEPENDENT * size && self.active.len() < self.dimension();
-        if !outside {
-            self.rest.fill(0.0);
-        }
-        outside
     }
 }
 
@@ -398,6 +403,7 @@ mod tests {
             check(climbing(&many).as_ref(), columns, right, bounds, true)?;
             compare(nearest(&few), nearest(&many), &start, Some(0.0))?;
             compare(highest(&few), highest(&many), &start, None)?;
+
             compare(climbing(&few), climbing(&many), &start, Some(0.1))?;
         }
     }

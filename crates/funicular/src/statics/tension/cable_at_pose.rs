@@ -12,8 +12,8 @@ use crate::statics::model::StaticModel;
 /// Cable at the pose.
 ///
 /// At a given geometry the tension τ parallel to the chord, (10a), determines the cable: the horizontal force is
-/// exactly τ cos α, the vertical force is nearly linear in τ, and above [`Catenary::SLACKEST`] every tension in the
-/// cable grows with τ. So limits at the ends are limits of τ.
+/// exactly τ cos α, the vertical force is nearly linear in τ, and above [`Catenary::MIN_TENSION_TO_WEIGHT`] every
+/// tension in the cable grows with τ. So limits at the ends are limits of τ.
 #[derive(Debug, Clone)]
 pub(super) struct CableAtPose {
     pub hanging: HangingCable,
@@ -69,7 +69,7 @@ impl CableAtPose {
         let attachment_w = pose.point_w(&cable.cable.attachment_p);
         let chord_w = cable.chord_w(pose);
         let range = TensionRange::of(robot, i, &chord_w);
-        let slackest = Catenary::SLACKEST * cable.load.size * chord_w.norm();
+        let slackest = Catenary::MIN_TENSION_TO_WEIGHT * cable.load.size * chord_w.norm();
         let tau = range.minimum.max(6.0 * slackest);
         let hanging = cable.hang_with_tension(pose, tau);
         Self {

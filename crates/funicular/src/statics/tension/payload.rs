@@ -1,10 +1,10 @@
 //! Payload: the minimum and the maximum mass that the cables hold at a pose in addition to the platform, all tensions
 //! within their limits.
 //!
-//! The weight of the payload is one more unknown of the balance, beside the tensions, and the objective is this unknown.
-//! The balance and the limits are linearised about the last tensions, the linear problem is solved exactly, and so on:
-//! with straight cables one step is the solution, with sagging cables three to five are. Every set of tensions within
-//! the limits counts, whatever a rule would choose.
+//! The weight of the payload is one more unknown of the balance, beside the tensions, and the objective is this
+//! unknown. The balance and the limits are linearised about the last tensions, the linear problem is solved exactly,
+//! and so on: with straight cables one step is the solution, with sagging cables three to five are. Every set of
+//! tensions within the limits counts, whatever a rule would choose.
 
 use super::TensionRule;
 use super::cable_at_pose::{CableAtPose, TensionPlace};
@@ -29,7 +29,7 @@ use crate::statics::model::StaticModel;
 const MAX_ITERATIONS: usize = 100;
 
 /// Change of tensions and payload weight in a step, over their size, at which the iteration ends.
-const STILL: f64 = 1e-10;
+const CONVERGED: f64 = 1e-10;
 
 /// Relative distance within which a tension counts as at its limit, in the list of limits that bind.
 const AT_LIMIT: f64 = 1e-6;
@@ -53,8 +53,8 @@ pub struct PayloadBound {
     pub residual: f64,
     /// Number of iterations.
     pub iterations: usize,
-    /// Mass [kg], slightly beyond [`Self::mass`], from which on it is proved that no tensions within the limits hold the
-    /// payload, however the cables sag; `None` if no proof was requested or found.
+    /// Mass [kg], slightly beyond [`Self::mass`], from which on it is proved that no tensions within the limits hold
+    /// the payload, however the cables sag; `None` if no proof was requested or found.
     pub excluded_from: Option<f64>,
 }
 
@@ -137,11 +137,11 @@ pub fn payload_bound(
     requested: RequestedPayload,
     start: Option<&Equilibrium>,
 ) -> Result<PayloadBound, StaticsError> {
-    if !exit_points::follows(robot, model) {
+    if !exit_points::depend_on_tensions(robot, model) {
         return at_exit_points(robot, pose, model, requested, start);
     }
     let solve = |held: &Robot, _: Option<&PayloadBound>| at_exit_points(held, pose, model, requested, start);
-    exit_points::followed(robot, pose, model, solve, |bound| &mut bound.cables)
+    exit_points::with_places(robot, pose, model, solve, |bound| &mut bound.cables)
 }
 
 /// Payload by [`payload_bound`] of cables that end at fixed points.
@@ -204,6 +204,7 @@ impl PayloadSearch<'_> {
         while self.iterations < MAX_ITERATIONS {
             self.iterations += 1;
 
+            // Solve the problem linearised about the present tensions.
             let linear = self.search.linearise();
             let Some(optimum) = self.step(&linear, weight, stride.climb)? else {
                 return Err(StaticsError::NoPayload);
@@ -218,10 +219,11 @@ impl PayloadSearch<'_> {
             if change.is_nan() {
                 break;
             }
-            if change <= STILL {
+            if change <= CONVERGED {
                 return Ok(optimum);
             }
 
+            // Take the step, and choose the size of the next.
             stride.next(change, size, sign * optimum.weight);
             self.search.set(&optimum.tau);
             weight = optimum.weight;
@@ -231,7 +233,7 @@ impl PayloadSearch<'_> {
         Err(StaticsError::TensionsNotConverged {
             iterations: self.iterations,
             change: stride.last_change,
-            limit: STILL,
+            limit: CONVERGED,
             residual: self.search.linearise().residual,
             x: p.x,
             y: p.y,

@@ -24,7 +24,7 @@ use proximal_step::{SETBACK, SMALLER_CLIMB};
 const MAX_ITERATIONS: usize = 100;
 
 /// Change of the tensions, over their size, at which the iteration ends.
-const STILL: f64 = 1e-10;
+const CONVERGED: f64 = 1e-10;
 
 /// Scaled residual at which the iteration may end; one more step squares it.
 const BALANCED: f64 = 1e-12;
@@ -41,13 +41,13 @@ const MIN_SLOPE: f64 = 1e-3;
 /// the few operations that a limit takes.
 const LIMIT_ROUNDING: f64 = 1e-13;
 
-/// Ratio to the change at the last setback below which that setback is behind, so that steps may grow again. Below
-/// [`SHORTER`]: one short step of a linear problem leaves that part of the change, which is no recovery yet.
-const RECOVERED: f64 = 0.3;
+/// Maximum change of the tensions, over that at the last setback, at which steps may grow again. It is below
+/// [`SETBACK_FACTOR`]: one short step of a linear problem leaves this part of the change, which is no recovery yet.
+const MAX_CHANGE_RECOVERED: f64 = 0.3;
 
 /// Factor by which setbacks shorten the step of a search for the nearest tensions, and the minimum fraction of a step.
 /// The minimum keeps the search moving: a hundred such steps go five full steps far.
-const SHORTER: f64 = 0.5;
+const SETBACK_FACTOR: f64 = 0.5;
 const MIN_STEP_FRACTION: f64 = 0.05;
 
 /// Change of a tension, over the size of the tensions, from which on the difference of two slopes gives a curvature:
@@ -214,6 +214,7 @@ impl<'a> TensionSearch<'a> {
         for _ in 0..MAX_ITERATIONS {
             self.iterations += 1;
 
+            // Linearise about the present tensions.
             let linear = self.linearise();
 
             // Curvature of each cable, from the last step.
@@ -234,31 +235,32 @@ impl<'a> TensionSearch<'a> {
                 last = None;
                 if self.rescued.is_some() {
                     // From the result of another start, with shorter steps.
-                    part = (SHORTER * part).max(MIN_STEP_FRACTION);
+                    part = (SETBACK_FACTOR * part).max(MIN_STEP_FRACTION);
                 }
                 continue;
             };
 
             // End if nothing changes.
             let change = self.change(&step.tau);
-            if change <= STILL && linear.residual <= BALANCED {
+            if change <= CONVERGED && linear.residual <= BALANCED {
                 return Ok(());
             }
 
             // Choose the fraction of the step.
             if change > SETBACK * last_change {
-                (part, setback) = ((SHORTER * part).max(MIN_STEP_FRACTION), change);
-            } else if change < RECOVERED * setback {
-                part = (part / SHORTER).min(1.0);
+                (part, setback) = ((SETBACK_FACTOR * part).max(MIN_STEP_FRACTION), change);
+            } else if change < MAX_CHANGE_RECOVERED * setback {
+                part = (part / SETBACK_FACTOR).min(1.0);
             }
             last_change = change;
 
+            // Take it.
             let before = self.tensions();
             let after: Vec<f64> = before.iter().zip(&step.tau).map(|(from, to)| from + part * (to - from)).collect();
             last = Some((before, linear.columns, step.multipliers));
             self.set(&after);
         }
-        Err(self.not_converged(last_change, STILL))
+        Err(self.not_converged(last_change, CONVERGED))
     }
 
     fn step(&self, linear: &Linear, target: &[f64], scales: &[f64]) -> Result<Option<TensionStep>, StaticsError> {
@@ -325,13 +327,13 @@ impl<'a> TensionSearch<'a> {
             }
 
             let change = self.change(&optimum.tau);
-            if change <= STILL && linear.residual <= BALANCED {
+            if change <= CONVERGED && linear.residual <= BALANCED {
                 return Ok(());
             }
             stride.next(change, self.size, optimum.height);
             self.set(&optimum.tau);
         }
-        Err(self.not_converged(stride.last_change, STILL))
+        Err(self.not_converged(stride.last_change, CONVERGED))
     }
 
     /// Corrects tensions that nearly hold the platform within the limits; true if it succeeds.

@@ -81,34 +81,35 @@ fn winch(winch: &Winch, axial_stiffness: f64) -> Vec<Implausible> {
         },
     );
 
-    let control = match &winch.control {
-        // The mass decides the bandwidth: a wrong one has its own warning.
-        Control::Position(servo) if inertia.is_none() && mass > 0.0 => {
-            let omega = (servo.position_gain / mass).sqrt();
-            let bandwidth = outside(named("bandwidth of its control"), omega / TAU, "Hz", usual::BANDWIDTH, |value| {
-                likely(
-                    value,
-                    [0.5, 50.0],
-                    &[(1.0 / TAU, "bandwidth in rad/s given as Hz"), (1e-3, "gain in N mm given as N m")],
-                )
-            });
-            let ratio = servo.speed_gain / (2.0 * mass * omega);
-            let damping = outside(named("damping ratio of its control"), ratio, "", usual::CONTROL_DAMPING, |value| {
-                likely(value, [0.2, 2.0], &[(1e-2, "damping ratio in per cent given as a fraction")])
-            });
-            let delay = outside(named("delay of its control"), servo.delay, "s", usual::DELAY, |value| {
-                likely(value, [1e-4, 0.03], &[(1e-3, "delay in ms given as s")])
-            });
-            vec![bandwidth, damping, delay]
-        }
-        _ => Vec::new(),
-    };
-
     let guide_wheel = |wheel: &GuideWheel| {
         let what = format!("guide wheel \"{}\": inertia over the square of the radius", wheel.name);
         (wheel.mass > 0.0).then(|| outside(what, wheel.mass, "kg", usual::WHEEL_MASS, inertia_slip))?
     };
     let guide_wheels = winch.guide_wheels.iter().map(guide_wheel);
 
+    // The mass decides the bandwidth: a wrong one has its own warning.
+    let control = if inertia.is_none() && mass > 0.0 { control(winch, mass) } else { Vec::new() };
     [drum_side, inertia, stiffness].into_iter().chain(guide_wheels).chain(control).flatten().collect()
+}
+
+/// Implausible values of the position control of a winch whose drum and motor have a mass at the cable [kg].
+fn control(winch: &Winch, mass: f64) -> Vec<Option<Implausible>> {
+    let Control::Position(servo) = &winch.control else { return Vec::new() };
+    let named = |quantity: &str| format!("winch \"{}\": {quantity} of its control", winch.name);
+
+    let omega = (servo.position_gain / mass).sqrt();
+    let bandwidth = outside(named("bandwidth"), omega / TAU, "Hz", usual::BANDWIDTH, |value| {
+        let slips = [(1.0 / TAU, "bandwidth in rad/s given as Hz"), (1e-3, "gain in N mm given as N m")];
+        likely(value, [0.5, 50.0], &slips)
+    });
+
+    let ratio = servo.speed_gain / (2.0 * mass * omega);
+    let damping = outside(named("damping ratio"), ratio, "", usual::CONTROL_DAMPING, |value| {
+        likely(value, [0.2, 2.0], &[(1e-2, "damping ratio in per cent given as a fraction")])
+    });
+
+    let delay = outside(named("delay"), servo.delay, "s", usual::DELAY, |value| {
+        likely(value, [1e-4, 0.03], &[(1e-3, "delay in ms given as s")])
+    });
+    vec![bandwidth, damping, delay]
 }

@@ -1,5 +1,5 @@
-//! Plausibility of an equilibrium: strain, weight of the cables against their tension, length of the cables, and displacement
-//! of supports.
+//! Plausibility of an equilibrium: strain, weight of the cables against their tension, length of the cables, and
+//! displacement of supports.
 
 use super::{Implausible, likely, outside, supports, usual};
 use crate::robot::{Robot, State};

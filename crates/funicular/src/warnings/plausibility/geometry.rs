@@ -64,7 +64,7 @@ fn against_others(points: &[Vec3], i: usize) -> (f64, f64) {
 /// Minimum number of cables of which one with a point far from those of the others is suspicious.
 const MIN_OTHERS: usize = 4;
 
-/// One cable whose anchor or attachment is far from those of all others.
+/// Cable whose anchor or attachment is far from those of all others.
 fn single_cable(robot: &Robot) -> Option<Implausible> {
     let cables = &robot.cables;
     if cables.len() < MIN_OTHERS {
@@ -149,9 +149,11 @@ fn attachments(robot: &Robot, size: &Size) -> Option<Implausible> {
     if size.anchors == 0.0 || size.attachments == 0.0 {
         return None;
     }
+
     if ratio > usual::SLINGS && size.attachments < reach(robot) {
         return None;
     }
+
     let what = "size of the attachments over that of the anchors";
     outside(what, ratio, "", usual::ATTACHMENTS_OVER_ANCHORS, |ratio| {
         let [low, high] = usual::ATTACHMENTS_OVER_ANCHORS;
@@ -190,6 +192,7 @@ fn distance(robot: &Robot, size: &Size) -> Option<Implausible> {
     if unit == 0.0 {
         return None;
     }
+
     match &robot.state {
         State::Unknown => None,
         State::Pose(pose) => {

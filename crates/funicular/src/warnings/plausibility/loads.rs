@@ -148,18 +148,21 @@ fn load(robot: &Robot) -> Vec<Implausible> {
             slip: "weight counted twice? `mass_kg` includes it".to_owned(),
         });
     }
+
     if weight > 0.0 {
         let what = "force on the platform over its weight";
         found.extend(outside(what, force_w.norm() / weight, "", usual::LOAD_OVER_WEIGHT, |_| {
             "force in mN given as N, or mass in t given as kg?".to_owned()
         }));
     }
+
     if size.attachments > 0.0 && weight > 0.0 {
         let what = "moment on the platform over its weight and the size of its attachments";
         let ratio = moment_w.norm() / (weight * size.attachments);
         found
             .extend(outside(what, ratio, "", usual::MOMENT_OVER_WEIGHT, |_| "moment in N mm given as N m?".to_owned()));
     }
+
     if size.attachments > 0.0 {
         let what = "distance of the load's point from the attachments, over their size,";
         let ratio = (point_p - size.middle_p).norm() / size.attachments;
@@ -167,6 +170,7 @@ fn load(robot: &Robot) -> Vec<Implausible> {
             likely(value, [0.0, 2.0], &[(1e-3, "`point_m` in mm given as m"), (1e-2, "`point_m` in cm given as m")])
         }));
     }
+
     found
 }
 

@@ -64,6 +64,7 @@ fn inertia(platform: &Platform, radius: f64, position_w: Option<Vec3>) -> Option
         }
         PlatformMotion::Rigid | PlatformMotion::PointMass => platform.inertia_p.symmetric_eigenvalues().max(),
     };
+
     let gyration = (moment / platform.mass).sqrt();
     let ratio = gyration / radius;
     let what = "radius of gyration of the platform, √(inertia/mass), over the size of its attachments";

@@ -120,8 +120,8 @@ fn full_circle(rope: &Material) -> Option<Implausible> {
     };
     let what = format!("Young's modulus over its metal, which fills a part of the full circle of {circle} only,");
     outside(named(rope, &what), metal_modulus(rope)?, "Pa", usual::STRANDED_MODULUS, |_| {
-        "modulus over the metal given with the diameter of the full circle? Give the area of the metal as `area_m2`: mass \
-         per length over 7850 kg/m³"
+        "modulus over the metal given with the diameter of the full circle? Give the area of the metal as `area_m2`: \
+         mass per length over 7850 kg/m³"
             .to_owned()
     })
 }
@@ -138,8 +138,8 @@ pub(super) fn note(rope: &Material) -> Option<String> {
     of_note.then(|| {
         let what = format!(
             "`diameter_m` gives the area of the full circle, of which the metal of a wire rope fills 0.4 to 0.65; with \
-             this mass, `youngs_modulus_pa` stands for {modulus:.2e} Pa over the metal, where wire ropes have 0.6e11 to \
-             1.3e11 Pa; if it is the modulus over the metal, give `area_m2`"
+             this mass, `youngs_modulus_pa` stands for {modulus:.2e} Pa over the metal, where wire ropes have 0.6e11 \
+             to 1.3e11 Pa; if it is the modulus over the metal, give `area_m2`"
         );
         named(rope, &what)
     })

@@ -38,7 +38,8 @@ fn of_support(robot: &Robot, support: &Support) -> Vec<Implausible> {
     [soft, stiff, heavy].into_iter().flatten().collect()
 }
 
-/// Maximum distance of an anchor from the mean of all [m]; that of the anchors from the attachments if there is one anchor.
+/// Maximum distance of an anchor from the mean of all [m]; that of the anchors from the attachments if there is one
+/// anchor.
 fn size(robot: &Robot) -> f64 {
     let anchors: Vec<Vec3> = robot.cables.iter().map(|cable| cable.anchor.point_w).collect();
     let mean = anchors.iter().sum::<Vec3>() / anchors.len().max(1) as f64;

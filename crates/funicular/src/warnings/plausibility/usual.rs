@@ -44,7 +44,8 @@ pub const STRANDED_MODULUS_OF_NOTE: f64 = 1.1e11;
 /// Damping ratio of a rope. Library: 0.003 to 0.01. Outside: per cent given as a fraction (0.3).
 pub const DAMPING_RATIO: [f64; 2] = [5e-4, 0.05];
 
-/// Viscous damping over mass per length [1/s]: 6.3 is a damping ratio of one half at 1 Hz. Reference robots: up to 0.33.
+/// Viscous damping over mass per length [1/s]: 6.3 is a damping ratio of one half at 1 Hz. Reference robots: up to
+/// 0.33.
 pub const VISCOUS_DAMPING: [f64; 2] = [0.0, 6.3];
 
 /// Breaking load over axial stiffness, the strain at break of a linear rope. Library: 0.012 (steel, CoGiRo) to 0.14
@@ -64,7 +65,7 @@ pub const STRAIN: [f64; 2] = [0.0, 0.02];
 /// Drag coefficient of a rope: 1.0 to 1.2 for a smooth one, up to 2.5 for a chain.
 pub const DRAG_COEFFICIENT: [f64; 2] = [0.2, 3.0];
 
-/// Diameter that the wind meets [m]; ice makes it larger than that of the rope.
+/// Diameter for the drag of the wind [m]; ice makes it larger than the diameter of the rope.
 pub const DRAG_DIAMETER: [f64; 2] = [2e-4, 0.3];
 
 /// Relative difference from a weight up to which a load counts as that weight: g is 9.80665, 9.81 (3.4e-4) or 9.8 m/s²
@@ -113,8 +114,8 @@ pub const MIN_LENGTH: [f64; 2] = [0.5, f64::INFINITY];
 /// 2014 has 6800 with its heaviest load. Outside: mass in t or g.
 pub const PLATFORM_DENSITY: [f64; 2] = [0.1, 2e4];
 
-/// Largest radius of gyration of the platform over the size of its attachments. Library: 0.41 to 1.44 (CAROCA); loads on a
-/// hook have 2. Outside: an inertia wrong by a thousand (a factor of 32), in kg mm² or kg cm², a mass in g or t.
+/// Largest radius of gyration of the platform over the size of its attachments. Library: 0.41 to 1.44 (CAROCA); loads
+/// on a hook have 2. Outside: an inertia wrong by a thousand (a factor of 32), in kg mm² or kg cm², a mass in g or t.
 pub const GYRATION: [f64; 2] = [0.1, 3.0];
 
 /// Distance of the centre of mass, or of the point of a force, from the mean of the attachments over their size.
@@ -164,9 +165,9 @@ pub const AIR_DENSITY: [f64; 2] = [0.5, 2.0];
 /// Density of water [kg/m³], for robots in water.
 pub const WATER_DENSITY: [f64; 2] = [900.0, 1100.0];
 
-/// Roll, pitch or yaw of a pose [degrees]. A full turn in either direction holds every orientation however it is counted.
-/// Inside: headings from 0° to 360°, angles from -180° to 180°; the library has no angles. Outside: degrees multiplied by
-/// 57.3 as if they were radians, from 6.3° on.
+/// Roll, pitch or yaw of a pose [degrees]. A full turn in either direction holds every orientation however it is
+/// counted. Inside: headings from 0° to 360°, angles from -180° to 180°; the library has no angles. Outside: degrees
+/// multiplied by 57.3 as if they were radians, from 6.3° on.
 pub const ANGLE: [f64; 2] = [-360.0, 360.0];
 
 /// Unstrained length of a cable over the distance of its ends. Library: up to 1.011 (Yuan 2014, 8 mm). A cable that
@@ -177,7 +178,8 @@ pub const LENGTH_OVER_CHORD: [f64; 2] = [0.0, 2.0];
 /// Weight of all cables over the sum of their tensions. Library: up to 0.34. Outside: kg per 100 m, g/m.
 pub const WEIGHT_OVER_TENSION: [f64; 2] = [0.0, 1.0];
 
-/// Radius of a pulley [m]. Library: 0.02 (GRAB) to 0.06; shaft sheaves of mines have 3 m. Outside: millimetres given as m.
+/// Radius of a pulley [m]. Library: 0.02 (GRAB) to 0.06; shaft sheaves of mines have 3 m. Outside: millimetres given as
+/// m.
 pub const PULLEY_RADIUS: [f64; 2] = [2e-3, 4.0];
 
 /// Moment of inertia of a wheel or of a swivel over the square of the radius [kg]: for a disc half its mass. Outside:
@@ -187,8 +189,8 @@ pub const WHEEL_MASS: [f64; 2] = [1e-5, 1e3];
 /// Length of the cable from the drum to its anchor [m]. Outside: millimetres given as m.
 pub const DRUM_SIDE: [f64; 2] = [0.0, 300.0];
 
-/// Inertia of drum and motor over the square of the radius of the drum [kg]. Library: 59 (CoGiRo). Outside: kg cm² given as
-/// kg m² (5.9e5), and millimetres for the radius (5.9e-5).
+/// Inertia of drum and motor over the square of the radius of the drum [kg]. Library: 59 (CoGiRo). Outside: kg cm²
+/// given as kg m² (5.9e5), and millimetres for the radius (5.9e-5).
 pub const WINCH_MASS: [f64; 2] = [1e-3, 1e5];
 
 /// Length of cable with the stiffness of the winch [m], EA over its stiffness. Shafts and gears stretch as much as some
@@ -204,16 +206,19 @@ pub const CONTROL_DAMPING: [f64; 2] = [0.0, 10.0];
 /// Delay of a position control [s]. Outside: milliseconds given as seconds.
 pub const DELAY: [f64; 2] = [0.0, 0.2];
 
-/// Displacement of a flexible support under the weight of the platform, over the size of the anchors. A post of 1e5 N/m under
-/// 30 kg, 5 m from the middle, has 6e-4; masts of 1e4 N/m under 100 kg 0.02. Outside: N/mm given as N/m (0.6 for that post).
+/// Displacement of a flexible support under the weight of the platform, over the size of the anchors. A post of 1e5 N/m
+/// under 30 kg, 5 m from the middle, has 6e-4; masts of 1e4 N/m under 100 kg 0.02. Outside: N/mm given as N/m (0.6 for
+/// that post).
 pub const SUPPORT_YIELD: [f64; 2] = [0.0, 0.05];
 
-/// Smallest principal stiffness of a flexible support [N/m]. The axial stiffness of a steel post of 100 cm² and 1 m is 2e9.
+/// Smallest principal stiffness of a flexible support [N/m]. The axial stiffness of a steel post of 100 cm² and 1 m is
+/// 2e9.
 pub const SUPPORT_STIFFNESS: [f64; 2] = [0.0, 1e10];
 
-/// Mass of a flexible support over that of the platform. Towers of a telescope weigh some ten cabins. Outside: g given as kg.
+/// Mass of a flexible support over that of the platform. Towers of a telescope weigh some ten cabins. Outside: g given
+/// as kg.
 pub const SUPPORT_MASS: [f64; 2] = [0.0, 300.0];
 
-/// Displacement of a flexible support at an equilibrium over the longest cable: a tenth is no small displacement, for which a
-/// stiffness could be given. Outside: N/mm given as N/m, for supports that yield by more than a ten-thousandth.
+/// Displacement of a flexible support at an equilibrium over the longest cable: a tenth is no small displacement, for
+/// which a stiffness could be given. Outside: N/mm given as N/m, for supports that yield by more than a ten-thousandth.
 pub const SUPPORT_DISPLACEMENT: [f64; 2] = [0.0, 0.1];

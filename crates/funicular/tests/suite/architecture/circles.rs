@@ -18,7 +18,7 @@ struct Modules {
     imports: BTreeMap<ModulePath, Vec<Import>>,
 }
 
-/// One name of a `use`.
+/// Name of a `use`.
 struct Import {
     path: Vec<String>,
     /// Name in the file: the last of the path, or the one after `as`.

@@ -82,7 +82,8 @@ fn at_rest_the_platform_follows_the_frame_as_forward_statics_say() {
     let signals: Vec<Signal> = inputs.iter().map(|input| Signal::Frame(*input)).collect();
     let tensions = [DriveSignal::Tension, DriveSignal::DrumTension].map(|signal| Signal::Drive { cable: 3, signal });
 
-    // Differences over 2e-5 m are exact to 2e-6 here; with inclined axes the stiffness is exact to the square of the kink.
+    // Differences over 2e-5 m are exact to 2e-6 here; with inclined axes the stiffness is exact to the square of the
+    // kink.
     for (incline, tolerance) in [(0.0, 2e-6), (0.4, 2e-5)] {
         let (robot, rest) = at_rest(incline);
         for cable_model in [CableModel::CatenaryDynamic, CableModel::CatenaryStatic] {

@@ -7,14 +7,12 @@ use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::cable::shallow_dynamic::ShallowDynamic;
 use funicular::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, Sag};
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::math::{Complex, DMat, Mat3, Vec3};
+use funicular::math::{CDMat, Complex, DMat, Mat3, Vec3, Vec6};
 use funicular::modes::{self, Kind};
 use funicular::response::{self, FrameInput, Port, Quantity, Signal};
 use funicular::robot::{Control, Damping, GuideWheel, Pose, Robot, Servo, WinchMode};
 use funicular::statics::{self, CableState, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
-
-type CDMat = nalgebra::DMatrix<Complex>;
 
 const SHALLOW: Linearisation = Linearisation {
     cable_model: CableModel::ShallowDynamic,
@@ -45,8 +43,8 @@ fn both_ends(sag: &Sag, square: Complex) -> CDMat {
     k
 }
 
-/// Drive of the robots of this file over (σ, v, w), or (σ, v, w, g) with a guide wheel: rigid winches of 60 kg with this
-/// control, wheels and swivels with mass. The guide wheel divides the drum side, from 5 m, at its distance.
+/// Drive of the robots of this file over (σ, v, w), or (σ, v, w, g) with a guide wheel: rigid winches of 60 kg with
+/// this control, wheels and swivels with mass. The guide wheel divides the drum side, from 5 m, at its distance.
 fn of_drive(robot: &Robot, state: &CableState, control: Complex, omega: f64) -> CDMat {
     let (anchor, drive) = (&robot.cables[0].anchor, state.drive.as_ref().unwrap());
     let ea = robot.cables[0].material.axial_stiffness;
@@ -156,8 +154,8 @@ fn the_stiffness_is_that_of_the_closed_form_with_both_ends() {
     }
 }
 
-/// Number of poles below a frequency: those of the span with both ends held, and the negative eigenvalues of the matrix of
-/// slip, swivel and drum.
+/// Number of poles below a frequency: those of the span with both ends held, and the negative eigenvalues of the matrix
+/// of slip, swivel and drum.
 #[test]
 fn the_count_of_poles_is_that_of_the_span_and_of_the_drive() {
     for (robot, rest) in robots(servo(6e4, 0.0)) {
@@ -281,22 +279,23 @@ fn damped_modes_and_signals_of_drives_exist() {
     let span = funicular::cable::shallow_static::stiffness(&Sag::of(&robot, 3, state)).in_world(&axes);
     let end = &state.drive.as_ref().unwrap().end;
     let (t, v) = (end.along_w.unwrap(), end.sideways_w.unwrap());
-    let w = nalgebra::Matrix3x2::from_columns(&[t, v]);
+    let w = DMat::from_fn(3, 2, |row, column| [t, v][column][row]);
     // The servo yields like a spring of 6e4 N/m behind the drum side.
     let ea = robot.cables[3].material.axial_stiffness;
     let (lambda, at_drum) = (1.0 + state.tension_anchor / ea, 1.0 + state.tension_drum() / ea);
     let spring = end.force_by_length / lambda;
     let series = 1.0 / (1.0 / spring + (lambda / at_drum).powi(2) / 6e4);
     let [[slip, coupling], [_, swivel]] = end.stiffness;
-    let s = nalgebra::Matrix2::new(slip - spring + series, coupling, coupling, swivel);
-    let inner = (s + w.transpose() * span * w).try_inverse().unwrap();
-    let force: Vec3 = span * w * inner * nalgebra::Vector2::new(lambda * series, 0.0);
-    let tangent: Mat3 = span - span * w * inner * w.transpose() * span;
+    let s = DMat::from_row_slice(2, 2, &[slip - spring + series, coupling, coupling, swivel]);
+    let inner = (s + w.transpose() * span * &w).try_inverse().unwrap();
+    let coupled = span * &w * inner;
+    let force: Vec3 = coupled.column(0) * (lambda * series);
+    let tangent: Mat3 = span - coupled * w.transpose() * span;
     assert!(still.stiffness(0.1).map(|entry| entry.re).amax() > tangent.amax());
 
     // The wrench of the command, from which the whole robot follows.
     let moment = state.lever_w.cross(&force);
-    let wrench = nalgebra::Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
+    let wrench = Vec6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
     let stiffness = dynamics.stiffness(1e-4).map(|entry| entry.re);
     let expected = stiffness.lu().solve(&wrench).unwrap()[2];
     let found = response(1e-5, 2, 0).re;
@@ -318,8 +317,8 @@ fn the_platform_follows_a_slow_base() {
     }
 }
 
-/// With less mass the shallow span with its drive approaches the catenary-dynamic one: by the square of the sag, and by the
-/// axial inertia, which is in proportion to the mass.
+/// With less mass the shallow span with its drive approaches the catenary-dynamic one: by the square of the sag, and by
+/// the axial inertia, which is in proportion to the mass.
 #[test]
 fn taut_cables_with_drives_are_those_of_the_catenary() {
     let gap = |weight: f64| {

@@ -47,8 +47,8 @@ fn at_drum(omega: f64) -> Complex {
     -omega * omega * drum + 1.0 / (1.0 / shaft + 1.0 / at_motor)
 }
 
-/// Guide wheels of 0.1 m radius on the drum side of [`weightless`]: distance from the entry point [m] and moment of inertia
-/// [kg m²].
+/// Guide wheels of 0.1 m radius on the drum side of [`weightless`]: distance from the entry point [m] and moment of
+/// inertia [kg m²].
 const GUIDES: [(f64, f64); 2] = [(0.7, 0.02), (1.5, 0.005)];
 
 /// Tables of guide wheels, in another order than the cable runs over them.
@@ -61,8 +61,8 @@ fn guides(wheels: &[(f64, f64)]) -> String {
     wheels.iter().enumerate().rev().map(table).collect()
 }
 
-/// Impedance at the exit point along the cable and sideways [N/m], from the series of theory (68), (75) and (76): from the
-/// drum towards the exit point, each piece of the drum side and each guide wheel in turn.
+/// Impedance at the exit point along the cable and sideways [N/m], from the series of theory (68), (75) and (76): from
+/// the drum towards the exit point, each piece of the drum side and each guide wheel in turn.
 fn impedances(rest: &Equilibrium, wheels: &[(f64, f64)], omega: f64, xi: f64, is_rod: bool) -> (Complex, Complex) {
     let (ea, tension): (f64, f64) = (2e4, 100.0);
     let stretch = 1.0 + tension / ea;
@@ -88,7 +88,8 @@ fn impedances(rest: &Equilibrium, wheels: &[(f64, f64)], omega: f64, xi: f64, is
     (behind - omega * omega * 0.05 / 0.16, swivel.into())
 }
 
-/// Wheel, guide wheels, drum, shaft, motor, servo with delay, damped cable: all in one closed form, which shares no code.
+/// Wheel, guide wheels, drum, shaft, motor, servo with delay, damped cable: all in one closed form, which shares no
+/// code.
 #[test]
 fn a_weightless_cable_ends_in_the_impedance_of_its_drive() {
     let (ea, m, tension): (f64, f64, f64) = (2e4, 0.1, 100.0);
@@ -152,8 +153,8 @@ fn points_of_a_weightless_cable_move_with_the_drive_behind_it() {
     }
 }
 
-/// Points along the same cable when the base moves with anchor and drum: `u(s) = B sin κs` beside what the platform's motion
-/// brings about, the far end moving by the base and by the drive behind it.
+/// Points along the same cable when the base moves with anchor and drum: `u(s) = B sin κs` beside what the platform's
+/// motion brings about, the far end moving by the base and by the drive behind it.
 #[test]
 fn points_of_a_weightless_cable_move_with_the_base() {
     let (robot, rest) = weightless(0.02, WINCH);
@@ -194,8 +195,8 @@ fn points_of_a_weightless_cable_move_with_the_base() {
     }
 }
 
-/// A drive moves the points of its own cable: at rest as forward statics does, and by the same number as a force on a point
-/// moves the drive.
+/// A drive moves the points of its own cable: at rest as forward statics does, and by the same number as a force on a
+/// point moves the drive.
 #[test]
 fn a_drive_moves_the_points_of_its_cable() {
     let pose = Pose::new([1.0, 2.0, 1.5], [0.0; 3]);
@@ -354,8 +355,8 @@ fn energies_of_platform_cables_and_drives_add_up() {
     }
 }
 
-/// Guide wheels without inertia change nothing, and each one with inertia lowers every frequency, down to those of a drum
-/// in its place that does not turn.
+/// Guide wheels without inertia change nothing, and each one with inertia lowers every frequency, down to those of a
+/// drum in its place that does not turn.
 #[test]
 fn guide_wheels_lie_between_no_wheel_and_a_drum_in_their_place() {
     let (robot, rest) = driven(servo(5e4, 0.0));
@@ -439,8 +440,8 @@ fn a_rod_on_the_drum_side_lowers_frequencies_a_little() {
     assert!(rod.iter().zip(&massless).any(|(rod, massless)| *rod < massless * (1.0 - 1e-6)));
 }
 
-/// A commanded length moves the platform at rest as forward statics does; with fixed anchors and with winches. A force of
-/// a motor moves its drum, and the drum's motion answers to a force on the platform by the same number.
+/// A commanded length moves the platform at rest as forward statics does; with fixed anchors and with winches. A force
+/// of a motor moves its drum, and the drum's motion answers to a force on the platform by the same number.
 #[test]
 fn commanded_lengths_begin_at_the_derivative_of_statics() {
     let pose = Pose::new([1.0, 2.0, 1.5], [0.0; 3]);
@@ -497,8 +498,8 @@ fn commanded_lengths_begin_at_the_derivative_of_statics() {
     assert!(error.to_string().contains("has no signal `length`"), "{error}");
 }
 
-/// A delay of the loop takes phase: a servo that is stable with little delay grows with more, in every list that the count
-/// certifies. With gains of three times the critical damping some motions no longer ring.
+/// A delay of the loop takes phase: a servo that is stable with little delay grows with more, in every list that the
+/// count certifies. With gains of three times the critical damping some motions no longer ring.
 #[test]
 fn delays_destabilise_and_strong_gains_stop_ringing() {
     let partners = |speed_gain: f64, delay: f64| {

@@ -40,8 +40,8 @@ fn stiff(robot: &Robot, lengths: &[f64], factor: f64, count: usize) -> (Equilibr
 
 #[test]
 fn a_double_pendulum_of_two_parallel_cables_swings_as_in_closed_form() {
-    // A body on two vertical cables of 2 m: along the line of its attachments it does not turn, so that it is a pendulum
-    // of the cables' length.
+    // A body on two vertical cables of 2 m: along the line of its attachments it does not turn, so that it is a
+    // pendulum of the cables' length.
     let text = r#"
         name = "swing"
         [platform]

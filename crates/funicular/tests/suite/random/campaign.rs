@@ -14,7 +14,7 @@ use funicular::math::{DMat, Vec3};
 use funicular::modes::{self, Modes};
 use funicular::robot::{Damping, Pose, WinchMode};
 use funicular::statics::{self, Equilibrium, StaticModel, StaticsError};
-use robots::{Kind, Sample};
+use robots::{Purpose, RandomRobot};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -103,8 +103,9 @@ fn every_random_robot_is_certified_or_refused_and_agrees_with_its_bars() {
 ///
 /// # Errors
 /// The reason for which the program gives no list.
-fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
-    let mut fault = |what: String| tally.wrong.push(format!("robot {} ({:?}): {what}", sample.index, sample.layout));
+fn examine(sample: &RandomRobot, tally: &mut Tally) -> Result<(), &'static str> {
+    let mut fault =
+        |what: String| tally.wrong.push(format!("robot {} ({:?}): {what}", sample.index, sample.arrangement));
     let rest = match rest_of(sample) {
         Ok((rest, here, stable)) => {
             if stable && !here {
@@ -113,7 +114,7 @@ fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
             tally.unstable_pose += usize::from(!stable);
             rest
         }
-        Err(StaticsError::CableCount { .. }) if sample.kind == Kind::TooFewCables => {
+        Err(StaticsError::CableCount { .. }) if sample.purpose == Purpose::TooFewCables => {
             return Err("fewer cables than degrees of freedom");
         }
         Err(refused) => {
@@ -128,7 +129,8 @@ fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
         Err(StaticsError::NotConverged { .. }) => tally.astray.push(sample.index),
         Err(refused) => fault(format!("forward statics without a start: {refused}")),
     }
-    let mut fault = |what: String| tally.wrong.push(format!("robot {} ({:?}): {what}", sample.index, sample.layout));
+    let mut fault =
+        |what: String| tally.wrong.push(format!("robot {} ({:?}): {what}", sample.index, sample.arrangement));
 
     let limit = sample.below_hz * TAU;
     let dynamics = match Dynamics::about(&sample.robot, &rest, CATENARY_DYNAMIC, sample.below_hz) {
@@ -145,7 +147,7 @@ fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
             return Err("a cable without tension");
         }
         Err(DynamicsError::CatenaryDynamic { reason: CatenaryDynamicError::TooFine { .. }, .. }) => {
-            if sample.kind != Kind::FarTooHigh {
+            if sample.purpose != Purpose::FarTooHigh {
                 fault(format!("{} Hz are too many", sample.below_hz));
             }
             return Err("a frequency limit out of reach");
@@ -192,7 +194,7 @@ fn examine(sample: &Sample, tally: &mut Tally) -> Result<(), &'static str> {
 
 /// True if a mode is so near the limit that damping, which lowers a cable's frequency by 3ξ²/2, may move it to the
 /// other side.
-fn at_the_limit(sample: &Sample, rest: &Equilibrium) -> bool {
+fn at_the_limit(sample: &RandomRobot, rest: &Equilibrium) -> bool {
     let damping = sample.robot.cables.iter().map(|cable| match cable.material.damping {
         Damping::Ratio(ratio) => ratio,
         Damping::Viscous(_) => 0.0,
@@ -204,15 +206,15 @@ fn at_the_limit(sample: &Sample, rest: &Equilibrium) -> bool {
 }
 
 /// True if a cable has no mass: a mode of the platform on such cables may have no damping.
-fn has_massless(sample: &Sample) -> bool {
+fn has_massless(sample: &RandomRobot) -> bool {
     sample.robot.cables.iter().any(|cable| cable.material.mass_per_length == 0.0)
 }
 
 /// Equilibrium from the pose in which the robot was built; true if it is at that pose, and true if that pose is stable.
-fn rest_of(sample: &Sample) -> Result<(Equilibrium, bool, bool), StaticsError> {
-    let Sample { robot, lengths, pose, .. } = sample;
+fn rest_of(sample: &RandomRobot) -> Result<(Equilibrium, bool, bool), StaticsError> {
+    let RandomRobot { robot, lengths, pose, .. } = sample;
     let rest = statics::forward(robot, lengths, StaticModel::Catenary, Some(pose))?;
-    if sample.kind == Kind::TooFewCables || sample.kind == Kind::Slack {
+    if sample.purpose == Purpose::TooFewCables || sample.purpose == Purpose::Slack {
         return Ok((rest, true, true));
     }
     let here = gap(&rest.pose, pose) < 1e-6 * lengths[0];
@@ -240,7 +242,7 @@ fn gap(one: &Pose, other: &Pose) -> f64 {
 
 /// Compares the list with the bars: in every gap wider than the bars' error, they count as many frequencies below as
 /// listed.
-fn compare(sample: &Sample, found: &Modes, bars: &Bars, tally: &mut Tally) {
+fn compare(sample: &RandomRobot, found: &Modes, bars: &Bars, tally: &mut Tally) {
     let listed: Vec<f64> = found.modes.iter().map(|mode| mode.frequency_hz * TAU).collect();
     let limit = found.below_hz * TAU;
     if bars.bound(limit) > 0.1 {
@@ -262,7 +264,7 @@ fn compare(sample: &Sample, found: &Modes, bars: &Bars, tally: &mut Tally) {
                 tally.wrong.push(format!(
                     "robot {} ({:?}): {ours} listed below {hz} Hz, the bars have {theirs}; bound {:e}",
                     sample.index,
-                    sample.layout,
+                    sample.arrangement,
                     bars.bound(omega)
                 ));
             }
@@ -292,8 +294,8 @@ impl Tally {
         }
         eprintln!("{} faults", self.wrong.len());
         eprintln!(
-            "{} gaps counted with {} bars; {} frequencies alone between two counts, median width {:.1e}; {clustered} in \
-             {} groups, median width {:.1e}",
+            "{} gaps counted with {} bars; {} frequencies alone between two counts, median width {:.1e}; {clustered} \
+             in {} groups, median width {:.1e}",
             self.gaps,
             self.bars,
             self.alone.len(),
@@ -315,7 +317,7 @@ impl Tally {
 #[test]
 fn bars_are_off_by_no_more_than_their_bound_and_by_a_quarter_of_it_at_half_their_length() {
     let (mut checked, mut worst) = (0, 0.0_f64);
-    for sample in (1000..).map(robots::sample).filter(|sample| sample.kind == Kind::Proper).take(12) {
+    for sample in (1000..).map(robots::sample).filter(|sample| sample.purpose == Purpose::Proper).take(12) {
         let rest = rest_of(&sample).unwrap().0;
         let limit = sample.below_hz * TAU;
         let found = modes::below(

@@ -63,10 +63,10 @@ position_m = [0.0, 0.0, 1.0]
 "#;
 
 /// Broken file: the text to replace (its first occurrence), the new text, part of the message, the line.
-type Case = (&'static str, &'static str, &'static str, &'static str, usize);
+type BrokenFile = (&'static str, &'static str, &'static str, &'static str, usize);
 
 /// Changes `base` and checks that there is one message, with this text, at this line.
-fn check(base: &str, cases: &[Case]) {
+fn check(base: &str, cases: &[BrokenFile]) {
     Robot::from_toml(base).expect("the file is valid before the change");
     for (title, from, to, message, line) in cases {
         assert!(base.contains(from), "{title}: `{from}` is not in the file");

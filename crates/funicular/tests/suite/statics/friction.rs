@@ -36,8 +36,8 @@ fn hanging(friction: &str) -> Robot {
     Robot::from_toml(&text).unwrap()
 }
 
-/// Unstrained length behind the exit point without friction and with it, both by closed forms for a tension T at the exit
-/// and the wrap β: with T constant along the drum side, and `T_low e^(μθ)` on the wheel.
+/// Unstrained length behind the exit point without friction and with it, both by closed forms for a tension T at the
+/// exit and the wrap β: with T constant along the drum side, and `T_low e^(μθ)` on the wheel.
 fn excess_by_closed_form(tension: f64, wrap: f64, coefficient: f64, sign: f64) -> f64 {
     let (radius, drum_side, stiffness, ea) = (0.2, 4.0, 1e5, 2e5);
     let tension_drum = tension * (-sign * coefficient * wrap).exp();

@@ -22,8 +22,8 @@ fn pose_to_lengths_and_back_is_the_identity() {
                 Ok(rest) => {
                     held += 1;
                     assert!(rest.residual <= statics::RESIDUAL_LIMIT);
-                    // Also if slack cables hold the pose with kilometres of rope; with steps in the tension alone it takes
-                    // a hundred iterations.
+                    // Also if slack cables hold the pose with kilometres of rope; with steps in the tension alone it
+                    // takes a hundred iterations.
                     assert!(rest.iterations <= 15, "{i}: {} iterations", rest.iterations);
                     let lengths: Vec<f64> = rest.cables.iter().map(|c| c.unstrained_length).collect();
                     let back = statics::forward(&robot, &lengths, model, Some(&pose)).unwrap();

@@ -56,7 +56,8 @@ fn the_paper_has_no_supports() {
     let in_plane = Linearisation { in_plane_only: true, ..Linearisation::default() };
     assert_eq!(
         Dynamics::about(&robot, &rest, in_plane, 5.0).unwrap_err().to_string(),
-        "the anchor of cable \"1\" is on a flexible support, which moves in all directions: leave `in-plane-only` out"
+        "the anchor of cable \"1\" is on a flexible support, which moves in all directions: include the \
+         stiffness out of plane"
     );
 }
 
@@ -64,9 +65,9 @@ fn the_paper_has_no_supports() {
 fn the_reader_says_what_is_wrong_with_a_support() {
     let file = |support: &str, reference: &str| {
         format!(
-            "name = \"mast\"\n[platform]\nmass_kg = 10.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = \
-             1e5\nmass_kg_per_m = 0.0\n[supports.mast]\n{support}\n[[cables]]\nname = \"1\"\nmaterial = \"rope\"\nsupport = \
-             \"{reference}\"\nanchor_m = [0, 0, 3]\nunstrained_length_m = 2.0\n"
+            "name = \"mast\"\n[platform]\nmass_kg = 10.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n \
+             = 1e5\nmass_kg_per_m = 0.0\n[supports.mast]\n{support}\n[[cables]]\nname = \"1\"\nmaterial = \
+             \"rope\"\nsupport = \"{reference}\"\nanchor_m = [0, 0, 3]\nunstrained_length_m = 2.0\n"
         )
     };
     let message = |support: &str, reference: &str| {
@@ -79,15 +80,15 @@ fn the_reader_says_what_is_wrong_with_a_support() {
     assert!(message("stiffness_n_per_m = -1e5", "mast").contains("must be positive"));
     assert_eq!(
         message("stiffness_n_per_m = [[1e5, 2e5, 0], [2e5, 1e5, 0], [0, 0, 1e5]]", "mast"),
-        "`stiffness_n_per_m` is not positive definite: its principal values are -100000, 100000 and 300000 N/m; a support \
-         has to resist displacements in all directions; a rigid direction has a large number"
+        "`stiffness_n_per_m` is not positive definite: its principal values are -100000, 100000 and 300000 N/m; a \
+         support has to resist displacements in all directions; a rigid direction has a large number"
     );
     assert!(message("stiffness_n_per_m = [[1e5, 1, 0], [0, 1e5, 0], [0, 0, 1e5]]", "mast").contains("not symmetric"));
     assert!(message(&format!("{good}\nmass_kg = -1"), "mast").contains("must not be negative"));
     assert_eq!(
         message(&format!("{good}\ndamping_ratio = 2"), "mast"),
-        "`damping_ratio` is 2, it must be below 1; it is a fraction of the critical damping, not per cent: structures have \
-         0.005 to 0.05"
+        "`damping_ratio` is 2, it must be below 1; it is a fraction of the critical damping, not per cent: structures \
+         have 0.005 to 0.05"
     );
     assert!(message(&format!("{good}\ndrums = \"on-grund\""), "mast").contains("did you mean \"on-ground\"?"));
     assert_eq!(message(good, "mats"), "there is no support \"mats\"; did you mean \"mast\"? the file has \"mast\"");

@@ -16,8 +16,8 @@ use std::f64::consts::TAU;
 /// Limit of the models [Hz].
 const BELOW: f64 = 3.0;
 
-/// Body of 12 kg as a point, hung from three cables: two on one post and one on a mast. `drive` and `length` are those of each
-/// cable, `post` is more of the table of the post.
+/// Body of 12 kg as a point, hung from three cables: two on one post and one on a mast. `drive` and `length` are those
+/// of each cable, `post` is more of the table of the post.
 fn hung(drive: &str, lengths: [f64; 3], post: &str) -> Robot {
     let of_cable = |name: &str, anchor: &str, support: &str, length: f64| {
         format!(
@@ -39,14 +39,14 @@ fn hung(drive: &str, lengths: [f64; 3], post: &str) -> Robot {
 }
 
 /// Robot at equilibrium, linearised.
-struct Case {
+struct SupportedRobot {
     name: &'static str,
     robot: Robot,
     rest: Equilibrium,
     dynamics: Dynamics,
 }
 
-impl Case {
+impl SupportedRobot {
     /// A robot without pulleys and winches.
     fn plain(name: &'static str, damping: Damping, post: &str) -> Self {
         Self::at_rest(name, hung("", [5.05, 5.0, 6.1], post), damping, CableModel::CatenaryDynamic)
@@ -116,7 +116,7 @@ const ON_GROUND: &str = "drums = \"on-ground\"\n";
 
 /// Checks that with all clamped modes and viscous damping the second-order model is the full model, for every signal of
 /// platform, cables and frame, and those `from` and `to` a drive.
-fn is_exact_with_all_modes(case: &Case, from: &[DriveSignal], to: &[DriveSignal]) {
+fn is_exact_with_all_modes(case: &SupportedRobot, from: &[DriveSignal], to: &[DriveSignal]) {
     let (inputs, outputs) = (inputs(from), outputs(to));
     let model = case.second_order(&inputs, &outputs, 0.0);
     assert!(model.truncation_error.unwrap() < 1e-9, "{}: {:?}", case.name, model.truncation_error);
@@ -146,41 +146,41 @@ fn is_exact_with_all_modes(case: &Case, from: &[DriveSignal], to: &[DriveSignal]
 #[test]
 fn without_drives_every_signal_is_exact() {
     use DriveSignal::{DrumTension, Length, Tension};
-    is_exact_with_all_modes(&Case::plain("fixed", VISCOUS, ""), &[Length], &[Tension, DrumTension]);
+    is_exact_with_all_modes(&SupportedRobot::plain("fixed", VISCOUS, ""), &[Length], &[Tension, DrumTension]);
 }
 
 #[test]
 fn with_servos_every_signal_is_exact() {
     use DriveSignal::{DrumTension, Length};
-    is_exact_with_all_modes(&Case::driven("servo", VISCOUS, "", servo), &[Length], &[DrumTension]);
+    is_exact_with_all_modes(&SupportedRobot::driven("servo", VISCOUS, "", servo), &[Length], &[DrumTension]);
 }
 
 #[test]
 fn with_servos_on_the_ground_every_signal_is_exact() {
     use DriveSignal::{Drum, DrumTension, Motor};
-    let case = Case::driven("servo on the ground", VISCOUS, ON_GROUND, servo);
+    let case = SupportedRobot::driven("servo on the ground", VISCOUS, ON_GROUND, servo);
     is_exact_with_all_modes(&case, &[Motor], &[Drum, DrumTension]);
 }
 
 #[test]
 fn with_heavy_drum_sides_every_signal_is_exact() {
     use DriveSignal::{DrumTension, Length};
-    is_exact_with_all_modes(&Case::driven("rods", VISCOUS, "", rods), &[Length], &[DrumTension]);
+    is_exact_with_all_modes(&SupportedRobot::driven("rods", VISCOUS, "", rods), &[Length], &[DrumTension]);
 }
 
 #[test]
 fn with_heavy_drum_sides_from_the_ground_every_signal_is_exact() {
     use DriveSignal::{DrumTension, Length};
-    let case = Case::driven("rods on the ground", VISCOUS, ON_GROUND, rods);
+    let case = SupportedRobot::driven("rods on the ground", VISCOUS, ON_GROUND, rods);
     is_exact_with_all_modes(&case, &[Length], &[DrumTension]);
 }
 
-/// A model of few modes is as good as it says, also beside the constant damping ratios of supports and cables; so is its state
-/// space for controllers.
+/// A model of few modes is as good as it says, also beside the constant damping ratios of supports and cables; so is
+/// its state space for controllers.
 #[test]
 fn small_models_are_as_good_as_they_say() {
     let text = "damping_ratio = 0.02\ndrums = \"on-ground\"\n";
-    let case = Case::driven("servo", VISCOUS, text, servo);
+    let case = SupportedRobot::driven("servo", VISCOUS, text, servo);
     let (from, to) = ([inputs(&[])[0], inputs(&[])[3]], [outputs(&[])[0]]);
     let model = case.second_order(&from, &to, 1e-3);
     let complete = case.second_order(&from, &to, 0.0);
@@ -228,7 +228,7 @@ fn transfer(space: &StateSpace, frequency_hz: f64) -> CDMat {
 fn supports_without_mass_are_springs() {
     let mut robot = hung("", [5.05, 5.0, 6.1], "");
     robot.supports.iter_mut().for_each(|support| support.mass = 0.0);
-    let case = Case::at_rest("springs", robot, Damping::Viscous(0.0), CableModel::Spring);
+    let case = SupportedRobot::at_rest("springs", robot, Damping::Viscous(0.0), CableModel::Spring);
     let (inputs, outputs) = (inputs(&[]), [outputs(&[])[0], outputs(&[])[1]]);
     let model = case.second_order(&inputs, &outputs, 0.0);
     assert_eq!(model.coordinates, [0, 1, 2].map(Coordinate::Platform));

@@ -1,14 +1,14 @@
-//! Responses of robots on supports: derivatives of forward statics, reciprocity, closed forms, and motions of the frame.
+//! Responses of robots on supports: derivatives of forward statics, reciprocity, closed forms, and motions of the
+//! frame.
 
 use super::{Behind, at_rest, closed_form, cogiro, lengths, platform_responses, taut, with_servos};
 use funicular::cable::CableModel;
 use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::math::{Complex, Vec3};
+use funicular::math::{CDMat, CMat3, Complex, Rotation, Vec3};
 use funicular::response::{self, FrameInput, Port, Quantity, Signal};
 use funicular::robot::Robot;
 use funicular::statics::{self, CableState, Equilibrium, StaticModel};
-use nalgebra::{DMatrix, Matrix3, Rotation3};
 use std::f64::consts::TAU;
 
 /// Signals of drives and points of cables: at rest the derivatives of forward statics, and reciprocal at any frequency.
@@ -88,7 +88,7 @@ fn supports_stand_on_the_base() {
         let all = closed_form(&robot, &rest, own, square, 1.0);
 
         // Forces by the feet: as if every anchor moved, less the forces of the supports' own stiffness.
-        let mut forces = DMatrix::from_element(9, 3, Complex::new(0.0, 0.0));
+        let mut forces = CDMat::from_element(9, 3, Complex::new(0.0, 0.0));
         let anchored = closed_form_of_anchors(&robot, &rest, square);
         for i in 0..3 {
             for j in 0..3 {
@@ -126,7 +126,7 @@ fn supports_stand_on_the_base() {
 }
 
 /// Force on the platform of [`taut`] by a motion of all anchors at the square ω_c², less its sign.
-fn closed_form_of_anchors(robot: &Robot, rest: &Equilibrium, square: Complex) -> Matrix3<Complex> {
+fn closed_form_of_anchors(robot: &Robot, rest: &Equilibrium, square: Complex) -> CMat3 {
     let of_cable = |(cable, state): (&funicular::robot::Cable, &CableState)| {
         let (ea, m, length) = (cable.material.axial_stiffness, cable.material.mass_per_length, state.unstrained_length);
         let across = ea * state.tension_platform / (ea + state.tension_platform);
@@ -136,13 +136,14 @@ fn closed_form_of_anchors(robot: &Robot, rest: &Equilibrium, square: Complex) ->
             let kappa = (square * (m / c)).sqrt();
             -c * kappa / (kappa * length).sin()
         };
-        along * far(ea) + (Matrix3::identity() - along) * far(across)
+        along * far(ea) + (CMat3::identity() - along) * far(across)
     };
     robot.cables.iter().zip(&rest.cables).map(of_cable).sum()
 }
 
-/// Turning motion of the base and motion of the foot of one support, at any frequency: against the closed form of straight
-/// cables. A base that turns moves every anchor differently; the mass of a support is in the middle of its anchors.
+/// Turning motion of the base and motion of the foot of one support, at any frequency: against the closed form of
+/// straight cables. A base that turns moves every anchor differently; the mass of a support is in the middle of its
+/// anchors.
 #[test]
 fn a_turning_base_and_a_moving_foot_have_their_closed_form() {
     let robot = taut("damping_ratio = 0.02\n");
@@ -163,7 +164,7 @@ fn a_turning_base_and_a_moving_foot_have_their_closed_form() {
         let own = Complex::from((hz * TAU).powi(2));
         let square = own * Complex::new(1.0, -0.02);
         let all = closed_form(&robot, &rest, own, square, 1.0);
-        let mut forces = DMatrix::from_element(9, 2, Complex::new(0.0, 0.0));
+        let mut forces = CDMat::from_element(9, 2, Complex::new(0.0, 0.0));
 
         // The spring of the post pulls at it by the motion of its foot.
         let of_post = &robot.supports[post];
@@ -213,7 +214,7 @@ fn a_turning_base_and_a_moving_foot_have_their_closed_form() {
 }
 
 /// Stiffness of each cable of [`taut`] at the square ω_c²: of an end by its own motion, and by that of the other end.
-fn closed_form_by_cable(robot: &Robot, rest: &Equilibrium, square: Complex) -> Vec<[Matrix3<Complex>; 2]> {
+fn closed_form_by_cable(robot: &Robot, rest: &Equilibrium, square: Complex) -> Vec<[CMat3; 2]> {
     let of_cable = |(cable, state): (&funicular::robot::Cable, &CableState)| {
         let (ea, m, length) = (cable.material.axial_stiffness, cable.material.mass_per_length, state.unstrained_length);
         let across = ea * state.tension_platform / (ea + state.tension_platform);
@@ -225,13 +226,14 @@ fn closed_form_by_cable(robot: &Robot, rest: &Equilibrium, square: Complex) -> V
             [c * kappa * phase.cos() / phase.sin(), -c * kappa / phase.sin()]
         };
         let (axial, transverse) = (wave(ea), wave(across));
-        [0, 1].map(|k| along * axial[k] + (Matrix3::identity() - along) * transverse[k])
+        [0, 1].map(|k| along * axial[k] + (CMat3::identity() - along) * transverse[k])
     };
     robot.cables.iter().zip(&rest.cables).map(of_cable).collect()
 }
 
-/// Towards zero frequency, motions of the frame are forward statics of the moved robot: a base that turns with anchors, swivel
-/// axes and springs of the supports, and the foot of a support. A drum on the ground stays there while the foot moves.
+/// Towards zero frequency, motions of the frame are forward statics of the moved robot: a base that turns with anchors,
+/// swivel axes and springs of the supports, and the foot of a support. A drum on the ground stays there while the foot
+/// moves.
 #[test]
 fn slow_motions_of_the_frame_are_statics_of_the_moved_robot() {
     let outputs = [Vec3::x(), Vec3::y(), Vec3::z()];
@@ -253,7 +255,7 @@ fn slow_motions_of_the_frame_are_statics_of_the_moved_robot() {
 
         // Forward statics of moved robots.
         let turned = |angle: f64| {
-            let turn = Rotation3::from_scaled_axis(axis_w * angle).into_inner();
+            let turn = Rotation::from_scaled_axis(axis_w * angle).to_rotation_matrix().into_inner();
             let mut moved = robot.clone();
             for cable in &mut moved.cables {
                 cable.anchor.point_w = turn * cable.anchor.point_w;
@@ -310,8 +312,8 @@ fn slow_motions_of_the_frame_are_statics_of_the_moved_robot() {
     }
 }
 
-/// The base moves all feet, so that its response is the sum of those to the feet if the drums are on the supports: with servos,
-/// and with drum sides that have mass.
+/// The base moves all feet, so that its response is the sum of those to the feet if the drums are on the supports: with
+/// servos, and with drum sides that have mass.
 #[test]
 fn the_base_is_the_sum_of_the_feet() {
     for behind in [Behind::Nothing, Behind::DrumsOnSupports] {

@@ -89,8 +89,8 @@ fn the_stiffness_is_that_of_differences_and_the_force_that_of_the_energy() {
     }
 }
 
-/// Energy at equilibria under different forces at the platform: the force that carries the platform from one to the other
-/// does the work of the difference.
+/// Energy at equilibria under different forces at the platform: the force that carries the platform from one to the
+/// other does the work of the difference.
 #[test]
 fn the_energy_is_the_work_of_a_force() {
     for behind in Behind::ALL {
@@ -151,7 +151,8 @@ fn every_static_problem_has_supports() {
     assert!(found.equilibrium.cables.iter().any(|cable| cable.displacement_w.norm() > 1e-5));
 }
 
-/// Friction of one pulley on a support that carries its drum: the intervals are those of equilibria for the changed length.
+/// Friction of one pulley on a support that carries its drum: the intervals are those of equilibria for the changed
+/// length.
 #[test]
 fn friction_moves_supports_and_platform() {
     let mut robot = cogiro(Behind::DrumsOnSupports);
@@ -194,7 +195,8 @@ fn friction_moves_supports_and_platform() {
     assert!((width / held - 1.0).abs() > 0.01, "{width:e} {held:e}");
 }
 
-/// A mast with a pulley and a drum below it: friction changes the pull of the drum side at the mast. Everything in closed form.
+/// A mast with a pulley and a drum below it: friction changes the pull of the drum side at the mast. Everything in
+/// closed form.
 #[test]
 fn friction_relieves_a_mast_of_the_pull_of_its_drum() {
     let (mu, radius, below, spring, ea, k, total) = (1e-4_f64, 0.2, 4.0, 1e5, 2e5, 3e4, 7.0);

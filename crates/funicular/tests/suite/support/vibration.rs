@@ -102,8 +102,8 @@ fn slow_vibration_is_the_static_stiffness() {
     }
 }
 
-/// Servos, drum sides with mass and wheels with inertia on supports: every list is certified, and stiff supports without
-/// mass are a rigid frame.
+/// Servos, drum sides with mass and wheels with inertia on supports: every list is certified, and stiff supports
+/// without mass are a rigid frame.
 #[test]
 fn drives_on_supports_are_part_of_the_count() {
     for behind in [Behind::DrumsOnSupports, Behind::DrumsOnGround] {

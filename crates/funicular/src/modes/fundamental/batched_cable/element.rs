@@ -1,7 +1,7 @@
 //! Elements of several cables side by side: their matrices and the elimination of their unknowns.
 
 use super::CableSpan;
-use super::element_integrals::{MASSES, RULES, TRIPLES, place};
+use super::element_integrals::{MASSES, RULES, TRIPLES, Triples, place};
 use crate::math::simd::{LANES, Lane, Lanes, Line, Part};
 use pulp::Simd;
 use std::array::from_fn;
@@ -51,8 +51,8 @@ pub(super) struct ForceShapes {
 }
 
 impl ForceShapes {
-    /// Sets lane `i` to the element between two arc lengths [m] of a cable. The components of e along the horizontal and
-    /// up are `axis`.
+    /// Sets lane `i` to the element between two arc lengths [m] of a cable. The components of e along the horizontal
+    /// and up are `axis`.
     pub(super) fn set(&mut self, i: usize, cable: &CableSpan, axis: [f64; 2], from: f64, to: f64) {
         let CableSpan { catenary, mass_per_length, .. } = cable;
         let rope = catenary.rope();
@@ -127,26 +127,9 @@ impl ElementBatch {
             let (of_n, of_e) = in_plane[row..].split_at_mut(2 * f + 1);
             let of_b = &mut out_of_plane[row_out_of_plane..];
 
-            let slope = |f: usize| if f < H { 0 } else { f + 1 - H };
             for part in Part::all(simd) {
                 for j in 0..=f {
-                    // Sum over the coefficients of C that contribute to the product of both slopes.
-                    let (high, low) = (slope(f), slope(j));
-                    let mut sums = [part.splat(0.0); COMPONENTS];
-                    let every_second = coefficients[COMPONENTS * (high - low).min(coefficients.len() / COMPONENTS)..]
-                        .chunks_exact(COMPONENTS);
-                    for (factor, c) in triples.of(high, low).iter().zip(every_second.step_by(2)) {
-                        let factor = part.splat(*factor);
-                        for k in 0..COMPONENTS {
-                            sums[k] = part.mul_add(factor, part.of(&c[k]), sums[k]);
-                        }
-                    }
-                    if H == 2 && (f == 1) != (j == 1) {
-                        for sum in &mut sums {
-                            *sum = part.neg(*sum);
-                        }
-                    }
-                    let [nn, en, ee, oo] = sums;
+                    let [nn, en, ee, oo] = slope_products::<S, H>(part, (coefficients, triples), f, j);
                     part.set(&mut of_n[2 * j], nn);
                     if j < f {
                         part.set(&mut of_n[2 * j + 1], en);
@@ -188,6 +171,7 @@ impl ElementBatch {
                 min_pivot,
             );
         }
+
         self.functions = functions;
     }
 
@@ -212,6 +196,38 @@ impl ElementBatch {
         }
         masses
     }
+}
+
+/// Integrals of the components of C, from their `coefficients`, times the slopes of the functions f and j ≤ f, of which
+/// H are hats.
+#[inline(always)]
+fn slope_products<S: Simd, const H: usize>(
+    part: Part<S>,
+    (coefficients, triples): (&[Line], &Triples),
+    f: usize,
+    j: usize,
+) -> [S::f64s; COMPONENTS] {
+    let slope = |f: usize| if f < H { 0 } else { f + 1 - H };
+    let (high, low) = (slope(f), slope(j));
+
+    // Every second coefficient of C contributes to the product of both slopes.
+    let mut sums = [part.splat(0.0); COMPONENTS];
+    let first = COMPONENTS * (high - low).min(coefficients.len() / COMPONENTS);
+    let every_second = coefficients[first..].chunks_exact(COMPONENTS).step_by(2);
+    for (factor, c) in triples.of(high, low).iter().zip(every_second) {
+        let factor = part.splat(*factor);
+        for k in 0..COMPONENTS {
+            sums[k] = part.mul_add(factor, part.of(&c[k]), sums[k]);
+        }
+    }
+
+    // The slope of the second hat is minus that of the first.
+    if H == 2 && (f == 1) != (j == 1) {
+        for sum in &mut sums {
+            *sum = part.neg(*sum);
+        }
+    }
+    sums
 }
 
 impl ForceShapes {
@@ -266,7 +282,7 @@ fn factor<S: Simd, const D: usize, const H: usize>(
 
     // Eliminate from the last unknown down, four at a time.
     let n = D * functions;
-    let odd = (n - kept) % ABREAST;
+    let odd = (n - kept) % BATCH;
     let first = n - odd;
     match odd {
         1 => eliminate::<S, 1>(part, matrix, first, min_pivot),
@@ -274,13 +290,13 @@ fn factor<S: Simd, const D: usize, const H: usize>(
         3 => eliminate::<S, 3>(part, matrix, first, min_pivot),
         _ => {}
     }
-    for t in (kept..first).step_by(ABREAST).rev() {
-        eliminate::<S, ABREAST>(part, matrix, t, min_pivot);
+    for t in (kept..first).step_by(BATCH).rev() {
+        eliminate::<S, BATCH>(part, matrix, t, min_pivot);
     }
 }
 
 /// Number of unknowns eliminated at a time, which is also the number of products per number loaded and stored.
-const ABREAST: usize = 4;
+const BATCH: usize = 4;
 
 /// Eliminates unknowns t, t + 1, … t + R − 1, the last of the remaining ones.
 #[inline(always)]
@@ -363,6 +379,7 @@ fn substitute<S: Simd>(simd: S, factor: &[Line], n: usize, kept: &[Lane]) -> Lan
     for (line, lane) in all.iter_mut().zip(kept) {
         line.0 = *lane;
     }
+
     for part in Part::all(simd) {
         let mut t = kept.len();
         if (n - t) % 2 == 1 {
@@ -396,6 +413,7 @@ fn substitute<S: Simd>(simd: S, factor: &[Line], n: usize, kept: &[Lane]) -> Lan
             t += 2;
         }
     }
+
     all
 }
 

@@ -1,8 +1,9 @@
 //! Far ends of cables that can move: the end, and the motions of the drive behind it, are eliminated cable by cable.
 //!
-//! The first motion in plane is the slip of the cable on its wheel; it moves the last point of the span along the cable,
-//! and the other motions of the chain follow it. Out of plane the end moves with the swivel (docs/theory.md, section
-//! 18). Of these motions and the lowest bubble, the one that carries the lowest clamped mode is kept.
+//! The first motion in plane is σ, that of the cable along itself at its wheel; it moves the last point of the span
+//! along the cable, and the other motions of the chain follow it. Out of plane the end moves with the swivel
+//! (docs/theory.md, section 18). Of these motions and the lowest bubble, the one that carries the lowest clamped mode
+//! is kept.
 
 use super::element::ElementBatch;
 use super::element_integrals::place;
@@ -19,7 +20,8 @@ pub(super) struct CableEnd {
     out_of_plane: EndMotions<1>,
 }
 
-/// Motions at the far end of a cable in one family of its functions, with D unknowns per node: in plane or out of plane.
+/// Motions at the far end of a cable in one family of its functions, with D unknowns per node: in plane or out of
+/// plane.
 #[derive(Debug)]
 pub(super) struct EndMotions<const D: usize> {
     /// Direction in which the first motion moves the end of the span.
@@ -181,8 +183,8 @@ impl<const D: usize> EndMotions<D> {
         self.matrix[place(row.max(column), row.min(column))]
     }
 
-    /// Eliminates all unknowns but the kept ones at x = ω². `entry` is the stiffness K − xM of the element: near end, far
-    /// end, lowest bubble.
+    /// Eliminates all unknowns but the kept ones at x = ω². `entry` is the stiffness K − xM of the element: near end,
+    /// far end, lowest bubble.
     pub(super) fn condense(&mut self, x: f64, entry: impl Fn(usize, usize) -> f64, min_pivot: &mut f64) {
         let bubble = self.bubble();
         let Self { direction, count, stiffness, mass, places, kept, matrix, .. } = self;
@@ -206,14 +208,14 @@ impl<const D: usize> EndMotions<D> {
         }
 
         // Far end, which follows the first motion, and the chain.
-        if let Some(&slip) = motions.first() {
+        if let Some(&sigma) = motions.first() {
             for column in 0..D {
-                matrix[place(slip, column)] = far(column);
+                matrix[place(sigma, column)] = far(column);
             }
             if let Some(bubble) = bubble {
-                matrix[at(slip, bubble)] = far(2 * D);
+                matrix[at(sigma, bubble)] = far(2 * D);
             }
-            matrix[place(slip, slip)] = (0..D).map(|d| direction[d] * far(D + d)).sum();
+            matrix[place(sigma, sigma)] = (0..D).map(|d| direction[d] * far(D + d)).sum();
         }
         for (i, a) in motions.iter().enumerate() {
             for (j, b) in motions[..=i].iter().enumerate() {
@@ -250,8 +252,8 @@ impl<const D: usize> EndMotions<D> {
 
     /// Motion of the end of the span.
     fn far_end(&self, unknowns: &[f64]) -> [f64; D] {
-        let slip = self.motions().first().map_or(0.0, |place| unknowns[*place]);
-        self.direction.map(|component| component * slip)
+        let sigma = self.motions().first().map_or(0.0, |place| unknowns[*place]);
+        self.direction.map(|component| component * sigma)
     }
 
     /// Product `aᵀ M b` of the motions.
@@ -326,8 +328,8 @@ pub(super) fn follow(
 }
 
 impl CableEnd {
-    /// Appends the motion of all unknowns at the end, which follows that of the last node of a divided cable. The result
-    /// is the motion of the end of the span.
+    /// Appends the motion of all unknowns at the end, which follows that of the last node of a divided cable. The
+    /// result is the motion of the end of the span.
     pub(super) fn follow_node(&self, in_plane: [f64; 2], out_of_plane: [f64; 1], into: &mut Vec<f64>) -> [f64; 3] {
         let start = into.len();
         self.in_plane.follow(&in_plane, into);

@@ -108,6 +108,7 @@ mod tests {
                 prop_assert_eq!(nodes.len(), 2);
                 return Ok(());
             }
+
             prop_assert!(0 < kept && kept < nodes.len() - 1);
             prop_assert!(nodes[0].abs() < 1e-12 * rope.unstrained_length);
             prop_assert!((nodes[nodes.len() - 1] / rope.unstrained_length - 1.0).abs() < 1e-12);

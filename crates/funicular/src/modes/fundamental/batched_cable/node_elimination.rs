@@ -242,8 +242,8 @@ fn inverted<const D: usize>(block: &Block<D>, min_pivot: &mut f64) -> Block<D> {
     })
 }
 
-/// Stiffness of the kept unknowns of chains whose elements are condensed onto their ends, at x = ω². `far_ends` is empty
-/// if all of them are held.
+/// Stiffness of the kept unknowns of chains whose elements are condensed onto their ends, at x = ω². `far_ends` is
+/// empty if all of them are held.
 pub(super) fn condense(
     chains: &mut [ElementChain],
     far_ends: &mut [CableEnd],

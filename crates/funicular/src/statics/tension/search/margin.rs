@@ -1,7 +1,7 @@
 //! Tensions with the maximum distance from the limits: the linear problem of one iteration.
 
 use super::proximal_step::ProximalStep;
-use super::{Linear, STILL, TensionSearch};
+use super::{CONVERGED, Linear, TensionSearch};
 use crate::math::active_set::Active;
 use crate::math::{Vec6, order};
 use crate::statics::error::StaticsError;
@@ -15,9 +15,9 @@ pub(in crate::statics::tension) const HOLDS: f64 = 1e-9;
 pub(super) struct MarginOptimum {
     /// Tensions [N].
     pub(super) tau: Vec<f64>,
-    /// This distance, in units of the widths.
+    /// Minimum distance from the limits, in units of the widths.
     pub(super) distance: f64,
-    /// This distance [N].
+    /// Minimum distance from the limits [N].
     pub(super) height: f64,
     /// Limits that hold it.
     pub(super) held_by: Vec<(usize, Limit)>,
@@ -59,7 +59,7 @@ impl TensionSearch<'_> {
             // Only the slackest cables can prevent a solution here: they bind more strictly than the limits.
             return match widths {
                 Some(_) => self.margin_optimum(linear, None, here, None),
-                None => Err(self.not_converged(f64::INFINITY, STILL)),
+                None => Err(self.not_converged(f64::INFINITY, CONVERGED)),
             };
         };
 

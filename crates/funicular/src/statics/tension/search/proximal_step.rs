@@ -5,8 +5,8 @@
 pub(super) const SETBACK: f64 = 0.9;
 
 /// Factor by which a repeated setback reduces the growth of the smallest distance, and by which a search from another
-/// start reduces its first step each time. Chosen, not fitted; each is smaller than [`SHORTER`](super::SHORTER),
-/// because a proximal step never grows again.
+/// start reduces its first step each time. Chosen, not fitted; each is smaller than
+/// [`SETBACK_FACTOR`](super::SETBACK_FACTOR), because a proximal step never grows again.
 pub(super) const SMALLER_CLIMB: f64 = 0.3;
 
 /// Limited growth of the smallest distance from the limits [N].

@@ -7,6 +7,7 @@
 //! the affine qᵀ K(τ) q. Cables that sag are linearised about the last tensions; a step that does not increase the
 //! stiffness is shortened.
 
+use super::super::cable_at_pose::CableAtPose;
 use super::super::null_space::Solutions;
 use super::super::search::{Linear, TensionSearch};
 use super::{GAIN, min_eigenvalue, present};
@@ -71,14 +72,7 @@ fn stiffest_of_linear(
     let here = search.tensions();
     let solutions = search.solutions(linear, &vec![1.0; here.len()])?;
     let stiffness = present(search);
-    let rates: Vec<Mat6> = search
-        .cables()
-        .iter()
-        .map(|cable| {
-            let rate = cable.stiffness_by_tension();
-            search.robot().platform.motion.reduced_matrix(&(symmetric_part(&rate)))
-        })
-        .collect();
+    let rates = stiffness_by_tensions(search);
     // Height in the unit of tensions.
     let unit = rates.iter().fold(0.0, |m: f64, rate| m.max(rate.amax())).max(f64::MIN_POSITIVE);
 
@@ -125,6 +119,13 @@ fn stiffest_of_linear(
         }
     }
     Ok(best)
+}
+
+/// Derivative of the stiffness of the robot by the tension of each cable.
+fn stiffness_by_tensions(search: &TensionSearch<'_>) -> Vec<Mat6> {
+    let motion = search.robot().platform.motion;
+    let rate = |cable: &CableAtPose| motion.reduced_matrix(&symmetric_part(&cable.stiffness_by_tension()));
+    search.cables().iter().map(rate).collect()
 }
 
 /// Limits of the tensions, none further than `reach` from the present ones; the last coordinate is the height.

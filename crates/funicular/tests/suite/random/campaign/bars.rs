@@ -1,9 +1,9 @@
 //! Robot of bars: every cable is a row of straight two-node bars with consistent mass, the platform is a rigid body.
 //!
-//! It is derived from the energy, without the library's dynamics. From the program it uses only the equilibrium (places
-//! and tensions along the cables, forces on the platform). Natural frequencies are counted: by Sylvester's law the
-//! signs of the pivots of a block elimination, cable by cable from the anchor to the platform, are those of the
-//! eigenvalues of `K − ω² M`.
+//! Its matrices are derived from the energy, without the library's dynamics. From the program the robot uses only the
+//! equilibrium (places and tensions along the cables, forces on the platform). Natural frequencies are counted: by
+//! Sylvester's law the signs of the pivots of a block elimination, cable by cable from the anchor to the platform, are
+//! those of the eigenvalues of `K − ω² M`.
 
 use funicular::math::{DMat, Mat3, Mat6, Vec3, Vec6, skew};
 use funicular::robot::{PlatformMotion, Robot};
@@ -21,7 +21,7 @@ struct Bar {
 
 /// Cable as a row of bars, from the platform to its anchor.
 #[derive(Debug)]
-struct Row {
+struct RowOfBars {
     bars: Vec<Bar>,
     /// Unstrained mass of a bar [kg].
     bar_mass: f64,
@@ -45,7 +45,7 @@ struct Span {
 /// Robot of bars.
 #[derive(Debug)]
 pub(crate) struct Bars {
-    rows: Vec<Row>,
+    rows: Vec<RowOfBars>,
     dof: usize,
     /// Geometric stiffness of static forces on their lever arms, and mass, of the platform about its origin, world
     /// axes.
@@ -88,10 +88,10 @@ impl Bars {
         add(&(robot.gravity_w * robot.platform.mass), &com);
         for ((cable, state), count) in robot.cables.iter().zip(&rest.cables).zip(counts) {
             add(&state.force_on_platform_w, &state.lever_w);
-            rows.push(Row::new(cable.material.mass_per_length, state, up, *count));
+            rows.push(RowOfBars::new(cable.material.mass_per_length, state, up, *count));
         }
         // Kinetic energy of the mass at the centre of mass, and of the rotation about it.
-        let mut motion_of_com = nalgebra::Matrix3x6::zeros();
+        let mut motion_of_com = Mat6::zeros();
         motion_of_com.fixed_view_mut::<3, 3>(0, 0).copy_from(&Mat3::identity());
         motion_of_com.fixed_view_mut::<3, 3>(0, 3).copy_from(&-skew(&com));
         platform_mass += motion_of_com.transpose() * motion_of_com * robot.platform.mass;
@@ -248,7 +248,7 @@ impl Span {
     }
 }
 
-impl Row {
+impl RowOfBars {
     fn new(mass_per_length: f64, state: &CableState, up: Vec3, count: usize) -> Self {
         let hanging = state.hanging.as_ref().expect("catenaries");
         let rope = hanging.catenary.rope();
@@ -320,12 +320,12 @@ impl Row {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::campaign::robots::{self, Kind};
+    use crate::random::campaign::robots::{self, Purpose};
     use funicular::statics::{self, StaticModel};
 
     /// Robots with an equilibrium, from the first on.
-    fn at_rest(most: usize) -> impl Iterator<Item = (robots::Sample, Equilibrium)> {
-        let proper = |sample: &robots::Sample| sample.kind == Kind::Proper;
+    fn at_rest(most: usize) -> impl Iterator<Item = (robots::RandomRobot, Equilibrium)> {
+        let proper = |sample: &robots::RandomRobot| sample.purpose == Purpose::Proper;
         (0..).map(robots::sample).filter(proper).take(most).map(|sample| {
             let rest =
                 statics::forward(&sample.robot, &sample.lengths, StaticModel::Catenary, Some(&sample.pose)).unwrap();

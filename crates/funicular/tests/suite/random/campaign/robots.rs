@@ -16,12 +16,12 @@ use std::fmt::Write;
 
 /// Purpose of a robot in the collection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Kind {
+pub(crate) enum Purpose {
     /// Robot with modes.
     Proper,
     /// Rigid platform on 4 or 5 cables.
     TooFewCables,
-    /// One cable without mass is longer than its chord.
+    /// Robot with a slack cable: it has no mass and is longer than its chord.
     Slack,
     /// Robot whose frequency limit is up to a thousand times the limit of a list of modest length.
     FarTooHigh,
@@ -29,7 +29,7 @@ pub(crate) enum Kind {
 
 /// Arrangement of the cables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Layout {
+pub(crate) enum Arrangement {
     /// Rigid platform on six cables from above.
     Hanging,
     /// Rigid platform on 7 to 12 cables, some of them from below.
@@ -42,10 +42,10 @@ pub(crate) enum Layout {
 
 /// Robot with its known properties.
 #[derive(Debug, Clone)]
-pub(crate) struct Sample {
+pub(crate) struct RandomRobot {
     pub(crate) index: u64,
-    pub(crate) kind: Kind,
-    pub(crate) layout: Layout,
+    pub(crate) purpose: Purpose,
+    pub(crate) arrangement: Arrangement,
     pub(crate) robot: Robot,
     pub(crate) lengths: Vec<f64>,
     /// Pose of equilibrium with these lengths; it may be unstable.
@@ -59,42 +59,42 @@ pub(crate) struct Sample {
 }
 
 /// Robot of a number.
-pub(crate) fn sample(index: u64) -> Sample {
+pub(crate) fn sample(index: u64) -> RandomRobot {
     let mut seed = [0; 32];
     seed[..8].copy_from_slice(&index.to_le_bytes());
-    let mut draw = Draw(TestRng::from_seed(RngAlgorithm::ChaCha, &seed));
-    let kind = match draw.0.random_range(0..100) {
-        0..4 => Kind::TooFewCables,
-        4..6 => Kind::Slack,
-        6..8 => Kind::FarTooHigh,
-        _ => Kind::Proper,
+    let mut draw = RobotGenerator(TestRng::from_seed(RngAlgorithm::ChaCha, &seed));
+    let purpose = match draw.0.random_range(0..100) {
+        0..4 => Purpose::TooFewCables,
+        4..6 => Purpose::Slack,
+        6..8 => Purpose::FarTooHigh,
+        _ => Purpose::Proper,
     };
-    let layout = match draw.0.random_range(0..100) {
-        _ if kind == Kind::TooFewCables => Layout::Hanging,
-        0..25 => Layout::Hanging,
-        25..60 => Layout::Redundant,
-        60..85 => Layout::Symmetric,
-        _ => Layout::PointMass,
+    let arrangement = match draw.0.random_range(0..100) {
+        _ if purpose == Purpose::TooFewCables => Arrangement::Hanging,
+        0..25 => Arrangement::Hanging,
+        25..60 => Arrangement::Redundant,
+        60..85 => Arrangement::Symmetric,
+        _ => Arrangement::PointMass,
     };
     // Most arrangements hold no platform, or not with tension in all cables; then others are drawn.
     for _ in 0..100_000 {
-        if let Some(sample) = draw.attempt(index, kind, layout) {
+        if let Some(sample) = draw.attempt(index, purpose, arrangement) {
             return sample;
         }
     }
-    panic!("robot {index}: no {layout:?} of kind {kind:?} found");
+    panic!("robot {index}: no {arrangement:?} of purpose {purpose:?} found");
 }
 
-struct Draw(TestRng);
+struct RobotGenerator(TestRng);
 
 /// Start and end of the cables, world axes from the pose's origin.
-struct Places {
+struct CableEnds {
     levers: Vec<Vec3>,
     anchors: Vec<Vec3>,
     symmetric: bool,
 }
 
-impl Draw {
+impl RobotGenerator {
     fn between(&mut self, low: f64, high: f64) -> f64 {
         self.0.random_range(low..high)
     }
@@ -108,12 +108,12 @@ impl Draw {
         self.0.random_bool(part)
     }
 
-    /// One attempt; `None` if the cables cannot hold the platform.
-    fn attempt(&mut self, index: u64, kind: Kind, layout: Layout) -> Option<Sample> {
+    /// Random robot; `None` if the cables cannot hold the platform.
+    fn attempt(&mut self, index: u64, purpose: Purpose, arrangement: Arrangement) -> Option<RandomRobot> {
         let size = self.decades(-0.3, 1.0);
-        let mut places = match layout {
-            Layout::Symmetric => self.symmetric(size),
-            _ => self.scattered(kind, layout, size),
+        let mut places = match arrangement {
+            Arrangement::Symmetric => self.symmetric(size),
+            _ => self.scattered(purpose, arrangement, size),
         };
         let n = places.levers.len();
         let symmetric = places.symmetric;
@@ -129,15 +129,16 @@ impl Draw {
         let up = Vec3::new(tilt.sin() * turn.cos(), tilt.sin() * turn.sin(), tilt.cos());
         let mass = self.decades(0.0, 3.0);
         let radius = places.levers.iter().map(Vec3::norm).sum::<f64>() / n as f64;
-        let com = match layout {
-            Layout::PointMass => Vec3::zeros(),
+        let com = match arrangement {
+            Arrangement::PointMass => Vec3::zeros(),
             _ if symmetric => Vec3::z() * (radius * self.between(-1.0, 0.3)),
             _ => Vec3::new(self.between(-0.3, 0.3), self.between(-0.3, 0.3), self.between(-1.0, 0.3)) * radius,
         };
         let sag = self.sags(index, n, symmetric);
         let weight = mass * G;
-        let cables = self.cables(&places, layout, &up, &com, weight, &sag)?;
-        let inertia = if layout == Layout::PointMass { None } else { Some(self.inertia(mass, radius, symmetric)) };
+        let cables = self.cables(&places, arrangement, &up, &com, weight, &sag)?;
+        let inertia =
+            if arrangement == Arrangement::PointMass { None } else { Some(self.inertia(mass, radius, symmetric)) };
         // The platform's frame is rotated against the world's, because levers are given in world axes.
         let angles: [f64; 3] =
             std::array::from_fn(|_| if symmetric || inertia.is_none() { 0.0 } else { self.between(-40.0, 40.0) });
@@ -165,12 +166,12 @@ impl Draw {
             }
         }
         let robot = Robot::from_toml(&text).unwrap_or_else(|refused| panic!("robot {index}: {refused}\n{text}"));
-        let mut lengths = if kind == Kind::TooFewCables {
+        let mut lengths = if purpose == Purpose::TooFewCables {
             cables.iter().map(|cable| cable.chord).collect()
         } else {
             balanced(&robot, &pose, &cables)?
         };
-        if kind == Kind::Slack {
+        if purpose == Purpose::Slack {
             // This cable has no mass and is slightly longer than its chord at the pose where the others hold the
             // platform.
             let i = self.0.random_range(0..n);
@@ -185,19 +186,19 @@ impl Draw {
         }
         let text = with_lengths(&text, &lengths);
         let robot = Robot::from_toml(&text).unwrap_or_else(|refused| panic!("robot {index}: {refused}\n{text}"));
-        let below_hz = self.limit(&cables) * if kind == Kind::FarTooHigh { 1000.0 } else { 1.0 };
-        Some(Sample { index, kind, layout, robot, lengths, pose, sag, below_hz, text })
+        let below_hz = self.limit(&cables) * if purpose == Purpose::FarTooHigh { 1000.0 } else { 1.0 };
+        Some(RandomRobot { index, purpose, arrangement, robot, lengths, pose, sag, below_hz, text })
     }
 
     /// Cables around and above the platform, some from below, some nearly vertical.
-    fn scattered(&mut self, kind: Kind, layout: Layout, size: f64) -> Places {
-        let n = match (kind, layout) {
-            (Kind::TooFewCables, _) => self.0.random_range(4..=5),
-            (_, Layout::Hanging) => 6,
-            (_, Layout::Redundant) => self.0.random_range(7..=12),
+    fn scattered(&mut self, purpose: Purpose, arrangement: Arrangement, size: f64) -> CableEnds {
+        let n = match (purpose, arrangement) {
+            (Purpose::TooFewCables, _) => self.0.random_range(4..=5),
+            (_, Arrangement::Hanging) => 6,
+            (_, Arrangement::Redundant) => self.0.random_range(7..=12),
             _ => self.0.random_range(4..=12),
         };
-        let below = if layout == Layout::Hanging { 0.0 } else { self.between(0.0, 0.5) };
+        let below = if arrangement == Arrangement::Hanging { 0.0 } else { self.between(0.0, 0.5) };
         let twist = self.between(-2.5, 2.5);
         let radius = self.between(0.05, 0.3);
         let vertical = if self.chance(0.3) { 0.3 } else { 0.0 };
@@ -205,8 +206,8 @@ impl Draw {
         for i in 0..n {
             let around = TAU * (f64::from(i) + self.between(0.0, 1.0)) / f64::from(n);
             let inner = around + twist * if i % 2 == 0 { 1.0 } else { -1.0 } + self.between(-0.4, 0.4);
-            let lever = match layout {
-                Layout::PointMass => Vec3::zeros(),
+            let lever = match arrangement {
+                Arrangement::PointMass => Vec3::zeros(),
                 _ => Vec3::new(radius * inner.cos(), radius * inner.sin(), self.between(-0.15, 0.15)) * size,
             };
             let height = self.between(0.25, 1.2) * if self.chance(below) { -1.0 } else { 1.0 };
@@ -221,12 +222,12 @@ impl Draw {
             });
             levers.push(lever);
         }
-        Places { levers, anchors, symmetric: false }
+        CableEnds { levers, anchors, symmetric: false }
     }
 
     /// Two or three families of cables that a symmetry maps onto themselves: mirrored in two planes, which is exact to
     /// rounding, or rotated about the vertical and mirrored.
-    fn symmetric(&mut self, size: f64) -> Places {
+    fn symmetric(&mut self, size: f64) -> CableEnds {
         let (mut levers, mut anchors) = (Vec::new(), Vec::new());
         let two_planes = self.chance(0.5);
         let turns = self.0.random_range(3..=6);
@@ -259,7 +260,7 @@ impl Draw {
                 }
             }
         }
-        Places { levers, anchors, symmetric: true }
+        CableEnds { levers, anchors, symmetric: true }
     }
 
     /// Sag ratios. The level of a robot is evenly distributed with its number. Cables that all sag by 12.5 % or more
@@ -272,8 +273,8 @@ impl Draw {
             .map(|_| match way {
                 _ if alike => level,
                 0 => level,
-                1 => self.between(0.0, DEEPEST),
-                _ => DEEPEST * self.decades(-3.0, 0.0),
+                1 => self.between(0.0, MAX_SAG),
+                _ => MAX_SAG * self.decades(-3.0, 0.0),
             })
             .collect()
     }
@@ -282,8 +283,8 @@ impl Draw {
     /// platform carries, so that the balance is linear in τ.
     fn cables(
         &mut self,
-        places: &Places,
-        layout: Layout,
+        places: &CableEnds,
+        arrangement: Arrangement,
         up: &Vec3,
         com: &Vec3,
         weight: f64,
@@ -291,7 +292,7 @@ impl Draw {
     ) -> Option<Vec<Fit>> {
         let n = sag.len();
         let massless = !places.symmetric && self.chance(0.12);
-        let rows = if layout == Layout::PointMass { 3 } else { 6 };
+        let rows = if arrangement == Arrangement::PointMass { 3 } else { 6 };
         let mut columns = DMat::zeros(rows, n);
         let mut weights = Vec::with_capacity(n);
         let radius = places.levers.iter().map(Vec3::norm).fold(0.0, f64::max).max(1e-3);
@@ -355,7 +356,7 @@ impl Draw {
 /// Gravity [m/s²].
 const G: f64 = 9.81;
 /// Maximum ratio of sag to chord.
-const DEEPEST: f64 = 0.15;
+const MAX_SAG: f64 = 0.15;
 
 /// Intended data of a cable.
 struct Fit {
@@ -483,7 +484,7 @@ fn a_number_always_gives_the_same_robot_with_the_sag_asked_for() {
         assert!((4..=12).contains(&one.robot.cables.len()));
         let State::Lengths(lengths) = &one.robot.state else { panic!("lengths") };
         assert_eq!(*lengths, one.lengths);
-        if one.kind == Kind::Proper {
+        if one.purpose == Purpose::Proper {
             let left = statics::wrench(&one.robot, &one.pose, &one.lengths, StaticModel::Catenary).unwrap();
             assert!(left.norm() < 1e-9 * one.robot.platform.mass * G * 100.0, "robot {index}: {left}");
         }

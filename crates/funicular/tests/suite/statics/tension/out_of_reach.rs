@@ -274,8 +274,8 @@ fn exactly_the_limits_on_which_the_violation_depends_are_named() {
     assert!(named_in_all > 50 && beside > 50 && symmetric >= 4, "{named_in_all} {beside} {symmetric}");
 }
 
-/// Farkas' lemma: either tensions without limits balance the load, or there is a direction along which no cable pulls and
-/// the load has to be balanced. Robots in any pose, with loads in any direction.
+/// Farkas' lemma: either tensions without limits balance the load, or there is a direction along which no cable pulls
+/// and the load has to be balanced. Robots in any pose, with loads in any direction.
 #[test]
 fn the_direction_of_an_obstacle_is_one_in_which_no_cable_pulls() {
     let (mut spanned, mut obstructed) = (0, 0);

@@ -155,8 +155,8 @@ fn the_maximum_payload_is_where_tensions_within_the_limits_end() {
     }
 }
 
-/// Published nowhere, but found by an exhaustive sweep in steps of a kilogram: 605 kg in all, and the upper cables are at
-/// their limits at the anchors.
+/// Published nowhere, but found by an exhaustive sweep in steps of a kilogram: 605 kg in all, and the upper cables are
+/// at their limits at the anchors.
 #[test]
 fn the_hall_robot_holds_545_kg_besides_its_platform_of_60_kg() {
     let robot = Robot::from_toml(HALL).unwrap();

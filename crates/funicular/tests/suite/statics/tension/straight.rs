@@ -9,7 +9,7 @@ use funicular::statics::{self, StaticModel, StaticsError, TensionRange, TensionR
 /// are `particular + N z`, from the singular value decomposition, and their polytope is given by its corners.
 struct Straight {
     particular: Vec<f64>,
-    /// One row per cable, one column per dimension.
+    /// Row per cable, column per dimension.
     null: DMat,
     limits: [f64; 2],
 }

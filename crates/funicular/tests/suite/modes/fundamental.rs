@@ -1,7 +1,9 @@
 //! First natural frequency alone against the first mode of the complete list.
 
+mod with_drives;
+
 use crate::library::library;
-use crate::random::campaign::robots::{self, Kind};
+use crate::random::campaign::robots::{self, Purpose};
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::modes::{self, First, FirstError};
 use funicular::robot::{Cable, Pose, Robot};
@@ -12,25 +14,25 @@ use std::f64::consts::TAU;
 const YUAN: &str = funicular_robots::YUAN2014_4MM;
 
 /// Fault of the first mode of a robot, compared with the list up to a tenth above it; energies with the usual accuracy.
-pub(super) fn fault(robot: &Robot, rest: &Equilibrium, first: &First) -> Option<String> {
-    fault_beyond(robot, rest, first, &Bounds { energy: |_| 1e-6, stiffest: 0.0 })
+fn fault(robot: &Robot, rest: &Equilibrium, first: &First) -> Option<String> {
+    fault_beyond(robot, rest, first, &ErrorBounds { energy: |_| 1e-6, stiffest: 0.0 })
 }
 
-/// Bounds of the errors of a first mode.
-pub(super) struct Bounds {
+/// ErrorBounds of the errors of a first mode.
+struct ErrorBounds {
     /// Error of the energies as a function of the relative distance to the next frequency.
-    pub(super) energy: fn(f64) -> f64,
+    energy: fn(f64) -> f64,
     /// Stiffness of the stiffest spring [N/m], whose rounding changes the frequency; 0 to leave it out.
-    pub(super) stiffest: f64,
+    stiffest: f64,
 }
 
-/// Rounding of a soft motion's stiffness over the stiffest spring: the elimination of some fifty unknowns, twice. A drum
-/// of 1 kg at constant torque behind 14 cm of a steel rope of 2e7 N leaves 140 units in the last place, found by
+/// Rounding of a soft motion's stiffness over the stiffest spring: the elimination of some fifty unknowns, twice. A
+/// drum of 1 kg at constant torque behind 14 cm of a steel rope of 2e7 N leaves 140 units in the last place, found by
 /// comparison with longer ropes.
 const STIFFNESS_ROUNDING: f64 = 128.0 * f64::EPSILON;
 
 /// Fault of the first mode beyond some bounds.
-pub(super) fn fault_beyond(robot: &Robot, rest: &Equilibrium, first: &First, bounds: &Bounds) -> Option<String> {
+fn fault_beyond(robot: &Robot, rest: &Equilibrium, first: &First, bounds: &ErrorBounds) -> Option<String> {
     let limit = 1.1 * first.frequency_hz;
     let all = modes::below(&Dynamics::about(robot, rest, Linearisation::default(), limit).unwrap(), limit);
     let Some(mode) = all.modes.first() else { return Some(format!("none below {limit} Hz")) };
@@ -72,7 +74,7 @@ fn the_first_frequency_of_random_robots_is_that_of_the_whole_list() {
     let mut compared = 0;
     for index in 0..200 {
         let sample = robots::sample(index);
-        if sample.kind != Kind::Proper {
+        if sample.purpose != Purpose::Proper {
             continue;
         }
         let start = Some(&sample.pose);
@@ -82,7 +84,7 @@ fn the_first_frequency_of_random_robots_is_that_of_the_whole_list() {
         }
         match modes::first(&sample.robot, &rest) {
             Ok(first) => {
-                assert_eq!(fault(&sample.robot, &rest, &first), None, "robot {index} ({:?})", sample.layout);
+                assert_eq!(fault(&sample.robot, &rest, &first), None, "robot {index} ({:?})", sample.arrangement);
                 compared += 1;
             }
             Err(refused) => {
@@ -109,7 +111,7 @@ proptest! {
         prop_assume!(matches!(rest.stability, Stability::Stable { .. }));
         let first = modes::first(&robot, &rest).unwrap();
         // The bound that follows from the frequency's width of 5e-10.
-        let bounds = Bounds { energy: |apart| 2.0 * (5e-10 / apart).sqrt(), stiffest: 0.0 };
+        let bounds = ErrorBounds { energy: |apart| 2.0 * (5e-10 / apart).sqrt(), stiffest: 0.0 };
         prop_assert_eq!(fault_beyond(&robot, &rest, &first, &bounds), None);
     }
 }

@@ -1,7 +1,7 @@
 //! First natural frequency of robots with pulleys and winches against the first mode of the complete list.
 
-use super::first::{Bounds, fault, fault_beyond};
-use crate::random::campaign::robots::{self, Kind, Layout};
+use super::{ErrorBounds, fault, fault_beyond};
+use crate::random::campaign::robots::{self, Arrangement, Purpose};
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes::{self, FirstError};
@@ -39,15 +39,15 @@ fn cogiro(winch: Option<&Winch>, inertia: f64, swivel_inertia: f64) -> Robot {
     robot
 }
 
-/// Bounds of the first mode: energies as the width of the frequency, 5e-10, has them; and rounding of the stiffest spring,
-/// the shortest piece of cable, against which motors at constant torque are soft.
-fn bounds(robot: &Robot) -> Bounds {
+/// ErrorBounds of the first mode: energies as the width of the frequency, 5e-10, has them; and rounding of the stiffest
+/// spring, the shortest piece of cable, against which motors at constant torque are soft.
+fn bounds(robot: &Robot) -> ErrorBounds {
     let stiffest = robot.cables.iter().map(|cable| {
         let side = cable.anchor.winch.as_ref().map_or(f64::INFINITY, |winch| winch.drum_side_length);
         let shortest = if side > 0.0 { side.min(1.0) } else { 1.0 };
         cable.material.axial_stiffness / shortest
     });
-    Bounds { energy: |apart| 1e-6_f64.max(2.0 * (5e-10 / apart).sqrt()), stiffest: stiffest.fold(0.0, f64::max) }
+    ErrorBounds { energy: |apart| 1e-6_f64.max(2.0 * (5e-10 / apart).sqrt()), stiffest: stiffest.fold(0.0, f64::max) }
 }
 
 fn at(robot: &Robot, position: [f64; 3]) -> Equilibrium {
@@ -207,13 +207,13 @@ proptest! {
         inertia in prop::option::of(decades(-6.0, 0.0)), swivel in prop::option::of(decades(-6.0, 0.0)), pulleys in 1usize..8,
     ) {
         let sample = robots::sample(index);
-        prop_assume!(sample.kind == Kind::Proper);
+        prop_assume!(sample.purpose == Purpose::Proper);
         let mut robot = sample.robot;
         let up_w = -robot.gravity_w.normalize();
         let (count, extent) = (robot.cables.len(), robot.cables[0].chord_w(&sample.pose).norm());
         for (i, cable) in robot.cables.iter_mut().enumerate() {
             // Mirrored cables get the same drive, so that frequencies stay multiple.
-            let kind = if sample.layout == Layout::Symmetric { 0 } else { i };
+            let kind = if sample.arrangement == Arrangement::Symmetric { 0 } else { i };
             cable.anchor.winch = winches[kind % winches.len()].clone();
             cable.anchor.pulley = (pulleys >> (kind % 3) & 1 == 1).then(|| Pulley {
                 name: String::new(),
@@ -228,7 +228,7 @@ proptest! {
         prop_assume!(held.is_ok());
         let rest = held.unwrap();
         prop_assume!(matches!(rest.stability, Stability::Stable { .. }));
-        let context = || format!("robot {index} ({:?}) with {count} cables", sample.layout);
+        let context = || format!("robot {index} ({:?}) with {count} cables", sample.arrangement);
 
         match modes::first(&robot, &rest) {
             Ok(first) => {
