@@ -7,14 +7,12 @@ use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::cable::shallow_dynamic::ShallowDynamic;
 use funicular::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, Sag};
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::math::{Complex, DMat, Mat3, Vec3};
+use funicular::math::{CDMat, Complex, DMat, Mat3, Vec3};
 use funicular::modes::{self, Kind};
 use funicular::response::{self, FrameInput, Port, Quantity, Signal};
 use funicular::robot::{Control, Damping, GuideWheel, Pose, Robot, Servo, WinchMode};
 use funicular::statics::{self, CableState, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
-
-type CDMat = nalgebra::DMatrix<Complex>;
 
 const SHALLOW: Linearisation = Linearisation {
     cable_model: CableModel::ShallowDynamic,
