@@ -260,7 +260,7 @@ impl CableForm {
         match &self.inertia {
             Inertia::Modes(vibrating) => {
                 let far = carrier.map(|carrier| (self.local(&carrier.displacement_w), carrier.along));
-                self.vibrating_motion(vibrating, (&self.local(&end_w), far.as_ref(), theta), at, near, forces)
+                self.vibrating_motion(vibrating, (&self.local(&end_w), theta), far.as_ref(), at, near, forces)
             }
             Inertia::None | Inertia::Massless => self.slow_motion(&end_w, theta, carrier),
         }
@@ -308,7 +308,8 @@ impl CableForm {
     fn vibrating_motion<T: Field>(
         &self,
         vibrating: &Vibrating,
-        (end, far, theta): (&Vector<T>, Option<&(Vector<T>, T)>, &Vector<T>),
+        (end, theta): (&Vector<T>, &Vector<T>),
+        far: Option<&(Vector<T>, T)>,
         at: &CableAt<T>,
         near: &[FamilyAmplitude<T>],
         forces: &[T],

@@ -15,7 +15,7 @@ fn random_case(number: u64) -> RuleCase {
     let mut draw = Draw(1000 + number);
     let turned = |draw: &mut Draw, i: usize, around: f64| {
         // The cables pull alternately in both senses about the vertical.
-        let sense = if i % 2 == 0 { 1.0 } else { -1.0 };
+        let sense = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
         around + sense * draw.between(0.6, 1.4)
     };
     let mut robot = random_robot(&mut draw, number, [(4.0, 6.0), (-2.5, -0.5)], turned);
