@@ -18,7 +18,7 @@ use crate::robot::Robot;
 use crate::statics::Equilibrium;
 use thiserror::Error;
 
-/// Reason for which the motion along a cable is not known.
+/// Reason why the motion along a cable is not known.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CableMotionError {
     /// The model describes the cable's end only.
@@ -26,9 +26,9 @@ pub enum CableMotionError {
     Model(CableModel),
     /// The cable has no such signal of its drive.
     #[error(
-        "cable \"{cable}\" has no signal `{signal}`: `length` needs a motor that holds its angle or a position control, \
-         `drum` a drum and `motor` a motor that can move, all a cable with mass and the model `catenary-dynamic`, or \
-         `shallow-dynamic` with a winch"
+        "cable \"{cable}\" has no signal `{signal}`: `length` needs a motor that holds its angle or a position \
+         control, `drum` a drum and `motor` a motor that can move, all a cable with mass and the model \
+         `catenary-dynamic`, or `shallow-dynamic` with a winch"
     )]
     NoDriveSignal {
         /// Name of the cable.
@@ -227,9 +227,9 @@ impl CableStations {
         vector
     }
 
-    /// Displacement of station `at` along a unit vector for a displacement `far_end_w` of the far end, the platform held, at ω
-    /// [rad/s], damped. `carrier` is that motion in the axes of a cable whose stiffness depends on frequency; `None` if it is at
-    /// rest.
+    /// Displacement of station `at` along a unit vector for a displacement `far_end_w` of the far end, the platform
+    /// held, at ω [rad/s], damped. `carrier` is that motion in the axes of a cable whose stiffness depends on
+    /// frequency; `None` if it is at rest.
     pub(crate) fn by_far_end(
         &self,
         dynamics: &Dynamics,
@@ -251,8 +251,9 @@ impl CableStations {
         }
     }
 
-    /// Displacement of station `at` along a unit vector per unit of a signal of the drive or tension of the cable, the platform
-    /// held, at ω [rad/s], damped; by reciprocity also the output per force on the station. Zero without such a signal.
+    /// Displacement of station `at` along a unit vector per unit of a signal of the drive or tension of the cable, the
+    /// platform held, at ω [rad/s], damped; by reciprocity also the output per force on the station. Zero without such
+    /// a signal.
     pub(crate) fn by_signal(
         &self,
         dynamics: &Dynamics,
@@ -269,8 +270,8 @@ impl CableStations {
         moved.iter().zip(self.local(direction_w)).map(|(u, component)| u * component).sum()
     }
 
-    /// Displacement of station `at` along `direction_w` (unit) for a displacement `far_end_w` of the far end, with the platform
-    /// and the amplitudes of the clamped modes at rest.
+    /// Displacement of station `at` along `direction_w` (unit) for a displacement `far_end_w` of the far end, with the
+    /// platform and the amplitudes of the clamped modes at rest.
     pub(crate) fn still_by_far_end(&self, at: usize, direction_w: &Vec3, far_end_w: &Vec3) -> f64 {
         match &self.model {
             StationModel::Straight(fractions) => far_end_w.dot(direction_w) * (1.0 - fractions[at]),
@@ -280,8 +281,8 @@ impl CableStations {
         }
     }
 
-    /// Displacement of station `at` along `direction_w` (unit) for displacements (e, n, b) of the platform end and of the far
-    /// end, with the amplitudes of the clamped modes at rest; zero for a cable without mass.
+    /// Displacement of station `at` along `direction_w` (unit) for displacements (e, n, b) of the platform end and of
+    /// the far end, with the amplitudes of the clamped modes at rest; zero for a cable without mass.
     pub(crate) fn still_by_ends(&self, at: usize, direction_w: &Vec3, [start, end]: [[f64; 3]; 2]) -> f64 {
         let StationModel::CatenaryDynamic { stations, .. } = &self.model else { return 0.0 };
         let moved = stations.still(at, start, end);

@@ -1,14 +1,14 @@
 //! Gradients: derivatives of a result by every number of the robot at once, in reverse.
 //!
 //! Every result is a scalar of the state at rest: forces, lever arms, chords, loads and lengths of the cables, arms and
-//! tensors of the platform. Its coefficients over that state are followed back through the cables' partial derivatives to
-//! the numbers of the robot; what follows a change, pose or lengths, costs one solution of the balance per result, however
-//! many numbers there are. Quantities of vibration get their coefficients from the quadratic form of the dynamic
-//! stiffness, which is stationary in the motion: no mode is differentiated and no number of the robot perturbed
-//! (docs/theory.md, section 17).
+//! tensors of the platform. Its coefficients over that state are followed back through the cables' partial derivatives
+//! to the numbers of the robot. The pose or the lengths adapt to a change of the robot; this costs one linear solve per
+//! result, whatever the number of parameters is. Quantities of vibration get their coefficients from the quadratic form
+//! of the dynamic stiffness. This form is stationary in the motion, so no mode is differentiated (docs/theory.md,
+//! section 17).
 //!
-//! The derivative along one direction is the product with it, [`RobotChange::dot`]; the direction of a number of the robot
-//! file is [`Parameters::change`](crate::robot::parameters::Parameters::change).
+//! The derivative along one direction is the product with it, [`RobotChange::dot`]; the direction of a number of the
+//! robot file is [`Parameters::change`](crate::robot::parameters::Parameters::change).
 
 mod adjoint;
 mod cable_form;
@@ -42,14 +42,15 @@ use thiserror::Error;
 /// Quantity that is held while a number of the robot changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Hold {
-    /// The unstrained lengths stay, apart from their own change, and the pose follows.
+    /// The unstrained lengths are held, apart from their own change, and the pose adapts.
     #[default]
     Lengths,
-    /// The pose stays, apart from its own change, and the unstrained lengths follow. Of more cables than degrees of freedom
-    /// the tensions parallel to the chords, (10a), change least: the sum of the squares of their changes is minimum.
+    /// The pose is held, apart from its own change, and the unstrained lengths adapt. With redundant cables the change
+    /// of the parallel tensions, (10a), is minimum: the sum of the squares of the changes.
     Pose,
-    /// The pose stays, apart from its own change, and the unstrained lengths follow the rule of the tension distribution;
-    /// see [`Gradients::by_rule`]. The same as [`Self::Pose`] for as many cables as degrees of freedom.
+    /// The pose is held, apart from its own change, and the unstrained lengths follow the rule of the tension
+    /// distribution; see [`Gradients::by_rule`]. It is equal to [`Self::Pose`] if there are as many cables as degrees
+    /// of freedom.
     Rule,
 }
 
@@ -57,7 +58,7 @@ impl Hold {
     /// All choices.
     pub const ALL: [Self; 3] = [Self::Lengths, Self::Pose, Self::Rule];
 
-    /// Name on the command line and in files.
+    /// Name in requests and results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Lengths => "lengths",
@@ -67,17 +68,17 @@ impl Hold {
     }
 }
 
-/// Reason for which a result has no gradient.
+/// Reason why a result has no gradient.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum GradientError {
-    /// The equilibrium has none.
+    /// The equilibrium has no derivatives.
     #[error(transparent)]
     Static(#[from] StaticDerivativeError),
     /// The parallel tension of a vertical cable with weight is not differentiated.
     #[error(
-        "cable \"{cable}\" is parallel to its load: with the pose held, the rule for more cables than degrees of freedom \
-         needs the derivative of its parallel tension, which is not known there; hold the lengths, or choose a pose beside \
-         this one"
+        "cable \"{cable}\" is parallel to its load: with the pose held, the rule for more cables than degrees of \
+         freedom needs the derivative of its parallel tension, which is not known there; hold the lengths, or choose a \
+         pose beside this one"
     )]
     Vertical {
         /// Name of the cable.
@@ -85,20 +86,20 @@ pub enum GradientError {
     },
     /// The rule of the tension distribution is not known.
     #[error(
-        "the derivatives of tensions that follow a rule need the rule: give it, or hold the pose with tensions that change \
-         least"
+        "the derivatives of tensions that follow a rule need the rule: give it, or hold the pose with tensions that \
+         change least"
     )]
     NoRule,
     /// The rule has no derivatives here.
     #[error(
-        "tensions by the rule `stiffest` have no derivatives here: choose the rule `closest`, `lowest` or `middle`, or hold \
-         the pose with tensions that change least"
+        "tensions by the rule `stiffest` have no derivatives here: choose the rule `closest`, `lowest` or `middle`, or \
+         hold the pose with tensions that change least"
     )]
     Stiffest,
     /// The equilibrium is not that of the rule.
     #[error(
-        "the tension of cable \"{cable}\" does not follow the rule `{rule}`: distribute the tensions by this rule first, or \
-         hold the lengths"
+        "the tension of cable \"{cable}\" does not follow the rule `{rule}`: distribute the tensions by this rule \
+         first, or hold the lengths"
     )]
     NotByRule {
         /// Name of the rule.
@@ -108,8 +109,8 @@ pub enum GradientError {
     },
     /// The rule has different derivatives on both sides.
     #[error(
-        "the tensions by the rule `{rule}` have different derivatives on both sides of this robot: {}; change the pose, the \
-         target or a limit a little, or hold the pose with tensions that change least",
+        "the tensions by the rule `{rule}` have different derivatives on both sides of this robot: {}; change the \
+         pose, the target or a limit a little, or hold the pose with tensions that change least",
         one_sided(cable, *limit)
     )]
     OneSided {
@@ -122,8 +123,8 @@ pub enum GradientError {
     },
     /// A minimum tension by default is not differentiated for straight cables.
     #[error(
-        "cable \"{cable}\": its minimum tension is the default, a multiple of its weight, which straight cables do not have: \
-         give `minimum_tension_n`, or use the static model `catenary`"
+        "cable \"{cable}\": its minimum tension is the default, a multiple of its weight, which straight cables do not \
+         have: give `minimum_tension_n`, or use the static model `catenary`"
     )]
     DefaultMinimum {
         /// Name of the cable.
@@ -131,8 +132,8 @@ pub enum GradientError {
     },
     /// A rule chooses the tensions of cables on flexible supports.
     #[error(
-        "cable \"{cable}\" is on a flexible support: tensions that follow their rule have derivatives on a rigid frame; hold \
-         the lengths or the pose instead"
+        "cable \"{cable}\" is on a flexible support: tensions that follow their rule have derivatives on a rigid \
+         frame; hold the lengths or the pose instead"
     )]
     RuleAndSupports {
         /// Name of the cable.
@@ -176,8 +177,8 @@ pub enum GradientError {
     NotOnPlatform,
     /// A cable has no such signal of its drive, or none with gradients.
     #[error(
-        "cable \"{cable}\" has no gradients of the signal `{signal}`: `length` needs a cable with a drum side or a winch that \
-         yields, `drum` and `motor` one that can move; choose another signal"
+        "cable \"{cable}\" has no gradients of the signal `{signal}`: `length` needs a cable with a drum side or a \
+         winch that yields, `drum` and `motor` one that can move; choose another signal"
     )]
     NoDriveSignal {
         /// Name of the cable.
@@ -204,7 +205,7 @@ pub enum GradientError {
     },
 }
 
-/// Reason for which a rule has different derivatives on both sides.
+/// Reason why a rule has different derivatives on both sides.
 fn one_sided(cable: &str, limit: Option<Limit>) -> String {
     match limit {
         Some(limit) => {
@@ -214,11 +215,11 @@ fn one_sided(cable: &str, limit: Option<Limit>) -> String {
     }
 }
 
-/// Distance of two stiffnesses, over the maximum, below which they count as one multiple value.
+/// Maximum difference of two stiffnesses, relative to the largest one, at which they count as equal.
 const MULTIPLE_STIFFNESS: f64 = 1e-9;
 
-/// Gradients of the results of an equilibrium. Each gradient has the derivative of a result by every number of the robot:
-/// units of the result per SI unit of the field.
+/// Gradients of the results of an equilibrium. Each gradient has the derivative of a result by every number of the
+/// robot: units of the result per SI unit of the field.
 ///
 /// # Example
 /// ```
@@ -295,7 +296,7 @@ impl<'a> Gradients<'a> {
         Ok(Self { hold: Hold::Rule, pullback: Pullback::new(robot, equilibrium, Hold::Rule, Some(rule))? })
     }
 
-    /// What is held.
+    /// Quantity that is held constant.
     pub fn hold(&self) -> Hold {
         self.hold
     }

@@ -66,8 +66,8 @@ where
 
 /// Inverse of a 6×6 matrix by elimination with pivots; `None` if it is singular.
 ///
-/// nalgebra's `try_inverse` calls the same elimination for more than four rows. The compiler translates its formulas for
-/// up to four rows for each type of matrix, too, although no 6×6 matrix uses them.
+/// nalgebra's `try_inverse` calls the same elimination for more than four rows. The compiler translates its formulas
+/// for up to four rows for each type of matrix, too, although no 6×6 matrix uses them.
 pub(crate) fn inverse6<T: nalgebra::ComplexField>(matrix: &Matrix6<T>) -> Option<Matrix6<T>> {
     let mut inverse = matrix.clone();
     nalgebra::linalg::try_invert_to(matrix.clone(), &mut inverse).then_some(inverse)

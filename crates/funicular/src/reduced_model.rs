@@ -1,11 +1,10 @@
 //! Small second-order model of the robot, `M ẍ + C ẋ + K x = B f`, `y = L x`, for control design.
 //!
-//! The coordinates are the platform's motion, the amplitudes of the cables' clamped modes and the displacements of flexible
-//! supports. They represent
-//! catenary-dynamic cables without approximation: K is block diagonal, M couples the platform to each amplitude. The
-//! model has two approximations. Three modes of each cable replace all modes above the limit, and a constant damping
-//! ratio is replaced by viscous damping. Both errors are measured against the full model. Derivation: docs/theory.md,
-//! section 13.
+//! The coordinates are the platform's motion, the amplitudes of the cables' clamped modes and the displacements of
+//! flexible supports. They represent catenary-dynamic cables without approximation: K is block diagonal, M couples the
+//! platform to each amplitude. The model has two approximations. Three modes of each cable replace all modes above the
+//! limit, and viscous damping replaces a constant damping ratio. Both errors are measured against the full model.
+//! Derivation: docs/theory.md, section 13.
 
 mod candidates;
 mod channels;
@@ -25,7 +24,7 @@ pub use control_model::{
     ControlModel, ModalStates, PointwiseError, RequestedStateSpace, ResponseOfPair, control_model,
 };
 pub use error::ReductionError;
-pub use selection::Size;
+pub use selection::StateSpaceSize;
 
 use crate::cable::catenary_dynamic::{DriveSignal, InPowersOfS};
 use crate::cable::{CableModel, DynamicCable};
@@ -37,8 +36,8 @@ use crate::robot::Robot;
 use crate::statics::Equilibrium;
 use channels::Channels;
 use expansion::Expansion;
-use massless::Massless;
-use matrices::{Layout, Matrices};
+use massless::MasslessSupports;
+use matrices::{CoordinateLayout, Matrices};
 use std::f64::consts::TAU;
 use std::ops::Range;
 use steps::Steps;
@@ -98,16 +97,17 @@ pub struct SecondOrder {
     pub stiffness: DMat,
     /// Input matrix B, n×inputs: generalised force per unit of each input.
     pub input: DMat,
-    /// Matrices B₁ and B₂, n×inputs: generalised force per rate and per acceleration of each input. They are zero except
-    /// for a commanded length and a motion of the frame.
+    /// Matrices B₁ and B₂, n×inputs: generalised force per rate and per acceleration of each input. They are zero
+    /// except for a commanded length and a motion of the frame.
     pub input_rates: [DMat; 2],
     /// Output matrix L, outputs×n: displacements, rotations and tensions.
     pub output: DMat,
-    /// Matrices L₁ and L₂, outputs×n: outputs per velocity and per acceleration of the coordinates. They are zero except
-    /// for the tension of a cable.
+    /// Matrices L₁ and L₂, outputs×n: outputs per velocity and per acceleration of the coordinates. They are zero
+    /// except for the tension of a cable.
     pub output_rates: [DMat; 2],
     /// Matrices D₀, D₁ and D₂, outputs×inputs: outputs per input, its rate and its acceleration with all coordinates at
-    /// rest. They are zero except for signals of the drive of one cable, and for outputs on cables by a motion of the frame.
+    /// rest. They are zero except for signals of the drive of one cable, and for outputs on cables by a motion of the
+    /// frame.
     pub feedthrough: [DMat; 3],
     /// Quantity of each output: displacement, velocity or acceleration.
     pub quantities: Vec<Quantity>,
@@ -138,7 +138,7 @@ pub struct StateSpace {
     pub d: DMat,
 }
 
-/// Fraction of its static response above which a part of a drive has no mass; rounding leaves 1e-9.
+/// Maximum fraction of the static response of a drive's part that may be without mass; rounding leaves 1e-9.
 const MASSLESS: f64 = 1e-6;
 
 /// Checks that all cables are catenary-dynamic and that the losses of their drives have a second-order form.
@@ -162,7 +162,8 @@ fn check_cables(robot: &Robot, dynamics: &Dynamics) -> Result<(), ReductionError
     Ok(())
 }
 
-/// Ratios to the limit up to which clamped modes are kept unchanged, tried in turn until the error is small enough.
+/// Frequencies, over the limit, up to which clamped modes are kept unchanged. They are tried in turn until the error is
+/// small enough.
 const KEPT: [f64; 7] = [1.1, 1.5, 2.0, 3.0, 5.0, 8.0, f64::INFINITY];
 
 /// Number of frequencies at which the error of modes left out is measured, in addition to the natural frequencies.
@@ -259,8 +260,8 @@ fn pair_kinds(inputs: &[Signal], outputs: &[(Signal, Quantity)]) -> Vec<usize> {
     outputs.iter().flat_map(|(output, _)| inputs.iter().map(move |input| kind(input, output))).collect()
 }
 
-/// Maximum difference of the responses over all frequencies, at each frequency relative to the largest entry of its kind
-/// there.
+/// Maximum difference of the responses over all frequencies, at each frequency relative to the largest entry of its
+/// kind there.
 fn largest_difference(reference: &[Vec<Complex>], others: &[Vec<Complex>], kinds: &[usize]) -> f64 {
     let count = reference.first().map_or(0, Vec::len);
     let of_kind = |kind: usize, k: usize| {
@@ -273,12 +274,13 @@ fn largest_difference(reference: &[Vec<Complex>], others: &[Vec<Complex>], kinds
     (0..count).flat_map(|k| (0..=last).map(move |kind| (kind, k))).map(|(kind, k)| of_kind(kind, k)).fold(0.0, f64::max)
 }
 
-/// Matrices of a linearised robot whose cables have only the poles to be kept, the order of all coordinates, and the supports
-/// without mass, which the matrices do not contain.
-fn matrices(dynamics: &Dynamics) -> (Layout, Matrices, Option<Massless>) {
+/// Matrices of a linearised robot whose cables have only the poles to be kept, the order of all coordinates, and the
+/// supports without mass, which the matrices do not contain.
+fn matrices(dynamics: &Dynamics) -> (CoordinateLayout, Matrices, Option<MasslessSupports>) {
     let cables: Vec<CableBlocks> = dynamics.cable_blocks().collect();
     let supports = dynamics.support_blocks();
-    let layout = Layout::new(dynamics.dof(), &cables, supports.as_ref().map_or(0, |blocks| blocks.mass.nrows()));
+    let layout =
+        CoordinateLayout::new(dynamics.dof(), &cables, supports.as_ref().map_or(0, |blocks| blocks.mass.nrows()));
 
     let mut matrices = Matrices::of_platform(&dynamics.platform_blocks(), layout.coordinates.len());
     if let Some(supports) = &supports {
@@ -287,7 +289,7 @@ fn matrices(dynamics: &Dynamics) -> (Layout, Matrices, Option<Massless>) {
     for (term, cable) in cables.iter().enumerate() {
         matrices.add_cable(cable, term, &layout);
     }
-    let massless = Massless::of(&matrices, &layout);
+    let massless = MasslessSupports::of(&matrices, &layout);
     let matrices = match &massless {
         Some(massless) => massless.reduced(matrices),
         None => matrices,
@@ -401,8 +403,8 @@ impl SecondOrder {
     /// without the part that follows the input at once.
     ///
     /// # Errors
-    /// [`ReductionError::Improper`] if an output contains the rate of an input, such as the acceleration of the platform
-    /// by the commanded length of a motor with a speed gain.
+    /// [`ReductionError::Improper`] if an output contains the rate of an input, such as the acceleration of the
+    /// platform by the commanded length of a motor with a speed gain.
     pub fn state_space(&self) -> Result<StateSpace, ReductionError> {
         let expansion = Expansion::of(self);
         if let Some((output, input)) = expansion.improper() {

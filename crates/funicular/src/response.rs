@@ -38,6 +38,33 @@ pub enum Quantity {
     Acceleration,
 }
 
+impl Quantity {
+    /// Number of differentiations by time that lead from the displacement to the quantity.
+    pub(crate) fn derivatives(self) -> u32 {
+        match self {
+            Self::Displacement => 0,
+            Self::Velocity => 1,
+            Self::Acceleration => 2,
+        }
+    }
+
+    /// Factor 1, iω or −ω² from a harmonic displacement to the quantity at ω [rad/s].
+    pub fn factor(self, omega: f64) -> Complex {
+        match self {
+            Self::Displacement => Complex::new(1.0, 0.0),
+            Self::Velocity => Complex::new(0.0, omega),
+            Self::Acceleration => Complex::new(-(omega * omega), 0.0),
+        }
+    }
+
+    /// Response of the quantity at ω [rad/s], from that of the displacement.
+    fn of_displacement(self, displacement: Complex, omega: f64) -> Complex {
+        let factor = self.factor(omega);
+        // A real factor keeps the sign of a part that is zero, and with it the phase of an undamped response.
+        if self == Self::Velocity { displacement * factor } else { displacement * factor.re }
+    }
+}
+
 /// Value of one response at one frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
@@ -47,7 +74,7 @@ pub struct Measured {
     pub floor: f64,
 }
 
-/// Reason for which there is no response.
+/// Reason why there is no response.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ResponseError {
     /// The robot is undamped and the frequency is a natural one.
@@ -107,8 +134,8 @@ pub fn between(
     Ok(rows.into_iter().next().unwrap_or_default())
 }
 
-/// Responses between all pairs of ports at each frequency [Hz], one row per pair: the pairs of the first output with all
-/// inputs, then those of the next output. Each row is that of [`between`] for its pair, to the last digit.
+/// Responses between all pairs of ports at each frequency [Hz], one row per pair: the pairs of the first output with
+/// all inputs, then those of the next output. Each row is that of [`between`] for its pair, to the last digit.
 ///
 /// # Errors
 /// The errors of [`between`].
@@ -198,12 +225,16 @@ impl<'a> OwnResponse<'a> {
             {
                 Ok(Some(Self::Drive { term: *term, to: *to, from: *from }))
             }
+
+            // A drive and a point of its cable, in either direction.
             (Port::Drive { term, signal, .. }, Port::Cable { stations, station, direction_w })
             | (Port::Cable { stations, station, direction_w }, Port::Drive { term, signal, .. })
                 if dynamics.terms()[*term].cable() == stations.cable =>
             {
                 Ok(Some(Self::DriveAndPoint { stations, point: (*station, direction_w), signal: *signal }))
             }
+
+            // Two points of a cable.
             (
                 Port::Cable { stations, station: loaded, direction_w: force_w },
                 Port::Cable { stations: of_output, station, direction_w },
@@ -213,6 +244,8 @@ impl<'a> OwnResponse<'a> {
                 }
                 Ok(Some(Self::Points { stations, to: (*station, direction_w), from: (*loaded, force_w) }))
             }
+
+            // A motion of the frame.
             (Port::Frame(from), Port::Drive { term, signal, .. }) => {
                 Ok(Some(Self::DriveByFrame { term: *term, to: *signal, from }))
             }
@@ -239,12 +272,12 @@ impl<'a> OwnResponse<'a> {
     }
 }
 
-/// Fraction of the sum of its terms below which a response is lost in rounding: elimination keeps at least ten digits of
-/// the largest term.
+/// Maximum response that is lost in rounding, as a fraction of the sum of its terms: elimination keeps at least ten
+/// digits of the largest term.
 const LOST: f64 = 1e-9;
 
-/// Responses between all pairs of ports, in the order of [`matrix`], with the magnitude below which rounding hides each:
-/// one row per frequency [Hz].
+/// Responses between all pairs of ports, in the order of [`matrix`], with the magnitude below which rounding hides
+/// each: one row per frequency [Hz].
 ///
 /// # Errors
 /// The errors of [`between`].
@@ -264,11 +297,7 @@ pub fn measured(
         let from: Vec<Vec6> = inputs.iter().map(|input| size * magnitudes(input)).collect();
         let sums = outputs.iter().flat_map(|(output, quantity)| {
             let to = magnitudes(output);
-            let by_time = match quantity {
-                Quantity::Displacement => 1.0,
-                Quantity::Velocity => omega,
-                Quantity::Acceleration => omega * omega,
-            };
+            let by_time = quantity.factor(omega).norm();
             from.iter().map(move |from| LOST * by_time * to.dot(from)).collect::<Vec<f64>>()
         });
         sums.enumerate().map(|(i, floor)| Measured { value: values[i][k], floor }).collect()
@@ -284,11 +313,7 @@ fn finished(
 ) -> Result<Vec<Complex>, ResponseError> {
     for (value, &frequency_hz) in values.iter_mut().zip(frequencies_hz) {
         let omega = frequency_hz * TAU;
-        *value = match quantity {
-            Quantity::Displacement => *value,
-            Quantity::Velocity => *value * Complex::new(0.0, omega),
-            Quantity::Acceleration => *value * -(omega * omega),
-        };
+        *value = quantity.of_displacement(*value, omega);
         if !(value.re.is_finite() && value.im.is_finite()) {
             return Err(ResponseError::Resonance { frequency_hz });
         }

@@ -222,7 +222,7 @@ fn a_robot_on_posts_has_derivatives_by_the_numbers_of_its_supports() {
 
 #[test]
 fn requests_without_derivatives_are_refused_with_the_reason() {
-    let cogiro = robot("cogiro.toml");
+    let (cogiro, three_cables) = (robot("cogiro.toml"), robot("grab-3-cables.toml"));
     for (arguments, expected) in [
         (&["gradient", "ROBOT"][..], "`frequencies` needs --below-hz"),
         (&["gradient", "ROBOT", "--of", "tension"], "did you mean `tensions`?"),
@@ -234,6 +234,11 @@ fn requests_without_derivatives_are_refused_with_the_reason() {
         (&["gradient", "ROBOT", "--of", "response", "--at-hz", "1"], "`response` needs --input"),
         (&["gradient", "ROBOT", "--below-hz", "2", "--cable-model", "shallow-dynamic"], "not `shallow-dynamic`"),
         (&["gradient", "ROBOT", "--below-hz", "2", "--in-plane-only"], "need all terms of the stiffness"),
+        (
+            &["gradient", &three_cables, "--of", "tensions", "--hold", "pose"],
+            "--hold pose: 3 cables cannot hold the pose of a platform with 6 degrees of freedom by their lengths; give \
+             --hold lengths",
+        ),
         (
             &["gradient", &cogiro, "--of", "lengths", "--hold", "rule"],
             "needs tensions that a rule has chosen: give --pose",

@@ -14,7 +14,7 @@ use crate::text::{counted, significant};
 use anyhow::{Result, anyhow, bail};
 use band::Places;
 use band::{Sides, SidesTried};
-use funicular::math::max_min::{self, Ending, Evaluation, Found, Goal, MET, Problem, Settings};
+use funicular::math::max_min::{self, Evaluation, Found, Goal, MET, MaxMinEnding, MaxMinProblem, Settings};
 use funicular::math::rotation;
 use funicular::robot::State;
 use funicular::robot::parameters::Parameters;
@@ -225,7 +225,7 @@ pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
         warnings.push(format!("some steps were shortened, because there {reason}"));
     }
     let sign = request.goal.sign();
-    let goal_of = |evaluated: &Evaluated| sign * value_of(&settings.goal, &evaluated.evaluation);
+    let goal_of = |evaluated: &Evaluated| sign * settings.goal.value(&evaluated.evaluation);
     Ok(Designed {
         robot: parameters.robot().name.clone(),
         models,
@@ -237,7 +237,7 @@ pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
         poses: report.pose_rows()?,
         values: report.values(),
         demands: report.demands(),
-        converged: found.ending == Ending::Converged,
+        converged: found.ending == MaxMinEnding::Converged,
         ending: report.ending(),
         iterations: found.iterations,
         evaluations: tried.evaluations,
@@ -253,18 +253,6 @@ pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
 fn frequency_of<'a>(request: &DesignRequest, evaluated: &'a Evaluated) -> impl Iterator<Item = f64> + use<'a> {
     let is_frequency = matches!(request.goal, DesignGoal::First);
     evaluated.poses.iter().filter(move |_| is_frequency).map(|pose| pose.goal)
-}
-
-/// Value of a goal of an evaluation.
-fn value_of(goal: &Goal, evaluation: &Evaluation) -> f64 {
-    let lowest = |group: Option<usize>| {
-        let rows = evaluation.objectives.iter().filter(|row| group.is_none_or(|group| row.group == group));
-        rows.map(|row| row.value).fold(f64::INFINITY, f64::min)
-    };
-    match goal {
-        Goal::Worst => lowest(None),
-        Goal::Weighted(weights) => weights.iter().enumerate().map(|(group, weight)| weight * lowest(Some(group))).sum(),
-    }
 }
 
 /// Checks what a request says beside its values.
@@ -401,7 +389,7 @@ fn other_sides(
     (best, tried)
 }
 
-impl Problem for Search<'_> {
+impl MaxMinProblem for Search<'_> {
     fn evaluate(&mut self, x: &[f64]) -> Option<Evaluation> {
         if let Some(first) = self.first.take() {
             return Some(first);
@@ -449,11 +437,11 @@ impl Report<'_> {
 
     fn ending(&self) -> String {
         match self.found.ending {
-            Ending::Converged => "no further step improves the goal by more than 0.001 %".to_owned(),
-            Ending::Iterations => {
+            MaxMinEnding::Converged => "no further step improves the goal by more than 0.001 %".to_owned(),
+            MaxMinEnding::Iterations => {
                 format!("the search has not ended after {}", counted(self.found.iterations, "iteration"))
             }
-            Ending::Cancelled => {
+            MaxMinEnding::Cancelled => {
                 format!(
                     "the search was stopped after {}; these are its best values",
                     counted(self.found.iterations, "iteration")
@@ -586,7 +574,7 @@ impl Report<'_> {
             0 => String::new(),
             count => format!(" with any of {count} choices of the sides of the band"),
         };
-        let stopped = if self.found.ending == Ending::Converged { "" } else { " (the search had not ended)" };
+        let stopped = if self.found.ending == MaxMinEnding::Converged { "" } else { " (the search had not ended)" };
         format!(
             "no values within the bounds of ⟪change⟫ meet all demands{choices}{stopped}; reached after {}: {}; allow larger changes, \
              or lower a demand",

@@ -204,12 +204,30 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
     })
 }
 
+/// Checks that the robot has enough cables to hold its pose, if the pose is to be held.
+///
+/// # Errors
+/// Fewer cables than degrees of freedom.
+pub(crate) fn check_hold(robot: &Robot, hold: Hold) -> Result<()> {
+    let (cables, degrees_of_freedom) = (robot.cables.len(), robot.platform.motion.count());
+    if hold != Hold::Lengths && cables < degrees_of_freedom {
+        bail!(
+            "⟪hold⟫ {}: {cables} cables cannot hold the pose of a platform with {degrees_of_freedom} degrees of freedom by \
+             their lengths; give ⟪hold⟫ lengths",
+            hold.name()
+        );
+    }
+    Ok(())
+}
+
 /// Gradients about an equilibrium with this held.
 ///
 /// # Errors
-/// A rule to be held without one that has chosen the tensions, or an equilibrium without derivatives.
+/// Too few cables to hold a pose, a rule to be held without one that has chosen the tensions, or an equilibrium without
+/// derivatives.
 pub(crate) fn held(at_rest: &AtRest, hold: Hold) -> Result<Gradients<'_>> {
     let AtRest { robot, equilibrium, rule, held_pose, .. } = at_rest;
+    check_hold(robot, hold)?;
     let gradients = match (hold, rule) {
         (Hold::Rule, _) if held_pose.is_some() => {
             bail!(

@@ -11,7 +11,7 @@ use crate::request::{self, Experiment, IdentifyRequest};
 use crate::text::{counted, significant};
 use anyhow::{Result, bail};
 use funicular::math::Complex;
-use funicular::math::least_squares::Ending;
+use funicular::math::least_squares::LeastSquaresEnding;
 use funicular::robot::parameters::Parameters;
 use serde::Serialize;
 use std::cell::RefCell;
@@ -180,7 +180,7 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
             ));
         }
     }
-    let converged = best.ending == Ending::Converged;
+    let converged = best.ending == LeastSquaresEnding::Converged;
     if !converged {
         warnings.push(format!("the search has not ended after {}", counted(best.iterations, "iteration")));
     }

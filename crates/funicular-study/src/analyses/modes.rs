@@ -11,7 +11,7 @@ use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::Rotation;
 use funicular::modes;
-use funicular::response::{Quantity, Signal};
+use funicular::response::Signal;
 use funicular::robot::{Robot, WinchMode};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -291,11 +291,7 @@ fn participate(
         let (Some(from), Some(to)) = (from.in_mode(dynamics, mode), to.in_mode(dynamics, mode)) else { continue };
         let residue = from * to / mode.modal_mass;
         let omega = mode.frequency_hz * TAU;
-        let by_time = match output.quantity {
-            Quantity::Displacement => 1.0,
-            Quantity::Velocity => omega,
-            Quantity::Acceleration => omega * omega,
-        };
+        let by_time = output.quantity.factor(omega).norm();
         row.residue_per_kg = Some(residue + 0.0);
         let damping = 2.0 * row.damping_ratio * omega * omega;
         row.peak = (damping > 0.0).then(|| residue.abs() * by_time / damping);

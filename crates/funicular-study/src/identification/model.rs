@@ -8,7 +8,7 @@ use crate::request::{IdentifyRequest, RobotText};
 use crate::set_values;
 use anyhow::{Result, bail};
 use funicular::dynamics::Linearisation;
-use funicular::math::least_squares::Problem;
+use funicular::math::least_squares::LeastSquaresProblem;
 use funicular::math::{Complex, DMat};
 use funicular::robot::Robot;
 use funicular::robot::parameters::Parameters;
@@ -309,7 +309,7 @@ impl Predicted {
     }
 }
 
-impl Problem for IdentifiedModel<'_> {
+impl LeastSquaresProblem for IdentifiedModel<'_> {
     fn residuals(&mut self, x: &[f64]) -> Option<Vec<f64>> {
         let (assigned, weights) = self.held.clone()?;
         let predicted = self.predict(x, Some(&assigned));

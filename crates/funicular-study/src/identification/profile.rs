@@ -4,7 +4,7 @@ use super::model::IdentifiedModel;
 use super::unknowns::Unknown;
 use crate::error::Cancelled;
 use anyhow::Result;
-use funicular::math::least_squares::{Ending, Minimum, minimise};
+use funicular::math::least_squares::{LeastSquaresEnding, Minimum, minimise};
 
 /// Root of the rise of χ² at the ends of an interval that holds with 95 %: the quantile of the normal distribution, whose
 /// square 3.84 is that of χ² with one degree of freedom.
@@ -234,7 +234,7 @@ impl Side<'_, '_> {
         let mut bounds: Vec<(f64, f64)> = self.model.unknowns.iter().map(Unknown::coordinate_bounds).collect();
         bounds[self.k] = (start[self.k], start[self.k]);
         let found = minimise(self.model, &start, &bounds, MAX_ITERATIONS);
-        if found.as_ref().is_none_or(|found| found.ending == Ending::Cancelled) && self.model.is_stopped() {
+        if found.as_ref().is_none_or(|found| found.ending == LeastSquaresEnding::Cancelled) && self.model.is_stopped() {
             return Err(Cancelled.into());
         }
         let rise = found.as_ref().map(|found| (found.chi2() - self.best.chi2()) / (self.factor * self.factor));

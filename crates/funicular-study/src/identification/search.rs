@@ -4,7 +4,7 @@ use super::model::IdentifiedModel;
 use super::observations::{Kind, Stage};
 use crate::error::Cancelled;
 use anyhow::{Result, anyhow};
-use funicular::math::least_squares::{Ending, Minimum, minimise};
+use funicular::math::least_squares::{LeastSquaresEnding, Minimum, minimise};
 
 /// χ² per degree of freedom below which a start counts as found, and no other one is tried. With few degrees of freedom
 /// three deviations of χ² above 1 count as found, too.
@@ -70,7 +70,7 @@ pub(crate) fn search(
             rows.push(StartRow { chi2_per_degree: None, iterations: 0, converged: false });
             continue;
         };
-        if found.ending == Ending::Cancelled {
+        if found.ending == LeastSquaresEnding::Cancelled {
             return Err(Cancelled.into());
         }
         let degrees = degrees_of_freedom(model, &found).max(1) as f64;
@@ -78,7 +78,7 @@ pub(crate) fn search(
         rows.push(StartRow {
             chi2_per_degree: Some(per_degree),
             iterations: found.iterations,
-            converged: found.ending == Ending::Converged,
+            converged: found.ending == LeastSquaresEnding::Converged,
         });
         if best.as_ref().is_none_or(|(other, _)| per_degree < *other) {
             best = Some((per_degree, found));
@@ -102,13 +102,13 @@ pub(crate) fn search(
         best = again(model, &best.x)?;
         // Ranges that the model misses are known at a minimum only, and a minimum without them shows more of them.
         for _ in 0..MAX_ROUNDS {
-            if best.ending == Ending::Cancelled || !model.leave_out(&best.x) {
+            if best.ending == LeastSquaresEnding::Cancelled || !model.leave_out(&best.x) {
                 break;
             }
             best = again(model, &best.x)?;
         }
     }
-    if best.ending == Ending::Cancelled {
+    if best.ending == LeastSquaresEnding::Cancelled {
         return Err(Cancelled.into());
     }
     progress(starts + 1, starts + 1);

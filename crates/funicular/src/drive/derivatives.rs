@@ -1,10 +1,10 @@
-//! Derivatives of a cable at rest with a drive: what its force, its free length, its place on the pulley and the numbers of
-//! its end change with the geometry, the load and the numbers of the drive.
+//! Derivatives of a cable at rest with a drive: force, free length, place on the pulley and numbers of the end, with
+//! respect to the geometry, the load and the numbers of the drive.
 //!
-//! The formulas of `arc` and `anchor_end` in dual numbers give every result by the numbers that stand in them:
-//! force at the exit point, load, stiffness, wheel, drum side and winch. The conditions (65), differentiated, then give
-//! wrap, swivel angle and free length, and with them the force, by what is given from outside (docs/theory.md, equation
-//! (60j)).
+//! The formulas of `arc` and `anchor_end`, in dual numbers, give the derivatives with respect to the inner variables:
+//! force at the exit point, load, stiffness, wheel, drum side and winch. The differentiated conditions (65) then give
+//! wrap, swivel angle and free length, and with these the force, with respect to the outer variables (docs/theory.md,
+//! equation (60j)).
 
 use super::DriveAtRest;
 use super::anchor_end::EndNumbers;
@@ -17,10 +17,10 @@ use crate::robot::{Anchor, Pulley, PulleyContact, Wheel};
 /// Number of outer variables of a cable with a drive, and of the inner variables of its end.
 pub(crate) const VARIABLES: usize = 14;
 
-/// Places of the variables. Outer: the vector from the attachment to the anchor's point (`REACH`), the load per unstrained
-/// length, EA, the radius, the rotation vector of the pulley, the length from the entry point to the drum, the length that
-/// the winch pays out per tension, and the unstrained length (`LENGTH`). Inner: the same with the force at the exit
-/// point towards the platform for the reach, and the wrap angle for the length.
+/// Places of the variables. Outer: the vector from the attachment to the anchor's point (`REACH`), the load per
+/// unstrained length, EA, the radius, the rotation vector of the pulley, the length from the entry point to the drum,
+/// the length that the winch pays out per tension, and the unstrained length (`LENGTH`). Inner: the same with the force
+/// at the exit point towards the platform for the reach, and the wrap angle for the length.
 pub(crate) mod place {
     pub(crate) const REACH: usize = 0;
     pub(crate) const FORCE: usize = 0;
@@ -39,30 +39,30 @@ use place::{AXIAL_STIFFNESS, COMPLIANCE, DRUM_SIDE, FORCE, LENGTH, LOAD, RADIUS,
 /// Number with its derivatives by the inner variables.
 type Inner = Dual<VARIABLES>;
 
-/// Derivatives of a number by the outer variables, as a row.
-pub(crate) type Row = [f64; VARIABLES];
+/// Row of the derivatives of a number by the outer variables.
+pub(crate) type OuterRow = [f64; VARIABLES];
 
-/// Distance from the swivel axis over the radius below which the exit point is on the axis: the swivel angle has no effect
-/// there.
+/// Maximum distance of the exit point from the swivel axis, over the radius, at which it is on the axis. The swivel
+/// angle has no effect there.
 const ON_AXIS: f64 = 1e-15;
 
 /// Derivatives of a cable at rest with a drive, by the outer variables.
 #[derive(Debug, Clone)]
 pub(crate) struct DriveDerivatives {
     /// Force on the platform, by components.
-    pub(crate) force_w: [Row; 3],
+    pub(crate) force_w: [OuterRow; 3],
     /// Chord, from the attachment to the exit point, by components.
-    pub(crate) chord_w: [Row; 3],
+    pub(crate) chord_w: [OuterRow; 3],
     /// Unstrained length of the free span.
-    pub(crate) free_length: Row,
+    pub(crate) free_length: OuterRow,
     /// Numbers of the end at the exit point, as in [`end`].
-    pub(crate) end: [Row; end::COUNT],
+    pub(crate) end: [OuterRow; end::COUNT],
 }
 
 /// Numbers of the end of a cable at its exit point, in this order: direction t towards the platform (three components),
-/// direction ν sideways, stretch λ at the exit point, stretch λ_E between entry point and drum, compliance Γ_r of arc and
-/// drum side, the part of the drum side, stiffness along the cable by its weight, between along and sideways, sideways,
-/// distance of the exit point from the swivel axis, tension from the entry point to the drum.
+/// direction ν sideways, stretch λ at the exit point, stretch λ_E between entry point and drum, compliance Γ_r of arc
+/// and drum side, the part of the drum side, stiffness along the cable by its weight, between along and sideways,
+/// sideways, distance of the exit point from the swivel axis, tension from the entry point to the drum.
 pub(crate) mod end {
     pub(crate) const TRAVEL: usize = 0;
     pub(crate) const SIDEWAYS: usize = 3;
@@ -79,11 +79,11 @@ pub(crate) mod end {
 }
 
 /// Inner variables by the outer ones.
-struct Chain([Row; VARIABLES]);
+struct Chain([OuterRow; VARIABLES]);
 
 impl Chain {
     /// Row of a number by the outer variables.
-    fn row(&self, number: &Inner) -> Row {
+    fn row(&self, number: &Inner) -> OuterRow {
         let mut row = [0.0; VARIABLES];
         for (by, inner) in number.by.iter().zip(&self.0) {
             row.iter_mut().zip(inner).for_each(|(sum, entry)| *sum += by * entry);
@@ -114,24 +114,14 @@ fn turning(contact: &PulleyContact) -> Wheel<Inner> {
 }
 
 impl DriveDerivatives {
-    /// Derivatives of a cable with this free span over its anchor's pulley and to its winch. `None` if the conditions do not
-    /// determine the place of the cable.
+    /// Derivatives of a cable with this free span over its anchor's pulley and to its winch. `None` if the conditions
+    /// do not determine the place of the cable.
     ///
     /// # References
     /// docs/theory.md, equation (60j).
     pub(crate) fn of(span: &HangingCable, anchor: &Anchor, drive: &DriveAtRest) -> Option<Self> {
         let contact = drive.contact.as_ref();
-        let given = Given::of(span, anchor, contact);
-        let vector = |values: [f64; 3], first: usize| std::array::from_fn(|k| Inner::variable(values[k], first + k));
-        let given = Given {
-            force_w: vector(given.force_w, FORCE),
-            load_w: vector(given.load_w, LOAD),
-            axial_stiffness: Inner::variable(given.axial_stiffness, AXIAL_STIFFNESS),
-            wheel: contact.map(turning),
-            winch: given.winch.map(|(length, compliance)| {
-                (Inner::variable(length, DRUM_SIDE), Inner::variable(compliance, COMPLIANCE))
-            }),
-        };
+        let given = given_variables(span, anchor, contact);
         let beyond = Beyond::at(&given);
         let offset = given.wheel.as_ref().map(|wheel| wheel.offset_w(wheel.wrap));
         let offset_by = |variable: usize| offset.map_or_else(Vec3::zeros, |o| Vec3::from(o.map(|c| c.by[variable])));
@@ -180,6 +170,21 @@ impl DriveDerivatives {
         let chain = Chain(chain);
         let end = end_numbers(&given, &beyond).map(|number| chain.row(&number));
         Some(Self { force_w, chord_w, free_length, end })
+    }
+}
+
+/// Numbers that the end of a cable is given, as inner variables.
+fn given_variables(span: &HangingCable, anchor: &Anchor, contact: Option<&PulleyContact>) -> Given<Inner> {
+    let given = Given::of(span, anchor, contact);
+    let vector = |values: [f64; 3], first: usize| std::array::from_fn(|k| Inner::variable(values[k], first + k));
+    Given {
+        force_w: vector(given.force_w, FORCE),
+        load_w: vector(given.load_w, LOAD),
+        axial_stiffness: Inner::variable(given.axial_stiffness, AXIAL_STIFFNESS),
+        wheel: contact.map(turning),
+        winch: given
+            .winch
+            .map(|(length, compliance)| (Inner::variable(length, DRUM_SIDE), Inner::variable(compliance, COMPLIANCE))),
     }
 }
 
@@ -235,8 +240,8 @@ impl SpanRates {
     }
 }
 
-/// Derivatives of wrap, swivel angle and free length by the outer variables, from the conditions (65); `None` if these do
-/// not determine them.
+/// Derivatives of wrap, swivel angle and free length by the outer variables, from the conditions (65); `None` if these
+/// do not determine them.
 fn unknowns(
     conditions: &[Inner; 3],
     contact: Option<&PulleyContact>,
@@ -266,7 +271,7 @@ fn unknowns(
         }
     }
 
-    // What has no effect stays.
+    // An unknown without effect stays where it is.
     let is_swivel_free = contact.is_some_and(|contact| contact.distance_from_axis() > ON_AXIS * contact.radius);
     for (unknown, is_free) in [(0, contact.is_some()), (1, is_swivel_free)] {
         if !is_free {
@@ -307,7 +312,8 @@ fn end_numbers(given: &Given<Inner>, beyond: &Beyond<Inner>) -> [Inner; end::COU
     all
 }
 
-/// Conditions (65) but for the free length: `n·N/T`, `(ν·N + (q·ν) M_a/c)/T`, and the unstrained length beyond the exit point.
+/// Conditions (65) but for the free length: `n·N/T`, `(ν·N + (q·ν) M_a/c)/T`, and the unstrained length beyond the exit
+/// point.
 fn conditions(given: &Given<Inner>, beyond: &Beyond<Inner>, contact: Option<&PulleyContact>) -> [Inner; 3] {
     let zero = Inner::from(0.0);
     let mut all = [zero, zero, beyond.arc_length + beyond.drum_side_length];
@@ -322,13 +328,13 @@ fn conditions(given: &Given<Inner>, beyond: &Beyond<Inner>, contact: Option<&Pul
     all
 }
 
-/// Derivatives of the chord of a straight cable, from the attachment to the exit point, by components: the direction in which
-/// the wind sees the cable. By the outer variables `REACH`, `RADIUS` and `TURN`; the others have no effect. `None` if the
-/// attachment is on the swivel axis.
+/// Derivatives of the chord of a straight cable, from the attachment to the exit point, by components: the direction in
+/// which the wind sees the cable. By the outer variables `REACH`, `RADIUS` and `TURN`; the others have no effect.
+/// `None` if the attachment is on the swivel axis.
 ///
 /// # References
 /// docs/theory.md, equations (61) to (63).
-pub(crate) fn straight_chord(pulley: &Pulley, reach_w: &Vec3) -> Option<[Row; 3]> {
+pub(crate) fn straight_chord(pulley: &Pulley, reach_w: &Vec3) -> Option<[OuterRow; 3]> {
     let contact = pulley.contact(&-reach_w);
     let wheel = turning(&contact);
     let offset = wheel.offset_w(wheel.wrap);

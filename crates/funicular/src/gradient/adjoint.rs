@@ -1,48 +1,48 @@
-//! Coefficients of a scalar's differential over the state of the equilibrium, before the state is followed back to the
-//! numbers of the robot.
+//! Coefficients of the differential of a scalar over the state of the equilibrium. [`pullback`](super::pullback)
+//! follows them back to the numbers of the robot.
 
 use super::scalar::{Field, Vector};
 use crate::drive::derivatives::end;
 
-/// Derivative of a scalar by each quantity of the state at rest, all others held: the coefficients of df, dr, dq and so on
-/// in its differential. World axes.
+/// Derivatives of a scalar with respect to each quantity of the state at rest, all others held. They are the
+/// coefficients of df, dr, dq and so on in its differential; world axes.
 #[derive(Debug, Clone)]
 pub(super) struct Adjoint<T> {
-    /// By the motion of the platform: translation of its origin, and rotation vector.
+    /// Coefficients of the motion of the platform: translation of its origin, and rotation vector.
     pub(super) translation: Vector<T>,
     pub(super) rotation: Vector<T>,
-    /// By the force at the centre of mass, and by the arm of that centre.
+    /// Coefficients of the force at the centre of mass, and of the arm of that centre.
     pub(super) weight: Vector<T>,
     pub(super) center: Vector<T>,
-    /// By the force of the load, by the arm of its point, and by its moment.
+    /// Coefficients of the load: of its force, of the arm of its point, and of its moment.
     pub(super) force: Vector<T>,
     pub(super) point: Vector<T>,
     pub(super) moment: Vector<T>,
-    /// By the mass of the platform as inertia.
+    /// Coefficient of the mass of the platform as inertia.
     pub(super) mass: T,
-    /// By the acceleration of gravity, beside the forces that contain it.
+    /// Coefficient of the acceleration of gravity, without the forces that contain it.
     pub(super) gravity: Vector<T>,
-    /// By the inertia tensor about the centre of mass, symmetric.
+    /// Coefficients of the inertia tensor about the centre of mass, symmetric.
     pub(super) inertia: [Vector<T>; 3],
-    /// By the viscous damping matrices of the platform, symmetric.
+    /// Coefficients of the viscous damping matrices of the platform, symmetric.
     pub(super) translational_damping: [Vector<T>; 3],
     pub(super) rotational_damping: [Vector<T>; 3],
-    /// By the mean distance of the attachments from the origin of the platform.
+    /// Coefficient of the mean distance of the attachments from the origin of the platform.
     pub(super) ell: T,
-    /// The cables, in file order.
+    /// Coefficients of the cables, in file order.
     pub(super) cables: Vec<CableAdjoint<T>>,
-    /// The flexible supports; none beyond the end.
+    /// Coefficients of the flexible supports; zero for supports beyond the end of the list.
     pub(super) supports: Vec<SupportAdjoint<T>>,
 }
 
 /// Coefficients of one flexible support.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct SupportAdjoint<T> {
-    /// By its displacement at rest, beside the chords and drum sides that contain it.
+    /// Coefficient of its displacement at rest, without the chords and drum sides that contain it.
     pub(super) displacement: Vector<T>,
-    /// By its stiffness, symmetric.
+    /// Coefficients of its stiffness, symmetric.
     pub(super) stiffness: [Vector<T>; 3],
-    /// By its mass and its damping ratio.
+    /// Coefficients of its mass and of its damping ratio.
     pub(super) mass: T,
     pub(super) damping_ratio: T,
 }
@@ -50,42 +50,45 @@ pub(super) struct SupportAdjoint<T> {
 /// Coefficients of a drum side to a displaced support.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct SideAdjoint<T> {
-    /// By the vector from the drum to the entry point, besides its length, which is that of the drum side at rest.
+    /// Coefficient of the vector from the drum to the entry point, without that of its length, which is the length of
+    /// the drum side at rest.
     pub(super) vector: Vector<T>,
-    /// By the length of the drum side that the robot file gives.
+    /// Coefficient of the length of the drum side that the robot file gives.
     pub(super) given_length: T,
-    /// By the direction in which a support carries the drum side along.
+    /// Coefficient of the direction in which a support carries the drum side along.
     pub(super) entry_direction: Vector<T>,
 }
 
 /// Coefficients of one cable.
 #[derive(Debug, Clone, Default)]
 pub(super) struct CableAdjoint<T> {
-    /// By the force on the platform.
+    /// Coefficient of the force on the platform.
     pub(super) force: Vector<T>,
-    /// By the lever arm.
+    /// Coefficient of the lever arm.
     pub(super) lever: Vector<T>,
-    /// By the chord.
+    /// Coefficient of the chord.
     pub(super) chord: Vector<T>,
-    /// By the load per unstrained length.
+    /// Coefficient of the load per unstrained length.
     pub(super) load: Vector<T>,
-    /// By the unstrained length.
+    /// Coefficient of the unstrained length.
     pub(super) length: T,
-    /// By the unstrained length of the free span: besides that by the unstrained length, to which it is equal without a drive.
+    /// Coefficient of the unstrained length of the free span, besides [`Self::length`]. Without a drive both lengths
+    /// are equal.
     pub(super) free_length: T,
-    /// By the axial stiffness.
+    /// Coefficient of the axial stiffness.
     pub(super) stiffness: T,
-    /// By the mass per length as inertia.
+    /// Coefficient of the mass per length as inertia.
     pub(super) mass: T,
-    /// By the damping ratio, or the viscous damping per length.
+    /// Coefficient of the damping ratio, or of the viscous damping per length.
     pub(super) damping: T,
-    /// By the numbers of the end at the exit point, in the order of [`end`](crate::drive::derivatives::end).
+    /// Coefficients of the numbers of the end at the exit point, in the order of
+    /// [`end`](crate::drive::derivatives::end).
     pub(super) end: [T; end::COUNT],
-    /// By the numbers of the drive themselves.
+    /// Coefficients of the numbers of the drive.
     pub(super) drive: DriveAdjoint<T>,
-    /// By the distance and the mass of each guide wheel; none beyond the end.
+    /// Coefficients of the distance and the mass of each guide wheel; zero for wheels beyond the end of the list.
     pub(super) guides: Vec<[T; 2]>,
-    /// By its drum side, if a flexible support moves it.
+    /// Coefficients of its drum side, if a flexible support moves it.
     pub(super) side: SideAdjoint<T>,
 }
 
@@ -112,20 +115,20 @@ impl<T: Field> CableAdjoint<T> {
 /// Coefficients of the numbers of a cable's drive that stand in its motion.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct DriveAdjoint<T> {
-    /// By the radius of the wheel, its moment of inertia and that of the swivel.
+    /// Coefficients of the radius of the wheel, of its moment of inertia and of that of the swivel.
     pub(super) radius: T,
     pub(super) inertia: T,
     pub(super) swivel_inertia: T,
-    /// By the length from the drum to the entry point.
+    /// Coefficient of the length from the drum to the entry point.
     pub(super) drum_side_length: T,
-    /// By the length that the winch pays out per tension at rest.
+    /// Coefficient of the length that the winch pays out per tension at rest.
     pub(super) compliance: T,
-    /// By the stiffness of the winch, the masses of drum and motor, and the damping.
+    /// Coefficients of the stiffness of the winch, of the masses of drum and motor, and of the damping.
     pub(super) stiffness: T,
     pub(super) drum_mass: T,
     pub(super) motor_mass: T,
     pub(super) damping: T,
-    /// By the gains and the delay of the control.
+    /// Coefficients of the gains and of the delay of the control.
     pub(super) position_gain: T,
     pub(super) speed_gain: T,
     pub(super) delay: T,
@@ -151,7 +154,7 @@ impl<T: Field> DriveAdjoint<T> {
 }
 
 impl<T: Field> Adjoint<T> {
-    /// Coefficients zero for a robot with this number of cables.
+    /// Zero coefficients for a robot with this number of cables.
     pub(super) fn zeros(cables: usize) -> Self {
         let zero = [T::default(); 3];
         Self {
@@ -181,10 +184,36 @@ impl<T: Field> Adjoint<T> {
         &mut self.supports[index]
     }
 
-    /// Coefficients of a scalar whose differential is a linear function of this one's: `of` is applied to each.
+    /// Coefficients of another scalar, whose differential is a linear function of this one's: `of` of each coefficient.
     pub(super) fn map<U: Field>(&self, of: impl Fn(T) -> U) -> Adjoint<U> {
         let vector = |v: &Vector<T>| v.map(&of);
         let matrix = |m: &[Vector<T>; 3]| m.map(|row| row.map(&of));
+        let cable = |cable: &CableAdjoint<T>| CableAdjoint {
+            force: vector(&cable.force),
+            lever: vector(&cable.lever),
+            chord: vector(&cable.chord),
+            load: vector(&cable.load),
+            length: of(cable.length),
+            free_length: of(cable.free_length),
+            stiffness: of(cable.stiffness),
+            mass: of(cable.mass),
+            damping: of(cable.damping),
+            end: cable.end.map(&of),
+            drive: cable.drive.map(&of),
+            guides: cable.guides.iter().map(|guide| guide.map(&of)).collect(),
+            side: SideAdjoint {
+                vector: vector(&cable.side.vector),
+                given_length: of(cable.side.given_length),
+                entry_direction: vector(&cable.side.entry_direction),
+            },
+        };
+        let support = |support: &SupportAdjoint<T>| SupportAdjoint {
+            displacement: vector(&support.displacement),
+            stiffness: matrix(&support.stiffness),
+            mass: of(support.mass),
+            damping_ratio: of(support.damping_ratio),
+        };
+
         Adjoint {
             translation: vector(&self.translation),
             rotation: vector(&self.rotation),
@@ -199,35 +228,8 @@ impl<T: Field> Adjoint<T> {
             translational_damping: matrix(&self.translational_damping),
             rotational_damping: matrix(&self.rotational_damping),
             ell: of(self.ell),
-            cables: (self.cables.iter())
-                .map(|cable| CableAdjoint {
-                    force: vector(&cable.force),
-                    lever: vector(&cable.lever),
-                    chord: vector(&cable.chord),
-                    load: vector(&cable.load),
-                    length: of(cable.length),
-                    free_length: of(cable.free_length),
-                    stiffness: of(cable.stiffness),
-                    mass: of(cable.mass),
-                    damping: of(cable.damping),
-                    end: cable.end.map(&of),
-                    drive: cable.drive.map(&of),
-                    guides: cable.guides.iter().map(|guide| guide.map(&of)).collect(),
-                    side: SideAdjoint {
-                        vector: vector(&cable.side.vector),
-                        given_length: of(cable.side.given_length),
-                        entry_direction: vector(&cable.side.entry_direction),
-                    },
-                })
-                .collect(),
-            supports: (self.supports.iter())
-                .map(|support| SupportAdjoint {
-                    displacement: vector(&support.displacement),
-                    stiffness: matrix(&support.stiffness),
-                    mass: of(support.mass),
-                    damping_ratio: of(support.damping_ratio),
-                })
-                .collect(),
+            cables: self.cables.iter().map(cable).collect(),
+            supports: self.supports.iter().map(support).collect(),
         }
     }
 }

@@ -1,37 +1,40 @@
 //! Quadratic form of one cable over two motions of the robot, and its coefficients over the state of the cable.
 //!
-//! `W(a, b) = ∫ δp_a'ᵀ C δp_b' − ω_c² m ∫ δp_aᵀ δp_b` is stationary in the motions inside the cable, so only the numbers
-//! of the cable and its ends count. With the change δN = C δp' of the tension vector and the third derivative κ of |N|
-//! every coefficient is an integral along the cable (docs/theory.md, equation (60a)).
+//! `W(a, b) = ∫ δp_a'ᵀ C δp_b' − ω_c² m ∫ δp_aᵀ δp_b` is stationary in the motions inside the cable. So its
+//! differential contains the numbers of the cable and the motions of its ends alone. With the change δN = C δp' of the
+//! tension vector and the third derivative κ of |N|, every coefficient is an integral along the cable (docs/theory.md,
+//! equation (60a)).
 
 mod length_rate;
 mod sums;
+mod vibrating;
 
 use super::GradientError;
 use super::adjoint::CableAdjoint;
-use super::drive_form::{ControlAt, DriveAtFrequency, DriveForm};
+use super::drive_form::{ControlAt, DriveAtFrequency, VibratingDriveForm};
 use super::end_form::EndAtRest;
-use super::scalar::{Field, Vector, add, add_times, cross, dot, times, vector};
-use super::support_form::{AlongDrumSide, Carrier, SideForces, Sides, add_far_amplitudes, add_far_motions};
+use super::scalar::{Field, Vector, add, add_times, cross, dot, less, times, vector};
+use super::support_form::{AlongDrumSide, Carrier, SideForces, Sides};
 use crate::cable::catenary_dynamic::{
-    CatenaryDynamic, CatenaryDynamicEnd, Displacements, DriveAt, DriveLosses, DriveSignal, Family,
-    POINTS_BEYOND_DEGREE, PoleResidue, TwoEnded, smooth_pieces,
+    CatenaryDynamic, CatenaryDynamicEnd, DriveSignal, POINTS_BEYOND_DEGREE, TwoEnded, smooth_pieces,
 };
 use crate::catenary::space::HangingCable;
 use crate::drive::derivatives::end;
-use crate::math::{CDMat, Complex, Vec3};
+use crate::math::Vec3;
 use crate::robot::{Anchor, Cable, Servo, WinchMode};
 use crate::statics::CableState;
 use crate::statics::derivatives::StaticDerivativeError;
 use std::array::from_fn;
-use sums::{Element, ShapeColumns};
+use sums::{QuadratureElement, ShapeColumns};
+use vibrating::{Vibrating, VibratingEnd};
 
-pub(super) use sums::Rules;
+pub(super) use sums::GaussRules;
+pub(super) use vibrating::{FamilyAmplitude, LossesAt};
 
 /// Natural logarithm of the accuracy of integrals of the tension alone along a cable at rest: 1e-14.
 const DIGITS_OF_REST: f64 = 32.0;
 
-/// Cable about its equilibrium, with what the form needs of it.
+/// Quadratic form of a cable about its equilibrium.
 pub(super) struct CableForm {
     /// Horizontal, up, out of plane.
     axes_w: [Vec3; 3],
@@ -43,8 +46,8 @@ pub(super) struct CableForm {
     stiffness: [f64; 4],
     /// Load per length, up [N/m]; negative.
     load: f64,
-    points: Vec<Point>,
-    elements: Vec<Element>,
+    points: Vec<CablePoint>,
+    elements: Vec<QuadratureElement>,
     inertia: Inertia,
     /// End at the pulley or the winch, if it can move and the cable has no inertia.
     end: Option<EndAtRest>,
@@ -52,35 +55,12 @@ pub(super) struct CableForm {
 
 /// Motion of the points of a cable.
 enum Inertia {
-    /// None: the model has no inertia of the cable.
+    /// No motion: the model has no inertia of the cable.
     None,
     /// Slow motion: the cable has no mass, but may get some.
     Massless,
     /// Vibration by clamped modes.
     Modes(Box<Vibrating>),
-}
-
-/// Clamped modes of a cable that vibrates, with the drive at its end.
-struct Vibrating {
-    cable: CatenaryDynamic,
-    /// Number of points, and their displacements in plane, out of plane, and in all directions if the end couples both.
-    points: usize,
-    in_plane: ShapeColumns,
-    out_of_plane: ShapeColumns,
-    coupled: ShapeColumns,
-    drive: Option<VibratingEnd>,
-    /// Motions along a drum side that a flexible support moves.
-    side: Option<AlongDrumSide>,
-}
-
-/// Drive at the end of a cable that vibrates.
-struct VibratingEnd {
-    form: DriveForm,
-    /// Directions in which the end moves, in the axes of the cable, each with the motion.
-    directions: Vec<(usize, [f64; 3])>,
-    /// Number of motions along the cable, and of all.
-    along: usize,
-    count: usize,
 }
 
 /// Frequency of a cable, and the losses of its drive there.
@@ -95,21 +75,8 @@ pub(super) struct CableAt<T> {
     pub(super) losses: Option<LossesAt<T>>,
 }
 
-/// Losses of a drive at a frequency, for its motions.
-#[derive(Debug, Clone)]
-pub(super) struct LossesAt<T> {
-    /// Stiffness Δ per motion besides that of the undamped model [N/m].
-    pub(super) delta: Vec<T>,
-    /// Receptance R, by rows, and (1 + R Δ)⁻¹.
-    pub(super) receptance: Vec<Vec<T>>,
-    pub(super) inverse: Vec<Vec<T>>,
-}
-
-/// Amplitude of a clamped mode that does not follow from the end: family, index, amplitude.
-pub(super) type NearMode<T> = (Family, usize, T);
-
 /// Point of the integrals along a cable.
-struct Point {
+struct CablePoint {
     /// Fraction σ of the unstrained length from the platform end.
     fraction: f64,
     /// Weight in unstrained length [m].
@@ -136,6 +103,17 @@ pub(super) struct CableMotion<T> {
     far_force: Vector<T>,
 }
 
+/// Integrals along a cable over two changes of its tension vector.
+struct TensionIntegrals<T> {
+    /// Third derivative of |N| along both changes, and the same times the fraction of the length.
+    by_force: Vector<T>,
+    by_load: Vector<T>,
+    /// Product of both changes.
+    squares: T,
+    /// Product of the change and the strain.
+    work: T,
+}
+
 impl<T> CableMotion<T> {
     /// Motions of the drive.
     pub(super) fn of_drive(&self) -> &[T] {
@@ -144,7 +122,8 @@ impl<T> CableMotion<T> {
 }
 
 impl CableForm {
-    /// Cable with the static end stiffness of its catenary. `may_have_mass` for a massless cable in a model with inertia.
+    /// Cable with the static end stiffness of its catenary. `may_have_mass` for a massless cable in a model with
+    /// inertia.
     pub(super) fn at_rest(anchor: &Anchor, state: &CableState, may_have_mass: bool) -> Result<Self, GradientError> {
         let mut form = Self::of_span(state)?;
         if may_have_mass {
@@ -160,17 +139,17 @@ impl CableForm {
         let pieces = smooth_pieces(catenary, vec![(0.0, catenary.rope().unstrained_length)]);
         let count = |size: f64| (DIGITS_OF_REST / (2.0 * size.ln())).ceil() as usize + 4;
         let sizes: Vec<usize> = pieces.iter().map(|(_, _, size)| count(*size)).collect();
-        Self::on_pieces(state, 0.0, &pieces, &sizes, &mut Rules::default(), Inertia::None)
+        Self::on_pieces(state, 0.0, &pieces, &sizes, &mut GaussRules::default(), Inertia::None)
     }
 
-    /// Cable that vibrates about its catenary. `winches` is the mode of the winches, `both` both ends of a cable on a flexible
-    /// support; `rules` are shared by the cables.
+    /// Cable that vibrates about its catenary. `winches` is the mode of the winches, `both` both ends of a cable on a
+    /// flexible support; `rules` are shared by the cables.
     pub(super) fn vibrating(
         cable: &Cable,
         state: &CableState,
         (end, both): (&CatenaryDynamicEnd, Option<&TwoEnded>),
         winches: WinchMode,
-        rules: &mut Rules,
+        rules: &mut GaussRules,
     ) -> Result<Self, GradientError> {
         let catenary = hanging(state)?.catenary;
         let pieces = smooth_pieces(&catenary, vec![(0.0, catenary.rope().unstrained_length)]);
@@ -196,7 +175,7 @@ impl CableForm {
                 let directions = moving.along.iter().map(|of| (0, of.direction));
                 let sideways = moving.sideways.iter().map(|of| (along, of.direction));
                 Some(VibratingEnd {
-                    form: DriveForm::of(&cable.anchor, drive, rope, winches, limit, along),
+                    form: VibratingDriveForm::of(&cable.anchor, drive, rope, winches, limit, along),
                     directions: directions.chain(sideways).collect(),
                     along,
                     count,
@@ -222,7 +201,7 @@ impl CableForm {
         mass_per_length: f64,
         pieces: &[(f64, f64, f64)],
         sizes: &[usize],
-        rules: &mut Rules,
+        rules: &mut GaussRules,
         inertia: Inertia,
     ) -> Result<Self, GradientError> {
         let hanging = hanging(state)?;
@@ -230,7 +209,7 @@ impl CableForm {
         let rope = catenary.rope();
         let (h, at_start) = (catenary.horizontal_force(), catenary.vertical_force_at_start());
 
-        let mut points: Vec<Point> = Vec::with_capacity(sizes.iter().sum());
+        let mut points: Vec<CablePoint> = Vec::with_capacity(sizes.iter().sum());
         let mut elements = Vec::with_capacity(pieces.len());
         for ((from, to, _), size) in pieces.iter().zip(sizes) {
             let rule = rules.of_size(*size);
@@ -240,14 +219,14 @@ impl CableForm {
                 let s = center + half * xi;
                 let v = at_start + rope.weight_per_length * s;
                 let tension = h.hypot(v);
-                points.push(Point {
+                points.push(CablePoint {
                     fraction: s / rope.unstrained_length,
                     weight: weight * half,
                     direction: [h / tension, v / tension],
                     tension,
                 });
             }
-            elements.push(Element { points: first..points.len(), half, rule });
+            elements.push(QuadratureElement { points: first..points.len(), half, rule });
         }
 
         let [[hh, hv], [_, vv]] = catenary.tangent();
@@ -266,53 +245,77 @@ impl CableForm {
         })
     }
 
-    /// Motion with the platform (translation of its origin and rotation, world axes) at a frequency. `near` are amplitudes
-    /// that do not follow from the end, `forces` act on the motions of the drive besides its own; none if empty. `carrier` is
-    /// the motion with a flexible support.
+    /// Motion with the platform (translation of its origin and rotation, world axes) at a frequency. `near` are
+    /// amplitudes that do not follow from the end, `forces` act on the motions of the drive besides its own; none if
+    /// empty. `carrier` is the motion with a flexible support.
     pub(super) fn motion<T: Field>(
         &self,
         (v, theta): (&Vector<T>, &Vector<T>),
         carrier: Option<&Carrier<T>>,
         at: &CableAt<T>,
-        near: &[NearMode<T>],
+        near: &[FamilyAmplitude<T>],
         forces: &[T],
     ) -> CableMotion<T> {
         let end_w = add(v, &cross(theta, &vector(&self.lever_w)));
-        let local = |of: &Vector<T>| -> Vector<T> { from_fn(|k| dot(of, &vector(&self.axes_w[k]))) };
-        let end = local(&end_w);
-        let far = carrier.map(|carrier| (local(&carrier.displacement_w), carrier.along));
-        let relative = |of: &Vector<T>, far: &Vector<T>| -> Vector<T> { from_fn(|k| of[k] - far[k]) };
-
-        let Inertia::Modes(vibrating) = &self.inertia else {
-            // Without mass the tension vector changes by the same amount all along the cable.
-            let (relative_w, along) = match carrier {
-                Some(carrier) => (relative(&end_w, &carrier.displacement_w), carrier.along),
-                None => (end_w, T::default()),
-            };
-            let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&relative_w, along));
-            let mut elongation = far.as_ref().map_or(end, |(far, _)| relative(&end, far));
-            if let Some(of) = &self.end {
-                let followed_w = of.displacement(&at_end);
-                (0..3).for_each(|k| elongation[k] += dot(&followed_w, &vector(&self.axes_w[k])) * -1.0);
+        match &self.inertia {
+            Inertia::Modes(vibrating) => {
+                let far = carrier.map(|carrier| (self.local(&carrier.displacement_w), carrier.along));
+                self.vibrating_motion(vibrating, (&self.local(&end_w), theta), far.as_ref(), at, near, forces)
             }
-            let force = self.static_force(&elongation);
-            let far_force = times(&force, T::from(-1.0));
-            let tension = vec![far_force; self.points.len()];
-            let displacement = match self.inertia {
-                Inertia::Massless => {
-                    let strains: Vec<Vector<T>> =
-                        self.points.iter().zip(&tension).map(|(point, change)| self.strain(point, change)).collect();
-                    let (gathered, _) = self.gathered(&sums::by_axes(&strains));
-                    gathered.iter().map(|moved| add(&end, moved)).collect()
-                }
-                _ => Vec::new(),
-            };
-            let (end_force_w, end) = (self.world(&force), at_end.to_vec());
-            return CableMotion { displacement, tension, end_force_w, theta: *theta, end, far_force };
-        };
+            Inertia::None | Inertia::Massless => self.slow_motion(&end_w, theta, carrier),
+        }
+    }
 
+    /// Motion of a cable without mass, whose tension vector changes by the same amount all along the cable.
+    fn slow_motion<T: Field>(
+        &self,
+        end_w: &Vector<T>,
+        theta: &Vector<T>,
+        carrier: Option<&Carrier<T>>,
+    ) -> CableMotion<T> {
+        let end = self.local(end_w);
+        let (relative_w, mut elongation, along) = match carrier {
+            Some(carrier) => {
+                let far = self.local(&carrier.displacement_w);
+                (less(end_w, &carrier.displacement_w), less(&end, &far), carrier.along)
+            }
+            None => (*end_w, end, T::default()),
+        };
+        let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&relative_w, along));
+        if let Some(of) = &self.end {
+            let followed_w = of.displacement(&at_end);
+            (0..3).for_each(|k| elongation[k] += dot(&followed_w, &vector(&self.axes_w[k])) * -1.0);
+        }
+
+        let force = self.static_force(&elongation);
+        let far_force = times(&force, T::from(-1.0));
+        let tension = vec![far_force; self.points.len()];
+        let displacement = match self.inertia {
+            Inertia::Massless => {
+                let strains: Vec<Vector<T>> =
+                    self.points.iter().zip(&tension).map(|(point, change)| self.strain(point, change)).collect();
+                let (gathered, _) = self.gathered(&sums::by_axes(&strains));
+                gathered.iter().map(|moved| add(&end, moved)).collect()
+            }
+            _ => Vec::new(),
+        };
+        let (end_force_w, end) = (self.world(&force), at_end.to_vec());
+        CableMotion { displacement, tension, end_force_w, theta: *theta, end, far_force }
+    }
+
+    /// Motion of a cable that vibrates, in its axes: with the platform end, with the far end and along the drum side on
+    /// a flexible support, and with the rotation of the platform.
+    fn vibrating_motion<T: Field>(
+        &self,
+        vibrating: &Vibrating,
+        (end, theta): (&Vector<T>, &Vector<T>),
+        far: Option<&(Vector<T>, T)>,
+        at: &CableAt<T>,
+        near: &[FamilyAmplitude<T>],
+        forces: &[T],
+    ) -> CableMotion<T> {
         // Momentum: δN(s) = δN(0) − ω_c² m ∫₀ˢ δp ds.
-        let (displacement, motions) = vibrating.displacement(&end, far.as_ref(), at, near, forces);
+        let (displacement, motions) = vibrating.displacement(end, far, at, near, forces);
         let (mut gathered, mut whole) = self.gathered(&displacement);
         let displacement = sums::vectors(&displacement, self.points.len());
         let factor = -(at.square * self.mass_per_length);
@@ -321,7 +324,7 @@ impl CableForm {
         }
 
         // The strains of δN along the cable add up to the motion of the far end less that of the platform end.
-        let mut moved = far.as_ref().map_or(end, |(far, _)| relative(&end, far));
+        let mut moved = far.map_or(*end, |(far, _)| less(end, far));
         if let Some(drive) = &vibrating.drive {
             for (motion, direction) in &drive.directions {
                 (0..3).for_each(|k| moved[k] += -(motions[*motion] * direction[k]));
@@ -331,8 +334,8 @@ impl CableForm {
             add_times(&mut moved, &self.strain(point, gathered), T::from(point.weight));
         }
         let force = self.static_force(&moved);
-        let tension = gathered.iter().map(|gathered| from_fn(|k| gathered[k] - force[k])).collect();
-        let far_force = from_fn(|k| whole[k] - force[k]);
+        let tension = gathered.iter().map(|gathered| less(gathered, &force)).collect();
+        let far_force = less(&whole, &force);
         CableMotion { displacement, tension, end_force_w: self.world(&force), theta: *theta, end: motions, far_force }
     }
 
@@ -348,8 +351,8 @@ impl CableForm {
         self.add_beside(sum, a, b, &Sides::still(), at, factor);
     }
 
-    /// Adds the same while flexible supports move the entry point along the drum side. The result are the forces of the drum
-    /// side on the entry point.
+    /// Adds `factor` times the coefficients of W(a, b) at a frequency, with flexible supports that move the entry point
+    /// along the drum side. The result are the forces of the drum side on the entry point.
     pub(super) fn add_beside<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
@@ -359,12 +362,72 @@ impl CableForm {
         (own_square, at): (T, &CableAt<T>),
         factor: T,
     ) -> SideForces<T> {
-        let mut on_side = [T::default(); 2];
-        let (square, damping) = (at.square, at.by_damping);
+        let integrals = self.tension_integrals(&a.tension, &b.tension);
+        let mut moved = T::default();
+        for ((point, u), w) in self.points.iter().zip(&a.displacement).zip(&b.displacement) {
+            moved += dot(u, w) * point.weight;
+        }
+
+        // The free span.
+        let (force_w, load_w) = (self.world(&integrals.by_force), self.world(&integrals.by_load));
+        add_times(&mut sum.force, &force_w, factor);
+        add_times(&mut sum.load, &load_w, -(factor * self.length));
+        let inertia = at.square * moved;
+        let strained = (integrals.work + inertia * self.mass_per_length) * (1.0 / self.length);
+        sum.free_length += -(factor * (integrals.by_load[1] * self.load + strained));
+        sum.stiffness += factor * integrals.squares * self.axial_stiffness.powi(-2);
+        sum.mass += -(factor * inertia);
+
+        // The ends turn with their lever arms.
+        let turned = add(&cross(&a.end_force_w, &b.theta), &cross(&b.end_force_w, &a.theta));
+        add_times(&mut sum.lever, &turned, factor);
+
+        // ω_c² depends on mass per length and damping.
+        let (rope_of_drive, on_side) = self.add_far_end(sum, (a, b), sides, (own_square, at), factor);
+        let by_square = -(factor * (moved * self.mass_per_length + rope_of_drive));
+        sum.mass += by_square * at.by_damping[0];
+        sum.damping += by_square * at.by_damping[1];
+        on_side
+    }
+
+    /// Adds the coefficients of the far end, which turns with its directions and whose stiffness changes. The result is
+    /// the mass of the rope of the drive over both motions, and the forces of the drum side on its entry point.
+    fn add_far_end<T: Field>(
+        &self,
+        sum: &mut CableAdjoint<T>,
+        (a, b): (&CableMotion<T>, &CableMotion<T>),
+        sides: &Sides<T>,
+        (own_square, at): (T, &CableAt<T>),
+        factor: T,
+    ) -> (T, SideForces<T>) {
+        let (mut rope, mut on_side) = (T::default(), [T::default(); 2]);
+
+        match &self.inertia {
+            Inertia::Modes(vibrating) => {
+                if let Some(VibratingEnd { form, along, .. }) = &vibrating.drive {
+                    let at = DriveAtFrequency { square: own_square, of_rope: at.square, control: at.control };
+                    (rope, on_side) = form.add(sum, (&a.end, &b.end), sides, &at, factor);
+                    let slips = form.chain().is_some().then_some(0);
+                    self.add_turn(sum, a, b, [slips, form.sideways().map(|_| *along)], factor);
+                }
+            }
+            Inertia::None | Inertia::Massless => {
+                if let Some(of) = &self.end {
+                    on_side = of.add(sum, (&a.end, &b.end), &sides.along, factor);
+                    self.add_turn(sum, a, b, [Some(0), Some(1)], factor);
+                }
+            }
+        }
+        (rope, on_side)
+    }
+
+    /// Integrals along the cable over two changes of the tension vector.
+    #[inline]
+    fn tension_integrals<T: Field>(&self, a: &[Vector<T>], b: &[Vector<T>]) -> TensionIntegrals<T> {
         let zero = T::default();
         let (mut by_force, mut by_load) = ([zero; 3], [zero; 3]);
         let (mut squares, mut work) = (zero, zero);
-        for ((point, u), w) in self.points.iter().zip(&a.tension).zip(&b.tension) {
+        for ((point, u), w) in self.points.iter().zip(a).zip(b) {
             // Third derivative of |N| along both changes.
             let [h, v] = point.direction;
             let (along_u, along_w) = (u[0] * h + u[1] * v, w[0] * h + w[1] * v);
@@ -385,52 +448,11 @@ impl CableForm {
             squares += both * point.weight;
             work += (both * (1.0 / self.axial_stiffness) + product * (1.0 / point.tension)) * point.weight;
         }
-        let mut moved = zero;
-        for ((point, u), w) in self.points.iter().zip(&a.displacement).zip(&b.displacement) {
-            moved += dot(u, w) * point.weight;
-        }
-
-        let (force_w, load_w) = (self.world(&by_force), self.world(&by_load));
-        add_times(&mut sum.force, &force_w, factor);
-        add_times(&mut sum.load, &load_w, -(factor * self.length));
-        let inertia = square * moved;
-        let strained = (work + inertia * self.mass_per_length) * (1.0 / self.length);
-        sum.free_length += -(factor * (by_load[1] * self.load + strained));
-        sum.stiffness += factor * squares * self.axial_stiffness.powi(-2);
-        sum.mass += -(factor * inertia);
-
-        // The ends turn with their lever arms.
-        let turned = add(&cross(&a.end_force_w, &b.theta), &cross(&b.end_force_w, &a.theta));
-        add_times(&mut sum.lever, &turned, factor);
-
-        // The far end turns with its directions, and its stiffness changes.
-        let mut mass = moved * self.mass_per_length;
-        match &self.inertia {
-            Inertia::Modes(vibrating) => {
-                if let Some(VibratingEnd { form, along, .. }) = &vibrating.drive {
-                    let at = DriveAtFrequency { square: own_square, of_rope: square, control: at.control };
-                    let (rope, forces) = form.add(sum, (&a.end, &b.end), sides, &at, factor);
-                    mass += rope;
-                    on_side = forces;
-                    let slips = form.chain().is_some().then_some(0);
-                    self.add_turn(sum, a, b, [slips, form.sideways().map(|_| *along)], factor);
-                }
-            }
-            Inertia::None | Inertia::Massless => {
-                if let Some(of) = &self.end {
-                    on_side = of.add(sum, (&a.end, &b.end), &sides.along, factor);
-                    self.add_turn(sum, a, b, [Some(0), Some(1)], factor);
-                }
-            }
-        }
-        let by_square = -(factor * mass);
-        sum.mass += by_square * damping[0];
-        sum.damping += by_square * damping[1];
-        on_side
+        TensionIntegrals { by_force, by_load, squares, work }
     }
 
-    /// Adds `factor` times the coefficients of the forces of a signal on the drive, over another motion, the first of `side`.
-    /// The result is the force of the drum side on its entry point.
+    /// Adds `factor` times the coefficients of the forces of a signal on the drive, over another motion, the first of
+    /// `side`. The result is the force of the drum side on its entry point.
     pub(super) fn add_signal<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
@@ -445,8 +467,8 @@ impl CableForm {
         form.add_signal(sum, signal, (other.of_drive(), side), (&frequency, servo, at.by_damping), factor)
     }
 
-    /// Adds the coefficients of the directions in which the far end moves: along the cable and sideways, by their places among
-    /// its motions.
+    /// Adds the coefficients of the directions in which the far end moves: along the cable and sideways, by their
+    /// places among its motions.
     fn add_turn<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
@@ -465,7 +487,7 @@ impl CableForm {
     }
 
     /// Strain δp' of a change of the tension vector at a point.
-    fn strain<T: Field>(&self, point: &Point, change: &Vector<T>) -> Vector<T> {
+    fn strain<T: Field>(&self, point: &CablePoint, change: &Vector<T>) -> Vector<T> {
         let [h, v] = point.direction;
         let along = change[0] * h + change[1] * v;
         let (by_stretch, by_turn) = (1.0 / self.axial_stiffness, 1.0 / point.tension);
@@ -473,8 +495,8 @@ impl CableForm {
         [change[0] * both - along * (h * by_turn), change[1] * both - along * (v * by_turn), change[2] * both]
     }
 
-    /// Integrals of a vector, whose components at the points stand axis by axis, from the platform end to every point and
-    /// over the whole cable [m].
+    /// Integrals of a vector, whose components at the points stand axis by axis, from the platform end to every point
+    /// and over the whole cable [m].
     fn gathered<T: Field>(&self, values: &[T]) -> (Vec<Vector<T>>, Vector<T>) {
         sums::integrals(&self.elements, values, self.points.len())
     }
@@ -485,178 +507,18 @@ impl CableForm {
         [end[0] * hh + end[1] * hv, end[0] * hv + end[1] * vv, end[2] * out]
     }
 
+    /// Components of a vector in the axes of the cable.
+    fn local<T: Field>(&self, of_w: &Vector<T>) -> Vector<T> {
+        from_fn(|k| dot(of_w, &vector(&self.axes_w[k])))
+    }
+
     /// World components of a vector in the axes of the cable.
     fn world<T: Field>(&self, local: &Vector<T>) -> Vector<T> {
         from_fn(|k| local[0] * self.axes_w[0][k] + local[1] * self.axes_w[1][k] + local[2] * self.axes_w[2][k])
     }
 }
 
-impl Vibrating {
-    /// Displacement of the points, axis by axis, for a motion of the platform end, and the motions of the drive. `far` are the
-    /// motions of the far end and along the drum side with a flexible support.
-    fn displacement<T: Field>(
-        &self,
-        end: &Vector<T>,
-        far: Option<&(Vector<T>, T)>,
-        at: &CableAt<T>,
-        near: &[NearMode<T>],
-        forces: &[T],
-    ) -> (Vec<T>, Vec<T>) {
-        let cable = &self.cable;
-        let square = at.square;
-        let of = |family: Family| near.iter().filter(move |near| near.0 == family);
-        let mut in_plane = amplitudes(&cable.in_plane, &[end[0], end[1]], square, of(Family::InPlane));
-        let mut out_of_plane = amplitudes(&cable.out_of_plane, &[end[2]], square, of(Family::OutOfPlane));
-        let mut coupled = match &cable.coupled {
-            Some(family) => amplitudes(family, end, square, of(Family::Coupled)),
-            None => Vec::new(),
-        };
-        if let Some((far, along)) = far {
-            let given = |of_family: Family| move |index: usize| of(of_family).any(|near| near.1 == index);
-            let by_side = |number: usize| (self.side.as_ref(), number, *along);
-            add_far_amplitudes(&mut in_plane, &cable.in_plane, &far[..2], by_side(0), square, given(Family::InPlane));
-            let (out, is_given) = (&mut out_of_plane, given(Family::OutOfPlane));
-            add_far_amplitudes(out, &cable.out_of_plane, &far[2..], by_side(1), square, is_given);
-            if let Some(family) = &cable.coupled {
-                add_far_amplitudes(&mut coupled, family, far, by_side(2), square, given(Family::Coupled));
-            }
-        }
-
-        // Motions of the drive, whose losses and forces act on the clamped modes.
-        let mut motions = Vec::new();
-        if let (Some(drive), Some(shapes)) = (&self.drive, &cable.drive) {
-            motions = vec![T::default(); drive.count];
-            let (along, sideways) = motions.split_at_mut(drive.along);
-            if cable.coupled.is_none() {
-                add_motions(along, &shapes.along, &[end[0], end[1]], &in_plane);
-                add_motions(sideways, &shapes.sideways, &[end[2]], &out_of_plane);
-            } else {
-                add_motions(&mut motions, &shapes.coupled, end, &coupled);
-            }
-            if let Some((far, moved)) = far {
-                if cable.coupled.is_none() {
-                    let (along, sideways) = motions.split_at_mut(drive.along);
-                    add_far_motions(along, &shapes.along, &far[..2]);
-                    add_far_motions(sideways, &shapes.sideways, &far[2..]);
-                } else {
-                    add_far_motions(&mut motions, &shapes.coupled, far);
-                }
-                if let Some(side) = &self.side {
-                    side.add_motions(&mut motions, *moved);
-                    side.add_still([&mut in_plane, &mut out_of_plane, &mut coupled], *moved);
-                }
-            }
-            if let Some(losses) = &at.losses {
-                let act = losses.act_on(&mut motions, forces);
-                let families: [(Family, &mut Vec<T>); 3] = [
-                    (Family::InPlane, &mut in_plane),
-                    (Family::OutOfPlane, &mut out_of_plane),
-                    (Family::Coupled, &mut coupled),
-                ];
-                for (family, all) in families {
-                    for (index, (amplitude, pole)) in all.iter_mut().zip(cable.poles_of(family)).enumerate() {
-                        if of(family).any(|near| near.1 == index) {
-                            continue;
-                        }
-                        let mut force = T::default();
-                        shapes.in_mode(family, index).iter().zip(&act).for_each(|(phi, act)| force += *act * *phi);
-                        *amplitude += -(force / (T::from(*pole) - square));
-                    }
-                }
-            }
-        }
-
-        // Points in plane and out of plane, or all directions together.
-        let mut displacement = vec![T::default(); 3 * self.points];
-        if cable.coupled.is_some() {
-            self.coupled.add(&mut displacement, end, &coupled);
-        } else {
-            let (plane, normal) = displacement.split_at_mut(2 * self.points);
-            self.in_plane.add(plane, &end[..2], &in_plane);
-            self.out_of_plane.add(normal, &end[2..], &out_of_plane);
-        }
-        if let Some((far, _)) = far {
-            if cable.coupled.is_some() {
-                self.coupled.add_far(&mut displacement, far);
-            } else {
-                let (plane, normal) = displacement.split_at_mut(2 * self.points);
-                self.in_plane.add_far(plane, &far[..2]);
-                self.out_of_plane.add_far(normal, &far[2..]);
-            }
-        }
-        (displacement, motions)
-    }
-}
-
-impl LossesAt<Complex> {
-    /// Losses of a drive with these motions.
-    pub(super) fn of(motions: &DriveAt, losses: &DriveLosses) -> Self {
-        let delta: Vec<Complex> = losses.0.iter().map(|(value, _)| *value).collect();
-        let rows = |matrix: &CDMat| matrix.row_iter().map(|row| row.iter().copied().collect()).collect();
-        Self { receptance: rows(&motions.receptance), inverse: rows(&motions.inverse(&delta)), delta }
-    }
-}
-
-impl<T: Field> LossesAt<T> {
-    /// Applies losses and given forces to the motions of a drive. The result is the forces with which the drive resists:
-    /// those of the losses less those given.
-    fn act_on(&self, motions: &mut Vec<T>, forces: &[T]) -> Vec<T> {
-        let product = |matrix: &[Vec<T>], vector: &[T]| -> Vec<T> {
-            let row = |row: &Vec<T>| {
-                let mut sum = T::default();
-                row.iter().zip(vector).for_each(|(entry, value)| sum += *entry * *value);
-                sum
-            };
-            matrix.iter().map(row).collect()
-        };
-        let by_forces = product(&self.receptance, forces);
-        motions.iter_mut().zip(&by_forces).for_each(|(motion, moved)| *motion += *moved);
-        *motions = product(&self.inverse, motions);
-        let mut act: Vec<T> = motions.iter().zip(&self.delta).map(|(motion, delta)| *motion * *delta).collect();
-        act.iter_mut().zip(forces).for_each(|(act, force)| *act += -*force);
-        act
-    }
-}
-
-/// Adds the first component of stations, which are motions of a drive, for a motion of the platform end.
-fn add_motions<T: Field, const D: usize, const N: usize>(
-    motions: &mut [T],
-    of: &Displacements<D, N>,
-    end: &[T; D],
-    amplitudes: &[T],
-) {
-    for (sum, still) in motions.iter_mut().zip(&of.still) {
-        end.iter().zip(&still[0]).for_each(|(u, psi)| *sum += *u * *psi);
-    }
-    for (mode, q) in of.modes.iter().zip(amplitudes) {
-        motions.iter_mut().zip(mode).for_each(|(sum, phi)| *sum += *q * phi[0]);
-    }
-}
-
 /// Curve of the cable; ideal cables have none.
 fn hanging(state: &CableState) -> Result<&HangingCable, GradientError> {
     Ok(state.hanging.as_ref().ok_or(StaticDerivativeError::Ideal)?)
-}
-
-/// Amplitudes of the clamped modes (unit modal mass) for a motion of the platform end, `q_k = ω_c² g_k·u/(ω_k² − ω_c²)`.
-/// Those of `near` modes are given.
-fn amplitudes<'n, T: Field + 'n, const N: usize, const E: usize, const M: usize>(
-    family: &PoleResidue<N, E>,
-    end: &[T; M],
-    square: T,
-    near: impl Iterator<Item = &'n NearMode<T>>,
-) -> Vec<T> {
-    let mut all: Vec<T> = (family.poles.iter().zip(&family.participation))
-        .map(|(pole, g)| {
-            let mut drive = T::default();
-            for (u, g) in end.iter().zip(g) {
-                drive += *u * *g;
-            }
-            square * drive / (T::from(*pole) - square)
-        })
-        .collect();
-    for (_, index, amplitude) in near {
-        all[*index] = *amplitude;
-    }
-    all
 }

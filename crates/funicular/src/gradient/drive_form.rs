@@ -1,8 +1,8 @@
-//! Form of the drive of a cable over the motions behind its exit point, and its coefficients over the numbers of the
-//! drive.
+//! Quadratic form of the drive of a cable over the motions behind its exit point, and the coefficients of the form over
+//! the numbers of the drive.
 //!
-//! The form is that of (76) with the masses and the control: `Σ k_j (Δ_a)(Δ_b) + … − ω² Σ M z_a z_b + C(ω) w_a w_b`. The
-//! motions do not change, only the numbers (docs/theory.md, equation (60l)).
+//! The form is (76) with the masses and the control: `Σ k_j (Δ_a)(Δ_b) + … − ω² Σ M z_a z_b + C(ω) w_a w_b`. Its
+//! differential keeps the motions and changes the numbers (docs/theory.md, equation (60l)).
 
 use super::adjoint::CableAdjoint;
 use super::scalar::Field;
@@ -13,8 +13,8 @@ use crate::drive::{AnchorEnd, ChainDescription, DriveAtRest, Piece, Place};
 use crate::math::Complex;
 use crate::robot::{Anchor, PulleyContact, Servo, WinchMode};
 
-/// Form of the drive of one cable.
-pub(super) struct DriveForm {
+/// Quadratic form of the drive of one cable that vibrates.
+pub(super) struct VibratingDriveForm {
     chain: Option<ChainDescription>,
     /// Radius of the wheel, its moment of inertia and that of the swivel.
     radius: f64,
@@ -39,8 +39,8 @@ pub(super) struct DriveForm {
     mass_per_length: f64,
 }
 
-/// Control of the motor of one cable at a frequency: its force C + iωc per motion, and the derivatives of that by the
-/// position gain, the speed gain, the delay and the viscous damping.
+/// Control of the motor of one cable at a frequency: force C + iωc per motion, and derivatives of this force with
+/// respect to the position gain, the speed gain, the delay and the viscous damping.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ControlAt<T> {
     pub(super) force: T,
@@ -77,7 +77,7 @@ impl ControlAt<Complex> {
     }
 }
 
-/// Frequencies at which the form of a drive is taken.
+/// Frequencies at which the form of a drive is evaluated.
 pub(super) struct DriveAtFrequency<T> {
     /// Square ω² of wheel, drum and motor, and ω_c² of the rope.
     pub(super) square: T,
@@ -85,8 +85,8 @@ pub(super) struct DriveAtFrequency<T> {
     pub(super) control: ControlAt<T>,
 }
 
-impl DriveForm {
-    /// Form of the drive of a cable whose motions are those of the chain and then that sideways.
+impl VibratingDriveForm {
+    /// Form of the drive of a cable. Its motions are the motions of the chain, and last the motion sideways.
     pub(super) fn of(
         anchor: &Anchor,
         drive: &DriveAtRest,
@@ -100,6 +100,7 @@ impl DriveForm {
         let pulley = anchor.pulley.as_ref();
         let winch = anchor.winch.as_ref();
         let straight = drive.drum_side_length / (rope.0 * end.stretch_drum.powi(2));
+
         Self {
             chain,
             radius: pulley.map_or(0.0, |pulley| pulley.radius),
@@ -121,9 +122,9 @@ impl DriveForm {
         }
     }
 
-    /// Adds `factor` times the coefficients of the form over two motions, in which a support moves the entry point along the
-    /// drum side. The result is the mass of the rope of the drive over both motions, by which the form changes with −ω_c², and
-    /// the forces of the drum side on the entry point.
+    /// Adds `factor` times the coefficients of the form over two motions, in which a support moves the entry point
+    /// along the drum side. The result is the mass of the rope of the drive over both motions, by which the form
+    /// changes with −ω_c², and the forces of the drum side on the entry point.
     pub(super) fn add<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
@@ -183,45 +184,20 @@ impl DriveForm {
         factor: T,
         by_ratio: &mut T,
     ) -> (T, SideForces<T>) {
-        // A support stretches a drum side from the ground at the wheel, and carries another one along.
-        let stretched = |along: T| if sides.from_ground && index == 0 { along * chain.ratio } else { T::default() };
-        let carried = |along: T| if sides.from_ground { T::default() } else { along };
-        let at_ends = |z: &[T], along: T| {
-            let [wheel, drum] = piece.ends.map(|end| end.map_or_else(T::default, |place| moved(place, z)));
-            [wheel + stretched(along), drum]
-        };
-        let (ends_a, ends_b) = (at_ends(a, sides.along[0]), at_ends(b, sides.along[1]));
-        let whole = sides.along.map(carried);
+        let motion = PieceMotion::of(chain, (index, piece), (a, b, sides));
+        let [ends_a, ends_b] = motion.ends;
         let mut strained = (ends_a[0] - ends_a[1]) * (ends_b[0] - ends_b[1]);
         for wave in piece.waves.clone() {
             strained += a[wave] * b[wave] * 2.0;
         }
 
-        // Mass of a rod of the length EA/k.
-        let (mut mass, mut forces) = (T::default(), [[T::default(); 2]; 2]);
-        if let Some(matrix) = &piece.mass {
-            let size = 0.5 * self.mass_per_length * self.axial_stiffness / piece.spring;
-            let function = |ends: &[T; 2], z: &[T], whole: T, k: usize| {
-                if k < 2 { ends[k] + whole } else { z[piece.waves.start + k - 2] }
-            };
-            for row in 0..matrix.nrows() {
-                let product = |ends: &[T; 2], z: &[T], whole: T| {
-                    let mut product = T::default();
-                    for column in 0..matrix.ncols() {
-                        product += function(ends, z, whole, column) * (matrix[(row, column)] * size);
-                    }
-                    product
-                };
-                let (by_a, by_b) = (product(&ends_a, a, whole[0]), product(&ends_b, b, whole[1]));
-                mass += function(&ends_a, a, whole[0], row) * by_b;
-                if row < 2 {
-                    forces[row] = [-(at.of_rope * by_a), -(at.of_rope * by_b)];
-                }
-            }
+        let (mass, forces) = self.rod(piece, (a, b), &motion, at.of_rope);
+        if piece.mass.is_some() {
             let inertia = -(factor * at.of_rope * mass);
             sum.mass += inertia * (1.0 / self.mass_per_length);
             sum.stiffness += inertia * (1.0 / self.axial_stiffness);
         }
+
         // k = 1/(λ²Γ); the mass is proportional to 1/k.
         let by_spring = factor * strained + factor * at.of_rope * mass * (1.0 / piece.spring);
         sum.end[end::STRETCH] += by_spring * (-2.0 * piece.spring / self.stretch);
@@ -247,6 +223,40 @@ impl DriveForm {
             [0, 1].map(|k| forces[0][k] + forces[1][k])
         };
         (mass, on_side)
+    }
+
+    /// Mass of a piece over both motions, as a rod of the length EA/k, and the forces of its inertia on its ends; zero
+    /// for a piece without mass.
+    fn rod<T: Field>(
+        &self,
+        piece: &Piece,
+        (a, b): (&[T], &[T]),
+        motion: &PieceMotion<T>,
+        of_rope: T,
+    ) -> (T, [[T; 2]; 2]) {
+        let (mut mass, mut forces) = (T::default(), [[T::default(); 2]; 2]);
+        let Some(matrix) = &piece.mass else { return (mass, forces) };
+        let size = 0.5 * self.mass_per_length * self.axial_stiffness / piece.spring;
+        let function = |ends: &[T; 2], z: &[T], whole: T, k: usize| {
+            if k < 2 { ends[k] + whole } else { z[piece.waves.start + k - 2] }
+        };
+
+        let PieceMotion { ends: [ends_a, ends_b], whole } = motion;
+        for row in 0..matrix.nrows() {
+            let product = |ends: &[T; 2], z: &[T], whole: T| {
+                let mut product = T::default();
+                for column in 0..matrix.ncols() {
+                    product += function(ends, z, whole, column) * (matrix[(row, column)] * size);
+                }
+                product
+            };
+            let (by_a, by_b) = (product(ends_a, a, whole[0]), product(ends_b, b, whole[1]));
+            mass += function(ends_a, a, whole[0], row) * by_b;
+            if row < 2 {
+                forces[row] = [-(of_rope * by_a), -(of_rope * by_b)];
+            }
+        }
+        (mass, forces)
     }
 
     /// Adds the coefficient of the compliance of a piece: of the whole rope, or of its share of the drum side.
@@ -326,9 +336,9 @@ impl DriveForm {
         }
     }
 
-    /// Adds `factor` times the coefficients of the forces on the drive per unit of a signal, over the motions `z` on which
-    /// they act, with the first of `side` along the drum side; `by_damping` has the derivatives of ω_c². The result is the force
-    /// of the drum side on its entry point.
+    /// Adds `factor` times the coefficients of the forces on the drive per unit of a signal, over the motions `z` on
+    /// which they act, with the first of `side` along the drum side; `by_damping` has the derivatives of ω_c². The
+    /// result is the force of the drum side on its entry point.
     pub(super) fn add_signal<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
@@ -339,12 +349,14 @@ impl DriveForm {
     ) -> T {
         let (mut by_ratio, mut on_side) = (T::default(), T::default());
         let Some(chain) = &self.chain else { return on_side };
+
         // A place at the exit point contains one over the ratio of the stretches.
         let mut add_place = |place: Place, force: T| {
             if place.is_at_exit() {
                 by_ratio += factor * force * moved(place, z) * (-1.0 / chain.ratio);
             }
         };
+
         match (signal, chain.drum, chain.motor) {
             (DriveSignal::Drum, Some(place), _) | (DriveSignal::Motor, _, Some(place)) => {
                 add_place(place, T::from(1.0));
@@ -372,12 +384,13 @@ impl DriveForm {
             }
             _ => {}
         }
+
         self.add_ratio(sum, by_ratio);
         on_side
     }
 
-    /// Adds the coefficients of the force `λ (k + ω_c² M)` of the last piece, whose end at the drum is moved by λ. The result is
-    /// the force of the drum side on its entry point.
+    /// Adds the coefficients of the force `λ (k + ω_c² M)` of the last piece, whose end at the drum is moved by λ. The
+    /// result is the force of the drum side on its entry point.
     fn add_held_drum<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
@@ -444,6 +457,27 @@ impl DriveForm {
     /// Place of the motion sideways.
     pub(super) fn sideways(&self) -> Option<usize> {
         self.sideways
+    }
+}
+
+/// Motions of the ends of a piece of arc and drum side, in two motions of the drive.
+struct PieceMotion<T> {
+    /// Motions of the end at the wheel and of the end at the drum, for each motion of the drive.
+    ends: [[T; 2]; 2],
+    /// Motion of the whole piece with a support that carries it, for each motion of the drive.
+    whole: [T; 2],
+}
+
+impl<T: Field> PieceMotion<T> {
+    fn of(chain: &ChainDescription, (index, piece): (usize, &Piece), (a, b, sides): (&[T], &[T], &Sides<T>)) -> Self {
+        // A support stretches a drum side from the ground at the wheel, and carries another one along.
+        let stretched = |along: T| if sides.from_ground && index == 0 { along * chain.ratio } else { T::default() };
+        let carried = |along: T| if sides.from_ground { T::default() } else { along };
+        let at_ends = |z: &[T], along: T| {
+            let [wheel, drum] = piece.ends.map(|end| end.map_or_else(T::default, |place| moved(place, z)));
+            [wheel + stretched(along), drum]
+        };
+        Self { ends: [at_ends(a, sides.along[0]), at_ends(b, sides.along[1])], whole: sides.along.map(carried) }
     }
 }
 

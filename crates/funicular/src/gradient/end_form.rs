@@ -48,8 +48,8 @@ impl EndAtRest {
         })
     }
 
-    /// Motions (σ, v) for a displacement of the platform end relative to the support, world axes, and a motion of the entry
-    /// point along a drum side from the ground.
+    /// Motions (σ, v) for a displacement of the platform end relative to the support, world axes, and a motion of the
+    /// entry point along a drum side from the ground.
     pub(super) fn motion<T: Field>(&self, start_w: &Vector<T>, along: T) -> [T; 2] {
         from_fn(|k| super::scalar::dot(start_w, &vector(&self.by_end[k])) + along * self.by_side[k])
     }
@@ -63,8 +63,8 @@ impl EndAtRest {
         sum
     }
 
-    /// Adds `factor` times the coefficients of the stiffness over two motions, in which the entry point moves along a drum side
-    /// from the ground. The result are the forces of the drum side on the entry point.
+    /// Adds `factor` times the coefficients of the stiffness over two motions, in which the entry point moves along a
+    /// drum side from the ground. The result are the forces of the drum side on the entry point.
     pub(super) fn add<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,

@@ -2,17 +2,18 @@
 
 use super::GradientError;
 use super::adjoint::CableAdjoint;
+use super::scalar::add_real;
 use crate::drive::derivatives::place;
 use crate::math::Vec3;
 use crate::robot::Robot;
 use crate::statics::CableState;
 use crate::statics::derivatives::{CablePartials, StaticDerivativeError, load_of};
 
-/// Sine of the angle between chord and load below which the parallel tension of a cable with weight is not
+/// Minimum sine of the angle between chord and load for which the parallel tension of a cable with weight is
 /// differentiated: the formula divides by the sine twice.
 const MIN_SINE_OF_CHORD: f64 = 1e-5;
 
-/// Derivatives of the parallel tension τ of a cable, (10a), by length, force, load per length and chord.
+/// Derivatives of the parallel tension τ of a cable, (10a), with respect to length, force, load per length and chord.
 pub(super) struct ParallelTension {
     pub(super) by_length: f64,
     pub(super) force_w: Vec3,
@@ -39,7 +40,8 @@ impl ParallelTension {
         Ok(tension)
     }
 
-    /// Derivatives by force, load per length and chord; that by the length is given.
+    /// Derivatives with respect to force, load per length and chord; the derivative with respect to the length is
+    /// given.
     fn at_state(robot: &Robot, i: usize, state: &CableState, by_length: f64) -> Result<Self, GradientError> {
         let (f, q, d) = (state.force_on_platform_w, load_of(state), state.chord_w());
         if q == Vec3::zeros() {
@@ -63,16 +65,14 @@ impl ParallelTension {
 
     /// Adds `factor` times the coefficients of τ.
     pub(super) fn add(&self, sum: &mut CableAdjoint<f64>, factor: f64) {
-        for k in 0..3 {
-            sum.force[k] += self.force_w[k] * factor;
-            sum.load[k] += self.load_w[k] * factor;
-            sum.chord[k] += self.chord_w[k] * factor;
-        }
+        add_real(&mut sum.force, self.force_w * factor);
+        add_real(&mut sum.load, self.load_w * factor);
+        add_real(&mut sum.chord, self.chord_w * factor);
     }
 }
 
-/// Derivative of a scalar of the state of one cable by its unstrained length: its coefficients times all that follows the
-/// length.
+/// Derivative of a scalar of the state of one cable with respect to the unstrained length of the cable. Every quantity
+/// of the state adapts to the length.
 pub(super) fn by_length(cable: &CableAdjoint<f64>, partials: &CablePartials) -> f64 {
     let Some(drive) = &partials.drive else {
         return cable.length + cable.free_length + partials.force_by_length_w.dot(&Vec3::from(cable.force));

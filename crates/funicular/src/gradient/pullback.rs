@@ -1,22 +1,26 @@
 //! From the coefficients of a scalar over the state at rest to its gradient over the numbers of the robot.
 //!
-//! Forces follow from chords, lengths, loads and stiffness by the partial derivatives of each cable, arms and tensors turn
-//! with the platform. What is then left is the motion of the platform or the change of the lengths: one multiplier λ of
-//! the balance Φ takes its place, and the coefficients of λ·Φ are added (docs/theory.md, equations (60c) to (60f)).
+//! Forces follow from chords, lengths, loads and stiffness by the partial derivatives of each cable, and arms and
+//! tensors turn with the platform. The motion of the platform, or the change of the lengths, is then the only other
+//! unknown. A multiplier λ of the balance Φ takes its place: the coefficients of λ·Φ are added (docs/theory.md,
+//! equations (60c) to (60f)).
 
-use super::adjoint::{Adjoint, CableAdjoint};
+use super::adjoint::{Adjoint, CableAdjoint, DriveAdjoint};
 use super::parallel_tension::ParallelTension;
 use super::rule::RuleFollower;
+use super::scalar::add_real;
 use super::supports::{Followed, SupportedFollower, SupportsAtRest};
 use super::{GradientError, Hold};
-use crate::drive::derivatives::{DriveDerivatives, Row, place};
+use crate::drive::derivatives::{DriveDerivatives, OuterRow, place};
 use crate::math::{DMat, DVec, Mat3, Mat6, Vec3, Vec6, inverse6};
 use crate::platform::Coordinates;
 use crate::robot::{Cable, CableChange, GuideWheelChange, PulleyChange, Robot, RobotChange, WinchChange};
-use crate::statics::derivatives::{CablePartials, StaticDerivativeError, jacobian_of, regular};
+use crate::statics::derivatives::{
+    CablePartials, DrivePartials, StaticDerivativeError, check_regular, jacobian_of, regular,
+};
 use crate::statics::{Equilibrium, TensionRule};
 
-/// Equilibrium with what follows a change of the robot.
+/// Equilibrium, with the quantities that adapt to a change of the robot.
 pub(super) struct Pullback<'a> {
     pub(super) robot: &'a Robot,
     pub(super) equilibrium: &'a Equilibrium,
@@ -27,11 +31,11 @@ pub(super) struct Pullback<'a> {
     follower: Follower,
 }
 
-/// What follows while the rest is held.
+/// Quantities that adapt to a change of the robot while the others are held.
 enum Follower {
-    /// The pose follows: inverse of 𝒥, transposed, in reduced coordinates.
+    /// The pose adapts: inverse of 𝒥, transposed, in reduced coordinates.
     Pose(Mat6),
-    /// The lengths follow.
+    /// The lengths adapt.
     Lengths {
         /// Pseudoinverse of the wrenches by lengths or by parallel tensions, transposed; one column per cable.
         pseudoinverse: DMat,
@@ -39,10 +43,10 @@ enum Follower {
         wrenches: DMat,
         /// Parallel tension of each cable, if the cables are more than the degrees of freedom.
         tensions: Option<Vec<ParallelTension>>,
-        /// Rule that the tensions follow; without one they change least.
+        /// Rule that the tensions follow. Without a rule, the change of the parallel tensions is minimum.
         rule: Option<Box<RuleFollower>>,
     },
-    /// Displacements of flexible supports follow, with the pose or the lengths.
+    /// The displacements of flexible supports adapt, with the pose or the lengths.
     Supported(Hold, Box<SupportedFollower>),
 }
 
@@ -62,6 +66,7 @@ impl<'a> Pullback<'a> {
         hold: Hold,
         rule: Option<&TensionRule>,
     ) -> Result<Self, GradientError> {
+        // The cables, of a robot on flexible supports where these have settled.
         let coordinates = Coordinates::of(robot);
         let supports = SupportsAtRest::of(robot, equilibrium);
         let settled = supports.as_ref().map_or(robot, |supports| &supports.settled);
@@ -71,6 +76,7 @@ impl<'a> Pullback<'a> {
         if supports.is_some() {
             return Self::with_supports(robot, equilibrium, hold, (coordinates, cables, supports));
         }
+
         let follower = match hold {
             Hold::Lengths => {
                 let jacobian = jacobian_of(robot, equilibrium, cables.iter());
@@ -98,10 +104,10 @@ impl<'a> Pullback<'a> {
             return Err(GradientError::RuleAndSupports { cable });
         }
         if hold != Hold::Lengths && count < degrees_of_freedom {
-            return Err(StaticDerivativeError::CableCount { cables: count, degrees_of_freedom }.into());
+            return Err(StaticDerivativeError::TooFewCables { cables: count, degrees_of_freedom }.into());
         }
 
-        // Balances of platform and supports with unit multipliers: the coefficients of all that follows.
+        // Coefficients of the unknowns in the balances of platform and supports, with unit multipliers.
         let settled = all.settled();
         let of_platform: Vec<Followed> = (0..degrees_of_freedom)
             .map(|k| {
@@ -114,7 +120,7 @@ impl<'a> Pullback<'a> {
         let units = all.supports.iter().flat_map(SupportsAtRest::units);
         let of_supports: Vec<Followed> = units.map(|scalar| all.followed(&scalar, hold)).collect();
 
-        // The parallel tensions of redundant cables change least.
+        // With redundant cables the change of the parallel tensions is minimum.
         let tensions = if hold == Hold::Lengths || count == degrees_of_freedom {
             None
         } else {
@@ -140,7 +146,7 @@ impl<'a> Pullback<'a> {
         self.supports.as_ref().map_or(self.robot, |supports| &supports.settled)
     }
 
-    /// Coefficients of all that follows with this hold.
+    /// Coefficients of the quantities that adapt with this hold.
     fn followed(&self, scalar: &Adjoint<f64>, hold: Hold) -> Followed {
         let Pulled { gradient, translation_w, rotation_w, supports } = self.pulled(scalar);
         let first = if hold == Hold::Lengths {
@@ -180,7 +186,8 @@ impl<'a> Pullback<'a> {
                     let solved = pseudoinverse * &of_lengths;
                     let reduced = Vec6::from_fn(|k, _| if k < n { -solved[(k, 0)] } else { 0.0 });
 
-                    // Of redundant cables the parallel tensions change least; what is not balance stays with them.
+                    // With redundant cables the change of the parallel tensions is minimum: the part of the
+                    // coefficients that the balance does not take away belongs to them.
                     if let Some(tensions) = tensions {
                         let left = -(wrenches.transpose() * -solved + &of_lengths);
                         for ((cable, tension), left) in total.cables.iter_mut().zip(tensions).zip(left.iter()) {
@@ -210,8 +217,9 @@ impl<'a> Pullback<'a> {
     fn at_held_pose(&self, total: &Adjoint<f64>) -> RobotChange {
         let Pulled { mut gradient, translation_w, rotation_w, .. } = self.pulled(total);
         for (cable, partials) in gradient.cables.iter_mut().zip(&self.cables) {
-            // No length counts any more, to rounding. A stiffer rope is as a longer one: without the same rounding in the
-            // derivative by the stiffness, which is small here, that would have few digits.
+            // The coefficients of the lengths are zero but for rounding. A stiffer rope has the same effect as a longer
+            // one, so the derivative with respect to the stiffness, which is small here, has the same rounding. It is
+            // subtracted from both, because the derivative would have few digits otherwise.
             let (by_stiffness, by_length) = (partials.force_by_stiffness_w, partials.force_by_length_w);
             let as_length = by_stiffness.dot(&by_length) / by_length.norm_squared();
             cable.axial_stiffness -= as_length * cable.unstrained_length;
@@ -227,18 +235,17 @@ impl<'a> Pullback<'a> {
     fn add_balance(&self, total: &mut Adjoint<f64>, multiplier: &Vec6) {
         let v = Vec3::new(multiplier[0], multiplier[1], multiplier[2]);
         let theta = Vec3::new(multiplier[3], multiplier[4], multiplier[5]) / self.coordinates.ell();
-        let put = |sum: &mut [f64; 3], value: Vec3| (0..3).for_each(|k| sum[k] += value[k]);
         let rot = &self.equilibrium.pose.rot_wp;
         let (platform, load) = (&self.robot.platform, &self.robot.load);
 
-        put(&mut total.weight, v + theta.cross(&(rot * platform.center_of_mass_p)));
-        put(&mut total.center, self.robot.force_at_mass_centre_w().cross(&theta));
-        put(&mut total.force, v + theta.cross(&(rot * load.point_p)));
-        put(&mut total.point, load.force_w.cross(&theta));
-        put(&mut total.moment, theta);
+        add_real(&mut total.weight, v + theta.cross(&(rot * platform.center_of_mass_p)));
+        add_real(&mut total.center, self.robot.force_at_mass_centre_w().cross(&theta));
+        add_real(&mut total.force, v + theta.cross(&(rot * load.point_p)));
+        add_real(&mut total.point, load.force_w.cross(&theta));
+        add_real(&mut total.moment, theta);
         for (cable, state) in total.cables.iter_mut().zip(&self.equilibrium.cables) {
-            put(&mut cable.force, v + theta.cross(&state.lever_w));
-            put(&mut cable.lever, state.force_on_platform_w.cross(&theta));
+            add_real(&mut cable.force, v + theta.cross(&state.lever_w));
+            add_real(&mut cable.lever, state.force_on_platform_w.cross(&theta));
         }
     }
 
@@ -283,32 +290,37 @@ impl<'a> Pullback<'a> {
         gradient.point_p = rot.inverse() * point;
         rotation_w += (rot * robot.load.point_p).cross(&point);
 
-        // Tensors turn with the platform.
-        let matrix = rot.to_rotation_matrix();
+        self.add_tensors(scalar, &mut gradient, &mut rotation_w);
+        let supports = self.supports.as_ref().map_or_else(Vec::new, |supports| supports.pulled(scalar, &mut gradient));
+        Pulled { gradient, translation_w, rotation_w, supports }
+    }
+
+    /// Follows the coefficients of the tensors of the platform, which turn with it.
+    fn add_tensors(&self, scalar: &Adjoint<f64>, gradient: &mut RobotChange, rotation_w: &mut Vec3) {
+        let platform = &self.robot.platform;
+        let matrix = self.equilibrium.pose.rot_wp.to_rotation_matrix();
         let mut tensor = |adjoint: &[[f64; 3]; 3], tensor_p: &Mat3| {
             let adjoint = Mat3::from_fn(|i, j| adjoint[i][j]);
             let tensor_w = matrix.matrix() * tensor_p * matrix.matrix().transpose();
             let turning = tensor_w * adjoint - adjoint * tensor_w;
-            rotation_w += Vec3::new(
+            *rotation_w += Vec3::new(
                 turning[(1, 2)] - turning[(2, 1)],
                 turning[(2, 0)] - turning[(0, 2)],
                 turning[(0, 1)] - turning[(1, 0)],
             );
             matrix.matrix().transpose() * adjoint * matrix.matrix()
         };
+
         gradient.inertia_p = tensor(&scalar.inertia, &platform.inertia_p);
         let translational = Mat3::from_diagonal(&platform.translational_damping_p);
         let rotational = Mat3::from_diagonal(&platform.rotational_damping_p);
         gradient.translational_damping_p = tensor(&scalar.translational_damping, &translational).diagonal();
         gradient.rotational_damping_p = tensor(&scalar.rotational_damping, &rotational).diagonal();
-
-        let supports = self.supports.as_ref().map_or_else(Vec::new, |supports| supports.pulled(scalar, &mut gradient));
-        Pulled { gradient, translation_w, rotation_w, supports }
     }
 }
 
-/// Follows the coefficients of one cable to its numbers, and to gravity and wind; with those of its chord and of its lever
-/// arm, which contains the chord's.
+/// Follows the coefficients of one cable to its numbers, and to gravity and wind. The result also has the coefficients
+/// of the chord and of the lever arm; those of the lever arm contain those of the chord.
 fn cable_pulled(
     cable: &CableAdjoint<f64>,
     partials: &CablePartials,
@@ -334,28 +346,9 @@ fn cable_pulled(
     gradient.gravity_w += load * partials.load_by_gravity;
     gradient.wind_velocity_w += partials.load_by_wind_w.transpose() * load;
     gradient.air_density += partials.load_by_density_w.dot(&load);
-    let (pulley, winch) = partials.drive.as_ref().map_or_else(Default::default, |drive| {
-        let turn_w = outer.turn_w + drive.load_by_turn_w.transpose() * load;
-        let of_drive = &cable.drive;
-        let compliance = of_drive.compliance + outer.compliance;
-        let pulley = PulleyChange {
-            radius: of_drive.radius + outer.radius + drive.load_by_radius_w.dot(&load),
-            entry_direction_w: turn_w.cross(&drive.entry_direction_w),
-            inertia: of_drive.inertia,
-            swivel_inertia: of_drive.swivel_inertia,
-        };
-        let winch = WinchChange {
-            drum_side_length: of_drive.drum_side_length + outer.drum_side_length,
-            stiffness: of_drive.stiffness + compliance * drive.compliance_by_stiffness,
-            drum_mass: of_drive.drum_mass,
-            motor_mass: of_drive.motor_mass,
-            damping: of_drive.damping,
-            position_gain: of_drive.position_gain + compliance * drive.compliance_by_gain,
-            speed_gain: of_drive.speed_gain,
-            delay: of_drive.delay,
-        };
-        (pulley, winch)
-    });
+    let drive = partials.drive.as_ref();
+    let (pulley, winch) =
+        drive.map_or_else(Default::default, |drive| pulley_and_winch(&cable.drive, drive, &outer, &load));
     let of_cable = CableChange {
         anchor_w: chord_w,
         attachment_p: Vec3::zeros(),
@@ -376,6 +369,35 @@ fn cable_pulled(
     (of_cable, chord_w, lever_w)
 }
 
+/// Follows the coefficients of a drive to the numbers of its pulley and of its winch.
+fn pulley_and_winch(
+    of_drive: &DriveAdjoint<f64>,
+    drive: &DrivePartials,
+    outer: &Outer,
+    load: &Vec3,
+) -> (PulleyChange, WinchChange) {
+    let turn_w = outer.turn_w + drive.load_by_turn_w.transpose() * load;
+    let compliance = of_drive.compliance + outer.compliance;
+
+    let pulley = PulleyChange {
+        radius: of_drive.radius + outer.radius + drive.load_by_radius_w.dot(load),
+        entry_direction_w: turn_w.cross(&drive.entry_direction_w),
+        inertia: of_drive.inertia,
+        swivel_inertia: of_drive.swivel_inertia,
+    };
+    let winch = WinchChange {
+        drum_side_length: of_drive.drum_side_length + outer.drum_side_length,
+        stiffness: of_drive.stiffness + compliance * drive.compliance_by_stiffness,
+        drum_mass: of_drive.drum_mass,
+        motor_mass: of_drive.motor_mass,
+        damping: of_drive.damping,
+        position_gain: of_drive.position_gain + compliance * drive.compliance_by_gain,
+        speed_gain: of_drive.speed_gain,
+        delay: of_drive.delay,
+    };
+    (pulley, winch)
+}
+
 /// Coefficients of the numbers on which a cable at rest depends.
 #[derive(Default)]
 struct Outer {
@@ -391,8 +413,8 @@ struct Outer {
 
 /// Follows the coefficients of a cable with a drive to the numbers on which it depends.
 fn drive_pulled(cable: &CableAdjoint<f64>, by_outer: &DriveDerivatives) -> Outer {
-    let mut sum = Row::default();
-    let mut add = |coefficient: f64, row: &Row| {
+    let mut sum = OuterRow::default();
+    let mut add = |coefficient: f64, row: &OuterRow| {
         if coefficient != 0.0 {
             sum.iter_mut().zip(row).for_each(|(sum, by)| *sum += coefficient * by);
         }
@@ -418,7 +440,7 @@ fn drive_pulled(cable: &CableAdjoint<f64>, by_outer: &DriveDerivatives) -> Outer
 }
 
 impl Follower {
-    /// Lengths that follow at a held pose.
+    /// Lengths that adapt at a held pose.
     fn of_lengths(
         robot: &Robot,
         equilibrium: &Equilibrium,
@@ -428,7 +450,7 @@ impl Follower {
     ) -> Result<Self, GradientError> {
         let (cables, degrees_of_freedom) = (partials.len(), coordinates.count());
         if cables < degrees_of_freedom {
-            return Err(StaticDerivativeError::CableCount { cables, degrees_of_freedom }.into());
+            return Err(StaticDerivativeError::TooFewCables { cables, degrees_of_freedom }.into());
         }
         let tensions = if cables == degrees_of_freedom {
             None
@@ -445,15 +467,14 @@ impl Follower {
             (0..degrees_of_freedom).for_each(|k| wrenches[(k, i)] = column[k]);
         }
 
-        // By columns of size one in the lengths: the pseudoinverse from the orthogonal factors of the transpose.
+        // The pseudoinverse, from the orthogonal factors of the transpose.
         let factors = wrenches.transpose().qr();
         let (q, r) = (factors.q(), factors.r());
         let diagonal = (0..degrees_of_freedom).map(|k| r[(k, k)].abs());
         let (smallest, largest) = diagonal.fold((f64::INFINITY, 0.0_f64), |(low, high), d| (low.min(d), high.max(d)));
-        if smallest.is_nan() || smallest <= 1e-12 * largest {
-            return Err(StaticDerivativeError::Singular.into());
-        }
+        check_regular(smallest, largest)?;
         let pseudoinverse = r.solve_upper_triangular(&q.transpose()).ok_or(StaticDerivativeError::Singular)?;
+
         let rule = match (rule, &tensions) {
             (Some(rule), Some(tensions)) => {
                 let of_cables = (partials, tensions.as_slice(), &wrenches);

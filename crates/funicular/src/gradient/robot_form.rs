@@ -2,10 +2,10 @@
 
 use super::GradientError;
 use super::adjoint::{Adjoint, CableAdjoint};
-use super::cable_form::{CableAt, CableForm, CableMotion, Rules};
+use super::cable_form::{CableAt, CableForm, CableMotion, GaussRules};
 use super::drive_form::ControlAt;
 use super::end_form::EndAtRest;
-use super::scalar::{Field, Vector, add, add_times, cross, dot, outer, times, vector};
+use super::scalar::{Field, Vector, add, add_times, cross, dot, symmetric_outer, times, vector};
 use super::support_form::{Carrier, SideForces, Sides, SupportForm};
 use crate::cable::catenary_dynamic::{DriveSignal, Family, MovingEnd};
 use crate::cable::{CableModel, DynamicCable};
@@ -15,7 +15,7 @@ use crate::math::Vec3;
 use crate::robot::{Cable, Robot, Servo};
 use crate::statics::{CableState, Equilibrium};
 
-/// Robot about an equilibrium, with what its form needs.
+/// Quadratic form of a robot about an equilibrium.
 pub(super) struct RobotForm {
     cables: Vec<AnyCable>,
     /// Force at the centre of mass and arm of that centre; force of the load and arm of its point.
@@ -46,7 +46,7 @@ struct SpringForm {
 }
 
 /// Motion of the whole robot, world axes.
-pub(super) struct RobotMotion<T> {
+pub(super) struct FormMotion<T> {
     v: Vector<T>,
     theta: Vector<T>,
     cables: Vec<Option<CableMotion<T>>>,
@@ -54,7 +54,7 @@ pub(super) struct RobotMotion<T> {
     supports: Vec<Vector<T>>,
 }
 
-impl<T> RobotMotion<T> {
+impl<T> FormMotion<T> {
     /// Motion of a cable; `None` for a spring.
     pub(super) fn cable(&self, i: usize) -> Option<&CableMotion<T>> {
         self.cables[i].as_ref()
@@ -65,7 +65,7 @@ impl<T> RobotMotion<T> {
 /// frequency, family, index, amplitude.
 pub(super) type NearAmplitude<T> = (usize, Family, usize, T);
 
-/// Complex frequency at which a form is taken.
+/// Complex frequency at which a form is evaluated.
 pub(super) struct At<T> {
     /// Square ω².
     pub(super) square: T,
@@ -77,7 +77,8 @@ pub(super) struct At<T> {
     pub(super) cables: Vec<CableAt<T>>,
 }
 
-/// What moves the robot besides the platform: supports, amplitudes of clamped modes, and forces on the drive of one cable.
+/// Motions and forces that move the robot besides the platform: supports, given amplitudes of clamped modes, and forces
+/// on the drive of one cable.
 pub(super) struct Driven<'a, T> {
     /// Displacements of flexible supports; none on a rigid frame.
     pub(super) supports: &'a [Vector<T>],
@@ -99,7 +100,7 @@ impl RobotForm {
             return Err(GradientError::Terms);
         }
 
-        let (mut cables, mut rules) = (Vec::with_capacity(robot.cables.len()), Rules::default());
+        let (mut cables, mut rules) = (Vec::with_capacity(robot.cables.len()), GaussRules::default());
         let mut servos = vec![None; robot.cables.len()];
         for (i, state) in equilibrium.cables.iter().enumerate() {
             let cable = &settled.cables[i];
@@ -169,8 +170,8 @@ impl RobotForm {
         At { square, rate: 0.0, loss: 0.0, cables: self.servos.iter().map(cable).collect() }
     }
 
-    /// Motion with the platform: translation of its origin and rotation, world axes. `terms` are the cables whose stiffness
-    /// depends on frequency.
+    /// Motion with the platform: translation of its origin and rotation, world axes. `terms` are the cables whose
+    /// stiffness depends on frequency.
     pub(super) fn motion<T: Field>(
         &self,
         v: Vector<T>,
@@ -178,7 +179,7 @@ impl RobotForm {
         at: &At<T>,
         terms: &[usize],
         driven: &Driven<T>,
-    ) -> RobotMotion<T> {
+    ) -> FormMotion<T> {
         let of_cable = |(i, cable): (usize, &AnyCable)| match cable {
             AnyCable::Spring(_) => None,
             AnyCable::Catenary(form) => {
@@ -191,8 +192,9 @@ impl RobotForm {
                 Some(form.motion((&v, &theta), carrier.as_ref(), &at.cables[i], &own, forces))
             }
         };
+
         let cables = self.cables.iter().enumerate().map(of_cable).collect();
-        RobotMotion { v, theta, cables, supports: driven.supports.to_vec() }
+        FormMotion { v, theta, cables, supports: driven.supports.to_vec() }
     }
 
     /// Adds `factor` times the coefficients of the forces of a drive's signal, over another motion.
@@ -200,7 +202,7 @@ impl RobotForm {
         &self,
         sum: &mut Adjoint<T>,
         (i, signal): (usize, DriveSignal),
-        other: &RobotMotion<T>,
+        other: &FormMotion<T>,
         at: &At<T>,
         factor: T,
     ) {
@@ -222,43 +224,19 @@ impl RobotForm {
     pub(super) fn add<T: Field>(
         &self,
         sum: &mut Adjoint<T>,
-        a: &RobotMotion<T>,
-        b: &RobotMotion<T>,
+        a: &FormMotion<T>,
+        b: &FormMotion<T>,
         at: &At<T>,
         factor: T,
     ) {
-        // Inertia of the platform.
-        let center: Vector<T> = vector(&self.dead[0].1);
-        let [u_a, u_b] = [a, b].map(|motion| add(&motion.v, &cross(&motion.theta, &center)));
-        let by_inertia = -(factor * at.square);
-        sum.mass += by_inertia * dot(&u_a, &u_b);
-        let turned = add(&cross(&u_a, &b.theta), &cross(&u_b, &a.theta));
-        add_times(&mut sum.center, &turned, by_inertia * self.mass);
-        let add_outer = |sum: &mut [Vector<T>; 3], a: &Vector<T>, b: &Vector<T>, factor: T| {
-            for (sum, row) in sum.iter_mut().zip(outer(a, b)) {
-                add_times(sum, &row, factor);
-            }
-        };
-        add_outer(&mut sum.inertia, &a.theta, &b.theta, by_inertia);
-
-        // Damping of the platform.
-        add_outer(&mut sum.translational_damping, &a.v, &b.v, factor * at.rate);
-        add_outer(&mut sum.rotational_damping, &a.theta, &b.theta, factor * at.rate);
-
-        // Dead forces on their arms.
-        let [(weight, center), (force, point)] =
-            self.dead.map(|(force, arm)| lever_coefficients(&vector(&force), &vector(&arm), &a.theta, &b.theta));
-        add_times(&mut sum.weight, &weight, factor);
-        add_times(&mut sum.center, &center, factor);
-        add_times(&mut sum.force, &force, factor);
-        add_times(&mut sum.point, &point, factor);
-
+        self.add_platform(sum, a, b, at, factor);
         for (i, cable) in self.cables.iter().enumerate() {
             let of_cable = &mut sum.cables[i];
             let (f, r) = &self.levers[i];
             let (force, lever) = lever_coefficients(&vector(f), &vector(r), &a.theta, &b.theta);
             add_times(&mut of_cable.force, &force, factor);
             add_times(&mut of_cable.lever, &lever, factor);
+
             let sides = match &self.supports {
                 Some(supports) => supports.sides(i, &a.supports, &b.supports),
                 None => Sides::still(),
@@ -281,6 +259,42 @@ impl RobotForm {
             supports.add_own(sum, (&a.supports, &b.supports), (at.square, at.loss), factor);
         }
     }
+
+    /// Adds `factor` times the coefficients of the platform and of the dead forces on it.
+    fn add_platform<T: Field>(
+        &self,
+        sum: &mut Adjoint<T>,
+        a: &FormMotion<T>,
+        b: &FormMotion<T>,
+        at: &At<T>,
+        factor: T,
+    ) {
+        // Inertia of the platform.
+        let center: Vector<T> = vector(&self.dead[0].1);
+        let [u_a, u_b] = [a, b].map(|motion| add(&motion.v, &cross(&motion.theta, &center)));
+        let by_inertia = -(factor * at.square);
+        sum.mass += by_inertia * dot(&u_a, &u_b);
+        let turned = add(&cross(&u_a, &b.theta), &cross(&u_b, &a.theta));
+        add_times(&mut sum.center, &turned, by_inertia * self.mass);
+        let add_outer = |sum: &mut [Vector<T>; 3], a: &Vector<T>, b: &Vector<T>, factor: T| {
+            for (sum, row) in sum.iter_mut().zip(symmetric_outer(a, b)) {
+                add_times(sum, &row, factor);
+            }
+        };
+        add_outer(&mut sum.inertia, &a.theta, &b.theta, by_inertia);
+
+        // Damping of the platform.
+        add_outer(&mut sum.translational_damping, &a.v, &b.v, factor * at.rate);
+        add_outer(&mut sum.rotational_damping, &a.theta, &b.theta, factor * at.rate);
+
+        // Dead forces on their arms.
+        let [(weight, center), (force, point)] =
+            self.dead.map(|(force, arm)| lever_coefficients(&vector(&force), &vector(&arm), &a.theta, &b.theta));
+        add_times(&mut sum.weight, &weight, factor);
+        add_times(&mut sum.center, &center, factor);
+        add_times(&mut sum.force, &force, factor);
+        add_times(&mut sum.point, &point, factor);
+    }
 }
 
 impl SpringForm {
@@ -292,8 +306,8 @@ impl SpringForm {
     }
 
     /// Adds `factor` times the coefficients of `(EA/l³)(u_a·d)(u_b·d)` over two motions (translation, rotation) of the
-    /// platform: by the chord, by the arm of the ends, by EA; u is the motion of the platform end less that of the far end. The
-    /// result are the forces of a drum side from the ground on its entry point, which flexible supports move.
+    /// platform: by the chord, by the arm of the ends, by EA; u is the motion of the platform end less that of the far
+    /// end. The result are the forces of a drum side from the ground on its entry point, which flexible supports move.
     fn add<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
@@ -337,8 +351,8 @@ impl SpringForm {
     }
 }
 
-/// Coefficients of the geometric stiffness `(f·r)(θa·θb) − ½[(θa·r)(f·θb) + (θa·f)(r·θb)]` of a force on its lever arm, by
-/// the force and by the arm. It is symmetrised, which at an equilibrium changes nothing.
+/// Coefficients of the geometric stiffness `(f·r)(θa·θb) − ½[(θa·r)(f·θb) + (θa·f)(r·θb)]` of a force on its lever arm,
+/// by the force and by the arm. It is symmetrised, which at an equilibrium changes nothing.
 fn lever_coefficients<T: Field>(
     f: &Vector<T>,
     r: &Vector<T>,

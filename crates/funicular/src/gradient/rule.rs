@@ -1,16 +1,17 @@
 //! Tensions that follow the rule of their distribution while the pose is held.
 //!
-//! The tensions of more cables than degrees of freedom solve a small problem with constraints (docs/theory.md, equations
-//! (38) and (39)). Its optimality conditions, with the limits that are reached kept as equations, hold for the changed
-//! robot as well: each is a scalar that stays zero. Multiples of these scalars are added to the differential of a result
-//! until no tension counts any more (equations (60r) to (60t)). Over pulleys the distribution holds the exit points while it
-//! chooses the tensions: its conditions see the free span, while the balance sees the whole cable (equations (60t2) and
-//! (60t3)).
+//! The tensions of more cables than degrees of freedom solve a small problem with constraints (docs/theory.md,
+//! equations (38) and (39)). Its optimality conditions hold for the changed robot as well, with equations for the
+//! limits that are reached: each condition is a scalar that stays zero. Multiples of these scalars are added to the
+//! differential of a result, so that the coefficients of all tensions become zero (equations (60r) to (60t)). Over
+//! pulleys the distribution holds the exit points while it chooses the tensions: its conditions contain the free span,
+//! while the balance contains the whole cable (equations (60t2) and (60t3)).
 
 use super::GradientError;
 use super::adjoint::{Adjoint, CableAdjoint};
 use super::cable_form::CableForm;
 use super::parallel_tension::{ParallelTension, by_length};
+use super::scalar::{add_real, add_times};
 use crate::catenary::Catenary;
 use crate::drive::derivatives::end;
 use crate::math::{DMat, Vec3, Vec6};
@@ -19,17 +20,18 @@ use crate::robot::Robot;
 use crate::statics::derivatives::{CablePartials, StaticDerivativeError, force_at_anchor, load_of};
 use crate::statics::{CableState, Equilibrium, Limit, MinimumTension, StaticModel, TensionRange, TensionRule};
 
-/// Distance of a tension from a limit, and multiplier of a limit, over the maximum tension, within which they count as
-/// zero. The search for tensions ends when they change by less than 1e-10; over pulleys and for the rule `middle` a limit
-/// is kept to 1e-9. A millionth, to which its results are documented, is well above.
+/// Relative tolerance, over the maximum tension: a tension this near a limit is at it, and a smaller multiplier is
+/// zero. The search for tensions ends when they change by less than 1e-10; over pulleys and for the rule `middle` it
+/// keeps a limit to 1e-9. Its results are documented to a millionth.
 const AT_LIMIT: f64 = 1e-7;
 
-/// Pivot over the largest one below which the optimality conditions do not determine the tensions: rounding leaves 1e-15
-/// times the number of cables.
-const SINGULAR: f64 = 1e-11;
+/// Minimum ratio of a pivot to the largest one; below it the conditions are singular and do not determine the tensions.
+/// Rounding leaves 1e-15 times the number of cables.
+const MIN_PIVOT_RATIO: f64 = 1e-11;
 
-/// Tension at a drum beyond those in the free span, over it, above which the drum has the extreme tension. A weightless cable
-/// has the same tension everywhere, to rounding; the weight of a real one along the height of a wheel is 1e-6 and more.
+/// Relative distance of the tension at a drum from the tensions in the free span, above which the drum has the minimum
+/// or the maximum tension. A weightless cable has the same tension everywhere, but for rounding; the weight of a real
+/// one along the height of a wheel is 1e-6 of its tension and more.
 const DRUM_ROUNDING: f64 = 1e-13;
 
 /// Optimality conditions of the tensions, solved for their multipliers.
@@ -40,14 +42,14 @@ pub(super) struct RuleFollower {
     degrees_of_freedom: usize,
 }
 
-/// Scalar that is zero for every robot whose tensions follow the rule.
+/// Optimality condition: a scalar that is zero at the tensions of the rule.
 struct Condition {
     cable: usize,
     coefficients: CableAdjoint<f64>,
-    /// By the mass of the platform and by gravity.
+    /// Coefficients of the mass of the platform and of gravity.
     mass: f64,
     gravity_w: Vec3,
-    /// By the relative distance from the limits that the rule `middle` maximises.
+    /// Coefficient of the relative distance from the limits, which the rule `middle` maximises.
     distance: f64,
     /// True for the stationarity of a tension between its limits, which contains the multipliers of the balance.
     is_stationarity: bool,
@@ -64,8 +66,8 @@ enum Bound {
     Slackest,
 }
 
-/// Equilibrium with what the conditions need of it.
-struct Problem<'a> {
+/// Equilibrium with the quantities that stand in the conditions.
+struct RuleConditions<'a> {
     robot: &'a Robot,
     equilibrium: &'a Equilibrium,
     coordinates: &'a Coordinates,
@@ -73,7 +75,7 @@ struct Problem<'a> {
     tensions: &'a [ParallelTension],
     /// Wrenches per parallel tension, reduced; one column per cable.
     wrenches: &'a DMat,
-    /// The same with the exit points of the cables held, as the distribution sees them.
+    /// Wrenches per parallel tension with held exit points, reduced; the distribution uses these.
     held_wrenches: DMat,
     ranges: Vec<TensionRange>,
     /// Maximum tension [N].
@@ -88,26 +90,39 @@ impl RuleFollower {
         (partials, tensions, wrenches): (&[CablePartials], &[ParallelTension], &DMat),
         rule: &TensionRule,
     ) -> Result<Self, GradientError> {
+        // Limits and size of the tensions.
         let ranges = (0..equilibrium.cables.len()).map(|i| range_of(robot, equilibrium, i)).collect();
         let size = equilibrium.cables.iter().fold(0.0, |most: f64, state| most.max(state.tension_platform));
+
+        // Wrenches with held exit points.
         let mut held_wrenches = wrenches.clone();
         for (i, state) in equilibrium.cables.iter().enumerate().filter(|(_, state)| state.drive.is_some()) {
             let per_tension = ForceByTension::of(state)?;
             let column = coordinates.reduce_force(&per_tension.force_w(), &state.lever_w);
             (0..coordinates.count()).for_each(|k| held_wrenches[(k, i)] = column[k]);
         }
-        let problem =
-            Problem { robot, equilibrium, coordinates, partials, tensions, wrenches, held_wrenches, ranges, size };
+
+        let conditions = RuleConditions {
+            robot,
+            equilibrium,
+            coordinates,
+            partials,
+            tensions,
+            wrenches,
+            held_wrenches,
+            ranges,
+            size,
+        };
         match rule {
-            TensionRule::Lowest => problem.nearest(rule, None),
-            TensionRule::Closest(target) => problem.nearest(rule, Some(target)),
-            TensionRule::Middle => problem.middle(rule),
+            TensionRule::Lowest => conditions.nearest(rule, None),
+            TensionRule::Closest(target) => conditions.nearest(rule, Some(target)),
+            TensionRule::Middle => conditions.middle(rule),
             TensionRule::Stiffest => Err(GradientError::Stiffest),
         }
     }
 
-    /// Adds multiples of the conditions until the parallel tensions, whose coefficients are given, do not count; returns
-    /// the multiplier of the balance to be added, reduced.
+    /// Adds multiples of the conditions, so that the given coefficients of the parallel tensions become zero. Returns
+    /// the multiplier of the balance that has to be added, reduced.
     pub(super) fn follow(&self, total: &mut Adjoint<f64>, of_tensions: &DMat) -> Vec6 {
         let multipliers = &self.solution * of_tensions;
         let n = self.degrees_of_freedom;
@@ -115,9 +130,7 @@ impl RuleFollower {
             let factor = -multiplier;
             add_cable(&mut total.cables[condition.cable], &condition.coefficients, factor);
             total.mass += condition.mass * factor;
-            for k in 0..3 {
-                total.gravity[k] += condition.gravity_w[k] * factor;
-            }
+            add_real(&mut total.gravity, condition.gravity_w * factor);
         }
         Vec6::from_fn(|k, _| if k < n { -multipliers[(k, 0)] } else { 0.0 })
     }
@@ -131,7 +144,7 @@ impl RuleFollower {
     }
 }
 
-impl Problem<'_> {
+impl RuleConditions<'_> {
     fn state(&self, i: usize) -> &CableState {
         &self.equilibrium.cables[i]
     }
@@ -272,7 +285,7 @@ impl Problem<'_> {
 
         let factors = matrix.full_piv_lu();
         let pivots = factors.u().diagonal().map(f64::abs);
-        if pivots.min().is_nan() || pivots.min() <= SINGULAR * pivots.max() {
+        if pivots.min().is_nan() || pivots.min() <= MIN_PIVOT_RATIO * pivots.max() {
             return Err(self.one_sided(rule, conditions.first().map_or(0, |condition| condition.cable), &[]));
         }
         let inverse = factors.try_inverse().ok_or(StaticDerivativeError::Singular)?;
@@ -372,8 +385,8 @@ impl Problem<'_> {
             let (q, d) = (load_of(state), state.chord_w());
             self.tensions[i].add(&mut condition.coefficients, sign);
             let factor = -sign * Catenary::MIN_TENSION_TO_WEIGHT;
-            put(&mut condition.coefficients.load, &(q.normalize() * (d.norm() * factor)));
-            put(&mut condition.coefficients.chord, &(d.normalize() * (q.norm() * factor)));
+            add_real(&mut condition.coefficients.load, q.normalize() * (d.norm() * factor));
+            add_real(&mut condition.coefficients.chord, d.normalize() * (q.norm() * factor));
             return Ok(condition);
         }
 
@@ -410,10 +423,10 @@ impl Problem<'_> {
         let (by_length, by_tension) = (per_tension.by_length_w, per_tension.force_w());
         let along = y_v + y_theta.cross(&state.lever_w);
         let sum = &mut condition.coefficients;
-        put(&mut sum.lever, &-by_tension.cross(y_theta));
+        add_real(&mut sum.lever, -by_tension.cross(y_theta));
         if q == Vec3::zeros() {
             let axis = d.normalize();
-            put(&mut sum.chord, &(-(along - axis * axis.dot(&along)) / d.norm()));
+            add_real(&mut sum.chord, -(along - axis * axis.dot(&along)) / d.norm());
             return Ok(condition);
         }
 
@@ -421,8 +434,8 @@ impl Problem<'_> {
         let held = (along - tension.force_w * rate) / per_tension.tension_by_length;
         CableForm::of_span(state)?.add_force_by_length(sum, &held, &by_length, &d, -1.0);
         let [by_chord, by_load] = along_coefficients(&d, &q, &(by_tension * rate));
-        put(&mut sum.chord, &by_chord);
-        put(&mut sum.load, &by_load);
+        add_real(&mut sum.chord, by_chord);
+        add_real(&mut sum.load, by_load);
         Ok(condition)
     }
 
@@ -445,19 +458,19 @@ impl Problem<'_> {
             // Horizontal force: f less its part along the load.
             let up = -q.normalize();
             let horizontal = (f - up * f.dot(&up)).normalize();
-            put(&mut sum.force, &(horizontal * factor));
-            put(&mut sum.load, &(horizontal * (f.dot(&up) / q.norm() * factor)));
+            add_real(&mut sum.force, horizontal * factor);
+            add_real(&mut sum.load, horizontal * (f.dot(&up) / q.norm() * factor));
             return;
         }
 
         let anchor_is_higher = at_anchor.norm() > f.norm();
         if is_sagging && anchor_is_higher == (bound == Bound::Maximum) {
             let along = at_anchor.normalize();
-            put(&mut sum.force, &(along * factor));
-            put(&mut sum.load, &(along * (-state.free_length() * factor)));
+            add_real(&mut sum.force, along * factor);
+            add_real(&mut sum.load, along * (-state.free_length() * factor));
             sum.free_length -= along.dot(&q) * factor;
         } else {
-            put(&mut sum.force, &(f.normalize() * factor));
+            add_real(&mut sum.force, f.normalize() * factor);
         }
     }
 
@@ -466,6 +479,7 @@ impl Problem<'_> {
         let (i, robot) = (condition.cable, self.robot);
         let state = self.state(i);
         let d = state.chord_w();
+
         match MinimumTension::of(robot, i, &d) {
             MinimumTension::Given(_) => {}
             MinimumTension::OfCable { .. } if self.equilibrium.model != StaticModel::Catenary => {
@@ -477,8 +491,8 @@ impl Problem<'_> {
             MinimumTension::OfCable { factor: of_load } => {
                 let q = load_of(state);
                 let factor = factor * of_load;
-                put(&mut condition.coefficients.load, &(q.normalize() * (d.norm() * factor)));
-                put(&mut condition.coefficients.chord, &(d.normalize() * (q.norm() * factor)));
+                add_real(&mut condition.coefficients.load, q.normalize() * (d.norm() * factor));
+                add_real(&mut condition.coefficients.chord, d.normalize() * (q.norm() * factor));
             }
             MinimumTension::OfPlatform { factor: of_weight } => {
                 let (g, mass, factor) = (robot.gravity_w, robot.platform.mass, factor * of_weight);
@@ -548,10 +562,6 @@ fn along_coefficients(d: &Vec3, q: &Vec3, x: &Vec3) -> [Vec3; 2] {
     [by_chord, -across(&by_up) / q.norm()]
 }
 
-fn put(sum: &mut [f64; 3], value: &Vec3) {
-    sum.iter_mut().zip(value.iter()).for_each(|(sum, value)| *sum += value);
-}
-
 /// Adds `factor` times the coefficients of a cable to others.
 fn add_cable(sum: &mut CableAdjoint<f64>, of: &CableAdjoint<f64>, factor: f64) {
     let vectors = [
@@ -561,7 +571,7 @@ fn add_cable(sum: &mut CableAdjoint<f64>, of: &CableAdjoint<f64>, factor: f64) {
         (&mut sum.load, &of.load),
     ];
     for (sum, of) in vectors {
-        sum.iter_mut().zip(of).for_each(|(sum, of)| *sum += of * factor);
+        add_times(sum, of, factor);
     }
     sum.end.iter_mut().zip(of.end).for_each(|(sum, of)| *sum += of * factor);
     sum.length += of.length * factor;

@@ -77,6 +77,12 @@ pub(super) fn add<T: Field>(a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
     from_fn(|i| a[i] + b[i])
 }
 
+/// Difference `a − b`.
+#[inline(always)]
+pub(super) fn less<T: Field>(a: &Vector<T>, b: &Vector<T>) -> Vector<T> {
+    from_fn(|i| a[i] - b[i])
+}
+
 /// Product with a number.
 #[inline(always)]
 pub(super) fn times<T: Field>(a: &Vector<T>, factor: T) -> Vector<T> {
@@ -91,7 +97,12 @@ pub(super) fn add_times<T: Field>(sum: &mut Vector<T>, a: &Vector<T>, factor: T)
     }
 }
 
+/// Real vector added to a vector.
+pub(super) fn add_real(sum: &mut Vector<f64>, value: Vec3) {
+    sum.iter_mut().zip(value.iter()).for_each(|(sum, value)| *sum += value);
+}
+
 /// Symmetric part of the outer product `a bᵀ`.
-pub(super) fn outer<T: Field>(a: &Vector<T>, b: &Vector<T>) -> [Vector<T>; 3] {
+pub(super) fn symmetric_outer<T: Field>(a: &Vector<T>, b: &Vector<T>) -> [Vector<T>; 3] {
     from_fn(|i| from_fn(|j| (a[i] * b[j] + a[j] * b[i]) * 0.5))
 }

@@ -1,10 +1,10 @@
 //! Flexible supports in the quadratic form of the robot: their displacements are motions beside that of the platform.
 //!
-//! A support moves the far end of its cables, and the entry point of their drum sides along these. To the form it adds its
-//! stiffness and mass, and the tension of drum sides from the ground, which turn (docs/theory.md, equation (60q)).
+//! A support moves the far end of its cables, and the entry point of their drum sides along these. To the form it adds
+//! its stiffness and mass, and the tension of drum sides from the ground, which turn (docs/theory.md, equation (60q)).
 
 use super::adjoint::{Adjoint, CableAdjoint};
-use super::scalar::{Field, Vector, add_times, dot, outer, times, vector};
+use super::scalar::{Field, Vector, add_times, dot, symmetric_outer, times, vector};
 use crate::cable::catenary_dynamic::{Displacements, Family, PoleResidue, TwoEnded};
 use crate::drive::DriveAtRest;
 use crate::drive::derivatives::end;
@@ -70,7 +70,7 @@ enum SideForm {
     Carried(Rod),
 }
 
-/// Mass of a drum side that moves with its support, and what that depends on.
+/// Mass of a drum side that moves with its support, and the quantities on which this mass depends.
 struct Rod {
     mass: f64,
     mass_per_length: f64,
@@ -110,6 +110,7 @@ impl SupportForm {
             let held = state.hanging.as_ref()?.tangent_w();
             let at_rest = on_support(robot, i, state, &held)?;
             let tension = state.drive.as_ref().map_or(0.0, |drive| drive.tension_drum);
+
             let side = if found.from_ground {
                 let side_w = anchor.pulley.as_ref()?.entry_direction_w * anchor.drum_side_length();
                 SideForm::FromGround { length: (side_w + state.displacement_w).norm(), tension }
@@ -126,6 +127,7 @@ impl SupportForm {
                 lever_w: state.lever_w,
             })
         };
+
         let cables = equilibrium.cables.iter().enumerate().map(of_cable).collect();
         Some(Self { supports: robot.supports.clone(), cables })
     }
@@ -159,8 +161,8 @@ impl SupportForm {
         resistances.iter().zip(&forces).map(followed).collect()
     }
 
-    /// Adds `factor` times the coefficients of what a support adds to the form of one of its cables over two motions. `forces`
-    /// are those of the drum side on its entry point.
+    /// Adds `factor` times the coefficients of the terms by which a support extends the form of one of its cables, over
+    /// two motions. `forces` are the forces of the drum side on its entry point.
     pub(super) fn add_cable<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
@@ -175,7 +177,7 @@ impl SupportForm {
         let [along_a, along_b] = [a, b].map(|of| dot(of, &direction));
         let across = dot(a, b) - along_a * along_b;
 
-        // By the direction, along which the entry point moves.
+        // Coefficient of the direction in which the entry point moves.
         let mut by_direction = times(b, factor * forces[0]);
         add_times(&mut by_direction, a, factor * forces[1]);
         match &carried.side {
@@ -186,6 +188,7 @@ impl SupportForm {
                 add_times(&mut by_direction, b, -(turned * along_a));
                 add_times(&mut by_direction, a, -(turned * along_b));
                 sum.end[end::TENSION_DRUM] += factor * across * (1.0 / length);
+
                 // The direction is that of a vector with this length.
                 let radial = dot(&by_direction, &direction) + turned * across;
                 add_times(&mut by_direction, &direction, -radial);
@@ -238,8 +241,8 @@ impl SupportForm {
         }
     }
 
-    /// Adds `factor` times the coefficients of stiffness, mass and damping of the supports over two motions. `loss` is the
-    /// factor of 2ζ: i with all damping.
+    /// Adds `factor` times the coefficients of stiffness, mass and damping of the supports over two motions. `loss` is
+    /// the factor of 2ζ: i with all damping.
     pub(super) fn add_own<T: Field>(
         &self,
         sum: &mut Adjoint<T>,
@@ -250,7 +253,7 @@ impl SupportForm {
         for (k, (support, (a, b))) in self.supports.iter().zip(a.iter().zip(b)).enumerate() {
             let of_support = sum.support(k);
             let by_stiffness = factor * (T::from(1.0) + loss * (2.0 * support.damping_ratio));
-            for (sum, row) in of_support.stiffness.iter_mut().zip(outer(a, b)) {
+            for (sum, row) in of_support.stiffness.iter_mut().zip(symmetric_outer(a, b)) {
                 add_times(sum, &row, by_stiffness);
             }
             of_support.mass += -(factor * own_square * dot(a, b));
@@ -296,8 +299,8 @@ impl AlongDrumSide {
     }
 }
 
-/// Adds what a motion of the far end adds to the amplitudes of clamped modes at x = ω_c²; `far` are its components in the
-/// family, given by its number. Amplitudes of modes for which `is_given` is true stay.
+/// Adds the amplitudes of clamped modes by a motion of the far end at x = ω_c². `far` are the components of the motion
+/// in the family, given by its number. Amplitudes for which `is_given` is true stay.
 pub(super) fn add_far_amplitudes<T: Field, const N: usize, const E: usize>(
     amplitudes: &mut [T],
     family: &PoleResidue<N, E>,

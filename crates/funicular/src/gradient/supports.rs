@@ -1,22 +1,18 @@
 //! Flexible supports in gradients of an equilibrium.
 //!
 //! The robot at rest is one with rigid supports where its own have been displaced by e. The balance of every support,
-//! `Ψ = Σ (L' q − f − T_E â) − K_t e = 0`, stands beside that of the platform. So a scalar gets a second multiplier μ per
-//! support, and the displacements are further unknowns (docs/theory.md, equations (60n) to (60p)).
+//! `Ψ = Σ (L' q − f − T_E â) − K_t e = 0`, stands beside that of the platform. So a scalar gets a second multiplier μ
+//! per support, and the displacements are further unknowns (docs/theory.md, equations (60n) to (60p)).
 
 use super::GradientError;
 use super::adjoint::Adjoint;
 use super::parallel_tension::ParallelTension;
-use super::scalar::outer;
+use super::scalar::{add_real, add_times, symmetric_outer};
 use crate::drive::derivatives::end;
 use crate::math::{DMat, DVec, Mat3, Vec3};
 use crate::robot::{Robot, RobotChange, SupportChange};
 use crate::statics::Equilibrium;
-use crate::statics::derivatives::{StaticDerivativeError, load_of};
-
-/// Ratio of the smallest to the largest singular value up to which a matrix is singular: below it a derivative has no correct
-/// digits.
-const SINGULAR: f64 = 1e-12;
+use crate::statics::derivatives::{StaticDerivativeError, check_regular, load_of};
 
 /// Supports of a robot at rest.
 pub(super) struct SupportsAtRest {
@@ -85,31 +81,32 @@ impl SupportsAtRest {
     /// Adds the coefficients of μ·Ψ, the product of multipliers, three per support, with the forces on the supports.
     fn add_balance(&self, total: &mut Adjoint<f64>, multipliers: &DVec) {
         let of_support = |k: usize| Vec3::new(multipliers[3 * k], multipliers[3 * k + 1], multipliers[3 * k + 2]);
-        let put = |sum: &mut [f64; 3], value: Vec3| (0..3).for_each(|k| sum[k] += value[k]);
+
         for (cable, carried) in total.cables.iter_mut().zip(&self.cables) {
             let Some(carried) = carried else { continue };
             let mu = of_support(carried.support);
-            put(&mut cable.force, -mu);
-            put(&mut cable.load, mu * carried.carried_length);
+            add_real(&mut cable.force, -mu);
+            add_real(&mut cable.load, mu * carried.carried_length);
             let by_length = carried.load_w.dot(&mu);
             cable.length += by_length;
             if let Some(side) = &carried.side {
                 cable.side.given_length -= by_length;
                 cable.end[end::TENSION_DRUM] -= side.direction_w.dot(&mu);
-                put(&mut cable.side.vector, side.across(&mu) * (-side.tension / side.length));
+                add_real(&mut cable.side.vector, side.across(&mu) * (-side.tension / side.length));
             }
         }
+
         for (k, (stiffness_w, displacement_w)) in self.supports.iter().enumerate() {
             let (mu, support) = (of_support(k), total.support(k));
-            put(&mut support.displacement, -(stiffness_w * mu));
-            for (sum, row) in support.stiffness.iter_mut().zip(outer(&mu.into(), &(*displacement_w).into())) {
-                (0..3).for_each(|j| sum[j] -= row[j]);
+            add_real(&mut support.displacement, -(stiffness_w * mu));
+            for (sum, row) in support.stiffness.iter_mut().zip(symmetric_outer(&mu.into(), &(*displacement_w).into())) {
+                add_times(sum, &row, -1.0);
             }
         }
     }
 
-    /// Follows the coefficients of displaced anchors and drum sides, which `gradient` has so far, to the numbers of the robot.
-    /// The result are the coefficients of the displacements.
+    /// Follows the coefficients of displaced anchors and drum sides, which `gradient` has so far, to the numbers of the
+    /// robot. The result are the coefficients of the displacements.
     pub(super) fn pulled(&self, scalar: &Adjoint<f64>, gradient: &mut RobotChange) -> Vec<f64> {
         let mut motions = vec![0.0; self.count()];
         let mut add = |support: usize, value: Vec3| (0..3).for_each(|k| motions[3 * support + k] += value[k]);
@@ -145,40 +142,45 @@ impl GroundSide {
     }
 }
 
-/// Coefficients of what follows a change: the motion of the platform, reduced, or the unstrained lengths; and the
-/// displacements of the supports.
+/// Coefficients of the quantities that adapt to a change of the robot.
 pub(super) struct Followed {
+    /// Coefficients of the motion of the platform, reduced, or of the unstrained lengths.
     pub(super) first: DVec,
+    /// Coefficients of the displacements of the supports, three per support.
     pub(super) supports: DVec,
 }
 
-/// What follows a change of a robot on supports: displacements of the supports, with the pose or the lengths.
+/// Quantities that adapt to a change of a robot on supports: displacements of the supports, with the pose or the
+/// lengths.
 pub(super) struct SupportedFollower {
-    /// Coefficients of the displacements by multipliers of the platform's balance, and the inverse of those by multipliers of
-    /// the supports' own.
+    /// Coefficients of the displacements per multiplier of the platform's balance.
     by_platform: DMat,
+    /// Inverse of the coefficients of the displacements per multiplier of the supports' balance.
     inverse_own: DMat,
-    /// Coefficients of pose or lengths by multipliers of the supports.
+    /// Coefficients of pose or lengths per multiplier of the supports' balance.
     first_by_supports: DMat,
-    /// The same by multipliers of the platform's balance while the displacements follow, and its inverse or pseudoinverse.
+    /// Coefficients of pose or lengths per multiplier of the platform's balance while the displacements adapt.
     first_by_platform: DMat,
+    /// Inverse or pseudoinverse of these.
     pseudoinverse: DMat,
-    /// Parallel tension of each cable with its coefficients of the displacements, if these tensions change least.
+    /// Parallel tension of each cable, and the coefficients of the displacements per tension; if the change of the
+    /// parallel tensions is minimum.
     tensions: Option<(Vec<ParallelTension>, DMat)>,
 }
 
-/// Multipliers that take away the coefficients of what follows.
+/// Multipliers with which the coefficients of the quantities that adapt become zero.
 pub(super) struct Multipliers {
-    /// Of the balance of the platform, reduced, and of the supports.
+    /// Multipliers of the platform's balance, reduced.
     pub(super) platform: DVec,
+    /// Multipliers of the supports' balance, three per support.
     pub(super) supports: DVec,
-    /// Of the parallel tensions.
+    /// Multipliers of the parallel tensions, one per cable.
     pub(super) tensions: Option<DVec>,
 }
 
 impl SupportedFollower {
-    /// Follower from the coefficients of every unit multiplier: of the balance of the platform, of the supports and, if they
-    /// change least, of the parallel tensions.
+    /// Follower from the coefficients for every unit multiplier: of the platform's balance, of the supports' balance
+    /// and, if their change is minimum, of the parallel tensions.
     pub(super) fn new(
         platform: &[Followed],
         supports: &[Followed],
@@ -206,12 +208,9 @@ impl SupportedFollower {
         let inverse_own = own.try_inverse().ok_or(StaticDerivativeError::Singular)?;
         let first_by_platform = platform_first - &supports_first * (&inverse_own * &by_platform);
 
-        // Pseudoinverse from the orthogonal factors; of a square matrix the inverse.
+        // Pseudoinverse from the orthogonal factors; it is the inverse of a square matrix.
         let values = first_by_platform.singular_values();
-        let (smallest, largest) = (values.min(), values.max());
-        if smallest.is_nan() || smallest <= SINGULAR * largest {
-            return Err(StaticDerivativeError::Singular.into());
-        }
+        check_regular(values.min(), values.max())?;
         let factors = first_by_platform.clone().qr();
         let solved = factors.r().solve_upper_triangular(&factors.q().transpose());
         let pseudoinverse = solved.ok_or(StaticDerivativeError::Singular)?;
@@ -225,7 +224,7 @@ impl SupportedFollower {
         })
     }
 
-    /// Multipliers for a scalar with these coefficients of what follows.
+    /// Multipliers for a scalar with these coefficients of the quantities that adapt.
     pub(super) fn multipliers(&self, Followed { mut first, mut supports }: Followed) -> Multipliers {
         if let Some((tensions, by_displacements)) = &self.tensions {
             first.iter_mut().zip(tensions).for_each(|(of, tension)| *of /= tension.by_length);

@@ -3,13 +3,13 @@
 use super::adjoint::Adjoint;
 use super::cable_form::{CableAt, CableMotion, LossesAt};
 use super::drive_form::ControlAt;
-use super::robot_form::{At, Driven, NearAmplitude, RobotForm, RobotMotion};
+use super::robot_form::{At, Driven, FormMotion, NearAmplitude, RobotForm};
 use super::scalar::{Vector, add_times, cross, vector};
 use super::{GradientError, Gradients};
 use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::{DriveSignal, MovingEnd, NearRanges};
 use crate::dynamics::{DynamicCableAt, Dynamics};
-use crate::math::{CDMat, CVec6, Complex, Vec3, Vec6};
+use crate::math::{CDMat, CMat6, CVec6, Complex, Vec3, Vec6};
 use crate::modes::Mode;
 use crate::modes::damped::DampedMode;
 use crate::response::{self, Port, Quantity, Signal};
@@ -39,7 +39,8 @@ use std::f64::consts::TAU;
 /// let by_mass = gradients.vibration(&dynamics)?.frequency(&mode)?.mass; // Hz/kg
 ///
 /// let change = RobotChange::of_mass(&robot);
-/// let [lighter, heavier] = [-1e-3, 1e-3].map(|step| first(&robot.changed(&change, step)).map(|found| found.2.frequency_hz));
+/// let at = |step: f64| first(&robot.changed(&change, step)).map(|found| found.2.frequency_hz);
+/// let [lighter, heavier] = [-1e-3, 1e-3].map(at);
 /// assert!((by_mass - (heavier? - lighter?) / 2e-3).abs() < 1e-4 * by_mass.abs());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -54,11 +55,11 @@ pub struct VibrationGradients<'g> {
 /// Gradients of a damped mode.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DampedGradient {
-    /// Of the natural frequency |ω|/2π [Hz].
+    /// Gradient of the natural frequency |ω|/2π [Hz].
     pub frequency_hz: RobotChange,
-    /// Of the frequency of the decaying vibration Re ω/2π [Hz].
+    /// Gradient of the frequency of the decaying vibration, Re ω/2π [Hz].
     pub ringing_hz: RobotChange,
-    /// Of the damping ratio ζ = Im ω/|ω| [-].
+    /// Gradient of the damping ratio ζ = Im ω/|ω| [-].
     pub damping_ratio: RobotChange,
 }
 
@@ -83,8 +84,8 @@ impl<'g> VibrationGradients<'g> {
         self.gradients.robot().cables.len()
     }
 
-    /// Gradient of a simple natural frequency [Hz], dω = dW/(2ω · modal mass). Modes with the platform at rest have one,
-    /// too.
+    /// Gradient of a simple natural frequency [Hz], dω = dW/(2ω · modal mass). Modes with the platform at rest have a
+    /// gradient, too.
     ///
     /// # Errors
     /// [`GradientError::Multiple`]: several modes share the frequency; see [`Self::block`].
@@ -100,9 +101,9 @@ impl<'g> VibrationGradients<'g> {
         Ok(self.of_pair((mode, &motion), (mode, &motion)))
     }
 
-    /// Gradients of modes that share a frequency [Hz]: a symmetric block. Along a direction of change, the eigenvalues of
-    /// the block of the entries' derivatives are the one-sided derivatives of the frequencies. The entries depend on the
-    /// choice of the modes at the shared frequency, these eigenvalues do not.
+    /// Gradients of modes that share a frequency [Hz]: a symmetric block. Along a direction of change, the eigenvalues
+    /// of the block of the entries' derivatives are the one-sided derivatives of the frequencies. The entries depend on
+    /// the choice of the modes at the shared frequency, these eigenvalues do not.
     ///
     /// # References
     /// docs/theory.md, equation (60g).
@@ -113,7 +114,7 @@ impl<'g> VibrationGradients<'g> {
     }
 
     /// Motion of a mode with unit modal mass.
-    fn motion_of(&self, mode: &Mode) -> RobotMotion<f64> {
+    fn motion_of(&self, mode: &Mode) -> FormMotion<f64> {
         let (v, theta) = self.platform_motion(&mode.motion.platform);
         let near: Vec<NearAmplitude<f64>> =
             mode.motion.near.iter().map(|near| (near.term, near.family, near.pole, near.amplitude)).collect();
@@ -122,7 +123,7 @@ impl<'g> VibrationGradients<'g> {
         self.form.motion(v, theta, &at, &self.terms, &Driven { supports: &supports, near: &near, forces: None })
     }
 
-    fn of_pair(&self, a: (&Mode, &RobotMotion<f64>), b: (&Mode, &RobotMotion<f64>)) -> RobotChange {
+    fn of_pair(&self, a: (&Mode, &FormMotion<f64>), b: (&Mode, &FormMotion<f64>)) -> RobotChange {
         let omega = (a.0.frequency_hz * b.0.frequency_hz).sqrt() * TAU;
         let at = self.form.undamped(omega);
         self.gradients.of(|scalar| self.form.add(scalar, a.1, b.1, &at, 1.0 / (2.0 * omega * TAU)))
@@ -136,8 +137,9 @@ impl<'g> VibrationGradients<'g> {
         ([motion[0], motion[1], motion[2]], [motion[3] / ell, motion[4] / ell, motion[5] / ell])
     }
 
-    /// Complex frequency ω at which the form is taken, with all damping. Poles near it are left out of the drives if their
-    /// amplitudes are unknowns; `driven` is a cable with forces on its drive.
+    /// Complex frequency ω at which the form is evaluated, with all damping. With `leaves_out`, the drives do not
+    /// contain the poles near ω, whose amplitudes are then unknowns; `driven` are the cables with forces on their
+    /// drives.
     fn at(&self, omega: Complex, leaves_out: bool, driven: &[usize]) -> At<Complex> {
         let mut cables: Vec<CableAt<Complex>> = (0..self.cables())
             .map(|i| {
@@ -193,11 +195,11 @@ impl<'g> VibrationGradients<'g> {
         })
     }
 
-    /// Responses between all pairs of signals on the platform and at drives (`length`, `motor`, `drum`) at each frequency [Hz], with their derivatives along
-    /// directions: one row per pair, in the order of [`response::matrix`].
+    /// Responses between all pairs of signals on the platform and at drives (`length`, `motor`, `drum`) at each
+    /// frequency [Hz], with their derivatives along directions: one row per pair, in the order of [`response::matrix`].
     ///
-    /// A direction changes the robot; the point and the direction of a signal stay in the robot file's terms: the point
-    /// turns with the platform, the direction stays in the world.
+    /// A direction is a change of the robot. The point of a signal turns with the platform, and the direction of a
+    /// signal stays in the world.
     ///
     /// # Errors
     /// [`GradientError::NotOnPlatform`], [`GradientError::NoDriveSignal`], [`GradientError::Resonance`].
@@ -217,7 +219,8 @@ impl<'g> VibrationGradients<'g> {
     /// let gradients = Gradients::new(&robot, &rest, Hold::Lengths)?;
     /// let z = Signal::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() };
     /// let mass = RobotChange::of_mass(&robot);
-    /// let rows = gradients.vibration(&dynamics)?.responses(&[z], &[(z, Quantity::Acceleration)], &[1.1, 1.2], &[mass])?;
+    /// let output = (z, Quantity::Acceleration);
+    /// let rows = gradients.vibration(&dynamics)?.responses(&[z], &[output], &[1.1, 1.2], &[mass])?;
     /// assert_eq!((rows.len(), rows[0].len(), rows[0][0].along.len()), (1, 2, 1));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -231,18 +234,9 @@ impl<'g> VibrationGradients<'g> {
         frequencies_hz: &[f64],
         along: &[RobotChange],
     ) -> Result<Vec<Vec<ResponseDerivatives>>, GradientError> {
-        // The motions by a signal are computed once, also if it is both input and output.
-        let mut signals: Vec<&Signal> = Vec::with_capacity(inputs.len() + outputs.len());
-        let mut numbered = |signal| {
-            signals.iter().position(|known| *known == signal).unwrap_or_else(|| {
-                signals.push(signal);
-                signals.len() - 1
-            })
-        };
-        let from: Vec<usize> = inputs.iter().map(&mut numbered).collect();
-        let to: Vec<usize> = outputs.iter().map(|(signal, _)| numbered(signal)).collect();
+        let (signals, from, to) = different(inputs, outputs);
         let places = signals.iter().map(|signal| self.place(signal)).collect::<Result<Vec<_>, _>>()?;
-        let driven: Vec<usize> = places.iter().filter_map(Place::cable).collect();
+        let driven: Vec<usize> = places.iter().filter_map(SignalPlace::cable).collect();
         let receptances = response::receptances(self.dynamics, frequencies_hz).map_err(|reason| match reason {
             response::ResponseError::Resonance { frequency_hz } => GradientError::Resonance { frequency_hz },
             response::ResponseError::SameCable => GradientError::NotOnPlatform,
@@ -253,63 +247,72 @@ impl<'g> VibrationGradients<'g> {
             let omega = frequency_hz * TAU;
             let at = self.at(omega.into(), false, &driven);
             let followed = self.dynamics.support_response(omega);
-            let solved = |place: &Place| {
-                let (vector, on_supports) = place.vector(self.dynamics, followed.as_ref().map(|of| &of.0), omega);
-                let x = receptance * vector;
-                let (v, theta) = halves(&x);
-                let supports = self.displacements(followed.as_ref(), &x, &on_supports);
-                let forces = place.forces(self.dynamics, omega);
-                let driven = Driven {
-                    supports: &supports,
-                    near: &[],
-                    forces: forces.as_ref().map(|(cable, forces)| (*cable, &forces[..])),
-                };
-                (x, forces.clone(), self.form.motion(v, theta, &at, &self.terms, &driven))
-            };
-            let solutions: Vec<_> = places.iter().map(solved).collect();
+            let moved = |place| self.moved_by(place, receptance, followed.as_ref(), &at, omega);
+            let responses: Vec<SignalResponse> = places.iter().map(moved).collect();
+            let of_signal = |i: &usize| (&places[*i], &responses[*i]);
 
-            let mut row = rows.iter_mut();
-            for (to, (_, quantity)) in to.iter().zip(outputs) {
-                let (output, (x_out, row_out, of_output)) = (&places[*to], &solutions[*to]);
-                let factor = match quantity {
-                    Quantity::Displacement => Complex::new(1.0, 0.0),
-                    Quantity::Velocity => Complex::new(0.0, omega),
-                    Quantity::Acceleration => Complex::new(-(omega * omega), 0.0),
-                };
-                for from in &from {
-                    let (input, (x_in, _, of_input)) = (&places[*from], &solutions[*from]);
-                    let value = factor
-                        * match (&output.kind, row_out) {
-                            (PlaceKind::OnPlatform { vector, .. }, _) => {
-                                (0..6).map(|k| x_in[k] * vector[k]).sum::<Complex>()
-                            }
-                            (PlaceKind::Drive { .. }, Some((cable, row))) => {
-                                let motions = of_input.cable(*cable).map_or(&[][..], CableMotion::of_drive);
-                                row.iter().zip(motions).map(|(row, z)| row * z).sum()
-                            }
-                            (PlaceKind::Drive { .. }, None) => Complex::new(0.0, 0.0),
-                        };
-                    let mut scalar = Adjoint::zeros(self.cables());
-                    self.form.add(&mut scalar, of_output, of_input, &at, -factor);
-                    for (place, x_other, other) in [(output, x_in, of_input), (input, x_out, of_output)] {
-                        match &place.kind {
-                            PlaceKind::OnPlatform { .. } => place.add_turn(&mut scalar, &halves(x_other).1, factor),
-                            PlaceKind::Drive { cable, signal, .. } => {
-                                self.form.add_signal(&mut scalar, (*cable, *signal), other, &at, factor);
-                            }
-                        }
-                    }
-                    let along = self.along(&scalar, along);
-                    if let Some(row) = row.next() {
-                        row.push(ResponseDerivatives { value, along });
-                    }
-                }
+            let pairs = to
+                .iter()
+                .zip(outputs)
+                .flat_map(|(to, (_, quantity))| from.iter().map(move |from| (to, quantity, from)));
+            for (row, (to, quantity, from)) in rows.iter_mut().zip(pairs) {
+                let factor = quantity.factor(omega);
+                row.push(self.derivatives_of_pair(of_signal(to), of_signal(from), &at, factor, along));
             }
         }
         Ok(rows)
     }
 
-    /// Displacements of the supports for a motion of the platform and forces on the supports, from [`Dynamics::support_response`].
+    /// Motion of the robot by a unit of a signal at ω [rad/s]. `followed` is [`Dynamics::support_response`].
+    fn moved_by(
+        &self,
+        place: &SignalPlace,
+        receptance: &CMat6,
+        followed: Option<&(CDMat, CDMat)>,
+        at: &At<Complex>,
+        omega: f64,
+    ) -> SignalResponse {
+        let (vector, on_supports) = place.vector(self.dynamics, followed.map(|of| &of.0), omega);
+        let platform = receptance * vector;
+        let (v, theta) = halves(&platform);
+        let supports = self.displacements(followed, &platform, &on_supports);
+        let forces = place.forces(self.dynamics, omega);
+        let driven = Driven {
+            supports: &supports,
+            near: &[],
+            forces: forces.as_ref().map(|(cable, forces)| (*cable, &forces[..])),
+        };
+        let motion = self.form.motion(v, theta, at, &self.terms, &driven);
+        SignalResponse { platform, forces, motion }
+    }
+
+    /// Response of an output to an input, with its derivatives along directions; `factor` leads from the displacement
+    /// to the quantity of the output.
+    fn derivatives_of_pair(
+        &self,
+        (output, by_output): (&SignalPlace, &SignalResponse),
+        (input, by_input): (&SignalPlace, &SignalResponse),
+        at: &At<Complex>,
+        factor: Complex,
+        along: &[RobotChange],
+    ) -> ResponseDerivatives {
+        let value = factor * output.displacement(by_output, by_input);
+
+        let mut scalar = Adjoint::zeros(self.cables());
+        self.form.add(&mut scalar, &by_output.motion, &by_input.motion, at, -factor);
+        for (place, other) in [(output, by_input), (input, by_output)] {
+            match place {
+                SignalPlace::OnPlatform { .. } => place.add_turn(&mut scalar, &halves(&other.platform).1, factor),
+                SignalPlace::Drive { cable, signal, .. } => {
+                    self.form.add_signal(&mut scalar, (*cable, *signal), &other.motion, at, factor);
+                }
+            }
+        }
+        ResponseDerivatives { value, along: self.along(&scalar, along) }
+    }
+
+    /// Displacements of the supports for a motion of the platform and forces on the supports, from
+    /// [`Dynamics::support_response`].
     fn displacements(&self, followed: Option<&(CDMat, CDMat)>, x: &CVec6, forces: &[Complex]) -> Vec<Vector<Complex>> {
         let Some((by_platform, by_forces)) = followed else { return Vec::new() };
         let mut all = vec![Complex::new(0.0, 0.0); by_platform.nrows()];
@@ -327,7 +330,7 @@ impl<'g> VibrationGradients<'g> {
         directions.iter().map(|direction| Complex::new(re.dot(direction), im.dot(direction))).collect()
     }
 
-    fn place(&self, signal: &Signal) -> Result<Place, GradientError> {
+    fn place(&self, signal: &Signal) -> Result<SignalPlace, GradientError> {
         let pose = &self.gradients.equilibrium().pose;
         if let Signal::Drive { cable, signal } = signal {
             let refused = || GradientError::NoDriveSignal {
@@ -337,7 +340,7 @@ impl<'g> VibrationGradients<'g> {
             let term = self.terms.iter().position(|of| of == cable).ok_or_else(refused)?;
             let lever_w = self.gradients.equilibrium().cables[*cable].lever_w;
             let port = Port::Drive { term, signal: *signal, lever_w };
-            let place = Place { kind: PlaceKind::Drive { cable: *cable, term, signal: *signal, port } };
+            let place = SignalPlace::Drive { cable: *cable, term, signal: *signal, port };
             // Every frequency has the same signals.
             place.forces(self.dynamics, 1.0).ok_or_else(refused)?;
             return Ok(place);
@@ -347,52 +350,84 @@ impl<'g> VibrationGradients<'g> {
             Signal::Along { direction_w, point_p } => Some((direction_w.normalize(), pose.rot_wp * point_p)),
             _ => None,
         };
-        Ok(Place { kind: PlaceKind::OnPlatform { vector, arm } })
+        Ok(SignalPlace::OnPlatform { vector, arm })
     }
 }
 
 /// Place of a signal.
-struct Place {
-    kind: PlaceKind,
-}
-
-/// Kinds of places.
-enum PlaceKind {
-    /// On the platform: vector about its origin; direction and arm of a point, world axes.
+enum SignalPlace {
+    /// Point or axis on the platform: vector about its origin; direction and arm of a point, world axes.
     OnPlatform { vector: Vec6, arm: Option<(Vec3, Vec3)> },
     /// Signal of a cable's drive, with the index of the cable among those whose stiffness depends on frequency.
     Drive { cable: usize, term: usize, signal: DriveSignal, port: Port },
 }
 
-impl Place {
+impl SignalPlace {
     /// Cable of a drive's signal.
     fn cable(&self) -> Option<usize> {
-        if let PlaceKind::Drive { cable, .. } = self.kind { Some(cable) } else { None }
+        if let Self::Drive { cable, .. } = *self { Some(cable) } else { None }
     }
 
     /// Vector about the platform origin at ω [rad/s] with free supports, and the forces on these; see
     /// [`Port::free_vector`].
     fn vector(&self, dynamics: &Dynamics, by_platform: Option<&CDMat>, omega: f64) -> (CVec6, Vec<Complex>) {
-        match &self.kind {
-            PlaceKind::OnPlatform { vector, .. } => (vector.map(Complex::from), Vec::new()),
-            PlaceKind::Drive { port, .. } => port.free_vector(dynamics, by_platform, omega),
+        match self {
+            Self::OnPlatform { vector, .. } => (vector.map(Complex::from), Vec::new()),
+            Self::Drive { port, .. } => port.free_vector(dynamics, by_platform, omega),
+        }
+    }
+
+    /// Displacement of the signal in the response to another one. `own` is the response to the signal itself, with its
+    /// forces on a drive.
+    fn displacement(&self, own: &SignalResponse, other: &SignalResponse) -> Complex {
+        match (self, &own.forces) {
+            (Self::OnPlatform { vector, .. }, _) => (0..6).map(|k| other.platform[k] * vector[k]).sum::<Complex>(),
+            (Self::Drive { .. }, Some((cable, row))) => {
+                let motions = other.motion.cable(*cable).map_or(&[][..], CableMotion::of_drive);
+                row.iter().zip(motions).map(|(row, z)| row * z).sum()
+            }
+            (Self::Drive { .. }, None) => Complex::new(0.0, 0.0),
         }
     }
 
     /// Forces of a drive's signal on the motions of its cable, with that cable.
     fn forces(&self, dynamics: &Dynamics, omega: f64) -> Option<(usize, Vec<Complex>)> {
-        let PlaceKind::Drive { cable, term, signal, .. } = &self.kind else { return None };
+        let Self::Drive { cable, term, signal, .. } = self else { return None };
         let DynamicCable::CatenaryDynamic(form) = dynamics.terms()[*term].form() else { return None };
         Some((*cable, form.signal_forces(*signal, omega)?))
     }
 
     /// Adds the turn of the arm r with the platform, `((dφ × r) × u)·θ = dφ·(r × (u × θ))`, for a rotation θ.
     fn add_turn(&self, scalar: &mut Adjoint<Complex>, theta: &Vector<Complex>, factor: Complex) {
-        if let PlaceKind::OnPlatform { arm: Some((direction, arm)), .. } = &self.kind {
+        if let Self::OnPlatform { arm: Some((direction, arm)), .. } = self {
             let turn = cross(&vector(arm), &cross(&vector(direction), theta));
             add_times(&mut scalar.rotation, &turn, factor);
         }
     }
+}
+
+/// Motion of the robot by a unit of a signal.
+struct SignalResponse {
+    /// Motion of the platform about its origin.
+    platform: CVec6,
+    /// Forces of a drive's signal on the motions of its cable, with that cable.
+    forces: Option<(usize, Vec<Complex>)>,
+    motion: FormMotion<Complex>,
+}
+
+/// Different signals among inputs and outputs, and their numbers for the inputs and for the outputs. The motion by a
+/// signal is computed once, also if it is both input and output.
+fn different<'s>(inputs: &'s [Signal], outputs: &'s [(Signal, Quantity)]) -> (Vec<&'s Signal>, Vec<usize>, Vec<usize>) {
+    let mut signals: Vec<&Signal> = Vec::with_capacity(inputs.len() + outputs.len());
+    let mut numbered = |signal| {
+        signals.iter().position(|known| *known == signal).unwrap_or_else(|| {
+            signals.push(signal);
+            signals.len() - 1
+        })
+    };
+    let from = inputs.iter().map(&mut numbered).collect();
+    let to = outputs.iter().map(|(signal, _)| numbered(signal)).collect();
+    (signals, from, to)
 }
 
 /// Displacements of the supports from their coordinates, three per support.

@@ -117,8 +117,8 @@ fn back_substituted(triangular: &DMat, blocks: &[(usize, usize)], value: Complex
 }
 
 /// Solution of two equations by elimination with complete pivoting, with `pivot` applied to both pivots. At a multiple
-/// eigenvalue the equations are singular but consistent: the solution then satisfies them, with any multiple of the null
-/// vector, which Cramer's rule would not do.
+/// eigenvalue the equations are singular but consistent: the solution then satisfies them, with any multiple of the
+/// null vector, which Cramer's rule would not do.
 fn solved(matrix: [[Complex; 2]; 2], right: [Complex; 2], pivot: impl Fn(Complex) -> Complex) -> [Complex; 2] {
     // Row and column of the largest entry.
     let places = [(0, 0), (0, 1), (1, 0), (1, 1)];

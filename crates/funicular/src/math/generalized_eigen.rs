@@ -12,8 +12,8 @@ use super::simd::dot;
 /// `stiffness` and `mass` are n×n by columns, of which the lower triangle is read; `vectors` has n rows of `count`
 /// numbers. All three are consumed. `None` if K is not positive definite.
 ///
-/// Steps: Cholesky factor, congruence, Householder's tridiagonal form, implicit QL. The vectors are transformed in blocks of
-/// columns.
+/// Steps: Cholesky factor, congruence, Householder's tridiagonal form, implicit QL. The vectors are transformed in
+/// blocks of columns.
 ///
 /// # References
 /// G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed. 2013, sections 4.2, 8.3.1, 8.3.3 and 8.7.2.
@@ -45,7 +45,7 @@ impl pulp::NullaryFnOnce for PencilReduction {
         let factors = tridiagonalise(&mut m, n, &mut diagonal, &mut below);
 
         // The given vectors, block by block.
-        let mut blocks = Blocks::of(&vectors, n, count);
+        let mut blocks = VectorBlocks::of(&vectors, n, count);
         for block in blocks.0.chunks_exact_mut(n.max(1)) {
             solve_rows(&k, n, block);
             reflect(&m, n, &factors, block);
@@ -55,17 +55,18 @@ impl pulp::NullaryFnOnce for PencilReduction {
     }
 }
 
-/// Columns of a block of vectors: two of the widest registers, so that the rows of one block stay in the nearest cache while
-/// all transformations pass over them.
+/// Columns of a block of vectors: two of the widest registers, so that the rows of one block stay in the nearest cache
+/// while all transformations pass over them.
 const WIDTH: usize = 16;
 
 /// Row of a block.
-type Row = [f64; WIDTH];
+type BlockRow = [f64; WIDTH];
 
-/// Vectors in blocks of columns: all rows of the first block, then those of the next. The last block is filled with zeros.
-struct Blocks(Vec<Row>);
+/// Vectors in blocks of columns: all rows of the first block, then those of the next. The last block is filled with
+/// zeros.
+struct VectorBlocks(Vec<BlockRow>);
 
-impl Blocks {
+impl VectorBlocks {
     #[inline(always)]
     fn of(vectors: &[f64], n: usize, count: usize) -> Self {
         let mut blocks = vec![[0.0; WIDTH]; n * count.div_ceil(WIDTH)];
@@ -91,7 +92,7 @@ impl Blocks {
 
 /// Adds `factor x` to a row.
 #[inline(always)]
-fn add_row(y: &mut Row, factor: f64, x: &Row) {
+fn add_row(y: &mut BlockRow, factor: f64, x: &BlockRow) {
     for (y, x) in y.iter_mut().zip(x) {
         *y += factor * x;
     }
@@ -127,7 +128,7 @@ fn cholesky(a: &mut [f64], n: usize) -> bool {
 
 /// Solves in place: block ← L⁻¹ block.
 #[inline(always)]
-fn solve_rows(l: &[f64], n: usize, block: &mut [Row]) {
+fn solve_rows(l: &[f64], n: usize, block: &mut [BlockRow]) {
     for j in 0..n {
         let (done, rest) = block.split_at_mut(j + 1);
         let row = &mut done[j];
@@ -174,8 +175,8 @@ fn congruence(l: &[f64], a: &mut [f64], n: usize) {
     }
 }
 
-/// Householder reflections `H = I − β v vᵀ` to tridiagonal form. The vectors v replace the columns of `a` below the diagonal;
-/// the result are the factors β, zero where there is no reflection.
+/// Householder reflections `H = I − β v vᵀ` to tridiagonal form. The vectors v replace the columns of `a` below the
+/// diagonal; the result are the factors β, zero where there is no reflection.
 #[inline(always)]
 fn tridiagonalise(a: &mut [f64], n: usize, diagonal: &mut [f64], below: &mut [f64]) -> Vec<f64> {
     let (mut v, mut w, mut factors) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
@@ -232,7 +233,7 @@ fn tridiagonalise(a: &mut [f64], n: usize, diagonal: &mut [f64], below: &mut [f6
 
 /// Applies the reflections of [`tridiagonalise`] to a block.
 #[inline(always)]
-fn reflect(a: &[f64], n: usize, factors: &[f64], block: &mut [Row]) {
+fn reflect(a: &[f64], n: usize, factors: &[f64], block: &mut [BlockRow]) {
     for (k, beta) in factors.iter().enumerate().filter(|(_, beta)| **beta != 0.0) {
         let (v, rows) = (&a[k * n + k + 1..(k + 1) * n], &mut block[k + 1..]);
         let mut sums = [0.0; WIDTH];
@@ -255,13 +256,13 @@ struct Rotations {
 }
 
 /// Rotations that are kept before they are applied: their 16 kB stay in the nearest cache beside a block.
-const MOST_ROTATIONS: usize = 1024;
+const MAX_ROTATIONS: usize = 1024;
 
 impl Rotations {
     /// Applies the rotations. A row that two of them share stays in registers between them.
     // No closures: only functions that are inlined are compiled for the registers that the processor has.
     #[inline(always)]
-    fn apply(&self, blocks: &mut Blocks, n: usize) {
+    fn apply(&self, blocks: &mut VectorBlocks, n: usize) {
         for block in blocks.0.chunks_exact_mut(n.max(1)) {
             let mut done = 0;
             for (first, count) in &self.passes {
@@ -289,7 +290,7 @@ impl Rotations {
 
 /// Implicit QL with Wilkinson's shift; the rotations also act on the rows of the blocks.
 #[inline(always)]
-fn diagonalise(d: &mut [f64], e: &mut [f64], blocks: &mut Blocks) {
+fn diagonalise(d: &mut [f64], e: &mut [f64], blocks: &mut VectorBlocks) {
     let n = d.len();
     let mut rotations = Rotations::default();
     for l in 0..n {
@@ -329,7 +330,7 @@ fn diagonalise(d: &mut [f64], e: &mut [f64], blocks: &mut Blocks) {
                 rotations.angles.push((c, s));
             }
             rotations.passes.push((split, rotations.angles.len() - before));
-            if rotations.angles.len() > MOST_ROTATIONS {
+            if rotations.angles.len() > MAX_ROTATIONS {
                 rotations.apply(blocks, n);
                 rotations.clear();
             }

@@ -1,46 +1,59 @@
-//! Nonlinear least squares with bounds: Levenberg–Marquardt steps, the deviations of the result and its weak directions.
+//! Nonlinear least squares with bounds: Levenberg–Marquardt steps, the deviations of the result and its weak
+//! directions.
 //!
-//! The crate `levenberg-marquardt` has no bounds and ends at a point without residuals. Here such a point, for example a
-//! robot without equilibrium, is refused like one with a larger sum of squares, and a shorter step is tried.
+//! The crate `levenberg-marquardt` has no bounds and ends at a point without residuals. Here such a point, for example
+//! a robot without equilibrium, is refused like one with a larger sum of squares, and a shorter step is tried.
 
 use super::{DMat, DVec};
 
-/// Relative decrease of the sum of squares below which a step ends the search.
-const ENOUGH: f64 = 1e-10;
+/// Minimum relative decrease of the sum of squares by a step. A smaller one, real or predicted, ends the search.
+const MIN_DECREASE: f64 = 1e-10;
 
-/// Length of a step, relative to 1 plus the size of each unknown, below which the search ends: half of the digits of a
-/// number, because the sum of squares is flat there.
-const SHORT_STEP: f64 = 1e-8;
+/// Minimum length of a step, relative to 1 plus the size of each unknown. A shorter one ends the search. It is half of
+/// the digits of a number, because the sum of squares is flat at its minimum.
+const MIN_STEP: f64 = 1e-8;
 
 /// First damping of the steps, relative to the diagonal of JᵀJ.
 const FIRST_DAMPING: f64 = 1e-3;
 
-/// Damping beyond which no shorter step can help.
+/// Maximum damping. A step with it is about 1e16 times shorter than one without damping, which is rounding.
 const MAX_DAMPING: f64 = 1e16;
 
+/// Minimum and maximum factor of the damping after a step that has decreased the sum of squares; the formula between
+/// them is Nielsen's.
+const MIN_DAMPING_FACTOR: f64 = 1.0 / 3.0;
+const MAX_DAMPING_FACTOR: f64 = 2.0;
+
+/// Factor of the damping after the first step in a row that has failed. It grows by itself with every further one.
+const GROWTH: f64 = 2.0;
+
+/// Minimum scale of an unknown that the damping acts on, relative to the maximum scale. So the damped matrix is regular
+/// and an unknown that no residual depends on stays where it is.
+const MIN_SCALE: f64 = 1e-12;
+
 /// Least-squares problem.
-pub trait Problem {
-    /// Residuals at a point near the last one that was linearised, whose choices (weights, assignments) hold. `None` if
-    /// there are none.
+pub trait LeastSquaresProblem {
+    /// Residuals at a point near the last one that was linearised, with the choices (weights, assignments) of that one.
+    /// `None` if there are no residuals.
     fn residuals(&mut self, x: &[f64]) -> Option<Vec<f64>>;
 
-    /// Residuals and their derivatives at a point, one row per residual; choices are made anew.
+    /// Residuals and their derivatives at a point, one row per residual, with new choices.
     fn linearised(&mut self, x: &[f64]) -> Option<(Vec<f64>, DMat)>;
 
-    /// True if the search shall stop.
+    /// True to stop the search.
     fn is_cancelled(&self) -> bool {
         false
     }
 }
 
-/// Reason for which a search ended.
+/// Reason why a search has ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ending {
+pub enum LeastSquaresEnding {
     /// No step decreases the sum of squares by a relevant amount.
     Converged,
-    /// The number of iterations is exhausted.
+    /// The search has made the maximum number of iterations.
     Iterations,
-    /// The problem asked to stop.
+    /// The problem has stopped the search.
     Cancelled,
 }
 
@@ -55,8 +68,8 @@ pub struct Minimum {
     pub jacobian: DMat,
     /// Number of iterations.
     pub iterations: usize,
-    /// Reason for which the search ended.
-    pub ending: Ending,
+    /// Reason why the search has ended.
+    pub ending: LeastSquaresEnding,
 }
 
 impl Minimum {
@@ -66,16 +79,16 @@ impl Minimum {
     }
 }
 
-/// Minimises the sum of squares within bounds, from a start that is moved into them. `None` if there are no residuals at
-/// the start.
+/// Minimises the sum of squares within bounds. The search begins at the point within the bounds that is nearest to the
+/// start; `None` if there are no residuals.
 ///
 /// # Example
 /// ```
-/// use funicular::math::{DMat, least_squares::{Problem, minimise}};
+/// use funicular::math::{DMat, least_squares::{LeastSquaresProblem, minimise}};
 ///
 /// /// Rosenbrock's valley, with its minimum at (1, 1).
 /// struct Valley;
-/// impl Problem for Valley {
+/// impl LeastSquaresProblem for Valley {
 ///     fn residuals(&mut self, x: &[f64]) -> Option<Vec<f64>> {
 ///         Some(vec![10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]])
 ///     }
@@ -92,82 +105,108 @@ impl Minimum {
 /// ```
 ///
 /// # References
-/// K. Levenberg (1944), D. Marquardt (1963); J. J. Moré, The Levenberg–Marquardt algorithm (1978), for the scaling; H. B.
-/// Nielsen, Damping parameter in Marquardt's method (1999), for the damping.
-pub fn minimise<P: Problem>(
+/// K. Levenberg (1944), D. Marquardt (1963); J. J. Moré, The Levenberg–Marquardt algorithm (1978), for the scaling; H.
+/// B. Nielsen, Damping parameter in Marquardt's method (1999), for the damping.
+pub fn minimise<P: LeastSquaresProblem>(
     problem: &mut P,
     start: &[f64],
     bounds: &[(f64, f64)],
     max_iterations: usize,
 ) -> Option<Minimum> {
-    let mut x: Vec<f64> = start.iter().zip(bounds).map(|(x, (low, high))| x.clamp(*low, *high)).collect();
-    let (mut residuals, mut jacobian) = problem.linearised(&x)?;
-    let mut scale = vec![0.0_f64; x.len()];
-    let (mut damping, mut growth) = (FIRST_DAMPING, 2.0);
-    let mut iterations = 0;
-    let mut ending = Ending::Iterations;
+    let x: Vec<f64> = start.iter().zip(bounds).map(|(x, (low, high))| x.clamp(*low, *high)).collect();
+    let (residuals, jacobian) = problem.linearised(&x)?;
+    let scale = vec![0.0; x.len()];
+    let mut search = DampedSearch { bounds, x, residuals, jacobian, scale, damping: FIRST_DAMPING };
 
-    'search: while iterations < max_iterations {
+    let (mut ending, mut iterations) = (LeastSquaresEnding::Iterations, 0);
+    while iterations < max_iterations {
         iterations += 1;
-        let hessian = jacobian.transpose() * &jacobian;
-        let gradient = jacobian.transpose() * DVec::from_column_slice(&residuals);
-        // The scale never falls, so that an unknown that the residuals hardly see for a while cannot run away.
-        for (i, scale) in scale.iter_mut().enumerate() {
+        if let Some(end) = search.advance(problem) {
+            ending = end;
+            break;
+        }
+    }
+    let DampedSearch { x, residuals, jacobian, .. } = search;
+    Some(Minimum { x, residuals, jacobian, iterations, ending })
+}
+
+/// Search for a minimum, at its present point.
+struct DampedSearch<'a> {
+    bounds: &'a [(f64, f64)],
+    x: Vec<f64>,
+    residuals: Vec<f64>,
+    jacobian: DMat,
+    /// Scale of each unknown: the maximum so far of its diagonal entry of JᵀJ.
+    scale: Vec<f64>,
+    /// Damping relative to these scales.
+    damping: f64,
+}
+
+impl DampedSearch<'_> {
+    /// Moves on by one step that decreases the sum of squares; returns the reason for the end, if the search ends.
+    fn advance(&mut self, problem: &mut impl LeastSquaresProblem) -> Option<LeastSquaresEnding> {
+        let hessian = self.jacobian.transpose() * &self.jacobian;
+        let gradient = self.jacobian.transpose() * DVec::from_column_slice(&self.residuals);
+        // The scale never falls. So an unknown on which the residuals hardly depend for a while cannot run away.
+        for (i, scale) in self.scale.iter_mut().enumerate() {
             *scale = scale.max(hessian[(i, i)]);
         }
-        let largest = scale.iter().copied().fold(0.0, f64::max);
-        let now = squares(&residuals);
+        let largest = self.scale.iter().copied().fold(0.0, f64::max);
+        let now = squares(&self.residuals);
         if largest == 0.0 {
-            ending = Ending::Converged;
-            break;
+            return Some(LeastSquaresEnding::Converged);
         }
 
         // Shorter and shorter steps until one decreases the sum.
+        let mut growth = GROWTH;
         loop {
             if problem.is_cancelled() {
-                ending = Ending::Cancelled;
-                break 'search;
+                return Some(LeastSquaresEnding::Cancelled);
             }
-            let mut damped = hessian.clone();
-            for (i, scale) in scale.iter().enumerate() {
-                // An unknown that no residual sees stays where it is.
-                damped[(i, i)] += damping * scale.max(1e-12 * largest);
-            }
-            let step = bounded_step(&damped, &gradient, &x, bounds);
-            let next: Vec<f64> = (x.iter().zip(&step).zip(bounds))
-                .map(|((x, step), (low, high))| (x + step).clamp(*low, *high))
-                .collect();
-            let is_short = step.iter().zip(&x).all(|(step, x)| step.abs() <= SHORT_STEP * (1.0 + x.abs()));
+            let step = bounded_step(&self.damped(&hessian, largest), &gradient, &self.x, self.bounds);
             let predicted = predicted_decrease(&hessian, &gradient, &step);
-            if is_short || predicted <= ENOUGH * now {
-                ending = Ending::Converged;
-                break 'search;
+            if self.is_short(&step) || predicted <= MIN_DECREASE * now {
+                return Some(LeastSquaresEnding::Converged);
             }
 
+            let next = self.moved(&step);
             let decrease = problem.residuals(&next).map_or(f64::NAN, |residuals| now - squares(&residuals));
             if decrease > 0.0
                 && let Some(linearised) = problem.linearised(&next)
             {
                 let ratio = decrease / predicted;
-                damping *= (1.0 - (2.0 * ratio - 1.0).powi(3)).clamp(1.0 / 3.0, 2.0);
-                growth = 2.0;
-                x = next;
-                (residuals, jacobian) = linearised;
-                if decrease <= ENOUGH * now {
-                    ending = Ending::Converged;
-                    break 'search;
-                }
-                break;
+                self.damping *= (1.0 - (2.0 * ratio - 1.0).powi(3)).clamp(MIN_DAMPING_FACTOR, MAX_DAMPING_FACTOR);
+                self.x = next;
+                (self.residuals, self.jacobian) = linearised;
+                return (decrease <= MIN_DECREASE * now).then_some(LeastSquaresEnding::Converged);
             }
-            damping *= growth;
-            growth *= 2.0;
-            if damping > MAX_DAMPING {
-                ending = Ending::Converged;
-                break 'search;
+            self.damping *= growth;
+            growth *= GROWTH;
+            if self.damping > MAX_DAMPING {
+                return Some(LeastSquaresEnding::Converged);
             }
         }
     }
-    Some(Minimum { x, residuals, jacobian, iterations, ending })
+
+    /// Matrix JᵀJ with the damping on its diagonal.
+    fn damped(&self, hessian: &DMat, largest: f64) -> DMat {
+        let mut damped = hessian.clone();
+        for (i, scale) in self.scale.iter().enumerate() {
+            damped[(i, i)] += self.damping * scale.max(MIN_SCALE * largest);
+        }
+        damped
+    }
+
+    /// Point after a step, within the bounds.
+    fn moved(&self, step: &[f64]) -> Vec<f64> {
+        let moved = self.x.iter().zip(step).zip(self.bounds);
+        moved.map(|((x, step), (low, high))| (x + step).clamp(*low, *high)).collect()
+    }
+
+    /// True if no unknown moves by more than its rounding.
+    fn is_short(&self, step: &[f64]) -> bool {
+        step.iter().zip(&self.x).all(|(step, x)| step.abs() <= MIN_STEP * (1.0 + x.abs()))
+    }
 }
 
 fn squares(residuals: &[f64]) -> f64 {
@@ -186,12 +225,15 @@ fn bounded_step(damped: &DMat, gradient: &DVec, x: &[f64], bounds: &[(f64, f64)]
     let n = x.len();
     let mut step = vec![0.0; n];
     let mut is_held = vec![false; n];
+
     // An unknown at a bound stays there if the sum decreases outwards.
     for i in 0..n {
         let (low, high) = bounds[i];
         is_held[i] = x[i] <= low && gradient[i] > 0.0 || x[i] >= high && gradient[i] < 0.0;
     }
+
     for _ in 0..=n {
+        // Solve for the free unknowns.
         let free: Vec<usize> = (0..n).filter(|i| !is_held[*i]).collect();
         if free.is_empty() {
             break;
@@ -203,6 +245,8 @@ fn bounded_step(damped: &DMat, gradient: &DVec, x: &[f64], bounds: &[(f64, f64)]
         });
         let Some(factor) = matrix.cholesky() else { break };
         let solved = factor.solve(&right);
+
+        // Hold those that leave their bounds.
         let mut left_bounds = false;
         for (a, &i) in free.iter().enumerate() {
             let (low, high) = bounds[i];
@@ -231,8 +275,8 @@ pub struct Precision {
     pub unseen: Vec<f64>,
 }
 
-/// Ratio to the largest singular value below which a direction counts as unseen: derivatives by differences have errors
-/// of 1e-7.
+/// Singular value of a direction, relative to the maximum one, up to which the direction counts as unseen: derivatives
+/// by differences have errors of 1e-7.
 const UNSEEN: f64 = 1e-6;
 
 /// Precision of unknowns with derivatives `jacobian`; each unknown is measured in units of `scales`.
@@ -289,7 +333,7 @@ mod tests {
         values: Vec<f64>,
     }
 
-    impl Problem for Decay {
+    impl LeastSquaresProblem for Decay {
         fn residuals(&mut self, x: &[f64]) -> Option<Vec<f64>> {
             (x[1] >= 0.0)
                 .then(|| self.times.iter().zip(&self.values).map(|(t, v)| x[0] * (-x[1] * t).exp() - v).collect())
@@ -317,7 +361,7 @@ mod tests {
             let step = (j.transpose() * &j).lu().solve(&(j.transpose() * DVec::from_vec(r))).unwrap();
             refused += usize::from(start[1] - step[1] < 0.0);
             let found = minimise(&mut problem, &start, &unbounded, 200).unwrap();
-            assert_eq!(found.ending, Ending::Converged);
+            assert_eq!(found.ending, LeastSquaresEnding::Converged);
             assert!((found.x[0] - 3.0).abs() < 1e-7 && (found.x[1] - 0.05).abs() < 1e-7, "{:?}", found.x);
         }
         assert!(refused > 0);
@@ -330,7 +374,7 @@ mod tests {
     #[test]
     fn an_unknown_that_no_residual_sees_stays() {
         struct One;
-        impl Problem for One {
+        impl LeastSquaresProblem for One {
             fn residuals(&mut self, x: &[f64]) -> Option<Vec<f64>> {
                 Some(vec![x[0] - 2.0])
             }

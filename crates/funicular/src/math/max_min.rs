@@ -1,38 +1,46 @@
-//! Maximum of the smallest of several smooth functions within bounds, and under demands on others.
+//! Maximises the minimum of smooth functions, with bounds and constraints.
 //!
 //! Sequential linear programs with a trust region (Madsen 1975): the functions are linearised, the linear problem is
-//! solved exactly inside a box about the point, and the box grows or shrinks by what the functions have gained of what
-//! was predicted. Functions that exchange their places as the smallest one are no kink for it, because all of them are
-//! rows of the linear problem.
+//! solved exactly inside a box about the point, and the box grows or shrinks by the ratio of the real gain to the
+//! predicted one. The minimum of the functions has a kink where another function becomes the lowest one. The kink does
+//! no harm, because all functions are rows of the linear problem.
 
 use super::active_set::{Active, Polyhedron};
 
 /// Linearised function at a point.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub struct LinearisedFunction {
     /// Value.
     pub value: f64,
-    /// Derivatives by the unknowns.
+    /// Derivatives with respect to the unknowns.
     pub gradient: Vec<f64>,
     /// Number of the group to which an objective belongs, from 0; see [`Goal::Weighted`].
     pub group: usize,
 }
 
-/// Functions at a point. Their numbers may differ from point to point.
+/// Functions at a point. Different points may have different numbers of functions.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Evaluation {
-    /// Functions whose smallest value is to be as large as possible.
-    pub objectives: Vec<Row>,
-    /// Functions that have to be at least zero, in units in which one is much.
-    pub demands: Vec<Row>,
+    /// Objectives: the search maximises their minimum.
+    pub objectives: Vec<LinearisedFunction>,
+    /// Demands, that is constraints: functions that have to be at least zero, scaled so that a lack of 1 is large.
+    pub demands: Vec<LinearisedFunction>,
 }
 
-/// Functions of a problem.
-pub trait Problem {
-    /// Functions at a point; `None` if they do not exist there, so that a shorter step is tried.
+impl Evaluation {
+    /// Minimum of the objectives of a group, or of all objectives; infinite without objectives.
+    fn lowest(&self, group: Option<usize>) -> f64 {
+        let rows = self.objectives.iter().filter(|row| group.is_none_or(|group| row.group == group));
+        rows.map(|row| row.value).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Problem that the search solves: it evaluates the functions at a point.
+pub trait MaxMinProblem {
+    /// Functions at a point. `None` if they do not exist there; the search then tries a shorter step.
     fn evaluate(&mut self, x: &[f64]) -> Option<Evaluation>;
 
-    /// True if the search shall stop; it returns its best point.
+    /// True to stop the search, which then returns its best point.
     fn is_cancelled(&self) -> bool {
         false
     }
@@ -43,123 +51,150 @@ pub trait Problem {
     }
 }
 
-/// Number to be maximised.
+/// Quantity that the search maximises.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Goal {
-    /// Smallest objective of all.
+    /// Minimum of all objectives.
     Worst,
-    /// Sum over the groups of a weight times the smallest objective of the group.
+    /// Weighted sum of the minima of the groups, with one weight per group.
     Weighted(Vec<f64>),
+}
+
+impl Goal {
+    /// Value of the goal at a point.
+    pub fn value(&self, evaluation: &Evaluation) -> f64 {
+        match self {
+            Self::Worst => evaluation.lowest(None),
+            Self::Weighted(weights) => {
+                let of_group = |(group, weight): (usize, &f64)| weight * evaluation.lowest(Some(group));
+                weights.iter().enumerate().map(of_group).sum()
+            }
+        }
+    }
 }
 
 /// Settings of the search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
-    /// Number to be maximised.
+    /// Quantity that the search maximises.
     pub goal: Goal,
-    /// Minimum and maximum of every unknown; finite, the first below the second.
+    /// Minimum and maximum of each unknown; both are finite, and the minimum is less than the maximum.
     pub bounds: Vec<[f64; 2]>,
-    /// Gain of one step, relative to the value, below which the search ends.
+    /// Minimum gain of a step, relative to the value. The search ends when a step promises less.
     pub tolerance: f64,
     /// Maximum number of iterations.
     pub max_iterations: usize,
 }
 
-/// Reason for which a search has ended.
+/// Reason why a search has ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ending {
+pub enum MaxMinEnding {
     /// No step gains more than the tolerance.
     Converged,
-    /// The maximum number of iterations.
+    /// The search has made the maximum number of iterations.
     Iterations,
-    /// The search was stopped.
+    /// The problem has stopped the search.
     Cancelled,
 }
 
 /// Result of a search.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
-    /// Unknowns.
+    /// LinearUnknowns.
     pub x: Vec<f64>,
     /// Value of the goal.
     pub value: f64,
-    /// Functions there.
+    /// Functions at these unknowns.
     pub evaluation: Evaluation,
-    /// Largest lack of a demand; zero if all are met.
+    /// Maximum lack of a demand; zero if all demands are met.
     pub violation: f64,
-    /// Reason for the end.
-    pub ending: Ending,
+    /// Reason why the search has ended.
+    pub ending: MaxMinEnding,
     /// Number of iterations.
     pub iterations: usize,
-    /// Number of points at which the functions were requested.
+    /// Number of points at which the functions were evaluated.
     pub evaluations: usize,
-    /// Share of each objective in the optimum: how much the value gains if this objective gains one. For
-    /// [`Goal::Worst`] their sum is 1.
+    /// Multiplier of each objective: gain of the value per gain of the objective. For [`Goal::Worst`] the sum of the
+    /// multipliers is 1.
     pub objective_shares: Vec<f64>,
-    /// Gain of the value if a demand is lowered by one.
+    /// Multiplier of each demand: gain of the value if the demand is lowered by 1.
     pub demand_multipliers: Vec<f64>,
-    /// Gain of the value per unit of an unknown by which its bound is moved outwards; zero between the bounds.
+    /// Multiplier of each bound: gain of the value per distance by which the bound moves outwards. It is zero for an
+    /// unknown between its bounds.
     pub bound_multipliers: Vec<f64>,
 }
 
-/// Half of the box about the first point, as a fraction of the distance of the bounds, and the minimum of this half.
+/// Half width of the box about the first point, and minimum half width, as fractions of the distance of the bounds.
 /// Below the minimum a step is rounding of functions that are known to ten digits.
 const FIRST_RADIUS: f64 = 0.1;
 const MIN_RADIUS: f64 = 1e-9;
 
-/// Fractions of the predicted gain below which the box shrinks and above which it grows, and by which factors.
+/// Half width of the box, in minimum half widths, in which the multipliers are computed if the search has ended in a
+/// smaller box: there a step, and with it a multiplier, may be rounding.
+const MULTIPLIER_RADIUS: f64 = 1e3;
+
+/// Fractions of the predicted gain below which the box shrinks and above which it grows, with the factors of both.
 const POOR: f64 = 0.3;
 const GOOD: f64 = 0.7;
 const SHRINK: f64 = 1.0 / 3.0;
 const GROW: f64 = 2.0;
 
-/// Loss of the value, relative to it, per unit of a demand that is not met, at the start; factor by which it grows while
-/// demands stay unmet; and number of times that it may grow.
+/// Minimum length of a step, over the half width of the box, after which the box may grow. A shorter step did not need
+/// a larger box.
+const FULL_STEP: f64 = 0.99;
+
+/// Penalty at the start: loss of the value, relative to the value, per lack of a demand. Factor by which the penalty
+/// grows if the search converges with unmet demands, and maximum number of times that it grows.
 const FIRST_PENALTY: f64 = 10.0;
 const PENALTY_GROWTH: f64 = 10.0;
 const MAX_PENALTIES: usize = 5;
 
-/// Value over its largest change within the bounds by one unknown, below which the change is the size that tolerances
-/// refer to.
+/// Minimum size of the value to which tolerances refer, relative to the maximum change of an objective by one unknown
+/// within its bounds.
 const CLOSE_TO_ZERO: f64 = 1e-3;
 
-/// Lack of a demand that counts as met.
+/// Maximum lack of a demand that counts as met.
 pub const MET: f64 = 1e-7;
 
-/// Distance from a bound, relative to that of the bounds, at which an unknown counts as at it.
+/// Maximum distance of an unknown from its bound, relative to the distance of the bounds, at which it counts as at the
+/// bound.
 const AT_BOUND: f64 = 1e-9;
 
 /// Point with its functions.
 struct Point {
     x: Vec<f64>,
     evaluation: Evaluation,
+    /// Value of the goal.
     value: f64,
+    /// Maximum lack of a demand.
     violation: f64,
 }
 
 /// Solution of a linear problem.
 struct Step {
     x: Vec<f64>,
-    /// Gain of value less penalty, relative to the size of the value.
+    /// Predicted gain of the merit: value less penalty, relative to the size of the value.
     gain: f64,
     objective_shares: Vec<f64>,
     demand_multipliers: Vec<f64>,
-    /// Length of the step over the half of the box.
+    /// Length of the step over the half width of the box.
     reach: f64,
 }
 
-/// Maximises the smallest objective, or a weighted sum of smallest ones, from a start within the bounds. `None` if the
-/// functions do not exist at the start.
+/// Maximises the goal from a start within the bounds. `None` if the functions do not exist at the start.
 ///
 /// # Example
 /// ```
-/// use funicular::math::max_min::{Evaluation, Goal, Problem, Row, Settings, maximise};
+/// use funicular::math::max_min::{Evaluation, Goal, MaxMinProblem, LinearisedFunction, Settings, maximise};
 ///
-/// // The lower one of two parabolas is highest where they cross.
+/// // The minimum of two parabolas is highest where they cross.
 /// struct Parabolas;
-/// impl Problem for Parabolas {
+/// impl MaxMinProblem for Parabolas {
 ///     fn evaluate(&mut self, x: &[f64]) -> Option<Evaluation> {
-///         let row = |at: f64| Row { value: -(x[0] - at).powi(2), gradient: vec![-2.0 * (x[0] - at)], group: 0 };
+///         let row = |at: f64| {
+///             let (value, slope) = (-(x[0] - at).powi(2), -2.0 * (x[0] - at));
+///             LinearisedFunction { value, gradient: vec![slope], group: 0 }
+///         };
 ///         Some(Evaluation { objectives: vec![row(0.0), row(2.0)], demands: Vec::new() })
 ///     }
 /// }
@@ -171,8 +206,8 @@ struct Step {
 /// # References
 /// K. Madsen, "An algorithm for minimax solution of overdetermined systems of non-linear equations", J. Inst. Maths
 /// Applics 16, 321–328, 1975; docs/theory.md, equations (95a) to (95c).
-pub fn maximise(problem: &mut impl Problem, start: &[f64], settings: &Settings) -> Option<Found> {
-    let mut search = Search { settings, penalty: FIRST_PENALTY, size: 1.0 };
+pub fn maximise(problem: &mut impl MaxMinProblem, start: &[f64], settings: &Settings) -> Option<Found> {
+    let mut search = MaxMinSearch { settings, penalty: FIRST_PENALTY, size: 1.0 };
     let mut evaluations = 1;
     let mut here = search.point(start.to_vec(), problem.evaluate(start)?);
     search.size = search.size_of(&here);
@@ -180,13 +215,13 @@ pub fn maximise(problem: &mut impl Problem, start: &[f64], settings: &Settings) 
     let (mut radius, mut penalties, mut iterations) = (FIRST_RADIUS, 0, 0);
     let ending = loop {
         if problem.is_cancelled() {
-            break Ending::Cancelled;
+            break MaxMinEnding::Cancelled;
         }
         if iterations == settings.max_iterations {
-            break Ending::Iterations;
+            break MaxMinEnding::Iterations;
         }
 
-        // Linear problem in the box.
+        // Solve the linear problem in the box.
         let step = search.step(&here, radius);
         let Some(step) = step.filter(|step| step.gain > settings.tolerance && radius > MIN_RADIUS) else {
             // A penalty that is too small leaves demands unmet that could be met.
@@ -196,11 +231,11 @@ pub fn maximise(problem: &mut impl Problem, start: &[f64], settings: &Settings) 
                 radius = FIRST_RADIUS;
                 continue;
             }
-            break Ending::Converged;
+            break MaxMinEnding::Converged;
         };
         iterations += 1;
 
-        // The functions there, and what they have gained of what was predicted.
+        // Evaluate the functions at the new point, and compare the real gain with the predicted one.
         evaluations += 1;
         let there = problem.evaluate(&step.x).map(|evaluation| search.point(step.x.clone(), evaluation));
         let ratio =
@@ -212,54 +247,57 @@ pub fn maximise(problem: &mut impl Problem, start: &[f64], settings: &Settings) 
             problem.progress(iterations, here.value);
         }
 
-        // The next box. Bounds may have shortened the step inside a box that was large enough.
-        if ratio < POOR || ratio.is_nan() {
-            radius = SHRINK * radius.min(step.reach * radius);
-        } else if ratio > GOOD && step.reach > 0.99 {
-            radius = (GROW * radius).min(1.0);
-        }
+        // Choose the next box.
+        radius = next_radius(radius, ratio, step.reach);
     };
 
-    // Multipliers of the last linear problem; those of bounds are the derivatives that are left there.
-    let last = search.step(&here, radius.max(1e3 * MIN_RADIUS));
-    let (objective_shares, demand_multipliers) = last.map_or_else(
-        || (vec![0.0; here.evaluation.objectives.len()], vec![0.0; here.evaluation.demands.len()]),
-        |step| (step.objective_shares, step.demand_multipliers),
-    );
-    let bound_multipliers = search.bound_multipliers(&here, &objective_shares, &demand_multipliers);
-    Some(Found {
-        value: here.value,
-        violation: here.violation,
-        x: here.x,
-        evaluation: here.evaluation,
-        ending,
-        iterations,
-        evaluations,
-        objective_shares,
-        demand_multipliers,
-        bound_multipliers,
-    })
+    Some(search.found(here, ending, (iterations, evaluations), radius))
 }
 
-struct Search<'a> {
+/// Half width of the next box after a step with this ratio of the real gain to the predicted one.
+fn next_radius(radius: f64, ratio: f64, reach: f64) -> f64 {
+    if ratio < POOR || ratio.is_nan() {
+        SHRINK * radius.min(reach * radius)
+    } else if ratio > GOOD && reach > FULL_STEP {
+        (GROW * radius).min(1.0)
+    } else {
+        radius
+    }
+}
+
+/// Search in progress.
+struct MaxMinSearch<'a> {
     settings: &'a Settings,
     penalty: f64,
     /// Size of the value at the start.
     size: f64,
 }
 
-impl Search<'_> {
+/// Places of the unknowns of a linear problem: the steps of the unknowns over the distances of their bounds, the lack
+/// of the demands if there are demands, the values of the groups for a weighted goal, and last the height.
+struct LinearUnknowns {
+    lack: Option<usize>,
+    first_group: usize,
+    height: usize,
+}
+
+impl LinearUnknowns {
+    fn of(here: &Point, groups: usize) -> Self {
+        let count = here.x.len();
+        let has_demands = !here.evaluation.demands.is_empty();
+        let first_group = count + usize::from(has_demands);
+        Self { lack: has_demands.then_some(count), first_group, height: first_group + groups }
+    }
+
+    /// Number of unknowns.
+    fn count(&self) -> usize {
+        self.height + 1
+    }
+}
+
+impl MaxMinSearch<'_> {
     fn point(&self, x: Vec<f64>, evaluation: Evaluation) -> Point {
-        let lowest = |rows: &mut dyn Iterator<Item = &Row>| rows.map(|row| row.value).fold(f64::INFINITY, f64::min);
-        let value = match &self.settings.goal {
-            Goal::Worst => lowest(&mut evaluation.objectives.iter()),
-            Goal::Weighted(weights) => {
-                let of_group = |(group, weight): (usize, &f64)| {
-                    weight * lowest(&mut evaluation.objectives.iter().filter(|row| row.group == group))
-                };
-                weights.iter().enumerate().map(of_group).sum()
-            }
-        };
+        let value = self.settings.goal.value(&evaluation);
         let violation = evaluation.demands.iter().fold(0.0, |most: f64, row| most.max(-row.value));
         Point { x, evaluation, value, violation }
     }
@@ -277,88 +315,112 @@ impl Search<'_> {
         point.value / self.size - self.penalty * point.violation
     }
 
-    /// Solution of the linear problem within a box; `None` if rounding leaves none.
-    ///
-    /// Its unknowns are the step of every unknown over the distance of its bounds, the lack of the demands, the values
-    /// of the groups for a weighted goal, and last the height.
-    fn step(&self, here: &Point, radius: f64) -> Option<Step> {
-        let count = here.x.len();
-        let widths: Vec<f64> = self.settings.bounds.iter().map(|[low, high]| high - low).collect();
-        let has_demands = !here.evaluation.demands.is_empty();
-        let weights = match &self.settings.goal {
-            Goal::Worst => &[][..],
+    /// Weights of the groups; none for the minimum of all objectives.
+    fn weights(&self) -> &[f64] {
+        match &self.settings.goal {
+            Goal::Worst => &[],
             Goal::Weighted(weights) => weights,
-        };
-        let lack = count;
-        let first_group = count + usize::from(has_demands);
-        let height = first_group + weights.len();
-        let mut polyhedron = Polyhedron::new(height + 1);
-        let mut add = |normal: &[f64], level: f64| polyhedron.add(normal.iter(), 1.0, None, level);
-        let scaled = |row: &Row, size: f64| -> Vec<f64> {
-            let mut normal: Vec<f64> = row.gradient.iter().zip(&widths).map(|(g, width)| g * width / size).collect();
-            normal.resize(height + 1, 0.0);
-            normal
-        };
+        }
+    }
 
-        // Objectives above the height, or above the value of their group.
-        let lowest_of: Vec<f64> = (0..weights.len())
-            .map(|group| {
-                let own = here.evaluation.objectives.iter().filter(|row| row.group == group);
-                own.map(|row| row.value).fold(f64::INFINITY, f64::min)
-            })
-            .collect();
-        for row in &here.evaluation.objectives {
-            let mut normal = scaled(row, self.size);
-            if weights.is_empty() {
-                normal[height] = -1.0;
-                if has_demands {
-                    normal[lack] = -self.penalty;
-                }
-                add(&normal, (here.value - row.value) / self.size);
-            } else {
-                normal[first_group + row.group] = -1.0;
-                add(&normal, (lowest_of[row.group] - row.value) / self.size);
-            }
-        }
-        let objectives = here.evaluation.objectives.len();
+    /// Distances of the bounds.
+    fn widths(&self) -> Vec<f64> {
+        self.settings.bounds.iter().map(|[low, high]| high - low).collect()
+    }
 
-        // Demands, and their lack.
-        for row in &here.evaluation.demands {
-            let mut normal = scaled(row, 1.0);
-            normal[lack] = 1.0;
-            add(&normal, -row.value);
-        }
-        let mut fixed = vec![0.0; height + 1];
-        if has_demands {
-            fixed[lack] = 1.0;
-            add(&fixed, 0.0);
-            fixed[lack] = 0.0;
-        }
-        if !weights.is_empty() {
-            let mut normal = fixed.clone();
-            normal[first_group..height].copy_from_slice(weights);
-            if has_demands {
-                normal[lack] = -self.penalty;
-            }
-            normal[height] = -1.0;
-            add(&normal, 0.0);
-        }
+    /// Solution of the linear problem within a box; `None` if rounding leaves none.
+    fn step(&self, here: &Point, radius: f64) -> Option<Step> {
+        let unknowns = LinearUnknowns::of(here, self.weights().len());
+        let mut polyhedron = Polyhedron::new(unknowns.count());
+        self.add_objectives(&mut polyhedron, here, &unknowns);
+        self.add_demands(&mut polyhedron, here, &unknowns);
+        self.add_weighted_sum(&mut polyhedron, &unknowns);
+        self.add_box(&mut polyhedron, here, &unknowns, radius);
 
-        // The box within the bounds.
-        for (i, ([low, high], width)) in self.settings.bounds.iter().zip(&widths).enumerate() {
-            fixed[i] = 1.0;
-            add(&fixed, -radius.min((here.x[i] - low) / width));
-            fixed[i] = -1.0;
-            add(&fixed, -radius.min((high - here.x[i]) / width));
-            fixed[i] = 0.0;
-        }
-
-        let mut solution = vec![0.0; height + 1];
-        if has_demands {
+        let mut solution = vec![0.0; unknowns.count()];
+        if let Some(lack) = unknowns.lack {
             solution[lack] = here.violation;
         }
         let active = polyhedron.highest(&mut solution, 0.0)?;
-        let gain = solution[height] + self.penalty * here.violation;
+        Some(self.step_of(here, radius, &solution, &active))
+    }
+
+    /// Normal of a linearised function over its size, with zeros for all unknowns but the steps.
+    fn scaled(&self, row: &LinearisedFunction, size: f64, unknowns: &LinearUnknowns) -> Vec<f64> {
+        let widths = self.widths();
+        let mut normal: Vec<f64> = row.gradient.iter().zip(&widths).map(|(g, width)| g * width / size).collect();
+        normal.resize(unknowns.count(), 0.0);
+        normal
+    }
+
+    /// Adds the objectives: each is above the height, or above the value of its group.
+    fn add_objectives(&self, polyhedron: &mut Polyhedron, here: &Point, unknowns: &LinearUnknowns) {
+        let groups = self.weights().len();
+        let lowest_of: Vec<f64> = (0..groups).map(|group| here.evaluation.lowest(Some(group))).collect();
+        for row in &here.evaluation.objectives {
+            let mut normal = self.scaled(row, self.size, unknowns);
+            let lowest = if groups == 0 {
+                normal[unknowns.height] = -1.0;
+                if let Some(lack) = unknowns.lack {
+                    normal[lack] = -self.penalty;
+                }
+                here.value
+            } else {
+                normal[unknowns.first_group + row.group] = -1.0;
+                lowest_of[row.group]
+            };
+            polyhedron.add(normal.iter(), 1.0, None, (lowest - row.value) / self.size);
+        }
+    }
+
+    /// Adds the demands, each met up to the common lack, which is not negative.
+    fn add_demands(&self, polyhedron: &mut Polyhedron, here: &Point, unknowns: &LinearUnknowns) {
+        let Some(lack) = unknowns.lack else { return };
+        for row in &here.evaluation.demands {
+            let mut normal = self.scaled(row, 1.0, unknowns);
+            normal[lack] = 1.0;
+            polyhedron.add(normal.iter(), 1.0, None, -row.value);
+        }
+
+        let mut normal = vec![0.0; unknowns.count()];
+        normal[lack] = 1.0;
+        polyhedron.add(normal.iter(), 1.0, None, 0.0);
+    }
+
+    /// Adds the weighted sum of the values of the groups, less the penalty, which is above the height.
+    fn add_weighted_sum(&self, polyhedron: &mut Polyhedron, unknowns: &LinearUnknowns) {
+        let weights = self.weights();
+        if weights.is_empty() {
+            return;
+        }
+        let mut normal = vec![0.0; unknowns.count()];
+        normal[unknowns.first_group..unknowns.height].copy_from_slice(weights);
+        if let Some(lack) = unknowns.lack {
+            normal[lack] = -self.penalty;
+        }
+        normal[unknowns.height] = -1.0;
+        polyhedron.add(normal.iter(), 1.0, None, 0.0);
+    }
+
+    /// Adds the box within the bounds.
+    fn add_box(&self, polyhedron: &mut Polyhedron, here: &Point, unknowns: &LinearUnknowns, radius: f64) {
+        let mut normal = vec![0.0; unknowns.count()];
+        for (i, [low, high]) in self.settings.bounds.iter().enumerate() {
+            let width = high - low;
+            normal[i] = 1.0;
+            polyhedron.add(normal.iter(), 1.0, None, -radius.min((here.x[i] - low) / width));
+            normal[i] = -1.0;
+            polyhedron.add(normal.iter(), 1.0, None, -radius.min((high - here.x[i]) / width));
+            normal[i] = 0.0;
+        }
+    }
+
+    /// Step of a solution of the linear problem, whose last unknown is the height. Objectives and demands are its first
+    /// inequalities.
+    fn step_of(&self, here: &Point, radius: f64, solution: &[f64], active: &[Active]) -> Step {
+        let count = here.x.len();
+        let height = solution[solution.len() - 1];
+        let widths = self.widths();
         let moved = solution[..count].iter().fold(0.0, |most: f64, step| most.max(step.abs()));
         let x = (0..count).map(|i| {
             let [low, high] = self.settings.bounds[i];
@@ -367,18 +429,46 @@ impl Search<'_> {
         let multiplier = |row: usize| {
             active.iter().find(|active| active.row == row).map_or(0.0, |Active { multiplier, .. }| *multiplier)
         };
-        Some(Step {
+        let (objectives, demands) = (here.evaluation.objectives.len(), here.evaluation.demands.len());
+        Step {
             x: x.collect(),
-            gain,
+            gain: height + self.penalty * here.violation,
             reach: moved / radius,
             objective_shares: (0..objectives).map(multiplier).collect(),
-            demand_multipliers: (0..here.evaluation.demands.len())
-                .map(|k| multiplier(objectives + k) * self.size)
-                .collect(),
-        })
+            demand_multipliers: (0..demands).map(|k| multiplier(objectives + k) * self.size).collect(),
+        }
     }
 
-    /// Derivatives of the Lagrangian at the bounds, outwards.
+    /// Result at the last point, with the multipliers of the linear problem there.
+    fn found(
+        &self,
+        here: Point,
+        ending: MaxMinEnding,
+        (iterations, evaluations): (usize, usize),
+        radius: f64,
+    ) -> Found {
+        let last = self.step(&here, radius.max(MULTIPLIER_RADIUS * MIN_RADIUS));
+        let (objective_shares, demand_multipliers) = last.map_or_else(
+            || (vec![0.0; here.evaluation.objectives.len()], vec![0.0; here.evaluation.demands.len()]),
+            |step| (step.objective_shares, step.demand_multipliers),
+        );
+        let bound_multipliers = self.bound_multipliers(&here, &objective_shares, &demand_multipliers);
+
+        Found {
+            value: here.value,
+            violation: here.violation,
+            x: here.x,
+            evaluation: here.evaluation,
+            ending,
+            iterations,
+            evaluations,
+            objective_shares,
+            demand_multipliers,
+            bound_multipliers,
+        }
+    }
+
+    /// Multipliers of the bounds: derivatives of the Lagrangian that are left at a bound, outwards.
     fn bound_multipliers(&self, here: &Point, shares: &[f64], demands: &[f64]) -> Vec<f64> {
         let rows = here.evaluation.objectives.iter().zip(shares);
         let rows: Vec<_> = rows.chain(here.evaluation.demands.iter().zip(demands)).collect();
@@ -403,14 +493,14 @@ mod tests {
     /// Problem from closures.
     struct Of<F>(F);
 
-    impl<F: FnMut(&[f64]) -> Option<Evaluation>> Problem for Of<F> {
+    impl<F: FnMut(&[f64]) -> Option<Evaluation>> MaxMinProblem for Of<F> {
         fn evaluate(&mut self, x: &[f64]) -> Option<Evaluation> {
             (self.0)(x)
         }
     }
 
-    fn row(value: f64, gradient: &[f64]) -> Row {
-        Row { value, gradient: gradient.to_vec(), group: 0 }
+    fn row(value: f64, gradient: &[f64]) -> LinearisedFunction {
+        LinearisedFunction { value, gradient: gradient.to_vec(), group: 0 }
     }
 
     fn settings(bounds: Vec<[f64; 2]>, tolerance: f64) -> Settings {
@@ -433,14 +523,14 @@ mod tests {
             })
         });
         let found = maximise(&mut problem, &[1.0, -0.1], &settings(vec![[-5.0, 5.0]; 2], 1e-10)).unwrap();
-        assert_eq!(found.ending, Ending::Converged);
+        assert_eq!(found.ending, MaxMinEnding::Converged);
         assert!((found.value + 1.952_224_5).abs() < 1e-6, "{found:?}");
         assert!((found.x[0] - 1.139_038).abs() < 1e-3 && (found.x[1] - 0.899_560).abs() < 1e-3, "{found:?}");
         assert!((found.objective_shares.iter().sum::<f64>() - 1.0).abs() < 1e-9, "{found:?}");
     }
 
     /// The largest x + 2y within a circle of radius one and with y at most 0.6: at (0.8, 0.6), where the demand has the
-    /// multiplier 1/(2·0.8) and the bound what is left, 2 − 0.6/0.8. Both are compared with optima beside it.
+    /// multiplier 1/(2·0.8) and the bound the rest, 2 − 0.6/0.8. Both are compared with optima beside it.
     #[test]
     fn multipliers_are_the_gains_of_wider_limits() {
         let solve = |radius: f64, top: f64| {
@@ -482,7 +572,7 @@ mod tests {
     fn weights_sum_the_lowest_of_every_group() {
         let of = |goal: Goal| {
             let mut problem = Of(|x: &[f64]| {
-                let parabola = |at: f64, height: f64, group: usize| Row {
+                let parabola = |at: f64, height: f64, group: usize| LinearisedFunction {
                     value: height - (x[0] - at).powi(2),
                     gradient: vec![-2.0 * (x[0] - at)],
                     group,

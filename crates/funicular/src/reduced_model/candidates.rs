@@ -1,27 +1,27 @@
-//! Modes from which a state space is chosen: damped modes of the second-order model below a frequency, and a few motions
-//! that replace all modes above it.
+//! Modes from which a state space is chosen: damped modes of the second-order model below a frequency, and a few
+//! motions that replace all modes above it.
 //!
-//! In undamped modes of unit modal mass the model is `q̈ + C q̇ + Ω² q = B f`, `y = L q`. Its dynamic stiffness
-//! `D(s) = Ω² + s C + s²` is symmetric, so that the left eigenvectors are the right ones, for any damping. The eigenvalues
-//! with viscous damping are the starts of those with constant damping ratios (docs/theory.md, section 13).
+//! In undamped modes of unit modal mass the model is `q̈ + C q̇ + Ω² q = B f`, `y = L q`. Its dynamic stiffness `D(s) =
+//! Ω² + s C + s²` is symmetric, so that the left eigenvectors are the right ones, for any damping. The eigenvalues with
+//! viscous damping are the starts of those with constant damping ratios (docs/theory.md, section 13).
 
 use super::matrices::Matrices;
-use super::reference::Reference;
+use super::reference::ReferenceResponses;
 use super::{InPowersOfS, ReductionError, SecondOrder, polynomial};
 use crate::math::eigenvectors::upper_eigen;
 use crate::math::{CDMat, Complex, DMat, DVec, order};
 
-/// Maximum number of modes that are chosen from: the eigenvalue problem has twice as many rows. A controller for more
-/// is not made.
+/// Maximum number of modes from which a state space is chosen. The eigenvalue problem has twice as many rows, and
+/// nobody designs a controller for more modes.
 const MAX_CANDIDATES: usize = 200;
-/// Fraction of the requested error that modes below this size may make in sum. They are left out at once.
+/// Maximum sum of the sizes of the modes that are left out at once, as a fraction of the requested error.
 const NEGLIGIBLE: f64 = 0.01;
-/// Relative size of a motion, among those that replace the higher modes, below which it is left out.
+/// Minimum relative size of a motion among those that replace the higher modes. A smaller one is left out.
 const INDEPENDENT: f64 = 1e-8;
-/// Relative distance of eigenvalues, in half widths of the peak, below which they are one multiple eigenvalue.
-/// Rounding separates them by about 1e-9.
+/// Maximum distance of eigenvalues that count as one multiple eigenvalue, in half widths of the peak. Rounding
+/// separates them by about 1e-9.
 pub(super) const MULTIPLE: f64 = 1e-6;
-/// Fraction of the energy of motions that replace higher modes, from which a mode is one of them.
+/// Minimum fraction of the kinetic energy in motions that replace higher modes, for a mode that counts as one of them.
 const RESIDUAL_SHARE: f64 = 0.5;
 
 /// Undamped modes of a second-order model, ascending in frequency, of unit modal mass.
@@ -92,7 +92,7 @@ impl ModalModel {
 
     /// Modes below `limit` [rad/s] that the inputs and outputs see, and in place of all modes above it the motions that
     /// keep the value and the slope of their responses at zero frequency. `tolerance` is the error that is wanted.
-    pub(super) fn candidates(&self, limit: f64, reference: &Reference, tolerance: f64) -> Self {
+    pub(super) fn candidates(&self, limit: f64, reference: &ReferenceResponses, tolerance: f64) -> Self {
         let below = self.omega.iter().filter(|omega| **omega < limit).count();
         let seen = self.seen(below, reference, tolerance);
         let higher = self.residual_motions(below, reference);
@@ -125,9 +125,9 @@ impl ModalModel {
         }
     }
 
-    /// The first modes, `below` in number, without those that no input and output see. Losses of drives couple the modes,
-    /// so that all of them count.
-    fn seen(&self, below: usize, reference: &Reference, tolerance: f64) -> Vec<usize> {
+    /// The first modes, `below` in number, without those that no input and output see. Losses of drives couple the
+    /// modes, so that all of them count.
+    fn seen(&self, below: usize, reference: &ReferenceResponses, tolerance: f64) -> Vec<usize> {
         let last_hz = reference.frequencies_hz.last().expect("there are frequencies");
         let limit = last_hz * std::f64::consts::TAU;
 
@@ -142,7 +142,7 @@ impl ModalModel {
                     let s = Complex::new(0.0, at);
                     let product = at_entry(&self.output, s, (pair % outputs, k)).norm()
                         * at_entry(&self.input, s, (k, pair / outputs)).norm();
-                    let derivatives = super::reference::derivatives(reference.quantity(pair)).cast_signed();
+                    let derivatives = reference.quantity(pair).derivatives().cast_signed();
                     product * amplification * at.powi(derivatives) / reference.sizes[pair]
                 };
                 ((0..reference.pairs()).map(height).fold(0.0, f64::max), k)
@@ -166,7 +166,7 @@ impl ModalModel {
 
     /// Motions of the modes from number `below` on that the inputs excite slowly and the outputs measure, as columns
     /// that are modes among themselves.
-    fn residual_motions(&self, below: usize, reference: &Reference) -> DMat {
+    fn residual_motions(&self, below: usize, reference: &ReferenceResponses) -> DMat {
         let count = self.omega.len() - below;
         if count == 0 {
             return DMat::zeros(0, 0);
@@ -210,8 +210,8 @@ impl ModalModel {
         span * eigen.eigenvectors
     }
 
-    /// Damped modes, each with its residues. Equal eigenvalues are one of them. `parts` gets the numbers of finished and
-    /// of all eigenvalues; its error ends the work.
+    /// Damped modes, each with its residues. Equal eigenvalues are one of them. `parts` gets the numbers of finished
+    /// and of all eigenvalues; its error ends the work.
     ///
     /// # Errors
     /// [`ReductionError::Eigenvalues`] if the eigenvalue problem cannot be solved.
@@ -281,8 +281,8 @@ impl ModalModel {
         })
     }
 
-    /// Dynamic stiffness `D(s) = Ω² + iS + s C + s² (1 − 2iΞ)` for an oscillation, with the constant ratios. For a decay
-    /// without oscillation, to which no ratio belongs, with the viscous damping that replaces them.
+    /// Dynamic stiffness `D(s) = Ω² + iS + s C + s² (1 − 2iΞ)` for an oscillation, with the constant ratios. For a
+    /// decay without oscillation, to which no ratio belongs, with the viscous damping that replaces them.
     fn dynamic_stiffness(&self, s: Complex) -> CDMat {
         let (viscous, of_ratio, of_support) = self.losses_at(s);
         let mut stiffness = viscous.zip_zip_map(&self.ratios, &self.losses, |c, ratio, loss| {
@@ -373,6 +373,7 @@ pub(super) struct DampedPair {
 /// Joins neighbours whose eigenvalues differ by less than `width` half widths of their peaks.
 pub(super) fn joined(pairs: &[DampedPair], width: f64) -> Vec<DampedPair> {
     let mut joined: Vec<(DampedPair, Complex)> = Vec::new();
+
     for pair in pairs {
         // The eigenvalue of a group stays near its first one.
         match joined.last_mut() {
@@ -392,5 +393,6 @@ pub(super) fn joined(pairs: &[DampedPair], width: f64) -> Vec<DampedPair> {
             _ => joined.push((pair.clone(), pair.value)),
         }
     }
+
     joined.into_iter().map(|(pair, _)| pair).collect()
 }

@@ -1,7 +1,7 @@
 //! Inputs and outputs of a reduced model on the linearised robot.
 
 use super::ReductionError;
-use super::matrices::Layout;
+use super::matrices::CoordinateLayout;
 use crate::cable::catenary_dynamic::{EndSignal, InPowersOfS};
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, DMat, Vec3, Vec6};
@@ -42,10 +42,11 @@ impl Channels {
     }
 
     /// Row of a port over the coordinates, in powers of s.
-    fn row(port: &Port, dynamics: &Dynamics, layout: &Layout) -> InPowersOfS<Vec<f64>> {
+    fn row(port: &Port, dynamics: &Dynamics, layout: &CoordinateLayout) -> InPowersOfS<Vec<f64>> {
         let zeros = || vec![0.0; layout.coordinates.len()];
         let mut row = [zeros(), zeros(), zeros()];
         let coordinates = |vector: &Vec6| dynamics.coordinates().motion().reduced(vector);
+
         match port {
             Port::Platform(vector) => {
                 row[0][..layout.dof].copy_from_slice(&coordinates(vector).as_slice()[..layout.dof]);
@@ -65,6 +66,7 @@ impl Channels {
                     row[0][layout.first_support..].copy_from_slice(constant);
                     row[2][layout.first_support..].copy_from_slice(&supports.inertia_of_feet(feet));
                 }
+
                 for (term, motion) in frame.carriers() {
                     let Some(powers) = dynamics.carrier_row(term, motion) else {
                         unreachable!("other models were refused")
@@ -81,17 +83,19 @@ impl Channels {
                     let from = layout.first_of_term[term];
                     row[0][from..from + amplitudes.len()].copy_from_slice(&amplitudes);
                 }
+
                 let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
                 let by_far_end = axes.map(|axis| stations.still_by_far_end(*station, direction_w, &axis));
                 let on_supports = dynamics.station_row_on_supports(stations.cable, by_far_end, &amplitudes);
                 row[0][layout.first_support..].copy_from_slice(&on_supports);
             }
         }
+
         row
     }
 
     /// Matrices of ports by powers of s, one row per port.
-    pub(super) fn rows(ports: &[Port], dynamics: &Dynamics, layout: &Layout) -> InPowersOfS<DMat> {
+    pub(super) fn rows(ports: &[Port], dynamics: &Dynamics, layout: &CoordinateLayout) -> InPowersOfS<DMat> {
         let rows: Vec<_> = ports.iter().map(|port| Self::row(port, dynamics, layout)).collect();
         from_fn(|power| DMat::from_fn(ports.len(), layout.coordinates.len(), |i, j| rows[i][power][j]))
     }
@@ -107,8 +111,8 @@ impl Channels {
         all.map(|(term, signal)| (dynamics.terms()[term].cable(), signal)).collect()
     }
 
-    /// Outputs per inputs with all coordinates at rest, in powers of s, outputs×inputs. Input and output of the drive of
-    /// one cable have such a part, and so has an output on a cable whose far end the input moves.
+    /// Outputs per inputs with all coordinates at rest, in powers of s, outputs×inputs. Input and output of the drive
+    /// of one cable have such a part, and so has an output on a cable whose far end the input moves.
     pub(super) fn direct(&self, dynamics: &Dynamics) -> InPowersOfS<DMat> {
         let entry = |output: &Port, input: &Port| match (input, output) {
             (Port::Drive { term, signal: input, .. }, Port::Drive { term: of_output, signal: output, .. })
@@ -131,6 +135,7 @@ impl Channels {
             }
             _ => [0.0; 3],
         };
+
         let size = (self.outputs.len(), self.inputs.len());
         from_fn(|power| DMat::from_fn(size.0, size.1, |o, i| entry(&self.outputs[o], &self.inputs[i])[power]))
     }

@@ -7,8 +7,8 @@
 
 use super::candidates::{DampedPair, MULTIPLE, ModalModel, joined};
 use super::expansion::Expansion;
-use super::reference::{Maximum, Reference};
-use super::selection::{RemainingDifference, Size, chosen};
+use super::reference::{Maximum, ReferenceResponses};
+use super::selection::{RemainingDifference, StateSpaceSize, chosen};
 use super::steps::{STEPS, Steps};
 use super::terms::{RealBlock, Term, terms};
 use super::{
@@ -17,7 +17,7 @@ use super::{
 };
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, DMat};
-use crate::modes::{self, Kind};
+use crate::modes::{self, Kind, Mode};
 use crate::reduced_model::DampingAt;
 use crate::response::Signal;
 use crate::robot::Robot;
@@ -31,7 +31,7 @@ pub struct RequestedStateSpace {
     /// Highest frequency [Hz].
     pub below_hz: f64,
     /// Number of states, or the error.
-    pub size: Size,
+    pub size: StateSpaceSize,
     /// Treatment of constant damping ratios.
     pub damping_at: DampingAt,
 }
@@ -70,13 +70,13 @@ pub struct ResponseOfPair {
     pub error: f64,
     /// Frequency of this maximum [Hz].
     pub error_hz: f64,
-    /// False if the response is below a millionth of the responses that input and output have otherwise, as by symmetry.
-    /// Its error is then relative to those.
+    /// False if the response is below a millionth of the responses that input and output have otherwise, as by
+    /// symmetry. Its error is then relative to those.
     pub coupled: bool,
 }
 
-/// Largest error relative to the response at the same frequency, where this is above a millionth of its peak. It is large
-/// beside a zero of the response.
+/// Largest error relative to the response at the same frequency, where this is above a millionth of its peak. It is
+/// large beside a zero of the response.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointwiseError {
     /// Index of the output.
@@ -125,7 +125,7 @@ const JOINED: [f64; 2] = [MULTIPLE, 0.3];
 const OMITTED: f64 = 0.1;
 /// Maximum requested error for the same purpose. The stated error of damping is as accurate as this model.
 const MAX_TOLERANCE: f64 = 1e-3;
-/// Rounds in which frequencies of large errors are added to those at which modes are chosen.
+/// Maximum number of rounds. Each adds the frequencies of the largest errors to those at which modes are chosen.
 const MAX_ROUNDS: usize = 6;
 
 /// Steps for the responses of the full model, the number of clamped modes, the modes of the second-order model and the
@@ -142,21 +142,27 @@ const SETS: Range<usize> = 30..70;
 /// # Example
 /// ```
 /// # use funicular::{dynamics::{Dynamics, Linearisation}, math::Vec3, robot::Robot, statics::{self, StaticModel}};
-/// # use funicular::{reduced_model::{DampingAt, RequestedStateSpace, Size, control_model}, response::{Quantity, Signal}};
+/// # use funicular::reduced_model::{DampingAt, RequestedStateSpace, StateSpaceSize, control_model};
+/// # use funicular::response::{Quantity, Signal};
 /// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// # let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
 /// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
 /// let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0)?;
 /// let fz = Signal::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() };
-/// let requested = RequestedStateSpace { below_hz: 5.0, size: Size::Tolerance(0.05), damping_at: DampingAt::NaturalFrequencies };
-/// let model = control_model(&robot, &rest, &dynamics, &[fz], &[(fz, Quantity::Acceleration)], requested, &mut |_| true)?;
+/// let requested = RequestedStateSpace {
+///     below_hz: 5.0,
+///     size: StateSpaceSize::Tolerance(0.05),
+///     damping_at: DampingAt::NaturalFrequencies,
+/// };
+/// let output = (fz, Quantity::Acceleration);
+/// let model = control_model(&robot, &rest, &dynamics, &[fz], &[output], requested, &mut |_| true)?;
 /// assert!(model.error <= 0.05 && model.space.a.nrows() < 20);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// [`ReductionError`]; among others, a tolerance that no choice of modes keeps, a robot without damping, and an unstable
-/// equilibrium.
+/// [`ReductionError`]; among others, a tolerance that no choice of modes keeps, a robot without damping, and an
+/// unstable equilibrium.
 ///
 /// # References
 /// W. Gawronski, Advanced Structural Dynamics and Active Control of Structures, Springer 2004, chapters 4 and 6;
@@ -174,20 +180,16 @@ pub fn control_model(
     check_cables(robot, dynamics)?;
     let RequestedStateSpace { below_hz, size, damping_at } = requested;
     let tolerance = match size {
-        Size::Order(_) => MAX_TOLERANCE,
-        Size::Tolerance(tolerance) => tolerance.min(MAX_TOLERANCE),
+        StateSpaceSize::Order(_) => MAX_TOLERANCE,
+        StateSpaceSize::Tolerance(tolerance) => tolerance.min(MAX_TOLERANCE),
     };
 
     // The full model and its peaks.
-    let listed = modes::below(dynamics, below_hz);
-    steps.reached(&FULL, 1, 2)?;
-    if let Some(mode) = listed.modes.iter().find(|mode| mode.damping_ratio < MIN_DAMPING) {
-        return Err(ReductionError::Undamped { frequency_hz: mode.frequency_hz });
-    }
+    let modes = damped_modes(dynamics, below_hz, &mut steps)?;
     let loaded = inputs.iter().any(|signal| matches!(signal, Signal::OnCable { .. }));
     let full = Channels::new(robot, equilibrium, dynamics, inputs, outputs, loaded)?;
     let quantities: Vec<Quantity> = outputs.iter().map(|(_, quantity)| *quantity).collect();
-    let mut reference = Reference::new(dynamics, &full, &quantities, &listed.modes, below_hz)?;
+    let mut reference = ReferenceResponses::new(dynamics, &full, &quantities, &modes, below_hz)?;
     if reference.peaks.iter().all(|peak| peak.value == 0.0) {
         return Err(ReductionError::NoResponse);
     }
@@ -196,72 +198,132 @@ pub fn control_model(
     let of_second_order = RequestedModel { below_hz, tolerance, damping_at };
     let (cut, second_order) = cut(robot, equilibrium, inputs, outputs, &reference, of_second_order, &mut steps)?;
     steps.reached(&MODES, 1, 2)?;
-    let complete_order = 2 * second_order.mass.nrows();
-    let mut parts = matrices(&cut).1;
-    if let DampingAt::Hz(_) = damping_at {
-        // Viscous damping as it was requested.
-        let none = &second_order.damping * 0.0;
-        (parts.damping, parts.ratio, parts.loss) = (second_order.damping.clone(), none.clone(), none);
-    }
-    let modal = ModalModel::new(&second_order, &parts, &cut.platform_blocks().mass);
-    let modal = modal.ok_or(ReductionError::Unstable)?;
+    let modal = modal_model(&second_order, &cut, damping_at)?;
 
     // Sets of modes to choose from, and the error with all modes that matter.
-    type Parts<'a> = &'a mut dyn FnMut(usize, usize) -> Result<(), ReductionError>;
-    let sets_from = |ratio: f64, reference: &Reference, parts: Parts<'_>| -> Result<Vec<Vec<Term>>, ReductionError> {
-        let pairs = modal.candidates(ratio * below_hz * TAU, reference, tolerance).damped(parts)?;
+    let candidates = TermCandidates { modal: &modal, below_hz, tolerance };
+    let (sets, damping_error) = candidates.all(&reference, cut.has_damping_ratios(), &mut steps)?;
+
+    // The choice.
+    let (chosen, errors) = candidates.choose(sets, &mut reference, size, &mut steps)?;
+    let made = Made {
+        error: largest(&errors, &reference.sizes),
+        damping_error,
+        complete_order: 2 * second_order.mass.nrows(),
+        modes_below: modes.len(),
+        below_hz,
+    };
+    Ok(chosen.model(&reference, &errors, made))
+}
+
+/// Modes below a limit [Hz], all of them damped.
+fn damped_modes(dynamics: &Dynamics, below_hz: f64, steps: &mut Steps<'_>) -> Result<Vec<Mode>, ReductionError> {
+    let modes = modes::below(dynamics, below_hz).modes;
+    steps.reached(&FULL, 1, 2)?;
+    match modes.iter().find(|mode| mode.damping_ratio < MIN_DAMPING) {
+        Some(mode) => Err(ReductionError::Undamped { frequency_hz: mode.frequency_hz }),
+        None => Ok(modes),
+    }
+}
+
+/// Undamped modes of the second-order model `model` of the robot `cut`.
+fn modal_model(model: &SecondOrder, cut: &Dynamics, damping_at: DampingAt) -> Result<ModalModel, ReductionError> {
+    let mut parts = matrices(cut).1;
+    if let DampingAt::Hz(_) = damping_at {
+        // Viscous damping as it was requested.
+        let none = &model.damping * 0.0;
+        (parts.damping, parts.ratio, parts.loss) = (model.damping.clone(), none.clone(), none);
+    }
+    ModalModel::new(model, &parts, &cut.platform_blocks().mass).ok_or(ReductionError::Unstable)
+}
+
+/// Modes from which a state space is chosen.
+struct TermCandidates<'a> {
+    modal: &'a ModalModel,
+    /// Highest frequency [Hz].
+    below_hz: f64,
+    /// Error of the second-order model.
+    tolerance: f64,
+}
+
+impl TermCandidates<'_> {
+    /// Sets of the modes below `ratio` times the limit and of the motions that replace the modes above it: one set per
+    /// distance of [`JOINED`], without sets that are equal to the first. `parts` gets the numbers of finished and of
+    /// all eigenvalues; its error ends the work.
+    fn sets(
+        &self,
+        ratio: f64,
+        reference: &ReferenceResponses,
+        parts: &mut dyn FnMut(usize, usize) -> Result<(), ReductionError>,
+    ) -> Result<Vec<Vec<Term>>, ReductionError> {
+        let pairs = self.modal.candidates(ratio * self.below_hz * TAU, reference, self.tolerance).damped(parts)?;
         let apart = JOINED.map(|width| joined(&pairs, width)).into_iter();
         let different = apart.enumerate().filter(|(i, joined)| *i == 0 || joined.len() < pairs.len());
         let of_all = |joined: Vec<DampedPair>| joined.iter().flat_map(|pair| terms(pair, reference)).collect();
         Ok(different.map(|(_, joined)| of_all(joined)).collect())
-    };
-    let mut sets: Vec<Vec<Term>> = Vec::new();
-    let mut damping_error = 0.0;
-    for (i, ratio) in REPLACED_FROM.into_iter().enumerate() {
-        let phase = part(&SETS, i, REPLACED_FROM.len());
-        let added = sets_from(ratio, &reference, &mut |done, all| steps.reached(&phase, done, all))?;
-        if cut.has_damping_ratios() {
-            damping_error = RemainingDifference::of_all(&reference, &added[0]).largest();
-        }
-        sets.extend(added);
     }
 
-    // Choose, search for the largest errors, and choose again with these frequencies.
-    let mut has_all_modes = false;
-    let mut left = SETS.end..STEPS;
-    for round in 0..MAX_ROUNDS {
-        // One round is usually enough: each takes half of the steps that are left.
-        let phase = part(&left, 0, 2);
-        left.start = phase.end;
-        let mut found = chosen(&sets, &reference, size, &mut |done, all| steps.reached(&phase, done, all));
-        if matches!(found, Err(ReductionError::Tolerance { .. })) && !has_all_modes {
-            has_all_modes = true;
-            let reached = &mut |_, _| steps.reached(&left, 0, 1);
-            sets.extend(sets_from(f64::INFINITY, &reference, reached)?);
-            found = chosen(&sets, &reference, size, reached);
-        }
-        let chosen = Chosen { terms: found? };
-        let static_part = chosen.static_part(&reference);
-        let errors = reference.maxima(&mut |frequency_hz, values| {
-            let model = chosen.response(frequency_hz, &static_part);
-            values.iter().zip(model).map(|(full, reduced)| (full - reduced).norm()).collect()
-        })?;
-        let error = largest(&errors, &reference.sizes);
-
-        let kept = match size {
-            Size::Order(_) => true,
-            Size::Tolerance(tolerance) => error <= tolerance,
-        };
-        if kept || round + 1 == MAX_ROUNDS {
-            if let (false, Size::Tolerance(requested)) = (kept, size) {
-                return Err(ReductionError::Tolerance { requested, reached: error, order: chosen.order() });
+    /// Sets for all ratios of [`REPLACED_FROM`], and the error by damping ratios that is left with every mode.
+    fn all(
+        &self,
+        reference: &ReferenceResponses,
+        has_damping_ratios: bool,
+        steps: &mut Steps<'_>,
+    ) -> Result<(Vec<Vec<Term>>, f64), ReductionError> {
+        let mut sets: Vec<Vec<Term>> = Vec::new();
+        let mut damping_error = 0.0;
+        for (i, ratio) in REPLACED_FROM.into_iter().enumerate() {
+            let phase = part(&SETS, i, REPLACED_FROM.len());
+            let added = self.sets(ratio, reference, &mut |done, all| steps.reached(&phase, done, all))?;
+            if has_damping_ratios {
+                damping_error = RemainingDifference::of_all(reference, &added[0]).largest();
             }
-            let modes_below = listed.modes.len();
-            let made = Made { error, damping_error, complete_order, modes_below, below_hz };
-            return Ok(chosen.model(&reference, &errors, made));
+            sets.extend(added);
         }
+        Ok((sets, damping_error))
     }
-    unreachable!("the last round returns")
+
+    /// Chooses terms, searches for the largest errors, and chooses again with the frequencies of these. The result are
+    /// the terms and the maximum error of each pair.
+    fn choose(
+        &self,
+        mut sets: Vec<Vec<Term>>,
+        reference: &mut ReferenceResponses,
+        size: StateSpaceSize,
+        steps: &mut Steps<'_>,
+    ) -> Result<(Chosen, Vec<Maximum>), ReductionError> {
+        let mut has_all_modes = false;
+        let mut left = SETS.end..STEPS;
+        for round in 0..MAX_ROUNDS {
+            // One round is usually enough: each takes half of the steps that are left.
+            let phase = part(&left, 0, 2);
+            left.start = phase.end;
+            let mut found = chosen(&sets, reference, size, &mut |done, all| steps.reached(&phase, done, all));
+            if matches!(found, Err(ReductionError::Tolerance { .. })) && !has_all_modes {
+                has_all_modes = true;
+                let reached = &mut |_, _| steps.reached(&left, 0, 1);
+                sets.extend(self.sets(f64::INFINITY, reference, reached)?);
+                found = chosen(&sets, reference, size, reached);
+            }
+
+            let chosen = Chosen { terms: found? };
+            let static_part = chosen.static_part(reference);
+            let errors = reference.maxima(&mut |frequency_hz, values| {
+                let model = chosen.response(frequency_hz, &static_part);
+                values.iter().zip(model).map(|(full, reduced)| (full - reduced).norm()).collect()
+            })?;
+
+            let StateSpaceSize::Tolerance(requested) = size else { return Ok((chosen, errors)) };
+            let reached = largest(&errors, &reference.sizes);
+            if reached <= requested {
+                return Ok((chosen, errors));
+            }
+            if round + 1 == MAX_ROUNDS {
+                return Err(ReductionError::Tolerance { requested, reached, order: chosen.order() });
+            }
+        }
+        unreachable!("the last round returns")
+    }
 }
 
 /// Steps of part `i` of `parts` equal parts of a phase.
@@ -270,7 +332,7 @@ fn part(phase: &Range<usize>, i: usize, parts: usize) -> Range<usize> {
     step(i)..step(i + 1)
 }
 
-/// Damping ratio below which a peak is not finite in practice.
+/// Minimum damping ratio. The peak of a mode with less damping counts as infinite.
 const MIN_DAMPING: f64 = 1e-9;
 
 /// Copy of the robot with as few clamped modes of the cables as the tolerance allows, and its second-order model.
@@ -279,7 +341,7 @@ fn cut(
     equilibrium: &Equilibrium,
     inputs: &[Signal],
     outputs: &[(Signal, Quantity)],
-    reference: &Reference,
+    reference: &ReferenceResponses,
     requested: RequestedModel,
     steps: &mut Steps<'_>,
 ) -> Result<(Dynamics, SecondOrder), ReductionError> {
@@ -299,25 +361,18 @@ fn cut(
         let Ok(values) = reference.of_other(&cut, &channels) else { continue };
         let differences: Vec<Complex> = values.iter().zip(&reference.values).map(|(a, b)| a - b).collect();
         let pairs = reference.pairs();
-        let error = differences
-            .iter()
-            .enumerate()
-            .map(|(at, difference)| {
-                let pair = at % pairs;
-                let constant = if reference.quantity(pair) == Quantity::Displacement {
-                    Complex::from(differences[pair].re)
-                } else {
-                    0.0.into()
-                };
-                (difference - constant).norm() / reference.sizes[pair]
-            })
-            .fold(0.0, f64::max);
-        if error > allowed {
+        let error_at = |(at, difference): (usize, &Complex)| {
+            let pair = at % pairs;
+            let is_displacement = reference.quantity(pair) == Quantity::Displacement;
+            let constant = Complex::from(if is_displacement { differences[pair].re } else { 0.0 });
+            (difference - constant).norm() / reference.sizes[pair]
+        };
+        if differences.iter().enumerate().map(error_at).fold(0.0, f64::max) > allowed {
             continue;
         }
 
-        // Few modes leave a part of the response to a commanded length or a motion of the frame that follows its rate, which
-        // no mode has.
+        // Few modes leave a part of the response to a commanded length or a motion of the frame that follows its rate,
+        // which no mode has.
         let model = model()?;
         if !ends.is_empty() {
             let expansion = Expansion::of(&model);
@@ -335,6 +390,7 @@ fn cut(
     unreachable!("the last ratio keeps all modes")
 }
 
+/// Maximum error of all pairs, relative to their sizes.
 fn largest(errors: &[Maximum], sizes: &[f64]) -> f64 {
     errors.iter().zip(sizes).map(|(error, size)| error.value / size).fold(0.0, f64::max)
 }
@@ -361,7 +417,7 @@ impl Chosen {
     }
 
     /// Feedthrough of all pairs: the static displacement that the terms do not have, and the terms' own.
-    fn static_part(&self, reference: &Reference) -> Vec<f64> {
+    fn static_part(&self, reference: &ReferenceResponses) -> Vec<f64> {
         let mut constants = reference.at_rest.clone();
         for term in &self.terms {
             for (sum, constant) in constants.iter_mut().zip(&term.constants) {
@@ -370,7 +426,7 @@ impl Chosen {
         }
         // Rounding is no feedthrough.
         for (constant, size) in constants.iter_mut().zip(&reference.sizes) {
-            if constant.abs() < NO_FEEDTHROUGH * size {
+            if constant.abs() < MIN_FEEDTHROUGH * size {
                 *constant = 0.0;
             }
         }
@@ -388,7 +444,7 @@ impl Chosen {
     }
 
     /// State space in real coordinates, with its errors.
-    fn model(&self, reference: &Reference, errors: &[Maximum], made: Made) -> ControlModel {
+    fn model(&self, reference: &ReferenceResponses, errors: &[Maximum], made: Made) -> ControlModel {
         let (n, outputs) = (self.order(), reference.output_scale.len());
         let inputs = reference.input_scale.len();
         let static_part = self.static_part(reference);
@@ -441,7 +497,7 @@ impl Chosen {
     }
 
     /// Largest error relative to the response at the same frequency, over the pairs that have a response.
-    fn pointwise(&self, reference: &Reference, static_part: &[f64]) -> PointwiseError {
+    fn pointwise(&self, reference: &ReferenceResponses, static_part: &[f64]) -> PointwiseError {
         let outputs = reference.output_scale.len();
         let mut worst = PointwiseError { output: 0, input: 0, error: 0.0, frequency_hz: 0.0, response: 1.0 };
         let at_each = reference.values.chunks_exact(reference.pairs());
@@ -450,7 +506,7 @@ impl Chosen {
             for (pair, (full, reduced)) in values.iter().zip(model).enumerate() {
                 let error = (full - reduced).norm() / full.norm();
                 let response = full.norm() / reference.peaks[pair].value;
-                if reference.is_coupled(pair) && response > NO_RESPONSE && error > worst.error {
+                if reference.is_coupled(pair) && response > MIN_RESPONSE && error > worst.error {
                     let (output, input) = (pair % outputs, pair / outputs);
                     worst = PointwiseError { output, input, error, frequency_hz, response };
                 }
@@ -460,9 +516,9 @@ impl Chosen {
     }
 }
 
-/// Response relative to its peak below which an error relative to it has no meaning, as that of an acceleration at
-/// frequencies near zero.
-const NO_RESPONSE: f64 = 1e-6;
+/// Minimum response, relative to its peak, for which an error relative to the response has a meaning. An acceleration
+/// at frequencies near zero is smaller.
+const MIN_RESPONSE: f64 = 1e-6;
 
-/// Feedthrough relative to the peak of a pair below which it is rounding.
-const NO_FEEDTHROUGH: f64 = 1e-10;
+/// Minimum feedthrough, relative to the peak of a pair. A smaller one is rounding.
+const MIN_FEEDTHROUGH: f64 = 1e-10;

@@ -1,10 +1,10 @@
-//! Reasons for which there is no reduced model.
+//! Reasons why there is no reduced model.
 
 use crate::cable_motion::CableMotionError;
 use crate::response::ResponseError;
 use thiserror::Error;
 
-/// Reason for which there is no reduced model.
+/// Reason why there is no reduced model.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ReductionError {
     /// A cable is in the shallow-dynamic model.
@@ -16,8 +16,8 @@ pub enum ReductionError {
     /// The control of a motor has a delay.
     #[error(
         "the control of the motor of cable \"{cable}\" has a delay of {delay_s} s, which no second-order model and no \
-         state space can have: set `delay_s = 0` in its winch and put the delay into the controller as a Padé approximation, \
-         or compute responses with `frf`, which has the delay"
+         state space can have: set `delay_s = 0` in its winch and put the delay into the controller as a Padé \
+         approximation, or compute responses with `frf`, which has the delay"
     )]
     Delay {
         /// Name of the cable.
@@ -85,8 +85,9 @@ pub enum ReductionError {
     Stopped,
     /// No choice of modes keeps the tolerance.
     #[error(
-        "no state space has an error of at most {requested:e} of the peaks: {order} states reach {reached:.2e}, because a \
-         constant damping ratio has no exact state space or because of modes that are left out; choose a larger tolerance"
+        "no state space has an error of at most {requested:e} of the peaks: {order} states reach {reached:.2e}, \
+         because a constant damping ratio has no exact state space or because of modes that are left out; choose a \
+         larger tolerance"
     )]
     Tolerance {
         /// Requested error.

@@ -1,7 +1,7 @@
-//! State space of a second-order model whose inputs and outputs are polynomials of s, and what of it is no state space.
+//! State space of a second-order model whose inputs and outputs are polynomials of s, and the polynomial part that no
+//! state space has.
 
 use super::SecondOrder;
-use super::reference::derivatives;
 use crate::math::{Complex, DMat};
 
 /// State space and polynomial part of `L(s) (K + sC + s²M)⁻¹ B(s) + D(s)`, in the quantities of the outputs.
@@ -15,12 +15,12 @@ pub(super) struct Expansion {
     sizes: Vec<DMat>,
 }
 
-/// Part of the sum of its terms' magnitudes below which a coefficient is rounding.
+/// Maximum coefficient that is rounding, as a fraction of the sum of the magnitudes of its terms.
 const ROUNDING: f64 = 1e-10;
 
 impl Expansion {
-    /// Expansion of a model. The forces `B₁ ḟ + B₂ f̈` move the coordinates by `M⁻¹B₂ f` at once and their velocities by
-    /// `M⁻¹(B₁ − C M⁻¹B₂) f`; the states are what is left of both.
+    /// Expansion of a model. The forces `B₁ ḟ + B₂ f̈` move the coordinates by `M⁻¹B₂ f` at once and their velocities
+    /// by `M⁻¹(B₁ − C M⁻¹B₂) f`; the states are the rest of both.
     pub(super) fn of(model: &SecondOrder) -> Self {
         let (n, inputs, outputs) = (model.mass.nrows(), model.input.ncols(), model.output.nrows());
         let factor = model.mass.clone().cholesky().expect("checked when it was made");
@@ -48,7 +48,7 @@ impl Expansion {
         let mut sizes = direct.clone();
         let of_input = b.abs();
         for (i, quantity) in model.quantities.iter().enumerate() {
-            let derivatives = derivatives(*quantity) as usize;
+            let derivatives = quantity.derivatives() as usize;
             for (power, rows) in model.outputs().iter().enumerate() {
                 let row = rows.rows(i, 1).into_owned();
                 if row.amax() == 0.0 {
@@ -84,8 +84,9 @@ impl Expansion {
         pairs().find(|at| powers().any(|(direct, size)| direct[*at].abs() > ROUNDING * size[*at]))
     }
 
-    /// Magnitude at ω [rad/s] of what a sum over modes with a static correction leaves out of a response, with every mode:
-    /// the powers of s of its polynomial part, and all of that part if the sum has `no_feedthrough`.
+    /// Magnitude at ω [rad/s] of the part of a response that a sum over all modes with a static correction does not
+    /// contain: the powers of s of the polynomial part, and the complete polynomial part if the sum has
+    /// `no_feedthrough`.
     pub(super) fn beside_modes(&self, omega: f64, (output, input): (usize, usize), no_feedthrough: bool) -> f64 {
         let sum: Complex = (self.direct.iter().enumerate().skip(usize::from(!no_feedthrough)))
             .map(|(power, direct)| Complex::new(0.0, omega).powu(power as u32) * direct[(output, input)])

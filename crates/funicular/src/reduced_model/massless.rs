@@ -1,11 +1,11 @@
 //! Flexible supports without mass that carry no cable with mass: their displacements follow at once and are eliminated.
 
 use super::InPowersOfS;
-use super::matrices::{Layout, Matrices};
+use super::matrices::{CoordinateLayout, Matrices};
 use crate::math::DMat;
 
 /// Coordinates without mass, which follow the others: `e = −K_ee⁻¹ K_er y + K_ee⁻¹ f_e`.
-pub(super) struct Massless {
+pub(super) struct MasslessSupports {
     /// All coordinates per remaining coordinate.
     motion: DMat,
     /// Indices of the coordinates that remain.
@@ -14,9 +14,9 @@ pub(super) struct Massless {
     flexibility: DMat,
 }
 
-impl Massless {
+impl MasslessSupports {
     /// Supports without mass; `None` if there are none.
-    pub(super) fn of(matrices: &Matrices, layout: &Layout) -> Option<Self> {
+    pub(super) fn of(matrices: &Matrices, layout: &CoordinateLayout) -> Option<Self> {
         let n = layout.coordinates.len();
         let (still, kept): (Vec<usize>, Vec<usize>) =
             (0..n).partition(|i| *i >= layout.first_support && matrices.mass.row(*i).amax() == 0.0);
@@ -24,7 +24,8 @@ impl Massless {
             return None;
         }
 
-        // A cable without mass may make its support unstable; then there is no model, which the caller's mass matrix tells.
+        // A cable without mass may make its support unstable; then there is no model, which the caller's mass matrix
+        // tells.
         let own = DMat::from_fn(still.len(), still.len(), |i, j| matrices.stiffness[(still[i], still[j])]);
         let inverse = own.try_inverse()?;
         let coupling = DMat::from_fn(still.len(), kept.len(), |i, j| matrices.stiffness[(still[i], kept[j])]);

@@ -6,8 +6,9 @@ use crate::math::{DMat, DVec, symmetric_part};
 use crate::robot::Damping;
 use std::f64::consts::TAU;
 
-/// Order of the coordinates: the platform's, then per cable its clamped modes in plane and out of plane, then the supports.
-pub(super) struct Layout {
+/// Order of the coordinates: the platform's, then per cable its clamped modes in plane and out of plane, then the
+/// supports.
+pub(super) struct CoordinateLayout {
     pub(super) dof: usize,
     pub(super) first_of_term: Vec<usize>,
     /// First coordinate of the supports.
@@ -15,7 +16,7 @@ pub(super) struct Layout {
     pub(super) coordinates: Vec<Coordinate>,
 }
 
-impl Layout {
+impl CoordinateLayout {
     /// Order for a robot with this number of support coordinates.
     pub(super) fn new(dof: usize, cables: &[CableBlocks], supports: usize) -> Self {
         let mut coordinates: Vec<Coordinate> = (0..dof).map(Coordinate::Platform).collect();
@@ -83,7 +84,7 @@ impl Matrices {
     }
 
     /// Adds the flexible supports.
-    pub(super) fn add_supports(&mut self, supports: &SupportBlocks, layout: &Layout) {
+    pub(super) fn add_supports(&mut self, supports: &SupportBlocks, layout: &CoordinateLayout) {
         let (at, count) = (layout.first_support, supports.mass.nrows());
         let parts = [
             (&mut self.stiffness, &supports.stiffness),
@@ -101,7 +102,7 @@ impl Matrices {
     }
 
     /// Adds a cable, given by its index among the terms.
-    pub(super) fn add_cable(&mut self, cable: &CableBlocks, term: usize, layout: &Layout) {
+    pub(super) fn add_cable(&mut self, cable: &CableBlocks, term: usize, layout: &CoordinateLayout) {
         let f = cable.end_mass.nrows();
         let n = self.mass.nrows();
         let from = layout.first_of_term[term];
@@ -163,9 +164,9 @@ impl Matrices {
     }
 }
 
-/// Viscous damping matrix that replaces `2ω R + S/ω`: with the natural modes Φ, `ΦᵀMΦ = 1`, it is `MΦ W ΦᵀM` with
-/// `W_jk = 2 √ω_j (ΦᵀRΦ)_jk √ω_k + (ΦᵀSΦ)_jk/√(ω_jω_k)`. It is correct at ω = ω_j = ω_k, also for the coupling of close modes.
-/// R belongs to cables with a constant damping ratio, S to supports.
+/// Viscous damping matrix that replaces `2ω R + S/ω`: with the natural modes Φ, `ΦᵀMΦ = 1`, it is `MΦ W ΦᵀM` with `W_jk
+/// = 2 √ω_j (ΦᵀRΦ)_jk √ω_k + (ΦᵀSΦ)_jk/√(ω_jω_k)`. It is correct at ω = ω_j = ω_k, also for the coupling of close
+/// modes. R belongs to cables with a constant damping ratio, S to supports.
 fn at_natural_frequencies(mass: &DMat, stiffness: &DMat, ratio: &DMat, loss: &DMat) -> Result<DMat, ReductionError> {
     let factor = mass.clone().cholesky().ok_or(ReductionError::Mass)?.l();
     let half = factor.solve_lower_triangular(stiffness).ok_or(ReductionError::Mass)?;

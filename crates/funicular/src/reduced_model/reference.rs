@@ -1,4 +1,5 @@
-//! Responses of the full model at frequencies that include every peak: what a reduced model is measured against.
+//! Responses of the full model at frequencies that include every peak. Errors of a reduced model are measured against
+//! them.
 
 use super::channels::Channels;
 use crate::dynamics::Dynamics;
@@ -35,7 +36,7 @@ pub(super) struct Maximum {
 
 /// Responses of the full model, in the quantities of the outputs, and their peaks. Pairs of output and input are
 /// numbered by columns: `input * outputs + output`.
-pub(super) struct Reference<'a> {
+pub(super) struct ReferenceResponses<'a> {
     /// Full model.
     pub(super) dynamics: &'a Dynamics,
     pub(super) channels: &'a Channels,
@@ -57,7 +58,7 @@ pub(super) struct Reference<'a> {
     pub(super) has_drive_losses: bool,
 }
 
-impl<'a> Reference<'a> {
+impl<'a> ReferenceResponses<'a> {
     /// Responses up to the limit `below_hz` [Hz] of a robot with these `modes`.
     pub(super) fn new(
         dynamics: &'a Dynamics,
@@ -123,7 +124,7 @@ impl<'a> Reference<'a> {
         let mut values = displacements(dynamics, frequencies_hz, channels)?;
         for (at, &frequency_hz) in values.chunks_exact_mut(self.pairs()).zip(frequencies_hz) {
             for (pair, value) in at.iter_mut().enumerate() {
-                *value *= Complex::new(0.0, frequency_hz * TAU).powu(derivatives(self.quantity(pair)));
+                *value *= self.quantity(pair).factor(frequency_hz * TAU);
             }
         }
         Ok(values)
@@ -239,17 +240,8 @@ impl<'a> Reference<'a> {
     }
 }
 
-/// Number of times that the displacement is differentiated.
-pub(super) fn derivatives(quantity: Quantity) -> u32 {
-    match quantity {
-        Quantity::Displacement => 0,
-        Quantity::Velocity => 1,
-        Quantity::Acceleration => 2,
-    }
-}
-
-/// Displacements of all outputs per force at all inputs: outputs×inputs entries by columns, one frequency [Hz] after the
-/// other.
+/// Displacements of all outputs per force at all inputs: outputs×inputs entries by columns, one frequency [Hz] after
+/// the other.
 fn displacements(
     dynamics: &Dynamics,
     frequencies_hz: &[f64],

@@ -1,38 +1,38 @@
 //! Choice of the modes of a state space: as few as a tolerance allows, or the best for a number of states.
 
 use super::ReductionError;
-use super::reference::Reference;
+use super::reference::ReferenceResponses;
 use super::terms::Term;
 use crate::math::{Complex, order};
 
-/// Wanted size of a state space.
+/// Requested size of a state space.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Size {
+pub enum StateSpaceSize {
     /// Maximum number of states.
     Order(usize),
     /// Maximum error of every response, relative to its peak; the model has as few states as it allows.
     Tolerance(f64),
 }
 
-/// Fraction of the tolerance that the choice uses; the rest is for maxima between the frequencies.
+/// Fraction of the tolerance that the choice uses. The rest allows for maxima between the frequencies.
 const USED: f64 = 0.995;
 
-/// Difference between the full responses and those of some terms, at all frequencies of the reference.
+/// Difference between the full responses and the sum of some terms, at all frequencies of the reference.
 pub(super) struct RemainingDifference<'a> {
-    reference: &'a Reference<'a>,
+    reference: &'a ReferenceResponses<'a>,
     differences: Vec<Complex>,
 }
 
 impl<'a> RemainingDifference<'a> {
     /// Difference without any term: the static displacement is the feedthrough.
-    fn of_none(reference: &'a Reference<'a>) -> Self {
+    fn of_none(reference: &'a ReferenceResponses<'a>) -> Self {
         let pairs = reference.pairs();
         let differences =
             reference.values.iter().enumerate().map(|(at, value)| value - reference.at_rest[at % pairs]).collect();
         Self { reference, differences }
     }
 
-    pub(super) fn of_all(reference: &'a Reference<'a>, terms: &[Term]) -> Self {
+    pub(super) fn of_all(reference: &'a ReferenceResponses<'a>, terms: &[Term]) -> Self {
         let mut sum = Self::of_none(reference);
         for term in terms {
             sum.add(term, -1.0);
@@ -56,12 +56,12 @@ impl<'a> RemainingDifference<'a> {
     }
 }
 
-/// Terms for a size, from the set that needs the fewest states or leaves the smallest error. `parts` gets the numbers of
-/// finished and of all terms; its error ends the work.
+/// Terms for a size, from the set that needs the fewest states or leaves the smallest error. `parts` gets the numbers
+/// of finished and of all terms; its error ends the work.
 pub(super) fn chosen(
     sets: &[Vec<Term>],
-    reference: &Reference,
-    size: Size,
+    reference: &ReferenceResponses,
+    size: StateSpaceSize,
     parts: &mut dyn FnMut(usize, usize) -> Result<(), ReductionError>,
 ) -> Result<Vec<Term>, ReductionError> {
     let mut best: Option<(Vec<Term>, f64)> = None;
@@ -80,13 +80,13 @@ pub(super) fn chosen(
         let mut ranked: Vec<&Term> = set.iter().collect();
         order::sort_descending(&mut ranked, |term| term.size);
         match size {
-            Size::Order(states) => {
+            StateSpaceSize::Order(states) => {
                 let (terms, error) = of_order(&ranked, reference, states, &mut term_done)?;
                 if !terms.is_empty() && best.as_ref().is_none_or(|(_, other)| error < *other) {
                     best = Some((terms, error));
                 }
             }
-            Size::Tolerance(tolerance) => {
+            StateSpaceSize::Tolerance(tolerance) => {
                 let (terms, error) = within(&ranked, reference, USED * tolerance, &mut term_done)?;
                 if error < smallest.0 {
                     smallest = (error, order(&terms));
@@ -104,8 +104,8 @@ pub(super) fn chosen(
             order::sort_ascending(&mut terms, |term| term.value.norm());
             Ok(terms)
         }
-        (None, Size::Order(order)) => Err(ReductionError::Order(order)),
-        (None, Size::Tolerance(requested)) => {
+        (None, StateSpaceSize::Order(order)) => Err(ReductionError::Order(order)),
+        (None, StateSpaceSize::Tolerance(requested)) => {
             Err(ReductionError::Tolerance { requested, reached: smallest.0, order: smallest.1 })
         }
     }
@@ -114,7 +114,7 @@ pub(super) fn chosen(
 /// The first terms in the order of their size that have at most so many states, and their error.
 fn of_order(
     ranked: &[&Term],
-    reference: &Reference,
+    reference: &ReferenceResponses,
     states: usize,
     term_done: &mut dyn FnMut() -> Result<(), ReductionError>,
 ) -> Result<(Vec<Term>, f64), ReductionError> {
@@ -137,7 +137,7 @@ fn of_order(
 /// all terms if these do not keep it. With their error.
 fn within(
     ranked: &[&Term],
-    reference: &Reference,
+    reference: &ReferenceResponses,
     tolerance: f64,
     term_done: &mut dyn FnMut() -> Result<(), ReductionError>,
 ) -> Result<(Vec<Term>, f64), ReductionError> {
@@ -158,7 +158,7 @@ fn within(
         return Ok((kept.into_iter().cloned().collect(), error));
     }
 
-    // Take out one after the other, the smallest first, what the tolerance allows.
+    // Take out terms that the tolerance does not need, one after the other and the smallest first.
     for at in (0..kept.len()).rev() {
         if kept.len() == 1 {
             break;

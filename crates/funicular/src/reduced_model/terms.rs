@@ -3,11 +3,11 @@
 
 use super::Quantity;
 use super::candidates::DampedPair;
-use super::reference::{Reference, derivatives};
+use super::reference::ReferenceResponses;
 use crate::math::{Complex, DMat};
 use std::f64::consts::{PI, TAU};
 
-/// Residue relative to the largest of the same eigenvalue below which it is rounding.
+/// Maximum residue that is rounding, relative to the largest residue of the same eigenvalue.
 const RESIDUE: f64 = 1e-9;
 
 /// Part of one pair of states, or of one state, in all responses:
@@ -61,7 +61,7 @@ impl Term {
 }
 
 /// Terms of a damped mode: one per independent direction of its residues.
-pub(super) fn terms(pair: &DampedPair, reference: &Reference) -> Vec<Term> {
+pub(super) fn terms(pair: &DampedPair, reference: &ReferenceResponses) -> Vec<Term> {
     let (outputs, inputs) = pair.residue.shape();
     let scaled = pair.residue.map_with_location(|o, i, r| r / (reference.output_scale[o] * reference.input_scale[i]));
     let decomposed = scaled.svd(true, true);
@@ -91,14 +91,14 @@ fn real_factors(column: &[Complex], row: &[Complex]) -> (Vec<Complex>, Vec<Compl
 }
 
 /// Term of a column for displacements and a row for forces.
-fn term(pair: &DampedPair, mut column: Vec<Complex>, row: Vec<Complex>, reference: &Reference) -> Term {
+fn term(pair: &DampedPair, mut column: Vec<Complex>, row: Vec<Complex>, reference: &ReferenceResponses) -> Term {
     let outputs = column.len();
     let value = pair.value;
     let twice = if value.im > 0.0 { 2.0 } else { 1.0 };
 
-    // Feedthrough: what makes the displacement zero at s = 0, so that the static part of every mode can be added
-    // elsewhere; and that of the acceleration, `s² R/(s − λ) = λ² R/(s − λ) + λ R + s R`, whose last part vanishes in
-    // the sum with the conjugate for a mode of second order.
+    // Feedthrough of the displacement, which makes it zero at s = 0, so that the static part of every mode can be added
+    // elsewhere; and feedthrough of the acceleration, `s² R/(s − λ) = λ² R/(s − λ) + λ R + s R`, whose last part
+    // vanishes in the sum with the conjugate for a mode of second order.
     let mut constants = vec![0.0; reference.pairs()];
     for (at, constant) in constants.iter_mut().enumerate() {
         let residue = column[at % outputs] * row[at / outputs];
@@ -111,7 +111,7 @@ fn term(pair: &DampedPair, mut column: Vec<Complex>, row: Vec<Complex>, referenc
         };
     }
     for (output, entry) in column.iter_mut().enumerate() {
-        *entry *= value.powu(derivatives(reference.quantity(output)));
+        *entry *= value.powu(reference.quantity(output).derivatives());
     }
 
     let residues = row.iter().flat_map(|b| column.iter().map(move |c| c * b)).collect();
@@ -134,7 +134,7 @@ pub(super) struct RealBlock {
 }
 
 impl RealBlock {
-    pub(super) fn of(term: &Term, reference: &Reference) -> Self {
+    pub(super) fn of(term: &Term, reference: &ReferenceResponses) -> Self {
         let (inputs, outputs) = (term.row.len(), term.column.len());
         let value = term.value;
         if term.states() == 1 {
@@ -169,7 +169,7 @@ impl RealBlock {
     }
 
     /// Scales the states so that input and output have entries of equal size, measured in their scales.
-    fn balanced(mut self, reference: &Reference) -> Self {
+    fn balanced(mut self, reference: &ReferenceResponses) -> Self {
         let by_input: f64 =
             self.b.column_iter().zip(&reference.input_scale).map(|(b, scale)| b.norm_squared() / (scale * scale)).sum();
         let by_output: f64 =

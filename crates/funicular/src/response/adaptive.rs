@@ -82,36 +82,41 @@ impl Resolved {
 const STEP_OUT: f64 = 3.162_277_660_168_379_5;
 /// Maximum number of starts on one side of a natural frequency; they reach 1e6 half widths.
 const MAX_STEPS_OUT: usize = 13;
-/// Fraction of the tolerance that the middle of an interval may miss its line by.
+/// Maximum distance of the middle of an interval from its line, as a fraction of the tolerance.
 const HALVED: f64 = 0.4;
 /// Number of successive halvings whose middles have to be on their lines. One is not enough where a curve crosses its
-/// line at the middle: with 1 and a fraction of 0.2 the error still reaches 1.003 of the tolerance.
+/// line at the middle: with 1, and with 0.2 for [`HALVED`], the error still reaches 1.003 times the tolerance.
 const HALVINGS: u8 = 2;
 /// Maximum difference of phase between curve and line [rad] at the middle of an interval.
 const PHASE: f64 = 0.1;
-/// Fraction of the tolerance for leaving out points that the line through their neighbours replaces. With 0.8 the error
-/// between the points reaches 1.1 of the tolerance at deep antiresonances.
+/// Maximum distance of a point that is left out from the line between its neighbours, as a fraction of the tolerance.
+/// With 0.8 the error between the points reaches 1.1 times the tolerance at deep antiresonances.
 const LEFT_OUT: f64 = 0.6;
-/// Range of the relative width below which no resonance bends the curve any more; a fiftieth of the smallest damping
-/// ratio lies in it. Only an antiresonance may be narrower.
+/// Minimum relative width of an interval, except at an antiresonance, as a fraction of the smallest damping ratio: no
+/// resonance bends the curve within a narrower interval. The width is limited to the range below.
+const WIDTH_PER_DAMPING: f64 = 0.02;
 const WIDTHS: (f64, f64) = (1e-10, 1e-5);
-/// Minimum relative width of an interval at an antiresonance: some hundred times the rounding of a frequency. The response
-/// is then below 1e-9 of its terms, unless the slope is steeper than that of a resonance with a damping ratio of 1e-4.
+/// Minimum relative width of an interval at an antiresonance: some hundred times the rounding of a frequency. The
+/// response is then below 1e-9 of its terms, unless the slope is steeper than that of a resonance with a damping ratio
+/// of 1e-4.
 const NARROWEST: f64 = 1e-13;
-/// Maximum distance of the middle from the straight line between the ends of an interval, in the complex plane, relative
-/// to the length of the line, for the slope of an antiresonance. Beside a resonance the distance is 0.3 % at the widths
-/// in question; rounding has the size of the line.
+/// Maximum distance of the middle of an interval from the straight line between its ends, in the complex plane and
+/// relative to the length of the line, for which the interval counts as the slope of an antiresonance. Beside a
+/// resonance the distance is 0.3 % at [`WIDTHS`]; for rounding it is as large as the line.
 const STRAIGHT: f64 = 0.05;
+/// Maximum relative distance of two frequencies that differ by rounding alone.
+const SAME_FREQUENCY: f64 = 1e-14;
+
 /// Computed frequency, with a value per response.
 #[derive(Debug, Clone)]
-struct Sample {
+struct CurveSample {
     hz: f64,
     values: Vec<Complex>,
     /// Logarithm of the magnitude, at least that of the floor.
     levels: Vec<f64>,
     /// True per response if it lies above the floor.
     above: Vec<bool>,
-    /// Number of successive halvings of the interval from this sample to the next that still have to succeed.
+    /// Number of further halvings that have to succeed in the interval from this sample to the next one.
     open: u8,
     /// True if responses off their line in this interval are straight in the complex plane, as at an antiresonance.
     straight: bool,
@@ -119,7 +124,7 @@ struct Sample {
     kept: bool,
 }
 
-impl Sample {
+impl CurveSample {
     fn new(hz: f64, measured: &[Measured], open: u8, kept: bool) -> Self {
         let level = |m: &Measured| m.value.norm().max(m.floor).max(f64::MIN_POSITIVE).ln();
         Self {
@@ -167,14 +172,14 @@ pub fn resolve<E>(
     let resonances: Vec<Resonance> =
         modes.iter().map(Resonance::of).filter(|r| (first..=last).contains(&r.hz)).collect();
     let undamped_hz: Vec<f64> = resonances.iter().filter(|r| !r.damped).map(|r| r.hz).collect();
-    let search = Search::new(grid_hz, &resonances);
+    let search = IntervalSearch::new(grid_hz, &resonances);
 
     // Grid and starts.
     let starts = search.starts(grid_hz, &resonances);
     let hz: Vec<f64> = starts.iter().map(|start| start.0).collect();
     let measured = evaluate(&hz)?;
-    let mut samples: Vec<Sample> =
-        starts.iter().zip(&measured).map(|((hz, kept), row)| Sample::new(*hz, row, HALVINGS, *kept)).collect();
+    let mut samples: Vec<CurveSample> =
+        starts.iter().zip(&measured).map(|((hz, kept), row)| CurveSample::new(*hz, row, HALVINGS, *kept)).collect();
 
     // Halve the intervals whose middle is not on the line between their ends.
     loop {
@@ -188,7 +193,7 @@ pub fn resolve<E>(
     }
     let unresolved = samples.iter().filter(|sample| sample.open > 0).count();
 
-    // Put a sample on every maximum, and leave out what the line between its neighbours shows as well.
+    // Put a sample on every maximum, and leave out the samples that a line between other samples replaces.
     samples = with_maxima(samples, &search, &mut evaluate)?;
     let samples = thinned(samples, LEFT_OUT * resolution.tolerance);
 
@@ -205,8 +210,8 @@ pub fn resolve<E>(
     })
 }
 
-/// Limits of the search.
-struct Search {
+/// Limits of the search for intervals that have to be halved.
+struct IntervalSearch {
     /// Intervals around undamped natural frequencies [Hz], ascending, without common points.
     gaps: Vec<(f64, f64)>,
     /// Minimum width of an interval relative to its upper end, except at an antiresonance.
@@ -217,7 +222,7 @@ struct Search {
     lowest: f64,
 }
 
-impl Search {
+impl IntervalSearch {
     fn new(grid_hz: &[f64], resonances: &[Resonance]) -> Self {
         let mut gaps: Vec<(f64, f64)> = Vec::new();
         for resonance in resonances.iter().filter(|r| !r.damped) {
@@ -231,7 +236,7 @@ impl Search {
         let damping = resonances.iter().filter(|r| r.damped).map(|r| r.half_width / r.hz).fold(f64::INFINITY, f64::min);
         let positive = grid_hz.iter().copied().find(|hz| *hz > 0.0).unwrap_or(0.0);
         let lowest = if grid_hz[0] > 0.0 { 0.0 } else { 0.01 * positive };
-        let min_width = (0.02 * damping).clamp(WIDTHS.0, WIDTHS.1);
+        let min_width = (WIDTH_PER_DAMPING * damping).clamp(WIDTHS.0, WIDTHS.1);
         // Without damping the depth of an antiresonance has no bound, and a curve cannot show it.
         let is_undamped = !resonances.is_empty() && resonances.iter().all(|r| !r.damped);
         let narrowest = if is_undamped { min_width } else { NARROWEST };
@@ -269,13 +274,14 @@ impl Search {
         }
         all.extend(self.gaps.iter().flat_map(|(low, high)| [(*low, true), (*high, true)]));
 
+        // Sort, without frequencies in gaps and without equal ones.
         all.retain(|(hz, _)| (first..=last).contains(hz) && !self.in_gap(*hz));
         // Among equal frequencies the one that is kept comes first.
         order::sort_descending(&mut all, |(_, kept)| f64::from(*kept));
         order::sort_ascending(&mut all, |(hz, _)| *hz);
         // Two frequencies may differ by rounding alone: the one that is kept stays.
         all.dedup_by(|b, a| {
-            let same = b.0 - a.0 <= 1e-14 * a.0;
+            let same = b.0 - a.0 <= SAME_FREQUENCY * a.0;
             if same && b.1 && !a.1 {
                 *a = *b;
             }
@@ -286,7 +292,7 @@ impl Search {
 
     /// Middle of every open interval that can be divided, with the index of its lower end. Intervals that cannot be
     /// divided are closed.
-    fn middles(&self, samples: &mut [Sample]) -> Vec<(usize, f64)> {
+    fn middles(&self, samples: &mut [CurveSample]) -> Vec<(usize, f64)> {
         let mut middles = Vec::new();
         for i in 0..samples.len() {
             if samples[i].open == 0 {
@@ -310,20 +316,27 @@ impl Search {
     }
 }
 
-/// Samples with those at the middles of intervals. Both halves of an interval start again if its middle was not on the
-/// line between its ends.
-fn inserted(samples: Vec<Sample>, middles: &[(usize, f64)], measured: &[Vec<Measured>], tolerance: f64) -> Vec<Sample> {
-    let mut new = middles.iter().zip(measured).map(|((i, hz), row)| (*i, Sample::new(*hz, row, 0, false))).peekable();
-    let mut all: Vec<Sample> = Vec::with_capacity(samples.len() + middles.len());
+/// Samples with further ones at the middles of intervals. Both halves of an interval start again if its middle is not
+/// on the line between its ends.
+fn inserted(
+    samples: Vec<CurveSample>,
+    middles: &[(usize, f64)],
+    measured: &[Vec<Measured>],
+    tolerance: f64,
+) -> Vec<CurveSample> {
+    let mut new =
+        middles.iter().zip(measured).map(|((i, hz), row)| (*i, CurveSample::new(*hz, row, 0, false))).peekable();
+    let mut all: Vec<CurveSample> = Vec::with_capacity(samples.len() + middles.len());
     let mut old = samples.into_iter().enumerate().peekable();
     while let Some((i, mut low)) = old.next() {
         let Some((_, mut middle)) = new.next_if(|(at, _)| *at == i) else {
             all.push(low);
             continue;
         };
-        let shape = old.peek().map_or(Shape::OnLine, |(_, high)| shape(&low, &middle, high, tolerance));
-        let open = if shape == Shape::OnLine { low.open - 1 } else { HALVINGS };
-        let straight = shape == Shape::Straight || (shape == Shape::OnLine && low.straight);
+
+        let shape = old.peek().map_or(IntervalShape::OnLine, |(_, high)| shape(&low, &middle, high, tolerance));
+        let open = if shape == IntervalShape::OnLine { low.open - 1 } else { HALVINGS };
+        let straight = shape == IntervalShape::Straight || (shape == IntervalShape::OnLine && low.straight);
         (low.open, middle.open) = (open, open);
         (low.straight, middle.straight) = (straight, straight);
         all.push(low);
@@ -334,7 +347,7 @@ fn inserted(samples: Vec<Sample>, middles: &[(usize, f64)], measured: &[Vec<Meas
 
 /// Shape of the responses in an interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Shape {
+enum IntervalShape {
     /// The middle of every response is on the line between the ends.
     OnLine,
     /// Responses off their line are straight in the complex plane.
@@ -344,7 +357,7 @@ enum Shape {
 }
 
 /// Shape of the responses between two samples, by the sample in the middle.
-fn shape(low: &Sample, middle: &Sample, high: &Sample, tolerance: f64) -> Shape {
+fn shape(low: &CurveSample, middle: &CurveSample, high: &CurveSample, tolerance: f64) -> IntervalShape {
     let fraction = (middle.hz - low.hz) / (high.hz - low.hz);
     let is_on_line = |i: &usize| {
         let i = *i;
@@ -362,20 +375,20 @@ fn shape(low: &Sample, middle: &Sample, high: &Sample, tolerance: f64) -> Shape 
 
     let mut off_line = (0..middle.levels.len()).filter(|i| !is_on_line(i)).peekable();
     if off_line.peek().is_none() {
-        Shape::OnLine
+        IntervalShape::OnLine
     } else if off_line.all(is_straight) {
-        Shape::Straight
+        IntervalShape::Straight
     } else {
-        Shape::Bent
+        IntervalShape::Bent
     }
 }
 
-/// Samples with one on every maximum of every response; those at maxima are kept.
+/// Samples with one on every maximum of every response. Thinning keeps the samples on maxima.
 fn with_maxima<E>(
-    mut samples: Vec<Sample>,
-    search: &Search,
+    mut samples: Vec<CurveSample>,
+    search: &IntervalSearch,
     evaluate: &mut impl FnMut(&[f64]) -> Result<Vec<Vec<Measured>>, E>,
-) -> Result<Vec<Sample>, E> {
+) -> Result<Vec<CurveSample>, E> {
     let mut maxima = Vec::new();
     let mut tops = Vec::new();
     for at in 1..samples.len().saturating_sub(1) {
@@ -399,7 +412,7 @@ fn with_maxima<E>(
     for ((maximum, at), row) in maxima.iter().zip(tops).zip(rows) {
         match row {
             None => samples[at].kept = true,
-            Some(row) => samples.push(Sample::new(maximum.hz(), &row, 0, true)),
+            Some(row) => samples.push(CurveSample::new(maximum.hz(), &row, 0, true)),
         }
     }
     // Among equal frequencies the one that is kept comes first.
@@ -409,9 +422,9 @@ fn with_maxima<E>(
     Ok(samples)
 }
 
-/// Samples without those that the line between their neighbours shows as well: from each kept sample the line goes as
-/// far as all samples on its way are within the tolerance.
-fn thinned(samples: Vec<Sample>, tolerance: f64) -> Vec<Sample> {
+/// Samples without those that a line replaces. From each remaining sample the line reaches to the last sample up to
+/// which all samples are within the tolerance of the line.
+fn thinned(samples: Vec<CurveSample>, tolerance: f64) -> Vec<CurveSample> {
     let count = samples.len();
     let channels = samples.first().map_or(0, |sample| sample.levels.len());
     let mut keep = vec![false; count];

@@ -39,7 +39,8 @@ pub struct FrameMotion {
     cables: Vec<MovedCable>,
     /// Displacement of the far end of every cable in the world.
     displacements_w: Vec<Vec3>,
-    /// Motion with the feet of all flexible supports, world axes, three coordinates per support; empty on a rigid frame.
+    /// Motion with the feet of all flexible supports, world axes, three coordinates per support; empty on a rigid
+    /// frame.
     feet: Vec<f64>,
     /// Forces on the supports that do not depend on frequency; empty on a rigid frame.
     constant_on_supports: Vec<f64>,
@@ -70,6 +71,7 @@ impl FrameInput {
     /// Motion of the anchor of cable `i`, whose state at rest is `state`; `None` if it does not move.
     fn of_anchor(&self, robot: &Robot, i: usize, state: &CableState) -> Option<AnchorMotion> {
         let anchor = &robot.cables[i].anchor;
+
         match self {
             Self::BaseAlong(direction_w) => {
                 let along_w = direction_w.normalize();
@@ -85,6 +87,7 @@ impl FrameInput {
                 let support = robot.cables[*cable].anchor.support;
                 let is_moved = *cable == i || (support.is_some() && support == anchor.support);
                 let along_w = direction_w.normalize();
+
                 let with_drum = match anchor.support.map(|support| &robot.supports[support]) {
                     Some(support) => support.drum_side_from_ground(anchor).is_none(),
                     // Without a pulley the file does not say where the drum side comes from.
@@ -212,8 +215,8 @@ impl FrameMotion {
         stations.by_far_end(dynamics, (at, direction_w), &self.displacements_w[stations.cable], carrier, omega)
     }
 
-    /// Displacement of station `at` of a cable along `direction_w`, the platform and the amplitudes of the clamped modes at
-    /// rest.
+    /// Displacement of station `at` of a cable along `direction_w`, the platform and the amplitudes of the clamped
+    /// modes at rest.
     pub(crate) fn still_of_station(&self, stations: &CableStations, at: usize, direction_w: &Vec3) -> f64 {
         stations.still_by_far_end(at, direction_w, &self.displacements_w[stations.cable])
     }
@@ -223,12 +226,14 @@ impl FrameMotion {
         &self.constant
     }
 
-    /// Forces on the supports that do not depend on frequency, and motion of the feet of the supports; empty on a rigid frame.
+    /// Forces on the supports that do not depend on frequency, and motion of the feet of the supports; empty on a rigid
+    /// frame.
     pub(crate) fn on_feet(&self) -> (&[f64], &[f64]) {
         (&self.constant_on_supports, &self.feet)
     }
 
-    /// Motions of the carriers of the other cables, each with its index among those whose stiffness depends on frequency.
+    /// Motions of the carriers of the other cables, each with its index among those whose stiffness depends on
+    /// frequency.
     pub(crate) fn carriers(&self) -> impl Iterator<Item = (usize, &CarrierMotion)> {
         self.cables.iter().map(|moved| (moved.term, &moved.motion))
     }
@@ -263,7 +268,7 @@ fn carrier_motion(
 /// Forces by a motion of the anchor of a cable whose stiffness does not depend on frequency, world axes [N].
 struct ConstantForces {
     on_platform_w: Vec3,
-    /// Force on the anchor along with what it carries, without the force of the drum side's tension as it turns.
+    /// Force on the anchor and the parts that it carries, without the force by the turn of the drum side's tension.
     on_anchor_w: Vec3,
 }
 
@@ -304,8 +309,8 @@ fn constant_forces_w(
 }
 
 impl SupportSide {
-    /// Force on the support, for a given motion of its anchor, of forces that turn with the frame or pull at a drum that
-    /// stays where it is, world axes [N].
+    /// Force on the support, for a given motion of its anchor, of forces that turn with the frame or pull at a drum
+    /// that stays where it is, world axes [N].
     fn force_by(&self, anchor: &AnchorMotion) -> Vec3 {
         let turned_w = -anchor.turn_w.cross(&self.carried_w);
         if anchor.with_drum { turned_w } else { turned_w - self.sideways_w * anchor.entry_w }

@@ -1,4 +1,4 @@
-//! Receptance at many frequencies, of which [`LANES`] are computed side by side.
+//! Receptance at many frequencies; [`LANES`] of them are computed side by side.
 
 use super::receptance;
 use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, PoleResidue};
@@ -119,7 +119,7 @@ impl<'a> Prepared<'a> {
         d
     }
 
-    /// Takes off the stiffness that the platform loses because supports yield, lane by lane.
+    /// Subtracts the stiffness that the platform loses because supports yield, lane by lane.
     #[inline(never)]
     fn take_off_supports(&self, d: &mut [Complexes; 21], omega: &Lane) {
         for (lane, omega) in omega.iter().enumerate() {
@@ -154,7 +154,7 @@ fn catenary_dynamic(form: &CatenaryDynamicEnd, omega: &Lane) -> LocalStiffness<C
     LocalStiffness { axial, coupling, normal, out_of_plane, across: [Complexes::ZERO; 2] }
 }
 
-/// Adds what comes from the losses of a drive, lane by lane.
+/// Adds the stiffness by the losses of a drive, lane by lane.
 #[cold]
 #[inline(never)]
 fn add_drive(k: &mut LocalStiffness<Complexes>, form: &CatenaryDynamicEnd, omega: &Lane) {
@@ -226,8 +226,8 @@ fn entire_by_lane(gamma: Complexes) -> Entire<Complexes> {
     of
 }
 
-/// Factors `L D Lᵀ` in place: L below the diagonal, inverse pivots on it. The result per lane is true if every pivot
-/// was large enough.
+/// Factors `L D Lᵀ` in place: L below the diagonal, inverse pivots on the diagonal. The result is true for a lane if
+/// each of its pivots is at least [`MIN_PIVOT`].
 #[inline(always)]
 fn factorise(d: &mut [Complexes; 21]) -> [bool; LANES] {
     let mut largest = [0.0_f64; LANES];
@@ -273,6 +273,16 @@ fn forward(l: &[Complexes; 21], v: &[f64; 6]) -> [Complexes; 6] {
     z
 }
 
+/// Product `yᵀ D⁻¹ z` of two solutions by [`forward`], with the diagonal D of the factors.
+#[inline(always)]
+fn product(l: &[Complexes; 21], z: &[Complexes; 6], y: &[Complexes; 6]) -> Complexes {
+    let mut sum = Complexes::ZERO;
+    for i in 0..6 {
+        sum += z[i] * y[i] * l[at(i, i)];
+    }
+    sum
+}
+
 /// Response `outputᵀ D⁻¹ input` at each frequency [Hz].
 pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec6, output: &Vec6) -> Vec<Complex> {
     let scale = dynamics.scale();
@@ -298,8 +308,8 @@ pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec
     values
 }
 
-/// Responses `outputᵀ D⁻¹ input` of all pairs at each frequency [Hz], one row per pair: the first output with all inputs,
-/// then the next. D is factorised once per frequency. Each row is that of [`one_entry`] to the last digit.
+/// Responses `outputᵀ D⁻¹ input` of all pairs at each frequency [Hz], one row per pair: the first output with all
+/// inputs, then the next. D is factorised once per frequency. Each row is that of [`one_entry`] to the last digit.
 pub(super) fn entries(
     dynamics: &Dynamics,
     frequencies_hz: &[f64],
@@ -359,11 +369,7 @@ impl pulp::NullaryFnOnce for OneEntry<'_> {
             let omega = angular(block);
             let mut d = prepared.dynamic_stiffness(&omega);
             let accurate = factorise(&mut d);
-            let (z, y) = (forward(&d, &force), forward(&d, &motion));
-            let mut sum = Complexes::ZERO;
-            for i in 0..6 {
-                sum += z[i] * y[i] * d[at(i, i)];
-            }
+            let sum = product(&d, &forward(&d, &force), &forward(&d, &motion));
             for (i, value) in values.iter_mut().enumerate() {
                 *value = if accurate[i] { sum.lane(i) } else { plain(omega[i]) };
             }
@@ -401,10 +407,7 @@ impl pulp::NullaryFnOnce for Entries<'_> {
             for motion in &motions {
                 let y = forward(&d, motion);
                 for z in &forwards {
-                    let mut sum = Complexes::ZERO;
-                    for i in 0..6 {
-                        sum += z[i] * y[i] * d[at(i, i)];
-                    }
+                    let sum = product(&d, z, &y);
                     for i in 0..block.len() {
                         rows[pair][start + i] = if accurate[i] { sum.lane(i) } else { plain(omega[i], pair) };
                     }
@@ -429,8 +432,6 @@ impl pulp::NullaryFnOnce for AllEntries<'_> {
     fn call(self) {
         let Self { prepared, frequencies_hz, values } = self;
         let dynamics = prepared.dynamics;
-        let scale = dynamics.scale();
-
         for (block, values) in frequencies_hz.chunks(LANES).zip(values.chunks_mut(LANES)) {
             let omega = angular(block);
             let mut d = prepared.dynamic_stiffness(&omega);
@@ -438,24 +439,25 @@ impl pulp::NullaryFnOnce for AllEntries<'_> {
             let accurate = factorise(&mut d);
             let inverse = invert(&d);
             for (i, value) in values.iter_mut().enumerate() {
-                if !accurate[i] {
-                    *value = receptance(dynamics, omega[i]);
-                    continue;
-                }
-
-                let mut of_lane = CMat6::zeros();
-                for column in 0..dynamics.dof() {
-                    for row in column..dynamics.dof() {
-                        let entry = inverse[at(row, column)].lane(i);
-                        of_lane[(row, column)] = entry;
-                        of_lane[(column, row)] = entry;
-                    }
-                }
-                let of_lane = dynamics.expanded(&of_lane);
-                *value = CMat6::from_fn(|i, j| of_lane[(i, j)] * (1.0 / (scale[i] * scale[j])));
+                *value = if accurate[i] { of_lane(dynamics, &inverse, i) } else { receptance(dynamics, omega[i]) };
             }
         }
     }
+}
+
+/// Receptance of one lane, about the platform origin, from the scaled inverse of its dynamic stiffness.
+#[inline(always)]
+fn of_lane(dynamics: &Dynamics, inverse: &[Complexes; 21], lane: usize) -> CMat6 {
+    let mut scaled = CMat6::zeros();
+    for column in 0..dynamics.dof() {
+        for row in column..dynamics.dof() {
+            let entry = inverse[at(row, column)].lane(lane);
+            scaled[(row, column)] = entry;
+            scaled[(column, row)] = entry;
+        }
+    }
+    let (expanded, scale) = (dynamics.expanded(&scaled), dynamics.scale());
+    CMat6::from_fn(|i, j| expanded[(i, j)] * (1.0 / (scale[i] * scale[j])))
 }
 
 /// Inverse `L⁻ᵀ D⁻¹ L⁻¹`, lower triangle, from [`factorise`].

@@ -10,7 +10,8 @@
 use super::Measured;
 use crate::modes::Mode;
 
-/// Damping ratio up to which a mode counts as undamped. Rounding of its frequency would change a higher peak.
+/// Maximum damping ratio of a mode that counts as undamped. Rounding of its frequency would change the height of its
+/// peak.
 const UNDAMPED: f64 = 1e-9;
 /// Relative half width of the gap at an undamped natural frequency. The curve is 80 dB above its level there.
 const GAP: f64 = 5e-5;
@@ -38,11 +39,11 @@ const HEIGHT: f64 = 1e-10;
 const MAX_STEPS: usize = 40;
 /// Fraction of the larger side at which it is divided: that of the golden section.
 const GOLDEN: f64 = 0.381_966_011_250_105;
-/// Relative step below which rounding hides a change of the frequency.
+/// Minimum relative step. Rounding hides a smaller change of the frequency.
 const MIN_STEP: f64 = 1e-13;
 
-/// Maximum of one response that is being approached: three ascending frequencies and the magnitudes there. The middle one
-/// is the highest.
+/// Maximum of one response that is being approached: three ascending frequencies and the magnitudes there. The middle
+/// one is the highest.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BracketedMaximum {
     pub(super) channel: usize,

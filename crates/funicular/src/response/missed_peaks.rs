@@ -13,7 +13,7 @@ pub struct MissedPeak {
     pub response: usize,
     /// Frequency of the grid with the higher magnitude beside the peak [Hz].
     pub read_hz: f64,
-    /// Magnitude there.
+    /// Magnitude at that frequency of the grid.
     pub read: f64,
     /// Frequency of the maximum [Hz].
     pub frequency_hz: f64,
@@ -30,19 +30,21 @@ pub struct MissedPeaks {
     pub worst: MissedPeak,
 }
 
-/// Relative height of a peak above what a grid reads beside it, above which the peak is missed.
+/// Height of a peak above the value that a grid reads beside it, relative to this value, above which the grid misses
+/// the peak.
 pub const MISSED: f64 = 0.05;
 /// Places in half widths around a natural frequency at which the response is compared with its grid. A resonance in
 /// front of a background has its maximum at one of them or between, within a few per cent of the height.
 const PLACES: [f64; 5] = [-2.5, -1.0, 0.0, 1.0, 2.5];
-/// Maximum distance of a predicted peak from the middle of the frequencies that predict it, in half of their span. Farther
-/// away the prediction is a guess.
+/// Maximum distance of a predicted peak from the middle of the frequencies that predict it, in half of their span.
+/// Farther away the prediction is a guess.
 const MAX_PREDICTED: f64 = 30.0;
-/// Relative height of a predicted peak above the values beside it, above which the response is computed there too.
+/// Minimum height of a predicted peak above the values beside it, relative to these, at which the response is computed
+/// at the peak.
 const PREDICTED: f64 = 1e-3;
-/// Distance of two predicted peaks, in predicted half widths, up to which they are one.
+/// Maximum distance, in predicted half widths, of two predicted peaks that count as one.
 const EQUAL: f64 = 0.2;
-/// Maximum number of predictions, each from the values of the ones before.
+/// Maximum number of rounds of predictions. Each round uses the values of the rounds before.
 const MAX_PREDICTIONS: usize = 4;
 
 /// Response near one pole: `b + r/(f − p)` with the background b, the residue r and the pole p.
@@ -84,7 +86,7 @@ struct Between {
     hz: f64,
     /// Index of the next higher frequency of the grid.
     above: usize,
-    /// Number of predictions before it.
+    /// Round of predictions that has given it; 0 for a frequency around a natural one.
     round: usize,
     row: Vec<Measured>,
 }
@@ -102,7 +104,7 @@ impl Grid<'_> {
         self.hz[0] < hz && hz < self.hz[self.hz.len() - 1]
     }
 
-    /// Index of the next frequency that is not lower.
+    /// Index of the first frequency of the grid that is not lower.
     fn above(&self, hz: f64) -> usize {
         self.hz.partition_point(|at| *at < hz)
     }
@@ -122,8 +124,8 @@ impl Grid<'_> {
         once(end(above - 1)).chain(between).chain(once(end(above))).collect()
     }
 
-    /// Frequencies [Hz] of peaks that three neighbouring values predict, one of them from the last round, and that are
-    /// higher than the values beside them.
+    /// Frequencies [Hz] of peaks that three neighbouring values predict, if one of the values is from the last round
+    /// and the peak is higher than the values beside it.
     fn predicted(&self, all: &[Between], round: usize) -> Vec<f64> {
         let is_higher = |response: usize, hz: f64, height: f64| {
             let above = self.above(hz);
@@ -163,8 +165,8 @@ impl Grid<'_> {
         found.into_iter().map(|of| of.0).collect()
     }
 
-    /// Responses between the frequencies of the grid, ascending: around every natural frequency, and at the peaks beside
-    /// it that these values predict.
+    /// Responses between the frequencies of the grid, ascending: around every natural frequency, and at the peaks
+    /// beside it that these values predict.
     fn around_resonances<E>(
         &self,
         modes: &[Mode],
@@ -210,15 +212,16 @@ impl ReadValue {
     }
 }
 
-/// Peaks between the frequencies of a grid (ascending) that are more than 5 % ([`MISSED`]) higher than the values of the
-/// grid on both sides; `None` if there are none. `values` has a row per response; `modes` are the natural modes between
-/// the ends of the grid; `evaluate` computes all responses at frequencies, one row per frequency.
+/// Peaks between the frequencies of a grid (ascending) that are more than 5 % ([`MISSED`]) higher than the values of
+/// the grid on both sides; `None` if there are none. `values` has a row per response; `modes` are the natural modes
+/// between the ends of the grid; `evaluate` computes all responses at frequencies, one row per frequency.
 ///
 /// A value between two frequencies that is higher than those at both proves a maximum there. The responses are computed
-/// around every natural frequency. Three neighbouring values give a pole and so the place of a peak, which damping and the
-/// other modes move away from the natural frequency. So nearly every resonance is counted that is at least 6 % higher than
-/// the grid shows; one of several overlapping modes may be left out. A rise between two antiresonances, without a natural
-/// frequency, may be missed. Undamped modes are not compared, because their peaks have no finite height.
+/// around every natural frequency. Three neighbouring values give a pole and so the place of a peak, which damping and
+/// the other modes move away from the natural frequency. So nearly every resonance is counted that is at least 6 %
+/// higher than the grid shows; one of several overlapping modes may be left out. A rise between two antiresonances,
+/// without a natural frequency, may be missed. Undamped modes are not compared, because their peaks have no finite
+/// height.
 ///
 /// # Errors
 /// The errors of `evaluate`.

@@ -199,11 +199,12 @@ impl Port {
         Some(vector)
     }
 
-    /// Forces on the displacements of the supports per unit of an input at ω [rad/s], the platform and all supports held; by
-    /// reciprocity the output per displacement. `None` on a rigid frame.
+    /// Forces on the displacements of the supports per unit of an input at ω [rad/s], the platform and all supports
+    /// held; by reciprocity the output per displacement. `None` on a rigid frame.
     pub(super) fn on_supports(&self, dynamics: &Dynamics, omega: f64) -> Option<Vec<Complex>> {
         let supports = dynamics.supports()?;
         let mut forces = vec![Complex::new(0.0, 0.0); supports.count()];
+
         match self {
             Self::Platform(_) => {}
             Self::Frame(motion) => return Some(motion.on_supports(dynamics, supports, omega)),
@@ -229,12 +230,13 @@ impl Port {
                 }
             }
         }
+
         Some(forces)
     }
 
-    /// Vector of the port about the platform origin at ω [rad/s], and its forces on the supports; the supports are free in the
-    /// vector. `by_platform` are their displacements there, less their sign, per scaled motion of the platform: see
-    /// [`Dynamics::support_response`]; `None` on a rigid frame.
+    /// Vector of the port about the platform origin at ω [rad/s], and its forces on the supports; the supports are free
+    /// in the vector. `by_platform` are their displacements there, less their sign, per scaled motion of the platform:
+    /// see [`Dynamics::support_response`]; `None` on a rigid frame.
     pub(crate) fn free_vector(
         &self,
         dynamics: &Dynamics,

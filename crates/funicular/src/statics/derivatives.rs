@@ -1,23 +1,23 @@
 //! Derivatives of an equilibrium (pose, forces and lengths) with respect to a number of the robot, by implicit
 //! differentiation of the solved balance.
 //!
-//! The wrench Φ on the platform depends on its pose x, the unstrained lengths L and a parameter p. At an equilibrium Φ
-//! = 0. So with lengths held `𝒥 dx/dp = ∂Φ/∂p`, `𝒥 = −∂Φ/∂x`, and with the pose held `(∂Φ/∂L) dL/dp = −∂Φ/∂p`: one
-//! linear system, whatever the parameter.
+//! The wrench Φ on the platform depends on its pose x, the unstrained lengths L and a parameter p. At an equilibrium,
+//! Φ = 0. So `𝒥 dx/dp = ∂Φ/∂p` with `𝒥 = −∂Φ/∂x` if the lengths are held, and `(∂Φ/∂L) dL/dp = −∂Φ/∂p` if the pose is
+//! held: one linear system for each parameter.
 
 use super::drag::tangent_with_drag;
 use super::equilibrium::{CableState, Equilibrium};
 use super::model::StaticModel;
 use super::stiffness::assembled;
-use crate::drive::derivatives::{DriveDerivatives, Row, place, straight_chord};
+use crate::drive::derivatives::{DriveDerivatives, OuterRow, place, straight_chord};
 use crate::math::{Mat3, Mat6, Vec3, Vec6, skew};
 use crate::platform::{Coordinates, wrench_of};
 use crate::robot::{CableChange, Control, Load, Robot, RobotChange};
 use thiserror::Error;
 
-/// Ratio to the largest singular value up to which the smallest one counts as zero: below it a derivative has no
-/// correct digits.
-const SINGULAR: f64 = 1e-12;
+/// Maximum ratio of the minimum to the maximum singular value of a matrix that counts as singular. Below it a
+/// derivative has no correct digits.
+const MAX_SINGULAR_RATIO: f64 = 1e-12;
 
 /// Reason why an equilibrium has no derivative.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -33,22 +33,35 @@ pub enum StaticDerivativeError {
     },
     /// Cable whose anchor is on a flexible support.
     #[error(
-        "the anchor of cable \"{cable}\" is on a flexible support: derivatives along one direction exist for anchors on a \
-         rigid frame; take the gradients of the results"
+        "the anchor of cable \"{cable}\" is on a flexible support: derivatives along one direction exist for anchors \
+         on a rigid frame; take the gradients of the results"
     )]
     Support {
         /// Name of the cable.
         cable: String,
     },
-    /// Some motion meets no resistance, or some wrench cannot be balanced by a change of the lengths.
+    /// Equilibrium in which some motion meets no resistance, or some wrench cannot be balanced by a change of the
+    /// lengths.
     #[error("the equilibrium is indifferent: some small change of the robot moves it without limit")]
     Singular,
-    /// Pose held, but the number of cables differs from the number of degrees of freedom.
+    /// Derivative along one direction with the pose held, of a robot whose number of cables differs from its number of
+    /// degrees of freedom.
     #[error(
-        "{cables} cables hold {degrees_of_freedom} degrees of freedom: with the pose held the lengths follow from a \
-         change of the robot only if both numbers are equal"
+        "derivatives along one direction with the pose held need as many cables as degrees of freedom, not {cables} \
+         cables for {degrees_of_freedom}: hold the lengths, or take the gradients of the results"
     )]
     CableCount {
+        /// Number of cables.
+        cables: usize,
+        /// Degrees of freedom of the platform.
+        degrees_of_freedom: usize,
+    },
+    /// Pose held, but the cables are fewer than the degrees of freedom.
+    #[error(
+        "{cables} cables cannot hold the pose of a platform with {degrees_of_freedom} degrees of freedom by their \
+         lengths: hold the lengths instead"
+    )]
+    TooFewCables {
         /// Number of cables.
         cables: usize,
         /// Degrees of freedom of the platform.
@@ -101,7 +114,8 @@ pub struct CableDerivative {
 /// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
 /// let by_mass = derivatives::at_held_lengths(&robot, &rest, &RobotChange::of_mass(&robot))?;
 ///
-/// let heavier = statics::forward(&robot.with_mass(robot.platform.mass + 1e-3), &lengths, StaticModel::Catenary, None)?;
+/// let heavier = robot.with_mass(robot.platform.mass + 1e-3);
+/// let heavier = statics::forward(&heavier, &lengths, StaticModel::Catenary, None)?;
 /// let moved = (heavier.pose.position_w - rest.pose.position_w) / 1e-3; // m/kg
 /// assert!((moved - by_mass.translation_w).norm() < 1e-3 * moved.norm());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -187,8 +201,8 @@ pub(crate) fn jacobian_of<'a>(
     without_moment(robot, Coordinates::of(robot).allowed_matrix(&whole))
 }
 
-/// Stiffness without the half of a moment that is fixed in the world: the tangent contains it, so that it is symmetric, and the
-/// balance does not.
+/// Stiffness without one half of the moment of the load, which is fixed in the world. The tangent contains this half,
+/// so that it is symmetric; the balance does not.
 fn without_moment(robot: &Robot, mut stiffness: Mat6) -> Mat6 {
     let mut turns = stiffness.fixed_view_mut::<3, 3>(3, 3);
     turns -= skew(&robot.load.moment_w) * 0.5;
@@ -201,16 +215,22 @@ pub(super) fn solve(matrix: &Mat6, coordinates: &Coordinates, wrench: &Vec6) -> 
     matrix.lu().solve(&coordinates.reduce(wrench)).ok_or(StaticDerivativeError::Singular)
 }
 
-/// Reduced matrix whose rows beyond the coordinates are regular, too.
+/// Reduced matrix, completed with a diagonal beyond the coordinates so that it is regular.
 pub(crate) fn regular(matrix: &Mat6, coordinates: &Coordinates) -> Result<Mat6, StaticDerivativeError> {
     let mut matrix = *matrix;
     let scale = matrix.amax();
     (coordinates.count()..6).for_each(|k| matrix[(k, k)] = scale);
     let singular = matrix.singular_values();
-    if singular.min().is_nan() || singular.min() <= SINGULAR * singular.max() {
+    check_regular(singular.min(), singular.max())?;
+    Ok(matrix)
+}
+
+/// Checks that a matrix is regular, by its minimum and maximum singular value, or by pivots that stand for them.
+pub(crate) fn check_regular(minimum: f64, maximum: f64) -> Result<(), StaticDerivativeError> {
+    if minimum.is_nan() || minimum <= MAX_SINGULAR_RATIO * maximum {
         return Err(StaticDerivativeError::Singular);
     }
-    Ok(matrix)
+    Ok(())
 }
 
 /// Effect of a change while the platform stays in place.
@@ -224,7 +244,7 @@ struct Direct {
 struct DirectCable {
     partials: CablePartials,
     /// Outer variables of the drive, with chord and load.
-    outer: Row,
+    outer: OuterRow,
     force_w: Vec3,
     lever_w: Vec3,
     load_w: Vec3,
@@ -288,8 +308,8 @@ impl Direct {
             let force_w = cable.force_w + partials.stiffness_w * chord_w + partials.force_by_load_w * turned_w;
             let load_w = cable.load_w + turned_w;
 
-            // The tension at the anchor, or at the exit point, is the magnitude of N = f − S q, q being the load per length
-            // and S the length of the free span.
+            // The tension at the anchor, or at the exit point, is the magnitude of N = f − S q, q being the load per
+            // length and S the length of the free span.
             let at_anchor_w = force_at_anchor(state);
             let mut outer = cable.outer;
             for k in 0..3 {
@@ -313,8 +333,8 @@ impl Direct {
     }
 }
 
-/// Partial derivatives of the force of a cable on the platform, and of its load per length, world axes. Derivatives along
-/// a direction sum them, gradients sum their transposes.
+/// Partial derivatives of the force of a cable on the platform, and of its load per length, world axes. Derivatives
+/// along a direction sum them, gradients sum their transposes.
 #[derive(Debug, Clone)]
 pub(crate) struct CablePartials {
     /// Force by the chord, at a load held: the static stiffness [N/m].
@@ -343,13 +363,14 @@ pub(crate) struct CablePartials {
     pub(crate) drive: Option<Box<DrivePartials>>,
 }
 
-/// Partial derivatives of a cable over a pulley or to a winch. The chord of [`CablePartials`] then goes to the anchor's point.
+/// Partial derivatives of a cable over a pulley or to a winch. The chord of [`CablePartials`] then goes to the anchor's
+/// point.
 #[derive(Debug, Clone)]
 pub(crate) struct DrivePartials {
     /// State of the cable and of its end by the outer variables.
     pub(crate) by_outer: DriveDerivatives,
-    /// Load per length by the radius of the wheel and by the rotation of the pulley: the drag of the wind sees the chord to the
-    /// exit point.
+    /// Load per length by the radius of the wheel and by the rotation of the pulley: the drag of the wind sees the
+    /// chord to the exit point.
     pub(crate) load_by_radius_w: Vec3,
     pub(crate) load_by_turn_w: Mat3,
     /// Direction of travel at the entry point.
@@ -382,7 +403,7 @@ impl DrivePartials {
     }
 
     /// Outer variables of the pulley and the winch by the change of a cable.
-    fn outer(&self, of_cable: &CableChange, outer: &mut Row) {
+    fn outer(&self, of_cable: &CableChange, outer: &mut OuterRow) {
         let turn_w = self.entry_direction_w.cross(&of_cable.pulley.entry_direction_w);
         outer[place::RADIUS] = of_cable.pulley.radius;
         outer[place::TURN..place::DRUM_SIDE].copy_from_slice(turn_w.as_slice());
@@ -475,8 +496,8 @@ impl CablePartials {
     }
 
     /// Outer variables by the change of a cable, of its chord to the anchor's point and of its load.
-    fn outer(&self, of_cable: &CableChange, chord_w: &Vec3, load_w: &Vec3) -> Row {
-        let mut outer = Row::default();
+    fn outer(&self, of_cable: &CableChange, chord_w: &Vec3, load_w: &Vec3) -> OuterRow {
+        let mut outer = OuterRow::default();
         outer[place::REACH..place::LOAD].copy_from_slice(chord_w.as_slice());
         outer[place::LOAD..place::AXIAL_STIFFNESS].copy_from_slice(load_w.as_slice());
         outer[place::AXIAL_STIFFNESS] = of_cable.axial_stiffness;
@@ -488,7 +509,7 @@ impl CablePartials {
     }
 
     /// Change of the force on the platform with the outer variables.
-    fn force(&self, outer: &Row) -> Vec3 {
+    fn force(&self, outer: &OuterRow) -> Vec3 {
         if let Some(drive) = &self.drive {
             return Vec3::from(drive.by_outer.force_w.map(|row| along(&row, outer)));
         }
@@ -500,28 +521,28 @@ impl CablePartials {
     }
 
     /// Change of the unstrained length of the free span with the outer variables.
-    fn free_length(&self, outer: &Row) -> f64 {
+    fn free_length(&self, outer: &OuterRow) -> f64 {
         self.drive.as_ref().map_or(outer[place::LENGTH], |drive| along(&drive.by_outer.free_length, outer))
     }
 }
 
 /// Three columns of three rows from `first` on.
-fn block(rows: &[Row; 3], first: usize) -> Mat3 {
+fn block(rows: &[OuterRow; 3], first: usize) -> Mat3 {
     Mat3::from_fn(|i, j| rows[i][first + j])
 }
 
 /// Column of three rows.
-fn column(rows: &[Row; 3], variable: usize) -> Vec3 {
+fn column(rows: &[OuterRow; 3], variable: usize) -> Vec3 {
     Vec3::from_fn(|i, _| rows[i][variable])
 }
 
 /// Derivative along a change of the outer variables.
-fn along(row: &Row, outer: &Row) -> f64 {
+fn along(row: &OuterRow, outer: &OuterRow) -> f64 {
     row.iter().zip(outer).map(|(by, change)| by * change).sum()
 }
 
-/// Tension vector at the anchor, or at the exit point, `N = f − S q`, S being the unstrained length of the free span; world
-/// axes [N].
+/// Tension vector at the anchor, or at the exit point, `N = f − S q`, S being the unstrained length of the free span;
+/// world axes [N].
 pub(crate) fn force_at_anchor(state: &CableState) -> Vec3 {
     state.force_on_platform_w - load_of(state) * state.free_length()
 }

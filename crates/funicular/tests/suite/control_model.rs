@@ -7,7 +7,7 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{CDMat, Complex, DMat, Vec3};
 use funicular::modes::{self, Kind};
 use funicular::reduced_model::{
-    ControlModel, DampingAt, ReductionError, RequestedModel, RequestedStateSpace, STEPS, Size, StateSpace,
+    ControlModel, DampingAt, ReductionError, RequestedModel, RequestedStateSpace, STEPS, StateSpace, StateSpaceSize,
     control_model, reduce,
 };
 use funicular::response::{self, Port, Quantity, Signal};
@@ -16,7 +16,7 @@ use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
 
 /// Robot linearised for frequencies up to a limit.
-struct Case {
+struct LimitedRobot {
     name: String,
     robot: Robot,
     rest: Equilibrium,
@@ -24,7 +24,7 @@ struct Case {
     below_hz: f64,
 }
 
-impl Case {
+impl LimitedRobot {
     fn new(name: &str, robot: Robot, rest: Equilibrium, below_hz: f64) -> Self {
         let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), below_hz).unwrap();
         Self { name: name.to_owned(), robot, rest, dynamics, below_hz }
@@ -46,7 +46,7 @@ impl Case {
         &self,
         inputs: &[Signal],
         outputs: &[(Signal, Quantity)],
-        size: Size,
+        size: StateSpaceSize,
     ) -> Result<ControlModel, ReductionError> {
         let requested =
             RequestedStateSpace { below_hz: self.below_hz, size, damping_at: DampingAt::NaturalFrequencies };
@@ -120,15 +120,15 @@ fn signals(robot: &Robot) -> (Vec<Signal>, Vec<(Signal, Quantity)>) {
 }
 
 /// Robots of the library, and some random ones.
-fn held_out() -> Vec<Case> {
+fn held_out() -> Vec<LimitedRobot> {
     let damped = |robot: &Robot| {
         robot.cables.iter().all(|cable| match cable.material.damping {
             Damping::Ratio(c) | Damping::Viscous(c) => c > 0.0,
         })
     };
-    let mut cases: Vec<Case> = (library::library().into_iter())
+    let mut cases: Vec<LimitedRobot> = (library::library().into_iter())
         .filter(|(_, robot, _)| damped(robot))
-        .map(|(name, robot, rest)| Case::with_modes(&name, &robot, &rest, 30))
+        .map(|(name, robot, rest)| LimitedRobot::with_modes(&name, &robot, &rest, 30))
         .collect();
     for index in 0..12 {
         let sample = robots::sample(index);
@@ -136,7 +136,7 @@ fn held_out() -> Vec<Case> {
         let taut = rest.cables.iter().all(|cable| cable.tension_platform > 0.0);
         let stable = matches!(rest.stability, statics::Stability::Stable { .. });
         if taut && stable && damped(&sample.robot) {
-            cases.push(Case::with_modes(&format!("random {index}"), &sample.robot, &rest, 20));
+            cases.push(LimitedRobot::with_modes(&format!("random {index}"), &sample.robot, &rest, 20));
         }
     }
     // A cable without mass is a spring without damping.
@@ -150,7 +150,7 @@ fn the_stated_error_is_kept_on_other_frequencies_by_every_robot() {
     for case in held_out() {
         let (inputs, outputs) = signals(&case.robot);
         for tolerance in [0.1, 0.01] {
-            let model = case.model(&inputs, &outputs, Size::Tolerance(tolerance));
+            let model = case.model(&inputs, &outputs, StateSpaceSize::Tolerance(tolerance));
             let model = model.unwrap_or_else(|error| panic!("{}: {error}", case.name));
             assert!(model.error <= tolerance && model.damping_error <= tolerance, "{}: {}", case.name, model.error);
             let largest = case.error(&inputs, &outputs, &model).into_iter().fold(0.0, f64::max);
@@ -172,7 +172,7 @@ fn the_stated_error_is_kept_on_other_frequencies_by_every_robot() {
 
 /// Smallest number of modes that keep a tolerance, by trying all subsets of the highest peaks. The modes are the damped
 /// ones of the full model with their residues of first order, which shares nothing with the second-order model.
-fn fewest(case: &Case, input: &Signal, output: &(Signal, Quantity), tolerance: f64) -> Option<usize> {
+fn fewest(case: &LimitedRobot, input: &Signal, output: &(Signal, Quantity), tolerance: f64) -> Option<usize> {
     const HIGHEST: usize = 12;
     let undamped = modes::below(&case.dynamics, case.below_hz);
     let damped = modes::damped::damped_modes(&case.dynamics, &undamped);
@@ -229,7 +229,7 @@ fn the_order_is_at_most_twice_that_of_the_best_subset_of_modes() {
         for output in &outputs {
             for tolerance in [0.1, 0.02] {
                 let Some(fewest) = fewest(&case, &inputs[0], output, tolerance) else { continue };
-                let model = case.model(&inputs[..1], &[*output], Size::Tolerance(tolerance)).unwrap();
+                let model = case.model(&inputs[..1], &[*output], StateSpaceSize::Tolerance(tolerance)).unwrap();
                 let order = model.space.a.nrows();
                 println!("{} {:?} {tolerance}: {order} states, {fewest} modes", case.name, output.1);
                 assert!(order <= 4 * fewest, "{}: {order} states, {fewest} modes are enough", case.name);
@@ -245,13 +245,13 @@ fn the_order_is_at_most_twice_that_of_the_best_subset_of_modes() {
     assert!(5 * larger <= compared, "{larger} of {compared} have more states than the best subset");
 }
 
-fn example(damping: Damping) -> Case {
+fn example(damping: Damping) -> LimitedRobot {
     let mut robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
     for cable in &mut robot.cables {
         cable.material.damping = damping;
     }
     let rest = library::at_rest(&robot);
-    Case::new("example", robot, rest, 5.0)
+    LimitedRobot::new("example", robot, rest, 5.0)
 }
 
 #[test]
@@ -259,7 +259,12 @@ fn statics_and_feedthrough_are_those_of_physics() {
     let case = example(Damping::Ratio(0.003));
     let z = along(Vec3::z());
     let outputs = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration].map(|quantity| (z, quantity));
-    for size in [Size::Order(2), Size::Order(6), Size::Tolerance(0.05), Size::Tolerance(0.005)] {
+    for size in [
+        StateSpaceSize::Order(2),
+        StateSpaceSize::Order(6),
+        StateSpaceSize::Tolerance(0.05),
+        StateSpaceSize::Tolerance(0.005),
+    ] {
         let model = case.model(&[z], &outputs, size).unwrap();
         let at_zero = transfer(&model.space, 0.0);
 
@@ -280,8 +285,8 @@ fn statics_and_feedthrough_are_those_of_physics() {
         let peak = |k: usize| model.responses[k].peak;
         assert!(at_zero[(1, 0)].norm() < 1e-3 * peak(1) && at_zero[(2, 0)].norm() < 1e-9 * peak(2));
         assert!(model.space.d[(1, 0)].abs() == 0.0);
-        // The modes left out are stiff springs: D is positive where the force acts on what is measured. The inverse mass
-        // of the modes that are kept is the feedthrough of the acceleration.
+        // The modes left out are stiff springs: D is positive where the force acts on what is measured. The inverse
+        // mass of the modes that are kept is the feedthrough of the acceleration.
         assert!(model.space.d[(0, 0)] > 0.0 && model.space.d[(0, 0)] < expected);
         assert!(model.space.d[(2, 0)] > 0.0);
     }
@@ -298,10 +303,10 @@ fn with_every_mode_the_acceleration_has_the_feedthrough_of_the_mass_matrix() {
     robot.platform.translational_damping_p = Vec3::new(3.0, 4.0, 5.0);
     robot.platform.rotational_damping_p = Vec3::new(0.3, 0.2, 0.1);
     let rest = library::at_rest(&robot);
-    let case = Case::new("springs", robot, rest, 400.0);
+    let case = LimitedRobot::new("springs", robot, rest, 400.0);
     let all: Vec<Signal> = [Vec3::x(), Vec3::y(), Vec3::z()].map(along).to_vec();
     let outputs: Vec<_> = all.iter().map(|signal| (*signal, Quantity::Acceleration)).collect();
-    let model = case.model(&all, &outputs, Size::Order(12)).unwrap();
+    let model = case.model(&all, &outputs, StateSpaceSize::Order(12)).unwrap();
     assert_eq!((model.space.a.nrows(), model.damping_error), (12, 0.0));
     assert!(model.error < 1e-9, "{}", model.error);
 
@@ -333,14 +338,22 @@ fn equal_frequencies_take_one_pair_of_states_for_one_direction() {
     );
     let robot = Robot::from_toml(&text).unwrap_or_else(|error| panic!("{}", error.render("four", &text, false)));
     let rest = library::at_rest(&robot);
-    let case = Case::new("four", robot, rest, 30.0);
+    let case = LimitedRobot::new("four", robot, rest, 30.0);
     let slanted = Signal::Along { direction_w: Vec3::new(0.6, 0.8, 0.0), point_p: Vec3::zeros() };
     let x = Signal::Along { direction_w: Vec3::x(), point_p: Vec3::zeros() };
     let y = Signal::Along { direction_w: Vec3::y(), point_p: Vec3::zeros() };
     let orders: Vec<usize> = [
-        case.model(&[slanted], &[(slanted, Quantity::Displacement)], Size::Tolerance(0.01)),
-        case.model(&[slanted], &[(x, Quantity::Displacement), (y, Quantity::Displacement)], Size::Tolerance(0.01)),
-        case.model(&[x, y], &[(x, Quantity::Displacement), (y, Quantity::Displacement)], Size::Tolerance(0.01)),
+        case.model(&[slanted], &[(slanted, Quantity::Displacement)], StateSpaceSize::Tolerance(0.01)),
+        case.model(
+            &[slanted],
+            &[(x, Quantity::Displacement), (y, Quantity::Displacement)],
+            StateSpaceSize::Tolerance(0.01),
+        ),
+        case.model(
+            &[x, y],
+            &[(x, Quantity::Displacement), (y, Quantity::Displacement)],
+            StateSpaceSize::Tolerance(0.01),
+        ),
     ]
     .into_iter()
     .map(|model| model.unwrap().space.a.nrows())
@@ -349,7 +362,8 @@ fn equal_frequencies_take_one_pair_of_states_for_one_direction() {
     assert_eq!(2 * orders[0], orders[2], "{orders:?}");
 
     // x and y are not coupled, and their numbers are not errors.
-    let model = case.model(&[x], &[(x, Quantity::Velocity), (y, Quantity::Velocity)], Size::Tolerance(0.01)).unwrap();
+    let model =
+        case.model(&[x], &[(x, Quantity::Velocity), (y, Quantity::Velocity)], StateSpaceSize::Tolerance(0.01)).unwrap();
     assert_eq!(model.responses.iter().map(|pair| pair.coupled).collect::<Vec<_>>(), [true, false]);
     assert!(model.pointwise.output == 0 && model.error <= 0.01);
 }
@@ -361,13 +375,13 @@ fn more_states_leave_less_error_and_the_states_are_named_after_their_modes() {
     let outputs = [(y, Quantity::Displacement), (z, Quantity::Acceleration)];
     let mut last = f64::INFINITY;
     for order in [2, 4, 8, 16, 32] {
-        let model = case.model(&[z, y], &outputs, Size::Order(order)).unwrap();
+        let model = case.model(&[z, y], &outputs, StateSpaceSize::Order(order)).unwrap();
         assert!(model.space.a.nrows() <= order && model.error <= last * 1.05, "{order}: {} {last}", model.error);
         last = model.error;
     }
     assert!(last < 0.02, "{last}");
 
-    let model = case.model(&[z, y], &outputs, Size::Tolerance(0.02)).unwrap();
+    let model = case.model(&[z, y], &outputs, StateSpaceSize::Tolerance(0.02)).unwrap();
     let listed = modes::below(&case.dynamics, 5.0).modes;
     for states in model.states.iter().filter(|states| states.kind.is_some() && states.frequency_hz < 4.9) {
         let near = listed.iter().min_by(|a, b| {
@@ -392,7 +406,7 @@ fn viscous_ropes_have_no_error_of_damping_and_any_tolerance() {
     let z = along(Vec3::z());
     let on_cable = Signal::OnCable { cable: 2, fraction: 0.4, direction_w: Vec3::y() };
     let outputs = [(z, Quantity::Displacement), (on_cable, Quantity::Velocity)];
-    let model = case.model(&[z], &outputs, Size::Tolerance(1e-5)).unwrap();
+    let model = case.model(&[z], &outputs, StateSpaceSize::Tolerance(1e-5)).unwrap();
     assert!(model.damping_error == 0.0 && model.error <= 1e-5);
     let largest = case.error(&[z], &outputs, &model).into_iter().fold(0.0, f64::max);
     assert!(largest <= model.error * (1.0 + 1e-4), "{largest} {}", model.error);
@@ -403,7 +417,7 @@ fn a_force_on_a_cable_has_the_static_displacement_beside_it_as_feedthrough() {
     let case = example(Damping::Ratio(0.003));
     let on_cable = Signal::OnCable { cable: 2, fraction: 0.4, direction_w: Vec3::z() };
     let outputs = [(on_cable, Quantity::Displacement), (along(Vec3::z()), Quantity::Acceleration)];
-    let model = case.model(&[on_cable], &outputs, Size::Tolerance(0.01)).unwrap();
+    let model = case.model(&[on_cable], &outputs, StateSpaceSize::Tolerance(0.01)).unwrap();
     let errors = case.error(&[on_cable], &outputs, &model);
     assert!(errors.iter().all(|error| *error <= model.error * (1.0 + 1e-4)), "{errors:?} {}", model.error);
     let at_rest = case.full(&on_cable, &outputs[0], &[1e-5])[0].re;
@@ -414,9 +428,9 @@ fn a_force_on_a_cable_has_the_static_displacement_beside_it_as_feedthrough() {
 fn strong_damping_gives_states_that_decay_without_oscillation() {
     let mut case = example(Damping::Ratio(0.003));
     case.robot.platform.translational_damping_p = Vec3::new(2000.0, 2000.0, 2000.0);
-    let case = Case::new("damped", case.robot, case.rest, 5.0);
+    let case = LimitedRobot::new("damped", case.robot, case.rest, 5.0);
     let outputs = [(along(Vec3::z()), Quantity::Displacement), (along(Vec3::x()), Quantity::Velocity)];
-    let model = case.model(&[along(Vec3::z())], &outputs, Size::Tolerance(0.01)).unwrap();
+    let model = case.model(&[along(Vec3::z())], &outputs, StateSpaceSize::Tolerance(0.01)).unwrap();
     assert!(model.states.iter().any(|states| states.states == 1), "{:?}", model.states);
     let largest = case.error(&[along(Vec3::z())], &outputs, &model).into_iter().fold(0.0, f64::max);
     assert!(largest <= model.error * (1.0 + 1e-4), "{largest} {}", model.error);
@@ -427,21 +441,22 @@ fn what_cannot_be_is_refused_with_its_reason() {
     let case = example(Damping::Ratio(0.003));
     let z = [along(Vec3::z())];
     let outputs = [(z[0], Quantity::Acceleration)];
-    assert_eq!(case.model(&z, &outputs, Size::Order(1)).unwrap_err(), ReductionError::Order(1));
-    let refused = case.model(&z, &outputs, Size::Tolerance(1e-12)).unwrap_err();
+    assert_eq!(case.model(&z, &outputs, StateSpaceSize::Order(1)).unwrap_err(), ReductionError::Order(1));
+    let refused = case.model(&z, &outputs, StateSpaceSize::Tolerance(1e-12)).unwrap_err();
     let ReductionError::Tolerance { requested, reached, order } = refused else { panic!("{refused}") };
     assert!(requested < reached && reached < 1e-2 && order > 10, "{reached} {order}");
     // This order does reach what is stated.
-    let model = case.model(&z, &outputs, Size::Tolerance(1.1 * reached)).unwrap();
+    let model = case.model(&z, &outputs, StateSpaceSize::Tolerance(1.1 * reached)).unwrap();
     assert!(model.error <= 1.1 * reached);
 
     let undamped = example(Damping::Viscous(0.0));
-    let refused = undamped.model(&z, &outputs, Size::Tolerance(0.01)).unwrap_err();
+    let refused = undamped.model(&z, &outputs, StateSpaceSize::Tolerance(0.01)).unwrap_err();
     assert!(matches!(refused, ReductionError::Undamped { .. }), "{refused}");
     assert!(refused.to_string().contains("give the ropes or the platform damping"), "{refused}");
 }
 
-/// Reports of work that runs to its end, and a check that it stops at any of them. `work` returns true if it was stopped.
+/// Reports of work that runs to its end, and a check that it stops at any of them. `work` returns true if it was
+/// stopped.
 fn check_reports(mut work: impl FnMut(&mut dyn FnMut(usize) -> bool) -> bool) {
     let mut reports = Vec::new();
     let stopped = work(&mut |done| {
@@ -467,7 +482,7 @@ fn a_reduction_reports_its_steps_and_stops_at_any_of_them() {
     let z = along(Vec3::z());
     let outputs = [(z, Quantity::Displacement)];
     let damping_at = DampingAt::NaturalFrequencies;
-    for size in [Size::Tolerance(0.02), Size::Order(8)] {
+    for size in [StateSpaceSize::Tolerance(0.02), StateSpaceSize::Order(8)] {
         let requested = RequestedStateSpace { below_hz: case.below_hz, size, damping_at };
         check_reports(|report| {
             let model = control_model(&case.robot, &case.rest, &case.dynamics, &[z], &outputs, requested, report);
@@ -487,7 +502,7 @@ fn the_complete_second_order_model_has_the_responses_of_a_state_space_with_a_sma
     let case = example(Damping::Viscous(0.02));
     let z = along(Vec3::z());
     let outputs = [(z, Quantity::Displacement), (z, Quantity::Acceleration)];
-    let model = case.model(&[z], &outputs, Size::Tolerance(1e-4)).unwrap();
+    let model = case.model(&[z], &outputs, StateSpaceSize::Tolerance(1e-4)).unwrap();
     let requested = RequestedModel { below_hz: 5.0, tolerance: 1e-6, damping_at: DampingAt::NaturalFrequencies };
     let complete = reduce(&case.robot, &case.rest, &case.dynamics, &[z], &outputs, requested, &mut |_| true);
     let complete = complete.unwrap().state_space().unwrap();

@@ -246,8 +246,9 @@ fn natural_frequencies_follow_every_number_of_the_robot() {
     assert!(compared.iter().all(|count| *count > 100), "{compared:?}");
 }
 
-/// The reverse pass has the derivatives of the forward one, by every number, whichever is held. Both take the same partial
-/// derivatives and cancel the same stiff terms: 1e-9 of the largest derivative of the kind is rounding of those.
+/// The reverse pass has the derivatives of the forward one, by every number, whichever is held. Both take the same
+/// partial derivatives and cancel the same stiff terms: 1e-9 of the largest derivative of the kind is rounding of
+/// those.
 #[test]
 fn gradients_are_the_transposes_of_derivatives_along_directions() {
     let mut compared = 0;
@@ -300,8 +301,8 @@ fn gradients_are_the_transposes_of_derivatives_along_directions() {
     assert!(compared > 400, "{compared}");
 }
 
-/// Point mass on four equal cables, whose modes share frequencies: horizontal motions, and vibrations of the cables with
-/// the platform at rest.
+/// Point mass on four equal cables, whose modes share frequencies: horizontal motions, and vibrations of the cables
+/// with the platform at rest.
 fn symmetric_robot() -> Robot {
     let cables: Vec<String> = [("1", "2.0, 0.0"), ("2", "-2.0, 0.0"), ("3", "0.0, 2.0"), ("4", "0.0, -2.0")]
         .iter()
@@ -317,8 +318,8 @@ fn symmetric_robot() -> Robot {
     Robot::from_toml(&text).unwrap()
 }
 
-/// Along a change, the eigenvalues of the block of modes that share a frequency are their one-sided derivatives: also where
-/// the platform is at rest and only cables vibrate, at their poles.
+/// Along a change, the eigenvalues of the block of modes that share a frequency are their one-sided derivatives: also
+/// where the platform is at rest and only cables vibrate, at their poles.
 #[test]
 fn modes_that_share_a_frequency_part_along_a_change_by_the_eigenvalues_of_their_block() {
     let robot = symmetric_robot();
@@ -555,8 +556,8 @@ fn a_parameter_changes_the_robot_as_its_number_in_the_file_does() {
             let Ok(changed) = parameters.robot_with(&[(i, parameter.value + step)]) else { continue };
             let moved = parameters.robot().changed(&change, step);
             for (by_file, by_change) in numbers_of(&changed).iter().zip(numbers_of(&moved)) {
-                // The square of the relative step, which the area of a rope has, three times that for one over the square of
-                // a drum's radius, and rounding of sums.
+                // The square of the relative step, which the area of a rope has, three times that for one over the
+                // square of a drum's radius, and rounding of sums.
                 let allowed = 4e-12 * (by_file.abs() + step);
                 assert!((by_file - by_change).abs() <= allowed, "{}: {by_file} {by_change}", parameter.path());
             }
@@ -638,6 +639,11 @@ fn what_has_no_derivative_is_refused() {
     modes[0].multiplicity = 2;
     let error = gradients.vibration(&dynamics).unwrap().frequency(&modes[0]).unwrap_err().to_string();
     assert!(error.contains("2 modes share the frequency"), "{error}");
+
+    let hung = Robot::from_toml(funicular_robots::GRAB_3_CABLES).unwrap();
+    let rest_of_hung = statics::solve(&hung, StaticModel::Catenary, None).unwrap().equilibrium;
+    let error = Gradients::new(&hung, &rest_of_hung, Hold::Pose).err().unwrap().to_string();
+    assert!(error.contains("3 cables cannot hold the pose of a platform with 6 degrees of freedom"), "{error}");
 
     let ideal = statics::inverse(&robot, &rest.pose, StaticModel::Ideal).unwrap();
     assert_eq!(at_held_lengths(&robot, &ideal, &change), Err(StaticDerivativeError::Ideal));

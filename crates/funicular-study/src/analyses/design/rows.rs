@@ -11,7 +11,7 @@ use anyhow::{Result, anyhow};
 use funicular::cable::CableModel;
 use funicular::dynamics::Linearisation;
 use funicular::gradient::{Gradients, Hold, VibrationGradients};
-use funicular::math::max_min::{Evaluation, Row};
+use funicular::math::max_min::{Evaluation, LinearisedFunction};
 use funicular::modes::{self, Mode};
 use funicular::robot::parameters::Parameters;
 use funicular::robot::{Robot, RobotChange};
@@ -148,7 +148,7 @@ impl<'a> AtPoses<'a> {
             .collect::<Result<Vec<_>>>()?;
         let group = if request.weights.is_some() { pose } else { 0 };
         let along = |gradient: &RobotChange| -> Slopes { directions.iter().map(|of| gradient.dot(of)).collect() };
-        let row = |value: f64, slopes: &Slopes, factor: f64| Row {
+        let row = |value: f64, slopes: &Slopes, factor: f64| LinearisedFunction {
             value: value * factor,
             gradient: slopes.iter().map(|slope| factor * slope).collect(),
             group,
@@ -183,11 +183,11 @@ impl<'a> AtPoses<'a> {
         let before = found.evaluation.objectives.len();
         let counted: usize = found.rows_per_pose.iter().sum();
         found.rows_per_pose.push(before - counted);
-        let mut demand = |kind: usize, row: Row| {
+        let mut demand = |kind: usize, row: LinearisedFunction| {
             found.evaluation.demands.push(row);
             found.demands.push((pose, kind));
         };
-        let over = |mut row: Row, limit: f64, scale: f64| {
+        let over = |mut row: LinearisedFunction, limit: f64, scale: f64| {
             row.value = (row.value - limit) / scale;
             row.gradient.iter_mut().for_each(|slope| *slope /= scale);
             row

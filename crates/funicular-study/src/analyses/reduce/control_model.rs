@@ -13,7 +13,7 @@ use crate::request;
 use anyhow::Result;
 use funicular::math::DMat;
 use funicular::reduced_model::{
-    ControlModel, DampingAt, ModalStates, RequestedStateSpace, ResponseOfPair, Size, control_model,
+    ControlModel, DampingAt, ModalStates, RequestedStateSpace, ResponseOfPair, StateSpaceSize, control_model,
 };
 use serde::Serialize;
 
@@ -98,8 +98,8 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest, watch: &mut dyn
     let Linearised { dynamics, linearisation, warnings, damping_at, from, to } =
         linearised(at_rest, request, &signals)?;
 
-    let tolerance = Size::Tolerance(request.tolerance.unwrap_or(DEFAULT_TOLERANCE));
-    let size = request.order.map_or(tolerance, Size::Order);
+    let tolerance = StateSpaceSize::Tolerance(request.tolerance.unwrap_or(DEFAULT_TOLERANCE));
+    let size = request.order.map_or(tolerance, StateSpaceSize::Order);
     let requested = RequestedStateSpace { below_hz: request.below_hz, size, damping_at };
     let report = &mut |done| goes_on(watch, done);
     let model = control_model(&at_rest.robot, &at_rest.equilibrium, &dynamics, &from, &to, requested, report)

@@ -6,7 +6,6 @@ use super::row::{Along, Row};
 use funicular::gradient::Gradients;
 use funicular::math::{Complex, Vec6};
 use funicular::modes::Mode;
-use funicular::response::Quantity;
 use funicular::robot::Robot;
 use std::f64::consts::TAU;
 
@@ -111,11 +110,7 @@ pub(super) fn test(
         // Beyond the linear change: second order of the logarithm, and the modes that come nearer.
         let of_logarithm = if is_phase { magnitude * phase } else { 0.5 * (magnitude * magnitude + phase * phase) };
         let omega = TAU * hz;
-        let factor = match of.asked.quantity() {
-            Quantity::Displacement => Complex::new(1.0, 0.0),
-            Quantity::Velocity => Complex::new(0.0, omega),
-            Quantity::Acceleration => Complex::new(-omega * omega, 0.0),
-        };
+        let factor = of.asked.quantity().factor(omega);
         let mut worst: Option<(f64, &NearMode)> = None;
         let mut beyond = of_logarithm;
         for mode in &near {

@@ -5,7 +5,7 @@ use super::inputs::{Distribution, Inputs};
 use super::responses::{Asked, Responses};
 use super::results::{NominalModes, ResultKind, static_gradients};
 use super::row::{Along, Row};
-use crate::analyses::gradient::held;
+use crate::analyses::gradient::{check_hold, held};
 use crate::at_rest::{self, AtRest};
 use crate::error::NoSolution;
 use crate::request::UncertaintyRequest;
@@ -13,7 +13,6 @@ use anyhow::Result;
 use funicular::dynamics::Linearisation;
 use funicular::gradient::{GradientError, Gradients, Hold};
 use funicular::robot::{Robot, RobotChange, TensionLimits};
-use funicular::statics::derivatives::StaticDerivativeError;
 use funicular::statics::{TensionRange, TensionRule};
 
 /// Deviations of a tension that must not reach its limit: of eight cables then one in fifty robots has a slack one.
@@ -60,10 +59,7 @@ impl LinearPose {
         at_rest: AtRest,
     ) -> Result<Self> {
         let robot = &at_rest.robot;
-        let (cables, degrees_of_freedom) = (robot.cables.len(), robot.platform.motion.count());
-        if request.hold != Hold::Lengths && cables < degrees_of_freedom {
-            return Err(StaticDerivativeError::CableCount { cables, degrees_of_freedom }.into());
-        }
+        check_hold(robot, request.hold)?;
         let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
         let input_values = inputs.values(&at_rest);
         let distributions = inputs.distributions(&input_values);

@@ -4,7 +4,7 @@ use super::pose::lengths;
 use super::published::{SPRING, STATIC_SAG};
 use funicular::cable::CableModel;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
-use funicular::math::least_squares::{Minimum, Problem, minimise, precision};
+use funicular::math::least_squares::{LeastSquaresProblem, Minimum, minimise, precision};
 use funicular::math::{DMat, Mat3, Vec3};
 use funicular::modes;
 use funicular::robot::{Robot, WinchMode};
@@ -131,7 +131,7 @@ impl Nine<'_> {
     }
 }
 
-impl Problem for Nine<'_> {
+impl LeastSquaresProblem for Nine<'_> {
     fn residuals(&mut self, x: &[f64]) -> Option<Vec<f64>> {
         let printed = SPRING.iter().chain(&STATIC_SAG);
         let found = self.frequencies(&Platform::at(x))?;

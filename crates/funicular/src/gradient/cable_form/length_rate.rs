@@ -7,12 +7,12 @@ use crate::math::Vec3;
 use std::array::from_fn;
 
 impl CableForm {
-    /// Adds `factor` times the coefficients of `v·∂f/∂L` with the vector `v` held; L is the length of the free span, whose
-    /// ends are held.
+    /// Adds `factor` times the coefficients of `v·∂f/∂L` with the vector `v` held; L is the length of the free span,
+    /// whose ends are held.
     ///
     /// `∂f/∂L = S₀⁻¹(S₁ q − d/L)`, where S₀ and S₁ are the integrals of the compliance along the cable, contains the
-    /// tension vector in S alone. With `a = S₀⁻¹ v` the differential has the integrals of (60a) over the constant `a` and
-    /// over `σ q − ∂f/∂L`, and three terms beside them.
+    /// tension vector in S alone. With `a = S₀⁻¹ v` the differential has the integrals of (60a) over the constant `a`
+    /// and over `σ q − ∂f/∂L`, and three terms beside them.
     ///
     /// # References
     /// docs/theory.md, equation (60t).

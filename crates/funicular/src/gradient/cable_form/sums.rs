@@ -52,14 +52,14 @@ impl ShapeColumns {
 }
 
 /// Gauss rule.
-pub(super) struct Rule {
+pub(super) struct GaussRule {
     /// Points ξ in [−1, 1], each with its weight.
     pub(super) points: Vec<(f64, f64)>,
     /// Integrals over [−1, ξ] at the points from the values there, by rows; the last row is the integral over [−1, 1].
     integrals: DMat,
 }
 
-impl Rule {
+impl GaussRule {
     fn new(size: usize) -> Self {
         let points = legendre::gauss(size);
         // Orthonormal polynomials at the points, and their integrals: of P_k it is (P_{k+1} − P_{k−1})/(2k + 1).
@@ -79,29 +79,33 @@ impl Rule {
 
 /// Gauss rules, each made once for all cables of a robot.
 #[derive(Default)]
-pub(in super::super) struct Rules(Vec<Arc<Rule>>);
+pub(in super::super) struct GaussRules(Vec<Arc<GaussRule>>);
 
-impl Rules {
+impl GaussRules {
     /// Rule with this number of points.
-    pub(super) fn of_size(&mut self, size: usize) -> Arc<Rule> {
+    pub(super) fn of_size(&mut self, size: usize) -> Arc<GaussRule> {
         if let Some(known) = self.0.iter().find(|rule| rule.points.len() == size) {
             return Arc::clone(known);
         }
-        let rule = Arc::new(Rule::new(size));
+        let rule = Arc::new(GaussRule::new(size));
         self.0.push(Arc::clone(&rule));
         rule
     }
 }
 
 /// Element of a cable: its points among those of the cable, half its length [m] and its rule.
-pub(super) struct Element {
+pub(super) struct QuadratureElement {
     pub(super) points: Range<usize>,
     pub(super) half: f64,
-    pub(super) rule: Arc<Rule>,
+    pub(super) rule: Arc<GaussRule>,
 }
 
 /// Integrals of a vector from the platform end to every point, and over the whole cable [m].
-pub(super) fn integrals<T: Field>(elements: &[Element], values: &[T], points: usize) -> (Vec<Vector<T>>, Vector<T>) {
+pub(super) fn integrals<T: Field>(
+    elements: &[QuadratureElement],
+    values: &[T],
+    points: usize,
+) -> (Vec<Vector<T>>, Vector<T>) {
     let mut sums = vec![[T::default(); 3]; points];
     let mut whole = [T::default(); 3];
     let most = elements.iter().map(|element| element.points.len() + 1).max().unwrap_or(0);
@@ -109,7 +113,7 @@ pub(super) fn integrals<T: Field>(elements: &[Element], values: &[T], points: us
     for axis in 0..3 {
         let of_axis = &values[axis * points..(axis + 1) * points];
         let mut before = T::default();
-        for Element { points, half, rule } in elements {
+        for QuadratureElement { points, half, rule } in elements {
             let column = &mut column[..=points.len()];
             column.fill(T::default());
             add_columns(column, rule.integrals.as_slice(), &of_axis[points.clone()]);

@@ -17,7 +17,7 @@ use proptest::prelude::*;
 
 /// Numbers of a random robot with drives.
 #[derive(Debug, Clone)]
-pub(super) struct Chosen {
+pub(super) struct DriveNumbers {
     pub(super) radius: f64,
     /// Inclination of the swivel axes.
     pub(super) incline: [f64; 2],
@@ -32,20 +32,20 @@ pub(super) struct Chosen {
     pub(super) longer: f64,
 }
 
-pub(super) fn chosen() -> impl Strategy<Value = Chosen> {
+pub(super) fn chosen() -> impl Strategy<Value = DriveNumbers> {
     let incline = prop_oneof![Just([0.0, 0.0]), [-0.5..0.5_f64, -0.5..0.5]];
     let wind = prop_oneof![Just([0.0; 3]), [-15.0..15.0_f64, -15.0..15.0, -3.0..3.0]];
     let drive = (0.02..0.12_f64, incline, 0.0..4.0_f64, 4.3..6.5_f64, 4.0..6.5_f64);
     (drive, wind, any::<bool>(), -0.002..0.004_f64).prop_map(
         |((radius, incline, drum_side, stiffness, gain), wind, mixed, longer)| {
             let (stiffness, gain) = (10_f64.powf(stiffness), 10_f64.powf(gain));
-            Chosen { radius, incline, drum_side, stiffness, gain, wind, mixed, longer }
+            DriveNumbers { radius, incline, drum_side, stiffness, gain, wind, mixed, longer }
         },
     )
 }
 
 /// Robot with the chosen drives, at rest with lengths that are given.
-pub(super) fn robot_of(chosen: &Chosen) -> Option<(Robot, Equilibrium)> {
+pub(super) fn robot_of(chosen: &DriveNumbers) -> Option<(Robot, Equilibrium)> {
     let text = funicular_robots::YUAN2014_4MM
         .replace("damping_ratio = 0.003", "damping_ratio = 0.003\ndrag_coefficient = 1.2");
     let mut robot = Robot::from_toml(&text).unwrap();
@@ -133,8 +133,8 @@ pub(super) fn changes(robot: &Robot) -> Vec<(&'static str, RobotChange)> {
     all
 }
 
-/// Central differences at a step, at a half and at a quarter of it, extrapolated twice; and how much the last one adds to
-/// each.
+/// Central differences at a step, at a half and at a quarter of it, extrapolated twice; and how much the last one adds
+/// to each.
 pub(super) fn extrapolated(step: f64, mut at: impl FnMut(f64) -> Option<Vec<f64>>) -> Option<(Vec<f64>, Vec<f64>)> {
     let mut central = |h: f64| -> Option<Vec<f64>> {
         let (low, high) = (at(-h)?, at(h)?);
@@ -181,8 +181,8 @@ fn values(robot: &Robot, rest: &Equilibrium, from: &Equilibrium) -> Vec<Vec<f64>
 proptest! {
     #![proptest_config(ProptestConfig { cases: 5, failure_persistence: None, ..Default::default() })]
 
-    /// Pose, tensions and stiffness with lengths held. The forward solver finds an equilibrium to 1e-12 of the forces, over
-    /// steps that change them by a hundredth or so; the differences extrapolate two orders of the step.
+    /// Pose, tensions and stiffness with lengths held. The forward solver finds an equilibrium to 1e-12 of the forces,
+    /// over steps that change them by a hundredth or so; the differences extrapolate two orders of the step.
     #[test]
     fn statics_with_drives_follow_every_number(chosen in chosen()) {
         let Some((robot, rest)) = robot_of(&chosen) else { return Err(TestCaseError::reject("no such rest")) };
@@ -336,8 +336,8 @@ fn linearised(robot: &Robot, rest: &Equilibrium, winches: WinchMode, cable_model
 }
 
 /// True if the error of a derivative is that of the differences: 1e-8 of the largest derivative of the row, what the
-/// extrapolation adds, and noise of the value over the step. The noise is what forward statics leaves: responses of light
-/// cables in wind scatter by 6e-10, and differences by this over their step, while the gradient stays the same.
+/// extrapolation adds, and noise of the value over the step. The noise is what forward statics leaves: responses of
+/// light cables in wind scatter by 6e-10, and differences by this over their step, while the gradient stays the same.
 fn agrees(ours: f64, (difference, added): (f64, f64), largest: f64, rounding: f64) -> bool {
     (ours - difference).abs() <= 1e-8 * largest + added + rounding
 }
@@ -345,8 +345,8 @@ fn agrees(ours: f64, (difference, added): (f64, f64), largest: f64, rounding: f6
 proptest! {
     #![proptest_config(ProptestConfig { cases: 5, failure_persistence: None, ..Default::default() })]
 
-    /// Natural frequencies of robots with drives, of every mode that is alone, in all modes of the winches. They have eleven
-    /// digits; the steps change them by 1e-6 to 1e-3.
+    /// Natural frequencies of robots with drives, of every mode that is alone, in all modes of the winches. They have
+    /// eleven digits; the steps change them by 1e-6 to 1e-3.
     #[test]
     fn frequencies_with_drives_follow_every_number(
         chosen in chosen(),
@@ -402,7 +402,8 @@ fn signals() -> ([Signal; 2], [(Signal, Quantity); 2]) {
     ([first, second], [(out, Quantity::Acceleration), (first, Quantity::Displacement)])
 }
 
-/// Compares the derivatives of `values` along changes with differences: every `count`-th change from the number `first` on.
+/// Compares the derivatives of `values` along changes with differences: every `count`-th change from the number `first`
+/// on.
 fn compare(
     robot: &Robot,
     rest: &Equilibrium,
@@ -490,7 +491,8 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 5, failure_persistence: None, ..Default::default() })]
 
-    /// Responses between signals on the platform and of a drive: commanded length, force of the motor, motion of the drum.
+    /// Responses between signals on the platform and of a drive: commanded length, force of the motor, motion of the
+    /// drum.
     #[test]
     fn responses_with_drives_follow_every_number(chosen in chosen(), moving in moving(), first in 0..5_usize) {
         let Some((mut robot, rest)) = robot_of(&chosen) else { return Err(TestCaseError::reject("no such rest")) };

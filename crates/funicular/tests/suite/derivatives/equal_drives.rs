@@ -1,5 +1,5 @@
-//! Gradients of symmetric robots with equal pulleys and winches: modes that share a frequency, and modes with the platform
-//! at rest at the poles of their cables, against differences.
+//! Gradients of symmetric robots with equal pulleys and winches: modes that share a frequency, and modes with the
+//! platform at rest at the poles of their cables, against differences.
 
 use super::{drives, lengths_of};
 use crate::random::Draw;
@@ -37,7 +37,8 @@ fn symmetric_robot(number: u64) -> Option<(Robot, Equilibrium, WinchMode)> {
     }
     let mut robot = Robot::from_toml(&text).unwrap();
 
-    // Axes that lean radially, and for every second robot tangentially, which couples the motions in plane and out of plane.
+    // Axes that lean radially, and for every second robot tangentially, which couples the motions in plane and out of
+    // plane.
     let tangential = if number % 2 == 1 { draw.between(-0.4, 0.4) } else { 0.0 };
     let (radius, radial) = (draw.between(0.03, 0.12), draw.between(-0.4, 0.4));
     let (side, guides) = (draw.between(0.2, 3.0), draw.between(0.0, 2.99) as usize);
@@ -85,7 +86,8 @@ fn list(robot: &Robot, rest: &Equilibrium, winches: WinchMode) -> Option<(Dynami
     found.certified.then_some((dynamics, found.modes))
 }
 
-/// Modes of each frequency that stands alone: first and number. Modes beside a gap of less than 2e-4 would mix within a step.
+/// Modes of each frequency that stands alone: first and number. Modes beside a gap of less than 2e-4 would mix within a
+/// step.
 fn groups(modes: &[Mode]) -> Vec<(usize, usize)> {
     let mut all = Vec::new();
     let mut next = 0;
@@ -104,10 +106,11 @@ fn groups(modes: &[Mode]) -> Vec<(usize, usize)> {
     all
 }
 
-/// Along a change, the eigenvalues λ of the block of modes that share a frequency f are their one-sided derivatives. Sums of
-/// powers of the parted frequencies are smooth in the size h of the change, `Σ (f_k − f)^m / h^m → Σ λ_k^m`, and with all of
-/// them known the λ are known: so they are compared, m up to the number of modes, with extrapolated differences. A single
-/// mode is the case of one, also with the platform at rest, where its frequency is a pole of the cables' stiffness.
+/// Along a change, the eigenvalues λ of the block of modes that share a frequency f are their one-sided derivatives.
+/// Sums of powers of the parted frequencies are smooth in the size h of the change, `Σ (f_k − f)^m / h^m → Σ λ_k^m`,
+/// and with all of them known the λ are known: so they are compared, m up to the number of modes, with extrapolated
+/// differences. A single mode is the case of one, also with the platform at rest, where its frequency is a pole of the
+/// cables' stiffness.
 #[test]
 fn modes_with_equal_drives_part_by_the_eigenvalues_of_their_blocks() {
     let (mut single, mut shared) = ([0; 2], [0; 2]);

@@ -1,60 +1,24 @@
 //! Derivatives of tensions that follow a rule over pulleys and to winches, against differences of the tension
 //! distribution, for random robots with more cables than degrees of freedom.
 
+use super::tension_rule::{RuleCase, random_robot};
 use super::{distance, drives};
 use crate::random::Draw;
 use funicular::gradient::{GradientError, Gradients};
 use funicular::math::{Rotation, Vec3};
-use funicular::robot::{Control, Pose, Pulley, Robot, RobotChange, Servo, TensionLimits, Winch, Wind};
-use funicular::statics::{self, CableState, Equilibrium, StaticModel, TensionRange, TensionRule};
-use std::fmt::Write as _;
+use funicular::robot::{Control, Pose, Pulley, RobotChange, Servo, TensionLimits, Winch, Wind};
+use funicular::statics::{CableState, Equilibrium, StaticModel, TensionRange, TensionRule};
 
-/// Robot with drives at a pose, whose tensions follow a rule.
-struct Case {
-    robot: Robot,
-    pose: Pose,
-    rule: TensionRule,
-    model: StaticModel,
-}
-
-impl Case {
-    /// Equilibrium of the robot with a change, which may move the pose, too.
-    fn changed(&self, change: &RobotChange, step: f64) -> Option<Equilibrium> {
-        let pose = Pose {
-            position_w: self.pose.position_w + change.position_w * step,
-            rot_wp: Rotation::from_scaled_axis(change.rotation_w * step) * self.pose.rot_wp,
-        };
-        statics::distribute_tensions(&self.robot.changed(change, step), &pose, self.model, &self.rule).ok()
-    }
-}
-
-/// Platform on 7 to 9 cables, some of them from below, over pulleys with upright or inclined axes and to winches, rigid or
-/// not; every third cable of some robots has no pulley, another none of both.
-fn random_case(number: u64) -> Case {
+/// Robot over pulleys with upright or inclined axes and to winches, rigid or not; every third cable of some robots has
+/// no pulley, another none of both.
+fn random_case(number: u64) -> RuleCase {
     let mut draw = Draw(1000 + number);
-    let cables = 7 + (number % 3) as usize;
-    let mut text = format!(
-        "name = \"random\"\n[platform]\nmass_kg = {}\ninertia_kg_m2 = [0.9, 1.0, 1.1]\n[materials.rope]\n\
-         axial_stiffness_n = {}\nmass_kg_per_m = {}\n",
-        draw.decades(1.0, 2.3),
-        draw.decades(4.0, 6.0),
-        draw.decades(-2.5, -0.5),
-    );
-    for i in 0..cables {
-        let around = std::f64::consts::TAU * (i as f64 + 0.5 * draw.between(0.0, 1.0)) / cables as f64;
-        let z = if i % 4 == 3 { -draw.between(1.0, 3.0) } else { draw.between(3.0, 5.0) };
-        let anchor = [6.0 * around.cos(), 5.0 * around.sin(), z];
+    let turned = |draw: &mut Draw, i: usize, around: f64| {
         // The cables pull alternately in both senses about the vertical.
-        let sense = if i % 2 == 0 { 1.0 } else { -1.0 };
-        let turned = around + sense * draw.between(0.6, 1.4);
-        let attachment = [0.4 * turned.cos(), 0.4 * turned.sin(), draw.between(-0.3, 0.3)];
-        writeln!(
-            text,
-            "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\nattachment_m = {attachment:?}"
-        )
-        .unwrap();
-    }
-    let mut robot = Robot::from_toml(&text).unwrap();
+        let sense = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
+        around + sense * draw.between(0.6, 1.4)
+    };
+    let mut robot = random_robot(&mut draw, number, [(4.0, 6.0), (-2.5, -0.5)], turned);
 
     // Drives.
     let (mixed, inclined, yields) = (draw.between(0.0, 1.0) < 0.5, number % 2 == 1, draw.between(0.0, 1.0) < 0.6);
@@ -106,7 +70,7 @@ fn random_case(number: u64) -> Case {
     let position_w = Vec3::from(draw.vector(0.4));
     let pose = Pose { position_w, rot_wp: Rotation::from_scaled_axis(draw.vector(0.1).into()) };
     let model = if number % 5 == 4 { StaticModel::Spring } else { StaticModel::Catenary };
-    Case { robot, pose, rule, model }
+    RuleCase { name: format!("{number}, {rule:?}"), robot, pose, rule, model }
 }
 
 /// Tensions at both ends and at the drum, and lengths, these times a stiffness per length [N/m].
@@ -116,7 +80,7 @@ fn values(rest: &Equilibrium, stiffness: f64) -> Vec<f64> {
 }
 
 /// Cables at a limit: [in the span, at the drum].
-fn at_limits(case: &Case, rest: &Equilibrium) -> [usize; 2] {
+fn at_limits(case: &RuleCase, rest: &Equilibrium) -> [usize; 2] {
     let mut counts = [0; 2];
     for (i, state) in rest.cables.iter().enumerate() {
         let margin = TensionRange::of(&case.robot, i, &state.chord_w()).margin(state);
@@ -128,10 +92,9 @@ fn at_limits(case: &Case, rest: &Equilibrium) -> [usize; 2] {
     counts
 }
 
-/// Every number changes the tensions and the lengths as the distribution of the changed robot says. The distribution ends
-/// when tensions change by 1e-10 of their size; the tensions of deeply sagging cables, which it approaches
-/// slowly, then lack up to 5e-9. Most are found to 1e-12, so that
-/// the differences agree to 1e-8.
+/// Every number changes the tensions and the lengths as the distribution of the changed robot says. The distribution
+/// ends when tensions change by 1e-10 of their size; the tensions of deeply sagging cables, which it approaches slowly,
+/// then lack up to 5e-9. Most are found to 1e-12, so that the differences agree to 1e-8.
 #[test]
 fn tensions_over_pulleys_follow_their_rule_with_every_number_of_the_robot() {
     let (mut compared, mut limited, mut by_rule) = ([0; 2], [0; 2], [0; 3]);
@@ -139,14 +102,14 @@ fn tensions_over_pulleys_follow_their_rule_with_every_number_of_the_robot() {
     for number in 0..90 {
         let case = random_case(number);
         let none = RobotChange::none(case.robot.cables.len());
-        let Some(rest) = case.changed(&none, 0.0) else { continue };
+        let Some(rest) = case.at(&case.robot, &case.pose) else { continue };
         let gradients = match Gradients::by_rule(&case.robot, &rest, &case.rule) {
             Ok(gradients) => gradients,
             Err(GradientError::OneSided { .. } | GradientError::DefaultMinimum { .. }) => {
                 refused += 1;
                 continue;
             }
-            Err(error) => panic!("{number}: {error}"),
+            Err(error) => panic!("{}: {error}", case.name),
         };
         let stiffness = case.robot.cables[0].material.axial_stiffness;
         let (platform, anchor, drum, lengths) = (
@@ -174,7 +137,7 @@ fn tensions_over_pulleys_follow_their_rule_with_every_number_of_the_robot() {
 
             // Shorter steps, if the first ones cross a change of the limits that are reached.
             let smooth = [0.1, 1e-2, 1e-3].into_iter().find_map(|step| {
-                let differences = drives::extrapolated(step, |h| Some(values(&case.changed(&change, h)?, stiffness)));
+                let differences = drives::extrapolated(step, |h| Some(values(&case.changed(&change, h)?.1, stiffness)));
                 let (differences, added) = differences?;
                 let (error, size) = distance(&found, &differences);
                 let (added, _) = distance(&added, &vec![0.0; added.len()]);
@@ -185,9 +148,9 @@ fn tensions_over_pulleys_follow_their_rule_with_every_number_of_the_robot() {
             let rounding = 4.0 * 5e-9 * size_of_tensions / step;
             assert!(
                 error <= 1e-8 * size + added + rounding,
-                "{number}, {:?}, {what}: {error:e} of {size:e}, extrapolation {added:e}, rounding {rounding:e}, step \
+                "{}, {what}: {error:e} of {size:e}, extrapolation {added:e}, rounding {rounding:e}, step \
                  {step}, at limits {at:?}",
-                case.rule
+                case.name
             );
             agreeing += usize::from(error <= 1e-8 * size);
             compared[usize::from(case.model == StaticModel::Spring)] += 1;

@@ -29,7 +29,7 @@ impl Random {
 
 /// What lies behind the cables of a robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Behind {
+enum DriveVariant {
     Nothing,
     /// Winches without pulleys.
     Winches,
@@ -40,7 +40,7 @@ enum Behind {
     RodsOnGround,
 }
 
-impl Behind {
+impl DriveVariant {
     const ALL: [Self; 6] =
         [Self::Nothing, Self::Winches, Self::OnSupports, Self::OnGround, Self::RodsOnSupports, Self::RodsOnGround];
 
@@ -54,7 +54,7 @@ impl Behind {
 }
 
 /// Tables of supports, and of the drives of their cables.
-fn tables(r: &mut impl FnMut(f64, f64) -> f64, behind: Behind, supports: usize) -> String {
+fn tables(r: &mut impl FnMut(f64, f64) -> f64, behind: DriveVariant, supports: usize) -> String {
     let mut text = String::new();
     for k in 0..supports {
         let (a, b, c) = (r(8e4, 3e4), r(1e5, 4e4), r(1.5e5, 5e4));
@@ -70,7 +70,7 @@ fn tables(r: &mut impl FnMut(f64, f64) -> f64, behind: Behind, supports: usize) 
             r(0.03, 0.01)
         );
     }
-    if behind != Behind::Nothing {
+    if behind != DriveVariant::Nothing {
         let _ = write!(
             text,
             "[winches.drum]\ndrum_side_length_m = {}\nstiffness_n_per_m = {}\ndrum_radius_m = 0.1\ndrum_inertia_kg_m2 = 0.02\n",
@@ -83,7 +83,7 @@ fn tables(r: &mut impl FnMut(f64, f64) -> f64, behind: Behind, supports: usize) 
                  control_damping_ratio = 0.7\nintegral_action = \"no\"\ndelay_s = 0.002\n[guide_wheels.foot]\nwinch = \"drum\"\n\
                  distance_m = 1.5\nradius_m = 0.05\ninertia_kg_m2 = 0.0005\n";
     }
-    if !matches!(behind, Behind::Nothing | Behind::Winches) {
+    if !matches!(behind, DriveVariant::Nothing | DriveVariant::Winches) {
         let _ = write!(
             text,
             "[pulleys.wheel]\nradius_m = {}\nentry_direction = [{}, {}, 1]\ninertia_kg_m2 = 0.002\nswivel_inertia_kg_m2 = \
@@ -97,18 +97,18 @@ fn tables(r: &mut impl FnMut(f64, f64) -> f64, behind: Behind, supports: usize) 
 }
 
 /// Keys of the drive of a cable; the last one of four has none.
-fn drive(behind: Behind, i: usize) -> &'static str {
+fn drive(behind: DriveVariant, i: usize) -> &'static str {
     match behind {
         _ if i == 3 => "",
-        Behind::Nothing => "",
-        Behind::Winches => "winch = \"drum\"\n",
+        DriveVariant::Nothing => "",
+        DriveVariant::Winches => "winch = \"drum\"\n",
         _ => "winch = \"drum\"\npulley = \"wheel\"\n",
     }
 }
 
-/// Suspended robot with a random geometry: cables in pairs on three supports, or on four of which one is rigid. `count` cables, six
-/// or eight.
-fn random_robot(seed: u64, behind: Behind, count: usize) -> Parameters {
+/// Suspended robot with a random geometry: cables in pairs on three supports, or on four of which one is rigid. `count`
+/// cables, six or eight.
+fn random_robot(seed: u64, behind: DriveVariant, count: usize) -> Parameters {
     let mut random = Random(seed);
     let mut r = |center: f64, width: f64| random.about(center, width);
     let mut text = format!(
@@ -161,8 +161,8 @@ fn lengths_of(rest: &Equilibrium) -> Vec<f64> {
     rest.cables.iter().map(|cable| cable.unstrained_length).collect()
 }
 
-/// Directions in which numbers of one kind change together by random shares, by their kind: one for each key of the file, over
-/// all its tables and components, and one for the unstrained lengths. A unit changes values by the share
+/// Directions in which numbers of one kind change together by random shares, by their kind: one for each key of the
+/// file, over all its tables and components, and one for the unstrained lengths. A unit changes values by the share
 /// `size`, or by as many metres.
 fn directions(parameters: &Parameters, seed: u64, size: f64) -> Vec<(String, RobotChange)> {
     let mut random = Random(seed);
@@ -320,7 +320,7 @@ fn gradients_of(gradients: &Gradients<'_>) -> Vec<RobotChange> {
 /// Robots of these tests.
 fn robots() -> Vec<(String, Parameters)> {
     let mut all = Vec::new();
-    for (seed, behind) in (0..).zip(Behind::ALL) {
+    for (seed, behind) in (0..).zip(DriveVariant::ALL) {
         for count in [6, 8] {
             all.push((format!("{behind:?}, {count} cables"), random_robot(seed * 10 + count as u64, behind, count)));
         }
@@ -340,8 +340,8 @@ fn changed(robot: &Robot, rest: &Equilibrium, change: &RobotChange, h: f64) -> O
     Some((changed, at))
 }
 
-/// Pose, tensions, lengths and stiffness with lengths held. The forward solver finds forces to 1e-12; over steps that change
-/// them by a thousandth, differences of the smallest of three steps have 1e-8 of the largest entry.
+/// Pose, tensions, lengths and stiffness with lengths held. The forward solver finds forces to 1e-12; over steps that
+/// change them by a thousandth, differences of the smallest of three steps have 1e-8 of the largest entry.
 #[test]
 fn statics_on_supports_follow_every_number_at_held_lengths() {
     for (name, parameters) in robots() {
@@ -387,7 +387,7 @@ fn statics_on_supports_follow_every_number_at_a_held_pose() {
 }
 
 /// Point mass on four cables with sag, two of them on one post, one on a mast and one with a rigid anchor.
-fn small_robot(seed: u64, behind: Behind) -> Parameters {
+fn small_robot(seed: u64, behind: DriveVariant) -> Parameters {
     let mut random = Random(seed);
     let mut r = |center: f64, width: f64| random.about(center, width);
     let mut text = format!(
@@ -426,9 +426,9 @@ const BELOW_HZ: f64 = 5.0;
 /// Frequencies at which responses are compared [Hz].
 const RESPONSES_HZ: [f64; 2] = [1.3, 4.6];
 
-/// Responses between platform and drives, real and imaginary part, at frequencies beside and between resonances. Forward
-/// statics leaves 1e-8 as in the statics.
-fn compare_responses(behind: Behind) {
+/// Responses between platform and drives, real and imaginary part, at frequencies beside and between resonances.
+/// Forward statics leaves 1e-8 as in the statics.
+fn compare_responses(behind: DriveVariant) {
     let parameters = small_robot(11, behind);
     let robot = parameters.robot();
     let rest = at_rest(robot).unwrap();
@@ -440,7 +440,7 @@ fn compare_responses(behind: Behind) {
         let along = |x, y, z| Signal::Along { direction_w: Vec3::new(x, y, z), point_p: Vec3::zeros() };
         let mut inputs = vec![along(1.0, 0.3, 0.2)];
         let mut outputs = vec![(along(0.2, -0.5, 1.0), Quantity::Acceleration)];
-        let has_drive = !matches!(behind, Behind::Nothing) && cable_model == CableModel::CatenaryDynamic;
+        let has_drive = !matches!(behind, DriveVariant::Nothing) && cable_model == CableModel::CatenaryDynamic;
         if has_drive {
             inputs.push(Signal::Drive { cable: 0, signal: DriveSignal::Length });
             outputs.push((Signal::Drive { cable: 1, signal: DriveSignal::Drum }, Quantity::Displacement));
@@ -495,9 +495,9 @@ fn compare_responses(behind: Behind) {
     }
 }
 
-/// Natural frequencies alone in their list, some of them at clamped poles. They are found to 1e-12, over steps that change them
-/// by 1e-4 and less: differences have seven digits.
-fn compare_frequencies(behind: Behind) {
+/// Natural frequencies alone in their list, some of them at clamped poles. They are found to 1e-12, over steps that
+/// change them by 1e-4 and less: differences have seven digits.
+fn compare_frequencies(behind: DriveVariant) {
     let parameters = small_robot(12, behind);
     let robot = parameters.robot();
     let rest = at_rest(robot).unwrap();
@@ -529,48 +529,47 @@ fn compare_frequencies(behind: Behind) {
 
 #[test]
 fn responses_on_supports_without_drives_follow_every_number() {
-    compare_responses(Behind::Nothing);
+    compare_responses(DriveVariant::Nothing);
 }
 
 #[test]
 fn responses_on_supports_with_winches_follow_every_number() {
-    compare_responses(Behind::Winches);
+    compare_responses(DriveVariant::Winches);
 }
 
 #[test]
 fn responses_on_supports_with_drums_follow_every_number() {
-    compare_responses(Behind::OnSupports);
-    compare_responses(Behind::RodsOnSupports);
+    compare_responses(DriveVariant::OnSupports);
+    compare_responses(DriveVariant::RodsOnSupports);
 }
 
 #[test]
 fn responses_on_supports_before_drums_on_the_ground_follow_every_number() {
-    compare_responses(Behind::RodsOnGround);
-    compare_responses(Behind::OnGround);
+    compare_responses(DriveVariant::RodsOnGround);
+    compare_responses(DriveVariant::OnGround);
 }
 
 #[test]
 fn frequencies_on_supports_without_drives_follow_every_number() {
-    compare_frequencies(Behind::Nothing);
-    compare_frequencies(Behind::Winches);
+    compare_frequencies(DriveVariant::Nothing);
+    compare_frequencies(DriveVariant::Winches);
 }
 
 #[test]
 fn frequencies_on_supports_with_drums_follow_every_number() {
-    compare_frequencies(Behind::OnSupports);
-    compare_frequencies(Behind::RodsOnSupports);
+    compare_frequencies(DriveVariant::OnSupports);
+    compare_frequencies(DriveVariant::RodsOnSupports);
 }
 
 #[test]
 fn frequencies_on_supports_before_drums_on_the_ground_follow_every_number() {
-    compare_frequencies(Behind::RodsOnGround);
-    compare_frequencies(Behind::OnGround);
+    compare_frequencies(DriveVariant::RodsOnGround);
+    compare_frequencies(DriveVariant::OnGround);
 }
 
-/// Damping ratios of damped modes: supports with damping, with and without motors under control. Zeros of the determinant are
-/// found to 1e-12 or so; modes veer, so that the steps
-/// are short.
-fn compare_damping(behind: Behind) {
+/// Damping ratios of damped modes: supports with damping, with and without motors under control. Zeros of the
+/// determinant are found to 1e-12 or so; modes veer, so that the steps are short.
+fn compare_damping(behind: DriveVariant) {
     let parameters = small_robot(13, behind);
     let robot = parameters.robot();
     let rest = at_rest(robot).unwrap();
@@ -605,23 +604,23 @@ fn compare_damping(behind: Behind) {
 
 #[test]
 fn damping_ratios_on_supports_without_drives_follow_every_number() {
-    compare_damping(Behind::Nothing);
+    compare_damping(DriveVariant::Nothing);
 }
 
 #[test]
 fn damping_ratios_on_supports_before_drums_on_the_ground_follow_every_number() {
-    compare_damping(Behind::OnGround);
+    compare_damping(DriveVariant::OnGround);
 }
 
 #[test]
 fn damping_ratios_on_supports_with_drums_follow_every_number() {
-    compare_damping(Behind::RodsOnSupports);
+    compare_damping(DriveVariant::RodsOnSupports);
 }
 
 /// With tensions by a rule supports are refused, derivatives along one direction too.
 #[test]
 fn what_has_no_derivatives_on_supports_is_refused() {
-    let parameters = random_robot(3, Behind::Nothing, 8);
+    let parameters = random_robot(3, DriveVariant::Nothing, 8);
     let robot = parameters.robot();
     let pose = statics::solve(robot, StaticModel::Catenary, None).unwrap().equilibrium.pose;
     let rule = TensionRule::Closest(vec![200.0]);

@@ -10,21 +10,21 @@ use funicular::statics::{self, Equilibrium, Limit, StaticModel, TensionRange, Te
 use std::fmt::Write as _;
 
 /// Robot with more cables than degrees of freedom at a pose.
-struct Case {
-    name: String,
-    robot: Robot,
-    pose: Pose,
-    rule: TensionRule,
-    model: StaticModel,
+pub(super) struct RuleCase {
+    pub(super) name: String,
+    pub(super) robot: Robot,
+    pub(super) pose: Pose,
+    pub(super) rule: TensionRule,
+    pub(super) model: StaticModel,
 }
 
-impl Case {
-    fn at(&self, robot: &Robot, pose: &Pose) -> Option<Equilibrium> {
+impl RuleCase {
+    pub(super) fn at(&self, robot: &Robot, pose: &Pose) -> Option<Equilibrium> {
         statics::distribute_tensions(robot, pose, self.model, &self.rule).ok()
     }
 
     /// Equilibrium of the robot with a change, which may move the pose, too.
-    fn changed(&self, change: &RobotChange, step: f64) -> Option<(Robot, Equilibrium)> {
+    pub(super) fn changed(&self, change: &RobotChange, step: f64) -> Option<(Robot, Equilibrium)> {
         let robot = self.robot.changed(change, step);
         let pose = Pose {
             position_w: self.pose.position_w + change.position_w * step,
@@ -41,22 +41,29 @@ fn values(rest: &Equilibrium, stiffness: f64) -> Vec<f64> {
     cables.flat_map(|c| [c.tension_platform, c.tension_anchor, c.unstrained_length * stiffness]).collect()
 }
 
-/// Platform under eight cables with random points, some of them from below.
-fn random_case(number: u64) -> Case {
-    let mut draw = Draw(number);
+/// Robot with 7 to 9 cables between random points, some of them from below. `decades` are the logarithms of the axial
+/// stiffness and of the mass per length; `turned` gives the angle of an attachment about the vertical, from the number
+/// of the cable and the angle of its anchor.
+pub(super) fn random_robot(
+    draw: &mut Draw,
+    number: u64,
+    decades: [(f64, f64); 2],
+    turned: impl Fn(&mut Draw, usize, f64) -> f64,
+) -> Robot {
     let cables = 7 + (number % 3) as usize;
+    let [stiffness, mass] = decades;
     let mut text = format!(
         "name = \"random\"\n[platform]\nmass_kg = {}\ninertia_kg_m2 = [0.9, 1.0, 1.1]\n[materials.rope]\n\
          axial_stiffness_n = {}\nmass_kg_per_m = {}\n",
         draw.decades(1.0, 2.3),
-        draw.decades(3.7, 6.0),
-        draw.decades(-2.5, -0.3),
+        draw.decades(stiffness.0, stiffness.1),
+        draw.decades(mass.0, mass.1),
     );
     for i in 0..cables {
         let around = std::f64::consts::TAU * (i as f64 + 0.5 * draw.between(0.0, 1.0)) / cables as f64;
         let z = if i % 4 == 3 { -draw.between(1.0, 3.0) } else { draw.between(3.0, 5.0) };
         let anchor = [6.0 * around.cos(), 5.0 * around.sin(), z];
-        let turned = 2.3 * around + draw.between(-0.5, 0.5);
+        let turned = turned(draw, i, around);
         let attachment = [0.4 * turned.cos(), 0.4 * turned.sin(), draw.between(-0.3, 0.3)];
         writeln!(
             text,
@@ -64,7 +71,14 @@ fn random_case(number: u64) -> Case {
         )
         .unwrap();
     }
-    let robot = Robot::from_toml(&text).unwrap();
+    Robot::from_toml(&text).unwrap()
+}
+
+/// Random robot at a random pose, whose tensions follow a rule.
+fn random_case(number: u64) -> RuleCase {
+    let mut draw = Draw(number);
+    let turned = |draw: &mut Draw, _: usize, around: f64| 2.3 * around + draw.between(-0.5, 0.5);
+    let robot = random_robot(&mut draw, number, [(3.7, 6.0), (-2.5, -0.3)], turned);
     let position_w = Vec3::from(draw.vector(0.6));
     let pose = Pose { position_w, rot_wp: Rotation::from_scaled_axis(draw.vector(0.1).into()) };
     let weight = robot.platform.mass * 9.81;
@@ -81,12 +95,12 @@ fn random_case(number: u64) -> Case {
         }
     };
     let model = if number % 5 == 4 { StaticModel::Spring } else { StaticModel::Catenary };
-    Case { name: format!("random {number}, {rule:?}, {model:?}"), robot, pose, rule, model }
+    RuleCase { name: format!("random {number}, {rule:?}, {model:?}"), robot, pose, rule, model }
 }
 
 /// Robots of the library with more cables than degrees of freedom, with several rules each, and random ones.
-fn cases() -> Vec<Case> {
-    let mut all: Vec<Case> = (0..60).map(random_case).collect();
+fn cases() -> Vec<RuleCase> {
+    let mut all: Vec<RuleCase> = (0..60).map(random_case).collect();
     for (file, robot, rest) in crate::library::library() {
         if robot.cables.len() <= robot.platform.motion.count() {
             continue;
@@ -101,7 +115,7 @@ fn cases() -> Vec<Case> {
             (limited, TensionRule::Middle),
         ] {
             let (name, pose) = (format!("{file}, {rule:?}"), rest.pose);
-            all.push(Case { name, robot, pose, rule, model: StaticModel::Catenary });
+            all.push(RuleCase { name, robot, pose, rule, model: StaticModel::Catenary });
         }
     }
 
@@ -134,7 +148,7 @@ fn cases() -> Vec<Case> {
             });
             robot
         };
-        all.push(Case {
+        all.push(RuleCase {
             name: format!("in wind, {minimum:?}, {rule:?}"),
             robot,
             pose,
@@ -146,16 +160,16 @@ fn cases() -> Vec<Case> {
 }
 
 /// Number of cables at a limit.
-fn at_limits(case: &Case, rest: &Equilibrium) -> usize {
+fn at_limits(case: &RuleCase, rest: &Equilibrium) -> usize {
     let reached = |(i, state): (usize, &statics::CableState)| {
         TensionRange::of(&case.robot, i, &state.chord_w()).margin(state).reached().is_some()
     };
     rest.cables.iter().enumerate().filter(|cable| reached(*cable)).count()
 }
 
-/// Every number changes the tensions and the lengths as the distribution of the changed robot says. The distribution ends
-/// when tensions change by 1e-10 of their size, over steps that change them by 1e-4 to 1e-2. Half of the extrapolation's
-/// own part is spared.
+/// Every number changes the tensions and the lengths as the distribution of the changed robot says. The distribution
+/// ends when tensions change by 1e-10 of their size, over steps that change them by 1e-4 to 1e-2. Half of the
+/// extrapolation's own part is spared.
 #[test]
 fn tensions_follow_their_rule_with_every_number_of_the_robot() {
     let (mut compared, mut limited, mut refused) = (0, 0, 0);
@@ -215,8 +229,8 @@ fn tensions_follow_their_rule_with_every_number_of_the_robot() {
     assert!(compared > 500 && limited > 150 && refused < 10, "{compared} {limited} {refused}");
 }
 
-/// First natural frequency and minimum stiffness follow the rule, too: what a design changes. Frequencies are certain to
-/// 1e-10 of themselves, over steps that change them by 1e-4.
+/// First natural frequency and minimum stiffness follow the rule, too: what a design changes. Frequencies are certain
+/// to 1e-10 of themselves, over steps that change them by 1e-4.
 #[test]
 fn frequencies_and_stiffness_follow_the_rule_of_the_tensions() {
     let mut compared = 0;
@@ -228,7 +242,7 @@ fn frequencies_and_stiffness_follow_the_rule_of_the_tensions() {
     ] {
         let robot = Robot::from_toml(text).unwrap();
         let (pose, rule) = (Pose::new([x, y, 1.5], [0.0; 3]), TensionRule::Closest(vec![target]));
-        let case = Case { name: String::new(), robot: robot.clone(), pose, rule, model: StaticModel::Catenary };
+        let case = RuleCase { name: String::new(), robot: robot.clone(), pose, rule, model: StaticModel::Catenary };
         let results = |robot: &Robot, rest: &Equilibrium| {
             let (_, modes) = list(robot, rest, CableModel::CatenaryDynamic, 6.0).unwrap();
             vec![modes[0].frequency_hz, 1e-4 * rest.stability.min_stiffness().unwrap()]

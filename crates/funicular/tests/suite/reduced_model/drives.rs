@@ -5,8 +5,8 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{CDMat, Complex, DMat, Vec3};
 use funicular::modes;
 use funicular::reduced_model::{
-    ControlModel, DampingAt, ReductionError, RequestedModel, RequestedStateSpace, SecondOrder, Size, StateSpace,
-    control_model, reduce,
+    ControlModel, DampingAt, ReductionError, RequestedModel, RequestedStateSpace, SecondOrder, StateSpace,
+    StateSpaceSize, control_model, reduce,
 };
 use funicular::response::{self, FrameInput, Port, Quantity, Signal};
 use funicular::robot::{Control, Damping, DrumSide, Robot, Servo, State, Winch};
@@ -27,14 +27,14 @@ const TWO_CABLES: &str = "name = \"two\"\ngravity_m_s2 = [0, 0, -9.81]\n[platfor
      unstrained_length_m = 9.1\n";
 
 /// Robot at equilibrium, linearised.
-struct Case {
+struct WinchRobot {
     name: &'static str,
     robot: Robot,
     rest: Equilibrium,
     dynamics: Dynamics,
 }
 
-impl Case {
+impl WinchRobot {
     /// Two cables, whose winches `change` gives inertia and control.
     fn new(name: &'static str, damping: Damping, change: impl Fn(&mut Winch)) -> Self {
         Self::of(name, TWO_CABLES, damping, change)
@@ -88,7 +88,7 @@ impl Case {
         outputs: &[(Signal, Quantity)],
         tolerance: f64,
     ) -> Result<ControlModel, ReductionError> {
-        let size = Size::Tolerance(tolerance);
+        let size = StateSpaceSize::Tolerance(tolerance);
         let requested = RequestedStateSpace { below_hz: BELOW, size, damping_at: DampingAt::NaturalFrequencies };
         control_model(&self.robot, &self.rest, &self.dynamics, inputs, outputs, requested, &mut |_| true)
     }
@@ -106,8 +106,8 @@ impl Case {
     }
 }
 
-/// Shafts of finite stiffness between drum and motor, a position control with speed gain and without integral action, and
-/// friction. So statics yields by the position gain, as slow vibration does.
+/// Shafts of finite stiffness between drum and motor, a position control with speed gain and without integral action,
+/// and friction. So statics yields by the position gain, as slow vibration does.
 fn servo(winch: &mut Winch) {
     (winch.stiffness, winch.drum_mass, winch.motor_mass, winch.damping) = (3e5, 6.0, 50.0, 40.0);
     winch.control = Control::Position(Servo::of_bandwidth(56.0, 3.0, 0.7, false, 0.0));
@@ -143,7 +143,7 @@ fn elsewhere(count: usize) -> Vec<f64> {
 }
 
 /// Checks the stated error of each pair at frequencies that the program did not use.
-fn check_stated_errors(case: &Case, inputs: &[Signal], outputs: &[(Signal, Quantity)], model: &ControlModel) {
+fn check_stated_errors(case: &WinchRobot, inputs: &[Signal], outputs: &[(Signal, Quantity)], model: &ControlModel) {
     let frequencies = elsewhere(200);
     let full = case.full(inputs, outputs, &frequencies);
     let ours: Vec<CDMat> = frequencies.iter().map(|f| transfer(&model.space, *f)).collect();
@@ -170,14 +170,14 @@ fn with_all_modes_every_signal_of_every_drive_is_exact() {
     let on_cable = Signal::OnCable { cable: 1, fraction: 0.4, direction_w: Vec3::z() };
     // A swivel axis that is not vertical couples the motions in plane and out of plane.
     let inclined = TWO_CABLES.replace("entry_direction = [0, 0, 1]", "entry_direction = [0, 0.3, 1]");
-    let cases: [(Case, &[DriveSignal], &[DriveSignal]); 7] = [
-        (Case::new("servo", viscous, servo), &[Length, Motor], &[Drum, DrumTension]),
-        (Case::new("torque", viscous, torque), &[Drum], &[Motor, Tension]),
-        (Case::new("rods", viscous, rods), &[Length, Drum], &[Drum, DrumTension]),
-        (Case::new("rods alone", viscous, rods_alone), &[Length], &[Tension, DrumTension]),
-        (Case::new("ideal", viscous, |_| ()), &[Length], &[Tension, DrumTension]),
-        (Case::fixed(viscous), &[Length], &[Tension, DrumTension]),
-        (Case::of("inclined", &inclined, viscous, servo), &[Length], &[Motor, Tension]),
+    let cases: [(WinchRobot, &[DriveSignal], &[DriveSignal]); 7] = [
+        (WinchRobot::new("servo", viscous, servo), &[Length, Motor], &[Drum, DrumTension]),
+        (WinchRobot::new("torque", viscous, torque), &[Drum], &[Motor, Tension]),
+        (WinchRobot::new("rods", viscous, rods), &[Length, Drum], &[Drum, DrumTension]),
+        (WinchRobot::new("rods alone", viscous, rods_alone), &[Length], &[Tension, DrumTension]),
+        (WinchRobot::new("ideal", viscous, |_| ()), &[Length], &[Tension, DrumTension]),
+        (WinchRobot::fixed(viscous), &[Length], &[Tension, DrumTension]),
+        (WinchRobot::of("inclined", &inclined, viscous, servo), &[Length], &[Motor, Tension]),
     ];
     for (case, from, to) in cases {
         let inputs: Vec<Signal> = [along(Vec3::z())].into_iter().chain(from.iter().map(|s| drive(1, *s))).collect();
@@ -227,11 +227,11 @@ fn with_all_modes_motions_of_the_frame_are_exact() {
     let viscous = Damping::Viscous(0.02);
     // A swivel axis that is not vertical couples the motions in plane and out of plane.
     let inclined = TWO_CABLES.replace("entry_direction = [0, 0, 1]", "entry_direction = [0, 0.3, 1]");
-    let cases: [(Case, &[DriveSignal]); 4] = [
-        (Case::new("servo", viscous, servo), &[Drum, DrumTension]),
-        (Case::new("rods", viscous, rods), &[Tension, DrumTension]),
-        (Case::fixed(viscous), &[Tension, DrumTension]),
-        (Case::of("inclined", &inclined, viscous, servo), &[Motor, Tension]),
+    let cases: [(WinchRobot, &[DriveSignal]); 4] = [
+        (WinchRobot::new("servo", viscous, servo), &[Drum, DrumTension]),
+        (WinchRobot::new("rods", viscous, rods), &[Tension, DrumTension]),
+        (WinchRobot::fixed(viscous), &[Tension, DrumTension]),
+        (WinchRobot::of("inclined", &inclined, viscous, servo), &[Motor, Tension]),
     ];
     for (case, to) in cases {
         let inputs = motions_of_the_frame();
@@ -267,7 +267,7 @@ fn small_models_follow_the_frame() {
         (drive(1, DriveSignal::Tension), Quantity::Displacement),
     ];
     for (name, change) in [("servo", servo as fn(&mut Winch)), ("ideal", |_: &mut Winch| ())] {
-        let case = Case::new(name, Damping::Ratio(0.005), change);
+        let case = WinchRobot::new(name, Damping::Ratio(0.005), change);
         let model = case.control_model(&inputs, &outputs, 0.02).unwrap();
         assert!(model.error <= 0.02 && model.space.a.nrows() < 60, "{name}: {}", model.space.a.nrows());
         check_stated_errors(&case, &inputs, &outputs, &model);
@@ -275,8 +275,9 @@ fn small_models_follow_the_frame() {
         assert!((gain[(0, 0)] - 1.0).norm() < 1e-6 && gain[(1, 0)].norm() < 1e-6, "{name}: {gain}");
     }
 
-    // The second-order form, and its state space for a displacement: the tension contains the acceleration of the input.
-    let case = Case::new("servo", Damping::Viscous(0.02), servo);
+    // The second-order form, and its state space for a displacement: the tension contains the acceleration of the
+    // input.
+    let case = WinchRobot::new("servo", Damping::Viscous(0.02), servo);
     let model = case.second_order(&inputs, &outputs, 1e-3).unwrap();
     assert!(model.truncation_error.unwrap() <= 1e-3 && model.mass.nrows() < 60, "{}", model.mass.nrows());
     assert!(matches!(model.state_space(), Err(ReductionError::Improper { output: 2 | 3, .. })));
@@ -291,7 +292,7 @@ fn small_models_follow_the_frame() {
 /// A small second-order model keeps the error that it states, at frequencies that its measurement did not use.
 #[test]
 fn a_small_second_order_model_with_drives_is_as_good_as_it_says() {
-    let case = Case::new("servo", Damping::Viscous(0.02), servo);
+    let case = WinchRobot::new("servo", Damping::Viscous(0.02), servo);
     let inputs = [drive(1, DriveSignal::Length), drive(0, DriveSignal::Motor)];
     let outputs = [(along(Vec3::z()), Quantity::Displacement), (drive(1, DriveSignal::Drum), Quantity::Displacement)];
     let model = case.second_order(&inputs, &outputs, 1e-3).unwrap();
@@ -334,7 +335,7 @@ fn a_small_second_order_model_with_drives_is_as_good_as_it_says() {
 #[test]
 fn the_state_space_of_few_states_commands_lengths() {
     for (name, change) in [("servo", servo as fn(&mut Winch)), ("rods", rods), ("ideal", |_: &mut Winch| ())] {
-        let case = Case::new(name, Damping::Ratio(0.005), change);
+        let case = WinchRobot::new(name, Damping::Ratio(0.005), change);
         let inputs = [drive(1, DriveSignal::Length)];
         let outputs = [
             (along(Vec3::new(1.0, 0.0, 0.4)), Quantity::Displacement),
@@ -370,7 +371,7 @@ fn the_state_space_of_few_states_commands_lengths() {
 /// Forces of motors at constant torque, and what has no second-order form.
 #[test]
 fn motors_push_and_delays_are_refused() {
-    let case = Case::new("torque", Damping::Ratio(0.005), torque);
+    let case = WinchRobot::new("torque", Damping::Ratio(0.005), torque);
     let inputs = [drive(0, DriveSignal::Motor), drive(1, DriveSignal::Motor)];
     let outputs = [
         (along(Vec3::new(1.0, 0.0, 0.4)), Quantity::Velocity),
@@ -383,7 +384,7 @@ fn motors_push_and_delays_are_refused() {
     // Motors without shaft and drums move with the platform on the cables: modes of drives.
     assert!(model.states.iter().any(|of| of.kind == Some(modes::Kind::Drive)), "{:?}", model.states);
 
-    let delayed = Case::new("delay", Damping::Ratio(0.005), |winch| {
+    let delayed = WinchRobot::new("delay", Damping::Ratio(0.005), |winch| {
         servo(winch);
         winch.control = Control::Position(Servo::of_bandwidth(56.0, 3.0, 0.7, true, 0.01));
     });
@@ -393,7 +394,7 @@ fn motors_push_and_delays_are_refused() {
     assert!(!error.is_no_solution());
     assert!(matches!(delayed.control_model(&inputs, &outputs, 0.02), Err(ReductionError::Delay { .. })));
 
-    let massless = Case::new("massless", Damping::Ratio(0.005), |winch| {
+    let massless = WinchRobot::new("massless", Damping::Ratio(0.005), |winch| {
         servo(winch);
         (winch.motor_mass, winch.damping) = (0.0, 40.0);
     });
@@ -402,7 +403,7 @@ fn motors_push_and_delays_are_refused() {
     assert!(error.to_string().contains("`motor_inertia_kg_m2`"), "{error}");
 
     // The acceleration of the platform contains the rate of the commanded length.
-    let case = Case::new("servo", Damping::Ratio(0.005), servo);
+    let case = WinchRobot::new("servo", Damping::Ratio(0.005), servo);
     let (inputs, outputs) = ([drive(1, DriveSignal::Length)], [(along(Vec3::z()), Quantity::Acceleration)]);
     let second_order = case.second_order(&inputs, &outputs, 1e-3).unwrap();
     assert_eq!(second_order.state_space().unwrap_err(), ReductionError::Improper { output: 1, input: 1 });

@@ -47,8 +47,8 @@ fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
 
 /// Compares a resolved curve with `dense` evaluations around every natural frequency and as many between the ends.
 ///
-/// The places and widths of the resonances are those of the damped modes. The search itself knows them to first order in
-/// the damping only, which is off by several half widths where little of the motion is in strongly damped cables.
+/// The places and widths of the resonances are those of the damped modes. The search itself knows them to first order
+/// in the damping only, which is off by several half widths where little of the motion is in strongly damped cables.
 fn check_curve(pair: &Pair<'_>, resolved: &Resolved, (from, to): (f64, f64), dense: usize) {
     let hz = &resolved.frequencies_hz;
     let found = resolved.peaks(0, 0.0);
@@ -107,7 +107,8 @@ fn check_curve(pair: &Pair<'_>, resolved: &Resolved, (from, to): (f64, f64), den
 }
 
 /// Number of frequencies that any curve with straight lines over the logarithm and an error of 1 % needs: from each
-/// frequency the line goes as far as the response stays beside it, at places many times as dense as those of the result.
+/// frequency the line goes as far as the response stays beside it, at places many times as dense as those of the
+/// result.
 fn needed(pair: &Pair<'_>, resolved: &Resolved) -> usize {
     const BETWEEN: usize = 12;
     let pairs = resolved.frequencies_hz.windows(2);
@@ -288,8 +289,8 @@ fn a_peak_before_a_background_is_found_beside_the_natural_frequency() {
     }
 }
 
-/// Two resonances in one interval of a grid. The mode of the lower one is known some half widths beside its peak, as the
-/// modes without damping are.
+/// Two resonances in one interval of a grid. The mode of the lower one is known some half widths beside its peak, as
+/// the modes without damping are.
 #[test]
 fn a_peak_beside_a_higher_one_in_its_interval_is_counted() {
     let grid: Vec<f64> = even(0.503, 1.503, 12);
@@ -449,7 +450,8 @@ proptest! {
         let pair = Pair { dynamics: &dynamics, input, output };
         let resolved = pair.resolved(&even(0.05, to, 60), &modes);
         let (points, needed) = (resolved.frequencies_hz.len(), needed(&pair, &resolved));
-        // Lines use 0.6 of the tolerance and end at halved intervals. The given frequencies and the peaks are kept as well.
+        // Lines use 0.6 of the tolerance and end at halved intervals. The given frequencies and the peaks are kept as
+        // well.
         prop_assert!(
             resolved.unresolved == 0 && (points as f64) < 1.6 * needed as f64 + 60.0 + modes.len() as f64,
             "{points} points, {needed} needed, {} modes, {} intervals left",
@@ -469,8 +471,8 @@ proptest! {
         let peaks = resolved.peaks(0, 0.0);
         let higher = |ratio: f64| peaks.iter().filter(move |peak| peak.magnitude > ratio * read(peak.frequency_hz));
 
-        // Resonances are counted, to 1 % of their height. A rise between antiresonances has no natural frequency, and the
-        // warning does not promise to count it.
+        // Resonances are counted, to 1 % of their height. A rise between antiresonances has no natural frequency, and
+        // the warning does not promise to count it.
         let damped = modes::damped::damped_modes(&dynamics, &modes::below(&dynamics, to));
         let is_resonance = |hz: f64| {
             damped.modes.iter().any(|mode| (mode.ringing_hz() - hz).abs() < 3.0 * mode.omega.im / TAU)

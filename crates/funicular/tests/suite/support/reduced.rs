@@ -6,7 +6,8 @@ use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{CDMat, Complex, Vec3};
 use funicular::reduced_model::{
-    Coordinate, DampingAt, RequestedModel, RequestedStateSpace, SecondOrder, Size, StateSpace, control_model, reduce,
+    Coordinate, DampingAt, RequestedModel, RequestedStateSpace, SecondOrder, StateSpace, StateSpaceSize, control_model,
+    reduce,
 };
 use funicular::response::{FrameInput, Quantity, Signal};
 use funicular::robot::{Control, Damping, DrumSide, Robot, Servo, Winch};
@@ -196,8 +197,11 @@ fn small_models_are_as_good_as_they_say() {
         }
     }
 
-    let requested =
-        RequestedStateSpace { below_hz: BELOW, size: Size::Tolerance(0.03), damping_at: DampingAt::NaturalFrequencies };
+    let requested = RequestedStateSpace {
+        below_hz: BELOW,
+        size: StateSpaceSize::Tolerance(0.03),
+        damping_at: DampingAt::NaturalFrequencies,
+    };
     let measured = [(to[0], Quantity::Displacement)];
     let found = control_model(&case.robot, &case.rest, &case.dynamics, &from, &measured, requested, &mut |_| true);
     let found = found.unwrap();
