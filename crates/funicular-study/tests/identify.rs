@@ -334,7 +334,7 @@ fn a_common_factor_of_masses_and_stiffness_is_said_to_be_unknown() {
     };
     let found = identified(&request(&fit));
     assert!(
-        found.weak_combinations.iter().any(|text| text.contains("have a common factor that no frequency")),
+        found.weak_combinations.iter().any(|text| text.contains("have a common factor, which frequencies")),
         "{:?}",
         found.weak_combinations
     );

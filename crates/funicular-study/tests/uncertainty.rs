@@ -116,7 +116,7 @@ fn linear_deviations_are_those_of_samples_where_the_tests_allow_them() {
         let sampled = uncertainty(robot, &request);
         assert_eq!(results(&linear).len(), count);
         for (linear, sampled) in results(&linear).iter().zip(results(&sampled)) {
-            assert_eq!((linear.method, &linear.doubt), ("linear", &None), "{linear:?}");
+            assert_eq!((linear.method, &linear.sampling_reason), ("linear", &None), "{linear:?}");
             // 400 robots: deviation to 3.5 %, so 10 % is nearly three of these.
             let ratio = linear.deviation.unwrap() / sampled.deviation.unwrap();
             assert!((0.9..1.1).contains(&ratio), "{}: {ratio}", linear.name);

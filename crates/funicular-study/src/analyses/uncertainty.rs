@@ -1,16 +1,16 @@
 //! `uncertainty`: deviations of results from deviations of numbers of the robot file.
 //!
-//! The linear way uses the gradients of all results, and two tests decide where it holds: whether a cable may become
-//! slack, and whether natural frequencies may cross. Where it does not hold, or where a result has no gradient, robots are
-//! sampled (docs/theory.md, section "Uncertainty").
+//! The linear method uses the gradients of all results, and three tests decide where it is valid: whether a cable may become
+//! slack, whether natural frequencies may cross, and whether a response is far from linear. Where it is not valid, or where a
+//! result has no gradient, robots are sampled (docs/theory.md, section "Uncertainty").
 //!
 //! The work comes in parts that do not depend on each other: poses, then chunks of sampled robots. A front end runs them
 //! on its own threads and may keep the samples in a file, as those of a sweep.
 
-mod bend;
 mod distribution;
 mod inputs;
 mod linear;
+mod response_linearity;
 mod responses;
 mod results;
 mod row;
@@ -20,29 +20,29 @@ mod statistics;
 pub(crate) use statistics::Statistics;
 
 use super::found;
+use super::result_groups::result_groups;
 use super::shared::Models;
 use crate::at_rest::{self, AtRest};
 use crate::error::{Cancelled, NoSolution};
 use crate::names::UncertaintyMethod;
-use crate::request::{self, Pose, Request, UncertaintyRequest};
+use crate::request::{Pose, Request, UncertaintyRequest};
 use crate::sweep::{Chunk, Record};
 use crate::text::counted;
 use crate::watch::Watch;
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Result, bail};
 use funicular::robot::Robot;
-use inputs::{Distribution, Input, Inputs};
+use inputs::{DeviatingNumber, Distribution, Inputs};
 use linear::LinearPose;
-use responses::Asked;
-use results::GROUPS;
+use responses::RequestedResponse;
 use row::Row;
 use sampling::{SampleSet, SampleTable, Sampling};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// Numbers of the largest contributions that a result lists.
+/// Number of contributions that are listed per result.
 const LARGEST: usize = 5;
 
-/// Numbers of sampled robots that are possible.
+/// Allowed sample sizes.
 const SAMPLES: std::ops::RangeInclusive<usize> = 10..=1_000_000;
 
 /// Results of `uncertainty`.
@@ -67,7 +67,7 @@ pub struct Uncertainties {
     pub samples: usize,
     /// Number of robots that were computed for the samples and the corners of the tolerances.
     pub evaluations: usize,
-    /// Sentences on how much the numbers are worth.
+    /// Notes on the accuracy.
     pub notes: Vec<String>,
     /// Results at each pose.
     pub poses: Vec<PoseUncertainty>,
@@ -108,7 +108,7 @@ pub struct UncertainInput {
 #[derive(Debug, Clone, Serialize)]
 pub struct InputGroup {
     pub name: String,
-    /// Number of numbers in the group.
+    /// Count of parameters in the group.
     pub count: usize,
 }
 
@@ -155,9 +155,9 @@ pub struct UncertainResult {
     pub interval_95: Option<[f64; 2]>,
     /// Method: `linear` or `sampled`.
     pub method: &'static str,
-    /// Reason for sampling, or why linear deviations are doubtful.
+    /// Reason for sampling. With the requested method `linear` it is the reason why the linear deviation is doubtful.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub doubt: Option<String>,
+    pub sampling_reason: Option<String>,
     /// Standard deviation by the gradient, also of a sampled result.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub linear_deviation: Option<f64>,
@@ -190,17 +190,17 @@ pub struct ShareOfInput {
 pub struct WorstCase {
     /// Sum of the absolute linear changes over all tolerances: neither a lower nor an upper bound.
     pub linear: f64,
-    /// Change at the corner of the tolerances that decreases the result most linearly: the true worst is at least as far.
+    /// Change at the corner of the tolerances where the linear result is smallest. The true worst case is at least as far.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub down: Option<f64>,
-    /// Change at the opposite corner.
+    /// Change at the opposite corner, where the linear result is largest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub up: Option<f64>,
 }
 
 found!(Uncertainties, "uncertainty");
 
-/// Computes the deviations on the calling thread.
+/// Computes the deviations of all results on the calling thread.
 ///
 /// # Errors
 /// A request that contradicts itself or the robot, a robot without equilibrium at every pose, or work that was stopped.
@@ -230,8 +230,8 @@ pub fn run(request: &UncertaintyRequest, watch: &mut dyn Watch) -> Result<Uncert
 pub struct UncertaintyStudy {
     request: UncertaintyRequest,
     of: Vec<&'static str>,
-    /// Frequency responses, if they are among the results.
-    asked: Option<Asked>,
+    /// Frequency response, if it is among the results.
+    requested: Option<RequestedResponse>,
     robot: Robot,
     inputs: Inputs,
     poses: Vec<Option<[f64; 6]>>,
@@ -252,13 +252,11 @@ impl UncertaintyStudy {
     pub fn new(request: &UncertaintyRequest) -> Result<Self> {
         let of = groups(request)?;
         let robot = request.robot.read()?.robot;
-        let asked = of.contains(&"response").then(|| Asked::new(request, &robot)).transpose()?;
+        let requested = of.contains(&"response").then(|| RequestedResponse::new(request, &robot)).transpose()?;
         let poses: Vec<Option<[f64; 6]>> = match &request.poses {
             None => vec![None],
-            Some(_) if request.state.pose.is_some() || request.state.lengths_m.is_some() => {
-                bail!("⟪poses⟫ gives the poses of the robot: leave out ⟪pose⟫ and ⟪lengths_m⟫")
-            }
             Some(poses) => {
+                crate::sweep::check_poses_alone(&request.state)?;
                 crate::sweep::check_poses(poses, &robot)?;
                 poses.iter().copied().map(Some).collect()
             }
@@ -287,8 +285,8 @@ impl UncertaintyStudy {
         };
         let inputs = Inputs::new(request, &at_rest)?;
         // The linear deviations of the first pose find the errors that all poses share.
-        let linear = linear_at(request, &of, asked.as_ref(), &inputs, at_rest)?;
-        Ok(Self { request: request.clone(), of, asked, robot, inputs, poses, first: (first, linear), failed })
+        let linear = linear_at(request, &of, requested.as_ref(), &inputs, at_rest)?;
+        Ok(Self { request: request.clone(), of, requested, robot, inputs, poses, first: (first, linear), failed })
     }
 
     /// Number of poses.
@@ -306,8 +304,8 @@ impl UncertaintyStudy {
             return PoseOutcome(Ok(linear.clone()));
         }
         let at_rest = rest(&self.request, &self.robot, self.poses[pose]);
-        let linear =
-            at_rest.and_then(|at_rest| linear_at(&self.request, &self.of, self.asked.as_ref(), &self.inputs, at_rest));
+        let linear = at_rest
+            .and_then(|at_rest| linear_at(&self.request, &self.of, self.requested.as_ref(), &self.inputs, at_rest));
         PoseOutcome(linear.map_err(|error| format!("{error:#}")))
     }
 
@@ -434,8 +432,8 @@ impl SamplePlan<'_> {
             models: Models::of(first, linearisation),
             held: request.hold.name(),
             held_means: super::gradient::meaning(first, request.hold),
-            response: self.study.asked.as_ref().map(|asked| {
-                let (input, output, unit) = asked.names();
+            response: self.study.requested.as_ref().map(|requested| {
+                let (input, output, unit) = requested.names();
                 UncertainResponse { input: input.to_owned(), output: output.to_owned(), unit }
             }),
             inputs: self.inputs(),
@@ -459,7 +457,7 @@ impl SamplePlan<'_> {
         let several = self.poses.len() > 1;
         let values = inputs.values(&self.study.first.1.at_rest);
         let distributions = inputs.distributions(&values);
-        let input = |((input, value), distribution): ((&Input, f64), Distribution)| {
+        let input = |((input, value), distribution): ((&DeviatingNumber, f64), Distribution)| {
             let follows = several && inputs.follows_state(input);
             UncertainInput {
                 path: input.path.clone(),
@@ -498,7 +496,7 @@ impl SamplePlan<'_> {
     ) -> UncertainResult {
         let inputs = &self.study.inputs;
         let spread = row.spread(&linear.distributions);
-        let is_sampled = row.doubt.is_some() && self.study.request.method != UncertaintyMethod::Linear;
+        let is_sampled = row.sampling_reason.is_some() && self.study.request.method != UncertaintyMethod::Linear;
         let values = |set: SampleSet| samples.0.values(&self.sampling, pose, set, row.kind);
         let sampled = if is_sampled { values(SampleSet::Sample).and_then(Statistics::of) } else { None };
 
@@ -541,7 +539,7 @@ impl SamplePlan<'_> {
                 spread.map(|(_, half)| [row.value - half, row.value + half])
             },
             method: if is_sampled { "sampled" } else { "linear" },
-            doubt: row.doubt.clone(),
+            sampling_reason: row.sampling_reason.clone(),
             linear_deviation: spread.map(|of| of.0),
             mean: sampled.as_ref().map(|of| of.mean),
             group_shares,
@@ -552,23 +550,9 @@ impl SamplePlan<'_> {
     }
 }
 
-/// Groups of results of a request, checked, and its numbers.
+/// Groups of results of a request, after a check of them and of the sample size.
 fn groups(request: &UncertaintyRequest) -> Result<Vec<&'static str>> {
-    let all = request.of.iter().map(|name| {
-        GROUPS.into_iter().find(|known| known == name).ok_or_else(|| {
-            anyhow!("⟪of⟫: there is no result `{name}`{}", crate::names::suggestion(name, &GROUPS.map(str::to_owned)))
-        })
-    });
-    let of: Vec<&str> = all.collect::<Result<_>>()?;
-    if of.is_empty() {
-        bail!("⟪of⟫ names no result{}", crate::names::listed(&GROUPS.map(str::to_owned)));
-    }
-    for name in ["frequencies", "damping"] {
-        if of.contains(&name) && request.below_hz.is_none() {
-            bail!("`{name}` needs ⟪below_hz⟫");
-        }
-    }
-    request.below_hz.map_or(Ok(()), |hz| request::check_positive("below_hz", hz))?;
+    let groups = result_groups(&request.of, request.below_hz)?;
     if !SAMPLES.contains(&request.samples) {
         bail!(
             "⟪samples⟫: {} robots are not possible: give a whole number from {} to {}",
@@ -577,30 +561,30 @@ fn groups(request: &UncertaintyRequest) -> Result<Vec<&'static str>> {
             SAMPLES.end()
         );
     }
-    Ok(of)
+    Ok(groups)
 }
 
 /// Linear deviations of an equilibrium, by the method of a request.
 fn linear_at(
     request: &UncertaintyRequest,
     of: &[&str],
-    asked: Option<&Asked>,
+    requested: Option<&RequestedResponse>,
     inputs: &Inputs,
     at_rest: AtRest,
 ) -> Result<LinearPose> {
-    let mut linear = LinearPose::new(request, of, asked, inputs, at_rest)?;
+    let mut linear = LinearPose::new(request, of, requested, inputs, at_rest)?;
     match request.method {
         UncertaintyMethod::Automatic => {}
         UncertaintyMethod::Linear => {
             if let Some(row) = linear.rows.iter().find(|row| row.derivatives.is_none()) {
                 let name = row.kind.name(&linear.at_rest.robot);
-                let reason = row.doubt.as_deref().unwrap_or_default();
+                let reason = row.sampling_reason.as_deref().unwrap_or_default();
                 bail!("{name} has no linear deviation: {reason}; leave out ⟪method⟫ linear, or this result");
             }
         }
         UncertaintyMethod::Sampled => {
             for row in &mut linear.rows {
-                row.doubt.get_or_insert_with(|| "sampled as requested".to_owned());
+                row.sampling_reason.get_or_insert_with(|| "sampled as requested".to_owned());
             }
         }
     }
@@ -621,23 +605,23 @@ fn is_of_pose(error: &anyhow::Error) -> bool {
     crate::ErrorKind::of(error) == crate::ErrorKind::NoSolution
 }
 
-/// Sentences on how much the numbers are worth.
+/// Notes on the accuracy.
 fn notes(request: &UncertaintyRequest, poses: &[PoseUncertainty]) -> Vec<String> {
     let results = || poses.iter().flat_map(|pose| &pose.results);
     let mut notes = Vec::new();
     let linear = results().filter(|result| result.method == "linear").count();
-    let doubtful = results().filter(|result| result.method == "linear" && result.doubt.is_some()).count();
+    let not_valid = results().filter(|result| result.method == "linear" && result.sampling_reason.is_some()).count();
     let sampled = results().count() - linear;
-    if linear > doubtful {
+    if linear > not_valid {
         notes.push(format!(
-            "{} linear: within the deviations no cable may become slack, no frequencies may cross and no response bends",
-            counted(linear - doubtful, "result")
+            "{} linear: within the deviations no cable becomes slack, no frequencies cross, and responses are nearly linear",
+            counted(linear - not_valid, "result")
         ));
     }
-    if doubtful > 0 {
+    if not_valid > 0 {
         notes.push(format!(
-            "{} linear as requested, although the deviations are too large for it: see the doubts",
-            counted(doubtful, "result")
+            "{} linear as requested, although the deviations are too large for it; the reason stands with each result",
+            counted(not_valid, "result")
         ));
     }
     if sampled > 0 {
@@ -652,8 +636,7 @@ fn notes(request: &UncertaintyRequest, poses: &[PoseUncertainty]) -> Vec<String>
     }
     if results().any(|result| result.worst.is_some()) {
         notes.push(
-            "Worst cases within the tolerances: the linear sum is no bound; the corners, which are computed, are lower \
-             bounds of the worst"
+            "Worst cases within the tolerances: the linear sum is not a bound; the computed corners are lower bounds"
                 .to_owned(),
         );
     }

@@ -1,7 +1,7 @@
 //! Predictions of all measurements by a robot with other values, and their derivatives.
 
 use super::experiment::{Prepared, Solved};
-use super::observations::{Kind, Observation, Stage, left_out, weights};
+use super::observations::{Observation, Stage, Subject, left_out, weights};
 use super::unknowns::Unknown;
 use crate::at_rest::{self, AtRest};
 use crate::request::{IdentifyRequest, RobotText};
@@ -75,15 +75,11 @@ impl<'a> IdentifiedModel<'a> {
                 "" => "the experiment".to_owned(),
                 name => format!("experiment {name}"),
             };
-            experiments.push(Prepared::new(parameters.robot(), given, name, request)?);
+            experiments.push(Prepared::new(parameters.robot(), (i, given), name, request)?);
         }
-        // Responses are numbered through all experiments.
-        let (mut observations, mut series): (Vec<Observation>, usize) = (Vec::new(), 0);
-        for experiment in &experiments {
-            let own = experiment.observations.iter().copied();
-            observations.extend(own.map(|own| Observation { series: own.series + series, ..own }));
-            series += experiment.given.responses.len();
-        }
+        let observations: Vec<Observation> =
+            experiments.iter().flat_map(|experiment| experiment.observations.iter().copied()).collect();
+
         Ok(Self {
             left_out: vec![false; observations.len()],
             has_gradients: true,
@@ -126,7 +122,10 @@ impl<'a> IdentifiedModel<'a> {
         Ok(set_values::apply(&source.changed_text()?, &assignments)?)
     }
 
-    /// Robot of an experiment at rest, linearised up to a frequency.
+    /// Robot of an experiment at rest, with values at coordinates.
+    ///
+    /// # Errors
+    /// Values that the robot cannot have, or a robot without equilibrium.
     pub(crate) fn at_rest(&self, x: &[f64], experiment: usize) -> Result<AtRest> {
         self.experiments[experiment].at_rest(self.robot(x)?, self.request)
     }
@@ -136,7 +135,7 @@ impl<'a> IdentifiedModel<'a> {
         self.experiments.iter().map(|experiment| experiment.name.as_str())
     }
 
-    /// Linearisation of an equilibrium up to a frequency [Hz].
+    /// Cable model and reference of vibrations about an equilibrium, as the request chooses them.
     pub(crate) fn linearisation(&self, at_rest: &AtRest) -> Linearisation {
         at_rest::linearisation(&self.request.model, at_rest.equilibrium.model)
     }
@@ -191,7 +190,7 @@ impl<'a> IdentifiedModel<'a> {
     /// Reason for which a residual is not finite.
     fn not_finite(&self, values: &[Complex]) -> anyhow::Error {
         let mut all = self.observations.iter().zip(values);
-        if all.any(|(observation, value)| observation.kind == Kind::Damping && value.re <= 0.0) {
+        if all.any(|(observation, value)| matches!(observation.subject, Subject::Damping(_)) && value.re <= 0.0) {
             return anyhow::anyhow!(
                 "a damping ratio was measured, and the mode has no damping in the model: give the ropes a `damping_ratio`, \
                  or leave the measured one out"

@@ -31,10 +31,6 @@ pub(crate) enum ResultKind {
     Phase(f64),
 }
 
-/// Groups of results, by the names of a request.
-pub(crate) const GROUPS: [&str; 7] =
-    ["pose", "lengths", "tensions", "stiffness-min", "frequencies", "damping", "response"];
-
 /// Axes of the components of a pose.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
