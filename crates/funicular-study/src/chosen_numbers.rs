@@ -14,8 +14,8 @@ pub(crate) struct ChosenNumber<'a> {
     pub(crate) parameter: &'a Parameter,
 }
 
-/// Numbers at the paths of `wanted`, in their order, each with its element of `wanted`. `limit` is their maximum number, and
-/// the verb for what is done with them, as in "be identified".
+/// Numbers at the paths of `wanted`, in their order, each with its element of `wanted`. `limit` is their maximum
+/// number, and the verb for what is done with them, as in "be identified".
 ///
 /// # Errors
 /// A path that the file does not have, the same number twice, or too many numbers.
@@ -37,6 +37,7 @@ pub(crate) fn chosen_numbers<'a, T>(
             found.push((number, element));
         }
     }
+
     if found.len() > max {
         bail!("⟪{option}⟫ names {} values, and at most {max} can {verb} at once", found.len());
     }
@@ -79,8 +80,8 @@ impl ChosenNumber<'_> {
         }
         if !(low..=high).contains(value) {
             return Err(self.refuse(format!(
-                "the value {value} of the robot file is not between the bounds {low} and {high}: change the bounds, or the \
-                 value by ⟪set⟫"
+                "the value {value} of the robot file is not between the bounds {low} and {high}: change the bounds, or \
+                 the value by ⟪set⟫"
             )));
         }
         Ok(())

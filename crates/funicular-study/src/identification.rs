@@ -9,6 +9,7 @@ mod model;
 mod observations;
 mod precision;
 mod profile;
+mod reading;
 mod resolution;
 mod search;
 mod unknowns;

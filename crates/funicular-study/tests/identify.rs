@@ -388,6 +388,29 @@ fn coarse_steps_are_reported() {
 }
 
 #[test]
+fn a_table_stands_for_its_numbers_that_the_file_gives() {
+    let with = |path: &str| {
+        json!({
+            "command": "identify", "robot": robot(&[]), "fit": [{"path": path}], "starts": 1,
+            "experiments": [{"measured_tensions_n": [40.0, 40.0, 40.0, 40.0, 40.0, 40.0]}],
+        })
+    };
+    let paths = |found: &Identified| found.values.iter().map(|row| row.path.clone()).collect::<Vec<_>>();
+    let table = identified(&with("platform"));
+    let expected = [
+        "platform.mass_kg",
+        "platform.center_of_mass_m.x",
+        "platform.center_of_mass_m.y",
+        "platform.center_of_mass_m.z",
+        "platform.inertia_kg_m2.xx",
+        "platform.inertia_kg_m2.yy",
+        "platform.inertia_kg_m2.zz",
+    ];
+    assert_eq!(paths(&table), expected);
+    assert_eq!(paths(&identified(&with("cables.2.anchor_m.1"))), ["cables.2.anchor_m.y"]);
+}
+
+#[test]
 fn requests_that_cannot_be_answered_say_why() {
     let ok = json!({
         "command": "identify", "robot": robot(&[]), "fit": [{"path": "platform.mass_kg"}],

@@ -88,43 +88,35 @@ pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
     check(request)?;
     let file = request.robot.read()?;
     let parameters = Parameters::from_toml(&file.text).map_err(|error| anyhow!("{error}"))?;
-    let variables = variables(&parameters, &request.change)?;
-    let poses = RobotAtPoses::new(request, &variables, request.robot.changed_text()?);
+    let variables = &variables(&parameters, &request.change)?;
+    let poses = &RobotAtPoses::new(request, variables, request.robot.changed_text()?);
 
     // The robot of the file, whose errors are the user's.
     let start: Vec<f64> = variables.iter().map(|variable| variable.start).collect();
     let first = poses.at_rest(parameters.robot().clone(), 0)?;
     let models = Models::of(&first, linearisation_of_goal(request, first.equilibrium.model));
     check_robot(&first.robot)?;
-    let before = poses.evaluate(&start, &[])?;
+    let before = &poses.evaluate(&start, &[])?;
     if watch.is_cancelled() {
         return Err(Cancelled.into());
     }
 
     // The search, by the nearer sides of a band, then by other sides.
-    let settings = settings(request, &variables);
-    let mut search = DesignSearch::new(request, &poses, watch, before.evaluation.clone());
+    let settings = settings(request, variables);
+    let mut search = DesignSearch::new(request, poses, watch, before.evaluation.clone());
     let nearer = search.run(&start, &settings).ok_or_else(|| anyhow!("the start has no results"))?;
-    let (mut chosen, tried) = try_other_sides(nearer, &before, &mut search, (&start, &settings));
+    let (mut chosen, tried) = try_other_sides(nearer, before, &mut search, (&start, &settings));
     for (value, [low, high]) in chosen.found.x.iter_mut().zip(&settings.bounds) {
         *value = rounded(*value).clamp(*low, *high);
     }
 
-    let after = poses.evaluate(&chosen.found.x, &chosen.sides)?;
-    let found = &chosen.found;
-    let report = DesignReport {
-        request,
-        poses: &poses,
-        variables: &variables,
-        found,
-        tried: &tried,
-        before: &before,
-        after: &after,
-    };
+    let after = &poses.evaluate(&chosen.found.x, &chosen.sides)?;
+    let (found, tried) = (&chosen.found, &tried);
+    let report = DesignReport { request, poses, variables, found, tried, before, after };
     if !chosen.is_met() {
         return Err(NoSolution(report.unmet()).into());
     }
-    let warnings = warnings(request, &poses, &chosen, &after)?;
+    let warnings = warnings(request, poses, &chosen, after)?;
     let goal_of = |evaluated: &Evaluated| request.goal.sign() * value_of(&settings.goal, &evaluated.evaluation);
     Ok(Designed {
         robot: parameters.robot().name.clone(),
@@ -132,8 +124,8 @@ pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
         goal: request.goal.name(),
         goal_means: report.goal_means(),
         unit: request.goal.in_words().1,
-        before: goal_of(&before),
-        after: goal_of(&after),
+        before: goal_of(before),
+        after: goal_of(after),
         poses: report.pose_rows()?,
         values: report.values(),
         demands: report.demands(),
@@ -143,7 +135,7 @@ pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
         evaluations: tried.evaluations,
         limits: report.limits(),
         robot_file: poses.text_with(&found.x)?,
-        band_sides: tried.sides,
+        band_sides: tried.sides.clone(),
         history: chosen.history,
         warnings,
     })
@@ -154,8 +146,8 @@ fn check_robot(robot: &Robot) -> Result<()> {
     let (cables, degrees_of_freedom) = (robot.cables.len(), robot.platform.motion.count());
     if cables < degrees_of_freedom {
         bail!(
-            "a design needs as many cables as degrees of freedom or more, to hold its poses: the robot has {cables} cables \
-             for {degrees_of_freedom} degrees of freedom"
+            "a design needs as many cables as degrees of freedom or more, to hold its poses: the robot has {cables} \
+             cables for {degrees_of_freedom} degrees of freedom"
         );
     }
     if !matches!(robot.state, State::Pose(_)) {

@@ -65,8 +65,8 @@ pub struct GradientResult {
     pub name: String,
     pub unit: String,
     pub value: f64,
-    /// Entry of the block of modes that share a frequency: numbers of the two modes in the list, from 1. Along a change,
-    /// the derivatives of the frequencies are the eigenvalues of the block.
+    /// Entry of the block of modes that share a frequency: numbers of the two modes in the list, from 1. Along a
+    /// change, the derivatives of the frequencies are the eigenvalues of the block.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub block_entry: Option<[usize; 2]>,
     /// Derivatives, one per number of the robot file.
@@ -185,7 +185,8 @@ pub(crate) fn held(at_rest: &AtRest, hold: Hold) -> Result<Gradients<'_>> {
         (Hold::Rule, Some(rule)) => Gradients::by_rule(robot, equilibrium, rule),
         (Hold::Rule, None) if robot.cables.len() > robot.platform.motion.count() => {
             bail!(
-                "⟪hold⟫ rule needs tensions that a rule has chosen: give ⟪pose⟫, or the robot file a [state] with `position_m`"
+                "⟪hold⟫ rule needs tensions that a rule has chosen: give ⟪pose⟫, or the robot file a [state] with \
+                 `position_m`"
             )
         }
         (Hold::Rule, None) => Gradients::new(robot, equilibrium, Hold::Pose),
@@ -218,7 +219,8 @@ pub(crate) fn meaning(at_rest: &AtRest, hold: Hold) -> &'static str {
     }
 }
 
-/// Error for a robot without derivatives: a state that has none is no solution, the rest is input.
+/// Error of a robot without derivatives. It is an error of the solution if another state may have derivatives,
+/// otherwise an error of the input.
 pub(crate) fn no_solution(error: GradientError) -> anyhow::Error {
     match &error {
         GradientError::Static(StaticDerivativeError::Slack { .. } | StaticDerivativeError::Singular)

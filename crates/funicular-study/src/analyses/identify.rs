@@ -116,26 +116,19 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
 
     // How well the measurements determine the values.
     let judged = judge(&model, best, is_noise_given(request));
-    let mut rows: Vec<ValueRow> = (unknowns.iter().zip(model.values(&best.x)).zip(&judged.deviations))
-        .map(|((unknown, value), deviation)| value_row(unknown, value, *deviation))
-        .collect();
+    let mut rows = value_rows(&model, &best.x, &judged.deviations);
     let mut warnings = warnings(&model, request, best, &rows)?;
     warnings.extend(judged.weak.iter().cloned());
     if !profiled.is_empty() {
         let progress = |done: usize, total: usize| watch.borrow_mut().progress(done, total, "fits of profiles");
         let found = profiles(&mut model, best, &profiled, &judged.deviations, judged.factor, &progress)?;
         for (&number, profile) in profiled.iter().zip(found) {
-            let row = &mut rows[number];
-            warnings.extend(caveats::missed_minimum(row, &profile, best.chi2(), judged.factor));
-            row.profile = Some(profile);
+            warnings.extend(caveats::missed_minimum(&rows[number], &profile, best.chi2(), judged.factor));
+            rows[number].profile = Some(profile);
         }
     }
 
-    // Measured and fitted numbers; before the fit with the same modes as partners.
-    let fitted = model.predict(&best.x, None)?;
-    let before = if has_nominal { model.predict(&nominal, Some(&fitted.assigned)).ok() } else { None };
-    let before = before.map_or_else(|| fitted.values.clone(), |before| before.values);
-    let tables = Tables::of(&model, &request.experiments, &fitted.assigned, [&fitted.values, &before]);
+    let tables = tables(&mut model, request, &best.x, Some(&nominal[..]).filter(|_| has_nominal))?;
     warnings.splice(0..0, caveats::left_out(&model, &tables.responses));
     Ok(Identified {
         robot: parameters.robot().name.clone(),
@@ -163,8 +156,8 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
     })
 }
 
-/// Warnings about a minimum: measurements that the model misses, peaks that are not resolved, values at bounds, and a search
-/// that has not ended.
+/// Warnings about a minimum: measurements that the model misses, peaks that are not resolved, values at bounds, and a
+/// search that has not ended.
 fn warnings(
     model: &IdentifiedModel<'_>,
     request: &IdentifyRequest,
@@ -217,6 +210,7 @@ fn within_range(request: &IdentifyRequest) -> Result<IdentifyRequest> {
     if from >= to {
         bail!("⟪from_hz⟫ {from} Hz is not below ⟪to_hz⟫ {to} Hz");
     }
+
     // A frequency that is not possible is refused later, and not left out.
     let counts_or_wrong = |hz: &f64| (from..=to).contains(hz) || !(hz.is_finite() && *hz >= 0.0);
     for response in request.experiments.iter_mut().flat_map(|experiment| &mut experiment.responses) {
@@ -252,6 +246,26 @@ fn is_noise_given(request: &IdentifyRequest) -> bool {
             && frequencies.iter().all(|frequency| frequency.std_hz.is_some() && frequency.damping_ratio.is_none())
             && statics.iter().all(|(is_measured, deviation)| !is_measured || deviation.is_some())
     })
+}
+
+/// Tables of measured and fitted numbers. `nominal` are the coordinates before the fit, if the robot has an equilibrium
+/// there; the measured frequencies then have the same modes as partners.
+fn tables(
+    model: &mut IdentifiedModel<'_>,
+    request: &IdentifyRequest,
+    x: &[f64],
+    nominal: Option<&[f64]>,
+) -> Result<Tables> {
+    let fitted = model.predict(x, None)?;
+    let before = nominal.and_then(|nominal| model.predict(nominal, Some(&fitted.assigned)).ok());
+    let before = before.map_or_else(|| fitted.values.clone(), |before| before.values);
+    Ok(Tables::of(model, &request.experiments, &fitted.assigned, [&fitted.values, &before]))
+}
+
+/// Identified values at coordinates, with their deviations.
+fn value_rows(model: &IdentifiedModel<'_>, x: &[f64], deviations: &[Option<f64>]) -> Vec<ValueRow> {
+    let rows = model.unknowns.iter().zip(model.values(x)).zip(deviations);
+    rows.map(|((unknown, value), deviation)| value_row(unknown, value, *deviation)).collect()
 }
 
 fn value_row(unknown: &Unknown, value: f64, deviation: Option<f64>) -> ValueRow {

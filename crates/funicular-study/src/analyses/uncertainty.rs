@@ -1,15 +1,17 @@
 //! `uncertainty`: deviations of results from deviations of numbers of the robot file.
 //!
-//! The linear method uses the gradients of all results, and three tests decide where it is valid: whether a cable may become
-//! slack, whether natural frequencies may cross, and whether a response is far from linear. Where it is not valid, or where a
-//! result has no gradient, robots are sampled (docs/theory.md, section "Uncertainty").
+//! The linear method uses the gradients of all results, and three tests decide where it is valid: whether a cable may
+//! become slack, whether natural frequencies may cross, and whether a response is far from linear. Where it is not
+//! valid, or where a result has no gradient, robots are sampled (docs/theory.md, section "Uncertainty").
 //!
-//! The work comes in parts that do not depend on each other: poses, then chunks of sampled robots. A front end runs them
-//! on its own threads and may keep the samples in a file, as those of a sweep.
+//! The work comes in parts that do not depend on each other: poses, then chunks of sampled robots. A front end runs
+//! them on its own threads and may keep the samples in a file, as those of a sweep.
 
 mod distribution;
 mod inputs;
 mod linear;
+mod normal;
+mod output;
 mod response_linearity;
 mod responses;
 mod results;
@@ -17,6 +19,10 @@ mod row;
 mod sampling;
 mod statistics;
 
+pub use output::{
+    FailedSamples, InputGroup, PoseUncertainty, ShareOfInput, UncertainInput, UncertainResponse, UncertainResult,
+    Uncertainties, WorstCase,
+};
 pub(crate) use statistics::Statistics;
 
 use super::found;
@@ -36,7 +42,6 @@ use linear::LinearPose;
 use responses::RequestedResponse;
 use row::Row;
 use sampling::{SampleSet, SampleTable, Sampling};
-use serde::Serialize;
 use serde_json::{Value, json};
 
 /// Number of contributions that are listed per result.
@@ -44,159 +49,6 @@ const LARGEST: usize = 5;
 
 /// Allowed sample sizes.
 const SAMPLES: std::ops::RangeInclusive<usize> = 10..=1_000_000;
-
-/// Results of `uncertainty`.
-#[derive(Serialize)]
-pub struct Uncertainties {
-    #[serde(skip)]
-    pub robot: String,
-    #[serde(flatten)]
-    pub models: Models,
-    /// Quantity that is held while the numbers deviate: `lengths` or `pose`.
-    pub held: &'static str,
-    /// Sentence that says what is held, and by which rule the rest follows.
-    pub held_means: &'static str,
-    /// Frequency response among the results.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub response: Option<UncertainResponse>,
-    /// Numbers that deviate.
-    pub inputs: Vec<UncertainInput>,
-    /// Groups of numbers, one per option.
-    pub groups: Vec<InputGroup>,
-    /// Number of sampled robots per pose that needs them.
-    pub samples: usize,
-    /// Number of robots that were computed for the samples and the corners of the tolerances.
-    pub evaluations: usize,
-    /// Notes on the accuracy.
-    pub notes: Vec<String>,
-    /// Results at each pose.
-    pub poses: Vec<PoseUncertainty>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
-}
-
-/// Frequency response whose magnitudes and phases are results.
-#[derive(Debug, Clone, Serialize)]
-pub struct UncertainResponse {
-    pub input: String,
-    pub output: String,
-    /// Unit; magnitudes are in decibels of it, phases in degrees.
-    pub unit: String,
-}
-
-/// Number of the robot file that deviates.
-#[derive(Debug, Clone, Serialize)]
-pub struct UncertainInput {
-    pub path: String,
-    pub unit: &'static str,
-    /// Value; absent if it changes from pose to pose.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub value: Option<f64>,
-    /// Distribution: `normal` or `uniform`.
-    pub distribution: &'static str,
-    /// Standard deviation; absent if it changes from pose to pose.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub deviation: Option<f64>,
-    /// Half width of the tolerance; absent for a normal distribution.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tolerance: Option<f64>,
-    /// Index of its group, from 0.
-    pub group: usize,
-}
-
-/// Numbers that one option makes deviate.
-#[derive(Debug, Clone, Serialize)]
-pub struct InputGroup {
-    pub name: String,
-    /// Count of parameters in the group.
-    pub count: usize,
-}
-
-/// Results at one pose.
-#[derive(Debug, Clone, Serialize)]
-pub struct PoseUncertainty {
-    /// Pose of the undisturbed robot; absent if it has no equilibrium.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub position_m: Option<[f64; 3]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub roll_pitch_yaw_deg: Option<[f64; 3]>,
-    /// Reason why there are no results.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub reason: Option<String>,
-    /// Number of sampled robots without results, with the first reason.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub failed: Option<FailedSamples>,
-    pub results: Vec<UncertainResult>,
-}
-
-/// Sampled robots without results.
-#[derive(Debug, Clone, Serialize)]
-pub struct FailedSamples {
-    pub count: usize,
-    pub reason: String,
-}
-
-/// Result with its deviation.
-#[derive(Debug, Clone, Serialize)]
-pub struct UncertainResult {
-    /// Name, such as `frequency 3` or `tension of cable "2" at the anchor`.
-    pub name: String,
-    pub unit: &'static str,
-    /// Frequency of a response [Hz].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at_hz: Option<f64>,
-    /// Value of the undisturbed robot.
-    pub value: f64,
-    /// Standard deviation; absent if too few sampled robots have the result.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub deviation: Option<f64>,
-    /// Interval that holds 95 % of the robots.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub interval_95: Option<[f64; 2]>,
-    /// Method: `linear` or `sampled`.
-    pub method: &'static str,
-    /// Reason for sampling. With the requested method `linear` it is the reason why the linear deviation is doubtful.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sampling_reason: Option<String>,
-    /// Standard deviation by the gradient, also of a sampled result.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub linear_deviation: Option<f64>,
-    /// Mean of the sampled robots.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mean: Option<f64>,
-    /// Shares of the groups in the variance; of a sampled result total shares, which may add up to more than 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub group_shares: Option<Vec<f64>>,
-    /// Largest linear shares of single numbers in the variance.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub largest: Vec<ShareOfInput>,
-    /// Linear shares of all numbers, in the order of `inputs`; for one pose only.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub shares: Option<Vec<f64>>,
-    /// Worst case within the tolerances.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub worst: Option<WorstCase>,
-}
-
-/// Share of a number in the variance of a result.
-#[derive(Debug, Clone, Serialize)]
-pub struct ShareOfInput {
-    pub path: String,
-    pub share: f64,
-}
-
-/// Worst case within the tolerances.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct WorstCase {
-    /// Sum of the absolute linear changes over all tolerances: neither a lower nor an upper bound.
-    pub linear: f64,
-    /// Change at the corner of the tolerances where the linear result is smallest. The true worst case is at least as far.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub down: Option<f64>,
-    /// Change at the opposite corner, where the linear result is largest.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub up: Option<f64>,
-}
 
 found!(Uncertainties, "uncertainty");
 
@@ -373,8 +225,8 @@ impl SamplePlan<'_> {
         Samples(SampleTable::new())
     }
 
-    /// Computes a chunk of robots; `None` if `given_up`, which is called between two robots, returned true. A chunk depends
-    /// on the request alone.
+    /// Computes a chunk of robots; `None` if `given_up`, which is called between two robots, returned true. A chunk
+    /// depends on the request alone.
     pub fn evaluate(&self, index: usize, given_up: &dyn Fn() -> bool) -> Option<Chunk> {
         self.sampling.evaluate(index, self.study.request.hold, &self.study.inputs, &self.poses, given_up)
     }
@@ -513,13 +365,7 @@ impl SamplePlan<'_> {
                 groups
             }),
         };
-        let largest = shares.as_ref().map_or_else(Vec::new, |shares| {
-            let mut order: Vec<(f64, usize)> = shares.iter().copied().zip(0..).collect();
-            order.sort_by(|a, b| b.0.total_cmp(&a.0));
-            order.truncate(LARGEST);
-            let of = |(share, k): (f64, usize)| ShareOfInput { path: inputs.list[k].path.clone(), share };
-            order.into_iter().filter(|(share, _)| *share > 0.0).map(of).collect()
-        });
+        let largest = shares.as_ref().map_or_else(Vec::new, |shares| largest_shares(inputs, shares));
 
         let worst = row.worst(&linear.distributions).filter(|worst| *worst > 0.0).map(|linear| {
             let mut corners = values(SampleSet::Corners(number)).into_iter().flatten();
@@ -550,6 +396,15 @@ impl SamplePlan<'_> {
     }
 }
 
+/// Largest shares of single numbers in a variance.
+fn largest_shares(inputs: &Inputs, shares: &[f64]) -> Vec<ShareOfInput> {
+    let mut order: Vec<(f64, usize)> = shares.iter().copied().zip(0..).collect();
+    order.sort_by(|a, b| b.0.total_cmp(&a.0));
+    order.truncate(LARGEST);
+    let of = |(share, k): (f64, usize)| ShareOfInput { path: inputs.list[k].path.clone(), share };
+    order.into_iter().filter(|(share, _)| *share > 0.0).map(of).collect()
+}
+
 /// Groups of results of a request, after a check of them and of the sample size.
 fn groups(request: &UncertaintyRequest) -> Result<Vec<&'static str>> {
     let groups = result_groups(&request.of, request.below_hz)?;
@@ -573,6 +428,7 @@ fn linear_at(
     at_rest: AtRest,
 ) -> Result<LinearPose> {
     let mut linear = LinearPose::new(request, of, requested, inputs, at_rest)?;
+
     match request.method {
         UncertaintyMethod::Automatic => {}
         UncertaintyMethod::Linear => {
@@ -612,9 +468,11 @@ fn notes(request: &UncertaintyRequest, poses: &[PoseUncertainty]) -> Vec<String>
     let linear = results().filter(|result| result.method == "linear").count();
     let not_valid = results().filter(|result| result.method == "linear" && result.sampling_reason.is_some()).count();
     let sampled = results().count() - linear;
+
     if linear > not_valid {
         notes.push(format!(
-            "{} linear: within the deviations no cable becomes slack, no frequencies cross, and responses are nearly linear",
+            "{} linear: within the deviations no cable becomes slack, no frequencies cross, and responses are nearly \
+             linear",
             counted(linear - not_valid, "result")
         ));
     }
@@ -634,6 +492,7 @@ fn notes(request: &UncertaintyRequest, poses: &[PoseUncertainty]) -> Vec<String>
             crate::text::significant(100.0 * 2.0 * (0.95 * 0.05 / n).sqrt(), 2)
         ));
     }
+
     if results().any(|result| result.worst.is_some()) {
         notes.push(
             "Worst cases within the tolerances: the linear sum is not a bound; the computed corners are lower bounds"

@@ -13,8 +13,8 @@ pub(super) fn degrees_of_freedom(model: &IdentifiedModel<'_>, found: &Minimum) -
     found.residuals.len().saturating_sub(left_out + model.unknowns.len())
 }
 
-/// Minimum and maximum of χ² per degree of freedom that noise alone gives, three standard deviations to either side of 1.
-/// The minimum may be negative.
+/// Minimum and maximum of χ² per degree of freedom that noise alone gives, three standard deviations to either side of
+/// 1. The minimum may be negative.
 pub(super) fn noise_range(degrees: f64) -> [f64; 2] {
     // χ² has the variance 2 per degree of freedom.
     let tolerance = NOISE_DEVIATIONS * (2.0 / degrees).sqrt();

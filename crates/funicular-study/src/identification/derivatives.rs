@@ -11,8 +11,8 @@ use funicular::robot::{Pose, Robot, RobotChange, State};
 const SMALL_ANGLE: f64 = 1e-2;
 
 impl Prepared<'_> {
-    /// Change of the robot of this experiment, for a change of the robot of the file. `all` is the robot of the file, with
-    /// all cables. What the experiment states itself does not change with the file.
+    /// Change of the robot of this experiment, for a change of the robot of the file. `all` is the robot of the file,
+    /// with all cables. What the experiment states itself does not change with the file.
     pub(super) fn change(&self, mut change: RobotChange, all: &Robot) -> RobotChange {
         let state = &self.given.state;
         if let Some(mounted) = &self.given.cables {
@@ -48,8 +48,8 @@ impl Prepared<'_> {
         change
     }
 
-    /// Derivatives of the predictions along changes of the robot of this experiment: one list per change, in the order of
-    /// the predictions.
+    /// Derivatives of the predictions along changes of the robot of this experiment: one list per change, in the order
+    /// of the predictions.
     ///
     /// # Errors
     /// Predictions that have no gradient. The reason is for developers: the caller takes differences instead.

@@ -1,6 +1,7 @@
 //! Predictions of the measurements of one experiment.
 
-use super::observations::{Observation, Stage, Subject, observations};
+use super::observations::{Observation, Stage, Subject};
+use super::reading::observations;
 use crate::at_rest::{self, AtRest};
 use crate::measurements::MeasuredFrequency;
 use crate::request::{Experiment, IdentifyRequest};
@@ -19,7 +20,8 @@ const BEYOND: f64 = 1.3;
 /// Maximum number of times that this limit is doubled until the list has all numbered modes.
 const MAX_DOUBLINGS: usize = 8;
 
-/// Distance of a mode from a measured frequency, in standard deviations, beyond which all modes are equally bad partners.
+/// Distance of a mode from a measured frequency, in standard deviations, beyond which all modes are equally bad
+/// partners.
 const FAR: f64 = 1000.0;
 
 /// Response of an experiment with its signals.
@@ -150,8 +152,8 @@ impl<'a> Prepared<'a> {
         Ok(Solved { at_rest, modes, assigned, of_responses, values })
     }
 
-    /// Predictions in the order of the observations, except those of responses, which are zero. Without modes, predictions
-    /// of vibration are the measured values: they are not used.
+    /// Predictions in the order of the observations, except those of responses, which are zero. Without modes,
+    /// predictions of vibration are the measured values: they are not used.
     ///
     /// # Errors
     /// Fewer modes than were measured.
@@ -172,8 +174,8 @@ impl<'a> Prepared<'a> {
         self.observations.iter().map(value).collect()
     }
 
-    /// Difference of an equilibrium from the measured pose: position [m], then rotation vector [rad]; zeros if no pose was
-    /// measured.
+    /// Difference of an equilibrium from the measured pose: position [m], then rotation vector [rad]; zeros if no pose
+    /// was measured.
     fn pose_difference(&self, rest: &Equilibrium) -> Result<[f64; 6]> {
         let Some(pose) = self.given.measured_pose else { return Ok([0.0; 6]) };
         let measured = pose.to_robot()?;
@@ -201,6 +203,7 @@ impl<'a> Prepared<'a> {
                 .map_err(|error| anyhow!("⟪rigid_cables⟫: {error}"))?;
             return Ok((enough(found.modes, needed)?, None));
         }
+
         let mut limit = BEYOND * highest;
         for _ in 0..MAX_DOUBLINGS {
             let dynamics = Dynamics::about(&at_rest.robot, &at_rest.equilibrium, linearisation, limit)?;
@@ -214,8 +217,8 @@ impl<'a> Prepared<'a> {
         Ok((enough(Vec::new(), needed)?, None))
     }
 
-    /// Mode of each measured frequency: the numbered one, otherwise the one of the pairs whose distances have the smallest
-    /// sum.
+    /// Mode of each measured frequency: the numbered one, otherwise the one of the pairs whose distances have the
+    /// smallest sum.
     fn assigned(&self, list: &[Mode]) -> Result<Vec<usize>> {
         let measured = &self.given.frequencies;
         let mut assigned: Vec<Option<usize>> =
@@ -225,6 +228,7 @@ impl<'a> Prepared<'a> {
         if open.len() > free.len() {
             bail!("{} frequencies have no number, and the robot has {} more modes", open.len(), free.len());
         }
+
         let deviations: Vec<f64> = self
             .observations
             .iter()
@@ -257,6 +261,7 @@ impl<'a> Prepared<'a> {
         }
         let AtRest { robot, equilibrium, .. } = at_rest;
         let dynamics = Dynamics::about(robot, equilibrium, linearisation, self.highest_hz)?;
+
         for group in self.groups(robot)? {
             let ResponseGroup { inputs, outputs, .. } = &group;
             let signals: Vec<Signal> = inputs.iter().copied().chain(outputs.iter().map(|output| output.0)).collect();

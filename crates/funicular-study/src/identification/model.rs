@@ -13,8 +13,8 @@ use funicular::math::{Complex, DMat};
 use funicular::robot::Robot;
 use funicular::robot::parameters::Parameters;
 
-/// Step of the central differences, relative to the spread of a value: their error grows with its square, the rounding of
-/// the equilibrium with its inverse.
+/// Step of the central differences, relative to the spread of a value: their error grows with its square, the rounding
+/// of the equilibrium with its inverse.
 const STEP: f64 = 3e-4;
 
 /// Modes to which the frequencies of each experiment are assigned: indices in the ascending list.
@@ -192,8 +192,8 @@ impl<'a> IdentifiedModel<'a> {
         let mut all = self.observations.iter().zip(values);
         if all.any(|(observation, value)| matches!(observation.subject, Subject::Damping(_)) && value.re <= 0.0) {
             return anyhow::anyhow!(
-                "a damping ratio was measured, and the mode has no damping in the model: give the ropes a `damping_ratio`, \
-                 or leave the measured one out"
+                "a damping ratio was measured, and the mode has no damping in the model: give the ropes a \
+                 `damping_ratio`, or leave the measured one out"
             );
         }
         anyhow::anyhow!("a residual is not finite: the robot or its measurements are too far apart")
@@ -204,8 +204,8 @@ impl<'a> IdentifiedModel<'a> {
         self.held.as_ref().map_or(&[], |(_, weights)| weights)
     }
 
-    /// Leaves out the values of responses around which the model does not hold at coordinates. Returns true if these are
-    /// others than before.
+    /// Leaves out the ranges of responses that the model misses at coordinates. Returns true if they differ from those
+    /// before.
     pub(crate) fn leave_out(&mut self, x: &[f64]) -> bool {
         let Some((assigned, _)) = self.held.clone() else { return false };
         let Ok(predicted) = self.predict(x, Some(&assigned)) else { return false };
@@ -235,8 +235,8 @@ impl<'a> IdentifiedModel<'a> {
         self.unknowns.iter().filter(|unknown| unknown.prior.is_some()).count()
     }
 
-    /// Derivatives of the predictions by all coordinates, one list per coordinate: from gradients, or by differences for
-    /// an experiment or a value without them.
+    /// Derivatives of the predictions by all coordinates, one list per coordinate: from gradients, or by differences
+    /// for an experiment or a value without them.
     fn derivatives(&mut self, x: &[f64], here: &[Solved]) -> Option<Vec<Vec<Complex>>> {
         let text = self.text(x);
         let text = self.try_or_keep(text)?;

@@ -93,8 +93,8 @@ fn verdict(chi2_per_degree: f64, degrees: f64, is_noise_given: bool) -> (f64, St
     let times = significant(ratio, 3);
     if !is_noise_given {
         let sentence = format!(
-            "deviations of measurements were assumed; the residuals are {times} times as large, and the deviations of the \
-             values follow from the residuals"
+            "deviations of measurements were assumed; the residuals are {times} times as large, and the deviations of \
+             the values follow from the residuals"
         );
         return (ratio, sentence);
     }
@@ -103,19 +103,19 @@ fn verdict(chi2_per_degree: f64, degrees: f64, is_noise_given: bool) -> (f64, St
     let (from, to) = (significant(low.max(0.0), 3), significant(high, 3));
     if chi2_per_degree > high {
         let sentence = format!(
-            "the residuals are {times} times as large as the deviations of the measurements, and χ²/n is above the range \
-             {from} to {to} that noise alone gives: the model is not complete, or the deviations are too small; the \
-             deviations of the values are multiplied by {times}"
+            "the residuals are {times} times as large as the deviations of the measurements, and χ²/n is above the \
+             range {from} to {to} that noise alone gives: the model is not complete, or the deviations are too small; \
+             the deviations of the values are multiplied by {times}"
         );
         return (ratio, sentence);
     }
     let sentence = if chi2_per_degree < low {
         format!(
-            "the residuals are only {times} times as large as the deviations of the measurements, and χ²/n is below the \
-             range {from} to {to} that noise alone gives: these deviations are too large"
+            "the residuals are only {times} times as large as the deviations of the measurements, and χ²/n is below \
+             the range {from} to {to} that noise alone gives: these deviations are too large"
         )
     } else {
-        format!("the model agrees with the measurements: noise alone gives a χ²/n between {from} and {to}")
+        format!("the model agrees with the measurements (noise alone gives a χ²/n between {from} and {to})")
     };
     (1.0, sentence)
 }
@@ -165,8 +165,8 @@ fn weak_sentence(model: &IdentifiedModel<'_>, direction: &[f64], value: f64, is_
     let with = if named.len() > 1 { " together" } else { "" };
     if !is_unseen {
         return format!(
-            "{together}{with}: the measurements determine this combination only to {} times its prior deviation or usual \
-             error, so that mainly priors and bounds decide",
+            "{together}{with}: the measurements determine this combination only to {} times its prior deviation or \
+             usual error, so that mainly priors and bounds decide",
             significant(1.0 / value, 3)
         );
     }
@@ -180,8 +180,8 @@ fn weak_sentence(model: &IdentifiedModel<'_>, direction: &[f64], value: f64, is_
     let sees_force = model.observations.iter().any(|observation| observation.subject.is_response());
     if is_factor && !sees_force {
         return format!(
-            "{together} have a common factor, which frequencies, damping ratios and poses do not determine: hold one of them, \
-             give it a prior, or measure a tension or the magnitude of a response"
+            "{together} have a common factor, which frequencies, damping ratios and poses do not determine: hold one \
+             of them, give it a prior, or measure a tension or the magnitude of a response"
         );
     }
     format!(

@@ -6,8 +6,8 @@ use crate::error::Cancelled;
 use anyhow::Result;
 use funicular::math::least_squares::{Ending, Minimum, minimise};
 
-/// Root of the rise of χ² at the ends of an interval of 95 %: the quantile of the normal distribution, whose square 3.84 is
-/// the quantile of χ² with one degree of freedom.
+/// Root of the rise of χ² at the ends of an interval of 95 %: the quantile of the normal distribution, whose square
+/// 3.84 is the quantile of χ² with one degree of freedom.
 pub(crate) const LIMIT: f64 = 1.959_963_984_540_054;
 
 /// Maximum relative error of this root at an end: the interval is accurate to this fraction of its half width.
@@ -38,8 +38,8 @@ const MAX_ITERATIONS: usize = 60;
 /// Distances at which points of the curve are computed, relative to the distance of the end; the last one is beyond it.
 const FRACTIONS: [f64; 4] = [0.25, 0.5, 0.75, 1.25];
 
-/// Fall of χ² below the minimum, in units in which the limit of its rise is 3.84. A point this far below the minimum shows that
-/// the search missed it.
+/// Fall of χ² below the minimum, in units in which the limit of its rise is 3.84. A point this far below the minimum
+/// shows that the search missed it.
 const FALL: f64 = 1e-2;
 
 /// Point of a profile.
@@ -57,7 +57,7 @@ pub struct ProfilePoint {
 pub enum OpenEnd {
     /// χ² stays below its limit up to the bound of the value.
     Bound,
-    /// χ² stays below its limit as far as was looked.
+    /// χ² stays below its limit within the searched distance.
     Flat,
     /// The robot has no equilibrium beyond.
     NoEquilibrium,
@@ -86,8 +86,9 @@ pub struct Profile {
     pub falls: bool,
 }
 
-/// Computes the profiles of the unknowns with these indices. `deviations` are the standard deviations of the coordinates, and
-/// `factor` is the factor by which they were multiplied. `progress` gets the number of fits and the expected number of all.
+/// Computes the profiles of the unknowns with these indices. `deviations` are the standard deviations of the
+/// coordinates, and `factor` is the factor by which they were multiplied. `progress` gets the number of fits and the
+/// expected number of all.
 ///
 /// # Errors
 /// Work that was stopped.

@@ -8,8 +8,8 @@ use crate::error::Cancelled;
 use anyhow::{Result, anyhow};
 use funicular::math::least_squares::{Ending, Minimum, minimise};
 
-/// χ² per degree of freedom below which no further start is tried. With few degrees of freedom noise alone gives more, and
-/// the maximum of [`noise_range`] takes its place.
+/// χ² per degree of freedom below which no further start is tried. With few degrees of freedom noise alone gives more,
+/// and the maximum of [`noise_range`] takes its place.
 const FOUND: f64 = 1.5;
 
 /// Maximum number of iterations of one search.
@@ -70,8 +70,8 @@ pub(crate) fn search(
     Ok(Searched { best, starts: rows })
 }
 
-/// First start: the values that fit poses, tensions and lengths, if there are other measurements beside them; otherwise the
-/// values of the file. The static residuals converge from poor starts and determine the mass.
+/// First start: the values that fit poses, tensions and lengths, if there are other measurements beside them; otherwise
+/// the values of the file. The static residuals converge from poor starts and determine the mass.
 fn first_start(model: &mut IdentifiedModel<'_>, nominal: Vec<f64>, bounds: &[(f64, f64)]) -> Vec<f64> {
     let count = model.observations.iter().filter(|observation| observation.subject.is_static()).count();
     if count == 0 || count == model.observations.len() {
@@ -128,8 +128,8 @@ fn best_start(
     })
 }
 
-/// Minimum with the complex values of responses, from the best start. Ranges that the model misses are known at a minimum
-/// only, and a minimum without them shows more of them.
+/// Minimum with the complex values of responses, from the best start. Ranges that the model misses are known at a
+/// minimum only, and a minimum without them shows more of them.
 fn fit_responses(model: &mut IdentifiedModel<'_>, start: &[f64], bounds: &[(f64, f64)]) -> Result<Minimum> {
     let again = |model: &mut IdentifiedModel<'_>, x: &[f64]| {
         minimise(model, x, bounds, MAX_ITERATIONS)
@@ -145,8 +145,8 @@ fn fit_responses(model: &mut IdentifiedModel<'_>, start: &[f64], bounds: &[(f64,
     Ok(best)
 }
 
-/// Start with this number. The starts are a fixed sequence, which fills the box of ± √3 spreads about the first one evenly:
-/// a uniform distribution over it has the spread as standard deviation.
+/// Start with this number. The starts are a fixed sequence, which fills the box of ± √3 spreads about the first one
+/// evenly: a uniform distribution over it has the spread as standard deviation.
 ///
 /// # References
 /// M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018: additive recurrence with the root of

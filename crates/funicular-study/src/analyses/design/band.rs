@@ -5,8 +5,8 @@ use serde::Serialize;
 /// Maximum number of choices that are tried besides the nearer sides. Each choice is a search of its own.
 const MAX_OTHERS: usize = 6;
 
-/// Number of natural frequencies that go below the band, one entry per pose; the others go above it. `None` stands for a pose
-/// where each frequency goes to its nearer side. Without entries this holds at all poses.
+/// Number of natural frequencies that go below the band, one entry per pose; the others go above it. `None` stands for
+/// a pose where each frequency goes to its nearer side. Without entries this holds at all poses.
 pub(crate) type Sides = Vec<Option<usize>>;
 
 /// Numbers of the natural frequencies of a pose below and within the band to avoid.
@@ -48,13 +48,13 @@ pub struct SidesTried {
     pub is_chosen: bool,
 }
 
-/// Choices besides the nearer sides for the frequencies that are in the band at the start, and the number of further choices
-/// that are left out.
+/// Choices besides the nearer sides for the frequencies that are in the band at the start, and the number of further
+/// choices that are left out.
 ///
-/// Frequencies keep their order, so a choice is a number of frequencies below the band at each pose. Choices with the same
-/// number at all poses come first, as far as the frequencies in the band allow: neighbouring poses have similar lists of
-/// modes. Choices that differ from the nearer sides at a single pose follow. Within each kind, a choice comes earlier if it
-/// sends fewer frequencies to their farther side.
+/// Frequencies keep their order, so a choice is a number of frequencies below the band at each pose. Choices with the
+/// same number at all poses come first, as far as the frequencies in the band allow: neighbouring poses have similar
+/// lists of modes. Choices that differ from the nearer sides at a single pose follow. Within each kind, a choice comes
+/// earlier if it sends fewer frequencies to their farther side.
 pub(crate) fn others(poses: &[BandCounts]) -> (Vec<Sides>, usize) {
     let nearer: Sides = poses.iter().map(|of| of.in_band().then_some(of.nearer_below)).collect();
     let moved = |sides: &Sides| -> usize {

@@ -14,8 +14,8 @@ use funicular::math::rotation;
 use funicular::robot::parameters::Parameters;
 use serde::Serialize;
 
-/// Distance from a bound, relative to the distance of both bounds, up to which a value counts as at it. It is the distance of
-/// the linear problem, whose multipliers belong to values at bounds.
+/// Distance from a bound, relative to the distance of both bounds, up to which a value counts as at it. It is the
+/// distance of the linear problem, whose multipliers belong to values at bounds.
 const AT_BOUND: f64 = 1e-9;
 
 /// Number of bounds that the sentences on limits name.
@@ -133,6 +133,7 @@ impl DesignReport<'_> {
         let parameters = self.poses.text_with(&self.variables.iter().map(|v| v.start).collect::<Vec<_>>())?;
         let robot = Parameters::from_toml(&parameters)?.robot().clone();
         let shares = self.shares();
+
         let mut rows = Vec::with_capacity(shares.len());
         for (i, ((before, after), share)) in self.before.poses.iter().zip(&self.after.poses).zip(shares).enumerate() {
             let (position_m, roll_pitch_yaw_deg) = if let Some(poses) = &self.request.poses {
@@ -254,8 +255,8 @@ impl DesignReport<'_> {
         };
         let stopped = if self.found.ending == Ending::Converged { "" } else { " (the search had not ended)" };
         format!(
-            "no values within the bounds of ⟪change⟫ meet all demands{choices}{stopped}; reached after {}: {}; allow larger \
-             changes, or lower a demand",
+            "no values within the bounds of ⟪change⟫ meet all demands{choices}{stopped}; reached after {}: {}; allow \
+             larger changes, or lower a demand",
             counted(self.found.iterations, "iteration"),
             reached.join(", ")
         )

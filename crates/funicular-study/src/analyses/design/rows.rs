@@ -23,8 +23,8 @@ const HIGHEST_HZ: f64 = 1e4;
 /// Relative distance of frequencies below which their modes mix within a step: combinations of them have rows as well.
 const NEAR: f64 = 1e-3;
 
-/// Ratio of the highest frequency with a row to the last frequency of a band: modes farther above do not reach the band in a
-/// step.
+/// Ratio of the highest frequency with a row to the last frequency of a band: modes farther above do not reach the band
+/// in a step.
 const ABOVE_BAND: f64 = 1.2;
 
 /// Kind of a demand.
@@ -68,8 +68,8 @@ pub(crate) struct Evaluated {
 }
 
 impl Evaluated {
-    /// Adds the rows of the next pose. `directions` are the changes of the robot per unit of each value. `below` is the number
-    /// of frequencies that have to go below the band to avoid; without it each goes to its nearer side.
+    /// Adds the rows of the next pose. `directions` are the changes of the robot per unit of each value. `below` is the
+    /// number of frequencies that have to go below the band to avoid; without it each goes to its nearer side.
     ///
     /// # Errors
     /// Results without derivatives, or without modes.
@@ -193,8 +193,8 @@ impl PoseRows<'_> {
         Ok(rows)
     }
 
-    /// Modes somewhat beyond the last frequency of a band, and at least `wanted` of them: a frequency that has to go below the
-    /// band may be far above it.
+    /// Modes somewhat beyond the last frequency of a band, and at least `wanted` of them: a frequency that has to go
+    /// below the band may be far above it.
     fn modes_beside_band(&self, last_hz: f64, wanted: usize) -> Result<(Dynamics, Vec<Mode>)> {
         let mut limit = ABOVE_BAND * last_hz;
         loop {
@@ -255,8 +255,8 @@ fn over(mut row: Row, limit: f64, scale: f64) -> Row {
     row
 }
 
-/// Linearisation for the goal of a request. With the goal `platform`, the platform alone vibrates on the static stiffness of
-/// its cables.
+/// Linearisation for the goal of a request. With the goal `platform`, the platform alone vibrates on the static
+/// stiffness of its cables.
 pub(crate) fn linearisation_of_goal(request: &DesignRequest, model: StaticModel) -> Linearisation {
     let linearisation = at_rest::linearisation(&request.model, model);
     match (request.goal, model) {
@@ -279,8 +279,8 @@ struct FrequencySlopes {
 }
 
 /// Natural frequencies with their derivatives. Modes that nearly share a frequency mix within a step: for each pair of
-/// them, the sum and the difference of their motions have a row as well, so that the linear problem contains the complete
-/// block of derivatives.
+/// them, the sum and the difference of their motions have a row as well, so that the linear problem contains the
+/// complete block of derivatives.
 fn frequency_slopes(
     vibration: &VibrationGradients<'_>,
     modes: &[Mode],

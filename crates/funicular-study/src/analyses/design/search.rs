@@ -88,8 +88,8 @@ impl<'a> DesignSearch<'a> {
     }
 }
 
-/// Searches again with other sides for the frequencies that are in the band at the start, if the band limits the result of
-/// the nearer sides or is not avoided there; keeps the best result.
+/// Searches again with other sides for the frequencies that are in the band at the start, if the band limits the result
+/// of the nearer sides or is not avoided there; keeps the best result.
 pub(super) fn try_other_sides(
     nearer: SearchResult,
     before: &Evaluated,
@@ -131,7 +131,8 @@ impl SearchResult {
         self.found.violation <= MET
     }
 
-    /// True if this result is better than another one: a result that meets all demands is better than one that does not.
+    /// True if this result is better than another one: a result that meets all demands is better than one that does
+    /// not.
     fn is_better_than(&self, other: &Self) -> bool {
         match (self.is_met(), other.is_met()) {
             (true, true) => self.found.value > other.found.value,

@@ -6,8 +6,8 @@ use crate::set_values;
 use anyhow::{Result, anyhow, bail};
 use funicular::robot::parameters::Parameters;
 
-/// Maximum number of values that a design may change: the linear problem of a step has as many unknowns, and takes seconds
-/// beyond.
+/// Maximum number of values that a design may change: the linear problem of a step has as many unknowns, and takes
+/// seconds beyond.
 const MAX_VARIABLES: usize = 300;
 
 /// Value that a design may change.
@@ -31,7 +31,8 @@ pub(crate) struct Variable {
 pub(crate) fn variables(parameters: &Parameters, change: &[ChangeValue]) -> Result<Vec<Variable>> {
     if change.is_empty() {
         bail!(
-            "⟪change⟫ is empty: name at least one value of the robot file with its bounds, as in cables.*.attachment_m=±0.05"
+            "⟪change⟫ is empty: name at least one value of the robot file with its bounds, as in \
+             cables.*.attachment_m=±0.05"
         );
     }
     let limit = (MAX_VARIABLES, "change");

@@ -131,8 +131,8 @@ impl GradientRows<'_> {
         }
     }
 
-    /// Adds the upper half of the block of derivatives of modes that share a frequency; `first` is the index of the first
-    /// one in the list.
+    /// Adds the upper half of the block of derivatives of modes that share a frequency; `first` is the index of the
+    /// first one in the list.
     fn shared_frequency(&mut self, first: usize, shared: &[&Mode], vibration: &VibrationGradients) {
         let (from, to) = (first + 1, first + shared.len());
         for (i, row) in vibration.block(shared).iter().enumerate() {

@@ -29,8 +29,8 @@ pub(super) fn missed_minimum(row: &ValueRow, profile: &Profile, chi2: f64, facto
         return None;
     }
     Some(format!(
-        "the search has missed the best values: with {0} = {1} the measurements fit better, χ² = {2}; give ⟪set⟫ {0}={1} \
-         and identify again",
+        "the search has missed the best values: with {0} = {1} the measurements fit better, χ² = {2}; give ⟪set⟫ \
+         {0}={1} and identify again",
         row.path,
         significant(lowest.value, 6),
         significant(chi2 + factor * factor * lowest.chi2_rise, 5)
@@ -51,12 +51,13 @@ pub(super) fn outliers(model: &IdentifiedModel<'_>, request: &IdentifyRequest) -
     if (outside.len() as f64) < MAX_OUTLIERS * total as f64 || outside.len() < 2 {
         return None;
     }
+
     outside.sort_by(f64::total_cmp);
     let at = |part: f64| significant(outside[((outside.len() - 1) as f64 * part).round() as usize], 4);
     Some(format!(
-        "{} of {total} values of responses are far outside of the deviations, and count less; nine in ten of them are \
-         between {} and {} Hz: the model does not hold there, or the measurement is disturbed; ⟪from_hz⟫ and ⟪to_hz⟫ leave \
-         a range out",
+        "{} of {total} values of responses are far outside of the deviations, and get less weight; 90 % of them are \
+         between {} and {} Hz: the model is not right there, or the measurement is disturbed; ⟪from_hz⟫ and ⟪to_hz⟫ \
+         leave a range out",
         outside.len(),
         at(0.05),
         at(0.95)
@@ -81,11 +82,12 @@ pub(super) fn left_out(model: &IdentifiedModel<'_>, responses: &[FittedResponse]
             Some(format!("{name} from {} to {} Hz{parts}", significant(first[0], 4), significant(last[1], 4)))
         })
         .collect();
+
     (!ranges.is_empty()).then(|| {
         format!(
-            "the model misses ranges of responses by more than the noise, and their {} are left out: {}. Find the reason: a \
-             part that the model does not have, a disturbed measurement, or another robot; ⟪from_hz⟫ and ⟪to_hz⟫ leave a \
-             range out of all responses",
+            "the model misses ranges of responses by more than the noise, and their {} are left out: {}. Find the \
+             reason: a part that the model does not have, a disturbed measurement, or another robot; ⟪from_hz⟫ and \
+             ⟪to_hz⟫ leave a range out of all responses",
             counted(count, "value"),
             ranges.join(", ")
         )

@@ -32,8 +32,8 @@ pub struct FittedResponse {
     pub input: String,
     pub output: String,
     pub unit: String,
-    /// Root mean square of the residuals in deviations of the noise, of the values that are not left out; 1 if the fit is
-    /// perfect.
+    /// Root mean square of the residuals in deviations of the noise, of the values that are not left out; 1 if the fit
+    /// is perfect.
     pub residual_rms: f64,
     /// Ranges that are left out because the model misses them: first and last frequency of each [Hz].
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -68,7 +68,7 @@ pub(super) struct Tables {
 
 /// Observation with its predictions.
 #[derive(Clone, Copy)]
-struct Compared<'a> {
+struct ComparedObservation<'a> {
     observation: &'a Observation,
     fitted: Complex,
     before: Complex,
@@ -76,16 +76,16 @@ struct Compared<'a> {
 }
 
 impl Tables {
-    /// Tables of all experiments. `assigned` are the modes of the measured frequencies per experiment; `fitted` and `before`
-    /// are predictions in the order of the observations.
+    /// Tables of all experiments. `assigned` are the modes of the measured frequencies per experiment; `fitted` and
+    /// `before` are predictions in the order of the observations.
     pub(super) fn of(
         model: &IdentifiedModel<'_>,
         experiments: &[Experiment],
         assigned: &[Vec<usize>],
         [fitted, before]: [&[Complex]; 2],
     ) -> Self {
-        let compared: Vec<Compared<'_>> = (model.observations.iter().enumerate())
-            .map(|(i, observation)| Compared {
+        let compared: Vec<ComparedObservation<'_>> = (model.observations.iter().enumerate())
+            .map(|(i, observation)| ComparedObservation {
                 observation,
                 fitted: fitted[i],
                 before: before[i],
@@ -130,7 +130,7 @@ impl Tables {
 }
 
 /// Row of a number of the equilibrium; `None` for another quantity.
-fn static_row(compared: &Compared<'_>, experiment: &str, cables: &[String]) -> Option<StaticRow> {
+fn static_row(compared: &ComparedObservation<'_>, experiment: &str, cables: &[String]) -> Option<StaticRow> {
     const POSE: [&str; 6] = ["x_m", "y_m", "z_m", "rx_rad", "ry_rad", "rz_rad"];
     let quantity = match compared.observation.subject {
         Subject::Pose(k) => POSE[k].to_owned(),
@@ -149,7 +149,7 @@ fn static_row(compared: &Compared<'_>, experiment: &str, cables: &[String]) -> O
 
 /// Row of a natural frequency, without its damping ratio; `None` for another quantity.
 fn frequency_row(
-    compared: &Compared<'_>,
+    compared: &ComparedObservation<'_>,
     experiment: &Experiment,
     name: &str,
     assigned: &[usize],
@@ -172,7 +172,7 @@ fn frequency_row(
 fn fitted_response<'a>(
     response: &MeasuredResponse,
     experiment: &str,
-    lines: impl Iterator<Item = &'a Compared<'a>>,
+    lines: impl Iterator<Item = &'a ComparedObservation<'a>>,
 ) -> FittedResponse {
     let mut row = FittedResponse {
         experiment: experiment.to_owned(),
@@ -192,7 +192,9 @@ fn fitted_response<'a>(
     };
 
     let (mut squares, mut kept, mut is_open) = (0.0, 0_usize, false);
-    for (hz, Compared { observation, fitted, before, is_left_out }) in response.frequency_hz.iter().zip(lines) {
+    for (hz, ComparedObservation { observation, fitted, before, is_left_out }) in
+        response.frequency_hz.iter().zip(lines)
+    {
         match (*is_left_out, is_open, row.left_out_hz.last_mut()) {
             (true, true, Some(range)) => range[1] = *hz,
             (true, ..) => row.left_out_hz.push([*hz, *hz]),

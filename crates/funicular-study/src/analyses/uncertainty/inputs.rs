@@ -1,6 +1,6 @@
 //! Numbers of the robot file that deviate, with their distributions.
 
-use super::distribution::normal_quantile;
+use super::normal::normal_quantile;
 use crate::analyses::gradient::{Tolerance, value_at};
 use crate::at_rest::AtRest;
 use crate::request::{Load, UncertaintyRequest};
@@ -234,7 +234,8 @@ fn groups(request: &UncertaintyRequest, original: &Parameters) -> Result<Vec<Dev
     let groups = parse("deviations", true).chain(parse("tolerances", false)).collect::<Result<Vec<_>>>()?;
     if groups.is_empty() {
         bail!(
-            "no number deviates: give ⟪deviations⟫ or ⟪tolerances⟫, as in platform.mass_kg=1% or cables.*.anchor_m=0.002"
+            "no number deviates: give ⟪deviations⟫ or ⟪tolerances⟫, as in platform.mass_kg=1% or \
+             cables.*.anchor_m=0.002"
         );
     }
     Ok(groups)
@@ -290,8 +291,8 @@ const COORDINATES: [(&str, &str, &str); 6] = [
     ("roll_pitch_yaw_deg", "degrees", "yaw"),
 ];
 
-/// Rounding of the axes of a platform's motion is about 1e-16 of it; a part beyond this fraction is a motion that the platform
-/// does not have.
+/// Rounding of the axes of a platform's motion is about 1e-16 of it; a part beyond this fraction is a motion that the
+/// platform does not have.
 const MAX_ROUNDING: f64 = 1e-12;
 
 /// Change of a pose per unit of one of its [`COORDINATES`]; `None` for a motion that the platform does not have.
@@ -324,6 +325,7 @@ fn candidates(original: &Parameters, robot: &Robot) -> Vec<Parameter> {
     };
     let mut list: Vec<Parameter> =
         original.list().iter().enumerate().filter(moves).map(|(_, parameter)| parameter.clone()).collect();
+
     let has_lengths = list.iter().any(|parameter| parameter.key == "unstrained_length_m");
     // A length has the unit, range and meaning of the file's key, whose row an anchor stands in for.
     let Some(pattern) = list.iter().find(|parameter| parameter.key == "anchor_m").cloned() else { return list };
@@ -338,6 +340,7 @@ fn candidates(original: &Parameters, robot: &Robot) -> Vec<Parameter> {
             list.push(coordinate);
         }
     }
+
     if !has_lengths {
         for (i, cable) in robot.cables.iter().enumerate() {
             let mut length = pattern.clone();

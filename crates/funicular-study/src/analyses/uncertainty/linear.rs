@@ -16,8 +16,8 @@ use funicular::robot::{Robot, RobotChange, TensionLimits};
 use funicular::statics::derivatives::StaticDerivativeError;
 use funicular::statics::{TensionRange, TensionRule};
 
-/// Minimum distance of a tension from its limit, in standard deviations: with eight cables at this distance, one in ninety
-/// robots exceeds a limit.
+/// Minimum distance of a tension from its limit, in standard deviations: with eight cables at this distance, one in
+/// ninety robots exceeds a limit.
 const TENSION_DEVIATIONS: f64 = 3.0;
 
 /// Minimum distance of neighbouring frequencies, in standard deviations of this distance.
@@ -212,16 +212,18 @@ fn differentiate(rows: &mut [Row], gradients: &Gradients, modes: Option<&Nominal
     }
 }
 
-/// Tests whether a tension may reach zero, or with the pose held one of its limits: all results are then far from linear.
+/// Tests whether a tension may reach zero, or with the pose held one of its limits: all results are then far from
+/// linear.
 fn test_tensions(rows: &mut [Row], robot: &Robot, gradients: &Gradients, along: &Along) {
     let rest = gradients.equilibrium();
     let chosen = gradients.hold() != Hold::Lengths && robot.cables.len() > robot.platform.motion.count();
     for (i, (gradient, state)) in gradients.tensions_platform().iter().zip(&rest.cables).enumerate() {
         let Ok(derivatives) = along.of(gradient) else { return };
+
         let range = TensionRange::of(robot, i, &state.chord_w());
         let margin = range.margin(state);
-        // Where tensions are chosen, the limits hold; elsewhere the cable only must not become slack. A limit that a rule
-        // has reached stays reached.
+        // Where tensions are chosen, the limits hold; elsewhere the cable only must not become slack. A limit that a
+        // rule has reached stays reached.
         if gradients.hold() == Hold::Rule && margin.reached().is_some() {
             continue;
         }
@@ -248,8 +250,8 @@ fn tension_reason(robot: &Robot, i: usize, chosen: bool, reached: f64, distance:
     )
 }
 
-/// Tests whether natural frequencies may cross: the ascending list then changes its order, and with it the results of both
-/// modes are far from linear.
+/// Tests whether natural frequencies may cross: the ascending list then changes its order, and with it the results of
+/// both modes are far from linear.
 fn test_frequencies(rows: &mut [Row], modes: &NominalModes, gradients: &Gradients, along: &Along) {
     let Ok(vibration) = gradients.vibration(&modes.dynamics) else { return };
     let list = &modes.found.modes;

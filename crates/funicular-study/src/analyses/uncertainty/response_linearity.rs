@@ -10,12 +10,13 @@ use funicular::response::Quantity;
 use funicular::robot::Robot;
 use std::f64::consts::TAU;
 
-/// Range within which a response must be nearly linear, in standard deviations. With two, a phase of 0.2° passed the test
-/// although a weak mode increased its deviation by 16 %.
+/// Range within which a response must be nearly linear, in standard deviations. With two, a phase of 0.2° passed the
+/// test although a weak mode increased its deviation by 16 %.
 const DEVIATIONS: f64 = 3.0;
 
-/// Maximum nonlinear part of the change at the ends of this range, relative to the linear part. For a result z + a z² of a
-/// standard normal z it means a = 0.1: the deviation is 1 % above the linear one, and the mean is off by 0.1 deviations.
+/// Maximum nonlinear part of the change at the ends of this range, relative to the linear part. For a result z + a z²
+/// of a standard normal z it means a = 0.1: the deviation is 1 % above the linear one, and the mean is off by 0.1
+/// deviations.
 const MAX_NONLINEAR: f64 = 0.3;
 
 /// Maximum number of modes for which responses are tested.
@@ -39,6 +40,7 @@ pub(super) fn differentiate(
         vibration.responses(&[from], &[to], of.requested.at_hz(), &directions).map_err(|error| reason(&error))
     };
     let found: Result<Vec<_>, String> = derivatives();
+
     for row in rows {
         let Some(place) = row.kind.at_hz().and_then(|hz| of.place(hz)) else { continue };
         match &found {
@@ -70,8 +72,8 @@ struct NearMode {
     residue: f64,
 }
 
-/// Tests whether responses are nearly linear within the deviations. They are not where a natural frequency may come near, or
-/// where the change is not small against the response.
+/// Tests whether responses are nearly linear within the deviations. They are not where a natural frequency may come
+/// near, or where the change is not small against the response.
 ///
 /// # References
 /// docs/theory.md, equation (94d1).
@@ -127,11 +129,7 @@ pub(super) fn test(
         }
         if beyond > MAX_NONLINEAR * linear {
             row.sampling_reason = Some(match worst.filter(|(of_mode, _)| *of_mode > of_logarithm) {
-                Some((_, mode)) => format!(
-                    "mode {} at {} Hz may come near the frequency of the response",
-                    mode.number,
-                    crate::text::significant(mode.frequency_hz, 4)
-                ),
+                Some((_, mode)) => mode.may_come_near(),
                 None => format!("the response changes too much within {DEVIATIONS} deviations for a linear change"),
             });
         }
@@ -139,8 +137,18 @@ pub(super) fn test(
 }
 
 impl NearMode {
-    /// ResponseChange of the mode's part in a response beyond the linear one, if its frequency shifts as far as the deviations
-    /// reach, to either side. `factor` multiplies the displacement; `part` is the magnitude of a part of a complex number.
+    /// Sentence on a mode that makes a response nonlinear.
+    fn may_come_near(&self) -> String {
+        format!(
+            "mode {} at {} Hz may come near the frequency of the response",
+            self.number,
+            crate::text::significant(self.frequency_hz, 4)
+        )
+    }
+
+    /// ResponseChange of the mode's part in a response beyond the linear one, if its frequency shifts as far as the
+    /// deviations reach, to either side. `factor` multiplies the displacement; `part` is the magnitude of a part of a
+    /// complex number.
     fn beyond_linear(&self, omega: f64, factor: Complex, part: impl Fn(Complex) -> f64) -> f64 {
         if self.residue == 0.0 {
             return 0.0;
@@ -178,11 +186,13 @@ fn near_modes(
     let list = &modes.found.modes;
     if list.len() > MAX_MODES {
         return Err(format!(
-            "{} natural frequencies lie below {} Hz, and whether the response is linear is tested for at most {MAX_MODES}",
+            "{} natural frequencies lie below {} Hz, and whether the response is linear is tested for at most \
+             {MAX_MODES}",
             list.len(),
             crate::text::significant(modes.found.below_hz, 4)
         ));
     }
+
     let vibration = gradients.vibration(&modes.dynamics).map_err(|error| error.to_string())?;
     let near = |(i, mode): (usize, &Mode)| {
         let omega = TAU * mode.frequency_hz;

@@ -35,7 +35,8 @@ impl RequestedResponse {
     /// Reads the response of a request.
     ///
     /// # Errors
-    /// A frequency or signal that is missing, a frequency that is negative or given twice, or a signal that the robot does not have.
+    /// A frequency or signal that is missing, a frequency that is negative or given twice, or a signal that the robot
+    /// does not have.
     pub(super) fn new(request: &UncertaintyRequest, robot: &Robot) -> Result<Self> {
         let needs = |option: &str| missing_option("response", option);
         let at_hz = request.at_hz.clone().filter(|all| !all.is_empty()).ok_or_else(|| needs("at_hz"))?;
@@ -121,8 +122,8 @@ impl Responses {
         let values = requested.values(&at_rest.robot, &at_rest.equilibrium, dynamics)?;
         if let Some((hz, _)) = requested.at_hz.iter().zip(&values).find(|(_, value)| value.norm() < f64::MIN_POSITIVE) {
             bail!(
-                "the response at {hz} Hz is zero, and has no decibels: choose another ⟪input⟫ or ⟪output⟫, or leave this \
-                 frequency out"
+                "the response at {hz} Hz is zero, and has no decibels: choose another ⟪input⟫ or ⟪output⟫, or leave \
+                 this frequency out"
             );
         }
         Ok(Self { requested: requested.clone(), values })

@@ -116,6 +116,7 @@ impl ResultKind {
         if of.contains(&"stiffness-min") {
             kinds.push(Self::MinStiffness);
         }
+
         if of.contains(&"frequencies") {
             kinds.extend((0..modes).map(Self::Frequency));
         }
@@ -218,8 +219,8 @@ pub(super) struct NominalModes {
     pub(super) warnings: Vec<String>,
 }
 
-/// Ratio of the limit of the list of modes to the limit of the request: the neighbour of the last mode is looked for up to
-/// there.
+/// Ratio of the limit of the list of modes to the limit of the request: the list has to contain the neighbour of the
+/// last mode.
 const BEYOND: f64 = 1.25;
 
 impl NominalModes {

@@ -83,8 +83,8 @@ impl Sampling {
         let values = sampling.rows.saturating_mul(sampling.kinds.len());
         if values > MAX_VALUES {
             bail!(
-                "{} robots with {} results each would be sampled, {values} values, and at most {MAX_VALUES} are possible: \
-                 give fewer poses, results or ⟪samples⟫, or ⟪method⟫ linear",
+                "{} robots with {} results each would be sampled, {values} values, and at most {MAX_VALUES} are \
+                 possible: give fewer poses, results or ⟪samples⟫, or ⟪method⟫ linear",
                 sampling.rows,
                 sampling.kinds.len()
             );
@@ -235,6 +235,7 @@ fn disturbed(
     let robot = robot.with_tension_limits(linear.limits);
     let rest = &linear.at_rest.equilibrium;
     let model = rest.model;
+
     let found = if hold == Hold::Lengths {
         let lengths: Vec<f64> =
             rest.cables.iter().zip(by_length).map(|(cable, deviation)| cable.unstrained_length + deviation).collect();
