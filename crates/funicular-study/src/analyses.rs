@@ -15,6 +15,7 @@ pub mod parameters;
 pub mod payload;
 pub mod pose_error;
 pub mod reduce;
+mod result_groups;
 pub mod shared;
 pub mod statics;
 pub mod stiffness;

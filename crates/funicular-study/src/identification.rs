@@ -2,18 +2,20 @@
 //!
 //! docs/theory.md, section 18a, has the equations.
 
+mod chi2;
 mod derivatives;
 mod experiment;
 mod model;
 mod observations;
 mod precision;
 mod profile;
+mod reading;
 mod resolution;
 mod search;
 mod unknowns;
 
 pub(crate) use model::IdentifiedModel;
-pub(crate) use observations::Kind;
+pub(crate) use observations::{Observation, Subject};
 pub(crate) use precision::judge;
 pub(crate) use profile::{LIMIT, profiles};
 pub use profile::{OpenEnd, Profile};

@@ -31,6 +31,7 @@
 #[expect(missing_docs, reason = "fields are the keys of the JSON: quantity and unit are their names")]
 pub mod analyses;
 pub mod at_rest;
+mod chosen_numbers;
 pub mod csv_lines;
 mod error;
 pub mod export;
@@ -45,6 +46,7 @@ pub mod names;
 pub mod new_robot;
 #[cfg(feature = "pages")]
 pub mod pages;
+mod parameter_pattern;
 pub mod request;
 pub mod robot_file;
 mod run;

@@ -237,7 +237,7 @@ impl Named for Per {
     }
 }
 
-/// Way to the deviations of results.
+/// Method for the deviations of results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum UncertaintyMethod {
     /// Linear where that holds, otherwise sampled.

@@ -315,6 +315,20 @@ fn a_mean_of_poses_weighs_them() {
 }
 
 #[test]
+fn a_table_stands_for_its_numbers_that_the_file_gives() {
+    let with = |path: &str| {
+        designed(&json!({
+            "pose": [1.0, 0.5, 1.5], "goal": "rope-length", "max_iterations": 1,
+            "change": [{"path": path, "plus_minus": 0.01}],
+        }))
+    };
+    let paths = |found: &Designed| found.values.iter().map(|value| value.path.clone()).collect::<Vec<_>>();
+    let point = |key: &str| ["x", "y", "z"].map(|axis| format!("cables.1.{key}.{axis}"));
+    assert_eq!(paths(&with("cables.1").unwrap()), [point("anchor_m"), point("attachment_m")].concat());
+    assert_eq!(paths(&with("cables.1.anchor_m.2").unwrap()), ["cables.1.anchor_m.z"]);
+}
+
+#[test]
 fn wrong_designs_are_refused_with_the_reason() {
     let z = json!([{"path": "cables.*.attachment_m.z", "plus_minus": 0.1}]);
     for (more, expected) in [

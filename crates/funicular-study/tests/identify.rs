@@ -334,7 +334,7 @@ fn a_common_factor_of_masses_and_stiffness_is_said_to_be_unknown() {
     };
     let found = identified(&request(&fit));
     assert!(
-        found.weak_combinations.iter().any(|text| text.contains("have a common factor that no frequency")),
+        found.weak_combinations.iter().any(|text| text.contains("have a common factor, which frequencies")),
         "{:?}",
         found.weak_combinations
     );
@@ -385,6 +385,29 @@ fn coarse_steps_are_reported() {
     });
     let found = identified(&coarse);
     assert!(found.warnings.iter().any(|text| text.contains("more than the half width")), "{:?}", found.warnings);
+}
+
+#[test]
+fn a_table_stands_for_its_numbers_that_the_file_gives() {
+    let with = |path: &str| {
+        json!({
+            "command": "identify", "robot": robot(&[]), "fit": [{"path": path}], "starts": 1,
+            "experiments": [{"measured_tensions_n": [40.0, 40.0, 40.0, 40.0, 40.0, 40.0]}],
+        })
+    };
+    let paths = |found: &Identified| found.values.iter().map(|row| row.path.clone()).collect::<Vec<_>>();
+    let table = identified(&with("platform"));
+    let expected = [
+        "platform.mass_kg",
+        "platform.center_of_mass_m.x",
+        "platform.center_of_mass_m.y",
+        "platform.center_of_mass_m.z",
+        "platform.inertia_kg_m2.xx",
+        "platform.inertia_kg_m2.yy",
+        "platform.inertia_kg_m2.zz",
+    ];
+    assert_eq!(paths(&table), expected);
+    assert_eq!(paths(&identified(&with("cables.2.anchor_m.1"))), ["cables.2.anchor_m.y"]);
 }
 
 #[test]

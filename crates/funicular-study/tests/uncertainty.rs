@@ -24,6 +24,20 @@ fn straight() -> String {
 }
 
 #[test]
+fn a_table_stands_for_all_its_numbers() {
+    let found = uncertainty(
+        &straight(),
+        &json!({
+            "pose": [0.0, 0.0, 0.5, 0.0, 0.0, 0.0], "hold": "pose", "of": ["tensions"], "method": "linear",
+            "deviations": ["cables.1=1%", "cables.2.anchor_m.2=0.001"],
+        }),
+    );
+    let of_group = |group: usize| found.inputs.iter().filter(move |input| input.group == group);
+    assert!(of_group(0).count() > 5 && of_group(0).all(|input| input.path.starts_with("cables.1.")));
+    assert_eq!(of_group(1).map(|input| &input.path).collect::<Vec<_>>(), ["cables.2.anchor_m.z"]);
+}
+
+#[test]
 fn tensions_proportional_to_the_mass_have_its_relative_deviation_by_both_ways() {
     let held = json!({"pose": [0.0, 0.0, 0.5, 0.0, 0.0, 0.0], "hold": "pose", "of": ["tensions"]});
     let with = |more: Value| {
@@ -116,7 +130,7 @@ fn linear_deviations_are_those_of_samples_where_the_tests_allow_them() {
         let sampled = uncertainty(robot, &request);
         assert_eq!(results(&linear).len(), count);
         for (linear, sampled) in results(&linear).iter().zip(results(&sampled)) {
-            assert_eq!((linear.method, &linear.doubt), ("linear", &None), "{linear:?}");
+            assert_eq!((linear.method, &linear.sampling_reason), ("linear", &None), "{linear:?}");
             // 400 robots: deviation to 3.5 %, so 10 % is nearly three of these.
             let ratio = linear.deviation.unwrap() / sampled.deviation.unwrap();
             assert!((0.9..1.1).contains(&ratio), "{}: {ratio}", linear.name);

@@ -13,13 +13,13 @@ pub(crate) struct DesignArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// Value of the robot file to choose with its bounds, around the present value as in 'cables.*.attachment_m=±0.05' (or
-    /// +-), or absolute as in platform.mass_kg=80:120; a vector without a component stands for all its numbers, and * for
-    /// every name (repeatable)
+    /// Value of the robot file to choose, with its bounds: around the present value, as in 'cables.*.attachment_m=±0.05' (or
+    /// +-), or absolute, as in platform.mass_kg=80:120; * stands for any key, and a path to a table or vector for all
+    /// numbers of it that the file gives (repeatable)
     #[arg(long, value_name = "PATH=±REACH|MIN:MAX", value_parser = change, required = true)]
     pub(crate) change: Vec<ChangeValue>,
 
-    /// Number to improve
+    /// Goal of the design
     #[arg(long, value_name = "GOAL", value_enum, default_value_t)]
     pub(crate) goal: DesignGoalName,
 

@@ -15,8 +15,8 @@ pub(crate) struct GradientArgs {
     #[arg(long, value_name = "RESULTS", value_delimiter = ',', default_value = "frequencies")]
     pub(crate) of: Vec<String>,
 
-    /// Numbers of the robot file, by paths as `parameters` lists them, separated by commas; * stands for any key, and a path
-    /// to a table or vector for all numbers in it [default: all]
+    /// Numbers of the robot file, by paths that `parameters` lists, separated by commas; * stands for any key, and a path to
+    /// a table or vector for all numbers in it [default: all]
     #[arg(long, value_name = "PATHS", value_delimiter = ',')]
     pub(crate) by: Vec<String>,
 
@@ -25,7 +25,7 @@ pub(crate) struct GradientArgs {
     #[arg(long, value_name = "WHAT", value_enum, default_value_t)]
     pub(crate) hold: HoldName,
 
-    /// Step that the derivatives are for
+    /// Unit of the derivatives: per unit, percent or tolerance of each number
     #[arg(long, value_name = "STEP", value_enum, default_value_t)]
     pub(crate) per: PerName,
 

@@ -14,23 +14,25 @@ pub(crate) struct IdentifyArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// Value of the robot file to identify, if wanted with its bounds, as in platform.mass_kg=10:30; a vector without a
-    /// component stands for all its numbers, and * for every name, as in 'materials.*.axial_stiffness_n' (repeatable)
+    /// Value of the robot file to identify, with optional bounds, as in platform.mass_kg=10:30; * stands for any key, as in
+    /// 'materials.*.axial_stiffness_n', and a path to a table or vector for all numbers of it that the file gives
+    /// (repeatable)
     #[arg(long, value_name = "PATH[=MIN:MAX]", value_parser = fit, required = true)]
     pub(crate) fit: Vec<FitValue>,
 
-    /// Value known beforehand with its standard deviation, as in platform.mass_kg=20±2 (or +-); ±2 alone stands beside
-    /// the value of the robot file (repeatable)
+    /// Value known beforehand with its standard deviation, as in platform.mass_kg=20±2 (or +-); without a value, as in
+    /// platform.mass_kg=±2, it is the value of the robot file (repeatable)
     #[arg(long, value_name = "PATH=VALUE±DEVIATION", value_parser = prior)]
     pub(crate) prior: Vec<FitValue>,
 
-    /// Number of starts of the search: the values of the file, and others at the distance of their priors; the first one
-    /// that fits ends it
+    /// Maximum number of starts of the search. The first start has the values of the file, the others are spread by the
+    /// priors; the search ends at the first start that fits
     #[arg(long, value_name = "N", default_value = "10")]
     pub(crate) starts: usize,
 
-    /// Fitted values, by their paths, separated by commas, whose interval is also found by holding each value and fitting
-    /// the others again, until χ² has risen by 3.84; * stands for any key
+    /// Fitted values with a profile, by their paths, separated by commas: each value is held at steps and all others are
+    /// fitted again, until χ² has risen by 3.84; * stands for any key, and a path to a table or vector for all numbers in
+    /// it
     #[arg(long, value_name = "PATHS", value_delimiter = ',')]
     pub(crate) profile: Vec<String>,
 

@@ -14,13 +14,14 @@ pub(crate) struct UncertaintyArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// Standard deviations PATH=VALUE or PATH=PERCENT% of normally distributed numbers, separated by commas; paths as
-    /// `parameters` lists them, * stands for any key, and a path to a table or vector for all numbers in it. Each option is
-    /// a group with a share of its own
+    /// Standard deviations PATH=VALUE or PATH=PERCENT% of normally distributed numbers, separated by commas. `parameters`
+    /// lists the paths; * stands for any key, and a path to a table or vector for all numbers in it. Each entry is a group
+    /// with its own share
     #[arg(long, value_name = "DEVIATIONS", value_delimiter = ',')]
     pub(crate) deviations: Vec<String>,
 
-    /// Tolerances PATH=VALUE or PATH=PERCENT% of numbers that are anywhere within ± their tolerance, separated by commas
+    /// Tolerances PATH=VALUE or PATH=PERCENT% of numbers with a uniform distribution within ± their tolerance, separated by
+    /// commas
     #[arg(long, value_name = "TOLERANCES", value_delimiter = ',')]
     pub(crate) tolerances: Vec<String>,
 
@@ -55,16 +56,16 @@ pub(crate) struct UncertaintyArgs {
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["pose", "lengths_m"])]
     pub(crate) poses: Option<PathBuf>,
 
-    /// Way to the deviations
+    /// Method for the deviations
     #[arg(long, value_name = "METHOD", value_enum, default_value_t)]
     pub(crate) method: UncertaintyMethodName,
 
-    /// Number of sampled robots per pose where sampling is needed, 10 to 1000000; with several groups as many for each
-    /// group
+    /// Number of sampled robots per pose that needs sampling, 10 to 1000000; with several groups, each group needs as many
+    /// again
     #[arg(long, value_name = "N", allow_hyphen_values = true, default_value_t = DEFAULT_SAMPLES)]
     pub(crate) samples: usize,
 
-    /// Number that chooses another sample
+    /// Seed of the sample
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u32,
 

@@ -134,7 +134,7 @@ impl Printed for Uncertainties {
             "worst_linear",
             "worst_down",
             "worst_up",
-            "doubt",
+            "sampling_reason",
         ]
         .map(str::to_owned)
         .to_vec();
@@ -157,7 +157,7 @@ impl Printed for Uncertainties {
                     number(result.worst.map(|worst| worst.linear)),
                     number(result.worst.and_then(|worst| worst.down)),
                     number(result.worst.and_then(|worst| worst.up)),
-                    result.doubt.clone().unwrap_or_default(),
+                    result.sampling_reason.clone().unwrap_or_default(),
                 ]);
                 let shares = (0..self.groups.len()).map(|g| number(result.group_shares.as_ref().map(|all| all[g])));
                 row.extend(shares);
@@ -216,18 +216,18 @@ fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
     }
     let _ = write!(out, "\n{table}");
 
-    // Each doubt once.
-    let mut doubts: Vec<&str> = Vec::new();
-    for doubt in pose.results.iter().filter_map(|result| result.doubt.as_deref()) {
-        if !doubts.contains(&doubt) {
-            doubts.push(doubt);
+    // Each reason once.
+    let mut reasons: Vec<&str> = Vec::new();
+    for reason in pose.results.iter().filter_map(|result| result.sampling_reason.as_deref()) {
+        if !reasons.contains(&reason) {
+            reasons.push(reason);
         }
     }
-    if !doubts.is_empty() || pose.failed.is_some() {
+    if !reasons.is_empty() || pose.failed.is_some() {
         out.push('\n');
     }
-    for doubt in doubts {
-        let _ = writeln!(out, "Not linear: {doubt}.");
+    for reason in reasons {
+        let _ = writeln!(out, "Not linear: {reason}.");
     }
     if let Some(failed) = &pose.failed {
         let _ =

@@ -94,6 +94,15 @@ fn steps_are_factors_of_the_derivatives_and_patterns_choose_numbers() {
     let [by_unit, by_tolerance] = [&unit, &tolerance].map(|found| derivative(found, name, "cables.6.anchor_m.z"));
     assert!((by_tolerance - 0.002 * by_unit).abs() < 1e-15, "{by_tolerance} {by_unit}");
 
+    // A table stands for all its numbers, and an index for the name of a component.
+    let of = |path: &str| json(&["gradient", "ROBOT", "--of", "tensions", "--by", path])["parameters"].clone();
+    let paths = |path: &str| -> Vec<String> {
+        of(path).as_array().unwrap().iter().map(|of| of["path"].as_str().unwrap().to_owned()).collect()
+    };
+    let table = paths("cables.1");
+    assert!(table.len() > 5 && table.iter().all(|path| path.starts_with("cables.1.")), "{table:?}");
+    assert_eq!(paths("cables.2.anchor_m.1"), ["cables.2.anchor_m.y"]);
+
     let (header, rows) = csv(&["gradient", "ROBOT", "--of", "tensions", "--by", "platform.mass_kg"]);
     assert_eq!((header.len(), rows.len()), (10, 12));
     let text = succeed(&["gradient", "ROBOT", "--of", "stiffness-min,lengths", "--hold", "pose", "--by", "platform"]);

@@ -68,7 +68,7 @@ fn a_cable_that_may_become_slack_and_frequencies_that_may_cross_are_sampled() {
     for result in found["poses"][0]["results"].as_array().unwrap() {
         assert_eq!(result["method"], "sampled");
         assert!(
-            result["doubt"].as_str().unwrap().contains("may become slack: 3 deviations of its tension are"),
+            result["sampling_reason"].as_str().unwrap().contains("may become slack: 3 deviations of its tension are"),
             "{result}"
         );
         // Cables that become slack carry less than the linear deviation says.
@@ -89,10 +89,10 @@ fn a_cable_that_may_become_slack_and_frequencies_that_may_cross_are_sampled() {
         "12",
     ]);
     let results = found["poses"][0]["results"].as_array().unwrap();
-    let doubts: Vec<Option<&str>> = results.iter().map(|result| result["doubt"].as_str()).collect();
-    assert_eq!((results.len(), doubts[0]), (4, None), "{doubts:?}");
-    assert!(doubts[1].unwrap().starts_with("frequencies 2 and 3 may cross: they are 0.0355 Hz apart"), "{doubts:?}");
-    assert_eq!(doubts[1], doubts[2]);
+    let reasons: Vec<Option<&str>> = results.iter().map(|result| result["sampling_reason"].as_str()).collect();
+    assert_eq!((results.len(), reasons[0]), (4, None), "{reasons:?}");
+    assert!(reasons[1].unwrap().starts_with("frequencies 2 and 3 may cross: they are 0.0355 Hz apart"), "{reasons:?}");
+    assert_eq!(reasons[1], reasons[2]);
     assert_eq!(found["evaluations"], 12);
 }
 

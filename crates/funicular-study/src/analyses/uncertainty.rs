@@ -1,206 +1,58 @@
 //! `uncertainty`: deviations of results from deviations of numbers of the robot file.
 //!
-//! The linear way uses the gradients of all results, and two tests decide where it holds: whether a cable may become
-//! slack, and whether natural frequencies may cross. Where it does not hold, or where a result has no gradient, robots are
-//! sampled (docs/theory.md, section "Uncertainty").
+//! The linear method uses the gradients of all results, and three tests decide where it is valid: whether a cable may
+//! become slack, whether natural frequencies may cross, and whether a response is far from linear. Where it is not
+//! valid, or where a result has no gradient, robots are sampled (docs/theory.md, section "Uncertainty").
 //!
-//! The work comes in parts that do not depend on each other: poses, then chunks of sampled robots. A front end runs them
-//! on its own threads and may keep the samples in a file, as those of a sweep.
+//! The work comes in parts that do not depend on each other: poses, then chunks of sampled robots. A front end runs
+//! them on its own threads and may keep the samples in a file, as those of a sweep.
 
-mod bend;
 mod distribution;
 mod inputs;
 mod linear;
+mod normal;
+mod output;
+mod response_linearity;
 mod responses;
 mod results;
 mod row;
 mod sampling;
 mod statistics;
 
+pub use output::{
+    FailedSamples, InputGroup, PoseUncertainty, ShareOfInput, UncertainInput, UncertainResponse, UncertainResult,
+    Uncertainties, WorstCase,
+};
 pub(crate) use statistics::Statistics;
 
 use super::found;
+use super::result_groups::result_groups;
 use super::shared::Models;
 use crate::at_rest::{self, AtRest};
 use crate::error::{Cancelled, NoSolution};
 use crate::names::UncertaintyMethod;
-use crate::request::{self, Pose, Request, UncertaintyRequest};
+use crate::request::{Pose, Request, UncertaintyRequest};
 use crate::sweep::{Chunk, Record};
 use crate::text::counted;
 use crate::watch::Watch;
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Result, bail};
 use funicular::robot::Robot;
-use inputs::{Distribution, Input, Inputs};
+use inputs::{DeviatingNumber, Distribution, Inputs};
 use linear::LinearPose;
-use responses::Asked;
-use results::GROUPS;
+use responses::RequestedResponse;
 use row::Row;
 use sampling::{SampleSet, SampleTable, Sampling};
-use serde::Serialize;
 use serde_json::{Value, json};
 
-/// Numbers of the largest contributions that a result lists.
+/// Number of contributions that are listed per result.
 const LARGEST: usize = 5;
 
-/// Numbers of sampled robots that are possible.
+/// Allowed sample sizes.
 const SAMPLES: std::ops::RangeInclusive<usize> = 10..=1_000_000;
-
-/// Results of `uncertainty`.
-#[derive(Serialize)]
-pub struct Uncertainties {
-    #[serde(skip)]
-    pub robot: String,
-    #[serde(flatten)]
-    pub models: Models,
-    /// Quantity that is held while the numbers deviate: `lengths` or `pose`.
-    pub held: &'static str,
-    /// Sentence that says what is held, and by which rule the rest follows.
-    pub held_means: &'static str,
-    /// Frequency response among the results.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub response: Option<UncertainResponse>,
-    /// Numbers that deviate.
-    pub inputs: Vec<UncertainInput>,
-    /// Groups of numbers, one per option.
-    pub groups: Vec<InputGroup>,
-    /// Number of sampled robots per pose that needs them.
-    pub samples: usize,
-    /// Number of robots that were computed for the samples and the corners of the tolerances.
-    pub evaluations: usize,
-    /// Sentences on how much the numbers are worth.
-    pub notes: Vec<String>,
-    /// Results at each pose.
-    pub poses: Vec<PoseUncertainty>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
-}
-
-/// Frequency response whose magnitudes and phases are results.
-#[derive(Debug, Clone, Serialize)]
-pub struct UncertainResponse {
-    pub input: String,
-    pub output: String,
-    /// Unit; magnitudes are in decibels of it, phases in degrees.
-    pub unit: String,
-}
-
-/// Number of the robot file that deviates.
-#[derive(Debug, Clone, Serialize)]
-pub struct UncertainInput {
-    pub path: String,
-    pub unit: &'static str,
-    /// Value; absent if it changes from pose to pose.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub value: Option<f64>,
-    /// Distribution: `normal` or `uniform`.
-    pub distribution: &'static str,
-    /// Standard deviation; absent if it changes from pose to pose.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub deviation: Option<f64>,
-    /// Half width of the tolerance; absent for a normal distribution.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tolerance: Option<f64>,
-    /// Index of its group, from 0.
-    pub group: usize,
-}
-
-/// Numbers that one option makes deviate.
-#[derive(Debug, Clone, Serialize)]
-pub struct InputGroup {
-    pub name: String,
-    /// Number of numbers in the group.
-    pub count: usize,
-}
-
-/// Results at one pose.
-#[derive(Debug, Clone, Serialize)]
-pub struct PoseUncertainty {
-    /// Pose of the undisturbed robot; absent if it has no equilibrium.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub position_m: Option<[f64; 3]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub roll_pitch_yaw_deg: Option<[f64; 3]>,
-    /// Reason why there are no results.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub reason: Option<String>,
-    /// Number of sampled robots without results, with the first reason.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub failed: Option<FailedSamples>,
-    pub results: Vec<UncertainResult>,
-}
-
-/// Sampled robots without results.
-#[derive(Debug, Clone, Serialize)]
-pub struct FailedSamples {
-    pub count: usize,
-    pub reason: String,
-}
-
-/// Result with its deviation.
-#[derive(Debug, Clone, Serialize)]
-pub struct UncertainResult {
-    /// Name, such as `frequency 3` or `tension of cable "2" at the anchor`.
-    pub name: String,
-    pub unit: &'static str,
-    /// Frequency of a response [Hz].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at_hz: Option<f64>,
-    /// Value of the undisturbed robot.
-    pub value: f64,
-    /// Standard deviation; absent if too few sampled robots have the result.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub deviation: Option<f64>,
-    /// Interval that holds 95 % of the robots.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub interval_95: Option<[f64; 2]>,
-    /// Method: `linear` or `sampled`.
-    pub method: &'static str,
-    /// Reason for sampling, or why linear deviations are doubtful.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub doubt: Option<String>,
-    /// Standard deviation by the gradient, also of a sampled result.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub linear_deviation: Option<f64>,
-    /// Mean of the sampled robots.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mean: Option<f64>,
-    /// Shares of the groups in the variance; of a sampled result total shares, which may add up to more than 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub group_shares: Option<Vec<f64>>,
-    /// Largest linear shares of single numbers in the variance.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub largest: Vec<ShareOfInput>,
-    /// Linear shares of all numbers, in the order of `inputs`; for one pose only.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub shares: Option<Vec<f64>>,
-    /// Worst case within the tolerances.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub worst: Option<WorstCase>,
-}
-
-/// Share of a number in the variance of a result.
-#[derive(Debug, Clone, Serialize)]
-pub struct ShareOfInput {
-    pub path: String,
-    pub share: f64,
-}
-
-/// Worst case within the tolerances.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct WorstCase {
-    /// Sum of the absolute linear changes over all tolerances: neither a lower nor an upper bound.
-    pub linear: f64,
-    /// Change at the corner of the tolerances that decreases the result most linearly: the true worst is at least as far.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub down: Option<f64>,
-    /// Change at the opposite corner.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub up: Option<f64>,
-}
 
 found!(Uncertainties, "uncertainty");
 
-/// Computes the deviations on the calling thread.
+/// Computes the deviations of all results on the calling thread.
 ///
 /// # Errors
 /// A request that contradicts itself or the robot, a robot without equilibrium at every pose, or work that was stopped.
@@ -230,8 +82,8 @@ pub fn run(request: &UncertaintyRequest, watch: &mut dyn Watch) -> Result<Uncert
 pub struct UncertaintyStudy {
     request: UncertaintyRequest,
     of: Vec<&'static str>,
-    /// Frequency responses, if they are among the results.
-    asked: Option<Asked>,
+    /// Frequency response, if it is among the results.
+    requested: Option<RequestedResponse>,
     robot: Robot,
     inputs: Inputs,
     poses: Vec<Option<[f64; 6]>>,
@@ -252,13 +104,11 @@ impl UncertaintyStudy {
     pub fn new(request: &UncertaintyRequest) -> Result<Self> {
         let of = groups(request)?;
         let robot = request.robot.read()?.robot;
-        let asked = of.contains(&"response").then(|| Asked::new(request, &robot)).transpose()?;
+        let requested = of.contains(&"response").then(|| RequestedResponse::new(request, &robot)).transpose()?;
         let poses: Vec<Option<[f64; 6]>> = match &request.poses {
             None => vec![None],
-            Some(_) if request.state.pose.is_some() || request.state.lengths_m.is_some() => {
-                bail!("⟪poses⟫ gives the poses of the robot: leave out ⟪pose⟫ and ⟪lengths_m⟫")
-            }
             Some(poses) => {
+                crate::sweep::check_poses_alone(&request.state)?;
                 crate::sweep::check_poses(poses, &robot)?;
                 poses.iter().copied().map(Some).collect()
             }
@@ -287,8 +137,8 @@ impl UncertaintyStudy {
         };
         let inputs = Inputs::new(request, &at_rest)?;
         // The linear deviations of the first pose find the errors that all poses share.
-        let linear = linear_at(request, &of, asked.as_ref(), &inputs, at_rest)?;
-        Ok(Self { request: request.clone(), of, asked, robot, inputs, poses, first: (first, linear), failed })
+        let linear = linear_at(request, &of, requested.as_ref(), &inputs, at_rest)?;
+        Ok(Self { request: request.clone(), of, requested, robot, inputs, poses, first: (first, linear), failed })
     }
 
     /// Number of poses.
@@ -306,8 +156,8 @@ impl UncertaintyStudy {
             return PoseOutcome(Ok(linear.clone()));
         }
         let at_rest = rest(&self.request, &self.robot, self.poses[pose]);
-        let linear =
-            at_rest.and_then(|at_rest| linear_at(&self.request, &self.of, self.asked.as_ref(), &self.inputs, at_rest));
+        let linear = at_rest
+            .and_then(|at_rest| linear_at(&self.request, &self.of, self.requested.as_ref(), &self.inputs, at_rest));
         PoseOutcome(linear.map_err(|error| format!("{error:#}")))
     }
 
@@ -375,8 +225,8 @@ impl SamplePlan<'_> {
         Samples(SampleTable::new())
     }
 
-    /// Computes a chunk of robots; `None` if `given_up`, which is called between two robots, returned true. A chunk depends
-    /// on the request alone.
+    /// Computes a chunk of robots; `None` if `given_up`, which is called between two robots, returned true. A chunk
+    /// depends on the request alone.
     pub fn evaluate(&self, index: usize, given_up: &dyn Fn() -> bool) -> Option<Chunk> {
         self.sampling.evaluate(index, self.study.request.hold, &self.study.inputs, &self.poses, given_up)
     }
@@ -434,8 +284,8 @@ impl SamplePlan<'_> {
             models: Models::of(first, linearisation),
             held: request.hold.name(),
             held_means: super::gradient::meaning(first, request.hold),
-            response: self.study.asked.as_ref().map(|asked| {
-                let (input, output, unit) = asked.names();
+            response: self.study.requested.as_ref().map(|requested| {
+                let (input, output, unit) = requested.names();
                 UncertainResponse { input: input.to_owned(), output: output.to_owned(), unit }
             }),
             inputs: self.inputs(),
@@ -459,7 +309,7 @@ impl SamplePlan<'_> {
         let several = self.poses.len() > 1;
         let values = inputs.values(&self.study.first.1.at_rest);
         let distributions = inputs.distributions(&values);
-        let input = |((input, value), distribution): ((&Input, f64), Distribution)| {
+        let input = |((input, value), distribution): ((&DeviatingNumber, f64), Distribution)| {
             let follows = several && inputs.follows_state(input);
             UncertainInput {
                 path: input.path.clone(),
@@ -498,7 +348,7 @@ impl SamplePlan<'_> {
     ) -> UncertainResult {
         let inputs = &self.study.inputs;
         let spread = row.spread(&linear.distributions);
-        let is_sampled = row.doubt.is_some() && self.study.request.method != UncertaintyMethod::Linear;
+        let is_sampled = row.sampling_reason.is_some() && self.study.request.method != UncertaintyMethod::Linear;
         let values = |set: SampleSet| samples.0.values(&self.sampling, pose, set, row.kind);
         let sampled = if is_sampled { values(SampleSet::Sample).and_then(Statistics::of) } else { None };
 
@@ -515,13 +365,7 @@ impl SamplePlan<'_> {
                 groups
             }),
         };
-        let largest = shares.as_ref().map_or_else(Vec::new, |shares| {
-            let mut order: Vec<(f64, usize)> = shares.iter().copied().zip(0..).collect();
-            order.sort_by(|a, b| b.0.total_cmp(&a.0));
-            order.truncate(LARGEST);
-            let of = |(share, k): (f64, usize)| ShareOfInput { path: inputs.list[k].path.clone(), share };
-            order.into_iter().filter(|(share, _)| *share > 0.0).map(of).collect()
-        });
+        let largest = shares.as_ref().map_or_else(Vec::new, |shares| largest_shares(inputs, shares));
 
         let worst = row.worst(&linear.distributions).filter(|worst| *worst > 0.0).map(|linear| {
             let mut corners = values(SampleSet::Corners(number)).into_iter().flatten();
@@ -541,7 +385,7 @@ impl SamplePlan<'_> {
                 spread.map(|(_, half)| [row.value - half, row.value + half])
             },
             method: if is_sampled { "sampled" } else { "linear" },
-            doubt: row.doubt.clone(),
+            sampling_reason: row.sampling_reason.clone(),
             linear_deviation: spread.map(|of| of.0),
             mean: sampled.as_ref().map(|of| of.mean),
             group_shares,
@@ -552,23 +396,18 @@ impl SamplePlan<'_> {
     }
 }
 
-/// Groups of results of a request, checked, and its numbers.
+/// Largest shares of single numbers in a variance.
+fn largest_shares(inputs: &Inputs, shares: &[f64]) -> Vec<ShareOfInput> {
+    let mut order: Vec<(f64, usize)> = shares.iter().copied().zip(0..).collect();
+    order.sort_by(|a, b| b.0.total_cmp(&a.0));
+    order.truncate(LARGEST);
+    let of = |(share, k): (f64, usize)| ShareOfInput { path: inputs.list[k].path.clone(), share };
+    order.into_iter().filter(|(share, _)| *share > 0.0).map(of).collect()
+}
+
+/// Groups of results of a request, after a check of them and of the sample size.
 fn groups(request: &UncertaintyRequest) -> Result<Vec<&'static str>> {
-    let all = request.of.iter().map(|name| {
-        GROUPS.into_iter().find(|known| known == name).ok_or_else(|| {
-            anyhow!("⟪of⟫: there is no result `{name}`{}", crate::names::suggestion(name, &GROUPS.map(str::to_owned)))
-        })
-    });
-    let of: Vec<&str> = all.collect::<Result<_>>()?;
-    if of.is_empty() {
-        bail!("⟪of⟫ names no result{}", crate::names::listed(&GROUPS.map(str::to_owned)));
-    }
-    for name in ["frequencies", "damping"] {
-        if of.contains(&name) && request.below_hz.is_none() {
-            bail!("`{name}` needs ⟪below_hz⟫");
-        }
-    }
-    request.below_hz.map_or(Ok(()), |hz| request::check_positive("below_hz", hz))?;
+    let groups = result_groups(&request.of, request.below_hz)?;
     if !SAMPLES.contains(&request.samples) {
         bail!(
             "⟪samples⟫: {} robots are not possible: give a whole number from {} to {}",
@@ -577,30 +416,31 @@ fn groups(request: &UncertaintyRequest) -> Result<Vec<&'static str>> {
             SAMPLES.end()
         );
     }
-    Ok(of)
+    Ok(groups)
 }
 
 /// Linear deviations of an equilibrium, by the method of a request.
 fn linear_at(
     request: &UncertaintyRequest,
     of: &[&str],
-    asked: Option<&Asked>,
+    requested: Option<&RequestedResponse>,
     inputs: &Inputs,
     at_rest: AtRest,
 ) -> Result<LinearPose> {
-    let mut linear = LinearPose::new(request, of, asked, inputs, at_rest)?;
+    let mut linear = LinearPose::new(request, of, requested, inputs, at_rest)?;
+
     match request.method {
         UncertaintyMethod::Automatic => {}
         UncertaintyMethod::Linear => {
             if let Some(row) = linear.rows.iter().find(|row| row.derivatives.is_none()) {
                 let name = row.kind.name(&linear.at_rest.robot);
-                let reason = row.doubt.as_deref().unwrap_or_default();
+                let reason = row.sampling_reason.as_deref().unwrap_or_default();
                 bail!("{name} has no linear deviation: {reason}; leave out ⟪method⟫ linear, or this result");
             }
         }
         UncertaintyMethod::Sampled => {
             for row in &mut linear.rows {
-                row.doubt.get_or_insert_with(|| "sampled as requested".to_owned());
+                row.sampling_reason.get_or_insert_with(|| "sampled as requested".to_owned());
             }
         }
     }
@@ -621,23 +461,25 @@ fn is_of_pose(error: &anyhow::Error) -> bool {
     crate::ErrorKind::of(error) == crate::ErrorKind::NoSolution
 }
 
-/// Sentences on how much the numbers are worth.
+/// Notes on the accuracy.
 fn notes(request: &UncertaintyRequest, poses: &[PoseUncertainty]) -> Vec<String> {
     let results = || poses.iter().flat_map(|pose| &pose.results);
     let mut notes = Vec::new();
     let linear = results().filter(|result| result.method == "linear").count();
-    let doubtful = results().filter(|result| result.method == "linear" && result.doubt.is_some()).count();
+    let not_valid = results().filter(|result| result.method == "linear" && result.sampling_reason.is_some()).count();
     let sampled = results().count() - linear;
-    if linear > doubtful {
+
+    if linear > not_valid {
         notes.push(format!(
-            "{} linear: within the deviations no cable may become slack, no frequencies may cross and no response bends",
-            counted(linear - doubtful, "result")
+            "{} linear: within the deviations no cable becomes slack, no frequencies cross, and responses are nearly \
+             linear",
+            counted(linear - not_valid, "result")
         ));
     }
-    if doubtful > 0 {
+    if not_valid > 0 {
         notes.push(format!(
-            "{} linear as requested, although the deviations are too large for it: see the doubts",
-            counted(doubtful, "result")
+            "{} linear as requested, although the deviations are too large for it; the reason stands with each result",
+            counted(not_valid, "result")
         ));
     }
     if sampled > 0 {
@@ -650,10 +492,10 @@ fn notes(request: &UncertaintyRequest, poses: &[PoseUncertainty]) -> Vec<String>
             crate::text::significant(100.0 * 2.0 * (0.95 * 0.05 / n).sqrt(), 2)
         ));
     }
+
     if results().any(|result| result.worst.is_some()) {
         notes.push(
-            "Worst cases within the tolerances: the linear sum is no bound; the corners, which are computed, are lower \
-             bounds of the worst"
+            "Worst cases within the tolerances: the linear sum is not a bound; the computed corners are lower bounds"
                 .to_owned(),
         );
     }

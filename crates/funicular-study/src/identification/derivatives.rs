@@ -1,18 +1,18 @@
 //! Derivatives of the predictions of an experiment by the values, from the gradients of its robot.
 
 use super::experiment::{Prepared, Solved};
-use super::observations::{Kind, Stage};
+use super::observations::{Stage, Subject};
 use anyhow::{Result, bail};
 use funicular::gradient::{Gradients, Hold, VibrationGradients};
 use funicular::math::{Complex, Mat3, Vec3, skew};
-use funicular::robot::{Robot, RobotChange, State};
+use funicular::robot::{Pose, Robot, RobotChange, State};
 
 /// Angle [rad] below which the series of (93g) is used: the next term is θ⁴/30240.
 const SMALL_ANGLE: f64 = 1e-2;
 
 impl Prepared<'_> {
-    /// Change of the robot of this experiment, for a change of the robot of the file. `all` is the robot of the file, with
-    /// all cables. What the experiment states itself does not change with the file.
+    /// Change of the robot of this experiment, for a change of the robot of the file. `all` is the robot of the file,
+    /// with all cables. What the experiment states itself does not change with the file.
     pub(super) fn change(&self, mut change: RobotChange, all: &Robot) -> RobotChange {
         let state = &self.given.state;
         if let Some(mounted) = &self.given.cables {
@@ -48,8 +48,8 @@ impl Prepared<'_> {
         change
     }
 
-    /// Derivatives of the predictions along changes of the robot of this experiment: one list per change, in the order of
-    /// the predictions.
+    /// Derivatives of the predictions along changes of the robot of this experiment: one list per change, in the order
+    /// of the predictions.
     ///
     /// # Errors
     /// Predictions that have no gradient. The reason is for developers: the caller takes differences instead.
@@ -66,59 +66,54 @@ impl Prepared<'_> {
         if hold == Hold::Pose && (at_rest.requested_pose.is_some() || at_rest.rule.is_some()) {
             bail!("the pose or the tensions follow from a rule");
         }
-        let has = |kind: Kind| self.observations.iter().any(|observation| observation.kind == kind);
-        if has(Kind::Damping) && stage != Stage::Statics {
+        let has_damping = self.observations.iter().any(|of| matches!(of.subject, Subject::Damping(_)));
+        if has_damping && stage != Stage::Statics {
             // The damping ratio to first order depends on the motion of the mode, which is not differentiated.
             bail!("a damping ratio to first order has no gradient");
         }
         let gradients = Gradients::new(robot, rest, hold)?;
-        let mut columns: Vec<Vec<Complex>> = changes.iter().map(|_| Vec::with_capacity(solved.values.len())).collect();
+        let mut columns = vec![vec![Complex::default(); solved.values.len()]; changes.len()];
 
-        // Pose, tensions and lengths.
-        if let Some(pose) = self.given.measured_pose {
-            let measured = pose.to_robot()?;
-            let by_pose = gradients.pose();
-            let turn = (rest.pose.rot_wp * measured.rot_wp.inverse()).scaled_axis();
-            let rate = rate_of_rotation_vector(&turn);
-            for (column, change) in columns.iter_mut().zip(changes) {
-                let motion = by_pose.each_ref().map(|gradient| gradient.dot(change));
-                let turned = rate * Vec3::new(motion[3], motion[4], motion[5]);
-                column.extend(motion[..3].iter().chain(turned.iter()).map(|number| Complex::from(*number)));
-            }
-        }
-        let mut add = |gradient: &RobotChange| {
-            for (column, change) in columns.iter_mut().zip(changes) {
-                column.push(gradient.dot(change).into());
-            }
-        };
-        if self.given.measured_tensions_n.is_some() {
-            gradients.tensions_platform().iter().for_each(&mut add);
-        }
-        if self.given.measured_lengths_m.is_some() {
-            gradients.lengths().iter().for_each(&mut add);
-        }
+        self.add_statics(&gradients, changes, &mut columns)?;
         if stage == Stage::Statics {
-            for column in &mut columns {
-                column.resize(solved.values.len(), Complex::default());
-            }
             return Ok(columns);
         }
-
-        // Natural frequencies.
         if !assigned.is_empty() {
             let Some(dynamics) = &modes.1 else { bail!("modes of rigid cables have no gradient") };
             let vibration = gradients.vibration(dynamics)?;
-            for &number in assigned {
-                add(&vibration.frequency(&modes.0[number])?);
+            for (row, observation) in self.observations.iter().enumerate() {
+                if let Subject::Frequency(k) = observation.subject {
+                    let gradient = vibration.frequency(&modes.0[assigned[k]])?;
+                    add(row, &gradient, changes, &mut columns);
+                }
             }
         }
         if let Some(dynamics) = of_responses {
-            for column in &mut columns {
-                column.resize(solved.values.len(), Complex::default());
-            }
             self.add_responses(&gradients.vibration(dynamics)?, robot, changes, &mut columns)?;
         }
         Ok(columns)
+    }
+
+    /// Writes the derivatives of pose, tensions and lengths.
+    fn add_statics(&self, gradients: &Gradients, changes: &[RobotChange], columns: &mut [Vec<Complex>]) -> Result<()> {
+        let pose = match self.given.measured_pose {
+            Some(measured) => pose_derivatives(gradients, &measured.to_robot()?, changes),
+            None => Vec::new(),
+        };
+        let is_measured = |measured: &Option<Vec<f64>>| measured.is_some();
+        let tensions = is_measured(&self.given.measured_tensions_n).then(|| gradients.tensions_platform());
+        let lengths = is_measured(&self.given.measured_lengths_m).then(|| gradients.lengths());
+        for (row, observation) in self.observations.iter().enumerate() {
+            match (observation.subject, &tensions, &lengths) {
+                (Subject::Pose(k), ..) => {
+                    columns.iter_mut().zip(&pose).for_each(|(column, along)| column[row] = along[k].into());
+                }
+                (Subject::Tension(i), Some(tensions), _) => add(row, &tensions[i], changes, columns),
+                (Subject::Length(i), _, Some(lengths)) => add(row, &lengths[i], changes, columns),
+                _ => {}
+            }
+        }
+        Ok(())
     }
 
     /// Writes the derivatives of the responses.
@@ -149,6 +144,26 @@ impl Prepared<'_> {
             _ => Hold::Lengths,
         }
     }
+}
+
+/// Writes the derivatives of one prediction along all changes.
+fn add(row: usize, gradient: &RobotChange, changes: &[RobotChange], columns: &mut [Vec<Complex>]) {
+    for (column, change) in columns.iter_mut().zip(changes) {
+        column[row] = gradient.dot(change).into();
+    }
+}
+
+/// Derivatives of the difference from a measured pose, one list per change: position, then rotation vector.
+fn pose_derivatives(gradients: &Gradients, measured: &Pose, changes: &[RobotChange]) -> Vec<[f64; 6]> {
+    let by_pose = gradients.pose();
+    let turn = (gradients.equilibrium().pose.rot_wp * measured.rot_wp.inverse()).scaled_axis();
+    let rate = rate_of_rotation_vector(&turn);
+    let along = |change: &RobotChange| {
+        let motion = by_pose.each_ref().map(|gradient| gradient.dot(change));
+        let turned = rate * Vec3::new(motion[3], motion[4], motion[5]);
+        [motion[0], motion[1], motion[2], turned.x, turned.y, turned.z]
+    };
+    changes.iter().map(along).collect()
 }
 
 /// Derivative of the rotation vector θ of a rotation by a small turn after it, in world axes: the inverse of the left

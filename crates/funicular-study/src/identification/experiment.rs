@@ -1,6 +1,7 @@
 //! Predictions of the measurements of one experiment.
 
-use super::observations::{Kind, Observation, Stage, observations};
+use super::observations::{Observation, Stage, Subject};
+use super::reading::observations;
 use crate::at_rest::{self, AtRest};
 use crate::measurements::MeasuredFrequency;
 use crate::request::{Experiment, IdentifyRequest};
@@ -11,14 +12,16 @@ use funicular::math::{Complex, Vec3};
 use funicular::modes::{self, Mode, tracking::best_pairs};
 use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::{Robot, State};
+use funicular::statics::Equilibrium;
 
 /// Ratio of the limit of a list of modes to the highest measured frequency.
 const BEYOND: f64 = 1.3;
 
-/// Number of times that this limit is doubled until the list has all numbered modes.
+/// Maximum number of times that this limit is doubled until the list has all numbered modes.
 const MAX_DOUBLINGS: usize = 8;
 
-/// Deviations beyond which a mode does not differ as a partner of a measured frequency.
+/// Distance of a mode from a measured frequency, in standard deviations, beyond which all modes are equally bad
+/// partners.
 const FAR: f64 = 1000.0;
 
 /// Response of an experiment with its signals.
@@ -34,7 +37,7 @@ pub(super) struct ResponseOf {
 }
 
 /// Responses with the same frequencies, which are computed together.
-pub(super) struct Group {
+pub(super) struct ResponseGroup {
     /// Inputs, each once.
     pub(super) inputs: Vec<Signal>,
     /// Outputs, each once.
@@ -45,7 +48,7 @@ pub(super) struct Group {
     pub(super) rows: Vec<(usize, usize)>,
 }
 
-/// Robot of an experiment, solved as far as its predictions need.
+/// Robot of an experiment at values, with its predictions.
 pub(super) struct Solved {
     /// Robot at rest.
     pub(super) at_rest: AtRest,
@@ -59,7 +62,7 @@ pub(super) struct Solved {
     pub(super) values: Vec<Complex>,
 }
 
-/// Experiment with what its predictions need.
+/// Experiment with checked measurements and signals, ready for predictions.
 pub(super) struct Prepared<'a> {
     pub(super) given: &'a Experiment,
     pub(super) name: String,
@@ -73,38 +76,22 @@ impl<'a> Prepared<'a> {
     ///
     /// # Errors
     /// Signals that the robot does not have, or measurements that are not possible.
-    pub(super) fn new(robot: &Robot, given: &'a Experiment, name: String, request: &IdentifyRequest) -> Result<Self> {
-        let observations = observations(given, &name, request)?;
+    pub(super) fn new(
+        robot: &Robot,
+        (number, given): (usize, &'a Experiment),
+        name: String,
+        request: &IdentifyRequest,
+    ) -> Result<Self> {
+        let observations = observations(given, number, &name, request)?;
         let robot = mounted(robot.clone(), given, &name)?;
-        for (key, values) in
-            [("measured_tensions_n", &given.measured_tensions_n), ("measured_lengths_m", &given.measured_lengths_m)]
-        {
-            if let Some(values) = values
-                && values.len() != robot.cables.len()
-            {
-                bail!("{name}: `{key}` has {} numbers for {} cables", values.len(), robot.cables.len());
-            }
-        }
-        if let Some(pose) = given.measured_pose {
-            at_rest::check_pose(&robot, &pose.to_robot()?)?;
-        }
-        let holds_pose =
-            given.state.pose.is_some() || matches!(robot.state, State::Pose(_)) && given.state.lengths_m.is_none();
-        if given.measured_lengths_m.is_some() && (!holds_pose || given.state.hold_lengths_of_pose) {
-            bail!("{name}: `measured_lengths_m` needs a pose that is held, from which lengths follow: give ⟪pose⟫");
-        }
+        check_statics(&robot, given, &name)?;
         if request.rigid_cables && !given.responses.is_empty() {
             bail!(
                 "⟪rigid_cables⟫ does not go with responses, which are computed for cables that stretch: leave it out"
             );
         }
-        if given.cables.is_some() && given.state.hold_lengths_of_pose {
-            bail!("{name}: `hold_lengths_of_pose` does not go with `cables`: give `lengths_m`");
-        }
 
-        // Responses with the same frequencies are computed together.
         let mut responses: Vec<ResponseOf> = Vec::with_capacity(given.responses.len());
-        let mut first = observations.iter().filter(|observation| observation.kind != Kind::Response).count();
         for (i, response) in given.responses.iter().enumerate() {
             let input = Input::parse(&response.input)
                 .map_err(|error| anyhow!("{name}, `input` {}: {error}", response.input))?;
@@ -115,10 +102,12 @@ impl<'a> Prepared<'a> {
             let refuse = |error| anyhow!("{name}, response {i}: {error}");
             input.signal(&robot, input_point_p).map_err(refuse)?;
             output.signal(&robot, output_point_p).map_err(refuse)?;
+            let subject = Subject::Response { response: i, line: 0 };
+            let first = observations.iter().position(|observation| observation.subject == subject).unwrap_or_default();
             let group = (0..i).find(|&j| given.responses[j].frequency_hz == response.frequency_hz).unwrap_or(i);
             responses.push(ResponseOf { input, input_point_p, output, output_point_p, first, group });
-            first += response.frequency_hz.len();
         }
+
         let of_responses = given.responses.iter().flat_map(|response| response.frequency_hz.iter().copied());
         let of_list = given.frequencies.iter().map(|frequency| BEYOND * frequency.frequency_hz);
         let highest_hz = of_responses.chain(of_list).fold(0.0, f64::max);
@@ -146,53 +135,53 @@ impl<'a> Prepared<'a> {
         assigned: Option<&[usize]>,
     ) -> Result<Solved> {
         let at_rest = self.at_rest(robot, request)?;
-        let mut values = Vec::with_capacity(self.observations.len());
-        self.statics(&at_rest, &mut values)?;
         if stage == Stage::Statics {
-            // The other predictions are not used.
-            let rest = self.observations.iter().filter(|observation| observation.kind != Kind::Static);
-            values.extend(rest.map(|observation| observation.measured));
+            let values = self.values(&at_rest, None)?;
             let assigned = vec![0; self.given.frequencies.len()];
             return Ok(Solved { at_rest, modes: (Vec::new(), None), assigned, of_responses: None, values });
         }
 
-        // Natural frequencies, then damping ratios.
         let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
         let modes = self.modes(&at_rest, linearisation, request.rigid_cables)?;
         let assigned = match assigned {
             Some(assigned) => assigned.to_vec(),
             None => self.assigned(&modes.0)?,
         };
-        let mode = |k: usize| modes.0.get(assigned[k]).ok_or_else(|| anyhow!("the list of modes is too short"));
-        for k in 0..self.given.frequencies.len() {
-            values.push(mode(k)?.frequency_hz.into());
-        }
-        for (k, measured) in self.given.frequencies.iter().enumerate() {
-            if measured.damping_ratio.is_some() {
-                values.push(mode(k)?.damping_ratio.into());
-            }
-        }
-
+        let mut values = self.values(&at_rest, Some((&modes.0, &assigned)))?;
         let of_responses = self.responses(&at_rest, linearisation, &mut values)?;
         Ok(Solved { at_rest, modes, assigned, of_responses, values })
     }
 
-    /// Appends differences from the measured pose, tensions and lengths.
-    fn statics(&self, at_rest: &AtRest, out: &mut Vec<Complex>) -> Result<()> {
+    /// Predictions in the order of the observations, except those of responses, which are zero. Without modes,
+    /// predictions of vibration are the measured values: they are not used.
+    ///
+    /// # Errors
+    /// Fewer modes than were measured.
+    fn values(&self, at_rest: &AtRest, modes: Option<(&[Mode], &[usize])>) -> Result<Vec<Complex>> {
         let rest = &at_rest.equilibrium;
-        if let Some(pose) = self.given.measured_pose {
-            let measured = pose.to_robot()?;
-            let shift = rest.pose.position_w - measured.position_w;
-            let turn = (rest.pose.rot_wp * measured.rot_wp.inverse()).scaled_axis();
-            out.extend(shift.iter().chain(turn.iter()).map(|number| Complex::from(*number)));
-        }
-        if self.given.measured_tensions_n.is_some() {
-            out.extend(rest.cables.iter().map(|cable| Complex::from(cable.tension_platform)));
-        }
-        if self.given.measured_lengths_m.is_some() {
-            out.extend(rest.cables.iter().map(|cable| Complex::from(cable.unstrained_length)));
-        }
-        Ok(())
+        let difference = self.pose_difference(rest)?;
+        let value = |observation: &Observation| -> Result<Complex> {
+            Ok(match (observation.subject, modes) {
+                (Subject::Pose(k), _) => difference[k].into(),
+                (Subject::Tension(i), _) => rest.cables[i].tension_platform.into(),
+                (Subject::Length(i), _) => rest.cables[i].unstrained_length.into(),
+                (_, None) => observation.measured,
+                (Subject::Frequency(k), Some((list, assigned))) => mode_at(list, assigned[k])?.frequency_hz.into(),
+                (Subject::Damping(k), Some((list, assigned))) => mode_at(list, assigned[k])?.damping_ratio.into(),
+                (Subject::Response { .. }, Some(_)) => Complex::default(),
+            })
+        };
+        self.observations.iter().map(value).collect()
+    }
+
+    /// Difference of an equilibrium from the measured pose: position [m], then rotation vector [rad]; zeros if no pose
+    /// was measured.
+    fn pose_difference(&self, rest: &Equilibrium) -> Result<[f64; 6]> {
+        let Some(pose) = self.given.measured_pose else { return Ok([0.0; 6]) };
+        let measured = pose.to_robot()?;
+        let shift = rest.pose.position_w - measured.position_w;
+        let turn = (rest.pose.rot_wp * measured.rot_wp.inverse()).scaled_axis();
+        Ok([shift.x, shift.y, shift.z, turn.x, turn.y, turn.z])
     }
 
     /// Modes for the list of measured frequencies, ascending, and the linearisation to which they belong.
@@ -214,6 +203,7 @@ impl<'a> Prepared<'a> {
                 .map_err(|error| anyhow!("⟪rigid_cables⟫: {error}"))?;
             return Ok((enough(found.modes, needed)?, None));
         }
+
         let mut limit = BEYOND * highest;
         for _ in 0..MAX_DOUBLINGS {
             let dynamics = Dynamics::about(&at_rest.robot, &at_rest.equilibrium, linearisation, limit)?;
@@ -227,7 +217,8 @@ impl<'a> Prepared<'a> {
         Ok((enough(Vec::new(), needed)?, None))
     }
 
-    /// Mode of each measured frequency: by its number, or else the pairs with the least distances altogether.
+    /// Mode of each measured frequency: the numbered one, otherwise the one of the pairs whose distances have the
+    /// smallest sum.
     fn assigned(&self, list: &[Mode]) -> Result<Vec<usize>> {
         let measured = &self.given.frequencies;
         let mut assigned: Vec<Option<usize>> =
@@ -237,13 +228,14 @@ impl<'a> Prepared<'a> {
         if open.len() > free.len() {
             bail!("{} frequencies have no number, and the robot has {} more modes", open.len(), free.len());
         }
+
         let deviations: Vec<f64> = self
             .observations
             .iter()
-            .filter(|observation| observation.kind == Kind::Frequency)
+            .filter(|observation| matches!(observation.subject, Subject::Frequency(_)))
             .map(|observation| observation.deviation)
             .collect();
-        let likeness: Vec<Vec<f64>> = open
+        let similarity: Vec<Vec<f64>> = open
             .iter()
             .map(|&k| {
                 let distance =
@@ -251,27 +243,27 @@ impl<'a> Prepared<'a> {
                 free.iter().map(|i| 1.0 - distance(i).min(FAR) / FAR).collect()
             })
             .collect();
-        for (row, column) in best_pairs(&likeness, free.len()) {
+        for (row, column) in best_pairs(&similarity, free.len()) {
             assigned[open[row]] = Some(free[column]);
         }
         Ok(assigned.into_iter().flatten().collect())
     }
 
-    /// Appends the responses, and returns the linearisation to which they belong.
+    /// Writes the responses into the predictions, and returns the linearisation to which they belong.
     fn responses(
         &self,
         at_rest: &AtRest,
         linearisation: Linearisation,
-        values: &mut Vec<Complex>,
+        values: &mut [Complex],
     ) -> Result<Option<Dynamics>> {
         if self.responses.is_empty() {
             return Ok(None);
         }
         let AtRest { robot, equilibrium, .. } = at_rest;
         let dynamics = Dynamics::about(robot, equilibrium, linearisation, self.highest_hz)?;
-        values.resize(self.observations.len(), Complex::default());
+
         for group in self.groups(robot)? {
-            let Group { inputs, outputs, .. } = &group;
+            let ResponseGroup { inputs, outputs, .. } = &group;
             let signals: Vec<Signal> = inputs.iter().copied().chain(outputs.iter().map(|output| output.0)).collect();
             let mut input_ports = Port::all(robot, equilibrium, &dynamics, &signals, true)?;
             let output_ports = input_ports.split_off(inputs.len());
@@ -289,7 +281,7 @@ impl<'a> Prepared<'a> {
     ///
     /// # Errors
     /// A signal that the robot does not have.
-    pub(super) fn groups(&self, robot: &Robot) -> Result<Vec<Group>> {
+    pub(super) fn groups(&self, robot: &Robot) -> Result<Vec<ResponseGroup>> {
         let mut groups = Vec::new();
         for number in 0..self.responses.len() {
             let members: Vec<&ResponseOf> = self.responses.iter().filter(|other| other.group == number).collect();
@@ -305,7 +297,7 @@ impl<'a> Prepared<'a> {
             }
             let rows = places.into_iter().map(|(to, from, first)| (to * inputs.len() + from, first)).collect();
             let frequency_hz = self.given.responses[number].frequency_hz.clone();
-            groups.push(Group { inputs, outputs, frequency_hz, rows });
+            groups.push(ResponseGroup { inputs, outputs, frequency_hz, rows });
         }
         Ok(groups)
     }
@@ -317,6 +309,38 @@ fn place<T: PartialEq>(list: &mut Vec<T>, element: T) -> usize {
         list.push(element);
         list.len() - 1
     })
+}
+
+/// Checks the numbers of measured tensions and lengths, and the states at which lengths can be measured.
+fn check_statics(robot: &Robot, given: &Experiment, name: &str) -> Result<()> {
+    let cables = robot.cables.len();
+    for (option, values) in
+        [("measured_tensions_n", &given.measured_tensions_n), ("measured_lengths_m", &given.measured_lengths_m)]
+    {
+        if let Some(values) = values
+            && values.len() != cables
+        {
+            bail!("{name}: ⟪{option}⟫ has {} numbers for {cables} cables", values.len());
+        }
+    }
+    if let Some(pose) = given.measured_pose {
+        at_rest::check_pose(robot, &pose.to_robot()?)?;
+    }
+
+    let holds_pose =
+        given.state.pose.is_some() || matches!(robot.state, State::Pose(_)) && given.state.lengths_m.is_none();
+    if given.measured_lengths_m.is_some() && (!holds_pose || given.state.hold_lengths_of_pose) {
+        bail!("{name}: ⟪measured_lengths_m⟫ needs a pose that is held, from which lengths follow: give ⟪pose⟫");
+    }
+    if given.cables.is_some() && given.state.hold_lengths_of_pose {
+        bail!("{name}: ⟪hold_lengths_of_pose⟫ does not go with the key `cables` of the experiment: give ⟪lengths_m⟫");
+    }
+    Ok(())
+}
+
+/// Mode with this index.
+fn mode_at(list: &[Mode], index: usize) -> Result<&Mode> {
+    list.get(index).ok_or_else(|| anyhow!("the list of modes is too short"))
 }
 
 /// List of modes that is long enough.
@@ -335,7 +359,7 @@ fn mounted(mut robot: Robot, given: &Experiment, name: &str) -> Result<Robot> {
         bail!("{name}: the robot has no cable \"{unknown}\"{}", crate::names::suggestion(unknown, &known));
     }
     if cables.is_empty() {
-        bail!("{name}: `cables` is empty: name the cables that were mounted");
+        bail!("{name}: the key `cables` of the experiment is empty: name the cables that were mounted");
     }
     if let State::Lengths(lengths) = &mut robot.state {
         let mut kept = known.iter().map(|cable| cables.contains(cable));

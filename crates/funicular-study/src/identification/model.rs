@@ -1,7 +1,7 @@
 //! Predictions of all measurements by a robot with other values, and their derivatives.
 
 use super::experiment::{Prepared, Solved};
-use super::observations::{Kind, Observation, Stage, left_out, weights};
+use super::observations::{Observation, Stage, Subject, left_out, weights};
 use super::unknowns::Unknown;
 use crate::at_rest::{self, AtRest};
 use crate::request::{IdentifyRequest, RobotText};
@@ -13,8 +13,8 @@ use funicular::math::{Complex, DMat};
 use funicular::robot::Robot;
 use funicular::robot::parameters::Parameters;
 
-/// Step of the central differences, relative to the spread of a value: their error grows with its square, the rounding of
-/// the equilibrium with its inverse.
+/// Step of the central differences, relative to the spread of a value: their error grows with its square, the rounding
+/// of the equilibrium with its inverse.
 const STEP: f64 = 3e-4;
 
 /// Modes to which the frequencies of each experiment are assigned: indices in the ascending list.
@@ -75,15 +75,11 @@ impl<'a> IdentifiedModel<'a> {
                 "" => "the experiment".to_owned(),
                 name => format!("experiment {name}"),
             };
-            experiments.push(Prepared::new(parameters.robot(), given, name, request)?);
+            experiments.push(Prepared::new(parameters.robot(), (i, given), name, request)?);
         }
-        // Responses are numbered through all experiments.
-        let (mut observations, mut series): (Vec<Observation>, usize) = (Vec::new(), 0);
-        for experiment in &experiments {
-            let own = experiment.observations.iter().copied();
-            observations.extend(own.map(|own| Observation { series: own.series + series, ..own }));
-            series += experiment.given.responses.len();
-        }
+        let observations: Vec<Observation> =
+            experiments.iter().flat_map(|experiment| experiment.observations.iter().copied()).collect();
+
         Ok(Self {
             left_out: vec![false; observations.len()],
             has_gradients: true,
@@ -126,7 +122,10 @@ impl<'a> IdentifiedModel<'a> {
         Ok(set_values::apply(&source.changed_text()?, &assignments)?)
     }
 
-    /// Robot of an experiment at rest, linearised up to a frequency.
+    /// Robot of an experiment at rest, with values at coordinates.
+    ///
+    /// # Errors
+    /// Values that the robot cannot have, or a robot without equilibrium.
     pub(crate) fn at_rest(&self, x: &[f64], experiment: usize) -> Result<AtRest> {
         self.experiments[experiment].at_rest(self.robot(x)?, self.request)
     }
@@ -136,7 +135,7 @@ impl<'a> IdentifiedModel<'a> {
         self.experiments.iter().map(|experiment| experiment.name.as_str())
     }
 
-    /// Linearisation of an equilibrium up to a frequency [Hz].
+    /// Cable model and reference of vibrations about an equilibrium, as the request chooses them.
     pub(crate) fn linearisation(&self, at_rest: &AtRest) -> Linearisation {
         at_rest::linearisation(&self.request.model, at_rest.equilibrium.model)
     }
@@ -191,10 +190,10 @@ impl<'a> IdentifiedModel<'a> {
     /// Reason for which a residual is not finite.
     fn not_finite(&self, values: &[Complex]) -> anyhow::Error {
         let mut all = self.observations.iter().zip(values);
-        if all.any(|(observation, value)| observation.kind == Kind::Damping && value.re <= 0.0) {
+        if all.any(|(observation, value)| matches!(observation.subject, Subject::Damping(_)) && value.re <= 0.0) {
             return anyhow::anyhow!(
-                "a damping ratio was measured, and the mode has no damping in the model: give the ropes a `damping_ratio`, \
-                 or leave the measured one out"
+                "a damping ratio was measured, and the mode has no damping in the model: give the ropes a \
+                 `damping_ratio`, or leave the measured one out"
             );
         }
         anyhow::anyhow!("a residual is not finite: the robot or its measurements are too far apart")
@@ -205,8 +204,8 @@ impl<'a> IdentifiedModel<'a> {
         self.held.as_ref().map_or(&[], |(_, weights)| weights)
     }
 
-    /// Leaves out the values of responses around which the model does not hold at coordinates. Returns true if these are
-    /// others than before.
+    /// Leaves out the ranges of responses that the model misses at coordinates. Returns true if they differ from those
+    /// before.
     pub(crate) fn leave_out(&mut self, x: &[f64]) -> bool {
         let Some((assigned, _)) = self.held.clone() else { return false };
         let Ok(predicted) = self.predict(x, Some(&assigned)) else { return false };
@@ -236,8 +235,8 @@ impl<'a> IdentifiedModel<'a> {
         self.unknowns.iter().filter(|unknown| unknown.prior.is_some()).count()
     }
 
-    /// Derivatives of the predictions by all coordinates, one list per coordinate: from gradients, or by differences for
-    /// an experiment or a value without them.
+    /// Derivatives of the predictions by all coordinates, one list per coordinate: from gradients, or by differences
+    /// for an experiment or a value without them.
     fn derivatives(&mut self, x: &[f64], here: &[Solved]) -> Option<Vec<Vec<Complex>>> {
         let text = self.text(x);
         let text = self.try_or_keep(text)?;

@@ -6,11 +6,11 @@ use crate::error::Cancelled;
 use anyhow::Result;
 use funicular::math::least_squares::{LeastSquaresEnding, Minimum, minimise};
 
-/// Root of the rise of χ² at the ends of an interval that holds with 95 %: the quantile of the normal distribution, whose
-/// square 3.84 is that of χ² with one degree of freedom.
+/// Root of the rise of χ² at the ends of an interval of 95 %: the quantile of the normal distribution, whose square
+/// 3.84 is the quantile of χ² with one degree of freedom.
 pub(crate) const LIMIT: f64 = 1.959_963_984_540_054;
 
-/// Relative error of that root at an end: the interval is accurate to this fraction of its half width.
+/// Maximum relative error of this root at an end: the interval is accurate to this fraction of its half width.
 const ACCURACY: f64 = 1e-3;
 
 /// Maximum number of fits on the way to one end; four are usual.
@@ -19,16 +19,27 @@ const MAX_FITS: usize = 30;
 /// Number of fits that is expected per side, for the progress alone.
 const USUAL_FITS: usize = 8;
 
-/// Spreads of a value beyond which no end is looked for.
+/// Maximum distance at which an end is searched, in spreads of the value.
 const REACH: f64 = 30.0;
+
+/// Minimum and maximum factor by which the distance grows from one fit to the next before an end is enclosed.
+const MIN_GROWTH: f64 = 1.1;
+const MAX_GROWTH: f64 = 4.0;
+
+/// Minimum distance of the next fit from both sides of an interval that encloses an end, relative to its width.
+const MIN_PART: f64 = 0.05;
+
+/// Width of the interval that encloses an end, relative to its outer side, up to which χ² jumps over its limit there.
+const MIN_WIDTH: f64 = ACCURACY * ACCURACY;
 
 /// Maximum number of iterations of one fit, which starts beside its minimum.
 const MAX_ITERATIONS: usize = 60;
 
-/// Fractions of the way to an end at which the profile is computed besides, the last one beyond it.
+/// Distances at which points of the curve are computed, relative to the distance of the end; the last one is beyond it.
 const FRACTIONS: [f64; 4] = [0.25, 0.5, 0.75, 1.25];
 
-/// Fall of χ² below the minimum, in units in which its limit is 3.84, from which the search has missed the minimum.
+/// Fall of χ² below the minimum, in units in which the limit of its rise is 3.84. A point this far below the minimum
+/// shows that the search missed it.
 const FALL: f64 = 1e-2;
 
 /// Point of a profile.
@@ -46,7 +57,7 @@ pub struct ProfilePoint {
 pub enum OpenEnd {
     /// χ² stays below its limit up to the bound of the value.
     Bound,
-    /// χ² stays below its limit as far as was looked.
+    /// χ² stays below its limit within the searched distance.
     Flat,
     /// The robot has no equilibrium beyond.
     NoEquilibrium,
@@ -75,8 +86,9 @@ pub struct Profile {
     pub falls: bool,
 }
 
-/// Computes the profiles of the unknowns with these numbers. `deviations` are those of the coordinates, and `factor` is the
-/// one that they contain. Reports the progress as fits of all that are expected.
+/// Computes the profiles of the unknowns with these indices. `deviations` are the standard deviations of the
+/// coordinates, and `factor` is the factor by which they were multiplied. `progress` gets the number of fits and the
+/// expected number of all.
 ///
 /// # Errors
 /// Work that was stopped.
@@ -190,14 +202,14 @@ impl Side<'_, '_> {
                 above = Some((distance, root));
             }
             distance = match above {
-                None => (distance * (LIMIT / root.max(0.1 * LIMIT)).clamp(1.1, 4.0)).min(bound).min(reach),
+                None => (distance * (LIMIT / root).clamp(MIN_GROWTH, MAX_GROWTH)).min(bound).min(reach),
                 Some((far, root)) if root.is_finite() => {
                     let part = (LIMIT - below.1) / (root - below.1);
-                    below.0 + part.clamp(0.05, 0.95) * (far - below.0)
+                    below.0 + part.clamp(MIN_PART, 1.0 - MIN_PART) * (far - below.0)
                 }
                 Some((far, _)) => 0.5 * (below.0 + far),
             };
-            if above.is_some_and(|(far, _)| far - below.0 <= ACCURACY * ACCURACY * far) {
+            if above.is_some_and(|(far, _)| far - below.0 <= MIN_WIDTH * far) {
                 break;
             }
         }

@@ -66,7 +66,7 @@ pub(crate) fn unresolved_peaks(
     Ok(worst.map(|(hz, step, half_width)| {
         format!(
             "{} {} not resolved: at {} Hz the step of the frequencies is {} Hz, more than the half width ζf of {} Hz; \
-             other starts may end elsewhere, so measure with finer steps",
+             other starts may find other values: measure with finer steps",
             counted(count, "peak"),
             if count == 1 { "is" } else { "are" },
             significant(hz, 4),

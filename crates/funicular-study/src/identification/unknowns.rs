@@ -1,16 +1,19 @@
 //! Values to identify: their paths, bounds and priors, and the dimensionless coordinates in which they are searched.
 
+use crate::chosen_numbers::{ChosenNumber, chosen_numbers};
 use crate::request::FitValue;
-use crate::set_values;
-use anyhow::{Result, anyhow, bail};
-use funicular::robot::parameters::{Parameter, Parameters};
+use crate::values::MIN_POSITIVE;
+use anyhow::{Result, bail};
+use funicular::robot::parameters::Parameters;
 
-/// Usual relative error of a positive value beforehand: spread of the starts, and unit of weak directions, where there is
-/// no prior.
+/// Usual relative error of a positive value without a prior: it spreads the starts, and is the unit of weak directions.
 const SPREAD: f64 = 0.3;
 
-/// Usual error of a length that may be zero, as of a centre of mass [m].
+/// Usual error of a length that may be zero, such as a coordinate of a centre of mass [m].
 const LENGTH_SPREAD: f64 = 0.03;
+
+/// Usual magnitude of a product of inertia that the file gives as zero, relative to the mean principal moment.
+const PRODUCT_OF_INERTIA: f64 = 0.1;
 
 /// Maximum number of values that a request may fit: a Jacobian by differences takes two evaluations each.
 const MAX_UNKNOWNS: usize = 200;
@@ -28,8 +31,8 @@ pub(crate) struct Unknown {
     pub(crate) is_log: bool,
     /// Value in the file.
     pub(crate) start: f64,
-    /// Bounds.
-    pub(crate) bounds: (f64, f64),
+    /// Minimum and maximum.
+    pub(crate) bounds: [f64; 2],
     /// Value known beforehand and its deviation.
     pub(crate) prior: Option<(f64, f64)>,
     /// Unit of the coordinate of a value without logarithm.
@@ -45,12 +48,12 @@ impl Unknown {
     /// Value of a coordinate, within the bounds.
     pub(crate) fn value(&self, coordinate: f64) -> f64 {
         let value = if self.is_log { coordinate.exp() } else { coordinate * self.unit_step };
-        value.clamp(self.bounds.0, self.bounds.1)
+        value.clamp(self.bounds[0], self.bounds[1])
     }
 
     /// Bounds of the coordinate.
     pub(crate) fn coordinate_bounds(&self) -> (f64, f64) {
-        let (low, high) = self.bounds;
+        let [low, high] = self.bounds;
         (self.coordinate(low), self.coordinate(high))
     }
 
@@ -84,110 +87,57 @@ pub(crate) fn unknowns(parameters: &Parameters, fit: &[FitValue]) -> Result<Vec<
     if fit.is_empty() {
         bail!("⟪fit⟫ is empty: name at least one value of the robot file, as in platform.mass_kg");
     }
-    let mut found: Vec<Unknown> = Vec::new();
-    for wanted in fit {
-        for index in matching(parameters, &wanted.path)? {
-            let unknown = unknown(parameters, index, wanted)?;
-            if found.iter().any(|other| other.index == index) {
-                bail!("⟪fit⟫ {}: the value {} is there twice", wanted.path, unknown.path);
-            }
-            found.push(unknown);
-        }
-    }
-    if found.len() > MAX_UNKNOWNS {
-        bail!("⟪fit⟫ names {} values, and at most {MAX_UNKNOWNS} can be identified at once", found.len());
-    }
-    Ok(found)
+    let limit = (MAX_UNKNOWNS, "be identified");
+    let chosen = chosen_numbers(parameters, "fit", fit, |wanted| &wanted.path, limit)?;
+    chosen.iter().map(|(number, wanted)| unknown(parameters, number, wanted)).collect()
 }
 
-/// Indices of the parameters at a path, in which `*` stands for any name; a key with components stands for all of them.
-fn matching(parameters: &Parameters, text: &str) -> Result<Vec<usize>> {
-    let refuse = |reason: String| anyhow!("⟪fit⟫ {text}: {reason}");
-    let starred = set_values::path(&text.replace('*', "'*'").replace("''*''", "'*'")).map_err(refuse)?;
-    let keys = starred.keys();
-    if let Some(index) = parameters.find(keys) {
-        return Ok(vec![index]);
-    }
-    let list = parameters.list();
-    let fits = |parameter: &Parameter| {
-        parameter.keys.len() >= keys.len()
-            && parameter.keys.len() <= keys.len() + usize::from(parameter.component.is_some())
-            && keys.iter().zip(&parameter.keys).all(|(key, own)| key == "*" || key == own)
-    };
-    let found: Vec<usize> = (0..list.len()).filter(|&i| fits(&list[i])).collect();
-    if found.is_empty() {
-        let all: Vec<String> = list.iter().map(Parameter::path).collect();
-        let near = crate::names::suggestion(text, &all);
-        return Err(anyhow!("⟪fit⟫ {text}: the robot file has no such number{near}"));
-    }
-    Ok(found)
-}
-
-fn unknown(parameters: &Parameters, index: usize, wanted: &FitValue) -> Result<Unknown> {
-    let parameter = &parameters.list()[index];
-    let path = parameter.path();
-    let refuse = |reason: String| anyhow!("⟪fit⟫ {path}: {reason}");
-    if !parameter.given {
-        bail!(
-            "⟪fit⟫ {path}: the robot file does not give it; write it there, or give ⟪set⟫ {path}={}",
-            parameter.value
-        );
-    }
-
+fn unknown(parameters: &Parameters, number: &ChosenNumber<'_>, wanted: &FitValue) -> Result<Unknown> {
+    let ChosenNumber { index, parameter, .. } = *number;
+    number.check_given()?;
     let (start, range) = (parameter.value, parameter.range);
     let is_moment = matches!(parameter.component, Some("xx" | "yy" | "zz"))
         || parameter.key == "inertia_kg_m2" && parameter.component.is_none();
     let is_log = start > 0.0 && (range.minimum() >= 0.0 || is_moment);
-    let (lowest, highest) =
-        (if is_log { range.minimum().max(funicular_min()) } else { range.minimum() }, range.maximum());
-    let bounds = (wanted.minimum.unwrap_or(lowest), wanted.maximum.unwrap_or(highest));
-    for bound in [wanted.minimum, wanted.maximum, wanted.prior, wanted.prior_std].into_iter().flatten() {
-        crate::values::finite(bound).map_err(refuse)?;
-    }
-    if bounds.0 >= bounds.1 {
-        bail!("⟪fit⟫ {path}: the minimum {} is not below the maximum {}", bounds.0, bounds.1);
-    }
-    if bounds.0 < lowest || bounds.1 > highest {
-        bail!("⟪fit⟫ {path}: the bounds {} to {} leave the range of the value: {range}", bounds.0, bounds.1);
-    }
-    if !(bounds.0..=bounds.1).contains(&start) {
-        bail!(
-            "⟪fit⟫ {path}: the value {start} of the robot file is not between the bounds {} and {}: change the bounds, \
-             or the value by ⟪set⟫",
-            bounds.0,
-            bounds.1
-        );
-    }
 
-    let prior = match (wanted.prior, wanted.prior_std) {
-        (value, Some(deviation)) if deviation > 0.0 => {
-            let value = value.unwrap_or(start);
-            if is_log && value <= 0.0 {
-                bail!("⟪prior⟫ {path}: {value} is not positive");
-            }
-            Some((value, deviation))
-        }
-        (_, Some(deviation)) => bail!("⟪prior⟫ {path}: the deviation {deviation} is not positive"),
-        (Some(_), None) => bail!("⟪prior⟫ {path}: the deviation is missing, as in {path}=20±1"),
-        (None, None) => None,
-    };
+    let lowest = if is_log { range.minimum().max(MIN_POSITIVE) } else { range.minimum() };
+    let allowed = [lowest, range.maximum()];
+    let bounds = [wanted.minimum.unwrap_or(allowed[0]), wanted.maximum.unwrap_or(allowed[1])];
+    number.check_finite([wanted.minimum, wanted.maximum, wanted.prior, wanted.prior_std])?;
+    number.check_bounds(bounds, allowed)?;
+
+    let path = parameter.path();
+    let prior = checked_prior(wanted, &path, start, is_log)?;
     let unit_step = match (prior, parameter.unit) {
         (Some((_, deviation)), _) => deviation,
         (None, "m") => LENGTH_SPREAD,
         (None, _) if start != 0.0 => SPREAD * start.abs(),
-        // A product of inertia of zero: a tenth of a usual moment.
-        (None, "kg m²") => SPREAD * 0.1 * trace(parameters).max(funicular_min()),
+        (None, "kg m²") => SPREAD * PRODUCT_OF_INERTIA * mean_moment(parameters).max(MIN_POSITIVE),
         (None, _) => 1.0,
     };
     Ok(Unknown { index, path, unit: parameter.unit, is_log, start, bounds, prior, unit_step })
 }
 
-/// Minimum of a positive number of a robot file.
-fn funicular_min() -> f64 {
-    crate::values::MIN_POSITIVE
+/// Value known beforehand and its deviation, as a request gives them for the value `start` of the file.
+///
+/// # Errors
+/// A deviation that is missing or not positive, or a value that is not positive although its logarithm is searched.
+fn checked_prior(wanted: &FitValue, path: &str, start: f64, is_log: bool) -> Result<Option<(f64, f64)>> {
+    match (wanted.prior, wanted.prior_std) {
+        (value, Some(deviation)) if deviation > 0.0 => {
+            let value = value.unwrap_or(start);
+            if is_log && value <= 0.0 {
+                bail!("⟪prior⟫ {path}: {value} is not positive");
+            }
+            Ok(Some((value, deviation)))
+        }
+        (_, Some(deviation)) => bail!("⟪prior⟫ {path}: the deviation {deviation} is not positive"),
+        (Some(_), None) => bail!("⟪prior⟫ {path}: the deviation is missing, as in {path}=20±1"),
+        (None, None) => Ok(None),
+    }
 }
 
-/// Mean principal moment of the platform [kg m²].
-fn trace(parameters: &Parameters) -> f64 {
+/// Mean principal moment of inertia of the platform [kg m²].
+fn mean_moment(parameters: &Parameters) -> f64 {
     parameters.robot().platform.inertia_p.trace() / 3.0
 }

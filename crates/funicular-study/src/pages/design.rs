@@ -57,7 +57,8 @@ pub fn page(found: &Designed, command_line: String) -> anyhow::Result<String> {
 /// Figure of the goal at every pose, before and after.
 fn poses_figure(found: &Designed) -> Figure {
     let x: Vec<f64> = (1..=found.poses.len()).map(|pose| pose as f64).collect();
-    let of = |value: fn(&crate::analyses::design::PoseRow) -> f64| found.poses.iter().map(value).collect::<Vec<f64>>();
+    let of =
+        |value: fn(&crate::analyses::design::DesignPose) -> f64| found.poses.iter().map(value).collect::<Vec<f64>>();
     let data = [
         points("before", &x, &of(|row| row.before), colour::ORANGE, "circle-open"),
         points("after", &x, &of(|row| row.after), colour::BLUE, "circle"),

@@ -29,7 +29,7 @@ struct UncertaintyPage<'a> {
     found: &'a Uncertainties,
     figures: Vec<Figure>,
     results: PageTable,
-    doubts: Vec<String>,
+    reasons: Vec<String>,
     numbers: PageTable,
     command_line: String,
 }
@@ -43,10 +43,11 @@ pub fn page(found: &Uncertainties, command_line: String) -> anyhow::Result<Strin
         [pose] => of_one_pose(found, pose),
         _ => over_poses(found),
     };
-    let mut doubts: Vec<String> = Vec::new();
-    for doubt in found.poses.iter().flat_map(|pose| &pose.results).filter_map(|result| result.doubt.as_ref()) {
-        if !doubts.contains(doubt) {
-            doubts.push(doubt.clone());
+    let mut reasons: Vec<String> = Vec::new();
+    for reason in found.poses.iter().flat_map(|pose| &pose.results).filter_map(|result| result.sampling_reason.as_ref())
+    {
+        if !reasons.contains(reason) {
+            reasons.push(reason.clone());
         }
     }
     let page = UncertaintyPage {
@@ -54,7 +55,7 @@ pub fn page(found: &Uncertainties, command_line: String) -> anyhow::Result<Strin
         found,
         figures,
         results: results(found),
-        doubts,
+        reasons,
         numbers: numbers(found),
         command_line,
     };

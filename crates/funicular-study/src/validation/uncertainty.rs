@@ -60,7 +60,7 @@ fn compare(name: &str, text: &str, tolerance: &str, rows: &mut Vec<Comparison>) 
         let results = linear.poses.first().context("no pose")?.results.iter();
         for (result, values) in results.zip(&columns).filter(|(result, _)| result.unit == unit) {
             if result.method != "linear" {
-                bail!("{name}, {}: {}", result.name, result.doubt.as_deref().unwrap_or_default());
+                bail!("{name}, {}: {}", result.name, result.sampling_reason.as_deref().unwrap_or_default());
             }
             let found = Statistics::of(values.iter().copied()).context("no sample")?;
             let deviation = result.deviation.context("no deviation")?;

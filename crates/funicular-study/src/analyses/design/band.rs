@@ -1,49 +1,61 @@
-//! Sides of the band to avoid to which the natural frequencies of every pose go.
+//! Band of frequencies to avoid: for each pose, the natural frequencies that go below it and those that go above it.
 
 use serde::Serialize;
 
-/// Maximum number of choices that are searched besides the nearer sides: each is a search of its own.
+/// Maximum number of choices that are tried besides the nearer sides. Each choice is a search of its own.
 const MAX_OTHERS: usize = 6;
 
-/// Number of natural frequencies of every pose that go below the band, the others above it; `None` for a pose where each goes
-/// to its nearer side, and no entries if all poses are so.
+/// Number of natural frequencies that go below the band, one entry per pose; the others go above it. `None` stands for
+/// a pose where each frequency goes to its nearer side. Without entries this holds at all poses.
 pub(crate) type Sides = Vec<Option<usize>>;
 
-/// Natural frequencies of a pose by their places, counted from the lowest one.
+/// Numbers of the natural frequencies of a pose below and within the band to avoid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Places {
-    /// Number of those below the band, …
+pub(crate) struct BandCounts {
+    /// Number of frequencies below the band.
     pub(crate) below: usize,
-    /// … below its middle, …
+    /// Number of frequencies below the middle of the band: their nearer side is below.
     pub(crate) nearer_below: usize,
-    /// … and of those that are not above the band.
+    /// Number of frequencies below or within the band.
     pub(crate) not_above: usize,
 }
 
-impl Places {
+/// Depth of a frequency within a band, its distance from the nearer end; negative outside.
+pub(crate) fn depth([first, last]: [f64; 2], hz: f64) -> f64 {
+    (hz - first).min(last - hz)
+}
+
+/// Middle of a band. A frequency below it has its nearer side below the band.
+pub(crate) fn middle([first, last]: [f64; 2]) -> f64 {
+    0.5 * (first + last)
+}
+
+impl BandCounts {
+    /// True if a frequency is in the band.
     fn in_band(&self) -> bool {
         self.below < self.not_above
     }
 }
 
-/// Choice of the sides of a band, with what it led to.
+/// Choice of the sides of a band, with its result.
 #[derive(Debug, Clone, Serialize)]
 pub struct SidesTried {
-    /// Number of natural frequencies of each pose that were to be below the band.
+    /// Number of natural frequencies that had to go below the band, one per pose.
     pub below: Vec<usize>,
-    /// Value of the goal; none if some demand was not met.
+    /// Value of the goal; `None` if a demand was not met.
     pub after: Option<f64>,
     /// True for the choice of the result.
     pub is_chosen: bool,
 }
 
-/// Choices besides the nearer sides, for the frequencies that are in the band at the start, and how many more there are.
+/// Choices besides the nearer sides for the frequencies that are in the band at the start, and the number of further
+/// choices that are left out.
 ///
-/// Frequencies keep their order, so a choice is a number of them below the band for every pose. First come choices with the
-/// same number at all poses, as far as their frequencies in the band allow: a mode has much the same order at neighbouring
-/// poses. Then come choices that differ from the nearer sides at a single pose. Of each kind, those that send fewer
-/// frequencies to their farther side are first.
-pub(crate) fn others(poses: &[Places]) -> (Vec<Sides>, usize) {
+/// Frequencies keep their order, so a choice is a number of frequencies below the band at each pose. Choices with the
+/// same number at all poses come first, as far as the frequencies in the band allow: neighbouring poses have similar
+/// lists of modes. Choices that differ from the nearer sides at a single pose follow. Within each kind, a choice comes
+/// earlier if it sends fewer frequencies to their farther side.
+pub(crate) fn others(poses: &[BandCounts]) -> (Vec<Sides>, usize) {
     let nearer: Sides = poses.iter().map(|of| of.in_band().then_some(of.nearer_below)).collect();
     let moved = |sides: &Sides| -> usize {
         sides.iter().zip(&nearer).filter_map(|(one, other)| Some(one.as_ref()?.abs_diff((*other)?))).sum()
@@ -52,7 +64,7 @@ pub(crate) fn others(poses: &[Places]) -> (Vec<Sides>, usize) {
     let fewest = concerned().map(|of| of.below).min().unwrap_or(0);
     let most = concerned().map(|of| of.not_above).max().unwrap_or(0);
 
-    // Every way of asking gives this number.
+    // The same number at all poses, as near to it as the frequencies in the band allow.
     let common = |number: usize| -> Sides {
         poses.iter().map(|of| of.in_band().then(|| number.clamp(of.below, of.not_above))).collect()
     };
@@ -85,8 +97,8 @@ pub(crate) fn others(poses: &[Places]) -> (Vec<Sides>, usize) {
 mod tests {
     use super::*;
 
-    fn places(below: usize, nearer_below: usize, not_above: usize) -> Places {
-        Places { below, nearer_below, not_above }
+    fn places(below: usize, nearer_below: usize, not_above: usize) -> BandCounts {
+        BandCounts { below, nearer_below, not_above }
     }
 
     #[test]
@@ -104,7 +116,7 @@ mod tests {
 
     #[test]
     fn no_more_choices_are_searched_than_the_limit() {
-        let poses: Vec<Places> = (0..9).map(|_| places(1, 2, 3)).collect();
+        let poses: Vec<BandCounts> = (0..9).map(|_| places(1, 2, 3)).collect();
         let (choices, left) = others(&poses);
         // 1 or 3 everywhere, and 1 or 3 at each pose alone.
         assert_eq!((choices.len(), left), (MAX_OTHERS, 2 + 18 - MAX_OTHERS));

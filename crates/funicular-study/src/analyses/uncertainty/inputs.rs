@@ -1,6 +1,6 @@
 //! Numbers of the robot file that deviate, with their distributions.
 
-use super::distribution::normal_quantile;
+use super::normal::normal_quantile;
 use crate::analyses::gradient::{Tolerance, value_at};
 use crate::at_rest::AtRest;
 use crate::request::{Load, UncertaintyRequest};
@@ -12,7 +12,7 @@ use funicular::robot::parameters::{Parameter, Parameters, RobotPart};
 use funicular::robot::{Robot, RobotChange};
 use serde_json::json;
 
-/// Maximum number of numbers that deviate: a Latin hypercube has as many axes.
+/// Maximum count of uncertain parameters: a Latin hypercube has as many axes.
 const MAX_INPUTS: usize = 5000;
 
 /// Distribution of the deviation of a number, in the unit of the number.
@@ -58,14 +58,14 @@ impl Distribution {
     }
 }
 
-/// Place of a number in the robot.
+/// NumberPlace of a number in the robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
+enum NumberPlace {
     /// Index in the list of parameters of the stated text.
     Number(usize),
     /// Unstrained length of a cable, which need not be in the file.
     Length(usize),
-    /// Index in that list of a number of the pose.
+    /// Index in the list of parameters of the stated text of a number of the pose.
     Pose(usize),
     /// Coordinate of a pose that is not in the file: position, then roll, pitch, yaw.
     Coordinate(usize),
@@ -73,7 +73,7 @@ enum Place {
 
 /// Number that deviates.
 #[derive(Debug, Clone)]
-pub(crate) struct Input {
+pub(crate) struct DeviatingNumber {
     /// Path.
     pub(crate) path: String,
     /// Unit.
@@ -82,12 +82,12 @@ pub(crate) struct Input {
     pub(crate) group: usize,
     /// True if its value is that of the pose or of the lengths, and changes from pose to pose.
     pub(crate) is_of_state: bool,
-    place: Place,
+    place: NumberPlace,
     parameter: Parameter,
 }
 
-/// Numbers that deviate together.
-pub(crate) struct Group {
+/// Numbers that one option makes deviate.
+pub(crate) struct DeviationGroup {
     /// Text of the option.
     pub(crate) name: String,
     amount: Tolerance,
@@ -97,9 +97,9 @@ pub(crate) struct Group {
 /// All numbers that deviate.
 pub(crate) struct Inputs {
     /// Numbers, in the order of the file.
-    pub(crate) list: Vec<Input>,
+    pub(crate) list: Vec<DeviatingNumber>,
     /// Groups, in the order of the request.
-    pub(crate) groups: Vec<Group>,
+    pub(crate) groups: Vec<DeviationGroup>,
     /// Robot file in which every number that deviates is stated, with the loads of the request.
     stated: Parameters,
 }
@@ -110,9 +110,9 @@ impl Inputs {
     /// # Errors
     /// No deviation, a path that no number has, a negative deviation, or numbers that what is held excludes.
     pub(crate) fn new(request: &UncertaintyRequest, at_rest: &AtRest) -> Result<Self> {
-        let groups = groups(request)?;
         let text = request.robot.changed_text()?;
         let original = Parameters::from_toml(&text).map_err(|error| anyhow!("{error}"))?;
+        let groups = groups(request, &original)?;
         let candidates = candidates(&original, &at_rest.robot);
 
         // The last option that matches a number gives its deviation.
@@ -121,7 +121,7 @@ impl Inputs {
         for parameter in candidates {
             let mut group = None;
             for (index, (option, met)) in groups.iter().zip(&mut met).enumerate() {
-                if option.amount.matches(&parameter.keys) {
+                if option.amount.matches(&parameter) {
                     met.any = true;
                     let fits = fits(request.hold, &parameter);
                     met.fitting |= fits;
@@ -136,22 +136,25 @@ impl Inputs {
         }
 
         let stated = stated(&text, &original, &chosen, request, at_rest)?;
-        let list = chosen.into_iter().map(|(parameter, group)| Input::new(parameter, group, &stated)).collect();
+        let list =
+            chosen.into_iter().map(|(parameter, group)| DeviatingNumber::new(parameter, group, &stated)).collect();
         Ok(Self { list, groups, stated })
     }
 
     /// Values of the numbers at a state.
     pub(crate) fn values(&self, at_rest: &AtRest) -> Vec<f64> {
-        let value = |input: &Input| match input.place {
-            Place::Length(cable) => at_rest.equilibrium.cables[cable].unstrained_length,
-            Place::Number(_) | Place::Pose(_) | Place::Coordinate(_) => value_at(at_rest, &input.parameter),
+        let value = |input: &DeviatingNumber| match input.place {
+            NumberPlace::Length(cable) => at_rest.equilibrium.cables[cable].unstrained_length,
+            NumberPlace::Number(_) | NumberPlace::Pose(_) | NumberPlace::Coordinate(_) => {
+                value_at(at_rest, &input.parameter)
+            }
         };
         self.list.iter().map(value).collect()
     }
 
     /// Distributions of the numbers with these values.
     pub(crate) fn distributions(&self, values: &[f64]) -> Vec<Distribution> {
-        let distribution = |(input, value): (&Input, &f64)| {
+        let distribution = |(input, value): (&DeviatingNumber, &f64)| {
             let group = &self.groups[input.group];
             let size = group.amount.of(*value);
             if group.is_normal { Distribution::Normal(size) } else { Distribution::Uniform(size) }
@@ -160,16 +163,16 @@ impl Inputs {
     }
 
     /// True if the size of a number's deviation changes from pose to pose.
-    pub(crate) fn follows_state(&self, input: &Input) -> bool {
+    pub(crate) fn follows_state(&self, input: &DeviatingNumber) -> bool {
         input.is_of_state && self.groups[input.group].amount.is_percent()
     }
 
     /// Changes of a robot per unit of each number; `None` for numbers without derivatives.
     pub(crate) fn changes(&self, robot: &Robot) -> Vec<Option<RobotChange>> {
-        let change = |input: &Input| match input.place {
-            Place::Number(index) | Place::Pose(index) => self.stated.change_of(index, robot),
-            Place::Coordinate(k) => coordinate_change(robot, k),
-            Place::Length(cable) => {
+        let change = |input: &DeviatingNumber| match input.place {
+            NumberPlace::Number(index) | NumberPlace::Pose(index) => self.stated.change_of(index, robot),
+            NumberPlace::Coordinate(k) => coordinate_change(robot, k),
+            NumberPlace::Length(cable) => {
                 let mut change = RobotChange::none(robot.cables.len());
                 change.cables[cable].unstrained_length = 1.0;
                 Some(change)
@@ -187,9 +190,9 @@ impl Inputs {
         let mut numbers = Vec::with_capacity(self.list.len());
         for ((input, value), deviation) in self.list.iter().zip(values).zip(deviations) {
             match input.place {
-                Place::Number(index) => numbers.push((index, value + deviation)),
-                Place::Length(cable) => lengths[cable] += deviation,
-                Place::Pose(_) | Place::Coordinate(_) => {}
+                NumberPlace::Number(index) => numbers.push((index, value + deviation)),
+                NumberPlace::Length(cable) => lengths[cable] += deviation,
+                NumberPlace::Pose(_) | NumberPlace::Coordinate(_) => {}
             }
         }
         let robot = self.stated.robot_with(&numbers).map_err(|error| error.to_string())?;
@@ -198,50 +201,52 @@ impl Inputs {
 
     /// True for a number of the pose.
     pub(super) fn is_of_pose(&self, index: usize) -> bool {
-        matches!(self.list[index].place, Place::Pose(_) | Place::Coordinate(_))
+        matches!(self.list[index].place, NumberPlace::Pose(_) | NumberPlace::Coordinate(_))
     }
 }
 
-impl Input {
+impl DeviatingNumber {
     fn new(parameter: Parameter, group: usize, stated: &Parameters) -> Self {
         let index = stated.list().iter().position(|other| other.keys == parameter.keys);
         let place = match (parameter.part, parameter.key, index) {
-            (RobotPart::Cable(cable), "unstrained_length_m", _) => Place::Length(cable),
-            (RobotPart::State, _, Some(index)) => Place::Pose(index),
+            (RobotPart::Cable(cable), "unstrained_length_m", _) => NumberPlace::Length(cable),
+            (RobotPart::State, _, Some(index)) => NumberPlace::Pose(index),
             (RobotPart::State, _, None) => {
                 let is_own = |(_, _, component): &(_, _, &'static str)| Some(*component) == parameter.component;
-                Place::Coordinate(COORDINATES.iter().position(is_own).unwrap_or(0))
+                NumberPlace::Coordinate(COORDINATES.iter().position(is_own).unwrap_or(0))
             }
-            (_, _, index) => Place::Number(index.unwrap_or(usize::MAX)),
+            (_, _, index) => NumberPlace::Number(index.unwrap_or(usize::MAX)),
         };
-        let is_of_state = !matches!(place, Place::Number(_));
+        let is_of_state = !matches!(place, NumberPlace::Number(_));
         Self { path: parameter.path(), unit: parameter.unit, group, is_of_state, place, parameter }
     }
 }
 
 /// Options that give deviations, normal ones first.
-fn groups(request: &UncertaintyRequest) -> Result<Vec<Group>> {
+fn groups(request: &UncertaintyRequest, original: &Parameters) -> Result<Vec<DeviationGroup>> {
     let parse = |key: &'static str, is_normal: bool| {
         let texts = if is_normal { &request.deviations } else { &request.tolerances };
         texts.iter().map(move |text| {
-            let amount = Tolerance::parse(key, text)?;
-            Ok(Group { name: text.trim().to_owned(), amount, is_normal })
+            let amount = Tolerance::parse(key, text, original)?;
+            Ok(DeviationGroup { name: text.trim().to_owned(), amount, is_normal })
         })
     };
     let groups = parse("deviations", true).chain(parse("tolerances", false)).collect::<Result<Vec<_>>>()?;
     if groups.is_empty() {
         bail!(
-            "no number deviates: give ⟪deviations⟫ or ⟪tolerances⟫, as in platform.mass_kg=1% or cables.*.anchor_m=0.002"
+            "no number deviates: give ⟪deviations⟫ or ⟪tolerances⟫, as in platform.mass_kg=1% or \
+             cables.*.anchor_m=0.002"
         );
     }
     Ok(groups)
 }
 
-/// Numbers that an option has met.
+/// Numbers that the path of an option names.
 #[derive(Clone, Default)]
 struct Met {
+    /// True if there is at least one.
     any: bool,
-    /// At least one of them may deviate with what is held.
+    /// True if at least one of them may deviate while lengths or pose are held.
     fitting: bool,
 }
 
@@ -255,15 +260,13 @@ fn fits(hold: Hold, parameter: &Parameter) -> bool {
 }
 
 /// Refuses options without a number.
-fn refuse_unmet(groups: &[Group], met: &[Met], hold: Hold, original: &Parameters) -> Result<()> {
+fn refuse_unmet(groups: &[DeviationGroup], met: &[Met], hold: Hold, original: &Parameters) -> Result<()> {
     for (group, met) in groups.iter().zip(met) {
-        let key = if group.is_normal { "deviations" } else { "tolerances" };
         if !met.any {
-            let paths: Vec<String> = original.list().iter().map(Parameter::path).collect();
-            let nearest = crate::names::suggestion(group.amount.path(), &paths);
-            bail!("⟪{key}⟫ {}: the robot file has no such number{nearest}", group.amount.path());
+            return Err(group.amount.missing(original));
         }
         if !met.fitting {
+            let key = if group.is_normal { "deviations" } else { "tolerances" };
             let (held, other, follows) = match hold {
                 Hold::Lengths => ("lengths", "pose", "pose follows"),
                 _ => ("pose", "lengths", "lengths follow"),
@@ -288,6 +291,10 @@ const COORDINATES: [(&str, &str, &str); 6] = [
     ("roll_pitch_yaw_deg", "degrees", "yaw"),
 ];
 
+/// Rounding of the axes of a platform's motion is about 1e-16 of it; a part beyond this fraction is a motion that the
+/// platform does not have.
+const MAX_ROUNDING: f64 = 1e-12;
+
 /// Change of a pose per unit of one of its [`COORDINATES`]; `None` for a motion that the platform does not have.
 fn coordinate_change(robot: &Robot, k: usize) -> Option<RobotChange> {
     let mut change = RobotChange::none(robot.cables.len());
@@ -307,8 +314,7 @@ fn coordinate_change(robot: &Robot, k: usize) -> Option<RobotChange> {
     let (v, turn) = (change.position_w, change.rotation_w);
     let motion = Vec6::new(v.x, v.y, v.z, turn.x, turn.y, turn.z);
     let beyond = motion - robot.platform.motion.allowed(&motion);
-    // Rounding of the axes is 1e-16.
-    (beyond.norm() <= 1e-12 * motion.norm()).then_some(change)
+    (beyond.norm() <= MAX_ROUNDING * motion.norm()).then_some(change)
 }
 
 /// Numbers of the robot file, and the lengths of the cables and the pose if the file has none.
@@ -319,6 +325,7 @@ fn candidates(original: &Parameters, robot: &Robot) -> Vec<Parameter> {
     };
     let mut list: Vec<Parameter> =
         original.list().iter().enumerate().filter(moves).map(|(_, parameter)| parameter.clone()).collect();
+
     let has_lengths = list.iter().any(|parameter| parameter.key == "unstrained_length_m");
     // A length has the unit, range and meaning of the file's key, whose row an anchor stands in for.
     let Some(pattern) = list.iter().find(|parameter| parameter.key == "anchor_m").cloned() else { return list };
@@ -333,6 +340,7 @@ fn candidates(original: &Parameters, robot: &Robot) -> Vec<Parameter> {
             list.push(coordinate);
         }
     }
+
     if !has_lengths {
         for (i, cable) in robot.cables.iter().enumerate() {
             let mut length = pattern.clone();

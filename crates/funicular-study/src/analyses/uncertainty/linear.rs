@@ -1,8 +1,8 @@
 //! Linear deviations at one pose, and the tests of where they hold.
 
-use super::bend;
 use super::inputs::{Distribution, Inputs};
-use super::responses::{Asked, Responses};
+use super::response_linearity;
+use super::responses::{RequestedResponse, Responses};
 use super::results::{NominalModes, ResultKind, static_gradients};
 use super::row::{Along, Row};
 use crate::analyses::gradient::{check_hold, held};
@@ -15,10 +15,11 @@ use funicular::gradient::{GradientError, Gradients, Hold};
 use funicular::robot::{Robot, RobotChange, TensionLimits};
 use funicular::statics::{TensionRange, TensionRule};
 
-/// Deviations of a tension that must not reach its limit: of eight cables then one in fifty robots has a slack one.
+/// Minimum distance of a tension from its limit, in standard deviations: with eight cables at this distance, one in
+/// ninety robots exceeds a limit.
 const TENSION_DEVIATIONS: f64 = 3.0;
 
-/// Deviations of the distance of two frequencies that must not reach it.
+/// Minimum distance of neighbouring frequencies, in standard deviations of this distance.
 const FREQUENCY_DEVIATIONS: f64 = 2.0;
 
 /// Robot at a pose with the linear deviations of its results.
@@ -30,7 +31,7 @@ pub(crate) struct LinearPose {
     pub(crate) linearisation: Linearisation,
     /// Values of the numbers that deviate.
     pub(crate) input_values: Vec<f64>,
-    /// Their distributions.
+    /// Distributions of the numbers that deviate.
     pub(crate) distributions: Vec<Distribution>,
     /// Results.
     pub(crate) rows: Vec<Row>,
@@ -38,23 +39,23 @@ pub(crate) struct LinearPose {
     pub(crate) warnings: Vec<String>,
     /// Tension limits of the request.
     pub(super) limits: TensionLimits,
-    /// Rule of the tensions at a held pose: that of the request, or that they change least.
+    /// Rule of the tensions at a held pose: the rule of the request, or the smallest change.
     pub(super) rule: TensionRule,
-    /// Frequency responses of the undisturbed robot, if they are asked for.
+    /// Frequency responses of the undisturbed robot, if they are requested for.
     pub(super) responses: Option<Responses>,
     /// Changes of the robot per unit of each number of the pose.
     pub(super) pose_changes: Vec<Option<RobotChange>>,
 }
 
 impl LinearPose {
-    /// Robot of a request at one state, with the derivatives of its results.
+    /// Linear deviations of the results of a robot at rest.
     ///
     /// # Errors
     /// A robot without such an equilibrium, or too few cables to hold its pose.
     pub(crate) fn new(
         request: &UncertaintyRequest,
         of: &[&str],
-        asked: Option<&Asked>,
+        requested: Option<&RequestedResponse>,
         inputs: &Inputs,
         at_rest: AtRest,
     ) -> Result<Self> {
@@ -65,44 +66,29 @@ impl LinearPose {
         let distributions = inputs.distributions(&input_values);
         let changes = inputs.changes(robot);
 
-        // The results and their values.
         let needs_damping = of.contains(&"damping");
         let below_hz = request.below_hz.filter(|_| needs_damping || of.contains(&"frequencies"));
-        let at_hz = asked.map_or(&[][..], Asked::at_hz);
-        let modes = (below_hz.is_some() || asked.is_some())
+        let at_hz = requested.map_or(&[][..], RequestedResponse::at_hz);
+        let modes = (below_hz.is_some() || requested.is_some())
             .then(|| NominalModes::new(&at_rest, linearisation, below_hz.unwrap_or(0.0), needs_damping, at_hz))
             .transpose()?;
-        let responses = match (asked, &modes) {
-            (Some(asked), Some(modes)) => Some(Responses::new(asked, &at_rest, &modes.dynamics)?),
+        let responses = match (requested, &modes) {
+            (Some(requested), Some(modes)) => Some(Responses::new(requested, &at_rest, &modes.dynamics)?),
             _ => None,
         };
         let kinds = ResultKind::of_groups(of, robot, modes.as_ref().map_or(0, |modes| modes.count), at_hz);
         let mut rows = rows(&kinds, &at_rest, modes.as_ref(), responses.as_ref());
 
-        // Their derivatives.
         match held(&at_rest, request.hold) {
             Err(error) if !error.is::<GradientError>() && !error.is::<NoSolution>() => return Err(error),
-            Err(error) => rows.iter_mut().for_each(|row| row.doubt = Some(error.to_string())),
+            Err(error) => rows.iter_mut().for_each(|row| row.sampling_reason = Some(error.to_string())),
             Ok(gradients) => {
                 let along = Along { inputs, changes: &changes, distributions: &distributions };
-                differentiate(&mut rows, &gradients, modes.as_ref(), &along);
-                if let (Some(of), Some(modes)) = (&responses, &modes) {
-                    bend::differentiate(&mut rows, of, robot, &gradients, modes, &along);
-                }
-                test_tensions(&mut rows, robot, &gradients, &along);
-                if let Some(modes) = &modes {
-                    test_frequencies(&mut rows, modes, &gradients, &along);
-                }
-                if let (Some(of), Some(modes)) = (&responses, &modes) {
-                    bend::test(&mut rows, of, robot, &gradients, modes, &along);
-                }
+                differentiate_and_test(&mut rows, robot, &gradients, (modes.as_ref(), responses.as_ref()), &along);
             }
         }
 
-        let mut warnings = at_rest.warnings(None);
-        if let Some(modes) = modes {
-            warnings = modes.warnings;
-        }
+        let warnings = modes.map_or_else(|| at_rest.warnings(None), |modes| modes.warnings);
         let rule = match (request.hold, &at_rest.rule) {
             (Hold::Rule, Some(rule)) => rule.clone(),
             _ => held_tensions(&at_rest),
@@ -125,12 +111,33 @@ impl LinearPose {
     }
 
     /// True if a result has to be sampled.
-    pub(crate) fn is_doubtful(&self) -> bool {
-        self.rows.iter().any(|row| row.doubt.is_some())
+    pub(crate) fn needs_samples(&self) -> bool {
+        self.rows.iter().any(|row| row.sampling_reason.is_some())
     }
 }
 
-/// Rule that holds the tensions of an equilibrium.
+/// Adds the derivatives of all results, and the reasons why results have to be sampled.
+fn differentiate_and_test(
+    rows: &mut [Row],
+    robot: &Robot,
+    gradients: &Gradients,
+    (modes, responses): (Option<&NominalModes>, Option<&Responses>),
+    along: &Along,
+) {
+    differentiate(rows, gradients, modes, along);
+    if let (Some(of), Some(modes)) = (responses, modes) {
+        response_linearity::differentiate(rows, of, robot, gradients, modes, along);
+    }
+    test_tensions(rows, robot, gradients, along);
+    if let Some(modes) = modes {
+        test_frequencies(rows, modes, gradients, along);
+    }
+    if let (Some(of), Some(modes)) = (responses, modes) {
+        response_linearity::test(rows, of, robot, gradients, modes, along);
+    }
+}
+
+/// Rule that keeps the tensions of an equilibrium.
 fn held_tensions(at_rest: &AtRest) -> TensionRule {
     let parallel = at_rest.equilibrium.cables.iter();
     TensionRule::Closest(
@@ -159,7 +166,8 @@ fn rows(
         ResultKind::Pose(3..) => Some(0.0),
         other => other.static_value(&at_rest.equilibrium, &at_rest.equilibrium.pose),
     };
-    let row = |kind: &ResultKind| Some(Row { kind: *kind, value: value(*kind)?, derivatives: None, doubt: None });
+    let row =
+        |kind: &ResultKind| Some(Row { kind: *kind, value: value(*kind)?, derivatives: None, sampling_reason: None });
     kinds.iter().filter_map(row).collect()
 }
 
@@ -170,7 +178,7 @@ fn differentiate(rows: &mut [Row], gradients: &Gradients, modes: Option<&Nominal
         .and_then(|gradient| along.of(&gradient))
     {
         Ok(derivatives) => row.derivatives = Some(derivatives),
-        Err(reason) => row.doubt = Some(reason),
+        Err(reason) => row.sampling_reason = Some(reason),
     };
 
     let kinds: Vec<ResultKind> = rows.iter().map(|row| row.kind).collect();
@@ -185,7 +193,7 @@ fn differentiate(rows: &mut [Row], gradients: &Gradients, modes: Option<&Nominal
         Ok(vibration) => vibration,
         Err(error) => {
             let of_modes = rows.iter_mut().filter(|row| row.kind.mode().is_some());
-            of_modes.for_each(|row| row.doubt = Some(error.to_string()));
+            of_modes.for_each(|row| row.sampling_reason = Some(error.to_string()));
             return;
         }
     };
@@ -200,16 +208,18 @@ fn differentiate(rows: &mut [Row], gradients: &Gradients, modes: Option<&Nominal
     }
 }
 
-/// Tests whether a tension may reach zero, or with the pose held one of its limits: all results are then far from linear.
+/// Tests whether a tension may reach zero, or with the pose held one of its limits: all results are then far from
+/// linear.
 fn test_tensions(rows: &mut [Row], robot: &Robot, gradients: &Gradients, along: &Along) {
     let rest = gradients.equilibrium();
     let chosen = gradients.hold() != Hold::Lengths && robot.cables.len() > robot.platform.motion.count();
     for (i, (gradient, state)) in gradients.tensions_platform().iter().zip(&rest.cables).enumerate() {
         let Ok(derivatives) = along.of(gradient) else { return };
+
         let range = TensionRange::of(robot, i, &state.chord_w());
         let margin = range.margin(state);
-        // Where tensions are chosen, the limits hold; elsewhere the cable only must not become slack. A limit that a rule
-        // has reached stays reached.
+        // Where tensions are chosen, the limits hold; elsewhere the cable only must not become slack. A limit that a
+        // rule has reached stays reached.
         if gradients.hold() == Hold::Rule && margin.reached().is_some() {
             continue;
         }
@@ -218,7 +228,7 @@ fn test_tensions(rows: &mut [Row], robot: &Robot, gradients: &Gradients, along: 
         if reached >= distance {
             let reason = tension_reason(robot, i, chosen, reached, distance);
             for row in rows.iter_mut() {
-                row.doubt = row.doubt.take().or_else(|| Some(reason.clone()));
+                row.sampling_reason = row.sampling_reason.take().or_else(|| Some(reason.clone()));
             }
             return;
         }
@@ -236,15 +246,15 @@ fn tension_reason(robot: &Robot, i: usize, chosen: bool, reached: f64, distance:
     )
 }
 
-/// Tests whether natural frequencies may cross: the ascending list then changes its order, and with it the results of both
-/// modes are far from linear.
+/// Tests whether natural frequencies may cross: the ascending list then changes its order, and with it the results of
+/// both modes are far from linear.
 fn test_frequencies(rows: &mut [Row], modes: &NominalModes, gradients: &Gradients, along: &Along) {
     let Ok(vibration) = gradients.vibration(&modes.dynamics) else { return };
     let list = &modes.found.modes;
     let derivatives: Vec<Option<Vec<f64>>> =
         (list.iter().take(modes.count + 1)).map(|mode| along.of(&vibration.frequency(mode).ok()?).ok()).collect();
 
-    let mut doubts: Vec<Option<String>> = vec![None; modes.count];
+    let mut reasons: Vec<Option<String>> = vec![None; modes.count];
     for k in 0..modes.count {
         let Some(own) = &derivatives[k] else { continue };
         let (gap, reached) = match (list.get(k + 1), derivatives.get(k + 1)) {
@@ -272,15 +282,15 @@ fn test_frequencies(rows: &mut [Row], modes: &NominalModes, gradients: &Gradient
                 number(reached)
             );
             for mode in [k, k + 1] {
-                if let Some(doubt) = doubts.get_mut(mode) {
-                    doubt.get_or_insert_with(|| reason.clone());
+                if let Some(first) = reasons.get_mut(mode) {
+                    first.get_or_insert_with(|| reason.clone());
                 }
             }
         }
     }
     for row in rows {
-        if let Some(doubt) = row.kind.mode().and_then(|k| doubts[k].clone()) {
-            row.doubt.get_or_insert(doubt);
+        if let Some(reason) = row.kind.mode().and_then(|k| reasons[k].clone()) {
+            row.sampling_reason.get_or_insert(reason);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Frequency responses among the results: magnitude and phase.
 
 use crate::analyses::frf;
+use crate::analyses::result_groups::missing_option;
 use crate::at_rest::AtRest;
 use crate::request::{self, ResponsePoints, UncertaintyRequest};
 use crate::signals::{Input, Output};
@@ -21,22 +22,23 @@ const DEGREES: f64 = 180.0 / PI;
 /// Maximum number of frequencies.
 const MAX_FREQUENCIES: usize = 10_000;
 
-/// Responses that a request asks for.
+/// Response whose magnitudes and phases a request asks for.
 #[derive(Debug, Clone)]
-pub(crate) struct Asked {
+pub(crate) struct RequestedResponse {
     input: Input,
     output: Output,
     points: ResponsePoints,
     at_hz: Vec<f64>,
 }
 
-impl Asked {
-    /// Reads the responses of a request.
+impl RequestedResponse {
+    /// Reads the response of a request.
     ///
     /// # Errors
-    /// A missing frequency or signal, a frequency that is negative or there twice, or a signal that the robot does not have.
+    /// A frequency or signal that is missing, a frequency that is negative or given twice, or a signal that the robot
+    /// does not have.
     pub(super) fn new(request: &UncertaintyRequest, robot: &Robot) -> Result<Self> {
-        let needs = |key: &str| anyhow!("`response` needs ⟪{key}⟫");
+        let needs = |option: &str| missing_option("response", option);
         let at_hz = request.at_hz.clone().filter(|all| !all.is_empty()).ok_or_else(|| needs("at_hz"))?;
         let input = request::input(request.input.as_ref().ok_or_else(|| needs("input"))?)?;
         let output = request::output(request.output.as_ref().ok_or_else(|| needs("output"))?)?;
@@ -53,9 +55,9 @@ impl Asked {
             }
         }
         request.points.check()?;
-        let asked = Self { input, output, points: request.points, at_hz };
-        asked.signals(robot)?;
-        Ok(asked)
+        let requested = Self { input, output, points: request.points, at_hz };
+        requested.signals(robot)?;
+        Ok(requested)
     }
 
     /// Frequencies [Hz].
@@ -88,16 +90,16 @@ impl Asked {
     }
 }
 
-/// Logarithm of the ratio of a response to that of the undisturbed robot: change of magnitude and phase.
-pub(super) struct Change(pub(super) Complex);
+/// Change of magnitude and phase: logarithm of the ratio of a response to the response of the undisturbed robot.
+pub(super) struct ResponseChange(pub(super) Complex);
 
-impl Change {
-    /// Change of the magnitude [dB].
+impl ResponseChange {
+    /// ResponseChange of the magnitude [dB].
     pub(super) fn decibels(&self) -> f64 {
         DECIBELS * self.0.re
     }
 
-    /// Change of the phase [degrees].
+    /// ResponseChange of the phase [degrees].
     pub(super) fn degrees(&self) -> f64 {
         DEGREES * self.0.im
     }
@@ -106,7 +108,7 @@ impl Change {
 /// Responses of the undisturbed robot.
 #[derive(Debug, Clone)]
 pub(super) struct Responses {
-    pub(super) asked: Asked,
+    pub(super) requested: RequestedResponse,
     /// Values, one per frequency.
     pub(super) values: Vec<Complex>,
 }
@@ -116,20 +118,20 @@ impl Responses {
     ///
     /// # Errors
     /// An undamped resonance at a frequency, or a response of zero.
-    pub(super) fn new(asked: &Asked, at_rest: &AtRest, dynamics: &Dynamics) -> Result<Self> {
-        let values = asked.values(&at_rest.robot, &at_rest.equilibrium, dynamics)?;
-        if let Some((hz, _)) = asked.at_hz.iter().zip(&values).find(|(_, value)| value.norm() < f64::MIN_POSITIVE) {
+    pub(super) fn new(requested: &RequestedResponse, at_rest: &AtRest, dynamics: &Dynamics) -> Result<Self> {
+        let values = requested.values(&at_rest.robot, &at_rest.equilibrium, dynamics)?;
+        if let Some((hz, _)) = requested.at_hz.iter().zip(&values).find(|(_, value)| value.norm() < f64::MIN_POSITIVE) {
             bail!(
-                "the response at {hz} Hz is zero, and has no decibels: choose another ⟪input⟫ or ⟪output⟫, or leave this \
-                 frequency out"
+                "the response at {hz} Hz is zero, and has no decibels: choose another ⟪input⟫ or ⟪output⟫, or leave \
+                 this frequency out"
             );
         }
-        Ok(Self { asked: asked.clone(), values })
+        Ok(Self { requested: requested.clone(), values })
     }
 
     /// Number of a frequency.
     pub(super) fn place(&self, hz: f64) -> Option<usize> {
-        self.asked.at_hz.iter().position(|other| other.to_bits() == hz.to_bits())
+        self.requested.at_hz.iter().position(|other| other.to_bits() == hz.to_bits())
     }
 
     /// Magnitude at the frequency with this number [dB].
@@ -149,10 +151,16 @@ impl Responses {
         robot: &Robot,
         rest: &Equilibrium,
         linearisation: Linearisation,
-    ) -> Option<Vec<Change>> {
-        let highest_hz = self.asked.at_hz.iter().copied().fold(0.0, f64::max);
+    ) -> Option<Vec<ResponseChange>> {
+        let highest_hz = self.requested.at_hz.iter().copied().fold(0.0, f64::max);
         let dynamics = Dynamics::about(robot, rest, linearisation, highest_hz).ok()?;
-        let values = self.asked.values(robot, rest, &dynamics).ok()?;
-        Some(values.iter().zip(&self.values).map(|(value, undisturbed)| Change((value / undisturbed).ln())).collect())
+        let values = self.requested.values(robot, rest, &dynamics).ok()?;
+        Some(
+            values
+                .iter()
+                .zip(&self.values)
+                .map(|(value, undisturbed)| ResponseChange((value / undisturbed).ln()))
+                .collect(),
+        )
     }
 }

@@ -31,10 +31,6 @@ pub(crate) enum ResultKind {
     Phase(f64),
 }
 
-/// Groups of results, by the names of a request.
-pub(crate) const GROUPS: [&str; 7] =
-    ["pose", "lengths", "tensions", "stiffness-min", "frequencies", "damping", "response"];
-
 /// Axes of the components of a pose.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -120,6 +116,7 @@ impl ResultKind {
         if of.contains(&"stiffness-min") {
             kinds.push(Self::MinStiffness);
         }
+
         if of.contains(&"frequencies") {
             kinds.extend((0..modes).map(Self::Frequency));
         }
@@ -222,8 +219,8 @@ pub(super) struct NominalModes {
     pub(super) warnings: Vec<String>,
 }
 
-/// Ratio of the limit of the list of modes to the limit of the request: the neighbour of the last mode is looked for up to
-/// there.
+/// Ratio of the limit of the list of modes to the limit of the request: the list has to contain the neighbour of the
+/// last mode.
 const BEYOND: f64 = 1.25;
 
 impl NominalModes {

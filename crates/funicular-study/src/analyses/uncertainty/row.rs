@@ -1,7 +1,7 @@
 //! Results with their derivatives by the numbers that deviate.
 
 use super::distribution::half_width;
-use super::inputs::{Distribution, Input, Inputs};
+use super::inputs::{DeviatingNumber, Distribution, Inputs};
 use super::results::ResultKind;
 use funicular::robot::RobotChange;
 
@@ -14,8 +14,8 @@ pub(crate) struct Row {
     pub(crate) value: f64,
     /// Derivatives by the numbers that deviate; absent for a result without a gradient.
     pub(crate) derivatives: Option<Vec<f64>>,
-    /// Reason why linear deviations cannot be trusted; absent where they can.
-    pub(crate) doubt: Option<String>,
+    /// Reason for sampling: why the linear deviation is not valid; absent where it is valid.
+    pub(crate) sampling_reason: Option<String>,
 }
 
 impl Row {
@@ -30,7 +30,7 @@ impl Row {
         self.derivatives.as_ref().map(|derivatives| spread(derivatives, distributions))
     }
 
-    /// Sum of the absolute changes over all tolerances: the linear worst case, which normal deviations do not have.
+    /// Linear worst case: sum of the absolute changes over all tolerances. Normal deviations have none.
     pub(crate) fn worst(&self, distributions: &[Distribution]) -> Option<f64> {
         let derivatives = self.derivatives.as_ref()?;
         Some(derivatives.iter().zip(distributions).filter_map(|(j, of)| Some((j * of.half_width()?).abs())).sum())
@@ -50,7 +50,7 @@ fn spread(derivatives: &[f64], distributions: &[Distribution]) -> (f64, f64) {
     (variance.sqrt(), half_width(normal, &half_widths))
 }
 
-/// Distance that `factor` standard deviations reach, within the tolerances where they bound it.
+/// Maximum change of a linear result within `factor` standard deviations; tolerances bound it.
 fn reach(derivatives: &[f64], distributions: &[Distribution], factor: f64) -> f64 {
     let (mut normal, mut uniform, mut bound) = (0.0, 0.0, 0.0);
     for (derivative, distribution) in derivatives.iter().zip(distributions) {
@@ -66,7 +66,7 @@ fn reach(derivatives: &[f64], distributions: &[Distribution], factor: f64) -> f6
     (factor * (normal + uniform).sqrt()).min(factor * normal.sqrt() + bound)
 }
 
-/// Directions along which results are differentiated.
+/// Changes of the robot along which results are differentiated.
 pub(super) struct Along<'a> {
     pub(super) inputs: &'a Inputs,
     pub(super) changes: &'a [Option<RobotChange>],
@@ -76,20 +76,20 @@ pub(super) struct Along<'a> {
 impl Along<'_> {
     /// Directions of all numbers; the error names a number that has none.
     pub(super) fn directions(&self) -> Result<Vec<RobotChange>, String> {
-        let direction = |(input, change): (&Input, &Option<RobotChange>)| {
+        let direction = |(input, change): (&DeviatingNumber, &Option<RobotChange>)| {
             change.clone().ok_or_else(|| format!("{} has no derivative", input.path))
         };
         self.inputs.list.iter().zip(self.changes).map(direction).collect()
     }
 
-    /// Distance that `factor` standard deviations of a result with these derivatives reach.
+    /// Maximum change of a result with these derivatives within `factor` standard deviations.
     pub(super) fn reach(&self, derivatives: &[f64], factor: f64) -> f64 {
         reach(derivatives, self.distributions, factor)
     }
 
     /// Derivatives of a result by all numbers; the error names a number that has none.
     pub(super) fn of(&self, gradient: &RobotChange) -> Result<Vec<f64>, String> {
-        let derivative = |(input, change): (&Input, &Option<RobotChange>)| match change {
+        let derivative = |(input, change): (&DeviatingNumber, &Option<RobotChange>)| match change {
             Some(change) => Ok(gradient.dot(change) + 0.0),
             None => Err(format!("{} has no derivative", input.path)),
         };

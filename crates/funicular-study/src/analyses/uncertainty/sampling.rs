@@ -1,7 +1,7 @@
 //! Sampled robots: which ones, their results, and tables of them.
 
 use super::distribution::latin_hypercube;
-use super::inputs::{Distribution, Inputs};
+use super::inputs::{DeviatingNumber, Distribution, Inputs};
 use super::linear::LinearPose;
 use super::results::{self, ResultKind};
 use super::statistics::total_share;
@@ -65,7 +65,7 @@ impl Sampling {
         let mut sampling =
             Self { segments: Vec::new(), kinds: Vec::new(), rows: 0, points: Vec::new(), redrawn: Vec::new() };
         for (pose, linear) in poses.iter().enumerate().filter_map(|(i, linear)| Some((i, linear.as_ref()?))) {
-            if is_allowed && linear.is_doubtful() {
+            if is_allowed && linear.needs_samples() {
                 sampling.push(pose, SampleSet::Sample, request.samples);
                 let redrawn = if groups > 1 { 0..groups } else { 0..0 };
                 redrawn.for_each(|group| sampling.push(pose, SampleSet::Redrawn(group), request.samples));
@@ -83,8 +83,8 @@ impl Sampling {
         let values = sampling.rows.saturating_mul(sampling.kinds.len());
         if values > MAX_VALUES {
             bail!(
-                "{} robots with {} results each would be sampled, {values} values, and at most {MAX_VALUES} are possible: \
-                 give fewer poses, results or ⟪samples⟫, or ⟪method⟫ linear",
+                "{} robots with {} results each would be sampled, {values} values, and at most {MAX_VALUES} are \
+                 possible: give fewer poses, results or ⟪samples⟫, or ⟪method⟫ linear",
                 sampling.rows,
                 sampling.kinds.len()
             );
@@ -191,7 +191,7 @@ impl Sampling {
             SampleSet::Sample => distributions.zip(&self.points[number]).map(|(of, p)| of.at(*p)).collect(),
             SampleSet::Redrawn(group) => {
                 let points = self.points[number].iter().zip(&self.redrawn[number]).zip(&inputs.list);
-                let point = |((one, other), input): ((&f64, &f64), &super::inputs::Input)| {
+                let point = |((one, other), input): ((&f64, &f64), &DeviatingNumber)| {
                     if input.group == group { *other } else { *one }
                 };
                 distributions.zip(points).map(|(of, at)| of.at(point(at))).collect()
@@ -235,6 +235,7 @@ fn disturbed(
     let robot = robot.with_tension_limits(linear.limits);
     let rest = &linear.at_rest.equilibrium;
     let model = rest.model;
+
     let found = if hold == Hold::Lengths {
         let lengths: Vec<f64> =
             rest.cables.iter().zip(by_length).map(|(cable, deviation)| cable.unstrained_length + deviation).collect();

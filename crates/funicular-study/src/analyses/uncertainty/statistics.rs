@@ -35,7 +35,8 @@ impl Statistics {
 /// Quantile of ascending values, with straight lines between them.
 ///
 /// # References
-/// R. J. Hyndman, Y. Fan, Sample quantiles in statistical packages, The American Statistician 50(4), 1996: definition 8.
+/// R. J. Hyndman, Y. Fan, Sample quantiles in statistical packages, The American Statistician 50(4), 1996: definition
+/// 8.
 fn quantile(sorted: &[f64], p: f64) -> f64 {
     let last = sorted.len() - 1;
     let place = ((sorted.len() as f64 + 1.0 / 3.0) * p - 2.0 / 3.0).clamp(0.0, last as f64);
@@ -44,8 +45,8 @@ fn quantile(sorted: &[f64], p: f64) -> f64 {
     sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
 }
 
-/// Total share of a group in the variance: half of the mean square of the change if only the values of the group are drawn
-/// again, over the variance.
+/// Total share of a group in the variance: half of the mean square of the change if only the values of the group are
+/// drawn again, over the variance.
 ///
 /// # References
 /// M. J. W. Jansen, Analysis of variance designs for model output, Computer Physics Communications 117, 1999.
@@ -88,13 +89,14 @@ mod tests {
     fn total_shares_are_those_of_a_function_with_an_interaction() {
         // y = x₁ + x₁x₂ with independent standard normal x: variance 2, total shares 1 and ½.
         let points = super::super::distribution::latin_hypercube(20_000, 3, 5);
-        let z = |p: f64| super::super::distribution::normal_quantile(p);
+        let z = |p: f64| super::super::normal::normal_quantile(p);
         let y = |a: f64, b: f64| z(a) + z(a) * z(b);
         let first = total_share(points.iter().map(|p| (y(p[0], p[1]) - y(p[2], p[1]), 0.0)), 0.0, 2.0).unwrap();
         let second = total_share(points.iter().map(|p| (y(p[0], p[1]) - y(p[0], p[2]), 0.0)), 0.0, 2.0).unwrap();
         assert!((first - 1.0).abs() < 0.03 && (second - 0.5).abs() < 0.03, "{first} {second}");
 
-        // The linear part x₁ of the change, whose mean square is 2, makes a few robots enough for a nearly linear function.
+        // The linear part x₁ of the change, whose mean square is 2, makes a few robots enough for a nearly linear
+        // function.
         let few = super::super::distribution::latin_hypercube(50, 3, 5);
         let change = |p: &[f64]| (z(p[0]) - z(p[2])) * (1.0 + 0.01 * z(p[1]));
         let pairs = few.iter().map(|p| (change(p), z(p[0]) - z(p[2])));

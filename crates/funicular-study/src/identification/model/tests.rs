@@ -102,9 +102,9 @@ fn check(experiment: &Value, cable_model: &str, expected_equilibria: usize) {
         assert_eq!(column.len(), by_differences.len());
 
         for (i, (own, other)) in column.iter().zip(&by_differences).enumerate() {
-            let kind = model.observations[i].kind;
-            let same =
-                by_differences.iter().zip(&model.observations).filter(|(_, observation)| observation.kind == kind);
+            let subject = std::mem::discriminant(&model.observations[i].subject);
+            let is_alike = |of: &Observation| std::mem::discriminant(&of.subject) == subject;
+            let same = by_differences.iter().zip(&model.observations).filter(|(_, observation)| is_alike(observation));
             let largest = same.fold(0.0_f64, |largest, (value, _)| largest.max(value.norm()));
             // An equilibrium that is converged to 1e-12 m leaves 1e-7 of a difference over such a step.
             let error = (own - other).norm();

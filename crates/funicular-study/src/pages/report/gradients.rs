@@ -1,6 +1,6 @@
 //! Derivatives of the first frequencies by the numbers of the robot file, as bars: what moves them.
 
-use crate::analyses::gradient::{Columns, meaning};
+use crate::analyses::gradient::{GradientColumns, meaning};
 use crate::at_rest::AtRest;
 use crate::pages::figure::{Figure, axis, colour, plain, rounded};
 use crate::text::short;
@@ -23,7 +23,7 @@ pub(super) fn first_frequencies(
     dynamics: &Dynamics,
     found: &Modes,
 ) -> Result<Figure, String> {
-    let columns = Columns::of(at_rest, robot_text, &[], &[]).map_err(|error| error.to_string())?;
+    let columns = GradientColumns::of(at_rest, robot_text, &[], &[]).map_err(|error| error.to_string())?;
     let gradients = Gradients::new(&at_rest.robot, &at_rest.equilibrium, Hold::Lengths).map_err(|e| e.to_string())?;
     let vibration = gradients.vibration(dynamics).map_err(|error| error.to_string())?;
 

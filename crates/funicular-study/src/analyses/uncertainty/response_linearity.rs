@@ -1,6 +1,6 @@
-//! Derivatives of frequency responses, and the test of where they are linear.
+//! Derivatives of frequency responses, and the test of whether responses are nearly linear.
 
-use super::responses::{Change, Responses};
+use super::responses::{ResponseChange, Responses};
 use super::results::{NominalModes, ResultKind};
 use super::row::{Along, Row};
 use funicular::gradient::Gradients;
@@ -9,15 +9,16 @@ use funicular::modes::Mode;
 use funicular::robot::Robot;
 use std::f64::consts::TAU;
 
-/// Deviations within which a response must be nearly linear. Two let a phase of 0.2° pass whose deviation a weak mode
-/// increases by 16 %.
+/// Range within which a response must be nearly linear, in standard deviations. With two, a phase of 0.2° passed the
+/// test although a weak mode increased its deviation by 16 %.
 const DEVIATIONS: f64 = 3.0;
 
-/// Share of the linear change that the change beyond it may have there. A result z + a z² of a standard normal z has
-/// a = 0.1 then: its deviation is 1 % more than the linear one, and its mean is off by 0.1 deviations.
-const BEYOND_LINEAR: f64 = 0.3;
+/// Maximum nonlinear part of the change at the ends of this range, relative to the linear part. For a result z + a z²
+/// of a standard normal z it means a = 0.1: the deviation is 1 % above the linear one, and the mean is off by 0.1
+/// deviations.
+const MAX_NONLINEAR: f64 = 0.3;
 
-/// Maximum number of modes whose distance from the frequencies is tested.
+/// Maximum number of modes for which responses are tested.
 const MAX_MODES: usize = 5000;
 
 /// Adds the derivatives of responses, or the reason why they have none.
@@ -32,12 +33,13 @@ pub(super) fn differentiate(
     let derivatives = || {
         let directions = along.directions()?;
         let reason = |error: &dyn std::fmt::Display| error.to_string();
-        let [from, to] = of.asked.signals(robot).map_err(|error| reason(&error))?;
+        let [from, to] = of.requested.signals(robot).map_err(|error| reason(&error))?;
         let vibration = gradients.vibration(&modes.dynamics).map_err(|error| reason(&error))?;
-        let to = (to, of.asked.quantity());
-        vibration.responses(&[from], &[to], of.asked.at_hz(), &directions).map_err(|error| reason(&error))
+        let to = (to, of.requested.quantity());
+        vibration.responses(&[from], &[to], of.requested.at_hz(), &directions).map_err(|error| reason(&error))
     };
     let found: Result<Vec<_>, String> = derivatives();
+
     for row in rows {
         let Some(place) = row.kind.at_hz().and_then(|hz| of.place(hz)) else { continue };
         match &found {
@@ -46,14 +48,14 @@ pub(super) fn differentiate(
                     pairs[0][place].along.iter().map(|change| change_of(row.kind, change / of.values[place]) + 0.0);
                 row.derivatives = Some(relative.collect());
             }
-            Err(reason) => row.doubt = Some(reason.clone()),
+            Err(reason) => row.sampling_reason = Some(reason.clone()),
         }
     }
 }
 
-/// Change of a result, in its unit, by a relative change of the response.
+/// ResponseChange of a result, in its unit, by a relative change of the response.
 fn change_of(kind: ResultKind, relative: Complex) -> f64 {
-    let change = Change(relative);
+    let change = ResponseChange(relative);
     if matches!(kind, ResultKind::Phase(_)) { change.degrees() } else { change.decibels() }
 }
 
@@ -63,14 +65,14 @@ struct NearMode {
     frequency_hz: f64,
     /// Square of the complex angular frequency [rad²/s²].
     square: Complex,
-    /// Distance that the deviations of the real part of this square reach [rad²/s²].
+    /// Maximum change of the real part of this square within the deviations [rad²/s²].
     reach: f64,
     /// Product of the mode at input and output over the modal mass.
     residue: f64,
 }
 
-/// Tests whether responses are nearly linear in the deviations: a natural frequency may come near, or the change may not be
-/// small against the response.
+/// Tests whether responses are nearly linear within the deviations. They are not where a natural frequency may come
+/// near, or where the change is not small against the response.
 ///
 /// # References
 /// docs/theory.md, equation (94d1).
@@ -86,7 +88,7 @@ pub(super) fn test(
         Ok(near) => near,
         Err(reason) => {
             for row in rows.iter_mut().filter(|row| row.kind.at_hz().is_some()) {
-                row.doubt.get_or_insert_with(|| reason.clone());
+                row.sampling_reason.get_or_insert_with(|| reason.clone());
             }
             return;
         }
@@ -95,9 +97,9 @@ pub(super) fn test(
     let derivatives: Vec<(ResultKind, Option<Vec<f64>>)> =
         rows.iter().map(|row| (row.kind, row.derivatives.clone())).collect();
     for row in rows {
-        let (Some(hz), None) = (row.kind.at_hz(), &row.doubt) else { continue };
+        let (Some(hz), None) = (row.kind.at_hz(), &row.sampling_reason) else { continue };
         let Some(place) = of.place(hz) else { continue };
-        // Linear relative change: of the magnitude, and of the phase in radians.
+        // Linear relative change of the magnitude, and change of the phase in radians.
         let relative = |kind: ResultKind| {
             let own = derivatives.iter().find(|(other, _)| *other == kind).and_then(|(_, own)| own.as_deref());
             along.reach(own.unwrap_or_default(), DEVIATIONS) / change_of(kind, Complex::new(1.0, 1.0))
@@ -107,10 +109,10 @@ pub(super) fn test(
         let linear = if is_phase { phase } else { magnitude };
         let part = |value: Complex| if is_phase { value.im.abs() } else { value.re.abs() };
 
-        // Beyond the linear change: second order of the logarithm, and the modes that come nearer.
+        // The nonlinear part: second order of the logarithm, and the modes that come nearer.
         let of_logarithm = if is_phase { magnitude * phase } else { 0.5 * (magnitude * magnitude + phase * phase) };
         let omega = TAU * hz;
-        let factor = of.asked.quantity().factor(omega);
+        let factor = of.requested.quantity().factor(omega);
         let mut worst: Option<(f64, &NearMode)> = None;
         let mut beyond = of_logarithm;
         for mode in &near {
@@ -120,13 +122,9 @@ pub(super) fn test(
                 worst = Some((of_mode, mode));
             }
         }
-        if beyond > BEYOND_LINEAR * linear {
-            row.doubt = Some(match worst.filter(|(of_mode, _)| *of_mode > of_logarithm) {
-                Some((_, mode)) => format!(
-                    "mode {} at {} Hz may come near the frequency of the response",
-                    mode.number,
-                    crate::text::significant(mode.frequency_hz, 4)
-                ),
+        if beyond > MAX_NONLINEAR * linear {
+            row.sampling_reason = Some(match worst.filter(|(of_mode, _)| *of_mode > of_logarithm) {
+                Some((_, mode)) => mode.may_come_near(),
                 None => format!("the response changes too much within {DEVIATIONS} deviations for a linear change"),
             });
         }
@@ -134,13 +132,23 @@ pub(super) fn test(
 }
 
 impl NearMode {
-    /// Change of the mode's part in a response beyond the linear one, if its frequency shifts as far as the deviations
-    /// reach, to either side. `factor` multiplies the displacement; `part` is the magnitude of a part of a complex number.
+    /// Sentence on a mode that makes a response nonlinear.
+    fn may_come_near(&self) -> String {
+        format!(
+            "mode {} at {} Hz may come near the frequency of the response",
+            self.number,
+            crate::text::significant(self.frequency_hz, 4)
+        )
+    }
+
+    /// ResponseChange of the mode's part in a response beyond the linear one, if its frequency shifts as far as the
+    /// deviations reach, to either side. `factor` multiplies the displacement; `part` is the magnitude of a part of a
+    /// complex number.
     fn beyond_linear(&self, omega: f64, factor: Complex, part: impl Fn(Complex) -> f64) -> f64 {
         if self.residue == 0.0 {
             return 0.0;
         }
-        // Nothing is lost at rest.
+        // A static response has no damping.
         let square = if omega > 0.0 { self.square } else { self.square.re.into() };
         let distance = square - omega * omega;
         let own = factor * self.residue / distance;
@@ -166,18 +174,20 @@ fn near_modes(
     modes: &NominalModes,
     along: &Along,
 ) -> Result<Vec<NearMode>, String> {
-    let signals = of.asked.signals(robot).map_err(|error| error.to_string())?;
+    let signals = of.requested.signals(robot).map_err(|error| error.to_string())?;
     let [Some(from), Some(to)] = signals.map(|signal| signal.platform_vector(&gradients.equilibrium().pose)) else {
         return Err("whether a response is linear is tested for signals on the platform only".to_owned());
     };
     let list = &modes.found.modes;
     if list.len() > MAX_MODES {
         return Err(format!(
-            "{} natural frequencies lie below {} Hz, and whether the response is linear is tested for at most {MAX_MODES}",
+            "{} natural frequencies lie below {} Hz, and whether the response is linear is tested for at most \
+             {MAX_MODES}",
             list.len(),
             crate::text::significant(modes.found.below_hz, 4)
         ));
     }
+
     let vibration = gradients.vibration(&modes.dynamics).map_err(|error| error.to_string())?;
     let near = |(i, mode): (usize, &Mode)| {
         let omega = TAU * mode.frequency_hz;
