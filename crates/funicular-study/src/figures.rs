@@ -21,7 +21,7 @@ pub(crate) mod supports;
 mod svg;
 pub(crate) mod view;
 
-pub use making::{Made, of_request};
+pub use making::{RequestFigure, of_request};
 
 use crate::values::positive;
 use anyhow::{Result, anyhow, bail};
@@ -31,10 +31,10 @@ use space::Space;
 use style::Type;
 
 /// Figure of one result.
-pub struct Figure(pub(crate) Kind);
+pub struct Figure(pub(crate) FigureContent);
 
 /// Kind of a figure.
-pub(crate) enum Kind {
+pub(crate) enum FigureContent {
     Chart(Chart),
     Space(Box<Space>),
 }
@@ -132,15 +132,15 @@ impl Figure {
     fn draw(&self, size: Size) -> Drawing {
         let (width, style) = (size.width_mm * POINTS, Type::new(size.font_size_pt));
         match &self.0 {
-            Kind::Chart(chart) => chart.draw(width, &style),
-            Kind::Space(space) => space.draw(width, &style),
+            FigureContent::Chart(chart) => chart.draw(width, &style),
+            FigureContent::Space(space) => space.draw(width, &style),
         }
     }
 }
 
 /// Choice of what a figure shows.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Choice {
+pub struct FigureChoice {
     /// Number of the mode whose shape is drawn, from 1; the spectrum if none is given.
     pub mode: Option<usize>,
 }

@@ -494,6 +494,21 @@ fn cable_of(robot: &Robot, name: &str) -> Result<usize, SignalError> {
     })
 }
 
+/// Inputs and outputs with their signals on a robot.
+pub(crate) type SignalLists = (Vec<(Input, Signal)>, Vec<(Output, Signal)>);
+
+/// Unit of a response: motion divided by force or moment.
+pub fn response_unit(input: &Input, output: &Output) -> String {
+    let motion = output.unit();
+    let by_time = match output.quantity {
+        Quantity::Displacement => "",
+        Quantity::Velocity => "/s",
+        Quantity::Acceleration => "/s²",
+    };
+    let effort = if input.unit() == "N m" { "(N·m)" } else { input.unit() };
+    if by_time.is_empty() { format!("{motion}/{effort}") } else { format!("({motion}{by_time})/{effort}") }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

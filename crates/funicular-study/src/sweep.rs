@@ -74,7 +74,7 @@ impl PreparedSweep {
     /// Prepares a request. If lengths are held, `holder` is the text of the robot that gives them; if it is absent, that
     /// robot follows from the request.
     fn with_holder(request: &Request, holder: Option<RobotText>) -> Result<Self> {
-        let holder = |robot| holder.unwrap_or_else(|| at_rest::holder_text(robot));
+        let holder = |robot: &RobotText| holder.unwrap_or_else(|| robot.of_holder());
         match request {
             Request::Map(map) => Self::of_map(map, &holder(&map.robot)),
             Request::Sweep(sweep) => Self::of_sweep(sweep, &holder(&sweep.robot)),
@@ -364,9 +364,9 @@ pub(crate) fn check_poses(poses: &[[f64; 6]], robot: &Robot) -> Result<()> {
         for value in pose {
             crate::values::finite(*value).map_err(|reason| anyhow!("⟪poses⟫, pose {}: {reason}", i + 1))?;
         }
-        if robot.platform.motion == PlatformMotion::PointMass && pose[3..].iter().any(|angle| *angle != 0.0) {
-            bail!("⟪poses⟫, pose {}: a point mass has no orientation; leave out the angles", i + 1);
-        }
+        let pose = Pose::new([pose[0], pose[1], pose[2]], [pose[3], pose[4], pose[5]]);
+        at_rest::refuse_orientation(robot.platform.motion == PlatformMotion::PointMass, &pose)
+            .map_err(|error| anyhow!("⟪poses⟫, pose {}: {error}", i + 1))?;
     }
     Ok(())
 }

@@ -1,11 +1,12 @@
 //! `check`: description of the robot in the robot file.
 
 use super::found;
-use crate::text::{short, vector};
+use super::shared::{LoadRow, WindRow};
+use crate::text::short;
 use funicular::math::rotation;
 use funicular::robot::{
-    Cable, Control, Damping, GuideWheel, Load, PlatformMotion, Pulley, PulleyFriction, Robot, State, Support,
-    TensionLimits, Winch, Wind,
+    Cable, Control, Damping, GuideWheel, PlatformMotion, Pulley, PulleyFriction, Robot, State, Support, TensionLimits,
+    Winch,
 };
 use funicular::statics::{self, CableState, StaticModel};
 use funicular::warnings::plausibility;
@@ -56,51 +57,6 @@ pub struct CheckedPlatform {
     pub center_of_mass_m: [f64; 3],
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drag_area_m2: Option<f64>,
-}
-
-/// Load on the platform.
-#[derive(Serialize)]
-pub struct LoadRow {
-    pub force_n: [f64; 3],
-    pub moment_n_m: [f64; 3],
-    pub point_m: [f64; 3],
-}
-
-impl LoadRow {
-    /// Row for a load; `None` if there is no load.
-    pub fn of(load: &Load) -> Option<Self> {
-        (load.force_w.norm() > 0.0 || load.moment_w.norm() > 0.0).then(|| Self {
-            force_n: load.force_w.into(),
-            moment_n_m: load.moment_w.into(),
-            point_m: load.point_p.into(),
-        })
-    }
-
-    /// Description in one phrase.
-    pub fn text(&self) -> String {
-        let [force, moment, point] = [&self.force_n, &self.moment_n_m, &self.point_m].map(|three| vector(three, 4));
-        format!("force ({force}) N at ({point}) m of the platform, moment ({moment}) N m")
-    }
-}
-
-/// Wind.
-#[derive(Serialize)]
-pub struct WindRow {
-    pub velocity_m_s: [f64; 3],
-    pub air_density_kg_m3: f64,
-}
-
-impl WindRow {
-    /// Row for a wind; `None` in still air.
-    pub fn of(wind: &Wind) -> Option<Self> {
-        (wind.velocity_w.norm() > 0.0)
-            .then(|| Self { velocity_m_s: wind.velocity_w.into(), air_density_kg_m3: wind.air_density })
-    }
-
-    /// Description in one phrase.
-    pub fn text(&self) -> String {
-        format!("({}) m/s, air density {} kg/m³", vector(&self.velocity_m_s, 3), short(self.air_density_kg_m3, 4))
-    }
 }
 
 /// Rope of a robot file.

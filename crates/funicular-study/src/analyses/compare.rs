@@ -1,8 +1,7 @@
 //! `compare`: all cable models side by side.
 
 use super::found;
-use super::modes::ModeRow;
-use super::shared::Origin;
+use super::shared::{ModeRow, Origin};
 use crate::at_rest::{self, AtRest};
 use crate::request;
 use anyhow::Result;

@@ -537,7 +537,7 @@ impl Rows<'_> {
         let rows = vibration.responses(&[from], &[(to, quantity)], &[at_hz], self.changes)?;
         let Some(found) = rows.first().and_then(|row| row.first()) else { bail!("the response has no value") };
 
-        let unit = super::frf::unit(&input, &output);
+        let unit = crate::signals::response_unit(&input, &output);
         for (part, value, derivatives) in [
             ("real part", found.value.re, found.along.iter().map(|z| z.re + 0.0).collect()),
             ("imaginary part", found.value.im, found.along.iter().map(|z| z.im + 0.0).collect()),

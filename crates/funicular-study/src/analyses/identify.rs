@@ -520,7 +520,7 @@ impl Tables {
 /// Unit of a response whose signals were checked.
 fn unit(input: &str, output: &str) -> String {
     match (request::input(input), request::output(output)) {
-        (Ok(input), Ok(output)) => super::frf::unit(&input, &output),
+        (Ok(input), Ok(output)) => crate::signals::response_unit(&input, &output),
         _ => String::new(),
     }
 }

@@ -1,8 +1,7 @@
 //! `payload`: minimum and maximum payload at a pose.
 
 use super::found;
-use super::shared::PoseRow;
-use super::statics::LimitNumbers;
+use super::shared::{LimitNumbers, PoseRow};
 use crate::at_rest::{self, AtRest};
 use crate::error::NoSolution;
 use crate::request;

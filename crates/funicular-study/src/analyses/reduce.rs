@@ -9,7 +9,7 @@ use crate::at_rest::{self, AtRest};
 use crate::error::Cancelled;
 use crate::names::{ModelForm, Named};
 use crate::request;
-use crate::signals::{Input, Output};
+use crate::signals::{Input, Output, SignalLists};
 use crate::text::significant;
 use anyhow::{Result, bail};
 use control_model::ControlStateSpace;
@@ -127,11 +127,8 @@ pub fn run(robot: Robot, request: &request::ReduceRequest, watch: &mut dyn Watch
     })
 }
 
-/// Inputs and outputs of a model.
-type Signals = (Vec<(Input, Signal)>, Vec<(Output, Signal)>);
-
 /// Refuses numbers out of range, keys that exclude each other, and signals that the robot does not have.
-fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<Signals> {
+fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<SignalLists> {
     request::check_positive("below_hz", request.below_hz)?;
     match (request.form, request.order, request.tolerance) {
         (ModelForm::SecondOrder, Some(_), _) => bail!(
@@ -166,7 +163,11 @@ struct Linearised {
 }
 
 /// Linearises the robot and checks the number of its modes.
-fn linearised(at_rest: &AtRest, request: &request::ReduceRequest, (inputs, outputs): &Signals) -> Result<Linearised> {
+fn linearised(
+    at_rest: &AtRest,
+    request: &request::ReduceRequest,
+    (inputs, outputs): &SignalLists,
+) -> Result<Linearised> {
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
     let (dynamics, warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
     modes::check_count(&dynamics, request.below_hz, MAX_MODES)?;

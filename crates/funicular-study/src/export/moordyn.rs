@@ -78,7 +78,7 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize, warnings: &mut Vec<String
     }
     let mut types = Vec::new();
     let body = match robot.platform.motion {
-        PlatformMotion::Rigid => Some(Frame::of(at_rest)),
+        PlatformMotion::Rigid => Some(BodyFrame::of(at_rest)),
         PlatformMotion::PointMass | PlatformMotion::Planar(_) => None,
     };
 
@@ -202,13 +202,13 @@ fn type_name(material: &str, i: usize) -> String {
 }
 
 /// Frame of the MoorDyn body.
-struct Frame {
+struct BodyFrame {
     /// Axes of the body in the platform frame, as columns.
     axes_p: Mat3,
     row: BodyRow,
 }
 
-impl Frame {
+impl BodyFrame {
     fn of(at_rest: &AtRest) -> Self {
         let (platform, pose) = (&at_rest.robot.platform, &at_rest.equilibrium.pose);
         let inertia = platform.inertia_p;

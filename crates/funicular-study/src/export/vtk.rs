@@ -14,7 +14,7 @@ use std::fmt::Write as _;
 use std::io;
 
 /// Points and cells of the file, cables first.
-struct Shape {
+struct VtkCells {
     points_w: Vec<Vec3>,
     tension: Vec<f64>,
     arc_length: Vec<f64>,
@@ -36,7 +36,7 @@ pub(crate) fn poly_data(
     below_hz: Option<f64>,
     warnings: &mut Vec<String>,
 ) -> Result<String> {
-    let mut shape = Shape::at_rest(at_rest, segments);
+    let mut shape = VtkCells::at_rest(at_rest, segments);
     if let Some(limit) = below_hz {
         let (dynamics, found) = modes_below(at_rest, limit, warnings)?;
         let stations = stations(at_rest, &dynamics, segments)?;
@@ -71,7 +71,7 @@ fn displacements(at_rest: &AtRest, dynamics: &Dynamics, stations: &[CableStation
     all
 }
 
-impl Shape {
+impl VtkCells {
     fn at_rest(at_rest: &AtRest, segments: usize) -> Self {
         let mut shape = Self {
             points_w: Vec::new(),

@@ -1,14 +1,14 @@
 //! Charts: panels one above the other with a common horizontal axis, and a legend above them.
 
-use super::axis::{Axis, Placed, Ticks};
-use super::drawing::{Align, BLACK, Colour, Drawing, Frame, Label, Point, Stroke, WHITE, clipped, simplified};
+use super::axis::{ChartAxis, Placed, Ticks};
+use super::drawing::{Align, BLACK, Colour, Drawing, Frame, Label, PaperPoint, Stroke, WHITE, clipped, simplified};
 use super::map::{ColourBar, Map};
 use super::style::{AXIS_WIDTH, Symbol, Type};
 
 /// Chart of panels with one horizontal axis.
 pub(crate) struct Chart {
     pub(crate) title: String,
-    pub(crate) x: Axis,
+    pub(crate) x: ChartAxis,
     pub(crate) panels: Vec<Panel>,
     pub(crate) legend: Vec<Entry>,
     pub(crate) colour_bar: Option<ColourBar>,
@@ -16,7 +16,7 @@ pub(crate) struct Chart {
 
 /// Panel of a chart.
 pub(crate) struct Panel {
-    pub(crate) y: Axis,
+    pub(crate) y: ChartAxis,
     /// Height relative to the width of the figure.
     pub(crate) height: f64,
     /// True if both axes have the same scale, which then gives the height.
@@ -62,7 +62,7 @@ pub(crate) enum Sample {
 pub(crate) const BAND: Colour = [0xdc, 0xdc, 0xdc];
 
 impl Panel {
-    pub(crate) fn new(y: Axis, height: f64, layers: Vec<Layer>) -> Self {
+    pub(crate) fn new(y: ChartAxis, height: f64, layers: Vec<Layer>) -> Self {
         Self { y, height, equal_scales: false, bare: false, layers }
     }
 }
@@ -175,7 +175,7 @@ impl Chart {
 
 impl Sample {
     /// Draws the sample from a point to the right.
-    fn draw(&self, drawing: &mut Drawing, at: Point, length: f64, style: &Type) {
+    fn draw(&self, drawing: &mut Drawing, at: PaperPoint, length: f64, style: &Type) {
         let [x, y] = at;
         let middle = [x + 0.5 * length, y];
         let half = 0.38 * style.size;
@@ -248,10 +248,10 @@ fn draw_layer(drawing: &mut Drawing, placed: &Placed<'_>, layer: &Layer, style: 
     let frame = placed.frame;
     match layer {
         Layer::Line { points, stroke } => {
-            let points: Vec<Point> = points.iter().map(|(x, y)| placed.at(*x, *y)).collect();
+            let points: Vec<PaperPoint> = points.iter().map(|(x, y)| placed.at(*x, *y)).collect();
             // A value of zero on a logarithmic axis lies far below the panel, not at infinity: the line leads there.
             let below = 10.0 * frame.height();
-            let points: Vec<Point> = points
+            let points: Vec<PaperPoint> = points
                 .into_iter()
                 .map(|[x, y]| if y == f64::INFINITY { [x, frame.bottom + below] } else { [x, y] })
                 .collect();
@@ -259,8 +259,8 @@ fn draw_layer(drawing: &mut Drawing, placed: &Placed<'_>, layer: &Layer, style: 
             drawing.lines(parts.iter().map(|part| simplified(part)).collect(), stroke.clone());
         }
         Layer::Symbols { points, symbol } => {
-            let points: Vec<Point> = points.iter().map(|(x, y)| placed.at(*x, *y)).collect();
-            let inside: Vec<Point> = points.into_iter().filter(|point| frame.contains(*point)).collect();
+            let points: Vec<PaperPoint> = points.iter().map(|(x, y)| placed.at(*x, *y)).collect();
+            let inside: Vec<PaperPoint> = points.into_iter().filter(|point| frame.contains(*point)).collect();
             symbol.draw(drawing, &inside, style);
         }
         Layer::Stems { x, from, to, stroke } => {

@@ -1,9 +1,9 @@
 //! Maps of a quantity over two axes: coloured cells, contours with labels, hatched infeasible cells, a colour bar.
 
 use super::axis::Placed;
-use super::axis::{Axis, nice_step, round_numbers};
+use super::axis::{ChartAxis, nice_step, round_numbers};
 use super::contour::contours;
-use super::drawing::{Align, BLACK, Colour, Drawing, Frame, Label, Point, Stroke, WHITE};
+use super::drawing::{Align, BLACK, Colour, Drawing, Frame, Label, PaperPoint, Stroke, WHITE};
 use super::style::{AXIS_WIDTH, Type, lightness, of_map};
 use crate::text::short;
 
@@ -66,11 +66,11 @@ impl ColourScale {
     }
 
     /// Axis of the colour bar.
-    fn axis(&self, title: &str) -> Axis {
+    fn axis(&self, title: &str) -> ChartAxis {
         if self.logarithmic {
-            Axis::logarithmic(title, self.low, self.high)
+            ChartAxis::logarithmic(title, self.low, self.high)
         } else {
-            Axis::linear(title, self.low, self.high)
+            ChartAxis::linear(title, self.low, self.high)
         }
     }
 }
@@ -97,7 +97,7 @@ impl Map {
 
         // Neighbours of one shade are one area; areas of one shade are one path.
         let shade = |value: f64| (self.scale.fraction(value) * (SHADES - 1.0)).round() as usize;
-        let mut by_shade: Vec<Vec<Vec<Point>>> = vec![Vec::new(); SHADES as usize];
+        let mut by_shade: Vec<Vec<Vec<PaperPoint>>> = vec![Vec::new(); SHADES as usize];
         for (j, from, to) in self.runs(|cell| Some(self.values[cell]).filter(|value| value.is_finite()).map(shade)) {
             let value = self.values[j * self.x.len() + from];
             by_shade[shade(value)].push(cells(j, from, to, OVERLAP).corners());
@@ -140,7 +140,7 @@ impl Map {
     }
 
     /// Edges between infeasible cells and all others.
-    fn boundary(&self, x: &[f64], y: &[f64]) -> Vec<Vec<Point>> {
+    fn boundary(&self, x: &[f64], y: &[f64]) -> Vec<Vec<PaperPoint>> {
         let (n, m) = (self.x.len(), self.y.len());
         let at = |i: usize, j: usize| self.infeasible[j * n + i];
         let mut lines = Vec::new();
@@ -161,7 +161,7 @@ impl Map {
         for level in self.scale.levels() {
             let ink = if lightness(of_map(self.scale.fraction(level))) > 0.45 { BLACK } else { WHITE };
             let stroke = Stroke::solid(ink, 0.6);
-            let mut lines: Vec<Vec<Point>> = contours(&self.x, &self.y, &self.values, level)
+            let mut lines: Vec<Vec<PaperPoint>> = contours(&self.x, &self.y, &self.values, level)
                 .into_iter()
                 .map(|line| line.into_iter().map(|[x, y]| placed.at(x, y)).collect())
                 .collect();
@@ -196,15 +196,15 @@ impl Map {
 
 /// Place of a label on a line, and the parts of the line beside it.
 struct LabelPlace {
-    middle: Point,
+    middle: PaperPoint,
     angle: f64,
-    before: Vec<Point>,
-    behind: Vec<Point>,
+    before: Vec<PaperPoint>,
+    behind: Vec<PaperPoint>,
     area: Frame,
 }
 
 /// Place for a label of a width: near the middle of the line, inside the frame, apart from the labels before.
-fn label_place(line: &[Point], width: f64, frame: &Frame, taken: &[Frame]) -> Option<LabelPlace> {
+fn label_place(line: &[PaperPoint], width: f64, frame: &Frame, taken: &[Frame]) -> Option<LabelPlace> {
     let total = length(line);
     let half = 0.5 * width + 1.5;
     for part in [0.5, 0.4, 0.6, 0.3, 0.7, 0.22, 0.78] {
@@ -242,12 +242,12 @@ fn label_place(line: &[Point], width: f64, frame: &Frame, taken: &[Frame]) -> Op
     None
 }
 
-fn length(line: &[Point]) -> f64 {
+fn length(line: &[PaperPoint]) -> f64 {
     line.windows(2).map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).sum()
 }
 
 /// Parts of a line before and behind a length from its start.
-fn split(line: &[Point], at: f64) -> (Vec<Point>, Vec<Point>) {
+fn split(line: &[PaperPoint], at: f64) -> (Vec<PaperPoint>, Vec<PaperPoint>) {
     let mut gone = 0.0;
     for (i, pair) in line.windows(2).enumerate() {
         let step = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);

@@ -1,6 +1,6 @@
 //! Drawings as PDF: one page of the size of the figure, with the used letters of the font embedded.
 
-use super::drawing::{Colour, Drawing, Item, Path, RAISED, Text};
+use super::drawing::{Colour, Drawing, DrawnPath, Item, RAISED, Text};
 use super::font::Font;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
@@ -130,7 +130,7 @@ fn page_content(drawing: &Drawing, letters: &Letters) -> Vec<u8> {
     content.finish().as_slice().to_vec()
 }
 
-fn draw_path(content: &mut Content, path: &Path, height: f64) {
+fn draw_path(content: &mut Content, path: &DrawnPath, height: f64) {
     if let Some(fill) = path.fill {
         let [r, g, b] = parts(fill);
         content.set_fill_rgb(r, g, b);

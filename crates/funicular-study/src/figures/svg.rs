@@ -3,7 +3,7 @@
 //! Texts stay texts, in the sans serif fonts that journals ask for; a program for drawings can edit them. Arial and
 //! Helvetica are narrower than the font whose widths place the texts, so that no text overlaps another.
 
-use super::drawing::{Colour, Drawing, Item, Path, RAISED, Text};
+use super::drawing::{Colour, Drawing, DrawnPath, Item, RAISED, Text};
 use std::fmt::Write as _;
 
 const FAMILY: &str = "Arial, Helvetica, 'Liberation Sans', 'Noto Sans', sans-serif";
@@ -35,7 +35,7 @@ pub(crate) fn svg(drawing: &Drawing) -> String {
     out
 }
 
-fn path_element(out: &mut String, path: &Path) {
+fn path_element(out: &mut String, path: &DrawnPath) {
     out.push_str("<path d=\"");
     for line in &path.lines {
         for (i, point) in line.iter().enumerate() {

@@ -2,8 +2,9 @@
 
 pub(crate) mod file;
 
+use crate::at_rest;
 use crate::request::{self, ImportPlatform, ImportRopes};
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use funicular::math::{Mat3, Rotation, Vec3};
 use funicular::robot::{Pose, Robot};
 use funicular::statics::TensionRange;
@@ -249,9 +250,8 @@ impl Draft {
 
     fn set_state(&mut self, options: &ImportPlatform) -> Result<()> {
         let Some(pose) = options.pose.map(request::Pose::to_robot).transpose()? else { return Ok(()) };
-        if self.platform.motion == DraftMotion::PointMass && pose.rot_wp.angle() != 0.0 {
-            bail!("a point mass has no orientation: give ⟪pose⟫ x,y,z");
-        }
+        at_rest::refuse_orientation(self.platform.motion == DraftMotion::PointMass, &pose)
+            .map_err(|error| anyhow!("⟪pose⟫: {error}"))?;
         match self.state {
             DraftState::Lengths => {
                 self.lost.push("the unstrained lengths of the source: ⟪pose⟫ replaces them".to_owned());

@@ -1,7 +1,7 @@
 //! Functions of a Universal File as measured responses of the robot: signals, points and SI units.
 
 use super::MeasuredResponse;
-use super::uff::{Axis, Function, NodeDirection, UffFile};
+use super::uff::{Function, NodeDirection, UffAxis, UffFile};
 use anyhow::{Result, bail};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -56,7 +56,7 @@ pub fn responses_of_uff(
     let mut others: BTreeMap<i64, usize> = BTreeMap::new();
     for function in &file.functions {
         if function.kind == RESPONSE && matches!(function.abscissa.kind, FREQUENCY | UNKNOWN | GENERAL) {
-            let of = Response { path, file, function, nodes };
+            let of = UffResponse { path, file, function, nodes };
             responses.push(of.converted()?);
         } else {
             *others.entry(function.kind).or_default() += 1;
@@ -78,14 +78,14 @@ pub fn responses_of_uff(
 }
 
 /// Response in a file.
-struct Response<'a> {
+struct UffResponse<'a> {
     path: &'a str,
     file: &'a UffFile,
     function: &'a Function,
     nodes: &'a [NodePoint],
 }
 
-impl Response<'_> {
+impl UffResponse<'_> {
     /// Beginning of a message about this function.
     fn place(&self) -> String {
         format!("{}: the function in line {}", self.path, self.function.line + 1)
@@ -174,7 +174,7 @@ impl Response<'_> {
     }
 
     /// Factor to SI units, in which displacements are metres or radians, and loads newtons or newton metres.
-    fn to_si(&self, numerator: &Axis, denominator: &Axis, out_turns: bool, in_turns: bool) -> Result<f64> {
+    fn to_si(&self, numerator: &UffAxis, denominator: &UffAxis, out_turns: bool, in_turns: bool) -> Result<f64> {
         let units = self.file.units;
         for axis in [numerator, denominator] {
             let label = axis.unit.to_lowercase();

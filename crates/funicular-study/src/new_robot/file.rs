@@ -101,8 +101,8 @@ impl NewFile<'_> {
         // A point mass bears no moment, and every force at its own point.
         let unused: &[&str] =
             if self.request.motion == NewMotion::PointMass { &["moment_n_m", "point_m"] } else { &[] };
-        Section::new(&mut out, "[loads]").rest(unused);
-        Section::new(&mut out, "[wind]").rest(&[]);
+        FileSection::new(&mut out, "[loads]").rest(unused);
+        FileSection::new(&mut out, "[wind]").rest(&[]);
         self.state(&mut out, pose);
         Ok(out)
     }
@@ -113,7 +113,7 @@ impl NewFile<'_> {
             Some(csv) => format!("points from {}; other numbers are starting values", csv.name()),
             None => "starting values".to_owned(),
         };
-        let mut root = Section { out, header: top_of_file().header };
+        let mut root = FileSection { out, header: top_of_file().header };
         root.value("name", &quoted(name));
         root.value("source", &quoted(&source));
         root.rest(&["name", "source"]);
@@ -121,7 +121,7 @@ impl NewFile<'_> {
 
     fn platform(&self, out: &mut String, pose: &Pose) -> Result<()> {
         let motion = self.request.motion;
-        let mut section = Section::new(out, "[platform]");
+        let mut section = FileSection::new(out, "[platform]");
         section.value("mass_kg", &float(self.mass));
         section.value("motion", &quoted(motion.name()));
 
@@ -165,7 +165,7 @@ impl NewFile<'_> {
     }
 
     fn material(&self, out: &mut String) {
-        let mut section = Section::new(out, "[materials.NAME]");
+        let mut section = FileSection::new(out, "[materials.NAME]");
         match self.rope {
             Rope::Wire { construction, diameter } => {
                 section.note(&format!(
@@ -193,7 +193,7 @@ impl NewFile<'_> {
 
     fn all_cables(&self, out: &mut String) {
         for (i, cable) in self.cables.iter().enumerate() {
-            let mut section = Section::new(out, "[[cables]]");
+            let mut section = FileSection::new(out, "[[cables]]");
             let values = [
                 ("name", Some(quoted(&cable.name))),
                 ("material", Some(quoted(ROPE))),
@@ -213,7 +213,7 @@ impl NewFile<'_> {
     }
 
     fn state(&self, out: &mut String, pose: &Pose) {
-        let mut section = Section::new(out, "[state]");
+        let mut section = FileSection::new(out, "[state]");
         section.value("position_m", &vector(&pose.position_w.map(rounded)));
         let angles = angles(pose);
         if self.request.motion == NewMotion::PointMass {
@@ -228,12 +228,12 @@ impl NewFile<'_> {
 }
 
 /// Table of the file that is being written.
-struct Section<'o> {
+struct FileSection<'o> {
     out: &'o mut String,
     header: &'static str,
 }
 
-impl<'o> Section<'o> {
+impl<'o> FileSection<'o> {
     /// Begins a table.
     fn new(out: &'o mut String, header: &'static str) -> Self {
         add_line(out, "");

@@ -1,7 +1,7 @@
 //! Page about a design: poses before and after, moved points, gains of more room, course of the search.
 
 use super::Shell;
-use super::figure::{Figure, axis, colour, line, plain, points, with};
+use super::figure::{PageFigure, axis, colour, line, plain, points, with};
 use super::table::{PageTable, fixed, significant};
 use crate::analyses::design::{ChosenValue, Designed};
 use anyhow::Context as _;
@@ -17,13 +17,13 @@ struct DesignPage<'a> {
     shell: Shell,
     found: &'a Designed,
     summary: String,
-    poses_figure: Figure,
+    poses_figure: PageFigure,
     poses: PageTable,
     demands: Option<PageTable>,
-    points: Option<Figure>,
-    room: Figure,
+    points: Option<PageFigure>,
+    room: PageFigure,
     values: PageTable,
-    history: Figure,
+    history: PageFigure,
     command_line: String,
 }
 
@@ -55,7 +55,7 @@ pub fn page(found: &Designed, command_line: String) -> anyhow::Result<String> {
 }
 
 /// Figure of the goal at every pose, before and after.
-fn poses_figure(found: &Designed) -> Figure {
+fn poses_figure(found: &Designed) -> PageFigure {
     let x: Vec<f64> = (1..=found.poses.len()).map(|pose| pose as f64).collect();
     let of = |value: fn(&crate::analyses::design::PoseRow) -> f64| found.poses.iter().map(value).collect::<Vec<f64>>();
     let data = [
@@ -63,7 +63,7 @@ fn poses_figure(found: &Designed) -> Figure {
         points("after", &x, &of(|row| row.after), colour::BLUE, "circle"),
     ];
     let unit = found.unit;
-    Figure::new(
+    PageFigure::new(
         "figure-poses",
         340,
         format!(
@@ -144,7 +144,7 @@ fn moved(values: &[ChosenValue]) -> Vec<MovedPoint> {
 }
 
 /// Figure of the moves of points, from above and from the side; `None` if no point with x has moved.
-fn moved_points(found: &Designed) -> Option<Figure> {
+fn moved_points(found: &Designed) -> Option<PageFigure> {
     let points_moved = moved(&found.values);
     let full: Vec<&MovedPoint> = points_moved.iter().filter(|point| point.start.iter().all(Option::is_some)).collect();
     if full.is_empty() {
@@ -175,7 +175,7 @@ fn moved_points(found: &Designed) -> Option<Figure> {
         ));
         data.push(named(points("after", &of(0, false), &of(second, false), colour::BLUE, "circle"), colour::BLUE));
     }
-    Some(Figure::new(
+    Some(PageFigure::new(
         "figure-points",
         520,
         "Points of the cables before and after: from above (left) and from the side (right).".to_owned(),
@@ -190,7 +190,7 @@ fn moved_points(found: &Designed) -> Option<Figure> {
 }
 
 /// Figure of the gains of more room at the bounds.
-fn room(found: &Designed) -> Figure {
+fn room(found: &Designed) -> PageFigure {
     let mut rows: Vec<&ChosenValue> = found.values.iter().filter(|row| row.gain_per_unit > 0.0).collect();
     let gain = |row: &ChosenValue| row.gain_per_unit * 0.1 * (row.maximum - row.minimum);
     rows.sort_by(|a, b| gain(a).total_cmp(&gain(b)));
@@ -200,7 +200,7 @@ fn room(found: &Designed) -> Figure {
         "type": "bar", "orientation": "h", "x": gains, "y": names, "marker": {"color": colour::BLUE},
         "hovertemplate": "%{y}<br>%{x:.4g}<extra></extra>",
     })];
-    Figure::new(
+    PageFigure::new(
         "figure-room",
         120 + 22 * rows.len(),
         "Gain of the goal if the bound at which a value is moves outwards by a tenth of the distance of its bounds, by the \
@@ -233,12 +233,12 @@ fn values(found: &Designed) -> PageTable {
 }
 
 /// Figure of the goal after every iteration.
-fn history(found: &Designed) -> Figure {
+fn history(found: &Designed) -> PageFigure {
     let y: Vec<f64> = std::iter::once(found.before).chain(found.history.iter().copied()).collect();
     let x: Vec<f64> = (0..y.len()).map(|step| step as f64).collect();
     let course =
         with(line("goal", &x, &y, colour::BLUE, "solid"), json!({"mode": "lines+markers", "showlegend": false}));
-    Figure::new(
+    PageFigure::new(
         "figure-history",
         300,
         format!("Goal after every step that improved it; {} points were computed.", found.evaluations),

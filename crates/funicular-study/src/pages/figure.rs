@@ -37,7 +37,7 @@ pub(crate) mod colour {
 /// Figure with a caption.
 #[derive(Template)]
 #[template(path = "figure.html")]
-pub(crate) struct Figure {
+pub(crate) struct PageFigure {
     id: String,
     height: usize,
     caption: String,
@@ -46,7 +46,7 @@ pub(crate) struct Figure {
     scene: bool,
 }
 
-impl Figure {
+impl PageFigure {
     /// Creates a figure from plotly's traces and layout; the common style is added to `layout`.
     pub(crate) fn new(
         id: impl Into<String>,

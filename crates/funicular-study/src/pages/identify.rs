@@ -1,7 +1,7 @@
 //! Page about a fit: values with deviations, measured and fitted curves, natural frequencies, correlations.
 
 use super::Shell;
-use super::figure::{Figure, axis, colour, line, plain, points, with};
+use super::figure::{PageFigure, axis, colour, line, plain, points, with};
 use super::table::{PageTable, fixed, significant};
 use crate::analyses::identify::{FittedResponse, Identified, ValueRow};
 use crate::identification::LIMIT;
@@ -20,11 +20,11 @@ struct IdentifyPage<'a> {
     found: &'a Identified,
     values: PageTable,
     chi2: String,
-    responses: Vec<Figure>,
-    frequencies: Option<(Figure, PageTable)>,
+    responses: Vec<PageFigure>,
+    frequencies: Option<(PageFigure, PageTable)>,
     statics: Option<PageTable>,
-    profiles: Vec<Figure>,
-    correlations: Figure,
+    profiles: Vec<PageFigure>,
+    correlations: PageFigure,
     command_line: String,
 }
 
@@ -85,7 +85,7 @@ fn values(found: &Identified) -> PageTable {
 }
 
 /// Figure of a measured response, the response before the fit and the fitted one: magnitude, and phase below.
-fn curves(number: usize, response: &FittedResponse) -> Figure {
+fn curves(number: usize, response: &FittedResponse) -> PageFigure {
     let polar = |real: &[f64], imag: &[f64]| {
         let magnitude: Vec<f64> = real.iter().zip(imag).map(|(re, im)| re.hypot(*im)).collect();
         let phase: Vec<f64> = real.iter().zip(imag).map(|(re, im)| im.atan2(*re).to_degrees()).collect();
@@ -111,7 +111,7 @@ fn curves(number: usize, response: &FittedResponse) -> Figure {
     } else {
         response.name.clone()
     };
-    Figure::new(
+    PageFigure::new(
         format!("figure-response-{}", number + 1),
         560,
         format!(
@@ -133,7 +133,7 @@ fn curves(number: usize, response: &FittedResponse) -> Figure {
 }
 
 /// Figure of the differences of all natural frequencies before and after the fit.
-fn differences(found: &Identified) -> Figure {
+fn differences(found: &Identified) -> PageFigure {
     let x: Vec<f64> = found.frequencies.iter().map(|row| row.measured_hz).collect();
     let relative = |hz: fn(&crate::analyses::identify::FrequencyRow) -> f64| -> Vec<f64> {
         found.frequencies.iter().map(|row| 100.0 * (hz(row) / row.measured_hz - 1.0)).collect()
@@ -143,7 +143,7 @@ fn differences(found: &Identified) -> Figure {
         points("fitted", &x, &relative(|row| row.fitted_hz), colour::BLUE, "circle"),
     ];
     let rms = |value: Option<f64>| value.map_or_else(|| text::NONE.to_owned(), |value| significant(100.0 * value, 3));
-    Figure::new(
+    PageFigure::new(
         "figure-differences",
         340,
         format!(
@@ -210,7 +210,7 @@ fn statics(found: &Identified) -> PageTable {
 }
 
 /// Figure of the rise of χ² on both sides of a value, if its profile was computed.
-fn profile(number: usize, row: &ValueRow) -> Option<Figure> {
+fn profile(number: usize, row: &ValueRow) -> Option<PageFigure> {
     let profile = row.profile.as_ref()?;
     let x: Vec<f64> = profile.points.iter().map(|point| point.value - row.value).collect();
     let y: Vec<f64> = profile.points.iter().map(|point| point.chi2_rise).collect();
@@ -235,7 +235,7 @@ fn profile(number: usize, row: &ValueRow) -> Option<Figure> {
     let end = |end: Option<f64>| {
         end.map_or_else(|| "no lower or upper end".to_owned(), |end| format!("{} {}", significant(end, 6), row.unit))
     };
-    Some(Figure::new(
+    Some(PageFigure::new(
         format!("figure-profile-{}", number + 1),
         320,
         format!("Profile of {name}: χ² reaches its limit for 95 % at {} and {}.", end(profile.from), end(profile.to)),
@@ -248,13 +248,13 @@ fn profile(number: usize, row: &ValueRow) -> Option<Figure> {
 }
 
 /// Figure of all correlations.
-fn correlations(found: &Identified) -> Figure {
+fn correlations(found: &Identified) -> PageFigure {
     let names: Vec<String> = found.values.iter().map(|row| plain(&row.path)).collect();
     let data = [json!({
         "type": "heatmap", "x": names, "y": names, "z": found.correlations, "zmin": -1, "zmax": 1, "colorscale": "RdBu",
         "hovertemplate": "%{x}<br>%{y}<br>%{z:.3f}<extra></extra>",
     })];
-    Figure::new(
+    PageFigure::new(
         "figure-correlations",
         // The margins with the names, and a row per value; below that the numbers of the scale touch.
         260 + 34 * found.values.len(),

@@ -6,10 +6,10 @@ mod rows;
 mod slices;
 mod tracking;
 
-pub use figure::{Choice, Made, figure};
+pub use figure::{SweepFigure, SweepFigureChoice, figure};
 
 use super::Shell;
-use super::figure::Figure;
+use super::figure::PageFigure;
 use super::table::{PageTable, significant};
 use crate::Watch;
 use crate::error::Cancelled;
@@ -61,7 +61,7 @@ struct PlotPage<'a> {
     numbers: PageTable,
     statuses: PageTable,
     slices: Option<Slices>,
-    curves: Vec<Figure>,
+    curves: Vec<PageFigure>,
     robot_text: &'a str,
     /// Plan of the rows as in the file.
     plan: String,

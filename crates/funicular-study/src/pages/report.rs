@@ -9,11 +9,11 @@ pub use of_request::{about, of_request};
 use super::Shell;
 use super::figure::response::{Marks, ResponseCurve};
 use super::figure::shapes::{self, Shapes};
-use super::figure::{Figure, model_style, response, robot as drawing};
+use super::figure::{PageFigure, model_style, response, robot as drawing};
 use super::table::{PageTable, fixed, significant};
-use crate::analyses::check::{LoadRow, WindRow};
 use crate::analyses::modes::FirstPlatformMode;
-use crate::at_rest::AtRest;
+use crate::analyses::shared::{LoadRow, WindRow};
+use crate::at_rest::{AtRest, ModesBelow};
 use crate::text::{counted, short};
 use anyhow::Context as _;
 use askama::Template;
@@ -64,22 +64,22 @@ struct ReportPage<'a> {
     source: &'a str,
     key: Vec<(&'static str, String)>,
     state: String,
-    robot_figure: Figure,
-    platform_figure: Figure,
+    robot_figure: PageFigure,
+    platform_figure: PageFigure,
     tension_table: PageTable,
     drive_table: Option<PageTable>,
     support_table: Option<PageTable>,
     friction_table: Option<PageTable>,
-    tension_figure: Figure,
-    sag_figure: Figure,
+    tension_figure: PageFigure,
+    sag_figure: PageFigure,
     stiffness_table: Option<PageTable>,
     modes_text: String,
-    modes_figure: Figure,
+    modes_figure: PageFigure,
     shapes: Result<Shapes, String>,
     modes_table: PageTable,
     held_table: Option<PageTable>,
-    gradients: Result<Figure, String>,
-    response_figure: Figure,
+    gradients: Result<PageFigure, String>,
+    response_figure: PageFigure,
     peaks_table: PageTable,
     response_notes: Vec<String>,
     comparison: Result<parts::ComparisonPart, String>,
@@ -116,10 +116,7 @@ pub struct Report {
 pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     let ReportInput { at_rest, linearisation, below_hz, .. } = *input;
     let AtRest { robot, equilibrium, .. } = at_rest;
-    let (dynamics, mut warnings) = at_rest.dynamics(linearisation, below_hz)?;
-    modes::check_count(&dynamics, below_hz, MAX_MODES)?;
-    let found = modes::below(&dynamics, below_hz);
-    warnings.extend(found.caveat());
+    let ModesBelow { dynamics, modes: found, warnings } = at_rest.modes_below(linearisation, below_hz, MAX_MODES)?;
     let (response_figure, peaks_table, response_notes) = respond(input, &dynamics, &found)?;
     let page = ReportPage {
         shell: Shell::new(robot.name.clone(), CONTENTS),
@@ -300,7 +297,7 @@ fn respond(
     input: &ReportInput<'_>,
     dynamics: &Dynamics,
     found: &Modes,
-) -> anyhow::Result<(Figure, PageTable, Vec<String>)> {
+) -> anyhow::Result<(PageFigure, PageTable, Vec<String>)> {
     let ReportInput { at_rest: AtRest { robot, equilibrium, .. }, linearisation, below_hz, frf_unit: unit, .. } =
         *input;
     let (force, u) = &input.frf_input;

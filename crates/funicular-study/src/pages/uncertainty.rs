@@ -1,7 +1,7 @@
 //! Page about uncertain results: values with error bars, shares of the numbers that deviate, tables.
 
 use super::Shell;
-use super::figure::{Figure, axis, colour, plain, rounded};
+use super::figure::{PageFigure, axis, colour, plain, rounded};
 use super::table::{PageTable, significant};
 use crate::analyses::uncertainty::{PoseUncertainty, UncertainResult, Uncertainties};
 use crate::text::{self, short};
@@ -27,7 +27,7 @@ const METHODS: [(&str, &str, &str); 2] = [("linear", colour::BLUE, "circle"), ("
 struct UncertaintyPage<'a> {
     shell: Shell,
     found: &'a Uncertainties,
-    figures: Vec<Figure>,
+    figures: Vec<PageFigure>,
     results: PageTable,
     doubts: Vec<String>,
     numbers: PageTable,
@@ -76,7 +76,7 @@ fn bars(results: &[&UncertainResult]) -> Value {
 }
 
 /// Figures of one pose: the results of each unit with error bars, then the shares of the groups.
-fn of_one_pose(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> {
+fn of_one_pose(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<PageFigure> {
     // Responses at several frequencies have figures over the frequency.
     let over_frequency = over_frequency(found, pose);
     let is_beside = |result: &&UncertainResult| over_frequency.is_empty() || result.at_hz.is_none();
@@ -106,7 +106,7 @@ fn of_one_pose(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> {
             .collect();
         // The categories are in the order of the results, from above.
         let order: Vec<String> = of_unit.iter().map(|result| plain(&result.name)).collect();
-        figures.push(Figure::new(
+        figures.push(PageFigure::new(
             format!("figure-results-{}", figures.len() + 1),
             130 + 22 * of_unit.len(),
             format!("Results in {unit} with the intervals that hold 95 % of all robots."),
@@ -127,7 +127,7 @@ fn of_one_pose(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> {
 }
 
 /// Figures of a response at several frequencies: magnitude and phase with error bars. Empty for a single frequency.
-fn over_frequency(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> {
+fn over_frequency(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<PageFigure> {
     let Some(response) = &found.response else { return Vec::new() };
     let of_unit = |unit: &str| -> Vec<&UncertainResult> {
         let mut all: Vec<&UncertainResult> =
@@ -161,7 +161,7 @@ fn over_frequency(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> 
                     }));
                 }
             }
-            Figure::new(
+            PageFigure::new(
                 format!("figure-response-{name}"),
                 340,
                 format!("Response {title}: {name} with the intervals that hold 95 % of all robots."),
@@ -173,7 +173,7 @@ fn over_frequency(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> 
 }
 
 /// Stacked bars of the shares of the groups in the variance of each result.
-fn shares(found: &Uncertainties, pose: &PoseUncertainty) -> Figure {
+fn shares(found: &Uncertainties, pose: &PoseUncertainty) -> PageFigure {
     let with_shares: Vec<&UncertainResult> =
         pose.results.iter().filter(|result| result.group_shares.is_some()).collect();
     let names: Vec<String> = with_shares.iter().map(|result| plain(&result.name)).collect();
@@ -189,7 +189,7 @@ fn shares(found: &Uncertainties, pose: &PoseUncertainty) -> Figure {
             })
         })
         .collect();
-    Figure::new(
+    PageFigure::new(
         "figure-shares",
         130 + 22 * with_shares.len(),
         "Shares of the groups in the variance of each result. Total shares of sampled results may add up to more than 100 %.",
@@ -203,7 +203,7 @@ fn shares(found: &Uncertainties, pose: &PoseUncertainty) -> Figure {
 }
 
 /// Figures over the poses: one per result, with error bars.
-fn over_poses(found: &Uncertainties) -> Vec<Figure> {
+fn over_poses(found: &Uncertainties) -> Vec<PageFigure> {
     let mut names: Vec<(&str, &str)> = Vec::new();
     for result in found.poses.iter().flat_map(|pose| &pose.results) {
         if !names.iter().any(|(name, _)| *name == result.name) {
@@ -232,7 +232,7 @@ fn over_poses(found: &Uncertainties) -> Vec<Figure> {
                 "error_y": bars(&own), "marker": {"color": colour, "symbol": symbol, "size": 6},
             }));
         }
-        Figure::new(
+        PageFigure::new(
             format!("figure-poses-{}", i + 1),
             300,
             format!("{}: values with the intervals that hold 95 % of all robots.", plain(name)),

@@ -133,7 +133,7 @@ impl Quantity {
     }
 
     /// Path of the number of the robot file by which it differentiates.
-    pub(crate) fn path(&self) -> Option<&set_values::Path> {
+    pub(crate) fn path(&self) -> Option<&set_values::ValuePath> {
         self.parameter.sensitivity().map(Sensitivity::path)
     }
 

@@ -10,7 +10,7 @@ use std::borrow::Cow;
 #[derive(Debug, Clone, PartialEq)]
 pub struct ValueAxis {
     /// Path of the value in the robot file.
-    pub path: set_values::Path,
+    pub path: set_values::ValuePath,
     /// Values along the axis.
     pub steps: Steps,
 }
@@ -204,7 +204,7 @@ impl Points for RobotValues {
 }
 
 /// Unit of a column: that of the robot file's number, in the letters of the files of rows.
-fn unit(path: &set_values::Path) -> String {
+fn unit(path: &set_values::ValuePath) -> String {
     path.unit().unwrap_or("1").replace("degrees", "deg").replace('²', "2").replace('³', "3")
 }
 

@@ -3,7 +3,7 @@
 use super::columns::{Column, Value};
 use super::evaluation::PointEvaluation;
 use super::status::Status;
-use crate::set_values::{self, Path};
+use crate::set_values::{self, ValuePath};
 use funicular::gradient::Gradients;
 use funicular::modes;
 use funicular::robot::RobotChange;
@@ -31,7 +31,7 @@ const RESULTS: [(&str, Differentiated); 4] = [
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Sensitivity {
     result: (&'static str, Differentiated),
-    path: Path,
+    path: ValuePath,
 }
 
 impl Sensitivity {
@@ -65,7 +65,7 @@ impl Sensitivity {
     }
 
     /// Path of the number.
-    pub(super) fn path(&self) -> &Path {
+    pub(super) fn path(&self) -> &ValuePath {
         &self.path
     }
 

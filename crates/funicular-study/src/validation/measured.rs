@@ -139,11 +139,11 @@ fn robot(cables: usize) -> Result<Robot> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figures::axis::Axis;
+    use crate::figures::axis::ChartAxis;
     use crate::figures::chart::{Chart, Entry, Layer, Panel, Sample};
     use crate::figures::drawing::{BLACK, Stroke};
-    use crate::figures::style::{BLUE, GREEN, GREY, Shape, Symbol, VERMILION};
-    use crate::figures::{Figure, Kind, Size};
+    use crate::figures::style::{BLUE, GREEN, GREY, Symbol, SymbolShape, VERMILION};
+    use crate::figures::{Figure, FigureContent, Size};
     use crate::validation::reference::measured;
 
     /// Highest frequency of the figure [Hz].
@@ -159,7 +159,7 @@ mod tests {
 
         let mut legend = Vec::new();
         for (cables, shape, colour) in
-            [(2, Shape::Circle, BLUE), (3, Shape::Square, VERMILION), (4, Shape::Triangle, GREEN)]
+            [(2, SymbolShape::Circle, BLUE), (3, SymbolShape::Square, VERMILION), (4, SymbolShape::Triangle, GREEN)]
         {
             let table = measured().unwrap().grab;
             let pairs = table.rows.into_iter().filter(|row| row.cables == cables).flat_map(|row| {
@@ -173,10 +173,10 @@ mod tests {
         }
         legend.push(Entry { text: "window of the peaks".to_owned(), sample: Sample::Line(window) });
 
-        let panel = Panel::new(Axis::linear("measured − computed [%]", -8.0, 8.0), 0.5, layers);
-        Figure(Kind::Chart(Chart {
+        let panel = Panel::new(ChartAxis::linear("measured − computed [%]", -8.0, 8.0), 0.5, layers);
+        Figure(FigureContent::Chart(Chart {
             title: "Measured natural frequencies of the GRAB prototype".to_owned(),
-            x: Axis::linear("computed natural frequency [Hz]", 0.0, HIGHEST_HZ),
+            x: ChartAxis::linear("computed natural frequency [Hz]", 0.0, HIGHEST_HZ),
             panels: vec![panel],
             legend,
             colour_bar: None,

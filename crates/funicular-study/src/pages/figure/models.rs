@@ -1,6 +1,6 @@
 //! Figure of the differences between the modes of each cable model and those of the reference.
 
-use super::{Figure, axis, colour, model_style, points, with};
+use super::{PageFigure, axis, colour, model_style, points, with};
 use funicular::compare::{Comparison, TOLERANCE};
 use serde_json::{Value, json};
 
@@ -12,7 +12,7 @@ const LACKING: f64 = 60.0;
 const LINE: f64 = 1.6;
 
 /// Differences over frequency; `None` if the reference has no modes.
-pub(crate) fn figure(comparison: &Comparison) -> Option<Figure> {
+pub(crate) fn figure(comparison: &Comparison) -> Option<PageFigure> {
     let reference = comparison.models.iter().find(|model| model.model == comparison.reference)?;
     let modes = &reference.modes.as_ref().ok()?.modes;
     if modes.is_empty() {
@@ -61,5 +61,5 @@ pub(crate) fn figure(comparison: &Comparison) -> Option<Figure> {
          frequency. Dotted line: {tolerance} %. Crosses at the top: modes that the model of that colour does not have.",
         comparison.reference.name(),
     );
-    Some(Figure::new("figure-models", 420, caption, &traces, layout))
+    Some(PageFigure::new("figure-models", 420, caption, &traces, layout))
 }

@@ -1,6 +1,6 @@
 //! Figures over frequency: responses with phase and modes as ticks, and the kinds of modes.
 
-use super::{Figure, axis, colour, kind_colour, line, rounded, with};
+use super::{PageFigure, axis, colour, kind_colour, line, rounded, with};
 use funicular::dynamics::Dynamics;
 use funicular::math::{Complex, Vec6};
 use funicular::modes::{Kind, Mode, Modes};
@@ -108,7 +108,7 @@ pub(crate) fn figure(
     below_hz: f64,
     curves: &[ResponseCurve],
     marks: &Marks<'_>,
-) -> Figure {
+) -> PageFigure {
     // The range ignores the first twentieth of the axis: an accelerance falls to zero there and would compress the
     // rest.
     let shown = curves[0].frequencies_hz.iter().zip(curves[0].magnitude()).filter(|(f, _)| **f > 0.05 * below_hz);
@@ -148,7 +148,7 @@ pub(crate) fn figure(
             axis("phase [°]", json!({"domain": phase, "range": [-190, 190], "tickvals": [-180, -90, 0, 90, 180]}));
     }
     layout["margin"] = json!({"l": 78});
-    Figure::new(id, if marks.phase { 600 } else { 430 }, caption, &data, layout)
+    PageFigure::new(id, if marks.phase { 600 } else { 430 }, caption, &data, layout)
 }
 
 /// Lines of the magnitudes and, below them, of the phases.
@@ -226,7 +226,7 @@ fn of_kinds(modes: &[Mode]) -> impl Iterator<Item = (Kind, Vec<&Mode>)> {
 }
 
 /// Figure of the platform's share of the kinetic energy of every mode, over frequency.
-pub(crate) fn strip(modes: &Modes) -> Figure {
+pub(crate) fn strip(modes: &Modes) -> PageFigure {
     let mut data = Vec::new();
     for (kind, found) in of_kinds(&modes.modes) {
         let (mut stem_x, mut stem_y) = (Vec::new(), Vec::new());
@@ -253,7 +253,7 @@ pub(crate) fn strip(modes: &Modes) -> Figure {
             "marker": {"symbol": symbol, "size": if kind == Kind::Cable { 10 } else { 8 }, "color": colour, "line": {"color": colour, "width": 1.4}},
         }));
     }
-    Figure::new(
+    PageFigure::new(
         "figure-modes",
         300,
         format!(

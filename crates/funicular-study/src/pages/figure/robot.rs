@@ -1,6 +1,6 @@
 //! Figures of the robot in space, to scale and with hanging cables.
 
-use super::{Figure, colour, plain, rounded};
+use super::{PageFigure, colour, plain, rounded};
 use crate::figures::drive::DriveLines;
 use crate::figures::hull::faces;
 use crate::figures::supports::SupportAtRest;
@@ -17,7 +17,7 @@ const CABLE_COLOURS: [&str; 7] =
     [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::SKY, colour::BLACK];
 
 /// Figure of the complete robot.
-pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
     let mut data: Vec<Value> = equilibrium
         .cables
         .iter()
@@ -66,7 +66,7 @@ pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     let supported = if supports.is_empty() { "" } else { " Crosses with a bar to their anchors: flexible supports." };
     data.extend(supports.iter().flat_map(support));
     let scene = scene(&points, true, WIDE);
-    Figure::new(
+    PageFigure::new(
         "figure-robot",
         400,
         format!(
@@ -120,7 +120,7 @@ fn wheel(rim: &[Vec3]) -> Value {
 }
 
 /// Figure of the platform and the first part of its cables.
-pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
     let attachments: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.attachment_w).collect();
     let reach = extent(&attachments).max(0.2);
     let mut points = attachments.clone();
@@ -147,7 +147,7 @@ pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
             "textfont": {"color": colour, "size": 13}, "hoverinfo": "skip",
         }));
     }
-    Figure::new(
+    PageFigure::new(
         "figure-platform",
         400,
         "The platform: attachments with the cables' names, axes of the platform frame, centre of mass (diamond), and the \

@@ -6,7 +6,7 @@ use super::matching::{Agreement, MAX_DIFFERENCE};
 use super::pose::lengths;
 use super::published::{DYNAMIC, EXPERIMENT, SPRING, STATIC_SAG};
 use crate::pages::figure::response::{Marks, ResponseCurve, figure};
-use crate::pages::figure::{Figure, model_style};
+use crate::pages::figure::{PageFigure, model_style};
 use crate::pages::table::{PageTable, fixed, listed};
 use anyhow::Context as _;
 use funicular::cable::{CableModel, SHALLOW_SAG_LIMIT, Sag};
@@ -26,7 +26,7 @@ const PROMINENCE_DB: f64 = 0.5;
 const CABLES: [&str; 2] = ["4 mm", "8 mm"];
 
 /// Parameters of the dynamic test, found by search.
-struct Identified {
+struct DynamicTest {
     name: &'static str,
     figure_id: &'static str,
     /// Index of the cable set: 4 mm, 8 mm.
@@ -40,7 +40,7 @@ struct Identified {
 }
 
 /// Set that meets the nine printed frequencies of the two static models; [`super::fit`] has its deviations.
-const IDENTIFIED: [Identified; 1] = [Identified {
+const IDENTIFIED: [DynamicTest; 1] = [DynamicTest {
     name: "4 mm",
     figure_id: "figure-test",
     cables: 0,
@@ -59,7 +59,7 @@ const STARTS: [(f64, [f64; 3], [[f64; 3]; 3]); 2] = [
 
 /// Results of one set of parameters.
 pub(crate) struct Outcome {
-    set: &'static Identified,
+    set: &'static DynamicTest,
     peaks: Vec<Peak>,
     natural: Modes,
     static_sag: Modes,
@@ -79,7 +79,7 @@ pub(crate) fn outcomes(robots: [&Robot; 2]) -> anyhow::Result<Vec<Outcome>> {
         .collect()
 }
 
-fn outcome(robot: &Robot, set: &'static Identified) -> anyhow::Result<Outcome> {
+fn outcome(robot: &Robot, set: &'static DynamicTest) -> anyhow::Result<Outcome> {
     let mut robot = robot.clone();
     robot.platform.mass = set.mass;
     robot.platform.center_of_mass_p = Vec3::from(set.center_of_mass);
@@ -226,7 +226,7 @@ impl Outcome {
     }
 
     /// Figure 7 of the paper with this set.
-    pub(crate) fn figure(&self) -> Figure {
+    pub(crate) fn figure(&self) -> PageFigure {
         let caption = format!(
             "Fig. 7 with parameter set {} (identified by us, not published): |x| + |y| + |z| of the acceleration at \
              the attachment of cable 3 per vertical force there. Ticks: all natural frequencies with the cable model \

@@ -1,7 +1,7 @@
 //! Tables I and II and Fig. 6 of the paper: geometry, ideal poses, and errors of simpler static models.
 
 use super::published::{IDEAL_POSITION, MOORPY};
-use crate::pages::figure::{Figure, axis, colour, line, points, with};
+use crate::pages::figure::{PageFigure, axis, colour, line, points, with};
 use crate::pages::table::{PageTable, fixed};
 use funicular::pose_error::{PoseErrorPoint, Threshold, threshold};
 use funicular::robot::{Robot, State};
@@ -87,7 +87,7 @@ pub(crate) fn ideal_poses(sweeps: &[Sweep; 2]) -> PageTable {
 }
 
 /// Fig. 6: distance of the platform from its ideal position, for cable set 0 (4 mm) or 1 (8 mm).
-pub(crate) fn distance_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
+pub(crate) fn distance_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
     let sweep = &sweeps[set];
     let masses: Vec<f64> = sweep.points.iter().map(|p| p.mass).collect();
     let curve = |of: fn(&PoseErrorPoint) -> Option<funicular::pose_error::PoseDifference>| {
@@ -109,7 +109,7 @@ pub(crate) fn distance_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
         "xaxis": axis("platform mass [kg]", json!({"range": [5, 90]})),
         "yaxis": axis("distance [mm]", json!({"type": "log", "exponentformat": "power", "tickvals": [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200]})),
     });
-    Figure::new(id, 380, caption, &data, layout)
+    PageFigure::new(id, 380, caption, &data, layout)
 }
 
 /// Distances of MoorPy's equilibria from the ideal position [mm].
@@ -124,7 +124,7 @@ fn independent(sweep: &Sweep, set: usize) -> Value {
 }
 
 /// Fig. 6 per axis: components of the displacement from the ideal position.
-pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
+pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
     let sweep = &sweeps[set];
     let masses: Vec<f64> = sweep.points.iter().map(|p| p.mass).collect();
     let mut data = Vec::new();
@@ -149,7 +149,7 @@ pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
         "xaxis": axis("platform mass [kg]", json!({"range": [5, 90]})),
         "yaxis": axis("displacement [mm]", json!({"zeroline": true, "zerolinecolor": "#aaaaaa"})),
     });
-    Figure::new(id, 380, caption, &data, layout)
+    PageFigure::new(id, 380, caption, &data, layout)
 }
 
 /// Table of the masses above which the spring model is within a tolerance of the catenary.

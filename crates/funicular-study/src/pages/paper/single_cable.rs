@@ -1,7 +1,7 @@
 //! Fig. 2 of the paper: stiffness of one cable over frequency.
 
 use super::published::{FIG2_PRINTED, FINITE_ELEMENTS};
-use crate::pages::figure::{Figure, axis, colour, line, points, with};
+use crate::pages::figure::{PageFigure, axis, colour, line, points, with};
 use crate::pages::table::{PageTable, fixed};
 use funicular::cable::shallow_dynamic::ShallowDynamic;
 use funicular::cable::{LocalAxes, Sag};
@@ -55,7 +55,7 @@ fn horizontal_undamped(cable: &ShallowDynamic, frequency_hz: f64) -> f64 {
 }
 
 /// Figure of |K11| over frequency, with independent finite elements.
-pub(crate) fn figure() -> Figure {
+pub(crate) fn figure() -> PageFigure {
     let frequencies: Vec<f64> = (0..=POINTS).map(|k| BELOW_HZ * f64::from(k) / f64::from(POINTS)).collect();
     let curve = |name: &str, mass, end, colour, dash| {
         let cable = cable(mass, end);
@@ -74,7 +74,7 @@ pub(crate) fn figure() -> Figure {
         elements("finite elements, lower end", 2, colour::BLUE, "circle-open"),
         elements("finite elements, upper end", 1, colour::VERMILION, "diamond-open"),
     ];
-    Figure::new(
+    PageFigure::new(
         "figure-cable-stiffness",
         470,
         "The paper's Fig. 2: magnitude of the horizontal end stiffness K11 of one cable (E = 20 GPa, A = 1.2566·10⁻⁵ \

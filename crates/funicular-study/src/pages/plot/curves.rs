@@ -2,7 +2,7 @@
 
 use super::rows::{Rows, Series, label, with_unit};
 use super::{Tracking, axis_title};
-use crate::pages::figure::{Figure, axis, colour, line, plain, rounded, with};
+use crate::pages::figure::{PageFigure, axis, colour, line, plain, rounded, with};
 use crate::sweep::CODES;
 use serde_json::{Value, json};
 
@@ -57,7 +57,7 @@ fn is_frequency(series: &Series) -> bool {
 }
 
 /// Figures of all quantities, one per kind, the natural frequencies first.
-pub(super) fn figures(rows: &Rows, tracking: Option<&Tracking>) -> Vec<Figure> {
+pub(super) fn figures(rows: &Rows, tracking: Option<&Tracking>) -> Vec<PageFigure> {
     let along = along(rows);
     let mut figures = Vec::new();
     if let Some(tracking) = tracking {
@@ -191,7 +191,7 @@ fn alone(along: &HorizontalAxis, series: &Series, colour: &str) -> Value {
 }
 
 /// Lines through the values, with gaps where values are missing.
-fn curves(id: String, rows: &Rows, along: &HorizontalAxis, members: &[&Series]) -> Figure {
+fn curves(id: String, rows: &Rows, along: &HorizontalAxis, members: &[&Series]) -> PageFigure {
     let few = along.x.len() <= 60;
     let data: Vec<Value> = members
         .iter()
@@ -234,7 +234,7 @@ fn curves(id: String, rows: &Rows, along: &HorizontalAxis, members: &[&Series]) 
     let caption = format!("{}{}", capitalised(&caption), shading(rows, along));
     // The margin leaves room for the buttons above the legend.
     let more = json!({"showlegend": members.len() > 1, "margin": {"t": if members.len() > 1 { 56 } else { 34 }}});
-    Figure::new(id, if members.len() > 10 { 460 } else { 380 }, caption, &data, layout(rows, along, &y, more))
+    PageFigure::new(id, if members.len() > 10 { 460 } else { 380 }, caption, &data, layout(rows, along, &y, more))
 }
 
 /// Title of the vertical axis of quantities that share a figure.
@@ -266,7 +266,7 @@ fn capitalised(text: &str) -> String {
 }
 
 /// Figure of the natural frequencies: one line per branch of modes, coloured by the platform's share of the energy.
-fn campbell(rows: &Rows, along: &HorizontalAxis, tracking: &Tracking) -> Figure {
+fn campbell(rows: &Rows, along: &HorizontalAxis, tracking: &Tracking) -> PageFigure {
     let count = frequencies(rows).len();
     let branches = tracking.branches.iter().flatten().max().map_or(0, |last| last + 1);
     let mut data = Vec::new();
@@ -311,5 +311,5 @@ fn campbell(rows: &Rows, along: &HorizontalAxis, tracking: &Tracking) -> Figure 
          modes exchange their motions, and the colours change along the lines.{}",
         shading(rows, along)
     );
-    Figure::new("figure-modes", 520, caption, &data, layout(rows, along, "natural frequency [Hz]", json!({})))
+    PageFigure::new("figure-modes", 520, caption, &data, layout(rows, along, "natural frequency [Hz]", json!({})))
 }

@@ -2,7 +2,7 @@
 
 use crate::analyses::gradient::{Columns, meaning};
 use crate::at_rest::AtRest;
-use crate::pages::figure::{Figure, axis, colour, plain, rounded};
+use crate::pages::figure::{PageFigure, axis, colour, plain, rounded};
 use crate::text::short;
 use funicular::dynamics::Dynamics;
 use funicular::gradient::{Gradients, Hold};
@@ -22,7 +22,7 @@ pub(super) fn first_frequencies(
     robot_text: &str,
     dynamics: &Dynamics,
     found: &Modes,
-) -> Result<Figure, String> {
+) -> Result<PageFigure, String> {
     let columns = Columns::of(at_rest, robot_text, &[], &[]).map_err(|error| error.to_string())?;
     let gradients = Gradients::new(&at_rest.robot, &at_rest.equilibrium, Hold::Lengths).map_err(|e| e.to_string())?;
     let vibration = gradients.vibration(dynamics).map_err(|error| error.to_string())?;
@@ -74,5 +74,5 @@ pub(super) fn first_frequencies(
         "xaxis": axis("change of the frequency [mHz]", json!({"zeroline": true, "zerolinecolor": "#444444"})),
         "yaxis": axis("", json!({"automargin": true})),
     });
-    Ok(Figure::new("figure-gradients", 560, caption.replace('`', ""), &bars, layout))
+    Ok(PageFigure::new("figure-gradients", 560, caption.replace('`', ""), &bars, layout))
 }

@@ -1,12 +1,11 @@
 //! Report of a request: the robot at its state, with a default response if none is requested.
 
 use super::{Report, ReportInput, report};
-use crate::analyses::frf;
 use crate::at_rest::{self, AtRest};
 use crate::pages::table::listed;
 use crate::request;
 use crate::robot_file::RobotFile;
-use crate::signals::{Input, Output, Place};
+use crate::signals::{Input, Output, Place, response_unit};
 use anyhow::{Result, anyhow};
 use funicular::math::Vec3;
 use funicular::response::{Quantity, Signal};
@@ -57,7 +56,7 @@ pub fn about(
         below_hz: request.below_hz,
         frf_input: (input_in_words(&from, request.points.input_point_m), vector(input, &from.name)?),
         frf_output: (output_in_words(&to, request.points.output_point_m), vector(output, &to.name)?, to.quantity),
-        frf_unit: &frf::unit(&from, &to),
+        frf_unit: &response_unit(&from, &to),
         command_line,
     })
 }

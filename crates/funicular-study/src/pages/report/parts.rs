@@ -1,10 +1,10 @@
 //! Tables and bar charts of a report.
 
 use super::prose;
-use crate::analyses::statics::LimitNumbers;
+use crate::analyses::shared::LimitNumbers;
 use crate::analyses::{modes, statics};
 use crate::at_rest::AtRest;
-use crate::pages::figure::{self, Figure, axis, colour, plain, rounded};
+use crate::pages::figure::{self, PageFigure, axis, colour, plain, rounded};
 use crate::pages::table::{PageTable, fixed, listed, significant};
 use crate::text::NONE;
 use funicular::cable::{SHALLOW_SAG_LIMIT, Sag};
@@ -254,7 +254,7 @@ fn bars(name: &str, names: &[String], values: &[f64], colour: &str, unit: &str) 
 }
 
 /// Bar chart of the tensions.
-pub(crate) fn tension_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+pub(crate) fn tension_figure(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
     let of = |end: fn(&funicular::statics::CableState) -> f64| equilibrium.cables.iter().map(end).collect::<Vec<_>>();
     let data = [
         bars("at the platform", &names(robot), &of(|c| c.tension_platform), colour::BLUE, "N"),
@@ -263,14 +263,14 @@ pub(crate) fn tension_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure
     let layout = json!({
         "barmode": "group", "bargap": 0.3, "xaxis": axis("cable", json!({"type": "category", "ticks": ""})), "yaxis": axis("tension [N]", json!({"rangemode": "tozero"})),
     });
-    Figure::new("figure-tensions", 300, "Tension at both ends of the cables.", &data, layout)
+    PageFigure::new("figure-tensions", 300, "Tension at both ends of the cables.", &data, layout)
 }
 
 /// Minimum of the axis of sag over chord: that of cables without mass has another number than zero at its end.
 const MIN_SHOWN_SAG: f64 = 1e-9;
 
 /// Bar chart of the sag, with the limit of the shallow models.
-pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
     let ratios: Vec<f64> = sags(robot, equilibrium).iter().map(Sag::ratio).collect();
     let maximum = ratios.iter().copied().filter(|r| r.is_finite()).fold(0.0, f64::max);
     // The limit is drawn only if the bars stay visible beside it.
@@ -293,7 +293,7 @@ pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     } else {
         "Sag divided by chord, far below 1/20, the limit of the models shallow-static and shallow-dynamic."
     };
-    Figure::new("figure-sag", 300, caption, &[bars("d/l", &names(robot), &ratios, colour::BLUE, "")], layout)
+    PageFigure::new("figure-sag", 300, caption, &[bars("d/l", &names(robot), &ratios, colour::BLUE, "")], layout)
 }
 
 /// Table of the static stiffness with catenaries, consistently assembled.
@@ -391,7 +391,7 @@ pub(crate) struct ComparisonPart {
     /// Advice on the choice of a model, from the core.
     pub(crate) advice: String,
     /// Figure of the differences from the reference model; `None` if the reference has no modes.
-    pub(crate) figure: Option<Figure>,
+    pub(crate) figure: Option<PageFigure>,
     /// Table with one row per model.
     pub(crate) models: PageTable,
     /// Table with one row per mode.
