@@ -23,6 +23,8 @@ pub(crate) mod view;
 
 pub use making::{RequestFigure, of_request};
 
+pub use crate::figure_style::{DEFAULT_FONT_SIZE_PT, DEFAULT_WIDTH_MM, FONT_SIZE_LIMITS_PT, WIDTH_LIMITS_MM, WIDTHS};
+
 use crate::values::positive;
 use anyhow::{Result, anyhow, bail};
 use chart::Chart;
@@ -46,24 +48,6 @@ pub struct Size {
     font_size_pt: f64,
 }
 
-/// Widths of columns by journal [mm]: one column and two columns, as in the instructions for authors.
-pub const WIDTHS: [(&str, f64); 6] = [
-    ("ieee-single", 88.9),
-    ("ieee-double", 181.0),
-    ("elsevier-single", 90.0),
-    ("elsevier-double", 190.0),
-    ("springer-single", 84.0),
-    ("springer-double", 174.0),
-];
-
-/// Width of a figure if none is given [mm]: one column of IEEE.
-pub const DEFAULT_WIDTH_MM: f64 = 88.9;
-/// Limits of the width [mm]: a figure in the margin, and the width of a poster.
-pub const WIDTH_LIMITS_MM: (f64, f64) = (40.0, 1000.0);
-/// Size of the texts if none is given [pt].
-pub const DEFAULT_FONT_SIZE_PT: f64 = 8.0;
-/// Limits of the size of the texts [pt].
-pub const FONT_SIZE_LIMITS_PT: (f64, f64) = (4.0, 40.0);
 /// Maximum size of the texts relative to the width: larger ones leave no room for the curves.
 const MAX_FONT_TO_WIDTH: f64 = 0.06;
 /// Points per millimetre.

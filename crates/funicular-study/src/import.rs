@@ -86,6 +86,7 @@ impl<'a> Sources<'a> {
             self.moordyn.push(file);
             return Ok(());
         }
+
         let xml = Xml::parse(file)?;
         match xml.root().tag_name().name() {
             "bodies_system" | "links" => self.bodies.push(xml),
@@ -100,6 +101,7 @@ impl<'a> Sources<'a> {
                 xml.place(xml.root())
             ),
         }
+
         Ok(())
     }
 
@@ -112,6 +114,7 @@ impl<'a> Sources<'a> {
         if !is_caspr && options.cable_set.is_some() {
             bail!("⟪cable_set⟫ chooses among the sets of a CASPR cables file, and no such file is given; leave it out");
         }
+
         if is_caspr {
             let bodies = one(&bodies, "CASPR bodies file (<bodies_system>)")?;
             let cables = one(&cables, "CASPR cables file (<cables>)")?;
@@ -119,9 +122,11 @@ impl<'a> Sources<'a> {
             draft.lost.extend(aside.into_iter().map(|file| format!("{file}: it does not describe the robot")));
             return Ok(draft);
         }
+
         if !wirex.is_empty() {
             return wirex::read(one(&wirex, "WireX file (<models>)")?);
         }
+
         match moordyn[..] {
             [file] => moordyn::read(file),
             _ => bail!("{} MoorDyn input files are given; give the file of one robot", moordyn.len()),
@@ -215,6 +220,7 @@ mod tests {
             "é",
             "99999999999999999999",
         ];
+
         for files in EXAMPLES.iter() {
             for (which, (name, text)) in files.iter().enumerate() {
                 let mut at = 0;

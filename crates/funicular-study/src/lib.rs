@@ -34,6 +34,7 @@ pub mod at_rest;
 pub mod csv_lines;
 mod error;
 pub mod export;
+pub mod figure_style;
 #[cfg(feature = "pages")]
 pub mod figures;
 pub mod frequency_range;

@@ -270,18 +270,22 @@ impl Input {
     /// ```
     pub fn parse(text: &str) -> Result<Self, SignalError> {
         let name = text.trim().to_owned();
+
         if let Some((cable, fraction, what)) = on_cable(&name)? {
             let Place::Platform { turns: false, direction_w } = Self::parse(what)?.place else {
                 return Err(SignalError::NotAForce(what.to_owned()));
             };
             return Ok(Self { name, place: Place::Cable { cable, fraction, direction_w } });
         }
+
         if let Some((signal, cable)) = of_drive(&name).filter(|(signal, _)| signal.is_input()) {
             return Ok(Self { name, place: Place::Drive { cable, signal } });
         }
+
         if let Some(place) = of_frame(&name)? {
             return Ok(Self { name, place });
         }
+
         let (turns, direction_w) = if let Some(rest) = name.strip_prefix("f:") {
             (false, direction(rest)?)
         } else if let Some(rest) = name.strip_prefix("m:") {
@@ -293,6 +297,7 @@ impl Input {
         } else {
             return Err(SignalError::NotAnInput);
         };
+
         Ok(Self { name, place: Place::Platform { turns, direction_w } })
     }
 
@@ -464,6 +469,7 @@ impl ResponseEnd<'_> {
         if turns && point_p.is_some() {
             return Err(SignalError::PointOfRotation { side, name });
         }
+
         match robot.platform.motion {
             PlatformMotion::PointMass if turns => return Err(SignalError::PointMassTurns { side, name }),
             PlatformMotion::PointMass if point_p.is_some_and(|point| point.norm() > 0.0) => {
@@ -481,6 +487,7 @@ impl ResponseEnd<'_> {
             }
             PlatformMotion::Rigid | PlatformMotion::PointMass => {}
         }
+
         let along = Signal::Along { direction_w, point_p: point_p.unwrap_or_default() };
         Ok(if turns { Signal::About { axis_w: direction_w } } else { along })
     }

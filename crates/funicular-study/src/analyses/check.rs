@@ -366,6 +366,7 @@ fn ropes(robot: &Robot) -> Vec<CheckedRope> {
             Damping::Ratio(ratio) => (Some(ratio), None),
             Damping::Viscous(coefficient) => (None, Some(coefficient)),
         };
+
         let row = CheckedRope {
             name: rope.name.clone(),
             axial_stiffness_n: rope.axial_stiffness,
@@ -376,6 +377,7 @@ fn ropes(robot: &Robot) -> Vec<CheckedRope> {
             breaking_load_n: rope.breaking_load,
             drag_width_m: rope.drag_width,
         };
+
         if !ropes.contains(&row) {
             ropes.push(row);
         }
@@ -389,10 +391,12 @@ fn cables(robot: &Robot) -> Vec<CheckedCable> {
         State::Lengths(lengths) => Some(lengths),
         State::Pose(_) | State::Unknown => None,
     };
+
     // Lengths can only be divided where the platform rests.
     let driven = robot.cables.iter().any(|cable| !cable.anchor.is_fixed());
     let rest = lengths.filter(|_| driven);
     let rest = rest.and_then(|lengths| statics::forward(robot, lengths, StaticModel::Catenary, None).ok());
+
     let row = |(i, cable): (usize, &Cable)| CheckedCable {
         name: cable.name.clone(),
         material: cable.material.name.clone(),
@@ -406,6 +410,7 @@ fn cables(robot: &Robot) -> Vec<CheckedCable> {
         limits: CheckedLimits::of(cable.limits()),
         load_n_per_m: (cable.load_per_length_w.norm() > 0.0).then(|| cable.load_per_length_w.into()),
     };
+
     robot.cables.iter().enumerate().map(row).collect()
 }
 
@@ -427,12 +432,14 @@ fn state(robot: &Robot) -> (&'static str, Option<CheckedPose>) {
 fn warnings(robot: &Robot) -> Vec<String> {
     let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
     let mut warnings: Vec<String> = plausibility::of_robot(robot).iter().map(ToString::to_string).collect();
+
     if cables < dof {
         warnings.push(format!(
             "{cables} cables for {dof} degrees of freedom: for given lengths the platform hangs at a minimum of its \
              energy; if the cables cannot hold a given pose, statics finds the nearest pose that they can hold"
         ));
     }
+
     if let PlatformMotion::Planar(plane) = robot.platform.motion {
         let across =
             |cable: &Cable| plane.distance(&cable.anchor.reference_w()) - plane.normal_w().dot(&cable.attachment_p);
@@ -449,6 +456,7 @@ fn warnings(robot: &Robot) -> Vec<String> {
                 beside.join(", ")
             ));
         }
+
         let across = plane.normal_w().dot(&robot.gravity_w);
         if across.abs() > 1e-9 * robot.gravity_w.norm() {
             warnings.push(format!(

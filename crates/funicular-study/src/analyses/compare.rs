@@ -167,6 +167,7 @@ impl From<ModelResult> for ModelRow {
             }
             Err(error) => (Vec::new(), 0, false, Some(error.to_string())),
         };
+
         let matches = result
             .matches
             .into_iter()
@@ -178,6 +179,7 @@ impl From<ModelResult> for ModelRow {
                 correlation: m.correlation,
             })
             .collect();
+
         Self {
             cable_model: result.model.name(),
             error,

@@ -229,9 +229,11 @@ fn participate(
     SignalPair { input, output, signals }: &SignalPair,
 ) -> Result<Participation> {
     let [from, to] = at_rest.ports(dynamics, *signals)?;
+
     for (row, mode) in rows.iter_mut().zip(&found.modes) {
         // Signals of drives and motions of the frame are refused before.
         let (Some(from), Some(to)) = (from.in_mode(dynamics, mode), to.in_mode(dynamics, mode)) else { continue };
+
         let residue = from * to / mode.modal_mass;
         let omega = mode.frequency_hz * TAU;
         let by_time = match output.quantity {
@@ -239,10 +241,12 @@ fn participate(
             Quantity::Velocity => omega,
             Quantity::Acceleration => omega * omega,
         };
+
         row.residue_per_kg = Some(residue + 0.0);
         let damping = 2.0 * row.damping_ratio * omega * omega;
         row.peak = (damping > 0.0).then(|| residue.abs() * by_time / damping);
     }
+
     Ok(Participation {
         input: input.name.clone(),
         output: output.name.clone(),

@@ -130,6 +130,7 @@ pub fn run(robot: Robot, request: &request::ReduceRequest, watch: &mut dyn Watch
 /// Refuses numbers out of range, keys that exclude each other, and signals that the robot does not have.
 fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<SignalLists> {
     request::check_positive("below_hz", request.below_hz)?;
+
     match (request.form, request.order, request.tolerance) {
         (ModelForm::SecondOrder, Some(_), _) => bail!(
             "⟪order⟫ chooses modes of a state space, and the second-order form keeps all of them: take ⟪form⟫ \
@@ -145,10 +146,12 @@ fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<SignalLists>
         (ModelForm::StateSpace, None, Some(tolerance)) => request::check_positive("tolerance", tolerance)?,
         _ => {}
     }
+
     if let Some(hz) = request.damping_at_hz {
         request::check_positive("damping_at_hz", hz)?;
     }
     request.points.check()?;
+
     Ok((inputs(robot, request)?, outputs(robot, request)?))
 }
 

@@ -9,11 +9,13 @@ use funicular::robot::{self, PlatformMotion, Robot, Wind};
 pub(super) fn with_load(mut robot: Robot, load: &Load) -> Result<Robot> {
     let Load { force_n, moment_n_m, load_point_m, wind_m_s, cable_load_n_per_m } = *load;
     let or = |given: Option<[f64; 3]>, of_file: Vec3| given.map_or(of_file, Vec3::from);
+
     robot.load = robot::Load {
         force_w: or(force_n, robot.load.force_w),
         moment_w: or(moment_n_m, robot.load.moment_w),
         point_p: or(load_point_m, robot.load.point_p),
     };
+
     if let Some(velocity_w) = wind_m_s.map(Vec3::from) {
         let speed = velocity_w.norm();
         if speed > Wind::FASTEST {
@@ -24,12 +26,15 @@ pub(super) fn with_load(mut robot: Robot, load: &Load) -> Result<Robot> {
         }
         robot.wind.velocity_w = velocity_w;
     }
+
     if let Some(load) = cable_load_n_per_m {
         robot = robot.with_cable_load(load.into());
     }
+
     if load_point_m.is_some() && robot.load.force_w.norm() == 0.0 {
         bail!("⟪load_point_m⟫ is the point of a force, but there is no force: give ⟪force_n⟫");
     }
+
     robot.load.check(&robot.platform.motion)?;
     Ok(robot)
 }

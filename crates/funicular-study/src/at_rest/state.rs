@@ -18,6 +18,7 @@ pub fn with_state(mut robot: Robot, state: &request::State) -> Result<Robot> {
     if state.lengths_m.is_some() && state.hold_lengths_of_pose {
         bail!("give ⟪lengths_m⟫ or ⟪hold_lengths_of_pose⟫, not both: both give the lengths");
     }
+
     if let Some(lengths) = &state.lengths_m {
         robot.state = State::Lengths(lengths.clone());
     }
@@ -30,6 +31,7 @@ pub fn with_state(mut robot: Robot, state: &request::State) -> Result<Robot> {
     if let Some(mass) = state.mass_kg {
         robot.platform.mass = mass;
     }
+
     with_load(robot, &state.load)
 }
 

@@ -13,8 +13,10 @@ use funicular::statics::TensionRule;
 pub fn with_limits(robot: &Robot, tensions: &Tensions) -> Result<Robot> {
     tensions.check()?;
     refuse_above_breaking_load(robot, tensions)?;
+
     let limits = TensionLimits { minimum: tensions.min_tension_n, maximum: tensions.max_tension_n };
     let robot = robot.with_tension_limits(limits);
+
     for cable in &robot.cables {
         if let TensionLimits { minimum: Some(minimum), maximum: Some(maximum) } = cable.limits()
             && minimum >= maximum
@@ -26,6 +28,7 @@ pub fn with_limits(robot: &Robot, tensions: &Tensions) -> Result<Robot> {
             );
         }
     }
+
     Ok(robot)
 }
 

@@ -47,6 +47,7 @@ impl Chain {
                 cable.name
             );
         }
+
         let count = if mass > 0.0 { count } else { 1 };
         let cable_data = HangingCable {
             chord_w: state.anchor_w - state.attachment_w,
@@ -54,6 +55,7 @@ impl Chain {
             weight_w,
             axial_stiffness: cable.material.axial_stiffness,
         };
+
         match cable_data.chain(state.attachment_w, count) {
             Some(chain) if !state.is_slack() => Ok(chain),
             _ => bail!(

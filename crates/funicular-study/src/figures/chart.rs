@@ -246,6 +246,7 @@ impl Panel {
 
 fn draw_layer(drawing: &mut Drawing, placed: &Placed<'_>, layer: &Layer, style: &Type) {
     let frame = placed.frame;
+
     match layer {
         Layer::Line { points, stroke } => {
             let points: Vec<PaperPoint> = points.iter().map(|(x, y)| placed.at(*x, *y)).collect();
@@ -258,22 +259,26 @@ fn draw_layer(drawing: &mut Drawing, placed: &Placed<'_>, layer: &Layer, style: 
             let parts = clipped(&points, &frame);
             drawing.lines(parts.iter().map(|part| simplified(part)).collect(), stroke.clone());
         }
+
         Layer::Symbols { points, symbol } => {
             let points: Vec<PaperPoint> = points.iter().map(|(x, y)| placed.at(*x, *y)).collect();
             let inside: Vec<PaperPoint> = points.into_iter().filter(|point| frame.contains(*point)).collect();
             symbol.draw(drawing, &inside, style);
         }
+
         Layer::Stems { x, from, to, stroke } => {
             let y = |part: f64| frame.bottom - part * frame.height();
             let inside = x.iter().map(|x| placed.at(*x, placed.y.low)[0]);
             let inside = inside.filter(|x| (frame.left..=frame.right).contains(x));
             drawing.lines(inside.map(|x| vec![[x, y(*from)], [x, y(*to)]]).collect(), stroke.clone());
         }
+
         Layer::Bands(bands) => {
             let x = |value: f64| placed.at(value, placed.y.low)[0].clamp(frame.left, frame.right);
             let areas = bands.iter().map(|(from, to)| Frame { left: x(*from), right: x(*to), ..frame }.corners());
             drawing.areas(areas.collect(), Some(BAND), None);
         }
+
         Layer::Upright { texts, colour } => {
             for (x, y, text) in texts {
                 let [x, y] = placed.at(*x, *y);
@@ -284,6 +289,7 @@ fn draw_layer(drawing: &mut Drawing, placed: &Placed<'_>, layer: &Layer, style: 
                 if !(frame.contains([x, end]) && frame.contains([x, from])) {
                     continue;
                 }
+
                 // White below the text keeps it legible on a curve.
                 let (wide, tall) = (0.42 * style.small, 0.1 * style.small);
                 let area = Frame { left: x - wide, top: end - tall, right: x + wide, bottom: from + tall };
@@ -291,6 +297,7 @@ fn draw_layer(drawing: &mut Drawing, placed: &Placed<'_>, layer: &Layer, style: 
                 drawing.turned_text(label, [base, from], Align::Start, 90.0, style.small, *colour);
             }
         }
+
         Layer::Map(map) => map.draw(drawing, placed, style),
     }
 }

@@ -214,22 +214,26 @@ const MIN_FITTING: f64 = 0.6;
 pub(crate) fn clipped(points: &[PaperPoint], frame: &Frame) -> Vec<Vec<PaperPoint>> {
     let mut parts: Vec<Vec<PaperPoint>> = Vec::new();
     let mut part: Vec<PaperPoint> = Vec::new();
+
     for pair in points.windows(2) {
         let inside = if pair.iter().flatten().all(|x| x.is_finite()) { segment(pair[0], pair[1], frame) } else { None };
         let Some((from, to)) = inside else {
             parts.push(std::mem::take(&mut part));
             continue;
         };
+
         // The segment begins where the last one ended, or where the line enters the frame.
         if part.is_empty() || !frame.contains(pair[0]) {
             parts.push(std::mem::take(&mut part));
             part.push(from);
         }
         part.push(to);
+
         if !frame.contains(pair[1]) {
             parts.push(std::mem::take(&mut part));
         }
     }
+
     parts.push(part);
     parts.retain(|part| part.len() > 1);
     parts
@@ -245,6 +249,7 @@ fn segment(a: PaperPoint, b: PaperPoint, frame: &Frame) -> Option<(PaperPoint, P
         (-d[1], a[1] - frame.top),
         (d[1], frame.bottom - a[1]),
     ];
+
     for (slope, room) in edges {
         if slope == 0.0 {
             if room < 0.0 {
@@ -256,6 +261,7 @@ fn segment(a: PaperPoint, b: PaperPoint, frame: &Frame) -> Option<(PaperPoint, P
             leave = leave.min(room / slope);
         }
     }
+
     let at = |t: f64| [a[0] + t * d[0], a[1] + t * d[1]];
     (enter <= leave).then(|| (if enter > 0.0 { at(enter) } else { a }, if leave < 1.0 { at(leave) } else { b }))
 }

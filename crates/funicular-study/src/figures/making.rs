@@ -4,12 +4,13 @@ use super::axis::ChartAxis;
 use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
 use super::space::{RobotShape, Space};
-use super::style::{self, GREEN, GREY, ORANGE, Symbol, VERMILION};
+use super::style::{self, GREY, Symbol};
 use super::{Figure, FigureChoice, FigureContent};
 use crate::Watch;
 use crate::analyses::modes::with_rigid_cables;
 use crate::analyses::{compare, frf, statics};
 use crate::at_rest::{self, AtRest, ModesBelow};
+use crate::figure_style::{MODE_TICKS, ModeTick, model_colour, rgb};
 use crate::request::{self, Request};
 use crate::text::{counted, decimals, significant};
 use anyhow::{Result, bail};
@@ -114,32 +115,40 @@ fn natural_frequencies(robot: Robot, of: &request::ModesRequest, choice: &Figure
     Ok(RequestFigure { figure: Figure(FigureContent::Space(Box::new(space))), warnings })
 }
 
-/// Kinds of modes with symbol, stroke and height of their ticks below a response. They differ in grey, too.
-fn kinds() -> [(modes::Kind, Symbol, Stroke, f64); 4] {
-    let symbol = |shape, colour| Symbol { shape, colour };
-    [
-        (modes::Kind::Cable, symbol(style::SymbolShape::Circle, GREY), Stroke::solid(GREY, 0.5), 0.45),
-        (modes::Kind::Drive, symbol(style::SymbolShape::Triangle, style::BLUE), Stroke::solid(style::BLUE, 0.65), 0.6),
-        (modes::Kind::Mixed, symbol(style::SymbolShape::Diamond, GREEN), Stroke::solid(GREEN, 0.8), 0.75),
-        (modes::Kind::Platform, symbol(style::SymbolShape::Square, VERMILION), Stroke::solid(VERMILION, 1.1), 1.0),
-    ]
+/// Symbol of a kind of mode in a spectrum.
+fn kind_symbol(tick: &ModeTick) -> Symbol {
+    let shape = match tick.kind {
+        modes::Kind::Cable => style::SymbolShape::Circle,
+        modes::Kind::Drive => style::SymbolShape::Triangle,
+        modes::Kind::Mixed => style::SymbolShape::Diamond,
+        modes::Kind::Platform => style::SymbolShape::Square,
+    };
+    Symbol { shape, colour: rgb(tick.colour) }
+}
+
+/// Stroke of the stems and ticks of a kind of mode.
+fn kind_stroke(tick: &ModeTick) -> Stroke {
+    Stroke::solid(rgb(tick.colour), tick.width_pt)
 }
 
 /// Platform's share of the kinetic energy of every mode, over frequency.
 fn spectrum(name: &str, found: &modes::Modes) -> Chart {
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
-    for (kind, symbol, stroke, _) in kinds() {
-        let of_kind: Vec<&Mode> = found.modes.iter().filter(|mode| mode.kind == kind).collect();
+    for tick in &MODE_TICKS {
+        let of_kind: Vec<&Mode> = found.modes.iter().filter(|mode| mode.kind == tick.kind).collect();
         if of_kind.is_empty() {
             continue;
         }
+
+        let symbol = kind_symbol(tick);
         let points: Vec<(f64, f64)> =
             of_kind.iter().map(|mode| (mode.frequency_hz, 100.0 * mode.platform_energy_fraction)).collect();
         let stems = points.iter().flat_map(|(x, y)| [(*x, 0.0), (*x, *y), (f64::NAN, 0.0)]).collect();
-        layers.push(Layer::Line { points: stems, stroke });
+        layers.push(Layer::Line { points: stems, stroke: kind_stroke(tick) });
         layers.push(Layer::Symbols { points, symbol });
-        legend.push(entry(format!("{} ({})", kind.name(), of_kind.len()), Sample::Symbol(symbol)));
+        legend.push(entry(format!("{} ({})", tick.kind.name(), of_kind.len()), Sample::Symbol(symbol)));
     }
+
     let y = ChartAxis::linear("platform's share of energy [%]", -5.0, 105.0)
         .with_labels([0, 25, 50, 75, 100].map(|share| (f64::from(share), share.to_string())).to_vec());
     Chart {
@@ -311,13 +320,14 @@ fn magnitude_axis(unit: &str, low: f64, high: f64, numbers: bool) -> ChartAxis {
 /// Stems of the natural frequencies, by kind, and the legend's entries. A kind without any in the range is left out.
 fn stems(marks: &[Mode], first: f64, last: f64) -> (Vec<Layer>, Vec<Entry>) {
     let (mut stems, mut legend) = (Vec::new(), Vec::new());
-    for (kind, _, stroke, height) in kinds() {
-        let x: Vec<f64> = marks.iter().filter(|mode| mode.kind == kind).map(|mode| mode.frequency_hz).collect();
+    for tick in &MODE_TICKS {
+        let x: Vec<f64> = marks.iter().filter(|mode| mode.kind == tick.kind).map(|mode| mode.frequency_hz).collect();
         if !x.iter().any(|x| (first..=last).contains(x)) {
             continue;
         }
-        legend.push(entry(format!("{} mode", kind.name()), Sample::Stem(stroke.clone())));
-        stems.push(Layer::Stems { x, from: 0.0, to: height, stroke });
+        let stroke = kind_stroke(tick);
+        legend.push(entry(format!("{} mode", tick.kind.name()), Sample::Stem(stroke.clone())));
+        stems.push(Layer::Stems { x, from: 0.0, to: tick.height, stroke });
     }
     (stems, legend)
 }
@@ -423,14 +433,15 @@ fn comparison(robot: Robot, of: &request::CompareRequest) -> Result<RequestFigur
     ))
 }
 
-/// Symbol of a cable model, in the colours of the report.
+/// Symbol of a cable model, in its colour of all figures.
 fn of_model(name: &str) -> Symbol {
-    let (shape, colour) = match CableModel::ALL.into_iter().find(|model| model.name() == name) {
-        Some(CableModel::ShallowDynamic) => (style::SymbolShape::Circle, style::BLUE),
-        Some(CableModel::ShallowStatic) => (style::SymbolShape::Square, ORANGE),
-        Some(CableModel::Spring) => (style::SymbolShape::Triangle, GREEN),
-        Some(CableModel::CatenaryStatic) => (style::SymbolShape::Diamond, style::PURPLE),
-        Some(CableModel::CatenaryDynamic) | None => (style::SymbolShape::HollowCircle, BLACK),
+    let model = CableModel::ALL.into_iter().find(|model| model.name() == name).unwrap_or(CableModel::CatenaryDynamic);
+    let shape = match model {
+        CableModel::ShallowDynamic => style::SymbolShape::Circle,
+        CableModel::ShallowStatic => style::SymbolShape::Square,
+        CableModel::Spring => style::SymbolShape::Triangle,
+        CableModel::CatenaryStatic => style::SymbolShape::Diamond,
+        CableModel::CatenaryDynamic => style::SymbolShape::HollowCircle,
     };
-    Symbol { shape, colour }
+    Symbol { shape, colour: rgb(model_colour(model)) }
 }

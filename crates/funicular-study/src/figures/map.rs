@@ -207,16 +207,19 @@ struct LabelPlace {
 fn label_place(line: &[PaperPoint], width: f64, frame: &Frame, taken: &[Frame]) -> Option<LabelPlace> {
     let total = length(line);
     let half = 0.5 * width + 1.5;
+
     for part in [0.5, 0.4, 0.6, 0.3, 0.7, 0.22, 0.78] {
         let at = part * total;
         let (before, _) = split(line, at - half);
         let (_, behind) = split(line, at + half);
         let (Some(a), Some(b)) = (before.last().copied(), behind.first().copied()) else { continue };
         let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+
         // A sharp bend leaves no room for the text.
         if (b[0] - a[0]).hypot(b[1] - a[1]) < 1.7 * half {
             continue;
         }
+
         let mut angle = (-(b[1] - a[1])).atan2(b[0] - a[0]).to_degrees();
         // Texts are read from left to right.
         if angle > 90.0 {
@@ -224,6 +227,7 @@ fn label_place(line: &[PaperPoint], width: f64, frame: &Frame, taken: &[Frame]) 
         } else if angle <= -90.0 {
             angle += 180.0;
         }
+
         let reach = half + 2.0;
         let area = Frame {
             left: middle[0] - reach,
@@ -231,6 +235,7 @@ fn label_place(line: &[PaperPoint], width: f64, frame: &Frame, taken: &[Frame]) 
             top: middle[1] - reach,
             bottom: middle[1] + reach,
         };
+
         let inside = frame.contains([area.left, area.top]) && frame.contains([area.right, area.bottom]);
         let apart = |other: &Frame| {
             area.right < other.left || area.left > other.right || area.bottom < other.top || area.top > other.bottom
@@ -239,6 +244,7 @@ fn label_place(line: &[PaperPoint], width: f64, frame: &Frame, taken: &[Frame]) 
             return Some(LabelPlace { middle, angle, before, behind, area });
         }
     }
+
     None
 }
 
@@ -288,8 +294,10 @@ const HATCH: f64 = 0.5;
 pub(crate) fn hatch(drawing: &mut Drawing, areas: &[Frame], style: &Type) {
     use std::collections::BTreeMap;
     let step = HATCH * style.size * 2_f64.sqrt();
+
     // On the line with number k, x + y = k · step. Its parts are kept as ranges of x.
     let mut parts: BTreeMap<i64, Vec<(f64, f64)>> = BTreeMap::new();
+
     for area in areas {
         let (first, last) = ((area.left + area.top) / step, (area.right + area.bottom) / step);
         for k in first.ceil() as i64..=last.floor() as i64 {
@@ -300,10 +308,13 @@ pub(crate) fn hatch(drawing: &mut Drawing, areas: &[Frame], style: &Type) {
             }
         }
     }
+
     let mut lines = Vec::new();
+
     for (k, mut ranges) in parts {
         let sum = k as f64 * step;
         ranges.sort_by(|a, b| a.0.total_cmp(&b.0));
+
         let mut joined: Vec<(f64, f64)> = Vec::new();
         for (from, to) in ranges {
             match joined.last_mut() {
@@ -311,8 +322,10 @@ pub(crate) fn hatch(drawing: &mut Drawing, areas: &[Frame], style: &Type) {
                 _ => joined.push((from, to)),
             }
         }
+
         lines.extend(joined.into_iter().map(|(from, to)| vec![[from, sum - from], [to, sum - to]]));
     }
+
     drawing.lines(lines, Stroke::solid(HATCHING, 0.4));
 }
 

@@ -135,11 +135,13 @@ fn draw_path(content: &mut Content, path: &DrawnPath, height: f64) {
         let [r, g, b] = parts(fill);
         content.set_fill_rgb(r, g, b);
     }
+
     if let Some(stroke) = &path.stroke {
         let [r, g, b] = parts(stroke.colour);
         content.set_stroke_rgb(r, g, b).set_line_width(stroke.width as f32);
         content.set_dash_pattern(stroke.dashes.iter().map(|length| *length as f32), 0.0);
     }
+
     for line in &path.lines {
         for (i, point) in line.iter().enumerate() {
             let (x, y) = (rounded(point[0]), rounded(height - point[1]));
@@ -153,6 +155,7 @@ fn draw_path(content: &mut Content, path: &DrawnPath, height: f64) {
             content.close_path();
         }
     }
+
     match (path.fill.is_some(), path.stroke.is_some()) {
         (true, true) => content.fill_nonzero_and_stroke(),
         (true, false) => content.fill_nonzero(),

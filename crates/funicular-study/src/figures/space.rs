@@ -143,12 +143,15 @@ impl Space {
     ) {
         let depth =
             |face: &[usize]| face.iter().map(|&i| view.depth(shape.corners[i])).sum::<f64>() / face.len() as f64;
+
         let mut order: Vec<&Vec<usize>> = self.faces.iter().collect();
         order.sort_by(|a, b| depth(a).total_cmp(&depth(b)));
+
         for face in order {
             let corners: Vec<PaperPoint> = face.iter().map(|&i| view.at(shape.corners[i])).collect();
             drawing.areas(vec![corners], fill, Some(edge.clone()));
         }
+
         if fill.is_some() {
             let half = if self.faces.is_empty() { 0.4 * style.size } else { 0.16 * style.size };
             let [x, y] = view.at(shape.mass_centre);
@@ -160,9 +163,11 @@ impl Space {
     /// Wheels, and the cable from the exit points to the drums.
     fn draw_drives(&self, drawing: &mut Drawing, view: &View, style: &Type) {
         let flat = |line: &[Vec3]| line.iter().map(|p| view.at(*p)).collect::<Vec<PaperPoint>>();
+
         for drive in &self.drives {
             drawing.areas(vec![flat(&drive.wheel)], None, Some(Stroke::solid(GREY, AXIS_WIDTH)));
             drawing.line(flat(&drive.path), Stroke::solid(BLUE, 0.5 * CURVE_WIDTH));
+
             for (_, wheel) in &drive.guide_wheels {
                 let [x, y] = view.at(*wheel);
                 let corner = |k: u32| {
@@ -172,6 +177,7 @@ impl Space {
                 let circle = (0..24).map(corner).collect();
                 drawing.areas(vec![circle], Some(WHITE), Some(Stroke::solid(GREY, AXIS_WIDTH)));
             }
+
             if let Some(drum) = drive.drum {
                 let half = 0.17 * style.size;
                 let [x, y] = view.at(drum);

@@ -1,17 +1,18 @@
 //! Sizes, colours, dashes and symbols of figures.
 //!
-//! Colours are those of Okabe and Ito, which people with any colour vision can distinguish. Lines differ in their
-//! dashes too, so that a figure printed in grey keeps its meaning.
+//! Colours are those of [`crate::figure_style`]. Lines differ in their dashes too, so that a figure printed in grey keeps
+//! its meaning.
 
 use super::drawing::{BLACK, Colour, Drawing, Frame, PaperPoint, Stroke, WHITE};
+use crate::figure_style::{colour, rgb};
 
-pub(crate) const ORANGE: Colour = [0xe6, 0x9f, 0x00];
-pub(crate) const SKY: Colour = [0x56, 0xb4, 0xe9];
-pub(crate) const GREEN: Colour = [0x00, 0x9e, 0x73];
-pub(crate) const BLUE: Colour = [0x00, 0x72, 0xb2];
-pub(crate) const VERMILION: Colour = [0xd5, 0x5e, 0x00];
-pub(crate) const PURPLE: Colour = [0xcc, 0x79, 0xa7];
-pub(crate) const GREY: Colour = [0x8a, 0x8a, 0x8a];
+pub(crate) const ORANGE: Colour = rgb(colour::ORANGE);
+pub(crate) const SKY: Colour = rgb(colour::SKY);
+pub(crate) const GREEN: Colour = rgb(colour::GREEN);
+pub(crate) const BLUE: Colour = rgb(colour::BLUE);
+pub(crate) const VERMILION: Colour = rgb(colour::VERMILION);
+pub(crate) const PURPLE: Colour = rgb(colour::PURPLE);
+pub(crate) const GREY: Colour = rgb(colour::GREY);
 
 /// Width of axes and ticks [pt]; publishers ask for at least 0.25 pt.
 pub(crate) const AXIS_WIDTH: f64 = 0.5;
@@ -94,6 +95,7 @@ impl Symbol {
         };
         let circle: Vec<[f64; 2]> =
             (0..12).map(|k| f64::from(k) * 30_f64.to_radians()).map(|angle| [angle.cos(), angle.sin()]).collect();
+
         let corners: &[[f64; 2]] = match self.shape {
             SymbolShape::Circle | SymbolShape::HollowCircle => &circle,
             SymbolShape::Square => &[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],
@@ -107,6 +109,7 @@ impl Symbol {
                 return;
             }
         };
+
         let areas: Vec<Vec<PaperPoint>> = points.iter().map(|p| around(*p, corners)).collect();
         let fill = if self.shape == SymbolShape::HollowCircle { WHITE } else { self.colour };
         drawing.areas(areas, Some(fill), Some(Stroke::solid(self.colour, 0.5)));

@@ -25,12 +25,14 @@ pub(crate) fn svg(drawing: &Drawing) -> String {
         number(width),
         number(height),
     );
+
     for item in &drawing.items {
         match item {
             Item::Path(path) => path_element(&mut out, path),
             Item::Text(text) => text_element(&mut out, text),
         }
     }
+
     out.push_str("</svg>\n");
     out
 }
@@ -64,7 +66,9 @@ fn text_element(out: &mut String, text: &Text) {
         let _ = write!(out, " transform=\"rotate({} {x} {y})\"", number(-text.angle));
     }
     out.push('>');
+
     let mut was_raised = false;
+
     for (run, raised) in &text.label.0 {
         if *raised || was_raised {
             let (size, down) = match (was_raised, *raised) {
@@ -79,6 +83,7 @@ fn text_element(out: &mut String, text: &Text) {
             out.push_str(&escaped(run));
         }
     }
+
     out.push_str("</text>\n");
 }
 

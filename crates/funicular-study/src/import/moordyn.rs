@@ -164,11 +164,13 @@ fn cable(
             )
         ));
     }
+
     let Some(kind) = model.types.iter().find(|kind| kind.word == line.kind) else {
         bail!(
             line.row.error(file, format!("line {} is of type `{}`, which is not defined", line.id, clean(line.kind)))
         );
     };
+
     Ok(DraftCable {
         name: line.id.to_string(),
         anchor_w: anchor.position,

@@ -43,17 +43,21 @@ pub fn responses_of_uff(
     nodes: &[NodePoint],
 ) -> Result<(Vec<MeasuredResponse>, Vec<String>)> {
     let (mut responses, mut notes) = (Vec::new(), Vec::new());
+
     for (i, known) in nodes.iter().enumerate() {
         if nodes[..i].iter().any(|other| other.node == known.node) {
             bail!("⟪node⟫ {}: the node is there twice; give it one point", known.node);
         }
+
         let is_of =
             |function: &Function| [&function.response, &function.reference].iter().any(|end| end.node == known.node);
         if !file.functions.iter().any(is_of) {
             notes.push(format!("{path}: no function is at node {}, whose point is not used", known.node));
         }
     }
+
     let mut others: BTreeMap<i64, usize> = BTreeMap::new();
+
     for function in &file.functions {
         if function.kind == RESPONSE && matches!(function.abscissa.kind, FREQUENCY | UNKNOWN | GENERAL) {
             let of = UffResponse { path, file, function, nodes };
@@ -62,6 +66,7 @@ pub fn responses_of_uff(
             *others.entry(function.kind).or_default() += 1;
         }
     }
+
     for (kind, count) in others {
         notes.push(format!(
             "{path}: {} of type {kind} left out; frequency responses have type {RESPONSE}",
@@ -71,9 +76,11 @@ pub fn responses_of_uff(
     for (kind, count) in &file.skipped {
         notes.push(format!("{path}: {} {kind} left out", crate::text::counted(*count, "dataset")));
     }
+
     if responses.is_empty() {
         bail!("{path} has no frequency response: no dataset 58 has a function of type {RESPONSE}");
     }
+
     Ok((responses, notes))
 }
 

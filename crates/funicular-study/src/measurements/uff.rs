@@ -141,20 +141,24 @@ impl UffFile {
         let Some(bytes) = lines.next() else { return Ok(()) };
         let line = Line { bytes, number: lines.number };
         let kind = line.text(0, 7);
+
         match kind.as_str() {
             "58" | "58b" | "58B" => {
                 let function = if kind == "58" { function(lines, None)? } else { function(lines, Some(&line))? };
                 self.functions.push(function);
                 close(lines, 58)
             }
+
             "15" => self.nodes_15(lines),
             "2411" => self.nodes_2411(lines),
             "55" => self.shape(lines),
+
             "151" => {
                 let model = lines.expect("the name of the model (dataset 151)")?;
                 self.model = Some(model.text(0, 80)).filter(|model| !model.is_empty());
                 skip(lines)
             }
+
             "164" => {
                 lines.expect("the code of the units (dataset 164)")?;
                 let factors = lines.expect("the factors of the units (dataset 164)")?;
@@ -168,6 +172,7 @@ impl UffFile {
                 self.units = Units { length, force, given: true };
                 skip(lines)
             }
+
             _ => {
                 *self.skipped.entry(line.text(0, 80)).or_default() += 1;
                 skip(lines)

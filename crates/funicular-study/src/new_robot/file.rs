@@ -166,6 +166,7 @@ impl NewFile<'_> {
 
     fn material(&self, out: &mut String) {
         let mut section = FileSection::new(out, "[materials.NAME]");
+
         match self.rope {
             Rope::Wire { construction, diameter } => {
                 section.note(&format!(
@@ -179,6 +180,7 @@ impl NewFile<'_> {
                 section.value("mass_kg_per_m", &float(digits(construction.mass_per_length(diameter), 6)));
                 section.value("damping_ratio", &float(DAMPING_RATIO));
                 section.value("breaking_load_n", &float(digits(construction.breaking_load(diameter), 4)));
+
                 let given = ["youngs_modulus_pa", "area_m2", "mass_kg_per_m", "damping_ratio", "breaking_load_n"];
                 // The drag diameter alone is refused, and so is a drag coefficient without a diameter.
                 section.rest(&[&given[..], &["drag_coefficient", "drag_diameter_m"]].concat());

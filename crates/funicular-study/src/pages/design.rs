@@ -150,14 +150,17 @@ fn moved_points(found: &Designed) -> Option<PageFigure> {
     if full.is_empty() {
         return None;
     }
+
     let mut data: Vec<Value> = Vec::new();
     for (k, second) in [("x", "y"), ("x2", "y2")].into_iter().zip([1, 2]) {
         let axes = json!({"xaxis": k.0, "yaxis": k.1, "showlegend": second == 1});
+
         let of = |component: usize, start: bool| -> Vec<f64> {
             full.iter()
                 .filter_map(|point| if start { point.start[component] } else { point.value[component] })
                 .collect()
         };
+
         for point in &full {
             let ends = |component: usize| -> Vec<f64> {
                 [point.start[component], point.value[component]].into_iter().flatten().collect()
@@ -165,6 +168,7 @@ fn moved_points(found: &Designed) -> Option<PageFigure> {
             let segment = line("", &ends(0), &ends(second), colour::GREY, "solid");
             data.push(with(with(segment, axes.clone()), json!({"showlegend": false, "hoverinfo": "skip"})));
         }
+
         let named = |values: Value, colour_of: &str| {
             let names: Vec<String> = full.iter().map(|point| plain(&point.path)).collect();
             with(with(values, axes.clone()), json!({"text": names, "marker": {"color": colour_of, "size": 7}}))
@@ -175,6 +179,7 @@ fn moved_points(found: &Designed) -> Option<PageFigure> {
         ));
         data.push(named(points("after", &of(0, false), &of(second, false), colour::BLUE, "circle"), colour::BLUE));
     }
+
     Some(PageFigure::new(
         "figure-points",
         520,
@@ -218,16 +223,8 @@ fn values(found: &Designed) -> PageTable {
         &["<value", "<unit", "before", "after", "minimum", "maximum", "<remark", "gain per unit"],
     );
     for row in &found.values {
-        table.row(vec![
-            row.path.clone(),
-            row.unit.to_owned(),
-            significant(row.start, 6),
-            significant(row.value, 6),
-            significant(row.minimum, 6),
-            significant(row.maximum, 6),
-            row.at_bound.map_or_else(String::new, |bound| format!("at its {bound}")),
-            if row.at_bound.is_some() { significant(row.gain_per_unit, 3) } else { String::new() },
-        ]);
+        let gain = if row.at_bound.is_some() { significant(row.gain_per_unit, 3) } else { String::new() };
+        table.row(row.cells(significant).into_iter().chain([gain]).collect());
     }
     table
 }

@@ -59,6 +59,7 @@ fn values(found: &Identified) -> PageTable {
         "Identified values with standard deviations and the intervals that hold them with 95 %.",
         &["<value", "<unit", "start", "identified", "deviation", "95 % from", "to", "<prior", "<remark"],
     );
+
     for row in &found.values {
         let number =
             |value: Option<f64>, digits| value.map_or_else(|| text::NONE.to_owned(), |v| significant(v, digits));
@@ -67,6 +68,7 @@ fn values(found: &Identified) -> PageTable {
             (None, None) => "not determined".to_owned(),
             (None, Some(_)) => String::new(),
         };
+
         table.row(vec![
             row.path.clone(),
             row.unit.to_owned(),
@@ -81,6 +83,7 @@ fn values(found: &Identified) -> PageTable {
             remark,
         ]);
     }
+
     table
 }
 
@@ -91,13 +94,16 @@ fn curves(number: usize, response: &FittedResponse) -> PageFigure {
         let phase: Vec<f64> = real.iter().zip(imag).map(|(re, im)| im.atan2(*re).to_degrees()).collect();
         (magnitude, phase)
     };
+
     let x = &response.frequency_hz;
     let mut data: Vec<Value> = Vec::new();
+
     let (magnitude, phase) = polar(&response.measured_real, &response.measured_imag);
     let small = json!({"marker": {"size": 4}, "legendgroup": "measured"});
     data.push(with(points("measured", x, &magnitude, colour::GREY, "circle"), small.clone()));
     let below = json!({"yaxis": "y2", "showlegend": false});
     data.push(with(with(points("measured", x, &phase, colour::GREY, "circle"), small), below.clone()));
+
     for (name, real, imag, colour, dash) in [
         ("before the fit", &response.before_real, &response.before_imag, colour::ORANGE, "dot"),
         ("fitted", &response.fitted_real, &response.fitted_imag, colour::BLUE, "solid"),
@@ -106,11 +112,13 @@ fn curves(number: usize, response: &FittedResponse) -> PageFigure {
         data.push(with(line(name, x, &magnitude, colour, dash), json!({"legendgroup": name})));
         data.push(with(with(line(name, x, &phase, colour, dash), json!({"legendgroup": name})), below.clone()));
     }
+
     let name = if response.name.is_empty() {
         format!("{}/{}", response.output, response.input)
     } else {
         response.name.clone()
     };
+
     PageFigure::new(
         format!("figure-response-{}", number + 1),
         560,
@@ -138,11 +146,14 @@ fn differences(found: &Identified) -> PageFigure {
     let relative = |hz: fn(&crate::analyses::identify::FrequencyRow) -> f64| -> Vec<f64> {
         found.frequencies.iter().map(|row| 100.0 * (hz(row) / row.measured_hz - 1.0)).collect()
     };
+
     let data = [
         points("before the fit", &x, &relative(|row| row.before_hz), colour::ORANGE, "circle-open"),
         points("fitted", &x, &relative(|row| row.fitted_hz), colour::BLUE, "circle"),
     ];
+
     let rms = |value: Option<f64>| value.map_or_else(|| text::NONE.to_owned(), |value| significant(100.0 * value, 3));
+
     PageFigure::new(
         "figure-differences",
         340,
@@ -175,8 +186,10 @@ fn frequencies(found: &Identified) -> PageTable {
             "damping fitted",
         ],
     );
+
     for row in &found.frequencies {
         let damping = |value: Option<f64>| value.map_or_else(|| text::NONE.to_owned(), |value| significant(value, 3));
+
         table.row(vec![
             row.experiment.clone(),
             row.number.to_string(),
@@ -215,8 +228,10 @@ fn profile(number: usize, row: &ValueRow) -> Option<PageFigure> {
     let x: Vec<f64> = profile.points.iter().map(|point| point.value - row.value).collect();
     let y: Vec<f64> = profile.points.iter().map(|point| point.chi2_rise).collect();
     let curve = line("others fitted again", &x, &y, colour::BLUE, "solid");
+
     let mut data =
         vec![with(curve, json!({"mode": "lines+markers", "line": {"shape": "spline"}, "marker": {"size": 5}}))];
+
     let limit = LIMIT * LIMIT;
     if let (Some([low, high]), Some(from), Some(to)) = (row.interval_95, x.first(), x.last()) {
         // The deviation's interval as the parabola of χ², whose coordinate may be a logarithm.
@@ -228,13 +243,16 @@ fn profile(number: usize, row: &ValueRow) -> Option<PageFigure> {
         let rises: Vec<f64> = parabola.iter().map(|x| at(*x)).collect();
         data.push(line("by the deviation", &parabola, &rises, colour::GREY, "dash"));
     }
+
     if let (Some(from), Some(to)) = (x.first(), x.last()) {
         data.push(line("limit for 95 %", &[*from, *to], &[limit, limit], colour::VERMILION, "dot"));
     }
+
     let name = plain(&row.path);
     let end = |end: Option<f64>| {
         end.map_or_else(|| "no lower or upper end".to_owned(), |end| format!("{} {}", significant(end, 6), row.unit))
     };
+
     Some(PageFigure::new(
         format!("figure-profile-{}", number + 1),
         320,

@@ -62,6 +62,7 @@ pub fn paper(command_line: String) -> anyhow::Result<String> {
     let sweeps = [pose::Sweep::of(&small), pose::Sweep::of(&large)];
     let outcomes = dynamic_test::outcomes([&small, &large])?;
     let fits = dynamic_test::Fits::of([&small, &large])?;
+
     let page = PaperPage {
         shell: Shell::new("Yuan, Courteille and Deblaise 2014: published and computed".to_owned(), CONTENTS),
         cable_figure: single_cable::figure(),
@@ -82,6 +83,7 @@ pub fn paper(command_line: String) -> anyhow::Result<String> {
         sag_text: dynamic_test::sag_text(&outcomes),
         command_line,
     };
+
     page.render().context("the page could not be written as HTML")
 }
 

@@ -135,9 +135,11 @@ fn over_frequency(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<PageFigu
         all.sort_by(|a, b| a.at_hz.unwrap_or_default().total_cmp(&b.at_hz.unwrap_or_default()));
         all
     };
+
     if of_unit("dB").len() < 2 {
         return Vec::new();
     }
+
     let title = format!("{} / {}", plain(&response.output), plain(&response.input));
     let magnitude = format!("magnitude [dB of 1 {}]", response.unit);
     [("magnitude", "dB", magnitude), ("phase", "degrees", "phase [°]".to_owned())]
@@ -146,10 +148,12 @@ fn over_frequency(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<PageFigu
             let all = of_unit(unit);
             let line: Vec<f64> = all.iter().map(|result| result.value).collect();
             let hz = |of: &[&UncertainResult]| -> Vec<f64> { of.iter().filter_map(|result| result.at_hz).collect() };
+
             let mut traces = vec![json!({
                 "type": "scatter", "mode": "lines", "name": "undisturbed", "x": rounded(&hz(&all)), "y": rounded(&line),
                 "line": {"color": colour::GREY, "width": 1}, "hoverinfo": "skip",
             })];
+
             for (method, colour, symbol) in METHODS {
                 let own: Vec<&UncertainResult> = all.iter().copied().filter(|r| r.method == method).collect();
                 if !own.is_empty() {
@@ -161,6 +165,7 @@ fn over_frequency(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<PageFigu
                     }));
                 }
             }
+
             PageFigure::new(
                 format!("figure-response-{name}"),
                 340,
@@ -177,6 +182,7 @@ fn shares(found: &Uncertainties, pose: &PoseUncertainty) -> PageFigure {
     let with_shares: Vec<&UncertainResult> =
         pose.results.iter().filter(|result| result.group_shares.is_some()).collect();
     let names: Vec<String> = with_shares.iter().map(|result| plain(&result.name)).collect();
+
     let traces: Vec<Value> = (found.groups.iter().enumerate())
         .map(|(g, group)| {
             let of_group: Vec<f64> = with_shares
@@ -189,6 +195,7 @@ fn shares(found: &Uncertainties, pose: &PoseUncertainty) -> PageFigure {
             })
         })
         .collect();
+
     PageFigure::new(
         "figure-shares",
         130 + 22 * with_shares.len(),
@@ -282,12 +289,15 @@ fn results(found: &Uncertainties) -> PageTable {
             "<<largest shares",
         ],
     );
+
     let number = |value: Option<f64>, digits| value.map_or_else(|| text::NONE.to_owned(), |v| significant(v, digits));
+
     for (i, pose) in found.poses.iter().enumerate() {
         for result in &pose.results {
             let shares: Vec<String> = (result.largest.iter().take(3))
                 .map(|of| format!("{} {} %", of.path, text::significant(100.0 * of.share, 2)))
                 .collect();
+
             table.row(vec![
                 (i + 1).to_string(),
                 result.name.clone(),
@@ -303,6 +313,7 @@ fn results(found: &Uncertainties) -> PageTable {
             ]);
         }
     }
+
     table
 }
 

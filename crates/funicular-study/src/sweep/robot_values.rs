@@ -271,16 +271,19 @@ mod tests {
             let parameters = Parameters::from_toml(text).unwrap();
             let list = parameters.list();
             assert!(list.len() > 20, "{text}");
+
             let mut random = 20_140_531_u64;
             let mut next = |count: u64| {
                 random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
                 (random >> 33) % count
             };
+
             for (i, parameter) in list.iter().enumerate().filter(|(_, parameter)| parameter.given) {
                 assert_eq!(parameters.robot_with(&[(i, parameter.value)]).as_ref(), Ok(parameters.robot()));
                 let index_path = set_values::path(&by_index(&parameters, i)).unwrap();
                 assert_eq!(parameters.find(index_path.keys()), Some(i), "{}", index_path.text);
                 assert!(index_path.is_same(&set_values::path(&parameter.path()).unwrap()));
+
                 let factor = 1.0 + next(1_000_000) as f64 * 1e-6;
                 for value in [parameter.value * factor, parameter.value + 0.1, -factor, 0.0, 1e-13, 0.7, 3e12, f64::NAN]
                 {
@@ -289,13 +292,16 @@ mod tests {
                     if other != i && list[other].given {
                         changes.push((other, list[other].value * factor));
                     }
+
                     // Names and indices of components take turns.
                     let named = next(2) == 0;
                     let path_of = |at: usize| if named { list[at].path() } else { by_index(&parameters, at) };
                     let path = |at: usize| set_values::path(&path_of(at)).unwrap();
                     let assignments: Vec<_> =
                         changes.iter().map(|(at, value)| path(*at).with(OPTION, *value)).collect();
+
                     let edited = Robot::from_toml(&set_values::apply(text, &assignments).unwrap());
+
                     match (parameters.robot_with(&changes), edited) {
                         // The texts are compared too, because zeros of both signs are equal and their texts are not.
                         (Ok(one), Ok(other)) => {
@@ -314,6 +320,7 @@ mod tests {
                 }
             }
         }
+
         assert!(equal > 1000 && refused > 1000, "{equal} {refused}");
     }
 
@@ -332,15 +339,18 @@ mod tests {
             ("cables.2.minimum_tension_n", Steps::range(10.0, 400.0, 3)),
             ("cables.2.maximum_tension_n", Steps::range(300.0, 1000.0, 3)),
         ];
+
         let axes = axes.map(|(path, steps)| ValueAxis::new(path, steps.unwrap()).unwrap()).to_vec();
         let sweep = RobotValues::new(text.to_owned(), axes, Box::new(Ok)).unwrap();
         assert!(sweep.numbers.is_some() && !text.contains("[loads]") && !text.contains("[wind]"));
+
         let (mut robots, mut refusals) = (0, 0);
         for i in 0..sweep.count() {
             let by_text = sweep.robot(&sweep.assignments(&sweep.values(i)));
             assert_eq!(sweep.robot_at(&sweep.values(i)), by_text);
             if by_text.is_ok() { robots += 1 } else { refusals += 1 }
         }
+
         assert!(robots > 0 && refusals > 0, "{robots} {refusals}");
     }
 

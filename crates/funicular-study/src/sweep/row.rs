@@ -22,6 +22,7 @@ pub(super) fn cells(
     out: &mut Vec<Value>,
 ) {
     let begin = out.len();
+
     match feasible(point, options) {
         Err(status) => {
             head(false, Some(status), out);
@@ -31,6 +32,7 @@ pub(super) fn cells(
             // The quantities are evaluated first, because the status depends on values that are missing.
             let hold = hold(point);
             let (values, missing) = quantity_values(robot, &equilibrium, hold, read, quantities, options);
+
             head(true, missing, out);
             if with_distance {
                 out.push(Value::real(requested_pose.map(|(_, distance)| distance)));

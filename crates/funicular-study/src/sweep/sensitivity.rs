@@ -107,12 +107,15 @@ impl Sensitivity {
     fn derivatives(&self, row: &PointEvaluation<'_>) -> Result<Vec<f64>, Status> {
         let none = |reason: &dyn Display| Status::new("no-derivative", &reason.to_string());
         let change = self.change(row)?;
+
         let gradients = match row.rule() {
             Some(rule) => Gradients::by_rule(row.robot, row.rest, rule),
             None => Gradients::new(row.robot, row.rest, row.hold),
         };
         let gradients = gradients.map_err(|error| none(&error))?;
+
         let along = |all: Vec<RobotChange>| all.iter().map(|gradient| gradient.dot(&change)).collect();
+
         Ok(match self.result.1 {
             Differentiated::Tensions => along(gradients.tensions_platform()),
             Differentiated::Lengths => along(gradients.lengths()),

@@ -17,6 +17,7 @@ pub(super) fn section(drives: &Drives, moving: Vec<Comparison>) -> Result<Sectio
     for row in &drives.straight.rows {
         rows.extend(straight(row, &drives.straight.source));
     }
+
     for row in &drives.sagging.rows {
         rows.extend(sagging(row, &drives.sagging.source)?);
     }
@@ -27,6 +28,7 @@ pub(super) fn section(drives: &Drives, moving: Vec<Comparison>) -> Result<Sectio
         rows.extend(robot(row, &drives.robots.source)?);
     }
     rows.extend(moving);
+
     for row in &drives.friction_corners.rows {
         let robot = with_friction(drives, &row.robot, row.friction_coefficient)?;
         rows.extend(friction_corner(row, &robot, &drives.friction_corners.source)?);
@@ -35,6 +37,7 @@ pub(super) fn section(drives: &Drives, moving: Vec<Comparison>) -> Result<Sectio
         let robot = with_friction(drives, &row.robot, row.friction_coefficient * SMALL_FRICTION)?;
         rows.extend(friction_half_widths(row, &robot, &drives.friction_half_widths.source)?);
     }
+
     Ok(Section {
         title: "Pulleys and winches",
         note: "Straight cables over swivelling pulleys against the closed forms of other programs; sagging elastic \
@@ -319,6 +322,7 @@ pub(super) fn robot_of(row: &RobotWithWinches) -> Result<Robot> {
         row.radius_m,
         winch_text(row.drum_side_length_m, row.winch_stiffness_n_per_m)
     );
+
     let cables = row.anchors_m.iter().zip(&row.attachments_m).zip(&row.unstrained_lengths_m).enumerate();
     for (i, ((anchor, attachment), length)) in cables {
         write!(
@@ -328,5 +332,6 @@ pub(super) fn robot_of(row: &RobotWithWinches) -> Result<Robot> {
             i + 1
         )?;
     }
+
     Ok(Robot::from_toml(&text)?)
 }

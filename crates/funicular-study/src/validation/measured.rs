@@ -33,6 +33,7 @@ pub(super) fn section(table: &ReferenceTable<MeasuredPose>) -> Result<Section> {
         by_pulleys.extend(found.by_pulleys);
         rows.extend(found.rows);
     }
+
     let theirs: Vec<f64> = table.rows.iter().flat_map(|row| differences(&row.measured_hz, &row.model_hz)).collect();
     let case = Case { name: format!("all {} measured frequencies", theirs.len()), source: &table.source };
     rows.push(case.absolute(
@@ -42,6 +43,7 @@ pub(super) fn section(table: &ReferenceTable<MeasuredPose>) -> Result<Section> {
         PERCENT,
         Bound::Rounding,
     ));
+
     let pairs = table.rows.iter().flat_map(|row| row.fixed_points_hz.iter().zip(&row.model_hz));
     let theirs: Vec<f64> = pairs.map(|(fixed, model)| fixed / model - 1.0).collect();
     rows.push(case.absolute(
@@ -51,6 +53,7 @@ pub(super) fn section(table: &ReferenceTable<MeasuredPose>) -> Result<Section> {
         BALANCED,
         Bound::Model("balance at the pose"),
     ));
+
     Ok(Section {
         title: "Measured natural frequencies of a robot with few cables",
         note: "The prototype of the University of Bologna, a platform on four, three or two cables over swivelling \

@@ -228,23 +228,27 @@ fn of_kinds(modes: &[Mode]) -> impl Iterator<Item = (Kind, Vec<&Mode>)> {
 /// Figure of the platform's share of the kinetic energy of every mode, over frequency.
 pub(crate) fn strip(modes: &Modes) -> PageFigure {
     let mut data = Vec::new();
+
     for (kind, found) in of_kinds(&modes.modes) {
         let (mut stem_x, mut stem_y) = (Vec::new(), Vec::new());
         for mode in &found {
             stem_x.extend([mode.frequency_hz, mode.frequency_hz, f64::NAN]);
             stem_y.extend([0.0, 100.0 * mode.platform_energy_fraction, f64::NAN]);
         }
+
         let colour = kind_colour(kind);
         data.push(with(
             line("", &stem_x, &stem_y, colour, "solid"),
             json!({"showlegend": false, "hoverinfo": "skip", "line": {"width": 1.2}, "legendgroup": kind.name()}),
         ));
+
         let symbol = match kind {
             Kind::Platform => "circle",
             Kind::Mixed => "diamond",
             Kind::Cable => "line-ns-open",
             Kind::Drive => "triangle-up",
         };
+
         let x: Vec<f64> = found.iter().map(|m| m.frequency_hz).collect();
         let y: Vec<f64> = found.iter().map(|m| 100.0 * m.platform_energy_fraction).collect();
         data.push(json!({
@@ -253,6 +257,7 @@ pub(crate) fn strip(modes: &Modes) -> PageFigure {
             "marker": {"symbol": symbol, "size": if kind == Kind::Cable { 10 } else { 8 }, "color": colour, "line": {"color": colour, "width": 1.4}},
         }));
     }
+
     PageFigure::new(
         "figure-modes",
         300,

@@ -18,29 +18,12 @@ const CABLE_COLOURS: [&str; 7] =
 
 /// Figure of the complete robot.
 pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
-    let mut data: Vec<Value> = equilibrium
-        .cables
-        .iter()
-        .enumerate()
-        .map(|(i, state)| {
-            let hover = format!(
-                "cable {}<br>{:.4} m unstrained<br>{:.2} N at the platform<extra></extra>",
-                plain(&robot.cables[i].name),
-                state.unstrained_length,
-                state.tension_platform
-            );
-            cable_line(i, &curve(state, state.free_length()), &hover)
-        })
-        .collect();
+    let mut data: Vec<Value> = (0..robot.cables.len()).map(|i| cable(robot, equilibrium, i)).collect();
     let anchors: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.anchor_w).collect();
-    let names: Vec<String> = robot.cables.iter().map(|c| plain(&c.name)).collect();
-    let reach = extent(&anchors);
-    let places = sides(&anchors, reach);
-    let mut trace = labelled(&anchors, &names, &places, colour::BLACK, "square", "anchor");
-    trace["text"] = json!(joined(&anchors, &names, &places, reach));
-    data.push(trace);
+    data.push(named_anchors(robot, &anchors));
     data.extend(platform(robot, equilibrium, false));
-    let mut points = anchors.clone();
+
+    let mut points = anchors;
     for state in &equilibrium.cables {
         points.extend(curve(state, state.free_length()));
     }
@@ -49,34 +32,60 @@ pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
         let Some(lines) = DriveLines::of(cable, state) else { continue };
         driven = " At pulleys the squares are the exit points. The drums, grey squares, stand where they would be if the \
                   cable came to its pulley in a straight line.";
-        let hover = format!("cable {}<extra></extra>", plain(&cable.name));
-        data.push(cable_line(i, &lines.path, &hover));
-        data.push(wheel(&lines.wheel));
-        data.extend(lines.drum.map(|drum| {
-            let hover = format!("drum of cable {}<extra></extra>", plain(&cable.name));
-            marker(drum, "square", 4, &hover)
-        }));
-        data.extend(lines.guide_wheels.iter().map(|(name, wheel)| {
-            let hover = format!("guide wheel {} of cable {}<extra></extra>", plain(name), plain(&cable.name));
-            marker(*wheel, "circle-open", 6, &hover)
-        }));
+        data.extend(drive(i, &cable.name, &lines));
         points.extend(lines.points());
     }
+
     let supports = SupportAtRest::all(robot, equilibrium);
     let supported = if supports.is_empty() { "" } else { " Crosses with a bar to their anchors: flexible supports." };
     data.extend(supports.iter().flat_map(support));
+
     let scene = scene(&points, true, WIDE);
     PageFigure::new(
         "figure-robot",
         400,
         format!(
             "The robot at its equilibrium, with one scale for all three axes. Lines: cables; squares: anchors with the \
-             cables' names; dark body: the platform, spanned by the attachments.{driven}{supported} Drag to rotate, scroll to zoom, \
-             point at a cable for its length and tension."
+             cables' names; dark body: the platform, spanned by the attachments.{driven}{supported} Drag to rotate, scroll to \
+             zoom, point at a cable for its length and tension."
         ),
         &data,
         json!({"scene": scene, "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
     )
+}
+
+/// Trace of the free span of cable `i`.
+fn cable(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> Value {
+    let state = &equilibrium.cables[i];
+    let hover = format!(
+        "cable {}<br>{:.4} m unstrained<br>{:.2} N at the platform<extra></extra>",
+        plain(&robot.cables[i].name),
+        state.unstrained_length,
+        state.tension_platform
+    );
+    cable_line(i, &curve(state, state.free_length()), &hover)
+}
+
+/// Trace of the anchors with the names of their cables.
+fn named_anchors(robot: &Robot, anchors: &[Vec3]) -> Value {
+    let names: Vec<String> = robot.cables.iter().map(|c| plain(&c.name)).collect();
+    let reach = extent(anchors);
+    let places = sides(anchors, reach);
+    let mut trace = labelled(anchors, &names, &places, colour::BLACK, "square", "anchor");
+    trace["text"] = json!(joined(anchors, &names, &places, reach));
+    trace
+}
+
+/// Traces of the drive of cable `i`: the cable beyond its exit point, the pulley, the drum and the guide wheels.
+fn drive(i: usize, cable: &str, lines: &DriveLines) -> Vec<Value> {
+    let cable = plain(cable);
+    let mut traces = vec![cable_line(i, &lines.path, &format!("cable {cable}<extra></extra>")), wheel(&lines.wheel)];
+    traces.extend(lines.drum.map(|drum| marker(drum, "square", 4, &format!("drum of cable {cable}<extra></extra>"))));
+    traces.extend(lines.guide_wheels.iter().map(|(name, wheel)| {
+        let hover = format!("guide wheel {} of cable {cable}<extra></extra>", plain(name));
+        marker(*wheel, "circle-open", 6, &hover)
+    }));
+    traces
 }
 
 /// Grey marker at a place.
@@ -125,6 +134,7 @@ pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
     let reach = extent(&attachments).max(0.2);
     let mut points = attachments.clone();
     let mut data = Vec::new();
+
     for (i, state) in equilibrium.cables.iter().enumerate() {
         let hover = format!("cable {}<extra></extra>", plain(&robot.cables[i].name));
         let part = (0.6 * reach / state.chord()).min(1.0);
@@ -132,6 +142,7 @@ pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
         data.push(cable_line(i, &stub, &hover));
         points.extend(stub);
     }
+
     data.extend(platform(robot, equilibrium, true));
     let origin = equilibrium.pose.position_w;
     for (k, (name, colour)) in
@@ -147,6 +158,7 @@ pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
             "textfont": {"color": colour, "size": 13}, "hoverinfo": "skip",
         }));
     }
+
     PageFigure::new(
         "figure-platform",
         400,
@@ -168,11 +180,13 @@ const FILL: f64 = 1.35;
 fn scene(points: &[Vec3], floor: bool, width: f64) -> Value {
     let ranges = ranges(points, floor);
     let span = ranges.map(|(low, high)| high - low);
+
     let [x, y, z] = EYE;
     let (level, far) = (x.hypot(y), x.hypot(y).hypot(z));
     let across = (span[0] * y.abs() + span[1] * x.abs()) / level;
     let upright = (span[2] * level + (span[0] * x.abs() + span[1] * y.abs()) / level * z) / far;
     let scale = FILL * (width / across).min(1.0 / upright);
+
     let axis = |k: usize, title: &str| {
         json!({
             "title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 10}, "nticks": 6, "showbackground": k == 2,
@@ -180,6 +194,7 @@ fn scene(points: &[Vec3], floor: bool, width: f64) -> Value {
             "zeroline": false, "showspikes": false,
         })
     };
+
     let ratio = rounded(&span.map(|s| s * scale));
     json!({
         "aspectmode": "manual", "aspectratio": {"x": ratio[0], "y": ratio[1], "z": ratio[2]},
@@ -226,6 +241,7 @@ fn platform(robot: &Robot, equilibrium: &Equilibrium, names: bool) -> Vec<Value>
     let attachments: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.attachment_w).collect();
     let com = equilibrium.pose.point_w(&robot.platform.center_of_mass_p);
     let reach = extent(&attachments);
+
     let mut data = Vec::new();
     if reach > 0.0 {
         data.push(body(&attachments, reach));
@@ -235,6 +251,7 @@ fn platform(robot: &Robot, equilibrium: &Equilibrium, names: bool) -> Vec<Value>
             data.push(labelled(&attachments, &labels, &places, "#333333", "circle", "attachment"));
         }
     }
+
     let hover = format!(
         "centre of mass, {:.2} kg<br>(%{{x:.4f}}, %{{y:.4f}}, %{{z:.4f}}) m<extra></extra>",
         robot.platform.mass

@@ -88,12 +88,14 @@ fn outcome(robot: &Robot, set: &'static DynamicTest) -> anyhow::Result<Outcome> 
     for cable in &mut robot.cables {
         cable.material.damping = Damping::Ratio(set.damping_ratio);
     }
+
     let rest = statics::forward(&robot, &lengths(&robot), StaticModel::Catenary, None)?;
     // Force and sensor are placed at the attachment of cable 3; the paper gives neither.
     let point_p = robot.cables[2].attachment_p;
     let along = |direction_w: Vec3| response::along(&direction_w, &point_p, &rest.pose);
     let input = along(Vec3::z());
     let outputs = [Vec3::x(), Vec3::y(), Vec3::z()].map(along);
+
     let with = |cable_model| -> anyhow::Result<(Modes, ResponseCurve)> {
         let linearisation = Linearisation {
             cable_model,
@@ -114,11 +116,14 @@ fn outcome(robot: &Robot, set: &'static DynamicTest) -> anyhow::Result<Outcome> 
         )?;
         Ok((found, curve))
     };
+
     let (natural, dynamic) = with(CableModel::ShallowDynamic)?;
     let (static_sag, sag_curve) = with(CableModel::ShallowStatic)?;
     let (spring, spring_curve) = with(CableModel::Spring)?;
+
     let peaks = dynamic.peaks(PROMINENCE_DB);
     let sags = rest.cables.iter().enumerate().map(|(i, state)| Sag::of(&robot, i, state).ratio()).collect();
+
     Ok(Outcome { set, peaks, natural, static_sag, spring, sags, curves: vec![dynamic, sag_curve, spring_curve] })
 }
 
@@ -169,8 +174,10 @@ impl Fits {
                 "likelihood|log₁₀",
             ],
         );
+
         for (i, fit) in self.0.iter().enumerate() {
             let center: [f64; 3] = fit.platform.center_p.into();
+
             table.row(vec![
                 CABLES[i].to_owned(),
                 fixed(fit.chi2, 2),
@@ -193,6 +200,7 @@ impl Fits {
         let [small, large] = &self.0;
         let millimetres = small.center_std.map(|std| 1e3 * std);
         let relative = small.gyration_std.iter().zip(&small.gyration).map(|(std, radius)| 100.0 * std / radius);
+
         [
             format!(
                 "The 4 mm cables meet all nine printed frequencies of the two static models, and there is no other natural \
@@ -281,9 +289,11 @@ pub(crate) fn parameters(outcomes: &[Outcome]) -> PageTable {
             "<<origin",
         ],
     );
+
     for outcome in outcomes {
         let set = outcome.set;
         let (minimum, maximum) = outcome.sags.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), s| (a.min(*s), b.max(*s)));
+
         table.row(vec![
             set.name.to_owned(),
             CABLES[set.cables].to_owned(),
@@ -307,6 +317,7 @@ pub(crate) fn lists(outcomes: &[Outcome]) -> Vec<PageTable> {
     let list = |id, what: &str, published: &[f64], ours: &dyn Fn(&Outcome) -> Vec<f64>| {
         side_by_side(id, what, published, outcomes, ours)
     };
+
     vec![
         list(
             "table-dynamic",
@@ -341,11 +352,13 @@ fn side_by_side(
     columns.extend(published.iter().map(|f| format!("{f:.1}|Hz")));
     columns.extend(["missing", "extra", "<<extra frequencies|Hz", "rms|Hz", "largest|Hz"].map(str::to_owned));
     let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+
     let caption = format!(
         "Table III, {what}; below {BELOW_HZ} Hz. Header: the published list. Frequencies are paired in order if they \
          are closer than {MAX_DIFFERENCE} Hz; rms and largest difference are those of the pairs.",
     );
     let mut table = PageTable::new(id, caption, &columns);
+
     for outcome in outcomes {
         let agreement = Agreement::of(published, &ours(outcome));
         let mut cells = vec![outcome.set.name.to_owned()];
@@ -357,6 +370,7 @@ fn side_by_side(
             fixed(agreement.rms(), 3),
             fixed(agreement.largest(), 2),
         ]);
+
         table.row(cells);
     }
     table

@@ -167,16 +167,19 @@ pub(super) fn fit(robot: &Robot, start: &Platform) -> Option<Fit> {
 fn judged(found: &Minimum) -> Fit {
     let platform = Platform::at(&found.x);
     let count = SPRING.len() + STATIC_SAG.len();
+
     let all = precision(&found.jacobian, &[1.0; UNKNOWNS]);
     let deviation = |by: &[f64; UNKNOWNS]| {
         let entries = (0..UNKNOWNS).flat_map(|i| (0..UNKNOWNS).map(move |j| (i, j)));
         entries.map(|(i, j)| by[i] * all.covariance[(i, j)] * by[j]).sum::<f64>().sqrt()
     };
+
     let unit = |k: usize, size: f64| {
         let mut by = [0.0; UNKNOWNS];
         by[k] = size;
         by
     };
+
     let gyration_by = |axis: usize| -> [f64; UNKNOWNS] {
         std::array::from_fn(|k| {
             let [before, after] = [-STEP, STEP].map(|step| {
@@ -187,9 +190,12 @@ fn judged(found: &Minimum) -> Fit {
             (after - before) / (2.0 * STEP)
         })
     };
+
     let alone = precision(&found.jacobian.rows(0, count).into_owned(), &[1.0; UNKNOWNS]);
+
     // ∫ exp(−χ²/2) is exp(−χ²/2) at the minimum times √det(2π C), and det C the inverse product of the squares.
     let log_volume: f64 = -all.directions.iter().map(|(value, _)| value.ln()).sum::<f64>();
+
     Fit {
         platform,
         chi2: found.residuals[..count].iter().map(|r| r * r).sum(),

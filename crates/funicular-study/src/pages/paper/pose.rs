@@ -69,6 +69,7 @@ pub(crate) fn ideal_poses(sweeps: &[Sweep; 2]) -> PageTable {
          data.",
         &["<cable set", "<", "x|m", "y|m", "z|m", "largest error of a length|m"],
     );
+
     for ((sweep, name), theirs) in sweeps.iter().zip(SET_NAMES).zip(IDEAL_POSITION) {
         if let Ok(ideal) = &sweep.points[0].ideal {
             let p = ideal.pose.position_w;
@@ -78,9 +79,11 @@ pub(crate) fn ideal_poses(sweeps: &[Sweep; 2]) -> PageTable {
             cells.push(format!("{:.0e}", closure.fold(0.0, f64::max)).replace('-', "−"));
             table.marked_row("rule", cells);
         }
+
         let mut cells = vec![name.to_owned(), "independent".to_owned()];
         cells.extend(theirs.map(|v| fixed(v, 4)));
         cells.push("–".to_owned());
+
         table.row(cells);
     }
     table
@@ -90,15 +93,18 @@ pub(crate) fn ideal_poses(sweeps: &[Sweep; 2]) -> PageTable {
 pub(crate) fn distance_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
     let sweep = &sweeps[set];
     let masses: Vec<f64> = sweep.points.iter().map(|p| p.mass).collect();
+
     let curve = |of: fn(&PoseErrorPoint) -> Option<funicular::pose_error::PoseDifference>| {
         sweep.points.iter().map(|p| of(p).map_or(f64::NAN, |d| 1e3 * d.distance)).collect::<Vec<_>>()
     };
+
     let mut data = vec![
         line("catenary", &masses, &curve(PoseErrorPoint::catenary_from_ideal), colour::BLUE, "solid"),
         line("spring", &masses, &curve(PoseErrorPoint::spring_from_ideal), colour::GREEN, "dot"),
         line("spring from catenary", &masses, &curve(PoseErrorPoint::spring_from_catenary), colour::ORANGE, "dash"),
     ];
     data.push(independent(sweep, set));
+
     let id = ["figure-pose-4mm", "figure-pose-8mm"][set];
     let caption = format!(
         "The paper's Fig. 6, {} cables: distance of the platform from its ideal position over the platform's mass. Circles: \
@@ -109,6 +115,7 @@ pub(crate) fn distance_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
         "xaxis": axis("platform mass [kg]", json!({"range": [5, 90]})),
         "yaxis": axis("distance [mm]", json!({"type": "log", "exponentformat": "power", "tickvals": [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200]})),
     });
+
     PageFigure::new(id, 380, caption, &data, layout)
 }
 
@@ -127,6 +134,7 @@ fn independent(sweep: &Sweep, set: usize) -> Value {
 pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
     let sweep = &sweeps[set];
     let masses: Vec<f64> = sweep.points.iter().map(|p| p.mass).collect();
+
     let mut data = Vec::new();
     for (k, (name, colour)) in
         [("x", colour::VERMILION), ("y", colour::GREEN), ("z", colour::BLUE)].into_iter().enumerate()
@@ -134,12 +142,14 @@ pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
         let curve = |of: fn(&PoseErrorPoint) -> Option<funicular::pose_error::PoseDifference>| {
             sweep.points.iter().map(|p| of(p).map_or(f64::NAN, |d| 1e3 * d.translation[k])).collect::<Vec<_>>()
         };
+
         data.push(line(name, &masses, &curve(PoseErrorPoint::catenary_from_ideal), colour, "solid"));
         data.push(with(
             line(&format!("{name}, spring"), &masses, &curve(PoseErrorPoint::spring_from_ideal), colour, "dot"),
             json!({"line": {"width": 2.2}, "showlegend": false}),
         ));
     }
+
     let id = ["figure-axes-4mm", "figure-axes-8mm"][set];
     let caption = format!(
         "Displacement from the ideal position per world axis, {} cables; solid: catenary, dotted: spring.",
@@ -149,6 +159,7 @@ pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
         "xaxis": axis("platform mass [kg]", json!({"range": [5, 90]})),
         "yaxis": axis("displacement [mm]", json!({"zeroline": true, "zerolinecolor": "#aaaaaa"})),
     });
+
     PageFigure::new(id, 380, caption, &data, layout)
 }
 

@@ -103,12 +103,14 @@ pub(super) fn along(rows: &Rows) -> HorizontalAxis {
         let x = rows.places.iter().map(|place| rows.at(*place)[0]).collect();
         return HorizontalAxis { title: axis_title(&axis.name, &axis.unit), x, short: axis.name.clone() };
     }
+
     let positions: Vec<&Vec<f64>> = rows
         .coordinates
         .iter()
         .filter(|(name, ..)| ["x_m", "y_m", "z_m"].contains(&name.as_str()))
         .map(|c| &c.2)
         .collect();
+
     let mut length = 0.0;
     let path: Vec<f64> = (0..rows.places.len())
         .map(|i| {
@@ -117,6 +119,7 @@ pub(super) fn along(rows: &Rows) -> HorizontalAxis {
             length
         })
         .collect();
+
     if rows.is_list && length > 0.0 {
         HorizontalAxis { title: "length of the path [m]".to_owned(), x: path, short: "path".to_owned() }
     } else {
@@ -193,6 +196,7 @@ fn alone(along: &HorizontalAxis, series: &Series, colour: &str) -> Value {
 /// Lines through the values, with gaps where values are missing.
 fn curves(id: String, rows: &Rows, along: &HorizontalAxis, members: &[&Series]) -> PageFigure {
     let few = along.x.len() <= 60;
+
     let data: Vec<Value> = members
         .iter()
         .enumerate()
@@ -203,18 +207,22 @@ fn curves(id: String, rows: &Rows, along: &HorizontalAxis, members: &[&Series]) 
             if few {
                 trace = with(trace, json!({"mode": "lines+markers", "marker": {"size": 4, "color": colour}}));
             }
+
             let hover = format!("{} %{{x}}<br>%{{y:.5g}} {}", plain(&along.short), plain(&series.unit));
             let more = json!({"hovertemplate": hover, "connectgaps": false, "legendgroup": series.name});
             let trace = with(trace, more.clone());
             if few {
                 return vec![trace];
             }
+
             let alone = with(alone(along, series, colour), more);
             [Some(trace), Some(alone).filter(|alone| alone["x"] != json!([]))].into_iter().flatten().collect()
         })
         .collect::<Vec<_>>()
         .concat();
+
     let y = vertical_title(members);
+
     let caption = match members {
         [one] => format!("{}: {}.", label(&one.name), one.about),
         several => {
@@ -231,7 +239,9 @@ fn curves(id: String, rows: &Rows, along: &HorizontalAxis, members: &[&Series]) 
             format!("{}.", parts.join("; "))
         }
     };
+
     let caption = format!("{}{}", capitalised(&caption), shading(rows, along));
+
     // The margin leaves room for the buttons above the legend.
     let more = json!({"showlegend": members.len() > 1, "margin": {"t": if members.len() > 1 { 56 } else { 34 }}});
     PageFigure::new(id, if members.len() > 10 { 460 } else { 380 }, caption, &data, layout(rows, along, &y, more))
@@ -269,14 +279,17 @@ fn capitalised(text: &str) -> String {
 fn campbell(rows: &Rows, along: &HorizontalAxis, tracking: &Tracking) -> PageFigure {
     let count = frequencies(rows).len();
     let branches = tracking.branches.iter().flatten().max().map_or(0, |last| last + 1);
+
     let mut data = Vec::new();
     let (mut x, mut y, mut share, mut text) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+
     for branch in 0..branches {
         let (mut line_x, mut line_y) = (Vec::new(), Vec::new());
         for (at, place) in rows.places.iter().enumerate() {
             let step = place - rows.places[0];
             let of_step = tracking.branches.get(step).map_or(&[][..], Vec::as_slice);
             let modes = tracking.modes.get(step).map_or(&[][..], Vec::as_slice);
+
             let Some(k) = of_step.iter().position(|of| *of == branch).filter(|k| *k < count) else {
                 line_x.push(along.x[at]);
                 line_y.push(f64::NAN);
@@ -289,11 +302,13 @@ fn campbell(rows: &Rows, along: &HorizontalAxis, tracking: &Tracking) -> PageFig
             share.push(100.0 * modes[k].platform_energy_fraction);
             text.push(format!("mode {} of its row, branch {}, {}", k + 1, branch + 1, modes[k].kind.name()));
         }
+
         if line_y.iter().filter(|y| y.is_finite()).count() > 1 {
             let trace = line("", &line_x, &line_y, "#6b6b6b", "solid");
             data.push(with(trace, json!({"showlegend": false, "hoverinfo": "skip", "line": {"width": 1.1}})));
         }
     }
+
     let size = if along.x.len() > 120 { 4.0 } else { 6.0 };
     data.push(json!({
         "type": "scatter", "mode": "markers", "x": rounded(&x), "y": rounded(&y), "text": text, "showlegend": false,
@@ -304,6 +319,7 @@ fn campbell(rows: &Rows, along: &HorizontalAxis, tracking: &Tracking) -> PageFig
             "colorbar": {"title": {"text": "platform's share of the energy [%]", "side": "right", "font": {"size": 12}}, "thickness": 14, "outlinewidth": 0, "tickfont": {"size": 11}},
         },
     }));
+
     let caption = format!(
         "The lowest {count} natural frequencies. A line joins modes with the most similar motion from one value to the \
          next (MAC of the complete robot, weighted by mass, at least 0.5). Colour: the platform's share of the kinetic \
@@ -311,5 +327,6 @@ fn campbell(rows: &Rows, along: &HorizontalAxis, tracking: &Tracking) -> PageFig
          modes exchange their motions, and the colours change along the lines.{}",
         shading(rows, along)
     );
+
     PageFigure::new("figure-modes", 520, caption, &data, layout(rows, along, "natural frequency [Hz]", json!({})))
 }

@@ -69,6 +69,7 @@ fn chosen<'a>(groups: &[Vec<&'a Series>], wanted: Option<&ChosenColumns>) -> Res
     let names = |groups: &[Vec<&Series>]| -> String {
         groups.iter().map(|group| group[0].name.as_str()).collect::<Vec<_>>().join(", ")
     };
+
     let Some(wanted) = wanted else {
         return match groups {
             [] => Err(anyhow!("no row has a value, so there is nothing to draw")),
@@ -79,11 +80,13 @@ fn chosen<'a>(groups: &[Vec<&'a Series>], wanted: Option<&ChosenColumns>) -> Res
             )),
         };
     };
+
     let found: Vec<Vec<&Series>> = groups
         .iter()
         .map(|group| group.iter().copied().filter(|series| wanted.columns.contains(&series.name)).collect::<Vec<_>>())
         .filter(|group| !group.is_empty())
         .collect();
+
     match &found[..] {
         [] => Err(anyhow!("⟪quantity⟫: the rows have no numbers of `{}`; they have {}", wanted.text, names(groups))),
         [one] => Ok(one.clone()),
@@ -274,23 +277,29 @@ fn axis_of(rows: &Rows, key: &str, name: &str) -> Result<usize> {
 fn places(rows: &Rows, choice: &SweepFigureChoice, plane: [usize; 2]) -> Result<Vec<usize>> {
     /// Maximum distance of a chosen value from a value of the grid, relative to the range of the axis.
     const NEAR: f64 = 1e-6;
+
     let mut at: Vec<usize> = rows.axes.iter().map(|axis| (axis.kept() - 1) / 2).collect();
+
     for (name, wanted) in &choice.at {
         let k = axis_of(rows, "at", name)?;
         if plane.contains(&k) {
             bail!("⟪at⟫: {name} is an axis of the slice itself; the slice shows all its values");
         }
+
         let values = rows.axes[k].values();
         let range = values[values.len() - 1] - values[0];
         let distance = |value: f64| (value - wanted).abs();
         let nearest = (0..values.len()).min_by(|&i, &j| distance(values[i]).total_cmp(&distance(values[j])));
         let nearest = nearest.unwrap_or_default();
+
         if distance(values[nearest]) > NEAR * range {
             let near: Vec<String> =
                 values[nearest.saturating_sub(1)..(nearest + 2).min(values.len())].iter().map(|v| brief(*v)).collect();
             bail!("⟪at⟫: {name} = {wanted} is not a value of these rows; the nearest values are {}", near.join(", "));
         }
+
         at[k] = nearest;
     }
+
     Ok(at)
 }

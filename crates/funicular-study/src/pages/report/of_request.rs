@@ -40,13 +40,16 @@ pub fn about(
 ) -> Result<Report> {
     request::check_positive("below_hz", request.below_hz)?;
     request::check_fraction("platform_share", request.platform_share)?;
+
     let (from, to) = response(request, &at_rest.robot)?;
     let [input, output] = at_rest::signals(&at_rest.robot, &from, &to, &request.points)?;
+
     let vector = |signal: Signal, name: &str| {
         signal.platform_vector(&at_rest.equilibrium.pose).ok_or_else(|| {
             anyhow!("{name} is on a cable, but the report shows a response of the platform: use `funicular frf` for it")
         })
     };
+
     report(&ReportInput {
         platform_share: request.platform_share,
         at_rest,

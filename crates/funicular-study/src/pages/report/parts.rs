@@ -79,6 +79,7 @@ pub(crate) fn tension_table(at_rest: &AtRest) -> PageTable {
 pub(crate) fn friction_table(at_rest: &AtRest) -> Option<PageTable> {
     let found = statics::FrictionRow::of(at_rest).ok()?;
     let range = |[min, max]: [f64; 2], digits: usize| format!("{} to {}", fixed(min, digits), fixed(max, digits));
+
     let motion = match &found.motion {
         Some(motion) => {
             let mm = motion.translation_m.map(|pair| range(pair.map(|metres| 1e3 * metres), 3)).join(", ");
@@ -90,12 +91,15 @@ pub(crate) fn friction_table(at_rest: &AtRest) -> Option<PageTable> {
         }
         None => "The pose and the tensions at the platform are held.".to_owned(),
     };
+
     let caption = format!(
         "Friction of pulleys: minimum to maximum if every cable may have run last towards the platform or towards its \
          drum. {motion} All other results leave friction out."
     );
+
     let columns = ["<cable", "friction exponent|–", "beyond exit|mm", "tension, drum|N", "tension, platform|N"];
     let mut table = PageTable::new("table-friction", caption, &columns);
+
     for cable in &found.cables {
         table.row(vec![
             cable.name.clone(),
@@ -105,6 +109,7 @@ pub(crate) fn friction_table(at_rest: &AtRest) -> Option<PageTable> {
             range(cable.tension_platform_n, 3),
         ]);
     }
+
     Some(table)
 }
 
@@ -113,6 +118,7 @@ pub(crate) fn drive_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Pa
     if robot.cables.iter().all(|cable| cable.anchor.is_fixed()) {
         return None;
     }
+
     let mut table = PageTable::new(
         "table-drives",
         "Pulleys and winches. Wrap: angle over which the cable touches its wheel. The unstrained length of a cable is the \
@@ -131,10 +137,12 @@ pub(crate) fn drive_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Pa
             "<exit point|m",
         ],
     );
+
     for (cable, row) in robot.cables.iter().zip(&equilibrium.cables) {
         let name = |name: Option<&String>| name.map_or_else(|| NONE.to_owned(), Clone::clone);
         let contact = row.drive.as_ref().and_then(|drive| drive.contact);
         let wrap = contact.or_else(|| cable.anchor.contact(&row.attachment_w)).map(|contact| contact.wrap.to_degrees());
+
         let [arc, drum_side] = match &row.drive {
             Some(drive) => [drive.arc_length, drive.drum_side_length],
             // Ideal cables.
@@ -142,6 +150,7 @@ pub(crate) fn drive_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Pa
                 [row.unstrained_length - row.chord() - cable.anchor.drum_side_length(), cable.anchor.drum_side_length()]
             }
         };
+
         let free = row.unstrained_length - arc - drum_side;
         let exit = row.anchor_w;
         table.row(vec![
@@ -157,6 +166,7 @@ pub(crate) fn drive_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Pa
             format!("{}, {}, {}", fixed(exit.x, 4), fixed(exit.y, 4), fixed(exit.z, 4)),
         ]);
     }
+
     Some(table)
 }
 
@@ -165,6 +175,7 @@ pub(crate) fn support_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<
     if !robot.has_supports() {
         return None;
     }
+
     let mut table = PageTable::new(
         "table-supports",
         "Flexible supports. Displacement: of the anchors from their places without forces, world axes. Force: of all cables on \
@@ -172,7 +183,9 @@ pub(crate) fn support_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<
             .to_owned(),
         &["<support", "<cables", "<displacement|mm", "<force|N"],
     );
+
     let moved = equilibrium.support_displacements(robot);
+
     for (i, (support, displacement_w)) in robot.supports.iter().zip(moved).enumerate() {
         let carried = robot.cables.iter().filter(|cable| cable.anchor.support == Some(i));
         let vector = |v: Vec3, digits: usize| [v.x, v.y, v.z].map(|entry| fixed(entry, digits)).join(", ");
@@ -183,6 +196,7 @@ pub(crate) fn support_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<
             vector(support.stiffness_w * displacement_w, 1),
         ]);
     }
+
     Some(table)
 }
 
@@ -200,6 +214,7 @@ pub(crate) fn held_table(
     found: &Modes,
 ) -> Option<PageTable> {
     let held = modes_with_held_exits(robot, equilibrium, linearisation, found.below_hz)?;
+
     let mut table = PageTable::new(
         "table-held",
         "First natural frequencies with pulleys, winches and flexible supports, and at the same equilibrium with the exit \
@@ -208,6 +223,7 @@ pub(crate) fn held_table(
             .to_owned(),
         &["no.", "as given|Hz", "exit points held|Hz", "difference|%"],
     );
+
     for (i, mode) in found.modes.iter().take(MAX_HELD).enumerate() {
         let other = held.get(i);
         table.row(vec![
@@ -217,6 +233,7 @@ pub(crate) fn held_table(
             other.map_or_else(|| NONE.to_owned(), |hz| fixed(100.0 * (hz / mode.frequency_hz - 1.0), 2)),
         ]);
     }
+
     Some(table)
 }
 
@@ -273,6 +290,7 @@ const MIN_SHOWN_SAG: f64 = 1e-9;
 pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
     let ratios: Vec<f64> = sags(robot, equilibrium).iter().map(Sag::ratio).collect();
     let maximum = ratios.iter().copied().filter(|r| r.is_finite()).fold(0.0, f64::max);
+
     // The limit is drawn only if the bars stay visible beside it.
     let near = maximum > 0.2 * SHALLOW_SAG_LIMIT;
     let shapes = if near {
@@ -283,16 +301,19 @@ pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure
     } else {
         json!([])
     };
+
     let top = 1.12 * if near { maximum.max(SHALLOW_SAG_LIMIT) } else { maximum.max(MIN_SHOWN_SAG) };
     let layout = json!({
         "bargap": 0.45, "showlegend": false, "shapes": shapes, "xaxis": axis("cable", json!({"type": "category", "ticks": ""})),
         "yaxis": axis("sag ratio d/l", json!({"range": [0, top], "exponentformat": "power"})),
     });
+
     let caption = if near {
         "Sag divided by chord; dashed: 1/20, the limit of the models shallow-static and shallow-dynamic."
     } else {
         "Sag divided by chord, far below 1/20, the limit of the models shallow-static and shallow-dynamic."
     };
+
     PageFigure::new("figure-sag", 300, caption, &[bars("d/l", &names(robot), &ratios, colour::BLUE, "")], layout)
 }
 
@@ -303,16 +324,19 @@ pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Optio
     let motions = ["δx|m", "δy|m", "δz|m", "δθx|rad", "δθy|rad", "δθz|rad"];
     let wrenches = ["fx [N]", "fy [N]", "fz [N]", "mx [N·m]", "my [N·m]", "mz [N·m]"];
     let columns: Vec<&str> = std::iter::once("<").chain(possible.iter().map(|&i| motions[i])).collect();
+
     let units = if robot.platform.motion.can_turn() {
         " Forces per translation in N/m, forces per rotation and moments per translation in N, moments per rotation in N·m."
     } else {
         ""
     };
+
     let drag = if drag_stiffness(robot, equilibrium).is_some() {
         " The drag of the wind rotates with the cables, so the matrix is not symmetric."
     } else {
         ""
     };
+
     let mut table = PageTable::new(
         "table-stiffness",
         format!(
@@ -321,10 +345,12 @@ pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Optio
         ),
         &columns,
     );
+
     for &i in &possible {
         let numbers = possible.iter().map(|&j| fixed(stiffness[(i, j)], 2));
         table.row(std::iter::once(wrenches[i].to_owned()).chain(numbers).collect());
     }
+
     Some(table)
 }
 
@@ -334,6 +360,7 @@ pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> PageTable {
     let mut columns =
         vec!["no.", "frequency|Hz", "damping|%", "<kind", "platform energy|%", "<strongest cables|share of the energy"];
     columns.extend(possible.iter().map(|&i| ["δx|m", "δy|m", "δz|m", "θx|rad", "θy|rad", "θz|rad"][i]));
+
     let mut table = PageTable::new(
         "table-modes",
         format!(
@@ -348,9 +375,11 @@ pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> PageTable {
         ),
         &columns,
     );
+
     for (i, mode) in found.modes.iter().enumerate() {
         let rests = mode.shape.iter().all(|s| s.abs() <= 0.0);
         let shape = possible.iter().map(|&i| mode.shape[i]);
+
         let mut cells = vec![
             (i + 1).to_string(),
             fixed(mode.frequency_hz, 4),
@@ -360,6 +389,7 @@ pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> PageTable {
             strongest(robot, mode),
         ];
         cells.extend(shape.map(|s| if rests { "–".to_owned() } else { fixed(s, 3) }));
+
         table.marked_row(class_of(mode.kind), cells);
     }
     table
@@ -425,9 +455,11 @@ fn models_table(comparison: &Comparison) -> PageTable {
         ),
         &["<model", "modes", "missed", "first wrong|Hz", "<<natural frequencies|Hz"],
     );
+
     for result in &comparison.models {
         let is_reference = result.model == comparison.reference;
         let modes = result.modes.as_ref().ok();
+
         let list = match &result.modes {
             Ok(found) if found.modes.len() > MAX_LISTED => format!(
                 "{} from {} to {}",
@@ -447,14 +479,17 @@ fn models_table(comparison: &Comparison) -> PageTable {
             // A cell is plain text, so the backticks around code in messages are removed.
             Err(reason) => reason.to_string().replace('`', ""),
         };
+
         let count = modes.map_or_else(|| "–".to_owned(), |m| m.modes.len().to_string());
         let (missed, first) = if is_reference || modes.is_none() {
             ("–".to_owned(), "–".to_owned())
         } else {
             (result.missed.to_string(), result.first_wrong_hz.map_or_else(|| "none".to_owned(), |f| fixed(f, 3)))
         };
+
         table.row(vec![result.model.name().to_owned(), count, missed, first, list]);
     }
+
     table
 }
 
@@ -466,12 +501,14 @@ const MIN_SHARE: f64 = 1e-3;
 fn side_by_side(comparison: &Comparison) -> PageTable {
     let others: Vec<_> =
         comparison.models.iter().filter(|m| m.model != comparison.reference && m.modes.is_ok()).collect();
+
     let mut columns =
         vec![format!("{}|Hz", comparison.reference.name()), "<kind".to_owned(), "platform energy|%".to_owned()];
     for other in &others {
         columns.push(format!("{}|Hz", other.model.name()));
         columns.push("difference|%".to_owned());
     }
+
     let mut table = PageTable::new(
         "table-side-by-side",
         format!(
@@ -483,14 +520,17 @@ fn side_by_side(comparison: &Comparison) -> PageTable {
         ),
         &columns.iter().map(String::as_str).collect::<Vec<_>>(),
     );
+
     let reference = comparison.models.iter().find(|m| m.model == comparison.reference);
     let modes = reference.and_then(|m| m.modes.as_ref().ok()).map_or(&[][..], |m| &m.modes);
+
     for (index, mode) in modes.iter().enumerate() {
         let pairs: Vec<_> = others.iter().map(|m| m.matches.iter().find(|m| m.reference_index == index)).collect();
         let of_cables = mode.kind == Kind::Cable && pairs.iter().all(Option::is_none);
         if of_cables || mode.platform_energy_fraction < MIN_SHARE {
             continue;
         }
+
         let mut cells = vec![
             fixed(mode.frequency_hz, 4),
             mode.kind.name().to_owned(),
@@ -502,6 +542,7 @@ fn side_by_side(comparison: &Comparison) -> PageTable {
                 None => cells.extend(["–".to_owned(), "–".to_owned()]),
             }
         }
+
         table.row(cells);
     }
     table
