@@ -35,7 +35,7 @@ use style::Type;
 /// Figure of one result.
 pub struct Figure(pub(crate) FigureContent);
 
-/// Kind of a figure.
+/// Content of a figure: a chart, or the robot in space.
 pub(crate) enum FigureContent {
     Chart(Chart),
     Space(Box<Space>),
@@ -71,8 +71,8 @@ impl Size {
         let most = MAX_FONT_TO_WIDTH * width_mm * POINTS;
         if font_size_pt > most {
             bail!(
-                "⟪font_size_pt⟫: texts of {font_size_pt} pt leave no room for curves in a figure of {width_mm} mm: give \
-                 at most {most:.0} pt, or a larger ⟪figure_width_mm⟫"
+                "⟪font_size_pt⟫: texts of {font_size_pt} pt leave no room for curves in a figure of {width_mm} mm: \
+                 give at most {most:.0} pt, or a larger ⟪figure_width_mm⟫"
             );
         }
         Ok(Self { width_mm, font_size_pt })

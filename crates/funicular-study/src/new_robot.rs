@@ -30,9 +30,9 @@ const MIN_DIAMETER_MM: f64 = 0.3;
 /// Maximum number of cables of a layout that the program makes.
 pub const MAX_CABLES: usize = 64;
 
-/// Breaking load of the default rope at least, as a multiple of the platform's weight: 6 mm for 100 kg. With 5, the usual
-/// factor between breaking load and working load, one cable could just carry the platform; 20 leaves room for a payload
-/// and for shallow cables. With 80 the ropes of a small robot would be heavy beside its platform.
+/// Minimum breaking load of the default rope, as a multiple of the platform's weight: 6 mm for 100 kg. With 5, the
+/// usual factor between breaking load and working load, one cable could just carry the platform; 20 leaves room for a
+/// payload and for shallow cables. With 80 the ropes of a small robot would be heavy beside its platform.
 const STRENGTH: f64 = 20.0;
 
 /// Acceleration of gravity for weights [m/s²].

@@ -42,8 +42,8 @@ pub enum SignalError {
     /// Name that is not an input.
     #[error(
         "not an input: fx, fy, fz (force), mx, my, mz (moment), f:ux,uy,uz or m:ux,uy,uz (along a direction in world \
-         axes), a force on a cable as in cable:3@0.5:fz, the commanded length of a cable as in length:3, a force of its \
-         motor or on its drum as in motor:3 or drum:3, a motion of the base as in base-x or base-rz, or one of an \
+         axes), a force on a cable as in cable:3@0.5:fz, the commanded length of a cable as in length:3, a force of \
+         its motor or on its drum as in motor:3 or drum:3, a motion of the base as in base-x or base-rz, or one of an \
          anchor as in anchor:3:x"
     )]
     NotAnInput,
@@ -71,8 +71,8 @@ pub enum SignalError {
     BesidePlatform(String),
     /// Point of the platform for a signal that is not on the platform.
     #[error(
-        "the point of the {side} is a point of the platform, but the {side} {name} is not on the platform: leave out the \
-         point"
+        "the point of the {side} is a point of the platform, but the {side} {name} is not on the platform: leave out \
+         the point"
     )]
     PointOfPlatform {
         /// `input` or `output`.
@@ -155,8 +155,8 @@ fn axis(name: &str) -> Option<Vec3> {
     }
 }
 
-/// Signal of a drive from `length:NAME`, `drum:NAME`, `motor:NAME` or `tension:NAME`: the quantity and the cable's name;
-/// `None` for another name.
+/// Signal of a drive from `length:NAME`, `drum:NAME`, `motor:NAME` or `tension:NAME`: the quantity and the cable's
+/// name; `None` for another name.
 fn of_drive(text: &str) -> Option<(DriveSignal, String)> {
     let (kind, cable) = text.split_once(':')?;
     let signal = DriveSignal::ALL.into_iter().find(|signal| signal.name() == kind)?;
@@ -242,8 +242,8 @@ fn on_cable(text: &str) -> Result<Option<(String, f64, &str)>, SignalError> {
     Ok(Some((name.to_owned(), fraction, what)))
 }
 
-/// Input signal: a force or moment on the platform, a force on a cable, a quantity of a cable's drive, or a given motion of
-/// the base or of an anchor.
+/// Input signal: a force or moment on the platform, a force on a cable, a quantity of a cable's drive, or a given
+/// motion of the base or of an anchor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
     /// Name as the user wrote it.
@@ -437,6 +437,8 @@ impl ResponseEnd<'_> {
         let none = |signal: Result<Signal, SignalError>| {
             if has_point { Err(SignalError::PointOfPlatform { side, name: name.clone() }) } else { signal }
         };
+
+
         match self.place {
             Place::Platform { turns, direction_w } => self.on_platform(robot, *turns, *direction_w, point_p),
             Place::Cable { cable, fraction, direction_w } => {

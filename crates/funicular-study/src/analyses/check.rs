@@ -36,7 +36,7 @@ pub struct Checked {
     pub state: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pose: Option<CheckedPose>,
-    /// Remarks on values that may be meant as well as a slip; absent if there are none.
+    /// Remarks on unusual values, which may be intended or a slip; absent if there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
     #[serde(skip)]
@@ -111,8 +111,8 @@ pub struct CheckedCable {
     pub support: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unstrained_length_m: Option<f64>,
-    /// Parts of the unstrained length of a cable over a pulley or to a winch; absent for other cables, and if the lengths
-    /// are unknown or have no equilibrium.
+    /// Parts of the unstrained length of a cable over a pulley or to a winch; absent for other cables, and if the
+    /// lengths are unknown or have no equilibrium.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length_parts: Option<LengthParts>,
     /// Tension limits of the cable, or else of its rope.
@@ -296,7 +296,8 @@ impl CheckedWinch {
         }
     }
 
-    /// Motion of its drum and guide wheels in one phrase; `None` for a motor that holds its angle where nothing has inertia.
+    /// Motion of its drum and guide wheels in one phrase; `None` for a motor that holds its angle where nothing has
+    /// inertia.
     pub fn drive_text(&self) -> Option<String> {
         let mass = self.drum_mass_kg.unwrap_or(0.0) + self.motor_mass_kg.unwrap_or(0.0);
         let inertia = (mass > 0.0).then(|| format!("{} kg", short(mass, 4)));

@@ -123,8 +123,8 @@ pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Comp
     let platform_share = request.platform.then_some(request.platform_share);
     let criterion = Criterion { tolerance: request.tolerance, platform_share };
     let linearisation = Linearisation {
-        // The number of modes is checked before any work. Warnings of the models follow. The shallow-dynamic model counts
-        // fastest.
+        // The number of modes is checked before any work. Warnings of the models follow. The shallow-dynamic model
+        // counts fastest.
         cable_model: CableModel::ShallowDynamic,
         assembly: request.terms.assembly,
         in_plane_only: request.terms.in_plane_only,

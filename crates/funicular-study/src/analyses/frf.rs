@@ -259,8 +259,8 @@ pub fn response(
     Ok(response)
 }
 
-/// Computes the responses of a robot at equilibrium at frequencies [Hz] without the search for missed peaks, which takes
-/// longer than the responses.
+/// Computes the responses of a robot at equilibrium at frequencies [Hz] without the search for missed peaks, which
+/// takes longer than the responses.
 ///
 /// # Errors
 /// The errors of [`response()`].
@@ -378,8 +378,8 @@ impl Response {
         let count = modes::count_within(dynamics, from_hz, to_hz);
         if count > MAX_CHECKED {
             return Ok(Some(format!(
-                "{count} natural frequencies lie between {from_hz} and {to_hz} Hz; whether the heights of their peaks are \
-                 read correctly is checked for at most {MAX_CHECKED}: choose a narrower range"
+                "{count} natural frequencies lie between {from_hz} and {to_hz} Hz; whether the heights of their peaks \
+                 are read correctly is checked for at most {MAX_CHECKED}: choose a narrower range"
             )));
         }
 

@@ -116,8 +116,8 @@ pub struct CoordinateRow {
 /// Makes a model of the robot for control design, in the requested form.
 ///
 /// # Errors
-/// A signal that the robot does not have, a robot without such an equilibrium or model, too many modes, or work that was
-/// stopped.
+/// A signal that the robot does not have, a robot without such an equilibrium or model, too many modes, or work that
+/// was stopped.
 pub fn run(robot: Robot, request: &request::ReduceRequest, watch: &mut dyn Watch) -> Result<ReducedForm> {
     check(&robot, request)?;
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;

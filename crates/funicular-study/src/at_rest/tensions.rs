@@ -44,8 +44,8 @@ fn refuse_above_breaking_load(robot: &Robot, tensions: &Tensions) -> Result<()> 
     if let Some((cable, load)) = weakest.filter(|(_, load)| maximum > *load) {
         bail!(
             "cable \"{}\": maximum tension {maximum} N is above the breaking load {load} N of its rope \"{}\": give \
-             ⟪max_tension_n⟫ of at most {load}, usually a fifth to a third of it, or change `breaking_load_n` in the robot \
-             file",
+             ⟪max_tension_n⟫ of at most {load}, usually a fifth to a third of it, or change `breaking_load_n` in the \
+             robot file",
             cable.name,
             cable.material.name
         );

@@ -13,7 +13,7 @@ impl AtRest {
         }
         let elsewhere = self
             .requested_pose
-            .and_then(|(asked, distance)| warnings::of_pose(&self.robot, &self.equilibrium, &asked, distance));
+            .and_then(|(pose, distance)| warnings::of_pose(&self.robot, &self.equilibrium, &pose, distance));
         self.implausible().chain(elsewhere.iter().chain(&warnings).map(ToString::to_string)).collect()
     }
 

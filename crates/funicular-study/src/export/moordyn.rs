@@ -109,9 +109,9 @@ fn warn_of_drives(robot: &Robot, warnings: &mut Vec<String>) {
         (robot.cables.iter().filter(|cable| !cable.anchor.is_fixed())).map(|cable| cable.name.as_str()).collect();
     if !driven.is_empty() {
         warnings.push(format!(
-            "MoorDyn has no pulleys and no winches: the lines of the cables {} end at the exit points, which do not move. \
-             Arc, drum side and winch are left out, so that the file has the equilibrium of the robot, and a higher \
-             stiffness",
+            "MoorDyn has no pulleys and no winches: the lines of the cables {} end at the exit points, which do not \
+             move. Arc, drum side and winch are left out, so that the file has the equilibrium of the robot, and a \
+             higher stiffness",
             driven.join(", ")
         ));
     }
@@ -179,8 +179,8 @@ const STEP: f64 = 0.5;
 fn refuse(robot: &Robot) -> Result<()> {
     if matches!(robot.platform.motion, PlatformMotion::Planar(_)) {
         bail!(
-            "the platform is planar: MoorDyn's bodies are free in all six degrees of freedom or moved by another program, and \
-             nothing guides them in a plane; export it to OpenSees"
+            "the platform is planar: MoorDyn's bodies are free in all six degrees of freedom or moved by another \
+             program, and nothing guides them in a plane; export it to OpenSees"
         );
     }
 

@@ -84,8 +84,8 @@ pub(crate) fn script(
     let exported = AtRest { robot: with_held_motors(robot), ..at_rest.clone() };
     if exported.robot != *robot {
         warnings.push(
-            "the script has neither the inertia of wheels, drums and motors nor the mass of drum sides nor the control of \
-             motors: its motors are held, and so are those of the frequencies to which it compares"
+            "the script has neither the inertia of wheels, drums and motors nor the mass of drum sides nor the control \
+             of motors: its motors are held, and so are those of the frequencies to which it compares"
                 .to_owned(),
         );
     }
@@ -130,13 +130,13 @@ pub(crate) fn script(
     Ok(script.render()? + "\n")
 }
 
-/// Warning that OpenSees rounds the lowest frequencies; `lost` is their relative error, `size` the distance of the masses
-/// from the centre of mass [m].
+/// Warning that OpenSees rounds the lowest frequencies; `lost` is their relative error, `size` the distance of the
+/// masses from the centre of mass [m].
 fn rounding_warning(lost: f64, size: f64, robot: &Robot) -> String {
     format!(
-        "OpenSees will find the lowest frequencies only to about {lost:.0e}: they are low compared with those of the stiff \
-         bars between the masses that represent the platform. These masses are {size:.3} m from its centre of mass, the \
-         attachments {:.3} m from its origin; if that is wrong, correct inertia_kg_m2",
+        "OpenSees will find the lowest frequencies only to about {lost:.0e}: they are low compared with those of the \
+         stiff bars between the masses that represent the platform. These masses are {size:.3} m from its centre of \
+         mass, the attachments {:.3} m from its origin; if that is wrong, correct inertia_kg_m2",
         robot.platform_length()
     )
 }

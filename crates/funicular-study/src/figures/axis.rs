@@ -39,7 +39,7 @@ impl ChartAxis {
         Self { title: title.into(), low, high, logarithmic: true, labels: None }
     }
 
-    /// Axis with these labels only.
+    /// Axis with given labels instead of round numbers.
     pub(crate) fn with_labels(mut self, labels: Vec<(f64, String)>) -> Self {
         self.labels = Some(labels);
         self
@@ -158,7 +158,7 @@ impl ChartAxis {
 /// Minimum length of a decade with minor ticks [pt]: the last two are then half a point apart.
 const MIN_DECADE: f64 = 11.0;
 
-/// Limits that differ, around equal ones.
+/// Limits of an axis; equal limits are moved apart.
 fn apart(low: f64, high: f64) -> (f64, f64) {
     let size = low.abs().max(high.abs());
     if high - low > 1e-9 * size { (low, high) } else { (low - 0.5 * size.max(1e-9), high + 0.5 * size.max(1e-9)) }

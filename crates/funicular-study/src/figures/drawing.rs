@@ -70,12 +70,12 @@ pub(crate) struct DrawnPath {
     pub(crate) stroke: Option<Stroke>,
 }
 
-/// Text of which parts may be raised as exponents.
+/// Text whose parts may be raised as exponents.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Label(pub(crate) Vec<(String, bool)>);
 
 impl Label {
-    /// Text in which `^{…}` is an exponent.
+    /// Label from a text in which `^{…}` is an exponent.
     pub(crate) fn new(text: &str) -> Self {
         let mut runs = Vec::new();
         let mut rest = text;
@@ -93,7 +93,7 @@ impl Label {
         Self(runs)
     }
 
-    /// Text as it is, without exponents: names that the user chose.
+    /// Label without exponents, for names that the user chose.
     pub(crate) fn plain(text: &str) -> Self {
         Self(vec![(text.to_owned(), false)])
     }

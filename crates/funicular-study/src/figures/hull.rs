@@ -43,8 +43,8 @@ fn flat_corners(points: &[Vec3], reach: f64) -> Vec<Vec<usize>> {
     faces
 }
 
-/// Points in the plane of three points; `None` if the three are nearly on a line, or if points lie on both sides of their
-/// plane.
+/// Points in the plane of three points; `None` if the three are nearly on a line, or if points lie on both sides of
+/// their plane.
 fn corners_of_side(points: &[Vec3], [i, j, k]: [usize; 3], reach: f64) -> Option<Vec<usize>> {
     let normal = (points[j] - points[i]).cross(&(points[k] - points[i]));
     if normal.norm() < 1e-6 * reach * reach {

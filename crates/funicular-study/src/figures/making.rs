@@ -105,7 +105,7 @@ fn natural_frequencies(robot: Robot, of: &request::ModesRequest, choice: &Figure
             found.modes.len()
         );
     };
-    let moved = moved(&at_rest, dynamics.as_ref(), mode)?;
+    let moved = mode_shape(&at_rest, dynamics.as_ref(), mode)?;
     let head = vec![format!(
         "Mode {number}: {} Hz, {}; dashed: at equilibrium",
         decimals(mode.frequency_hz, 3),
@@ -172,7 +172,7 @@ const MIN_STATIONS: usize = 65;
 const MAX_STATIONS: usize = 2001;
 
 /// Shape of the robot in a mode, enlarged so that the motion is visible. Without `dynamics` the cables stay straight.
-fn moved(at_rest: &AtRest, dynamics: Option<&Dynamics>, mode: &Mode) -> Result<RobotShape> {
+fn mode_shape(at_rest: &AtRest, dynamics: Option<&Dynamics>, mode: &Mode) -> Result<RobotShape> {
     let AtRest { robot, equilibrium, .. } = at_rest;
     let half_waves = equilibrium
         .cables
@@ -296,8 +296,8 @@ fn refuse_several_units(found: &frf::Frf) -> Result<()> {
     let unit = &found.responses[0].unit;
     if let Some(other) = found.responses.iter().find(|pair| pair.unit != *unit) {
         bail!(
-            "a figure shows responses with one unit, and these have {unit} and {}: choose ⟪input⟫ and ⟪output⟫ with one \
-             unit, or write .csv or .json",
+            "a figure shows responses with one unit, and these have {unit} and {}: choose ⟪input⟫ and ⟪output⟫ with \
+             one unit, or write .csv or .json",
             other.unit
         );
     }

@@ -1,7 +1,7 @@
 //! Sizes, colours, dashes and symbols of figures.
 //!
-//! Colours are those of [`crate::figure_style`]. Lines differ in their dashes too, so that a figure printed in grey keeps
-//! its meaning.
+//! Colours are those of [`crate::figure_style`]. Lines differ in their dashes too, so that a figure printed in grey
+//! keeps its meaning.
 
 use super::drawing::{BLACK, Colour, Drawing, Frame, PaperPoint, Stroke, WHITE};
 use crate::figure_style::{colour, rgb};

@@ -148,7 +148,8 @@ impl Draft {
             ];
             if let Some((option, _)) = given.iter().find(|(_, given)| *given) {
                 bail!(
-                    "the platform is a point mass, which has neither inertia tensor nor centre of mass: leave out {option}"
+                    "the platform is a point mass, which has neither inertia tensor nor centre of mass: leave \
+                     out {option}"
                 );
             }
         }
@@ -235,8 +236,8 @@ impl Draft {
         }
         if self.cables.iter().any(|cable| cable.attachment_p != Vec3::zeros()) {
             self.notes.push(
-                "The platform translates only. Its cables end in one point here: each anchor is the source's anchor minus \
-                 the source's attachment; lengths, forces and motion do not change"
+                "The platform translates only. Its cables end in one point here: each anchor is the source's anchor \
+                 minus the source's attachment; lengths, forces and motion do not change"
                     .to_owned(),
             );
             for cable in &mut self.cables {

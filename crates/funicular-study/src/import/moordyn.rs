@@ -158,8 +158,8 @@ fn cable(
         bail!(line.row.error(
             file,
             format!(
-                "line {} ends at point {}, which is not fixed: a cable of a robot file runs straight from its anchor to the \
-                 platform",
+                "line {} ends at point {}, which is not fixed: a cable of a robot file runs straight from its anchor \
+                 to the platform",
                 line.id, anchor.id
             )
         ));

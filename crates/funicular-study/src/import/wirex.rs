@@ -241,8 +241,8 @@ fn drum(xml: &Xml, winch: Node) -> Result<String> {
     Ok(radius.map_or_else(String::new, |radius| format!(" (radius {radius} m)")))
 }
 
-/// Swivelling pulley of a `<base>`; `None` without a radius. The swivel axis is the z axis of the frame of the base, and
-/// the cable enters along it. WireX counts lengths from the point of the base.
+/// Swivelling pulley of a `<base>`; `None` without a radius. The swivel axis is the z axis of the frame of the base,
+/// and the cable enters along it. WireX counts lengths from the point of the base.
 fn pulley(xml: &Xml, base: Node) -> Result<Option<DraftPulley>> {
     let Some(radius) = xml.optional_attribute_number(base, "radius")?.filter(|radius| *radius != 0.0) else {
         return Ok(None);
@@ -302,8 +302,8 @@ fn cables(
 
     if cables.iter().any(|cable| cable.pulley.is_some_and(|pulley| pulley.radius == DEFAULT_PULLEY_RADIUS)) {
         assumed.push(format!(
-            "the pulleys of radius {DEFAULT_PULLEY_RADIUS} m: the radius is in the file, but WireX writes it for pulleys of \
-             unknown size; `radius_m` of [pulleys] gives another"
+            "the pulleys of radius {DEFAULT_PULLEY_RADIUS} m: the radius is in the file, but WireX writes it for \
+             pulleys of unknown size; `radius_m` of [pulleys] gives another"
         ));
     }
 

@@ -126,8 +126,8 @@ impl UffResponse<'_> {
         let parts = values.iter().flat_map(|value| [value.re, value.im]).chain(abscissae.iter().copied());
         if let Some(number) = parts.into_iter().find(|number| *number != 0.0 && !MAGNITUDES.contains(&number.abs())) {
             bail!(
-                "{} has the number {number:e}, which nobody measures: in binary data (dataset 58b) the byte order of the \
-                 file is wrong, or the data are damaged",
+                "{} has the number {number:e}, which nobody measures: in binary data (dataset 58b) the byte order of \
+                 the file is wrong, or the data are damaged",
                 self.place()
             );
         }
@@ -191,7 +191,8 @@ impl UffResponse<'_> {
                 && !units.converts()
             {
                 bail!(
-                    "{} has the unit `{}`, but the file gives no factor to SI units (dataset 164): export it in SI units",
+                    "{} has the unit `{}`, but the file gives no factor to SI units (dataset 164): export it \
+                     in SI units",
                     self.place(),
                     axis.unit
                 );

@@ -1,8 +1,8 @@
 //! Tables of measured responses and of natural frequencies as CSV.
 //!
-//! Responses: `frequency_hz`, then for each response `NAME_re` and `NAME_im`, or `NAME_abs` and `NAME_phase_deg`, and, if
-//! known, `NAME_std`. Lists: `frequency_hz`, `damping_ratio`, `std_hz`, `weight`, `label`. Lines that begin with # are
-//! comments.
+//! Responses: `frequency_hz`, then for each response `NAME_re` and `NAME_im`, or `NAME_abs` and `NAME_phase_deg`, and,
+//! if known, `NAME_std`. Lists: `frequency_hz`, `damping_ratio`, `std_hz`, `weight`, `label`. Lines that begin with #
+//! are comments.
 
 use super::{MeasuredFrequency, MeasuredResponse, check_size};
 use crate::csv_lines::line_at;
@@ -217,6 +217,7 @@ impl Table<'_> {
                      in {stem}=az/fz"
                 );
             };
+
             let (real, imag, std) = self.numbers(stem)?;
             responses.push(MeasuredResponse {
                 name: stem.to_owned(),
@@ -230,6 +231,7 @@ impl Table<'_> {
                 std,
             });
         }
+
         Ok(responses)
     }
 

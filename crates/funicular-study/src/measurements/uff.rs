@@ -1,8 +1,8 @@
 //! Reader of Universal Files: datasets 58 and 58b (functions), 15 and 2411 (nodes), 55 (mode shapes), 151 (header) and
 //! 164 (units). Other datasets are skipped.
 //!
-//! A dataset stands between two lines `    -1`. The body of a 58b is binary; it is passed by its number of bytes, because
-//! it may contain any bytes.
+//! A dataset stands between two lines `    -1`. The body of a 58b is binary; it is passed by its number of bytes,
+//! because it may contain any bytes.
 
 use super::check_size;
 use super::uff_numbers::{Line, Lines, is_delimiter};
@@ -118,7 +118,8 @@ impl UffFile {
     /// Reads the bytes of a file; `path` is its name in messages.
     ///
     /// # Errors
-    /// A file that is too large or no Universal File, or a dataset that is cut off or has a wrong number, with the line.
+    /// A file that is too large or no Universal File, or a dataset that is cut off or has a wrong number, with the
+    /// line.
     pub fn read(path: &str, bytes: &[u8]) -> Result<Self> {
         check_size(path, bytes.len())?;
         let mut file = Self::default();
@@ -428,8 +429,8 @@ fn binary_numbers(lines: &mut Lines<'_>, form: &OrdinateForm, head: &Line<'_>) -
     let body = lines.take(size)?;
     lines.skip_line_end();
 
-    // Uneven abscissae of double ordinates are single numbers by the format, and double ones by some programs: the number
-    // of bytes decides.
+    // Uneven abscissae of double ordinates are single numbers by the format, and double ones by some programs: the
+    // number of bytes decides.
     let ordinates = form.per_point() - usize::from(!form.is_even);
     let wide = if form.is_double { 8 } else { 4 };
     let abscissa_sizes: &[usize] = match (form.is_even, form.is_double) {

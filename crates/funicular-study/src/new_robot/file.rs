@@ -81,7 +81,8 @@ impl NewFile<'_> {
             &mut out,
             "",
             &format!(
-                "Robot file of funicular {}, written by `new`. Its numbers are starting values: replace them by your own.",
+                "Robot file of funicular {}, written by `new`. Its numbers are starting values: replace them \
+                 by your own.",
                 env!("CARGO_PKG_VERSION")
             ),
         );
@@ -170,8 +171,9 @@ impl NewFile<'_> {
         match self.rope {
             Rope::Wire { construction, diameter } => {
                 section.note(&format!(
-                    "Wire rope {}, {} mm: metal area C d², mass W d² and breaking load K d² R with the factors of EN 12385 \
-                     and R = {GRADE} N/mm². The modulus on the metal area is a starting value: replace it by that of your rope.",
+                    "Wire rope {}, {} mm: metal area C d², mass W d² and breaking load K d² R with the factors of EN \
+                     12385 and R = {GRADE} N/mm². The modulus on the metal area is a starting value: replace it by \
+                     that of your rope.",
                     construction.name(),
                     short(diameter * 1e3, 4)
                 ));

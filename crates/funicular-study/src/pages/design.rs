@@ -128,7 +128,7 @@ struct MovedPoint {
 }
 
 /// Points of the cables among the values.
-fn moved(values: &[ChosenValue]) -> Vec<MovedPoint> {
+fn points_before_and_after(values: &[ChosenValue]) -> Vec<MovedPoint> {
     let mut found: Vec<MovedPoint> = Vec::new();
     for row in values {
         let Some((path, component)) = row.path.rsplit_once('.') else { continue };
@@ -145,7 +145,7 @@ fn moved(values: &[ChosenValue]) -> Vec<MovedPoint> {
 
 /// Figure of the moves of points, from above and from the side; `None` if no point with x has moved.
 fn moved_points(found: &Designed) -> Option<PageFigure> {
-    let points_moved = moved(&found.values);
+    let points_moved = points_before_and_after(&found.values);
     let full: Vec<&MovedPoint> = points_moved.iter().filter(|point| point.start.iter().all(Option::is_some)).collect();
     if full.is_empty() {
         return None;
@@ -208,11 +208,14 @@ fn room(found: &Designed) -> PageFigure {
     PageFigure::new(
         "figure-room",
         120 + 22 * rows.len(),
-        "Gain of the goal if the bound at which a value is moves outwards by a tenth of the distance of its bounds, by the \
-         multipliers of the last linear problem."
+        "Gain of the goal if the bound at which a value is moves outwards by a tenth of the distance of its bounds, by \
+         the multipliers of the last linear problem."
             .to_owned(),
         &data,
-        json!({"margin": {"l": 210}, "xaxis": axis(&format!("gain [{}]", found.unit), json!({"exponentformat": "power"}))}),
+        json!({
+            "margin": {"l": 210},
+            "xaxis": axis(&format!("gain [{}]", found.unit), json!({"exponentformat": "power"})),
+        }),
     )
 }
 

@@ -38,11 +38,16 @@ impl PageFigure {
         layout: Value,
     ) -> Self {
         let mut full = json!({
-            "font": {"family": "system-ui, -apple-system, Segoe UI, Roboto, Helvetica Neue, Arial, sans-serif", "size": 13, "color": "#1b1b1b"},
+            "font": {
+                "family": "system-ui, -apple-system, Segoe UI, Roboto, Helvetica Neue, Arial, sans-serif", "size": 13,
+                "color": "#1b1b1b",
+            },
             "paper_bgcolor": "#ffffff",
             "plot_bgcolor": "#ffffff",
             "margin": {"l": 64, "r": 16, "t": 34, "b": 52},
-            "legend": {"orientation": "h", "x": 0, "xanchor": "left", "y": 1.01, "yanchor": "bottom", "font": {"size": 12}},
+            "legend": {
+                "orientation": "h", "x": 0, "xanchor": "left", "y": 1.01, "yanchor": "bottom", "font": {"size": 12},
+            },
             "hovermode": "closest",
             "autosize": true,
         });
@@ -75,7 +80,8 @@ pub(crate) fn with(mut base: Value, over: Value) -> Value {
 /// Cartesian axis with a title.
 pub(crate) fn axis(title: &str, more: Value) -> Value {
     let base = json!({
-        "title": {"text": title, "standoff": 10, "font": {"size": 13}}, "tickfont": {"size": 12}, "showline": true, "linecolor": "#444444", "ticks": "outside", "tickcolor": "#444444",
+        "title": {"text": title, "standoff": 10, "font": {"size": 13}}, "tickfont": {"size": 12}, "showline": true,
+        "linecolor": "#444444", "ticks": "outside", "tickcolor": "#444444",
         "gridcolor": "#ebebeb", "zeroline": false, "mirror": true,
     });
     with(base, more)

@@ -134,7 +134,9 @@ fn curves(number: usize, response: &FittedResponse) -> PageFigure {
             "yaxis": axis(&format!("magnitude [{}]", response.unit), json!({
                 "type": "log", "domain": [0.36, 1.0], "exponentformat": "power", "dtick": 1,
             })),
-            "yaxis2": axis("phase [°]", json!({"domain": [0.0, 0.3], "range": [-190, 190], "tickvals": [-180, -90, 0, 90, 180]})),
+            "yaxis2": axis("phase [°]", json!({
+                "domain": [0.0, 0.3], "range": [-190, 190], "tickvals": [-180, -90, 0, 90, 180],
+            })),
             "margin": {"l": 78},
         }),
     )
@@ -158,8 +160,8 @@ fn differences(found: &Identified) -> PageFigure {
         "figure-differences",
         340,
         format!(
-            "Differences of the computed natural frequencies from the measured ones: root mean square {} %, before the fit \
-             {} %.",
+            "Differences of the computed natural frequencies from the measured ones: root mean square {} %, before the \
+             fit {} %.",
             rms(found.frequency_rms),
             rms(found.frequency_rms_before)
         ),

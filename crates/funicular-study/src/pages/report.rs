@@ -117,7 +117,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     let ReportInput { at_rest, linearisation, below_hz, .. } = *input;
     let AtRest { robot, equilibrium, .. } = at_rest;
     let ModesBelow { dynamics, modes: found, warnings } = at_rest.modes_below(linearisation, below_hz, MAX_MODES)?;
-    let (response_figure, peaks_table, response_notes) = respond(input, &dynamics, &found)?;
+    let (response_figure, peaks_table, response_notes) = response_part(input, &dynamics, &found)?;
 
     let page = ReportPage {
         shell: Shell::new(robot.name.clone(), CONTENTS),
@@ -304,7 +304,7 @@ fn shapes_of(robot: &Robot, equilibrium: &Equilibrium, dynamics: &Dynamics, foun
 }
 
 /// Responses with the requested model and with all other models that work at this state.
-fn respond(
+fn response_part(
     input: &ReportInput<'_>,
     dynamics: &Dynamics,
     found: &Modes,

@@ -71,7 +71,8 @@ fn bars(results: &[&UncertainResult]) -> Value {
     };
     json!({
         "type": "data", "symmetric": false, "thickness": 1.6, "width": 5,
-        "array": rounded(&side(|[_, to], value| to - value)), "arrayminus": rounded(&side(|[from, _], value| value - from)),
+        "array": rounded(&side(|[_, to], value| to - value)),
+        "arrayminus": rounded(&side(|[from, _], value| value - from)),
     })
 }
 
@@ -199,7 +200,8 @@ fn shares(found: &Uncertainties, pose: &PoseUncertainty) -> PageFigure {
     PageFigure::new(
         "figure-shares",
         130 + 22 * with_shares.len(),
-        "Shares of the groups in the variance of each result. Total shares of sampled results may add up to more than 100 %.",
+        "Shares of the groups in the variance of each result. Total shares of sampled results may add up to \
+         more than 100 %.",
         &traces,
         json!({
             "barmode": "stack",

@@ -131,13 +131,13 @@ impl Poses {
         Self { robot, holder: None, parameters: None, which: PoseSet::List(poses) }
     }
 
-    /// These poses with held lengths: those with which `holder` rests at each pose.
+    /// Map whose robot holds unstrained lengths: those with which `holder` rests at each pose.
     #[must_use]
     pub fn holding(self, holder: Option<Robot>) -> Self {
         Self { holder, ..self }
     }
 
-    /// These poses with the numbers of the robot file, for derivatives.
+    /// Map with the numbers of the robot file, for derivatives.
     #[must_use]
     pub fn with_parameters(self, parameters: Option<Parameters>) -> Self {
         Self { parameters: parameters.map(Arc::new), ..self }

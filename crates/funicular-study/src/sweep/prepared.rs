@@ -42,8 +42,8 @@ impl PreparedSweep {
         Self::with_holder(request, None)
     }
 
-    /// Prepares a request. If lengths are held, `holder` is the text of the robot that gives them; if it is absent, that
-    /// robot follows from the request.
+    /// Prepares a request. If lengths are held, `holder` is the text of the robot that gives them; if it is absent,
+    /// that robot follows from the request.
     fn with_holder(request: &Request, holder: Option<RobotText>) -> Result<Self> {
         let holder = |robot: &RobotText| holder.unwrap_or_else(|| robot.of_holder());
         match request {
@@ -55,7 +55,7 @@ impl PreparedSweep {
 
     fn of_map(request: &MapRequest, holder: &RobotText) -> Result<Self> {
         let file = request.robot.read()?;
-        let robot = adjusted(file.robot, &request.point)?;
+        let robot = with_request(file.robot, &request.point)?;
         let EachPoint { state, tensions, .. } = &request.point;
         let mut holder_file = None;
         let mut holding = None;
@@ -81,7 +81,7 @@ impl PreparedSweep {
             None if request.grid.is_empty() => bail!("give ⟪grid⟫ or ⟪poses⟫: a map needs poses"),
             None => {
                 let axes = steps_of(&request.grid, "grid")?;
-                base = self::base(holding.as_ref().unwrap_or(&robot), &request)?;
+                base = base_pose(holding.as_ref().unwrap_or(&robot), &request)?;
                 Poses::grid(robot.clone(), &axes, base.as_ref())?
             }
         };
@@ -89,7 +89,7 @@ impl PreparedSweep {
             request.grid = AXES.iter().zip(axes).map(|(name, steps)| Axis::new((*name).to_owned(), steps)).collect();
         }
 
-        let (quantities, options) = resolve(&robot, &mut request.point)?;
+        let (quantities, options) = quantities_and_options(&robot, &mut request.point)?;
         let parameters = parameters_of(&quantities, &file.text)?;
         let (request, points) = (Request::Map(request), Box::new(points.holding(holding).with_parameters(parameters)));
         Ok(Self { request, robot, robot_file: file.text, holder_file, points, base, quantities, options })
@@ -109,7 +109,7 @@ impl PreparedSweep {
             .map_err(|reason| anyhow!("⟪vary⟫: {reason}"))?;
 
         let point = request.point.clone();
-        let adjust = Box::new(move |robot| adjusted(robot, &point).map_err(|error| format!("{error:#}")));
+        let adjust = Box::new(move |robot| with_request(robot, &point).map_err(|error| format!("{error:#}")));
         let mut points = RobotValues::new(text.clone(), axes, adjust).map_err(|reason| anyhow!("{reason}"))?;
         let robot = points.first().map_err(|reason| anyhow!("{reason}"))?;
 
@@ -127,7 +127,7 @@ impl PreparedSweep {
 
         refuse_no_state(&robot)?;
 
-        let (quantities, options) = resolve(&robot, &mut request.point)?;
+        let (quantities, options) = quantities_and_options(&robot, &mut request.point)?;
         parameters_of(&quantities, &text)?;
         let (request, points) = (Request::Sweep(request), Box::new(points));
         Ok(Self { request, robot, robot_file: text, holder_file, points, base: None, quantities, options })
@@ -226,12 +226,12 @@ impl PreparedSweep {
 }
 
 /// Robot of a point with the changes of the request.
-fn adjusted(robot: Robot, point: &EachPoint) -> Result<Robot> {
+fn with_request(robot: Robot, point: &EachPoint) -> Result<Robot> {
     at_rest::with_limits(&at_rest::with_state(robot, &point.state)?, &point.tensions)
 }
 
 /// Quantities and options of every point. Fills in the defaults of the request.
-fn resolve(robot: &Robot, point: &mut EachPoint) -> Result<(Vec<Quantity>, Options)> {
+fn quantities_and_options(robot: &Robot, point: &mut EachPoint) -> Result<(Vec<Quantity>, Options)> {
     positive(point.up_to_hz).map_err(|reason| anyhow!("⟪up_to_hz⟫: {reason}"))?;
     let quantities = (point.quantities.iter())
         .map(|name| name.parse().map_err(|error| anyhow!("⟪quantities⟫ {name}: {error}")))
@@ -294,7 +294,7 @@ fn steps_of(axes: &[Axis], key: &str) -> Result<Vec<(String, Steps)>> {
 }
 
 /// Pose for the axes that the grid does not have: the pose of the request, or else of the robot's state.
-fn base(robot: &Robot, request: &MapRequest) -> Result<Option<Pose>> {
+fn base_pose(robot: &Robot, request: &MapRequest) -> Result<Option<Pose>> {
     Ok(match &robot.state {
         State::Pose(pose) => Some(*pose),
         State::Unknown => None,

@@ -114,7 +114,9 @@ impl Record {
             .columns
             .iter()
             .map(|column| {
-                json!({ "name": column.name, "unit": column.unit, "about": column.about, "kind": kind_name(column.kind) })
+                json!({
+                    "name": column.name, "unit": column.unit, "about": column.about, "kind": kind_name(column.kind),
+                })
             })
             .collect();
         json!({

@@ -86,8 +86,8 @@ impl RobotValues {
         Ok(variations)
     }
 
-    /// These robots with held lengths: those with which robots of another text rest at the pose of each point. In that
-    /// text only the values of `[state]` vary, if they do.
+    /// Sweep whose robots hold unstrained lengths: those with which the robots of another text rest at the pose of each
+    /// point. In that text only the values of `[state]` vary.
     ///
     /// # Errors
     /// A message for the user: a robot that the text does not make.
@@ -329,7 +329,8 @@ mod tests {
     #[test]
     fn a_sweep_over_numbers_has_the_robots_of_the_edited_texts() {
         let text = funicular_robots::COGIRO;
-        // The second value, the tables of load and wind, and the limits of a cable are not in the file. The limits exclude each other in some rows.
+        // The second value, the tables of load and wind, and the limits of a cable are not in the file. The limits
+        // exclude each other in some rows.
         let axes = [
             ("cables.1.anchor_m.z", Steps::range(5.0, 6.0, 3)),
             ("platform.translational_damping_n_s_m.x", Steps::range(0.0, 0.2, 2)),

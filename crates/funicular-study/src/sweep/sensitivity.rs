@@ -53,8 +53,8 @@ impl Sensitivity {
         }
         let names: Vec<&str> = RESULTS.iter().map(|(name, _)| *name).collect();
         format!(
-            ": give a result and the path of a number after the colon, as in sensitivity:first-frequency:platform.mass_kg; \
-             results are {}",
+            ": give a result and the path of a number after the colon, as in \
+             sensitivity:first-frequency:platform.mass_kg; results are {}",
             names.join(", ")
         )
     }

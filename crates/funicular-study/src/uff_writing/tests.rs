@@ -243,8 +243,8 @@ fn responses_have_signs_points_and_si_units() {
     let error = responses_of_uff("a.uff", &file, &[]).unwrap_err().to_string();
     assert_eq!(
         error,
-        "a.uff: the function in line 8 is at node 3, whose place on the platform is unknown: give ⟪node⟫ 3=x,y,z in the \
-         platform frame [m]"
+        "a.uff: the function in line 8 is at node 3, whose place on the platform is unknown: give ⟪node⟫ 3=x,y,z in \
+         the platform frame [m]"
     );
 
     // Node 7 in dataset 15 in millimetres, node 3 by the option; millimetres and kilonewtons.

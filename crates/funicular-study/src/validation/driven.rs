@@ -23,9 +23,10 @@ const FREQUENCIES: f64 = 1e-9;
 /// hundred thousandth of the stiffness of the cables, whose rounding it has.
 const AT_CONSTANT_TORQUE: f64 = 1e-8;
 
-/// Relative error of the forces by a motion of an anchor whose drum stays on the ground. The formula of the reference measures
-/// the elongation of the drum side with the stretch at the exit point also at the entry point, where it differs by up to
-/// 1e-7: the reference's own second method differs from it by 5e-8 to 4e-7 there, and by 1e-10 in all else.
+/// Relative error of the forces by a motion of an anchor whose drum stays on the ground. The formula of the reference
+/// measures the elongation of the drum side with the stretch at the exit point also at the entry point, where it
+/// differs by up to 1e-7: the reference's own second method differs from it by 5e-8 to 4e-7 there, and by 1e-10 in all
+/// else.
 const AT_MOVING_ANCHOR: f64 = 1.5e-7;
 
 pub(super) fn comparisons(of: &Drives) -> Result<Vec<Comparison>> {

@@ -52,8 +52,8 @@ pub(super) fn section(drives: &Drives, moving: Vec<Comparison>) -> Result<Sectio
 /// Rounding of closed forms with lengths of some metres.
 const CLOSED_FORM: f64 = 2e-14;
 
-/// Rounding of the solution: the unknowns are found to 1e-13, and a taut cable turns a relative error of its length into
-/// one of its tension that is EA/T times as large.
+/// Rounding of the solution: the unknowns are found to 1e-13, and a taut cable turns a relative error of its length
+/// into one of its tension that is EA/T times as large.
 const SOLVED: f64 = 1e-10;
 
 /// Relative difference of half widths due to the strain on the wheel, which the reference leaves out in the term of the
@@ -215,8 +215,8 @@ const LAST_CHANGE: f64 = 1e-14;
 /// Maximum number of rounds. Each reduces the error by about the friction exponent.
 const MAX_ROUNDS: usize = 60;
 
-/// Equilibrium with friction: cables without friction whose lengths are shorter by the excess of friction, which follows
-/// from their tensions.
+/// Equilibrium with friction: cables without friction whose lengths are shorter by the excess of friction, which
+/// follows from their tensions.
 fn friction_corner(row: &FrictionCorner, robot: &Robot, source: &str) -> Result<Vec<Comparison>> {
     let State::Lengths(lengths) = &robot.state else { return Err(anyhow!("the lengths are given")) };
     let used: Vec<f64> = row.last_towards_platform.iter().map(|towards| if *towards { 1.0 } else { -1.0 }).collect();

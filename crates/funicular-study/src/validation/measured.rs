@@ -59,15 +59,15 @@ pub(super) fn section(table: &ReferenceTable<MeasuredPose>) -> Result<Section> {
         note: "The prototype of the University of Bologna, a platform on four, three or two cables over swivelling \
                pulleys, at 69 poses. Lengths and model frequencies are the source's own model: cables without mass and \
                rigid in length. The measured frequencies are not independent of that model. The source looked for each \
-               peak within 7 % of its model's frequency, so that none can differ by more, and a wrong model would still \
-               agree to 7 %. Mean and root mean square say more: the measured frequencies are higher by 1.3 %. The \
-               oscillations were large, up to several centimetres and degrees, and the program's modes are linear.",
+               peak within 7 % of its model's frequency, so that none can differ by more, and a wrong model would \
+               still agree to 7 %. Mean and root mean square say more: the measured frequencies are higher by 1.3 %. \
+               The oscillations were large, up to several centimetres and degrees, and the program's modes are linear.",
         rows,
     })
 }
 
-/// Comparisons of a pose, the relative differences of its measured frequencies from the model's, and the relative changes
-/// of the model's frequencies by fixed points instead of pulleys.
+/// Comparisons of a pose, the relative differences of its measured frequencies from the model's, and the relative
+/// changes of the model's frequencies by fixed points instead of pulleys.
 struct AtPose {
     rows: Vec<Comparison>,
     measured: Vec<f64>,

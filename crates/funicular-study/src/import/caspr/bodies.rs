@@ -163,8 +163,8 @@ fn joint(xml: &Xml, node: Node) -> Result<(DraftMotion, Option<(Vec3, Rotation)>
         bail!(xml.error(
             node,
             format!(
-                "joint `{}` is {which}; platforms are SPATIAL_EULER_XYZ, SPATIAL_QUATERNION, T_XYZ (point mass), PLANAR_XY, \
-                 PLANAR_XZ and PLANAR_YZ",
+                "joint `{}` is {which}; platforms are SPATIAL_EULER_XYZ, SPATIAL_QUATERNION, T_XYZ (point mass), \
+                 PLANAR_XY, PLANAR_XZ and PLANAR_YZ",
                 clean(kind)
             )
         ));

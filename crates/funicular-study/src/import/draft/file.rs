@@ -95,8 +95,8 @@ impl Draft {
         }
 
         let inertia = self.platform.inertia_p.unwrap_or_default();
-        // For planar robots the sources give only the moment about the normal. The other moments are zero, which no body
-        // has, so the robot file gets this one moment.
+        // For planar robots the sources give only the moment about the normal. The other moments are zero, which no
+        // body has, so the robot file gets this one moment.
         line(match motion.normal_axis() {
             Some(normal) => format!("inertia_kg_m2 = {}", float(inertia[(normal, normal)])),
             None => format!("inertia_kg_m2 = {}", tensor(&inertia)),

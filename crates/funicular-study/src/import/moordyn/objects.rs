@@ -124,7 +124,7 @@ impl<'a> MoorDynModel<'a> {
         }
 
         model.check_ids(file)?;
-        model.conclude(file, losses, water)?;
+        model.note_losses(file, losses, water)?;
         Ok(model)
     }
 
@@ -139,8 +139,8 @@ impl<'a> MoorDynModel<'a> {
             bail!(line.row.error(
                 file,
                 format!(
-                    "column {} is `{}`, which is no number of a point; the columns have to be those of MoorDyn version 2: ID, \
-                     LineType, AttachA, AttachB, UnstrLen",
+                    "column {} is `{}`, which is no number of a point; the columns have to be those of MoorDyn version \
+                     2: ID, LineType, AttachA, AttachB, UnstrLen",
                     3 + end,
                     clean(word)
                 )
@@ -190,14 +190,14 @@ impl<'a> MoorDynModel<'a> {
     }
 
     fn check_ids(&self, file: &SourceFile) -> Result<()> {
-        fn twice<'r, 'a: 'r>(mut rows: Vec<(usize, &'r SourceRow<'a>)>) -> Option<(usize, &'r SourceRow<'a>)> {
+        fn repeated_id<'r, 'a: 'r>(mut rows: Vec<(usize, &'r SourceRow<'a>)>) -> Option<(usize, &'r SourceRow<'a>)> {
             rows.sort_by_key(|(id, row)| (*id, row.line));
             rows.windows(2).find(|pair| pair[0].0 == pair[1].0).map(|pair| pair[1])
         }
         for (what, again) in [
-            ("body", twice(self.bodies.iter().map(|body| (body.id, &body.row)).collect())),
-            ("point", twice(self.points.iter().map(|point| (point.id, &point.row)).collect())),
-            ("line", twice(self.lines.iter().map(|line| (line.id, &line.row)).collect())),
+            ("body", repeated_id(self.bodies.iter().map(|body| (body.id, &body.row)).collect())),
+            ("point", repeated_id(self.points.iter().map(|point| (point.id, &point.row)).collect())),
+            ("line", repeated_id(self.lines.iter().map(|line| (line.id, &line.row)).collect())),
         ] {
             if let Some((id, row)) = again {
                 bail!(row.error(file, format!("a second {what} has the number {id}")));
@@ -206,7 +206,7 @@ impl<'a> MoorDynModel<'a> {
         Ok(())
     }
 
-    fn conclude(&mut self, file: &SourceFile, losses: MoorDynLosses, water: Option<f64>) -> Result<()> {
+    fn note_losses(&mut self, file: &SourceFile, losses: MoorDynLosses, water: Option<f64>) -> Result<()> {
         if self.lines.is_empty() {
             bail!("{}: the file has no lines", file.path);
         }

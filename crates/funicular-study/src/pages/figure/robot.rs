@@ -30,8 +30,8 @@ pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
     let mut driven = "";
     for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
         let Some(lines) = DriveLines::of(cable, state) else { continue };
-        driven = " At pulleys the squares are the exit points. The drums, grey squares, stand where they would be if the \
-                  cable came to its pulley in a straight line.";
+        driven = " At pulleys the squares are the exit points. The drums, grey squares, stand where they would be if \
+                  the cable came to its pulley in a straight line.";
         data.extend(drive(i, &cable.name, &lines));
         points.extend(lines.points());
     }
@@ -46,8 +46,8 @@ pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
         400,
         format!(
             "The robot at its equilibrium, with one scale for all three axes. Lines: cables; squares: anchors with the \
-             cables' names; dark body: the platform, spanned by the attachments.{driven}{supported} Drag to rotate, scroll to \
-             zoom, point at a cable for its length and tension."
+             cables' names; dark body: the platform, spanned by the attachments.{driven}{supported} Drag to rotate, \
+             scroll to zoom, point at a cable for its length and tension."
         ),
         &data,
         json!({"scene": scene, "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
@@ -102,7 +102,8 @@ fn support(support: &SupportAtRest) -> [Value; 2] {
     let bar: Vec<Vec3> = support.anchors.iter().flat_map(|anchor| [middle, *anchor]).collect();
     let [x, y, z] = coordinates(&bar);
     let bar = json!({
-        "type": "scatter3d", "mode": "lines", "x": x, "y": y, "z": z, "line": {"color": "#777777", "width": 7}, "hoverinfo": "skip",
+        "type": "scatter3d", "mode": "lines", "x": x, "y": y, "z": z, "line": {"color": "#777777", "width": 7},
+        "hoverinfo": "skip",
     });
     let moved = support.displacement * 1e3;
     let hover = format!(
@@ -124,7 +125,8 @@ fn support(support: &SupportAtRest) -> [Value; 2] {
 fn wheel(rim: &[Vec3]) -> Value {
     let [x, y, z] = coordinates(rim);
     json!({
-        "type": "scatter3d", "mode": "lines", "x": x, "y": y, "z": z, "line": {"color": "#777777", "width": 3}, "hoverinfo": "skip",
+        "type": "scatter3d", "mode": "lines", "x": x, "y": y, "z": z, "line": {"color": "#777777", "width": 3},
+        "hoverinfo": "skip",
     })
 }
 
@@ -153,7 +155,8 @@ pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
         let tip = origin + equilibrium.pose.rot_wp * unit;
         points.push(tip);
         data.push(json!({
-            "type": "scatter3d", "mode": "lines+text", "x": rounded(&[origin.x, tip.x]), "y": rounded(&[origin.y, tip.y]),
+            "type": "scatter3d", "mode": "lines+text", "x": rounded(&[origin.x, tip.x]),
+            "y": rounded(&[origin.y, tip.y]),
             "z": rounded(&[origin.z, tip.z]), "line": {"color": colour, "width": 5}, "text": ["", name],
             "textfont": {"color": colour, "size": 13}, "hoverinfo": "skip",
         }));
@@ -162,10 +165,12 @@ pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
     PageFigure::new(
         "figure-platform",
         400,
-        "The platform: attachments with the cables' names, axes of the platform frame, centre of mass (diamond), and the \
-         first part of each cable.",
+        "The platform: attachments with the cables' names, axes of the platform frame, centre of mass (diamond), and \
+         the first part of each cable.",
         &data,
-        json!({"scene": scene(&points, false, SQUARE), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
+        json!({
+            "scene": scene(&points, false, SQUARE), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0},
+        }),
     )
 }
 
@@ -189,7 +194,8 @@ fn scene(points: &[Vec3], floor: bool, width: f64) -> Value {
 
     let axis = |k: usize, title: &str| {
         json!({
-            "title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 10}, "nticks": 6, "showbackground": k == 2,
+            "title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 10}, "nticks": 6,
+            "showbackground": k == 2,
             "range": rounded(&[ranges[k].0, ranges[k].1]), "backgroundcolor": "#f3f4f5", "gridcolor": "#d9d9d9",
             "zeroline": false, "showspikes": false,
         })
@@ -199,7 +205,8 @@ fn scene(points: &[Vec3], floor: bool, width: f64) -> Value {
     json!({
         "aspectmode": "manual", "aspectratio": {"x": ratio[0], "y": ratio[1], "z": ratio[2]},
         "camera": {
-            "eye": {"x": x, "y": y, "z": z}, "center": {"x": 0.0, "y": 0.0, "z": -0.06}, "projection": {"type": "orthographic"},
+            "eye": {"x": x, "y": y, "z": z}, "center": {"x": 0.0, "y": 0.0, "z": -0.06},
+            "projection": {"type": "orthographic"},
         },
         "xaxis": axis(0, "x [m]"), "yaxis": axis(1, "y [m]"), "zaxis": axis(2, "z [m]"),
     })
@@ -258,7 +265,8 @@ fn platform(robot: &Robot, equilibrium: &Equilibrium, names: bool) -> Vec<Value>
     );
     data.push(json!({
         "type": "scatter3d", "mode": "markers", "x": [com.x], "y": [com.y], "z": [com.z],
-        "marker": {"color": colour::BLACK, "symbol": "diamond", "size": if names { 5 } else { 3 }}, "hovertemplate": hover,
+        "marker": {"color": colour::BLACK, "symbol": "diamond", "size": if names { 5 } else { 3 }},
+        "hovertemplate": hover,
     }));
     data
 }
@@ -267,7 +275,8 @@ fn platform(robot: &Robot, equilibrium: &Equilibrium, names: bool) -> Vec<Value>
 fn body(points: &[Vec3], reach: f64) -> Value {
     let [x, y, z] = coordinates(points);
     let mut mesh = json!({
-        "type": "mesh3d", "x": x, "y": y, "z": z, "color": "#555555", "opacity": 0.55, "flatshading": true, "hoverinfo": "skip",
+        "type": "mesh3d", "x": x, "y": y, "z": z, "color": "#555555", "opacity": 0.55, "flatshading": true,
+        "hoverinfo": "skip",
         // For the script that saves the figure as lines; plotly computes the hull itself.
         "meta": {"faces": faces(points)},
     });

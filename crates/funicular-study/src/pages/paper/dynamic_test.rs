@@ -154,12 +154,12 @@ impl Fits {
     pub(crate) fn table(&self) -> PageTable {
         let mut table = PageTable::new(
             "table-fit",
-            "Platform fitted to the nine printed frequencies of the two static models, with either cable set. A printed \
-             tenth has a deviation of 0.03 Hz. Known beforehand: centre of mass within 3 cm, in z 6 cm, of the origin; radii of \
-             the second moments 0.1 m within a factor of 2.2; correlations of their products tanh of 0 ± 1; nothing of the \
-             mass. Deviations are standard deviations. Undetermined: combinations of the ten values that follow from what \
-             is known beforehand. Likelihood: probability of the nine frequencies, integrated over all platforms, relative to \
-             the other cable set.",
+            "Platform fitted to the nine printed frequencies of the two static models, with either cable set. A \
+             printed tenth has a deviation of 0.03 Hz. Known beforehand: centre of mass within 3 cm, in z 6 cm, of the \
+             origin; radii of the second moments 0.1 m within a factor of 2.2; correlations of their products tanh of \
+             0 ± 1; nothing of the mass. Deviations are standard deviations. Undetermined: combinations of the ten \
+             values that follow from what is known beforehand. Likelihood: probability of the nine frequencies, \
+             integrated over all platforms, relative to the other cable set.",
             &[
                 "<cables",
                 "χ² of nine",
@@ -203,19 +203,19 @@ impl Fits {
 
         [
             format!(
-                "The 4 mm cables meet all nine printed frequencies of the two static models, and there is no other natural \
-                 frequency of these models below {BELOW_HZ} Hz. Printed tenths have a deviation of about 0.03 Hz. They \
-                 determine the mass to ± {} kg, the centre of mass to ± {} mm, and the radii of gyration to ± {} %. They do not \
-                 tell {} of the ten values, mainly of the products of inertia.",
+                "The 4 mm cables meet all nine printed frequencies of the two static models, and there is no other \
+                 natural frequency of these models below {BELOW_HZ} Hz. Printed tenths have a deviation of about 0.03 \
+                 Hz. They determine the mass to ± {} kg, the centre of mass to ± {} mm, and the radii of gyration to ± \
+                 {} %. They do not tell {} of the ten values, mainly of the products of inertia.",
                 fixed(small.mass_std, 1),
                 listed(&millimetres, 0),
                 fixed(relative.fold(0.0, f64::max), 0),
                 crate::text::counted(small.undetermined, "combination"),
             ),
             format!(
-                "No platform on the 8 mm cables that the search found meets them: the sum of squared deviations stays at {}, \
-                 with {} kg, above the largest mass of the paper's static test. Under the same assumptions about centre and \
-                 size of the platform the 8 mm cables are less likely by {} orders of magnitude.",
+                "No platform on the 8 mm cables that the search found meets them: the sum of squared deviations stays \
+                 at {}, with {} kg, above the largest mass of the paper's static test. Under the same assumptions \
+                 about centre and size of the platform the 8 mm cables are less likely by {} orders of magnitude.",
                 fixed(large.chi2, 0),
                 fixed(large.platform.mass, 0),
                 fixed(self.orders(), 0),
@@ -274,8 +274,8 @@ fn tensor_entries(rows: &[[f64; 3]; 3]) -> [f64; 6] {
 pub(crate) fn parameters(outcomes: &[Outcome]) -> PageTable {
     let mut table = PageTable::new(
         "table-identified",
-        "Parameters of the dynamic test, identified by us and not published. Inertia: tensor about the centre of mass in \
-         platform axes; centre of mass relative to the platform origin; sag divided by chord at the resulting \
+        "Parameters of the dynamic test, identified by us and not published. Inertia: tensor about the centre of mass \
+         in platform axes; centre of mass relative to the platform origin; sag divided by chord at the resulting \
          equilibrium.",
         &[
             "<set",
@@ -404,7 +404,8 @@ mod tests {
     use super::*;
     use crate::pages::paper::robots;
 
-    /// Every printed frequency of both static models is met to its printed tenth, and there is no other one below 10 Hz.
+    /// Every printed frequency of both static models is met to its printed tenth, and there is no other one below 10
+    /// Hz.
     #[test]
     fn the_set_meets_the_nine_frequencies_of_the_static_models() {
         let [small, large] = robots().unwrap();
@@ -420,8 +421,8 @@ mod tests {
         assert!(all.iter().all(|o| o.natural.certified));
     }
 
-    /// The set on the page is the fit of the 4 mm cables within its deviations, and the 8 mm cables cannot meet the nine
-    /// frequencies.
+    /// The set on the page is the fit of the 4 mm cables within its deviations, and the 8 mm cables cannot meet the
+    /// nine frequencies.
     #[test]
     fn the_nine_frequencies_tell_the_cables_apart() {
         let [small, large] = robots().unwrap();

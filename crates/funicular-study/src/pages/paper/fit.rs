@@ -50,8 +50,8 @@ impl Platform {
         (Mat3::identity() * (0.5 * self.inertia_p.trace()) - self.inertia_p) / self.mass
     }
 
-    /// Dimensionless unknowns: radii √(∫ x² dm / m) along the three axes, and the correlations of their products, that of
-    /// y and z at given x. A tensor of any unknowns is that of a body.
+    /// Dimensionless unknowns: radii √(∫ x² dm / m) along the three axes, and the correlations of their products, that
+    /// of y and z at given x. A tensor of any unknowns is that of a body.
     fn unknowns(&self) -> [f64; UNKNOWNS] {
         let moments = self.moments();
         let radii = [0, 1, 2].map(|i| moments[(i, i)].sqrt());
@@ -86,7 +86,7 @@ pub(super) struct Fit {
     pub(super) platform: Platform,
     /// Sum of the squares of the nine differences, in deviations of a printed tenth.
     pub(super) chi2: f64,
-    /// This sum with the priors.
+    /// Sum of the squares of all differences, those from the priors included.
     pub(super) chi2_with_priors: f64,
     /// Deviations of mass [kg], centre of mass [m] and radii of gyration [m].
     pub(super) mass_std: f64,
@@ -161,10 +161,10 @@ pub(super) fn fit(robot: &Robot, start: &Platform) -> Option<Fit> {
     let mut bounds = [(-BOUND, BOUND); UNKNOWNS];
     bounds[0] = (MASS_KG.0.ln(), MASS_KG.1.ln());
     let found = minimise(&mut Nine { robot }, &start.unknowns(), &bounds, 100)?;
-    Some(judged(&found))
+    Some(fit_with_precision(&found))
 }
 
-fn judged(found: &Minimum) -> Fit {
+fn fit_with_precision(found: &Minimum) -> Fit {
     let platform = Platform::at(&found.x);
     let count = SPRING.len() + STATIC_SAG.len();
 

@@ -46,8 +46,9 @@ pub(crate) fn lengths(robot: &Robot) -> Vec<f64> {
 pub(crate) fn geometry(sweeps: &[Sweep; 2]) -> PageTable {
     let mut table = PageTable::new(
         "table-geometry",
-        "The paper's Tables I and II: anchors in the world frame, attachments in the platform frame, unstrained lengths of \
-         both cable sets. These are inputs here; both sets have E = 20 GPa, 0.067 kg/m (4 mm) and 0.251 kg/m (8 mm).",
+        "The paper's Tables I and II: anchors in the world frame, attachments in the platform frame, unstrained \
+         lengths of both cable sets. These are inputs here; both sets have E = 20 GPa, 0.067 kg/m (4 mm) and 0.251 \
+         kg/m (8 mm).",
         &["<cable", "anchor x|m", "y|m", "z|m", "attachment x|m", "y|m", "z|m", "length, 4 mm|m", "length, 8 mm|m"],
     );
     for (i, cable) in sweeps[0].robot.cables.iter().enumerate() {
@@ -107,13 +108,15 @@ pub(crate) fn distance_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
 
     let id = ["figure-pose-4mm", "figure-pose-8mm"][set];
     let caption = format!(
-        "The paper's Fig. 6, {} cables: distance of the platform from its ideal position over the platform's mass. Circles: \
-         MoorPy 1.3.0.",
+        "The paper's Fig. 6, {} cables: distance of the platform from its ideal position over the platform's mass. \
+         Circles: MoorPy 1.3.0.",
         SET_NAMES[set]
     );
     let layout = json!({
         "xaxis": axis("platform mass [kg]", json!({"range": [5, 90]})),
-        "yaxis": axis("distance [mm]", json!({"type": "log", "exponentformat": "power", "tickvals": [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200]})),
+        "yaxis": axis("distance [mm]", json!({
+            "type": "log", "exponentformat": "power", "tickvals": [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200],
+        })),
     });
 
     PageFigure::new(id, 380, caption, &data, layout)

@@ -58,7 +58,7 @@ fn is_frequency(series: &Series) -> bool {
 
 /// Figures of all quantities, one per kind, the natural frequencies first.
 pub(super) fn figures(rows: &Rows, tracking: Option<&Tracking>) -> Vec<PageFigure> {
-    let along = along(rows);
+    let along = horizontal_axis(rows);
     let mut figures = Vec::new();
     if let Some(tracking) = tracking {
         figures.push(campbell(rows, &along, tracking));
@@ -98,7 +98,7 @@ pub(super) fn family(series: &Series) -> String {
 
 /// Horizontal axis of the rows: the value that varies. For a list of poses it is the length of the path, or the number
 /// of the row if all positions are equal.
-pub(super) fn along(rows: &Rows) -> HorizontalAxis {
+pub(super) fn horizontal_axis(rows: &Rows) -> HorizontalAxis {
     if let [axis] = &rows.axes[..] {
         let x = rows.places.iter().map(|place| rows.at(*place)[0]).collect();
         return HorizontalAxis { title: axis_title(&axis.name, &axis.unit), x, short: axis.name.clone() };
@@ -183,7 +183,7 @@ fn shading(rows: &Rows, along: &HorizontalAxis) -> &'static str {
 }
 
 /// Markers for single values between two missing ones, where a line has no length.
-fn alone(along: &HorizontalAxis, series: &Series, colour: &str) -> Value {
+fn isolated_points(along: &HorizontalAxis, series: &Series, colour: &str) -> Value {
     let there = |i: Option<usize>| i.and_then(|i| series.values.get(i)).is_some_and(|value| value.is_finite());
     let alone = (0..series.values.len()).filter(|&i| there(Some(i)) && !there(i.checked_sub(1)) && !there(Some(i + 1)));
     let (x, y): (Vec<f64>, Vec<f64>) = alone.map(|i| (along.x[i], series.values[i])).unzip();
@@ -215,7 +215,7 @@ fn curves(id: String, rows: &Rows, along: &HorizontalAxis, members: &[&Series]) 
                 return vec![trace];
             }
 
-            let alone = with(alone(along, series, colour), more);
+            let alone = with(isolated_points(along, series, colour), more);
             [Some(trace), Some(alone).filter(|alone| alone["x"] != json!([]))].into_iter().flatten().collect()
         })
         .collect::<Vec<_>>()
@@ -309,14 +309,21 @@ fn campbell(rows: &Rows, along: &HorizontalAxis, tracking: &Tracking) -> PageFig
         }
     }
 
+    let hover = format!(
+        "{} %{{x}}<br>%{{y:.4f}} Hz<br>platform %{{marker.color:.0f}} % of the energy<br>%{{text}}<extra></extra>",
+        plain(&along.short)
+    );
     let size = if along.x.len() > 120 { 4.0 } else { 6.0 };
     data.push(json!({
         "type": "scatter", "mode": "markers", "x": rounded(&x), "y": rounded(&y), "text": text, "showlegend": false,
-        "hovertemplate": format!("{} %{{x}}<br>%{{y:.4f}} Hz<br>platform %{{marker.color:.0f}} % of the energy<br>%{{text}}<extra></extra>", plain(&along.short)),
+        "hovertemplate": hover,
         "marker": {
             "size": size, "color": rounded(&share), "cmin": 0, "cmax": 100, "line": {"width": 0},
             "colorscale": [[0.0, "#fdd56a"], [0.25, "#f89540"], [0.5, "#d5536f"], [0.75, "#8f0da4"], [1.0, "#0d0887"]],
-            "colorbar": {"title": {"text": "platform's share of the energy [%]", "side": "right", "font": {"size": 12}}, "thickness": 14, "outlinewidth": 0, "tickfont": {"size": 11}},
+            "colorbar": {
+                "title": {"text": "platform's share of the energy [%]", "side": "right", "font": {"size": 12}},
+                "thickness": 14, "outlinewidth": 0, "tickfont": {"size": 11},
+            },
         },
     }));
 

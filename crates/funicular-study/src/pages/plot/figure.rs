@@ -114,7 +114,7 @@ fn lines(rows: &Rows, name: &str, wanted: Option<&ChosenColumns>, choice: &Sweep
     let groups: Vec<Vec<&Series>> = groups.into_iter().map(|(_, members)| members).collect();
     let members = chosen(&groups, wanted)?;
 
-    let along = curves::along(rows);
+    let along = curves::horizontal_axis(rows);
     let (from, to) = bounds(along.x.iter().copied());
     let x = ChartAxis::linear(along.title.clone(), from, to);
     let (low, high) = bounds(members.iter().flat_map(|series| series.values.iter().copied()));

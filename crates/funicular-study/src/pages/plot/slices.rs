@@ -45,7 +45,8 @@ impl Slices {
             "pairs": pairs,
             "space": space,
             "quantities": rows.series.iter().map(|series| json!({
-                "name": label(&series.name), "title": with_unit(&label(&series.name), &series.unit), "unit": series.unit,
+                "name": label(&series.name), "title": with_unit(&label(&series.name), &series.unit),
+                "unit": series.unit,
                 "count": series.count, "bins": series.bins.to_vec(),
                 "min": if series.count > 0 { series.min.0 } else { 0.0 },
                 "max": if series.count > 0 { series.max.0 } else { 0.0 },
@@ -53,7 +54,11 @@ impl Slices {
             "statuses": rows.counts.iter().map(|count| json!({
                 "code": count.code, "name": status(count.code).0, "rows": count.rows, "colour": colour_of(count.code),
             })).collect::<Vec<_>>(),
-            "feasible": CODES.iter().filter(|code| !code.1.starts_with("infeasible")).map(|code| code.0).collect::<Vec<_>>(),
+            "feasible": CODES
+                .iter()
+                .filter(|code| !code.1.starts_with("infeasible"))
+                .map(|code| code.0)
+                .collect::<Vec<_>>(),
         });
 
         // Format: length of the header, the header, the status of every cell, then all values of one quantity after

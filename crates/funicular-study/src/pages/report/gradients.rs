@@ -58,15 +58,16 @@ pub(super) fn first_frequencies(
         .map(|((hz, of), colour)| {
             let values: Vec<f64> = order.iter().map(|(_, k)| 1e3 * of[*k]).collect();
             json!({
-                "type": "bar", "orientation": "h", "name": format!("{} Hz", short(*hz, 4)), "x": rounded(&values), "y": labels,
+                "type": "bar", "orientation": "h", "name": format!("{} Hz", short(*hz, 4)), "x": rounded(&values),
+                "y": labels,
                 "marker": {"color": colour},
             })
         })
         .collect();
     let caption = format!(
         "What moves the first frequencies: change of each over the tolerance of the numbers that move them most. \
-         Positions and lengths have a tolerance of 1 mm, angles 0.1°, other values 1 %; {}. `funicular gradient` gives all \
-         derivatives.",
+         Positions and lengths have a tolerance of 1 mm, angles 0.1°, other values 1 %; {}. `funicular gradient` gives \
+         all derivatives.",
         meaning(at_rest, Hold::Lengths)
     );
     let layout = json!({

@@ -74,8 +74,8 @@ pub(crate) fn tension_table(at_rest: &AtRest) -> PageTable {
     table
 }
 
-/// Table of the interval in which friction of pulleys leaves pose and tensions; `None` without friction, and if friction
-/// may move the platform without limit.
+/// Table of the interval in which friction of pulleys leaves pose and tensions; `None` without friction, and if
+/// friction may move the platform without limit.
 pub(crate) fn friction_table(at_rest: &AtRest) -> Option<PageTable> {
     let found = statics::FrictionRow::of(at_rest).ok()?;
     let range = |[min, max]: [f64; 2], digits: usize| format!("{} to {}", fixed(min, digits), fixed(max, digits));
@@ -121,8 +121,8 @@ pub(crate) fn drive_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Pa
 
     let mut table = PageTable::new(
         "table-drives",
-        "Pulleys and winches. Wrap: angle over which the cable touches its wheel. The unstrained length of a cable is the \
-         sum of its free span, the arc on the wheel and the drum side."
+        "Pulleys and winches. Wrap: angle over which the cable touches its wheel. The unstrained length of a cable is \
+         the sum of its free span, the arc on the wheel and the drum side."
             .to_owned(),
         &[
             "<cable",
@@ -178,8 +178,8 @@ pub(crate) fn support_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<
 
     let mut table = PageTable::new(
         "table-supports",
-        "Flexible supports. Displacement: of the anchors from their places without forces, world axes. Force: of all cables on \
-         the support, world axes."
+        "Flexible supports. Displacement: of the anchors from their places without forces, world axes. Force: of all \
+         cables on the support, world axes."
             .to_owned(),
         &["<support", "<cables", "<displacement|mm", "<force|N"],
     );
@@ -203,8 +203,8 @@ pub(crate) fn support_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<
 /// Maximum number of modes in the table with held exit points.
 const MAX_HELD: usize = 10;
 
-/// Table of the first natural frequencies beside those with held exit points; `None` if all cables end at fixed points of
-/// a rigid frame, or if there are none with held exit points.
+/// Table of the first natural frequencies beside those with held exit points; `None` if all cables end at fixed points
+/// of a rigid frame, or if there are none with held exit points.
 ///
 /// A cable that cannot slip at its exit point is a robot with more constraints, so that no frequency is lower.
 pub(crate) fn held_table(
@@ -217,9 +217,9 @@ pub(crate) fn held_table(
 
     let mut table = PageTable::new(
         "table-held",
-        "First natural frequencies with pulleys, winches and flexible supports, and at the same equilibrium with the exit \
-         points held, so that the cables neither slip there nor move sideways. Both lists are ascending; the n-th frequency \
-         with held exit points is never lower."
+        "First natural frequencies with pulleys, winches and flexible supports, and at the same equilibrium with the \
+         exit points held, so that the cables neither slip there nor move sideways. Both lists are ascending; the n-th \
+         frequency with held exit points is never lower."
             .to_owned(),
         &["no.", "as given|Hz", "exit points held|Hz", "difference|%"],
     );
@@ -278,7 +278,8 @@ pub(crate) fn tension_figure(robot: &Robot, equilibrium: &Equilibrium) -> PageFi
         bars("at the anchor", &names(robot), &of(|c| c.tension_anchor), colour::SKY, "N"),
     ];
     let layout = json!({
-        "barmode": "group", "bargap": 0.3, "xaxis": axis("cable", json!({"type": "category", "ticks": ""})), "yaxis": axis("tension [N]", json!({"rangemode": "tozero"})),
+        "barmode": "group", "bargap": 0.3, "xaxis": axis("cable", json!({"type": "category", "ticks": ""})),
+        "yaxis": axis("tension [N]", json!({"rangemode": "tozero"})),
     });
     PageFigure::new("figure-tensions", 300, "Tension at both ends of the cables.", &data, layout)
 }
@@ -304,7 +305,8 @@ pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure
 
     let top = 1.12 * if near { maximum.max(SHALLOW_SAG_LIMIT) } else { maximum.max(MIN_SHOWN_SAG) };
     let layout = json!({
-        "bargap": 0.45, "showlegend": false, "shapes": shapes, "xaxis": axis("cable", json!({"type": "category", "ticks": ""})),
+        "bargap": 0.45, "showlegend": false, "shapes": shapes,
+        "xaxis": axis("cable", json!({"type": "category", "ticks": ""})),
         "yaxis": axis("sag ratio d/l", json!({"range": [0, top], "exponentformat": "power"})),
     });
 
@@ -326,7 +328,8 @@ pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Optio
     let columns: Vec<&str> = std::iter::once("<").chain(possible.iter().map(|&i| motions[i])).collect();
 
     let units = if robot.platform.motion.can_turn() {
-        " Forces per translation in N/m, forces per rotation and moments per translation in N, moments per rotation in N·m."
+        " Forces per translation in N/m, forces per rotation and moments per translation in N, moments per rotation \
+         in N·m."
     } else {
         ""
     };
