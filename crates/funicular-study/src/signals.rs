@@ -438,7 +438,6 @@ impl ResponseEnd<'_> {
             if has_point { Err(SignalError::PointOfPlatform { side, name: name.clone() }) } else { signal }
         };
 
-
         match self.place {
             Place::Platform { turns, direction_w } => self.on_platform(robot, *turns, *direction_w, point_p),
             Place::Cable { cable, fraction, direction_w } => {

@@ -99,7 +99,8 @@ mod tests {
         let text = funicular_robots::YUAN2014_4MM
             .replace("[[cables]]", "[[cables]]\npulley = \"wheel\"\nwinch = \"drum\"")
             + &format!(
-                "\n[pulleys.wheel]\nradius_m = 0.05\nentry_direction = {axis}\n[winches.drum]\ndrum_side_length_m = 3.0\n\
+                "\n[pulleys.wheel]\nradius_m = 0.05\nentry_direction = {axis}\n[winches.drum]\n\
+                 drum_side_length_m = 3.0\n\
                  stiffness_n_per_m = 5e4\n"
             );
         let robot = Robot::from_toml(&text).unwrap();

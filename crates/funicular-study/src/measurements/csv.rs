@@ -218,7 +218,8 @@ impl Table<'_> {
                 );
             };
 
-            let (real, imag, std) = self.numbers(stem)?;
+            let (real, imag) = self.real_and_imaginary(stem)?;
+            let [.., std] = self.places(stem);
             responses.push(MeasuredResponse {
                 name: stem.to_owned(),
                 input: name.input.clone(),
@@ -228,7 +229,7 @@ impl Table<'_> {
                 frequency_hz: self.column(frequency)?,
                 real,
                 imag,
-                std,
+                std: std.map(|at| self.column(at)).transpose()?,
             });
         }
 
@@ -252,26 +253,29 @@ impl Table<'_> {
         Ok(stems)
     }
 
-    /// Real parts, imaginary parts and, if the table has them, deviations of a response.
-    fn numbers(&self, stem: &str) -> Result<(Vec<f64>, Vec<f64>, Option<Vec<f64>>)> {
-        let place = |ending: &str| self.header.iter().position(|column| *column == format!("{stem}{ending}"));
-        let [re, im, abs, phase, std] = ENDINGS.map(place);
-        let (real, imag) = match (re, im, abs, phase) {
-            (Some(re), Some(im), None, None) => (self.column(re)?, self.column(im)?),
+    /// Real and imaginary parts of a response.
+    fn real_and_imaginary(&self, stem: &str) -> Result<(Vec<f64>, Vec<f64>)> {
+        let [re, im, abs, phase, _] = self.places(stem);
+        match (re, im, abs, phase) {
+            (Some(re), Some(im), None, None) => Ok((self.column(re)?, self.column(im)?)),
             (None, None, Some(abs), Some(phase)) => {
                 let (abs, phase) = (self.column(abs)?, self.column(phase)?);
                 let polar = abs.iter().zip(&phase).map(|(abs, phase)| {
                     let (sin, cos) = phase.to_radians().sin_cos();
                     (abs * cos, abs * sin)
                 });
-                polar.unzip()
+                Ok(polar.unzip())
             }
             _ => bail!(
                 "{}: the response `{stem}` needs the columns `{stem}_re` and `{stem}_im`, or `{stem}_abs` and \
                  `{stem}_phase_deg`",
                 self.path
             ),
-        };
-        Ok((real, imag, std.map(|at| self.column(at)).transpose()?))
+        }
+    }
+
+    /// Columns of a response, in the order of [`ENDINGS`].
+    fn places(&self, stem: &str) -> [Option<usize>; 5] {
+        ENDINGS.map(|ending| self.header.iter().position(|column| *column == format!("{stem}{ending}")))
     }
 }
