@@ -225,7 +225,7 @@ fn analyse_or_draw(
     let robot = robot.context("a figure needs a robot")?;
     let mut watch = TerminalProgress::new();
     let waiting = WaitingSpinner::for_("the figure");
-    let made = figures::of_request(request, robot, &figures::Choice { mode }, &mut watch)?;
+    let made = figures::of_request(request, robot, &figures::FigureChoice { mode }, &mut watch)?;
     drop((watch, waiting));
     sink.write(&made.figure)?;
     made.warnings.iter().for_each(|warning| errors::warn(warning));

@@ -3,7 +3,8 @@
 use crate::args::values::finite;
 use crate::errors;
 use anyhow::{Context, Result, anyhow, bail};
-use funicular::robot::{PlatformMotion, Robot};
+use funicular::robot::{PlatformMotion, Pose, Robot};
+use funicular_study::at_rest::refuse_orientation;
 use funicular_study::csv_lines::line_at;
 use std::fs;
 use std::path::Path;
@@ -23,6 +24,7 @@ pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
     let header = reader.headers().with_context(|| format!("cannot read the poses {shown}"))?.clone();
     let places = places(&header).map_err(|reason| anyhow!("{shown} {reason}"))?;
 
+    let is_point_mass = robot.platform.motion == PlatformMotion::PointMass;
     let mut poses = Vec::new();
     for record in reader.records() {
         let record = record.map_err(|error| match error.kind() {
@@ -43,9 +45,9 @@ pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
             *value = finite(record.get(place).unwrap_or_default())
                 .map_err(|reason| anyhow!("{shown}, line {}, column `{column}`: {reason}", line()))?;
         }
-        if robot.platform.motion == PlatformMotion::PointMass && pose[3..].iter().any(|angle| *angle != 0.0) {
-            bail!("{shown}, line {}: a point mass has no orientation; leave out the angles", line());
-        }
+        let [x, y, z, roll, pitch, yaw] = pose;
+        refuse_orientation(is_point_mass, &Pose::new([x, y, z], [roll, pitch, yaw]))
+            .map_err(|error| anyhow!("{shown}, line {}: {error}", line()))?;
         poses.push(pose);
     }
 

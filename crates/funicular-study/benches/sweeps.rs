@@ -28,7 +28,10 @@ fn sweeps(c: &mut Criterion) {
 
 criterion_group! {
     name = maps;
-    config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
+    config = Criterion::default()
+        .warm_up_time(Duration::from_secs(1))
+        .measurement_time(Duration::from_secs(3))
+        .sample_size(30);
     targets = sweeps
 }
 criterion_main!(maps);

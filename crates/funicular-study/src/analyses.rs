@@ -1,7 +1,9 @@
 //! Analyses, one file per command: computation of a request, and its results as data.
 //!
-//! Every `run` takes the request and a robot that was read and checked. It returns plain data whose serialisation is
-//! the JSON of the program. Numbers that do not exist are absent, never NaN.
+//! Every `run` returns plain data whose serialisation is the JSON of the program. Numbers that do not exist are absent,
+//! never NaN. A `run` takes the request and a robot that was read and checked. `check` takes the robot alone.
+//! `parameters`, `identify`, `design` and `uncertainty` read the robot themselves, because they need the text of its
+//! file.
 
 pub mod cable;
 pub mod check;

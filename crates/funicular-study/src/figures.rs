@@ -21,7 +21,9 @@ pub(crate) mod supports;
 mod svg;
 pub(crate) mod view;
 
-pub use making::{Made, of_request};
+pub use making::{RequestFigure, of_request};
+
+pub use crate::figure_style::{DEFAULT_FONT_SIZE_PT, DEFAULT_WIDTH_MM, FONT_SIZE_LIMITS_PT, WIDTH_LIMITS_MM, WIDTHS};
 
 use crate::values::positive;
 use anyhow::{Result, anyhow, bail};
@@ -31,10 +33,10 @@ use space::Space;
 use style::Type;
 
 /// Figure of one result.
-pub struct Figure(pub(crate) Kind);
+pub struct Figure(pub(crate) FigureContent);
 
-/// Kind of a figure.
-pub(crate) enum Kind {
+/// Content of a figure: a chart, or the robot in space.
+pub(crate) enum FigureContent {
     Chart(Chart),
     Space(Box<Space>),
 }
@@ -46,24 +48,6 @@ pub struct Size {
     font_size_pt: f64,
 }
 
-/// Widths of columns by journal [mm]: one column and two columns, as in the instructions for authors.
-pub const WIDTHS: [(&str, f64); 6] = [
-    ("ieee-single", 88.9),
-    ("ieee-double", 181.0),
-    ("elsevier-single", 90.0),
-    ("elsevier-double", 190.0),
-    ("springer-single", 84.0),
-    ("springer-double", 174.0),
-];
-
-/// Width of a figure if none is given [mm]: one column of IEEE.
-pub const DEFAULT_WIDTH_MM: f64 = 88.9;
-/// Limits of the width [mm]: a figure in the margin, and the width of a poster.
-pub const WIDTH_LIMITS_MM: (f64, f64) = (40.0, 1000.0);
-/// Size of the texts if none is given [pt].
-pub const DEFAULT_FONT_SIZE_PT: f64 = 8.0;
-/// Limits of the size of the texts [pt].
-pub const FONT_SIZE_LIMITS_PT: (f64, f64) = (4.0, 40.0);
 /// Maximum size of the texts relative to the width: larger ones leave no room for the curves.
 const MAX_FONT_TO_WIDTH: f64 = 0.06;
 /// Points per millimetre.
@@ -87,8 +71,8 @@ impl Size {
         let most = MAX_FONT_TO_WIDTH * width_mm * POINTS;
         if font_size_pt > most {
             bail!(
-                "⟪font_size_pt⟫: texts of {font_size_pt} pt leave no room for curves in a figure of {width_mm} mm: give \
-                 at most {most:.0} pt, or a larger ⟪figure_width_mm⟫"
+                "⟪font_size_pt⟫: texts of {font_size_pt} pt leave no room for curves in a figure of {width_mm} mm: \
+                 give at most {most:.0} pt, or a larger ⟪figure_width_mm⟫"
             );
         }
         Ok(Self { width_mm, font_size_pt })
@@ -132,15 +116,15 @@ impl Figure {
     fn draw(&self, size: Size) -> Drawing {
         let (width, style) = (size.width_mm * POINTS, Type::new(size.font_size_pt));
         match &self.0 {
-            Kind::Chart(chart) => chart.draw(width, &style),
-            Kind::Space(space) => space.draw(width, &style),
+            FigureContent::Chart(chart) => chart.draw(width, &style),
+            FigureContent::Space(space) => space.draw(width, &style),
         }
     }
 }
 
 /// Choice of what a figure shows.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Choice {
+pub struct FigureChoice {
     /// Number of the mode whose shape is drawn, from 1; the spectrum if none is given.
     pub mode: Option<usize>,
 }

@@ -55,7 +55,7 @@ pub(crate) struct ReadOptions<'a> {
 pub(crate) fn read(files: &[SourceFile], options: &ReadOptions) -> Result<Draft> {
     let mut sources = Sources::default();
     for file in files {
-        sources.sort_in(file)?;
+        sources.add_file(file)?;
     }
     let mut draft = sources.read(options)?;
     draft.assumed.splice(0..0, files.iter().filter_map(SourceFile::caveat));
@@ -74,7 +74,7 @@ struct Sources<'a> {
 }
 
 impl<'a> Sources<'a> {
-    fn sort_in(&mut self, file: &'a SourceFile) -> Result<()> {
+    fn add_file(&mut self, file: &'a SourceFile) -> Result<()> {
         if !file.text.trim_start().starts_with('<') {
             if !moordyn::is_input(&file.text) {
                 bail!(
@@ -86,6 +86,7 @@ impl<'a> Sources<'a> {
             self.moordyn.push(file);
             return Ok(());
         }
+
         let xml = Xml::parse(file)?;
         match xml.root().tag_name().name() {
             "bodies_system" | "links" => self.bodies.push(xml),
@@ -100,6 +101,7 @@ impl<'a> Sources<'a> {
                 xml.place(xml.root())
             ),
         }
+
         Ok(())
     }
 
@@ -112,16 +114,19 @@ impl<'a> Sources<'a> {
         if !is_caspr && options.cable_set.is_some() {
             bail!("⟪cable_set⟫ chooses among the sets of a CASPR cables file, and no such file is given; leave it out");
         }
+
         if is_caspr {
-            let bodies = one(&bodies, "CASPR bodies file (<bodies_system>)")?;
-            let cables = one(&cables, "CASPR cables file (<cables>)")?;
+            let bodies = only_file(&bodies, "CASPR bodies file (<bodies_system>)")?;
+            let cables = only_file(&cables, "CASPR cables file (<cables>)")?;
             let mut draft = caspr::read(bodies, cables, options.cable_set)?;
             draft.lost.extend(aside.into_iter().map(|file| format!("{file}: it does not describe the robot")));
             return Ok(draft);
         }
+
         if !wirex.is_empty() {
-            return wirex::read(one(&wirex, "WireX file (<models>)")?);
+            return wirex::read(only_file(&wirex, "WireX file (<models>)")?);
         }
+
         match moordyn[..] {
             [file] => moordyn::read(file),
             _ => bail!("{} MoorDyn input files are given; give the file of one robot", moordyn.len()),
@@ -130,7 +135,7 @@ impl<'a> Sources<'a> {
 }
 
 /// Returns the only file of a kind.
-fn one<'f, 'a>(files: &'f [Xml<'a>], kind: &str) -> Result<&'f Xml<'a>> {
+fn only_file<'f, 'a>(files: &'f [Xml<'a>], kind: &str) -> Result<&'f Xml<'a>> {
     match files {
         [file] => Ok(file),
         [] => bail!("there is no {kind} among the files; a CASPR robot needs a bodies file and a cables file"),
@@ -215,6 +220,7 @@ mod tests {
             "é",
             "99999999999999999999",
         ];
+
         for files in EXAMPLES.iter() {
             for (which, (name, text)) in files.iter().enumerate() {
                 let mut at = 0;

@@ -44,7 +44,7 @@ pub fn write<R: Serialize>(
     warnings: &[String],
 ) -> Result<(), NoSolution> {
     let envelope = Envelope { schema: "funicular/1", command, robot, results, warnings };
-    let mut serializer = serde_json::Serializer::with_formatter(&mut *out, Lines { depth: 0 });
+    let mut serializer = serde_json::Serializer::with_formatter(&mut *out, LineFormatter { depth: 0 });
     envelope.serialize(&mut serializer).map_err(not_finite)?;
     out.push(b'\n');
     Ok(())
@@ -60,17 +60,17 @@ fn not_finite(error: serde_json::Error) -> NoSolution {
 }
 
 /// Formatter that writes each key of an object on its own line and an array on one line.
-struct Lines {
+struct LineFormatter {
     depth: usize,
 }
 
-impl Lines {
+impl LineFormatter {
     fn new_line<W: ?Sized + Write>(&self, out: &mut W) -> io::Result<()> {
         write!(out, "\n{:width$}", "", width = 2 * self.depth)
     }
 }
 
-impl Formatter for Lines {
+impl Formatter for LineFormatter {
     /// Refuses a `null`: serde_json writes it for a number that is not finite, and results leave out absent keys.
     fn write_null<W: ?Sized + Write>(&mut self, _: &mut W) -> io::Result<()> {
         Err(io::Error::other("a result is not a finite number"))
@@ -112,7 +112,7 @@ mod tests {
     use super::*;
 
     #[derive(Serialize)]
-    struct Sample {
+    struct SampleResults {
         values: Vec<f64>,
         rows: Vec<SampleRow>,
     }
@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn arrays_take_one_line_and_objects_one_a_key() {
         let mut out = Vec::new();
-        let sample = Sample { values: vec![0.1, 2.0], rows: vec![SampleRow { x: 1.0 }] };
+        let sample = SampleResults { values: vec![0.1, 2.0], rows: vec![SampleRow { x: 1.0 }] };
         write(&mut out, "modes", "r \"1\"", &sample, &[]).unwrap();
         let expected = "{\n  \"schema\": \"funicular/1\",\n  \"command\": \"modes\",\n  \"robot\": \"r \\\"1\\\"\",\n  \
             \"values\": [0.1, 2.0],\n  \"rows\": [{\n    \"x\": 1.0\n  }],\n  \"warnings\": []\n}\n";

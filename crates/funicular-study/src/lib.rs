@@ -35,6 +35,7 @@ mod chosen_numbers;
 pub mod csv_lines;
 mod error;
 pub mod export;
+pub mod figure_style;
 #[cfg(feature = "pages")]
 pub mod figures;
 pub mod frequency_range;

@@ -30,9 +30,9 @@ const MIN_DIAMETER_MM: f64 = 0.3;
 /// Maximum number of cables of a layout that the program makes.
 pub const MAX_CABLES: usize = 64;
 
-/// Breaking load of the default rope at least, as a multiple of the platform's weight: 6 mm for 100 kg. With 5, the usual
-/// factor between breaking load and working load, one cable could just carry the platform; 20 leaves room for a payload
-/// and for shallow cables. With 80 the ropes of a small robot would be heavy beside its platform.
+/// Minimum breaking load of the default rope, as a multiple of the platform's weight: 6 mm for 100 kg. With 5, the
+/// usual factor between breaking load and working load, one cable could just carry the platform; 20 leaves room for a
+/// payload and for shallow cables. With 80 the ropes of a small robot would be heavy beside its platform.
 const STRENGTH: f64 = 20.0;
 
 /// Acceleration of gravity for weights [m/s²].
@@ -147,6 +147,7 @@ fn rope(request: &NewRequest, mass: f64) -> Result<Rope> {
     check("diameter_m", request.diameter_m, positive)?;
     check("axial_stiffness_n", request.axial_stiffness_n, positive)?;
     check("mass_kg_per_m", request.mass_kg_per_m, not_negative)?;
+
     match (request.axial_stiffness_n, request.mass_kg_per_m) {
         (Some(_), _) if request.diameter_m.is_some() => {
             bail!("⟪axial_stiffness_n⟫ is EA, which ⟪diameter_m⟫ also determines: leave one of them out")
@@ -326,6 +327,7 @@ mod tests {
     #[test]
     fn a_table_that_cannot_be_read_is_refused_at_its_line() {
         let good = "1,4,4,6,1,1,0\n2,-4,4,6,-1,1,0\n";
+
         for (text, says) in [
             ("", "points.csv has no cables"),
             ("name,anchor_x\n", "points.csv, line 1: there is no column `anchor_y`"),
@@ -345,6 +347,7 @@ mod tests {
             let error = run(&csv(text), Words::Program).unwrap_err().to_string();
             assert!(error.contains(says), "{text:?}: {error}");
         }
+
         let contrary = "anchor_x_m,anchor_y_m,anchor_z_m,attachment_x_m,attachment_y_m,attachment_z_m\n0,0,1,0,0,0\n";
         let request = NewRequest { csv_unit: Some(LengthUnit::Millimetre), ..csv(contrary) };
         let error = worded(&run(&request, Words::Program).unwrap_err().to_string(), Words::Program);
@@ -368,6 +371,7 @@ mod tests {
     #[test]
     fn options_that_exclude_each_other_and_numbers_out_of_range_are_refused() {
         let new = NewRequest::default;
+
         for (request, says) in [
             (NewRequest { cables: Some(1), ..new() }, "--cables 1: one cable does not keep"),
             (NewRequest { cables: Some(0), ..new() }, "--cables 0: give 2 to 64 cables"),

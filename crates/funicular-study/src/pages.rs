@@ -1,8 +1,8 @@
 //! HTML pages that work offline: one file with figures, numbers and the library that draws the figures.
 //!
-//! A page is a text template ([`report`], [`paper`], [`plot`]) with figures and tables, or the page of scripts/web with a
-//! robot in it ([`live`]). It does not depend on the time,
-//! on random numbers or on the network: two runs write the same bytes.
+//! A page is a text template ([`report`], [`paper`], [`plot`]) with figures and tables, or the page of scripts/web with
+//! a robot in it ([`live`]). It does not depend on the time, on random numbers or on the network: two runs write the
+//! same bytes.
 
 pub mod design;
 pub(crate) mod figure;

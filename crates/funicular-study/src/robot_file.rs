@@ -74,9 +74,7 @@ impl RobotText {
             Err(error) => Err(Refused { name, text, error }.into()),
         }
     }
-}
 
-impl RobotText {
     /// Text with its changes.
     ///
     /// # Errors
@@ -88,11 +86,17 @@ impl RobotText {
         let changes = self.set.iter().map(Change::assignment).collect::<Result<Vec<_>>>()?;
         Ok(set_values::apply(&self.text, &changes)?)
     }
+
+    /// Text of the robot whose unstrained lengths are held: with the changes of `[state]` alone.
+    pub(crate) fn of_holder(&self) -> Self {
+        let set = self.set.iter().filter(|change| change.is_of_state()).cloned().collect();
+        Self { set, ..self.clone() }
+    }
 }
 
 impl Change {
     /// True for a value of `[state]`.
-    pub(crate) fn is_of_state(&self) -> bool {
+    fn is_of_state(&self) -> bool {
         set_values::path(&self.path).is_ok_and(|path| path.is_of_state())
     }
 

@@ -97,6 +97,7 @@ pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Results, Error> {
 /// The errors of [`run`], except those of the robot file.
 pub fn run_on(request: &Request, robot: Option<Robot>, watch: &mut dyn Watch) -> Result<Results> {
     let robot = || robot.ok_or_else(|| anyhow!("`{}` needs a robot", request.command()));
+
     Ok(match request {
         Request::Check(_) => Results::Check(check::run(robot()?)),
         Request::Parameters(of) => Results::Parameters(parameters::run(&of.robot)?),

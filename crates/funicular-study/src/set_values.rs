@@ -43,13 +43,13 @@ macro_rules! bail {
 
 /// Keys of a robot file, from its root to a value.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Path {
+pub struct ValuePath {
     /// Text as the user wrote it.
     pub text: String,
     keys: Vec<String>,
 }
 
-impl Path {
+impl ValuePath {
     /// Unit of the number at this path; `None` if a robot file has no number there.
     pub fn unit(&self) -> Option<&'static str> {
         parameters::unit(&self.keys)
@@ -87,14 +87,14 @@ impl Path {
 ///
 /// # Errors
 /// A message for the user.
-pub fn path(text: &str) -> Result<Path, String> {
+pub fn path(text: &str) -> Result<ValuePath, String> {
     let keys = Key::parse(text).map_err(|_| {
         format!(
             "`{text}` is not a path: write keys separated by dots, quoted if they hold anything except letters, \
              digits, _ and -"
         )
     })?;
-    Ok(Path { text: text.trim().to_owned(), keys: keys.iter().map(|key| key.get().to_owned()).collect() })
+    Ok(ValuePath { text: text.trim().to_owned(), keys: keys.iter().map(|key| key.get().to_owned()).collect() })
 }
 
 /// Parses `path.to.key=value` of `--set`. The value is TOML; a bare word is a text.
@@ -107,7 +107,8 @@ pub fn path(text: &str) -> Result<Path, String> {
 /// use funicular_study::set_values;
 ///
 /// let change = set_values::assignment("platform.mass_kg=20")?;
-/// assert_eq!(set_values::apply("[platform]\nmass_kg = 1\n", &[change])?, "[platform]\nmass_kg = 20 # set: platform.mass_kg=20\n");
+/// assert_eq!(set_values::apply("[platform]\nmass_kg = 1\n", &[change])?, "[platform]\nmass_kg = 20 # set:
+/// platform.mass_kg=20\n");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn assignment(text: &str) -> Result<Assignment, String> {

@@ -42,8 +42,8 @@ pub enum SignalError {
     /// Name that is not an input.
     #[error(
         "not an input: fx, fy, fz (force), mx, my, mz (moment), f:ux,uy,uz or m:ux,uy,uz (along a direction in world \
-         axes), a force on a cable as in cable:3@0.5:fz, the commanded length of a cable as in length:3, a force of its \
-         motor or on its drum as in motor:3 or drum:3, a motion of the base as in base-x or base-rz, or one of an \
+         axes), a force on a cable as in cable:3@0.5:fz, the commanded length of a cable as in length:3, a force of \
+         its motor or on its drum as in motor:3 or drum:3, a motion of the base as in base-x or base-rz, or one of an \
          anchor as in anchor:3:x"
     )]
     NotAnInput,
@@ -71,8 +71,8 @@ pub enum SignalError {
     BesidePlatform(String),
     /// Point of the platform for a signal that is not on the platform.
     #[error(
-        "the point of the {side} is a point of the platform, but the {side} {name} is not on the platform: leave out the \
-         point"
+        "the point of the {side} is a point of the platform, but the {side} {name} is not on the platform: leave out \
+         the point"
     )]
     PointOfPlatform {
         /// `input` or `output`.
@@ -155,8 +155,8 @@ fn axis(name: &str) -> Option<Vec3> {
     }
 }
 
-/// Signal of a drive from `length:NAME`, `drum:NAME`, `motor:NAME` or `tension:NAME`: the quantity and the cable's name;
-/// `None` for another name.
+/// Signal of a drive from `length:NAME`, `drum:NAME`, `motor:NAME` or `tension:NAME`: the quantity and the cable's
+/// name; `None` for another name.
 fn of_drive(text: &str) -> Option<(DriveSignal, String)> {
     let (kind, cable) = text.split_once(':')?;
     let signal = DriveSignal::ALL.into_iter().find(|signal| signal.name() == kind)?;
@@ -242,8 +242,8 @@ fn on_cable(text: &str) -> Result<Option<(String, f64, &str)>, SignalError> {
     Ok(Some((name.to_owned(), fraction, what)))
 }
 
-/// Input signal: a force or moment on the platform, a force on a cable, a quantity of a cable's drive, or a given motion of
-/// the base or of an anchor.
+/// Input signal: a force or moment on the platform, a force on a cable, a quantity of a cable's drive, or a given
+/// motion of the base or of an anchor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
     /// Name as the user wrote it.
@@ -270,18 +270,22 @@ impl Input {
     /// ```
     pub fn parse(text: &str) -> Result<Self, SignalError> {
         let name = text.trim().to_owned();
+
         if let Some((cable, fraction, what)) = on_cable(&name)? {
             let Place::Platform { turns: false, direction_w } = Self::parse(what)?.place else {
                 return Err(SignalError::NotAForce(what.to_owned()));
             };
             return Ok(Self { name, place: Place::Cable { cable, fraction, direction_w } });
         }
+
         if let Some((signal, cable)) = of_drive(&name).filter(|(signal, _)| signal.is_input()) {
             return Ok(Self { name, place: Place::Drive { cable, signal } });
         }
+
         if let Some(place) = of_frame(&name)? {
             return Ok(Self { name, place });
         }
+
         let (turns, direction_w) = if let Some(rest) = name.strip_prefix("f:") {
             (false, direction(rest)?)
         } else if let Some(rest) = name.strip_prefix("m:") {
@@ -293,6 +297,7 @@ impl Input {
         } else {
             return Err(SignalError::NotAnInput);
         };
+
         Ok(Self { name, place: Place::Platform { turns, direction_w } })
     }
 
@@ -432,6 +437,7 @@ impl ResponseEnd<'_> {
         let none = |signal: Result<Signal, SignalError>| {
             if has_point { Err(SignalError::PointOfPlatform { side, name: name.clone() }) } else { signal }
         };
+
         match self.place {
             Place::Platform { turns, direction_w } => self.on_platform(robot, *turns, *direction_w, point_p),
             Place::Cable { cable, fraction, direction_w } => {
@@ -464,6 +470,7 @@ impl ResponseEnd<'_> {
         if turns && point_p.is_some() {
             return Err(SignalError::PointOfRotation { side, name });
         }
+
         match robot.platform.motion {
             PlatformMotion::PointMass if turns => return Err(SignalError::PointMassTurns { side, name }),
             PlatformMotion::PointMass if point_p.is_some_and(|point| point.norm() > 0.0) => {
@@ -481,6 +488,7 @@ impl ResponseEnd<'_> {
             }
             PlatformMotion::Rigid | PlatformMotion::PointMass => {}
         }
+
         let along = Signal::Along { direction_w, point_p: point_p.unwrap_or_default() };
         Ok(if turns { Signal::About { axis_w: direction_w } } else { along })
     }
@@ -492,6 +500,21 @@ fn cable_of(robot: &Robot, name: &str) -> Result<usize, SignalError> {
         name: name.to_owned(),
         names: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
     })
+}
+
+/// Inputs and outputs with their signals on a robot.
+pub(crate) type SignalLists = (Vec<(Input, Signal)>, Vec<(Output, Signal)>);
+
+/// Unit of a response: motion divided by force or moment.
+pub fn response_unit(input: &Input, output: &Output) -> String {
+    let motion = output.unit();
+    let by_time = match output.quantity {
+        Quantity::Displacement => "",
+        Quantity::Velocity => "/s",
+        Quantity::Acceleration => "/s²",
+    };
+    let effort = if input.unit() == "N m" { "(N·m)" } else { input.unit() };
+    if by_time.is_empty() { format!("{motion}/{effort}") } else { format!("({motion}{by_time})/{effort}") }
 }
 
 #[cfg(test)]

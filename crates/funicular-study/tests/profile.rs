@@ -77,7 +77,8 @@ fn the_profile_of_a_linear_problem_is_the_interval_of_its_deviation() {
 const NARROW: f64 = 1e-3;
 const WIDE: f64 = 8e-3;
 
-/// Request of stiffness and mass from the pose, in which the ropes are some millimetres longer under load, and from tensions.
+/// Request of stiffness and mass from the pose, in which the ropes are some millimetres longer under load, and from
+/// tensions.
 fn stiffness(position_std_m: f64, more: &Value) -> Value {
     let (pose, tensions) = at_rest(&[], &json!({"lengths_m": LENGTHS}));
     let errors = [0.3, -0.4, 0.5, 0.2, -0.6, 0.1];

@@ -37,11 +37,16 @@ fn requests() -> Vec<Value> {
     let lengths = joined(&[&loads, &json!({ "lengths_m": [6.9, 0.1 + 0.2, 6.8], "hold_lengths_of_pose": false })]);
     let share = json!({ "platform_share": 0.7 });
     let center = json!({ "payload_center_m": [0.0, 0.1, -0.2] });
-    let turned = json!({ "pose": { "position_m": [1.0, 2.0, 1.5], "quaternion_wxyz": [0.6, 0.0, 0.0, 0.8] }, "hold_lengths_of_pose": true });
+    let turned = json!({
+        "pose": { "position_m": [1.0, 2.0, 1.5], "quaternion_wxyz": [0.6, 0.0, 0.0, 0.8] }, "hold_lengths_of_pose": true,
+    });
     let tensions = json!({
         "tension_rule": "closest", "target_tension_n": [900.0], "min_tension_n": 5.0, "max_tension_n": 4000.0,
     });
-    let model = json!({ "cable_model": "shallow-static", "assembly": "without-geometric-stiffness", "in_plane_only": true, "winches": "torque" });
+    let model = json!({
+        "cable_model": "shallow-static", "assembly": "without-geometric-stiffness", "in_plane_only": true,
+        "winches": "torque",
+    });
     let points = json!({ "input_point_m": [0.1, 0.0, 0.0], "output_point_m": [0.0, 0.0, 0.1] });
     let range = json!({ "from_hz": 0.1, "to_hz": 10.0, "points": 7, "log": true });
     let signals = json!({ "input": "f:1,0,1", "output": "cable:3@0.5:az" });
@@ -114,7 +119,8 @@ fn requests() -> Vec<Value> {
                 &tensions,
                 &share,
                 &json!({
-                    "below_hz": 2.0, "assembly": "consistent", "in_plane_only": false, "winches": "clamped", "platform": true,
+                    "below_hz": 2.0, "assembly": "consistent", "in_plane_only": false, "winches": "clamped",
+                    "platform": true,
                     "tolerance": 0.1,
                 }),
             ],
@@ -130,7 +136,8 @@ fn requests() -> Vec<Value> {
                 &points,
                 &json!({
                     "of": ["frequencies", "response"], "by": ["platform", "cables.*.anchor_m"], "hold": "pose",
-                    "per": "tolerance", "tolerances": ["platform.mass_kg=1%"], "below_hz": 5.0, "at_hz": 1.2, "input": "fz",
+                    "per": "tolerance", "tolerances": ["platform.mass_kg=1%"], "below_hz": 5.0, "at_hz": 1.2,
+                    "input": "fz",
                     "output": "az",
                 }),
             ],
@@ -267,7 +274,8 @@ fn requests() -> Vec<Value> {
                             }],
                         }),
                     ])],
-                    "from_hz": 0.5, "to_hz": 9.5, "starts": 3, "response_noise": 0.05, "frequency_noise": 0.02, "damping_noise": 0.2,
+                    "from_hz": 0.5, "to_hz": 9.5, "starts": 3, "response_noise": 0.05, "frequency_noise": 0.02,
+                    "damping_noise": 0.2,
                     "rigid_cables": true,
                 }),
             ],

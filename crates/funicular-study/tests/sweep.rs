@@ -82,7 +82,8 @@ fn every_column_is_what_the_function_it_stands_for_gives() {
     let points = Poses::grid(robot.clone(), &given, None).unwrap();
     let options = Options::default();
     let requested = quantities(
-        "frequencies:3,first-frequency,tension-max,tensions,lengths,stiffness-min,stiffness,energy,model-error:spring,pose-error",
+        "frequencies:3,first-frequency,tension-max,tensions,lengths,stiffness-min,stiffness,energy,model-error:spring,\
+         pose-error",
     );
     let plan = Plan::new(&points, &robot, &requested, &options).unwrap();
     let all = chunks(&plan);
@@ -133,7 +134,8 @@ fn every_column_is_what_the_function_it_stands_for_gives() {
 
 #[test]
 fn every_robot_of_the_library_has_rows_with_numbers_or_a_reason() {
-    let all = "first-frequency,first-kind,tension-max,tension-min,tensions,lengths,tension-margin,stiffness-min,stiffness,\
+    let all = "first-frequency,first-kind,tension-max,tension-min,tensions,lengths,tension-margin,stiffness-min,\
+               stiffness,\
                pose-error,sag-max,model-error,stiffness-error,condition,energy,pose";
     let mut seen = 0;
     for (name, text) in funicular_robots::ALL {

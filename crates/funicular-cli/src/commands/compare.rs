@@ -3,7 +3,7 @@
 use crate::output::Printed;
 use crate::table::{self, Table, counted, decimals, short};
 use funicular_study::analyses::compare::{Compared, ModelRow};
-use funicular_study::analyses::modes::ModeRow;
+use funicular_study::analyses::shared::ModeRow;
 
 impl Printed for Compared {
     fn text(&self) -> String {

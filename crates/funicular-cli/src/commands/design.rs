@@ -91,15 +91,7 @@ impl Printed for Designed {
         let mut table =
             Table::new(&["value", "unit", "before", "after", "minimum", "maximum", ""]).text_columns(&[0, 1, 6]);
         for row in &self.values {
-            table.row(vec![
-                row.path.clone(),
-                row.unit.to_owned(),
-                significant(row.start, 6),
-                significant(row.value, 6),
-                significant(row.minimum, 6),
-                significant(row.maximum, 6),
-                row.at_bound.map_or_else(String::new, |bound| format!("at its {bound}")),
-            ]);
+            table.row(row.cells(significant).to_vec());
         }
         let _ = write!(text, "\n{table}");
         text

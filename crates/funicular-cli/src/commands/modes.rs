@@ -2,7 +2,8 @@
 
 use crate::output::Printed;
 use crate::table::{self, Table, counted, decimals, short, significant};
-use funicular_study::analyses::modes::{ModeRow, Modes, Participation, RIGID, strongest};
+use funicular_study::analyses::modes::{Modes, Participation, RIGID, strongest};
+use funicular_study::analyses::shared::ModeRow;
 use funicular_study::uff_writing::modes_file;
 
 impl Printed for Modes {

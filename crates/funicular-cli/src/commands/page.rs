@@ -58,7 +58,7 @@ pub(crate) fn plot(args: &PlotArgs) -> Result<()> {
     guard.reads("the rows in", &args.file);
 
     if let Some(sink) = FigureSink::open(Some(&to), args.figure, &mut guard)? {
-        let choice = pages::plot::Choice {
+        let choice = pages::plot::SweepFigureChoice {
             quantity: args.quantity.clone(),
             plane: args.plane.clone().map(|plane| plane.0),
             at: args.at.clone(),

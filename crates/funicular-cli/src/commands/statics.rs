@@ -2,8 +2,9 @@
 
 use crate::output::Printed;
 use crate::table::{self, Table, decimals, decimals_or_none, short, significant, vector};
+use funicular_study::analyses::shared::LimitNumbers;
 use funicular_study::analyses::statics::{
-    DriveRow, EquilibriumRow, FrictionCableRow, FrictionRow, LimitNumbers, OtherStable, Statics, SupportRow,
+    DriveRow, EquilibriumRow, FrictionCableRow, FrictionRow, OtherStable, Statics, SupportRow,
 };
 
 impl Printed for Statics {

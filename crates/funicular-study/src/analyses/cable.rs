@@ -1,7 +1,7 @@
 //! `cable`: dynamic stiffness of the platform end of one cable, with the anchor fixed.
 
 use super::found;
-use super::shared::{Origin, SagNumbers};
+use super::shared::{Axes, Origin, SagNumbers};
 use crate::at_rest::{self, AtRest};
 use crate::error::NoSolution;
 use crate::names::suggestion;
@@ -43,20 +43,6 @@ pub struct CableResult {
     pub world: World,
     #[serde(skip)]
     pub warnings: Vec<String>,
-}
-
-/// Unit vectors of a cable, world axes: along the chord, normal to it in plane, out of plane.
-#[derive(Serialize)]
-pub struct Axes {
-    pub e: [f64; 3],
-    pub n: [f64; 3],
-    pub b: [f64; 3],
-}
-
-impl Axes {
-    pub fn of(axes: &LocalAxes) -> Self {
-        Self { e: axes.e.into(), n: axes.n.into(), b: axes.b.into() }
-    }
 }
 
 /// Stiffness along the chord, coupling, normal in plane and out of plane [N/m].

@@ -1,11 +1,12 @@
 //! `check`: description of the robot in the robot file.
 
 use super::found;
-use crate::text::{short, vector};
+use super::shared::{LoadRow, WindRow};
+use crate::text::short;
 use funicular::math::rotation;
 use funicular::robot::{
-    Cable, Control, Damping, GuideWheel, Load, PlatformMotion, Pulley, PulleyFriction, Robot, State, Support,
-    TensionLimits, Winch, Wind,
+    Cable, Control, Damping, GuideWheel, PlatformMotion, Pulley, PulleyFriction, Robot, State, Support, TensionLimits,
+    Winch,
 };
 use funicular::statics::{self, CableState, StaticModel};
 use funicular::warnings::plausibility;
@@ -35,7 +36,7 @@ pub struct Checked {
     pub state: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pose: Option<CheckedPose>,
-    /// Remarks on values that may be meant as well as a slip; absent if there are none.
+    /// Remarks on unusual values, which may be intended or a slip; absent if there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
     #[serde(skip)]
@@ -56,51 +57,6 @@ pub struct CheckedPlatform {
     pub center_of_mass_m: [f64; 3],
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drag_area_m2: Option<f64>,
-}
-
-/// Load on the platform.
-#[derive(Serialize)]
-pub struct LoadRow {
-    pub force_n: [f64; 3],
-    pub moment_n_m: [f64; 3],
-    pub point_m: [f64; 3],
-}
-
-impl LoadRow {
-    /// Row for a load; `None` if there is no load.
-    pub fn of(load: &Load) -> Option<Self> {
-        (load.force_w.norm() > 0.0 || load.moment_w.norm() > 0.0).then(|| Self {
-            force_n: load.force_w.into(),
-            moment_n_m: load.moment_w.into(),
-            point_m: load.point_p.into(),
-        })
-    }
-
-    /// Description in one phrase.
-    pub fn text(&self) -> String {
-        let [force, moment, point] = [&self.force_n, &self.moment_n_m, &self.point_m].map(|three| vector(three, 4));
-        format!("force ({force}) N at ({point}) m of the platform, moment ({moment}) N m")
-    }
-}
-
-/// Wind.
-#[derive(Serialize)]
-pub struct WindRow {
-    pub velocity_m_s: [f64; 3],
-    pub air_density_kg_m3: f64,
-}
-
-impl WindRow {
-    /// Row for a wind; `None` in still air.
-    pub fn of(wind: &Wind) -> Option<Self> {
-        (wind.velocity_w.norm() > 0.0)
-            .then(|| Self { velocity_m_s: wind.velocity_w.into(), air_density_kg_m3: wind.air_density })
-    }
-
-    /// Description in one phrase.
-    pub fn text(&self) -> String {
-        format!("({}) m/s, air density {} kg/m³", vector(&self.velocity_m_s, 3), short(self.air_density_kg_m3, 4))
-    }
 }
 
 /// Rope of a robot file.
@@ -155,8 +111,8 @@ pub struct CheckedCable {
     pub support: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unstrained_length_m: Option<f64>,
-    /// Parts of the unstrained length of a cable over a pulley or to a winch; absent for other cables, and if the lengths
-    /// are unknown or have no equilibrium.
+    /// Parts of the unstrained length of a cable over a pulley or to a winch; absent for other cables, and if the
+    /// lengths are unknown or have no equilibrium.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length_parts: Option<LengthParts>,
     /// Tension limits of the cable, or else of its rope.
@@ -340,7 +296,8 @@ impl CheckedWinch {
         }
     }
 
-    /// Motion of its drum and guide wheels in one phrase; `None` for a motor that holds its angle where nothing has inertia.
+    /// Motion of its drum and guide wheels in one phrase; `None` for a motor that holds its angle where nothing has
+    /// inertia.
     pub fn drive_text(&self) -> Option<String> {
         let mass = self.drum_mass_kg.unwrap_or(0.0) + self.motor_mass_kg.unwrap_or(0.0);
         let inertia = (mass > 0.0).then(|| format!("{} kg", short(mass, 4)));
@@ -410,6 +367,7 @@ fn ropes(robot: &Robot) -> Vec<CheckedRope> {
             Damping::Ratio(ratio) => (Some(ratio), None),
             Damping::Viscous(coefficient) => (None, Some(coefficient)),
         };
+
         let row = CheckedRope {
             name: rope.name.clone(),
             axial_stiffness_n: rope.axial_stiffness,
@@ -420,6 +378,7 @@ fn ropes(robot: &Robot) -> Vec<CheckedRope> {
             breaking_load_n: rope.breaking_load,
             drag_width_m: rope.drag_width,
         };
+
         if !ropes.contains(&row) {
             ropes.push(row);
         }
@@ -433,10 +392,12 @@ fn cables(robot: &Robot) -> Vec<CheckedCable> {
         State::Lengths(lengths) => Some(lengths),
         State::Pose(_) | State::Unknown => None,
     };
+
     // Lengths can only be divided where the platform rests.
     let driven = robot.cables.iter().any(|cable| !cable.anchor.is_fixed());
     let rest = lengths.filter(|_| driven);
     let rest = rest.and_then(|lengths| statics::forward(robot, lengths, StaticModel::Catenary, None).ok());
+
     let row = |(i, cable): (usize, &Cable)| CheckedCable {
         name: cable.name.clone(),
         material: cable.material.name.clone(),
@@ -450,6 +411,7 @@ fn cables(robot: &Robot) -> Vec<CheckedCable> {
         limits: CheckedLimits::of(cable.limits()),
         load_n_per_m: (cable.load_per_length_w.norm() > 0.0).then(|| cable.load_per_length_w.into()),
     };
+
     robot.cables.iter().enumerate().map(row).collect()
 }
 
@@ -471,12 +433,14 @@ fn state(robot: &Robot) -> (&'static str, Option<CheckedPose>) {
 fn warnings(robot: &Robot) -> Vec<String> {
     let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
     let mut warnings: Vec<String> = plausibility::of_robot(robot).iter().map(ToString::to_string).collect();
+
     if cables < dof {
         warnings.push(format!(
             "{cables} cables for {dof} degrees of freedom: for given lengths the platform hangs at a minimum of its \
              energy; if the cables cannot hold a given pose, statics finds the nearest pose that they can hold"
         ));
     }
+
     if let PlatformMotion::Planar(plane) = robot.platform.motion {
         let across =
             |cable: &Cable| plane.distance(&cable.anchor.reference_w()) - plane.normal_w().dot(&cable.attachment_p);
@@ -493,6 +457,7 @@ fn warnings(robot: &Robot) -> Vec<String> {
                 beside.join(", ")
             ));
         }
+
         let across = plane.normal_w().dot(&robot.gravity_w);
         if across.abs() > 1e-9 * robot.gravity_w.norm() {
             warnings.push(format!(

@@ -1,8 +1,7 @@
 //! `compare`: all cable models side by side.
 
 use super::found;
-use super::modes::ModeRow;
-use super::shared::Origin;
+use super::shared::{ModeRow, Origin};
 use crate::at_rest::{self, AtRest};
 use crate::request;
 use anyhow::Result;
@@ -124,8 +123,8 @@ pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Comp
     let platform_share = request.platform.then_some(request.platform_share);
     let criterion = Criterion { tolerance: request.tolerance, platform_share };
     let linearisation = Linearisation {
-        // The number of modes is checked before any work. Warnings of the models follow. The shallow-dynamic model counts
-        // fastest.
+        // The number of modes is checked before any work. Warnings of the models follow. The shallow-dynamic model
+        // counts fastest.
         cable_model: CableModel::ShallowDynamic,
         assembly: request.terms.assembly,
         in_plane_only: request.terms.in_plane_only,
@@ -168,6 +167,7 @@ impl From<ModelResult> for ModelRow {
             }
             Err(error) => (Vec::new(), 0, false, Some(error.to_string())),
         };
+
         let matches = result
             .matches
             .into_iter()
@@ -179,6 +179,7 @@ impl From<ModelResult> for ModelRow {
                 correlation: m.correlation,
             })
             .collect();
+
         Self {
             cable_model: result.model.name(),
             error,

@@ -5,7 +5,7 @@ use super::shared::Models;
 use crate::at_rest::{self, AtRest};
 use crate::error::Cancelled;
 use crate::request;
-use crate::signals::{Input, Output};
+use crate::signals::{Input, Output, SignalLists, response_unit};
 use crate::text::{counted, significant};
 use crate::{Silent, Watch};
 use anyhow::{Result, bail};
@@ -206,11 +206,8 @@ pub struct Response {
     warnings: Vec<String>,
 }
 
-/// Input and output signals that are checked for the robot.
-type Signals = (Vec<(Input, Signal)>, Vec<(Output, Signal)>);
-
 /// Signals of responses, checked for this robot.
-fn signals(robot: &Robot, pairs: &Pairs<'_>) -> Result<Signals> {
+fn signals(robot: &Robot, pairs: &Pairs<'_>) -> Result<SignalLists> {
     let Pairs { inputs, outputs, points, .. } = *pairs;
     points.check()?;
     for (key, names) in [("input", inputs), ("output", outputs)] {
@@ -262,8 +259,8 @@ pub fn response(
     Ok(response)
 }
 
-/// Computes the responses of a robot at equilibrium at frequencies [Hz] without the search for missed peaks, which takes
-/// longer than the responses.
+/// Computes the responses of a robot at equilibrium at frequencies [Hz] without the search for missed peaks, which
+/// takes longer than the responses.
 ///
 /// # Errors
 /// The errors of [`response()`].
@@ -381,8 +378,8 @@ impl Response {
         let count = modes::count_within(dynamics, from_hz, to_hz);
         if count > MAX_CHECKED {
             return Ok(Some(format!(
-                "{count} natural frequencies lie between {from_hz} and {to_hz} Hz; whether the heights of their peaks are \
-                 read correctly is checked for at most {MAX_CHECKED}: choose a narrower range"
+                "{count} natural frequencies lie between {from_hz} and {to_hz} Hz; whether the heights of their peaks \
+                 are read correctly is checked for at most {MAX_CHECKED}: choose a narrower range"
             )));
         }
 
@@ -394,7 +391,7 @@ impl Response {
         )?;
         Ok(found.map(|MissedPeaks { count, worst }| {
             let (input, output) = self.pair(worst.response);
-            let unit = unit(input, output);
+            let unit = response_unit(input, output);
             let of =
                 if self.values.len() > 1 { format!(", of {} to {},", output.name, input.name) } else { String::new() };
             format!(
@@ -415,7 +412,7 @@ impl Response {
     /// Unit of the values of row `i`.
     pub fn unit(&self, i: usize) -> String {
         let (input, output) = self.pair(i);
-        unit(input, output)
+        response_unit(input, output)
     }
 
     /// Input and output of the pair of row `i`.
@@ -436,7 +433,7 @@ impl Response {
             input_place: PlaceRow::of(from, pairs.points.input_point_m),
             output: output.name.clone(),
             output_place: PlaceRow::of(to, pairs.points.output_point_m),
-            unit: unit(input, output),
+            unit: response_unit(input, output),
             peaks: peaks.into_iter().map(PeakRow::from).collect(),
             undamped_hz: self.resolved.as_ref().map_or_else(Vec::new, |resolved| resolved.undamped_resonances_hz(i)),
             real: self.values[i].iter().map(|value| value.re).collect(),
@@ -478,18 +475,6 @@ fn input_place<S: Serializer>(place: &PlaceRow, to: S) -> Result<S::Ok, S::Error
 
 fn output_place<S: Serializer>(place: &PlaceRow, to: S) -> Result<S::Ok, S::Error> {
     place.serialize(["output_point_m", "output_point_w_m"], to)
-}
-
-/// Unit of a response: motion divided by force or moment.
-pub fn unit(input: &Input, output: &Output) -> String {
-    let motion = output.unit();
-    let by_time = match output.quantity {
-        Quantity::Displacement => "",
-        Quantity::Velocity => "/s",
-        Quantity::Acceleration => "/s²",
-    };
-    let effort = if input.unit() == "N m" { "(N·m)" } else { input.unit() };
-    if by_time.is_empty() { format!("{motion}/{effort}") } else { format!("({motion}{by_time})/{effort}") }
 }
 
 found!(Frf, "frf");

@@ -1,11 +1,10 @@
 //! `modes`: every natural frequency below a limit.
 
-use super::cable::Axes;
-use super::shared::Models;
-use super::{found, frf};
-use crate::at_rest::{self, AtRest};
+use super::found;
+use super::shared::{Axes, ModeRow, Models};
+use crate::at_rest::{self, AtRest, ModesBelow};
 use crate::request::{self, Model, Terms};
-use crate::signals::{Input, Output};
+use crate::signals::{Input, Output, response_unit};
 use anyhow::{Result, anyhow, bail};
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
@@ -102,69 +101,22 @@ pub struct StationsRow {
     pub axes: Axes,
 }
 
-/// Mode of vibration.
-#[derive(Serialize)]
-pub struct ModeRow {
-    pub frequency_hz: f64,
-    pub multiplicity: usize,
-    pub damping_ratio: f64,
-    /// Eigenvalue λ = −ζω + iω√(1 − ζ²): real and imaginary part.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub eigenvalue_per_s: Option<[f64; 2]>,
-    pub kind: &'static str,
-    pub platform_energy_fraction: f64,
-    pub cable_energy_fractions: Vec<f64>,
-    /// Kinetic energy of the drive of each cable; absent if no drive has inertia.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub drive_energy_fractions: Vec<f64>,
-    /// Kinetic energy of each flexible support; absent on a rigid frame.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub support_energy_fractions: Vec<f64>,
-    pub shape: [f64; 6],
-    pub modal_mass_kg: f64,
-    pub residual: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub residue_per_kg: Option<f64>,
-    /// Height of the peak of this mode alone.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub peak: Option<f64>,
-    /// Displacements (e, n, b) of the stations of every cable, in the scale of `shape`.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub cable_shapes: Vec<Vec<[f64; 3]>>,
-}
-
-impl From<modes::Mode> for ModeRow {
-    fn from(mode: modes::Mode) -> Self {
-        Self {
-            frequency_hz: mode.frequency_hz,
-            multiplicity: mode.multiplicity,
-            damping_ratio: mode.damping_ratio,
-            eigenvalue_per_s: None,
-            kind: mode.kind.name(),
-            platform_energy_fraction: mode.platform_energy_fraction,
-            cable_energy_fractions: mode.cable_energy_fractions,
-            drive_energy_fractions: mode.drive_energy_fractions,
-            support_energy_fractions: mode.support_energy_fractions,
-            // `+ 0.0` makes a negative zero positive.
-            shape: mode.shape.map(|x| x + 0.0),
-            modal_mass_kg: mode.modal_mass,
-            residual: mode.residual,
-            residue_per_kg: None,
-            peak: None,
-            cable_shapes: Vec::new(),
-        }
-    }
-}
-
 /// Computes every natural frequency below a limit.
 ///
 /// # Errors
 /// A request that contradicts itself or the robot, a robot without such an equilibrium, or too many modes.
 pub fn run(robot: Robot, request: &request::ModesRequest) -> Result<Modes> {
-    request::check_positive("below_hz", request.below_hz)?;
     // Signals that the robot does not have are refused before the work.
-    signals(&robot, pair(request)?.as_ref(), request)?;
-    about(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request)
+    let pair = checked(&robot, request)?;
+    of_checked(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request, pair)
+}
+
+/// Computes the natural frequencies of a robot at equilibrium. The state of the request is not used.
+///
+/// # Errors
+/// The errors of [`run`].
+pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes> {
+    of_checked(at_rest, request, checked(&at_rest.robot, request)?)
 }
 
 /// Name of the cable model of rigid cables in results.
@@ -187,16 +139,19 @@ pub fn with_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> R
     if let Some((_, key, reason)) = given.into_iter().find(|(given, ..)| *given) {
         bail!("⟪rigid_cables⟫ does not go with ⟪{key}⟫, because {reason}: leave out one of the two");
     }
+
     let found = modes::with_rigid_cables(&at_rest.robot, &at_rest.equilibrium, request.below_hz)
         .map_err(|error| anyhow!("⟪rigid_cables⟫: {error}"))?;
-    Ok((found, at_rest.warnings(None)))
+    let mut warnings = at_rest.warnings(None);
+    warnings.extend(found.caveat());
+    Ok((found, warnings))
 }
 
 /// Result of `modes` with rigid cables.
 fn about_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes> {
-    let (found, mut warnings) = with_rigid_cables(at_rest, request)?;
-    warnings.extend(found.caveat());
+    let (found, warnings) = with_rigid_cables(at_rest, request)?;
     let robot = &at_rest.robot;
+
     Ok(Modes {
         robot: robot.name.clone(),
         below_hz: request.below_hz,
@@ -217,26 +172,17 @@ fn about_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> Resu
     })
 }
 
-/// Computes the natural frequencies of a robot at equilibrium. The state of the request is not used.
-///
-/// # Errors
-/// The errors of [`run`].
-pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes> {
-    request::check_positive("below_hz", request.below_hz)?;
-    request::check_fraction("platform_share", request.platform_share)?;
+/// Computes the natural frequencies for a request that [`checked`] has accepted.
+fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<SignalPair>) -> Result<Modes> {
     if request.rigid_cables {
         return about_rigid_cables(at_rest, request);
     }
-    let pair = pair(request)?;
-    let signals = signals(&at_rest.robot, pair.as_ref(), request)?;
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
-    let (dynamics, mut warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
-    modes::check_count(&dynamics, request.below_hz, modes::MAX_MODES)?;
-    let found = modes::below(&dynamics, request.below_hz);
-    warnings.extend(found.caveat());
+    let ModesBelow { dynamics, modes: found, mut warnings } =
+        at_rest.modes_below(linearisation, request.below_hz, modes::MAX_MODES)?;
     let AtRest { robot, .. } = at_rest;
 
-    // Rows of the modes.
+    // Damping, and the peaks that depend on it.
     let mut rows: Vec<ModeRow> = found.modes.iter().cloned().map(ModeRow::from).collect();
     let (damped, caveat) = if request.damped { modes::damped_partners(&dynamics, &found) } else { (None, None) };
     warnings.extend(caveat);
@@ -247,15 +193,13 @@ pub fn about(at_rest: &AtRest, request: &request::ModesRequest) -> Result<Modes>
             row.eigenvalue_per_s = Some([eigenvalue.re, eigenvalue.im]);
         }
     }
-    let participation = match (&pair, signals) {
-        (Some(pair), Some(signals)) => Some(participate(&mut rows, at_rest, &dynamics, &found, pair, signals)?),
-        _ => None,
-    };
+    let participation = pair.map(|pair| participate(&mut rows, at_rest, &dynamics, &found, &pair)).transpose()?;
 
     let stations = request.stations.map_or(Ok(Vec::new()), |count| stations(at_rest, &dynamics, count))?;
     for (row, mode) in rows.iter_mut().zip(&found.modes) {
         row.cable_shapes = stations.iter().map(|of| of.in_mode(&dynamics, mode)).collect();
     }
+
     Ok(Modes {
         robot: robot.name.clone(),
         below_hz: request.below_hz,
@@ -282,40 +226,51 @@ fn participate(
     at_rest: &AtRest,
     dynamics: &Dynamics,
     found: &modes::Modes,
-    (input, output): &(Input, Output),
-    signals: [Signal; 2],
+    SignalPair { input, output, signals }: &SignalPair,
 ) -> Result<Participation> {
-    let [from, to] = at_rest.ports(dynamics, signals)?;
+    let [from, to] = at_rest.ports(dynamics, *signals)?;
+
     for (row, mode) in rows.iter_mut().zip(&found.modes) {
         // Signals of drives and motions of the frame are refused before.
         let (Some(from), Some(to)) = (from.in_mode(dynamics, mode), to.in_mode(dynamics, mode)) else { continue };
+
         let residue = from * to / mode.modal_mass;
         let omega = mode.frequency_hz * TAU;
         let by_time = output.quantity.factor(omega).norm();
+
         row.residue_per_kg = Some(residue + 0.0);
         let damping = 2.0 * row.damping_ratio * omega * omega;
         row.peak = (damping > 0.0).then(|| residue.abs() * by_time / damping);
     }
-    Ok(Participation { input: input.name.clone(), output: output.name.clone(), peak_unit: frf::unit(input, output) })
+
+    Ok(Participation {
+        input: input.name.clone(),
+        output: output.name.clone(),
+        peak_unit: response_unit(input, output),
+    })
 }
 
-/// Input and output of the response to which the modes contribute.
-fn pair(request: &request::ModesRequest) -> Result<Option<(Input, Output)>> {
+/// Input and output of the response to which the modes contribute, with their signals on the robot.
+struct SignalPair {
+    input: Input,
+    output: Output,
+    signals: [Signal; 2],
+}
+
+/// Refuses numbers out of range, and reads the signals of the response if the request has one.
+fn checked(robot: &Robot, request: &request::ModesRequest) -> Result<Option<SignalPair>> {
+    request::check_positive("below_hz", request.below_hz)?;
+    request::check_fraction("platform_share", request.platform_share)?;
     match (&request.input, &request.output) {
-        (Some(input), Some(output)) => Ok(Some((request::input(input)?, request::output(output)?))),
+        (Some(input), Some(output)) => {
+            let (input, output) = (request::input(input)?, request::output(output)?);
+            let signals = at_rest::signals(robot, &input, &output, &request.points)?;
+            Ok(Some(SignalPair { input, output, signals }))
+        }
         (None, None) => Ok(None),
         (Some(_), None) => bail!("⟪input⟫ is given without ⟪output⟫: a response needs both"),
         (None, Some(_)) => bail!("⟪output⟫ is given without ⟪input⟫: a response needs both"),
     }
-}
-
-/// Points of the response on the platform.
-fn signals(
-    robot: &Robot,
-    pair: Option<&(Input, Output)>,
-    request: &request::ModesRequest,
-) -> Result<Option<[Signal; 2]>> {
-    pair.map(|(input, output)| at_rest::signals(robot, input, output, &request.points)).transpose()
 }
 
 /// Stations at equal steps along every cable.

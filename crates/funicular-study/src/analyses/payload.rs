@@ -1,8 +1,7 @@
 //! `payload`: minimum and maximum payload at a pose.
 
 use super::found;
-use super::shared::PoseRow;
-use super::statics::LimitNumbers;
+use super::shared::{LimitNumbers, PoseRow};
 use crate::at_rest::{self, AtRest};
 use crate::error::NoSolution;
 use crate::request;
@@ -38,7 +37,7 @@ pub struct Payload {
 #[derive(Serialize)]
 pub struct BoundRow {
     pub payload_kg: f64,
-    /// Payload from which on it is proved that none is possible; absent without a proof.
+    /// Proved limit: no payload of at least this mass is possible; absent without a proof.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub excluded_from_kg: Option<f64>,
     /// Tensions with this payload; empty without a payload.

@@ -23,7 +23,7 @@ pub struct PoseErrors {
     pub robot: String,
     /// Unstrained lengths, the same at every mass.
     pub unstrained_length_m: Vec<f64>,
-    /// Origin of these lengths; absent if they are given.
+    /// Origin of the unstrained lengths; absent if they are given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub held: Option<HeldPoseRow>,
     pub points: Vec<PoseErrorRow>,

@@ -9,7 +9,7 @@ use crate::at_rest::{self, AtRest};
 use crate::error::Cancelled;
 use crate::names::{ModelForm, Named};
 use crate::request;
-use crate::signals::{Input, Output};
+use crate::signals::{Input, Output, SignalLists};
 use crate::text::significant;
 use anyhow::{Result, bail};
 use control_model::ControlStateSpace;
@@ -116,8 +116,8 @@ pub struct CoordinateRow {
 /// Makes a model of the robot for control design, in the requested form.
 ///
 /// # Errors
-/// A signal that the robot does not have, a robot without such an equilibrium or model, too many modes, or work that was
-/// stopped.
+/// A signal that the robot does not have, a robot without such an equilibrium or model, too many modes, or work that
+/// was stopped.
 pub fn run(robot: Robot, request: &request::ReduceRequest, watch: &mut dyn Watch) -> Result<ReducedForm> {
     check(&robot, request)?;
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
@@ -127,12 +127,10 @@ pub fn run(robot: Robot, request: &request::ReduceRequest, watch: &mut dyn Watch
     })
 }
 
-/// Inputs and outputs of a model.
-type Signals = (Vec<(Input, Signal)>, Vec<(Output, Signal)>);
-
 /// Refuses numbers out of range, keys that exclude each other, and signals that the robot does not have.
-fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<Signals> {
+fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<SignalLists> {
     request::check_positive("below_hz", request.below_hz)?;
+
     match (request.form, request.order, request.tolerance) {
         (ModelForm::SecondOrder, Some(_), _) => bail!(
             "⟪order⟫ chooses modes of a state space, and the second-order form keeps all of them: take ⟪form⟫ \
@@ -148,10 +146,12 @@ fn check(robot: &Robot, request: &request::ReduceRequest) -> Result<Signals> {
         (ModelForm::StateSpace, None, Some(tolerance)) => request::check_positive("tolerance", tolerance)?,
         _ => {}
     }
+
     if let Some(hz) = request.damping_at_hz {
         request::check_positive("damping_at_hz", hz)?;
     }
     request.points.check()?;
+
     Ok((inputs(robot, request)?, outputs(robot, request)?))
 }
 
@@ -166,7 +166,11 @@ struct Linearised {
 }
 
 /// Linearises the robot and checks the number of its modes.
-fn linearised(at_rest: &AtRest, request: &request::ReduceRequest, (inputs, outputs): &Signals) -> Result<Linearised> {
+fn linearised(
+    at_rest: &AtRest,
+    request: &request::ReduceRequest,
+    (inputs, outputs): &SignalLists,
+) -> Result<Linearised> {
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
     let (dynamics, warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
     modes::check_count(&dynamics, request.below_hz, MAX_MODES)?;

@@ -1,13 +1,14 @@
 //! Rows that several commands share.
 
 use crate::at_rest::AtRest;
-use funicular::cable::Sag;
+use crate::text::{short, vector};
+use funicular::cable::{LocalAxes, Sag};
 use funicular::dynamics::Linearisation;
 use funicular::math::rotation;
+use funicular::modes;
 use funicular::pose_error::PoseDifference;
-use funicular::robot::Pose;
-use funicular::robot::WinchMode;
-use funicular::statics::TensionRule;
+use funicular::robot::{Load, Pose, WinchMode, Wind};
+use funicular::statics::{Limit, TensionMargin, TensionRange, TensionRule};
 use serde::Serialize;
 
 /// Models used for a result, by the names that JSON has.
@@ -127,6 +128,147 @@ impl From<PoseDifference> for PoseDifferenceRow {
             translation_m: difference.translation,
             distance_m: difference.distance,
             angle_deg: difference.angle.to_degrees(),
+        }
+    }
+}
+
+/// Load on the platform.
+#[derive(Serialize)]
+pub struct LoadRow {
+    pub force_n: [f64; 3],
+    pub moment_n_m: [f64; 3],
+    pub point_m: [f64; 3],
+}
+
+impl LoadRow {
+    /// Row for a load; `None` if there is no load.
+    pub fn of(load: &Load) -> Option<Self> {
+        (load.force_w.norm() > 0.0 || load.moment_w.norm() > 0.0).then(|| Self {
+            force_n: load.force_w.into(),
+            moment_n_m: load.moment_w.into(),
+            point_m: load.point_p.into(),
+        })
+    }
+
+    /// Description in one phrase.
+    pub fn text(&self) -> String {
+        let [force, moment, point] = [&self.force_n, &self.moment_n_m, &self.point_m].map(|three| vector(three, 4));
+        format!("force ({force}) N at ({point}) m of the platform, moment ({moment}) N m")
+    }
+}
+
+/// Wind.
+#[derive(Serialize)]
+pub struct WindRow {
+    pub velocity_m_s: [f64; 3],
+    pub air_density_kg_m3: f64,
+}
+
+impl WindRow {
+    /// Row for a wind; `None` in still air.
+    pub fn of(wind: &Wind) -> Option<Self> {
+        (wind.velocity_w.norm() > 0.0)
+            .then(|| Self { velocity_m_s: wind.velocity_w.into(), air_density_kg_m3: wind.air_density })
+    }
+
+    /// Description in one phrase.
+    pub fn text(&self) -> String {
+        format!("({}) m/s, air density {} kg/m³", vector(&self.velocity_m_s, 3), short(self.air_density_kg_m3, 4))
+    }
+}
+
+/// Tension limits of a cable, and the distance of its tension from them.
+#[derive(Serialize)]
+pub struct LimitNumbers {
+    pub minimum_tension_n: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub maximum_tension_n: Option<f64>,
+    /// Distance from the nearer limit.
+    pub tension_margin_n: f64,
+    /// Distance from the nearer limit, divided by the distance between the limits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tension_margin: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit_reached: Option<&'static str>,
+}
+
+impl LimitNumbers {
+    pub fn of(margin: &TensionMargin) -> Self {
+        let TensionRange { minimum, maximum } = margin.range;
+        Self {
+            minimum_tension_n: minimum,
+            maximum_tension_n: maximum.is_finite().then_some(maximum),
+            tension_margin_n: margin.distance(),
+            tension_margin: margin.relative(),
+            limit_reached: margin.reached().map(Limit::name),
+        }
+    }
+}
+
+/// Unit vectors of a cable, world axes: along the chord, normal to it in plane, out of plane.
+#[derive(Serialize)]
+pub struct Axes {
+    pub e: [f64; 3],
+    pub n: [f64; 3],
+    pub b: [f64; 3],
+}
+
+impl Axes {
+    pub fn of(axes: &LocalAxes) -> Self {
+        Self { e: axes.e.into(), n: axes.n.into(), b: axes.b.into() }
+    }
+}
+
+/// Mode of vibration.
+#[derive(Serialize)]
+pub struct ModeRow {
+    pub frequency_hz: f64,
+    pub multiplicity: usize,
+    pub damping_ratio: f64,
+    /// Eigenvalue λ = −ζω + iω√(1 − ζ²): real and imaginary part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub eigenvalue_per_s: Option<[f64; 2]>,
+    pub kind: &'static str,
+    pub platform_energy_fraction: f64,
+    pub cable_energy_fractions: Vec<f64>,
+    /// Kinetic energy of the drive of each cable; absent if no drive has inertia.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub drive_energy_fractions: Vec<f64>,
+    /// Kinetic energy of each flexible support; absent on a rigid frame.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub support_energy_fractions: Vec<f64>,
+    pub shape: [f64; 6],
+    pub modal_mass_kg: f64,
+    pub residual: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residue_per_kg: Option<f64>,
+    /// Height of the peak of this mode alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peak: Option<f64>,
+    /// Displacements (e, n, b) of the stations of every cable, in the scale of `shape`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cable_shapes: Vec<Vec<[f64; 3]>>,
+}
+
+impl From<modes::Mode> for ModeRow {
+    fn from(mode: modes::Mode) -> Self {
+        Self {
+            frequency_hz: mode.frequency_hz,
+            multiplicity: mode.multiplicity,
+            damping_ratio: mode.damping_ratio,
+            eigenvalue_per_s: None,
+            kind: mode.kind.name(),
+            platform_energy_fraction: mode.platform_energy_fraction,
+            cable_energy_fractions: mode.cable_energy_fractions,
+            drive_energy_fractions: mode.drive_energy_fractions,
+            support_energy_fractions: mode.support_energy_fractions,
+            // `+ 0.0` makes a negative zero positive.
+            shape: mode.shape.map(|x| x + 0.0),
+            modal_mass_kg: mode.modal_mass,
+            residual: mode.residual,
+            residue_per_kg: None,
+            peak: None,
+            cable_shapes: Vec::new(),
         }
     }
 }

@@ -1,8 +1,7 @@
 //! `statics`: equilibrium of the robot.
 
-use super::check::{LoadRow, WindRow};
 use super::found;
-use super::shared::{PoseDifferenceRow, SagNumbers};
+use super::shared::{LimitNumbers, LoadRow, PoseDifferenceRow, PoseRow, SagNumbers, WindRow};
 use crate::at_rest::{self, AtRest};
 use crate::request;
 use crate::text::short;
@@ -11,12 +10,10 @@ use funicular::cable::Sag;
 use funicular::pose_error::PoseDifference;
 use funicular::robot::{Pose, Robot, State, Support, TensionLimits};
 use funicular::statics::{
-    self, CableFriction, CableState, Candidate, Equilibrium, FrictionInterval, Held, Interval, Limit, MotionInterval,
-    TensionMargin, TensionRange,
+    self, CableFriction, CableState, Candidate, Equilibrium, FrictionInterval, Held, Interval, MotionInterval,
+    TensionRange,
 };
 use serde::Serialize;
-
-pub use super::shared::PoseRow;
 
 /// Results of `statics`: an equilibrium.
 #[derive(Serialize)]
@@ -288,34 +285,6 @@ impl SupportRow {
             force_n: (support.stiffness_w * displacement_w).into(),
         };
         robot.supports.iter().zip(equilibrium.support_displacements(robot)).map(row).collect()
-    }
-}
-
-/// Tension limits of a cable, and the distance of its tension from them.
-#[derive(Serialize)]
-pub struct LimitNumbers {
-    pub minimum_tension_n: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub maximum_tension_n: Option<f64>,
-    /// Distance from the nearer limit.
-    pub tension_margin_n: f64,
-    /// Distance from the nearer limit, divided by the distance between the limits.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tension_margin: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub limit_reached: Option<&'static str>,
-}
-
-impl LimitNumbers {
-    pub(super) fn of(margin: &TensionMargin) -> Self {
-        let TensionRange { minimum, maximum } = margin.range;
-        Self {
-            minimum_tension_n: minimum,
-            maximum_tension_n: maximum.is_finite().then_some(maximum),
-            tension_margin_n: margin.distance(),
-            tension_margin: margin.relative(),
-            limit_reached: margin.reached().map(Limit::name),
-        }
     }
 }
 

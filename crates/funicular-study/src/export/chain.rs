@@ -47,6 +47,7 @@ impl Chain {
                 cable.name
             );
         }
+
         let count = if mass > 0.0 { count } else { 1 };
         let cable_data = HangingCable {
             chord_w: state.anchor_w - state.attachment_w,
@@ -54,6 +55,7 @@ impl Chain {
             weight_w,
             axial_stiffness: cable.material.axial_stiffness,
         };
+
         match cable_data.chain(state.attachment_w, count) {
             Some(chain) if !state.is_slack() => Ok(chain),
             _ => bail!(
@@ -191,7 +193,8 @@ mod tests {
 
     #[test]
     fn a_vertical_cable_is_a_straight_chain() {
-        let text = "name = \"v\"\n[platform]\nmass_kg = 2.0\nmotion = \"point-mass\"\n[materials.r]\naxial_stiffness_n = 1e4\n\
+        let text = "name = \"v\"\n[platform]\nmass_kg = 2.0\nmotion = \"point-mass\"\n[materials.r]\n\
+             axial_stiffness_n = 1e4\n\
                     mass_kg_per_m = 0.1\n[[cables]]\nname = \"1\"\nmaterial = \"r\"\nanchor_m = [0.0, 0.0, 3.0]\n\
                     [[cables]]\nname = \"2\"\nmaterial = \"r\"\nanchor_m = [1.0, 0.0, 3.0]\n\
                     [[cables]]\nname = \"3\"\nmaterial = \"r\"\nanchor_m = [0.0, 1.0, 3.0]\n";

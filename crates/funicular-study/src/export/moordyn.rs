@@ -66,81 +66,104 @@ struct LineRow {
 pub(crate) fn input(at_rest: &AtRest, segments: usize, warnings: &mut Vec<String>) -> Result<String> {
     let AtRest { robot, equilibrium, .. } = at_rest;
     refuse(robot)?;
-    let driven: Vec<&str> =
-        (robot.cables.iter().filter(|cable| !cable.anchor.is_fixed())).map(|cable| cable.name.as_str()).collect();
-    if !driven.is_empty() {
-        warnings.push(format!(
-            "MoorDyn has no pulleys and no winches: the lines of the cables {} end at the exit points, which do not move. \
-             Arc, drum side and winch are left out, so that the file has the equilibrium of the robot, and a higher \
-             stiffness",
-            driven.join(", ")
-        ));
-    }
-    let mut types = Vec::new();
+    warn_of_drives(robot, warnings);
     let body = match robot.platform.motion {
-        PlatformMotion::Rigid => Some(Frame::of(at_rest)),
+        PlatformMotion::Rigid => Some(BodyFrame::of(at_rest)),
         PlatformMotion::PointMass | PlatformMotion::Planar(_) => None,
     };
-
-    // Line type, line and end points of each cable; the largest and smallest values for the notes and the time step.
-    let mut points = Vec::new();
-    let mut lines = Vec::new();
-    let (mut step, mut shortened, mut heavier, mut lowest) = (f64::INFINITY, 0.0_f64, 0.0_f64, 0.0_f64);
-    let cables = robot.cables.len();
-    for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
-        let chain = Chain::of(robot, equilibrium, i, segments)?;
-        let unstrained_length = chain.bar_length * segments as f64;
-        let mass_per_length =
-            chain.weight_factor * cable.material.mass_per_length * (state.free_length() / unstrained_length);
-        heavier = heavier.max((mass_per_length / cable.material.mass_per_length - 1.0).abs());
-
-        let name = type_name(&cable.material.name, i);
-        let axial_stiffness = cable.material.axial_stiffness;
-        types.push(LineType { name: name.clone(), mass_per_length, axial_stiffness });
-        let wave = (cable.material.axial_stiffness / cable.material.mass_per_length).sqrt();
-        step = step.min(STEP * chain.bar_length / wave);
-        shortened = shortened.max(state.free_length() - unstrained_length);
-        lowest = chain.nodes_w.iter().map(|node| node.z).fold(lowest, f64::min);
-
-        points.push(MoorDynPointRow { id: i + 1, attachment: "Fixed", at: state.anchor_w, mass: 0.0 });
-        let mut end = cables + 1;
-        if let Some(frame) = &body {
-            end += i;
-            let at = frame.axes_p.transpose() * cable.attachment_p;
-            points.push(MoorDynPointRow { id: end, attachment: "Body1", at, mass: 0.0 });
-        }
-        lines.push(LineRow { id: i + 1, kind: name, ends: [end, i + 1], unstrained_length });
-    }
-
+    let mut lines = MoorDynLines::of(at_rest, segments, body.as_ref())?;
     if body.is_none() {
-        let Robot { platform, .. } = robot;
-        let at = equilibrium.pose.point_w(&platform.center_of_mass_p);
-        points.push(MoorDynPointRow { id: cables + 1, attachment: "Free", at, mass: platform.mass });
+        let at = equilibrium.pose.point_w(&robot.platform.center_of_mass_p);
+        let id = robot.cables.len() + 1;
+        lines.points.push(MoorDynPointRow { id, attachment: "Free", at, mass: robot.platform.mass });
     }
-    points.sort_by_key(|point| point.id);
+    lines.points.sort_by_key(|point| point.id);
 
     let input = MoorDynFile {
         name: without_section(&robot.name),
         source: without_section(&robot.source),
         segments,
-        shortened,
-        heavier,
+        shortened: lines.shortened,
+        heavier: lines.heavier,
         body_axes: match &body {
             Some(frame) if frame.axes_p != Mat3::identity() => "principal axes of inertia",
             _ => "axes of the platform frame",
         },
-        driven: !driven.is_empty(),
+        driven: robot.cables.iter().any(|cable| !cable.anchor.is_fixed()),
         damping: !robot.cables.iter().all(|cable| is_undamped(&cable.material)),
-        types,
+        types: lines.types,
         body: body.map(|frame| frame.row),
-        points,
-        lines,
-        step,
+        points: lines.points,
+        lines: lines.lines,
+        step: lines.step,
         gravity: -robot.gravity_w.z,
         // The seabed lies far below the robot.
-        depth: (-10.0 * lowest).max(1000.0),
+        depth: (-10.0 * lines.lowest).max(1000.0),
     };
     Ok(input.render()? + "\n")
+}
+
+/// Warns that the file has neither pulleys nor winches.
+fn warn_of_drives(robot: &Robot, warnings: &mut Vec<String>) {
+    let driven: Vec<&str> =
+        (robot.cables.iter().filter(|cable| !cable.anchor.is_fixed())).map(|cable| cable.name.as_str()).collect();
+    if !driven.is_empty() {
+        warnings.push(format!(
+            "MoorDyn has no pulleys and no winches: the lines of the cables {} end at the exit points, which do not \
+             move. Arc, drum side and winch are left out, so that the file has the equilibrium of the robot, and a \
+             higher stiffness",
+            driven.join(", ")
+        ));
+    }
+}
+
+/// Line types, lines and end points of the cables, with the extreme values for the notes and the time step.
+struct MoorDynLines {
+    types: Vec<LineType>,
+    points: Vec<MoorDynPointRow>,
+    lines: Vec<LineRow>,
+    /// Largest time step at which every line is stable [s].
+    step: f64,
+    /// Largest difference of the unstrained length from that of the cable [m].
+    shortened: f64,
+    /// Largest relative difference of the mass per length from that of the cable.
+    heavier: f64,
+    /// Height of the lowest point of all lines, at most zero [m].
+    lowest: f64,
+}
+
+impl MoorDynLines {
+    fn of(at_rest: &AtRest, segments: usize, body: Option<&BodyFrame>) -> Result<Self> {
+        let AtRest { robot, equilibrium, .. } = at_rest;
+        let cables = robot.cables.len();
+        let (types, points, lines) = (Vec::new(), Vec::new(), Vec::new());
+        let mut all = Self { types, points, lines, step: f64::INFINITY, shortened: 0.0, heavier: 0.0, lowest: 0.0 };
+
+        for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
+            let chain = Chain::of(robot, equilibrium, i, segments)?;
+            let unstrained_length = chain.bar_length * segments as f64;
+            let mass_per_length =
+                chain.weight_factor * cable.material.mass_per_length * (state.free_length() / unstrained_length);
+            let wave = (cable.material.axial_stiffness / cable.material.mass_per_length).sqrt();
+            all.heavier = all.heavier.max((mass_per_length / cable.material.mass_per_length - 1.0).abs());
+            all.step = all.step.min(STEP * chain.bar_length / wave);
+            all.shortened = all.shortened.max(state.free_length() - unstrained_length);
+            all.lowest = chain.nodes_w.iter().map(|node| node.z).fold(all.lowest, f64::min);
+
+            let name = type_name(&cable.material.name, i);
+            let axial_stiffness = cable.material.axial_stiffness;
+            all.types.push(LineType { name: name.clone(), mass_per_length, axial_stiffness });
+            all.points.push(MoorDynPointRow { id: i + 1, attachment: "Fixed", at: state.anchor_w, mass: 0.0 });
+            let mut end = cables + 1;
+            if let Some(frame) = body {
+                end += i;
+                let at = frame.axes_p.transpose() * cable.attachment_p;
+                all.points.push(MoorDynPointRow { id: end, attachment: "Body1", at, mass: 0.0 });
+            }
+            all.lines.push(LineRow { id: i + 1, kind: name, ends: [end, i + 1], unstrained_length });
+        }
+        Ok(all)
+    }
 }
 
 fn is_undamped(material: &Material) -> bool {
@@ -156,16 +179,18 @@ const STEP: f64 = 0.5;
 fn refuse(robot: &Robot) -> Result<()> {
     if matches!(robot.platform.motion, PlatformMotion::Planar(_)) {
         bail!(
-            "the platform is planar: MoorDyn's bodies are free in all six degrees of freedom or moved by another program, and \
-             nothing guides them in a plane; export it to OpenSees"
+            "the platform is planar: MoorDyn's bodies are free in all six degrees of freedom or moved by another \
+             program, and nothing guides them in a plane; export it to OpenSees"
         );
     }
+
     if robot.load.force_w != Vec3::zeros() || robot.load.moment_w != Vec3::zeros() {
         bail!(
             "a load acts on the platform: MoorDyn's input has no forces but weight and water (only its Fortran edition \
              reads EXTERNAL LOADS); leave out [loads], ⟪force_n⟫ and ⟪moment_n_m⟫, or export to OpenSees"
         );
     }
+
     let along = robot.cables.iter().any(|cable| cable.load_per_length_w != Vec3::zeros());
     if robot.wind.velocity_w != Vec3::zeros() || along {
         bail!(
@@ -173,6 +198,7 @@ fn refuse(robot: &Robot) -> Result<()> {
              `load_n_per_m`, ⟪wind_m_s⟫ and ⟪cable_load_n_per_m⟫, or export to OpenSees"
         );
     }
+
     let g = robot.gravity_w;
     if g.x != 0.0 || g.y != 0.0 || g.z > 0.0 {
         bail!(
@@ -182,9 +208,11 @@ fn refuse(robot: &Robot) -> Result<()> {
             g.z
         );
     }
+
     if let Some(cable) = robot.cables.iter().find(|cable| cable.material.mass_per_length == 0.0) {
         bail!("cable \"{}\" has no mass, and MoorDyn divides by it: give its material a `mass_kg_per_m`", cable.name);
     }
+
     Ok(())
 }
 
@@ -202,13 +230,13 @@ fn type_name(material: &str, i: usize) -> String {
 }
 
 /// Frame of the MoorDyn body.
-struct Frame {
+struct BodyFrame {
     /// Axes of the body in the platform frame, as columns.
     axes_p: Mat3,
     row: BodyRow,
 }
 
-impl Frame {
+impl BodyFrame {
     fn of(at_rest: &AtRest) -> Self {
         let (platform, pose) = (&at_rest.robot.platform, &at_rest.equilibrium.pose);
         let inertia = platform.inertia_p;
@@ -219,18 +247,22 @@ impl Frame {
             nearest_frame(&principal.eigenvectors, &principal.eigenvalues)
         };
         let rot_wb = pose.rot_wp.to_rotation_matrix() * axes_p;
+
         // Roll, pitch and yaw about moving axes, R = Rx Ry Rz.
         let pitch = rot_wb[(0, 2)].clamp(-1.0, 1.0).asin();
         let roll = (-rot_wb[(1, 2)]).atan2(rot_wb[(2, 2)]);
         let yaw = (-rot_wb[(0, 1)]).atan2(rot_wb[(0, 0)]);
+
         let at = pose.position_w;
         let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_degrees);
+
         let row = BodyRow {
             pose: [at.x, at.y, at.z, roll, pitch, yaw].map(|x| x + 0.0),
             mass: platform.mass,
             center: axes_p.transpose() * platform.center_of_mass_p,
             moments,
         };
+
         Self { axes_p, row }
     }
 }
@@ -240,8 +272,10 @@ impl Frame {
 /// frame without rotation.
 fn nearest_frame(axes: &Mat3, moments: &Vec3) -> (Mat3, Vec3) {
     const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
+
     let mut nearest = (Mat3::identity(), *moments);
     let mut largest = f64::NEG_INFINITY;
+
     for order in ORDERS {
         // A left-handed frame needs one more sign change: on the axis that reduces the trace least.
         let mut frame = Mat3::from_columns(&order.map(|k| axes.column(k).into_owned()));
@@ -254,8 +288,10 @@ fn nearest_frame(axes: &Mat3, moments: &Vec3) -> (Mat3, Vec3) {
             let least = frame.diagonal().imin();
             frame.column_mut(least).neg_mut();
         }
+
         if frame.trace() > largest {
             largest = frame.trace();
+
             nearest = (frame, Vec3::from(order.map(|k| moments[k])));
         }
     }

@@ -84,13 +84,14 @@ pub(crate) fn script(
     let exported = AtRest { robot: with_held_motors(robot), ..at_rest.clone() };
     if exported.robot != *robot {
         warnings.push(
-            "the script has neither the inertia of wheels, drums and motors nor the mass of drum sides nor the control of motors: its motors are held, \
-             and so are those of the frequencies to which it compares"
+            "the script has neither the inertia of wheels, drums and motors nor the mass of drum sides nor the control \
+             of motors: its motors are held, and so are those of the frequencies to which it compares"
                 .to_owned(),
         );
     }
     let at_rest = &exported;
     let AtRest { robot, equilibrium, .. } = at_rest;
+
     let frequencies = match below_hz {
         None => first_frequencies(at_rest, FREQUENCIES, warnings)?,
         Some(limit) => modes_below(at_rest, limit, warnings)?.1.modes.iter().map(|mode| mode.frequency_hz).collect(),
@@ -106,14 +107,7 @@ pub(crate) fn script(
     let stiffest = |i: usize| robot.cables[i].material.axial_stiffness / equilibrium.cables[i].free_length();
     let frame_stiffness = FRAME_STIFFNESS * (0..robot.cables.len()).map(stiffest).fold(0.0, f64::max);
     let lost = frequencies.first().map_or(0.0, |first_hz| rounding(&body, frame_stiffness, *first_hz));
-    if lost > ROUNDING {
-        warnings.push(format!(
-            "OpenSees will find the lowest frequencies only to about {lost:.0e}: they are low compared with those of \
-             the stiff bars between the masses that represent the platform. These masses are {size:.3} m from its \
-             centre of mass, the attachments {:.3} m from its origin; if that is wrong, correct inertia_kg_m2",
-            robot.platform_length()
-        ));
-    }
+    warnings.extend((lost > ROUNDING).then(|| rounding_warning(lost, size, robot)));
 
     let cables = (0..robot.cables.len()).map(|i| cable(at_rest, i, segments, warnings)).collect::<Result<Vec<_>>>()?;
     let script = Script {
@@ -134,6 +128,17 @@ pub(crate) fn script(
         size,
     };
     Ok(script.render()? + "\n")
+}
+
+/// Warning that OpenSees rounds the lowest frequencies; `lost` is their relative error, `size` the distance of the
+/// masses from the centre of mass [m].
+fn rounding_warning(lost: f64, size: f64, robot: &Robot) -> String {
+    format!(
+        "OpenSees will find the lowest frequencies only to about {lost:.0e}: they are low compared with those of the \
+         stiff bars between the masses that represent the platform. These masses are {size:.3} m from its centre of \
+         mass, the attachments {:.3} m from its origin; if that is wrong, correct inertia_kg_m2",
+        robot.platform_length()
+    )
 }
 
 fn cable(at_rest: &AtRest, i: usize, segments: usize, warnings: &mut Vec<String>) -> Result<String> {
@@ -251,13 +256,16 @@ impl MassPoints {
         let AtRest { robot, equilibrium, .. } = at_rest;
         let Load { force_w, moment_w, point_p } = robot.load;
         let mut loads = Vec::new();
+
         let of_wind = robot.force_at_mass_centre_w() - robot.gravity_w * robot.platform.mass;
         if of_wind != Vec3::zeros() {
             loads.push((self.points[0].0, of_wind));
         }
+
         if force_w != Vec3::zeros() {
             loads.push((equilibrium.pose.point_w(&point_p), force_w));
         }
+
         let center_w = self.points[0].0;
         for (i, a) in self.arms.iter().enumerate() {
             for b in &self.arms[i + 1..] {
@@ -365,8 +373,11 @@ mod tests {
             .iter()
             .map(|&(a, b)| {
                 let (anchor, attachment) = (corner(a, b), corner(0.1 * a, 0.05 * b));
-                format!("[[cables]]\nname = \"{a} {b}\"\nmaterial = \"r\"\nanchor_m = {anchor}\nattachment_m = {attachment}\n\
-                         unstrained_length_m = 2.28\n")
+                format!(
+                    "[[cables]]\nname = \"{a} {b}\"\nmaterial = \"r\"\nanchor_m = {anchor}\n\
+                     attachment_m = {attachment}\n\
+                         unstrained_length_m = 2.28\n"
+                )
             })
             .collect();
         format!(
@@ -384,7 +395,9 @@ mod tests {
             moment_w: Vec3::new(0.7, 1.1, -0.4),
             point_p: Vec3::new(0.1, 0.2, -0.1),
         };
+
         let cross = |v: &Vec3| v.cross_matrix();
+
         for text in [funicular_robots::YUAN2014_4MM, &planar("1.0, 2.0, -2.0")] {
             let mut at_rest = at_rest(text);
             at_rest.robot.load = load;
@@ -394,17 +407,21 @@ mod tests {
                 PlatformMotion::Planar(plane) => plane.normal_w() * plane.normal_w().dot(&load.moment_w),
                 _ => load.moment_w,
             };
+
             let pose = &at_rest.equilibrium.pose;
             let lever = pose.rot_wp * load.point_p;
             let (mut force, mut moment, mut stiffness) = (Vec3::zeros(), Vec3::zeros(), Mat3::zeros());
+
             for (point, dead) in mass_points(&at_rest).loads(&at_rest) {
                 let arm = point - pose.position_w;
                 force += dead;
                 moment += arm.cross(&dead);
                 stiffness -= cross(&dead) * cross(&arm);
             }
+
             assert!((force - load.force_w).norm() < 1e-14);
             assert!((moment - lever.cross(&load.force_w) - moment_w).norm() < 1e-14, "{moment}");
+
             let wanted = cross(&moment_w) * 0.5 - cross(&load.force_w) * cross(&lever);
             assert!((stiffness - wanted).norm() < 1e-14, "{stiffness}");
         }

@@ -3,8 +3,8 @@
 //! The end of the free span slips along the cable against the stiffness of everything behind it, and turns about the
 //! swivel axis. A pre-tensioned bar behind the exit point, in line with the cable, has both: its axial stiffness is S₁₁
 //! of docs/theory.md, equation (69), and as it carries the tension T over its length d, it resists sideways motion with
-//! T/d. With d = T/S₂₂ this is the stiffness of the swivel; d is then r tan(β/2), the distance to the point at which the
-//! line of the cable meets the swivel axis. Normal to the cable in the plane of the wheel the exit point is held.
+//! T/d. With d = T/S₂₂ this is the stiffness of the swivel; d is then r tan(β/2), the distance to the point at which
+//! the line of the cable meets the swivel axis. Normal to the cable in the plane of the wheel the exit point is held.
 
 use super::chain::Chain;
 use anyhow::{Result, bail};
@@ -99,7 +99,8 @@ mod tests {
         let text = funicular_robots::YUAN2014_4MM
             .replace("[[cables]]", "[[cables]]\npulley = \"wheel\"\nwinch = \"drum\"")
             + &format!(
-                "\n[pulleys.wheel]\nradius_m = 0.05\nentry_direction = {axis}\n[winches.drum]\ndrum_side_length_m = 3.0\n\
+                "\n[pulleys.wheel]\nradius_m = 0.05\nentry_direction = {axis}\n[winches.drum]\n\
+                 drum_side_length_m = 3.0\n\
                  stiffness_n_per_m = 5e4\n"
             );
         let robot = Robot::from_toml(&text).unwrap();

@@ -14,7 +14,7 @@ use std::fmt::Write as _;
 use std::io;
 
 /// Points and cells of the file, cables first.
-struct Shape {
+struct VtkCells {
     points_w: Vec<Vec3>,
     tension: Vec<f64>,
     arc_length: Vec<f64>,
@@ -36,7 +36,7 @@ pub(crate) fn poly_data(
     below_hz: Option<f64>,
     warnings: &mut Vec<String>,
 ) -> Result<String> {
-    let mut shape = Shape::at_rest(at_rest, segments);
+    let mut shape = VtkCells::at_rest(at_rest, segments);
     if let Some(limit) = below_hz {
         let (dynamics, found) = modes_below(at_rest, limit, warnings)?;
         let stations = stations(at_rest, &dynamics, segments)?;
@@ -71,7 +71,7 @@ fn displacements(at_rest: &AtRest, dynamics: &Dynamics, stations: &[CableStation
     all
 }
 
-impl Shape {
+impl VtkCells {
     fn at_rest(at_rest: &AtRest, segments: usize) -> Self {
         let mut shape = Self {
             points_w: Vec::new(),
@@ -82,80 +82,93 @@ impl Shape {
             polylines: Vec::new(),
             triangles: Vec::new(),
         };
+
         for (i, cable) in at_rest.equilibrium.cables.iter().enumerate() {
             let first = shape.points_w.len();
             let hanging = cable.hanging.as_ref().expect("cables hang in an export");
+
             for k in 0..=segments {
                 let s = cable.free_length() * k as f64 / segments as f64;
                 shape.points_w.push(hanging.point_w(s));
                 shape.tension.push(hanging.catenary.tension_at(s));
                 shape.arc_length.push(s);
             }
+
             shape.polylines.push((first..shape.points_w.len()).collect());
             shape.part.push(i + 1);
         }
+
         let first = shape.points_w.len();
         let attachments: Vec<Vec3> = at_rest.equilibrium.cables.iter().map(|cable| cable.attachment_w).collect();
         shape.triangles = hull(&attachments).into_iter().map(|corners| corners.map(|i| first + i)).collect();
+
         shape.part.extend(shape.triangles.iter().map(|_| 0));
+
         shape.tension.resize(first + attachments.len(), 0.0);
         shape.arc_length.resize(first + attachments.len(), 0.0);
         shape.points_w.extend(attachments);
         shape
     }
 
+    /// Writes the file.
     fn write(&self, out: &mut Writer<Vec<u8>>, name: &str) -> Result<()> {
         out.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
         // A comment must not hold two hyphens.
         let title = format!(" {}; written by funicular export ", name.replace("--", "- -").replace("--", "- -"));
         out.write_event(Event::Comment(BytesText::from_escaped(title)))?;
-        let of_points = |cells: &[Vec<usize>]| -> (String, String) {
-            let mut end = 0;
-            let ends = cells.iter().map(|cell| {
-                end += cell.len();
-                end
-            });
-            (listed(cells.iter().flatten()), listed(ends.collect::<Vec<_>>().iter()))
-        };
-        let triangles: Vec<Vec<usize>> = self.triangles.iter().map(|corners| corners.to_vec()).collect();
+
         let root = [("type", "PolyData"), ("version", "1.0"), ("byte_order", "LittleEndian")];
         out.create_element("VTKFile").with_attributes(root).write_inner_content(|out| {
-            out.create_element("PolyData").write_inner_content(|out| {
-                let count = |n: usize| n.to_string();
-                let sizes = [
-                    ("NumberOfPoints", count(self.points_w.len())),
-                    ("NumberOfVerts", count(0)),
-                    ("NumberOfLines", count(self.polylines.len())),
-                    ("NumberOfStrips", count(0)),
-                    ("NumberOfPolys", count(triangles.len())),
-                ];
-                let sizes = sizes.iter().map(|(key, value)| (*key, value.as_str()));
-                out.create_element("Piece").with_attributes(sizes).write_inner_content(|out| {
-                    out.create_element("Points").write_inner_content(|out| {
-                        array(out, "Float64", "position_m", Some(3), &vectors(&self.points_w))
-                    })?;
-                    out.create_element("PointData").write_inner_content(|out| {
-                        array(out, "Float64", "tension_n", None, &numbers(&self.tension))?;
-                        array(out, "Float64", "arc_length_m", None, &numbers(&self.arc_length))?;
-                        self.modes.iter().try_for_each(|(name, by)| array(out, "Float64", name, Some(3), &vectors(by)))
-                    })?;
-                    out.create_element("CellData")
-                        .write_inner_content(|out| array(out, "Int32", "cable", None, &listed(self.part.iter())))?;
-                    for (kind, cells) in [("Lines", &self.polylines), ("Polys", &triangles)] {
-                        let (corners, ends) = of_points(cells);
-                        out.create_element(kind).write_inner_content(|out| {
-                            array(out, "Int64", "connectivity", None, &corners)?;
-                            array(out, "Int64", "offsets", None, &ends)
-                        })?;
-                    }
-                    Ok(())
-                })?;
-                Ok(())
-            })?;
+            out.create_element("PolyData").write_inner_content(|out| self.write_piece(out))?;
             Ok(())
         })?;
         Ok(())
     }
+
+    /// Writes points and cells with their data.
+    fn write_piece(&self, out: &mut Writer<Vec<u8>>) -> io::Result<()> {
+        let triangles: Vec<Vec<usize>> = self.triangles.iter().map(|corners| corners.to_vec()).collect();
+        let sizes = [
+            ("NumberOfPoints", self.points_w.len()),
+            ("NumberOfVerts", 0),
+            ("NumberOfLines", self.polylines.len()),
+            ("NumberOfStrips", 0),
+            ("NumberOfPolys", triangles.len()),
+        ];
+        let sizes = sizes.map(|(key, count)| (key, count.to_string()));
+        let sizes = sizes.iter().map(|(key, value)| (*key, value.as_str()));
+
+        out.create_element("Piece").with_attributes(sizes).write_inner_content(|out| {
+            out.create_element("Points")
+                .write_inner_content(|out| array(out, "Float64", "position_m", Some(3), &vectors(&self.points_w)))?;
+            out.create_element("PointData").write_inner_content(|out| {
+                array(out, "Float64", "tension_n", None, &numbers(&self.tension))?;
+                array(out, "Float64", "arc_length_m", None, &numbers(&self.arc_length))?;
+                self.modes.iter().try_for_each(|(name, by)| array(out, "Float64", name, Some(3), &vectors(by)))
+            })?;
+            out.create_element("CellData")
+                .write_inner_content(|out| array(out, "Int32", "cable", None, &listed(self.part.iter())))?;
+            write_cells(out, "Lines", &self.polylines)?;
+            write_cells(out, "Polys", &triangles)
+        })?;
+        Ok(())
+    }
+}
+
+/// Writes cells as VTK has them: the points of all cells in one list, and the end of each cell in this list.
+fn write_cells(out: &mut Writer<Vec<u8>>, kind: &str, cells: &[Vec<usize>]) -> io::Result<()> {
+    let ends: Vec<usize> = cells
+        .iter()
+        .scan(0, |end, cell| {
+            *end += cell.len();
+            Some(*end)
+        })
+        .collect();
+    out.create_element(kind).write_inner_content(|out| {
+        array(out, "Int64", "connectivity", None, &listed(cells.iter().flatten()))?;
+        array(out, "Int64", "offsets", None, &listed(ends.iter()))
+    })?;
+    Ok(())
 }
 
 fn array(out: &mut Writer<Vec<u8>>, kind: &str, name: &str, components: Option<usize>, text: &str) -> io::Result<()> {
@@ -194,8 +207,10 @@ fn hull(points: &[Vec3]) -> Vec<[usize; 3]> {
     if n > MAX_POINTS {
         return Vec::new();
     }
+
     let reach = points.iter().map(|point| (point - points[0]).norm()).fold(0.0, f64::max);
     let mut faces = Vec::new();
+
     for i in 0..n {
         for j in i + 1..n {
             for k in j + 1..n {

@@ -1,10 +1,10 @@
 //! Axes: ticks at round numbers, labels that do not overlap, powers of ten.
 
-use super::drawing::{Frame, Label, Point};
+use super::drawing::{Frame, Label, PaperPoint};
 
 /// Quantity along one side of a panel.
 #[derive(Debug, Clone)]
-pub(crate) struct Axis {
+pub(crate) struct ChartAxis {
     pub(crate) title: String,
     pub(crate) low: f64,
     pub(crate) high: f64,
@@ -26,7 +26,7 @@ pub(crate) struct Ticks {
     pub(crate) exponent: i32,
 }
 
-impl Axis {
+impl ChartAxis {
     /// Axis with equal steps.
     pub(crate) fn linear(title: impl Into<String>, low: f64, high: f64) -> Self {
         let (low, high) = apart(low, high);
@@ -39,7 +39,7 @@ impl Axis {
         Self { title: title.into(), low, high, logarithmic: true, labels: None }
     }
 
-    /// Axis with these labels only.
+    /// Axis with given labels instead of round numbers.
     pub(crate) fn with_labels(mut self, labels: Vec<(f64, String)>) -> Self {
         self.labels = Some(labels);
         self
@@ -158,7 +158,7 @@ impl Axis {
 /// Minimum length of a decade with minor ticks [pt]: the last two are then half a point apart.
 const MIN_DECADE: f64 = 11.0;
 
-/// Limits that differ, around equal ones.
+/// Limits of an axis; equal limits are moved apart.
 fn apart(low: f64, high: f64) -> (f64, f64) {
     let size = low.abs().max(high.abs());
     if high - low > 1e-9 * size { (low, high) } else { (low - 0.5 * size.max(1e-9), high + 0.5 * size.max(1e-9)) }
@@ -205,13 +205,13 @@ fn signed(exponent: i32) -> String {
 /// Panel on the page.
 pub(crate) struct Placed<'a> {
     pub(crate) frame: Frame,
-    pub(crate) x: &'a Axis,
-    pub(crate) y: &'a Axis,
+    pub(crate) x: &'a ChartAxis,
+    pub(crate) y: &'a ChartAxis,
 }
 
 impl Placed<'_> {
     /// Point of a pair of values.
-    pub(crate) fn at(&self, x: f64, y: f64) -> Point {
+    pub(crate) fn at(&self, x: f64, y: f64) -> PaperPoint {
         let Frame { left, bottom, .. } = self.frame;
         [left + self.x.fraction(x) * self.frame.width(), bottom - self.y.fraction(y) * self.frame.height()]
     }
@@ -225,20 +225,20 @@ mod tests {
         8.0 + 5.0 * label.0.iter().map(|(run, _)| run.chars().count()).sum::<usize>() as f64
     }
 
-    fn texts(axis: &Axis, length: f64) -> Vec<String> {
+    fn texts(axis: &ChartAxis, length: f64) -> Vec<String> {
         let text = |label: &Label| label.0.iter().map(|run| run.0.as_str()).collect::<String>();
         axis.ticks(length, &room).ticks.iter().filter_map(|tick| tick.label.as_ref().map(text)).collect()
     }
 
     #[test]
     fn labels_are_round_numbers_with_space_between_them() {
-        assert_eq!(texts(&Axis::linear("x", 0.0, 20.0), 300.0).len(), 11);
-        assert_eq!(texts(&Axis::linear("x", 0.0, 20.0), 100.0), ["0", "5", "10", "15", "20"]);
-        assert_eq!(texts(&Axis::linear("x", -0.3, 0.3), 150.0), ["−0.2", "0.0", "0.2"]);
-        assert_eq!(texts(&Axis::linear("x", 3.0, 3.0), 60.0).len(), 3, "equal limits");
+        assert_eq!(texts(&ChartAxis::linear("x", 0.0, 20.0), 300.0).len(), 11);
+        assert_eq!(texts(&ChartAxis::linear("x", 0.0, 20.0), 100.0), ["0", "5", "10", "15", "20"]);
+        assert_eq!(texts(&ChartAxis::linear("x", -0.3, 0.3), 150.0), ["−0.2", "0.0", "0.2"]);
+        assert_eq!(texts(&ChartAxis::linear("x", 3.0, 3.0), 60.0).len(), 3, "equal limits");
         for length in [40.0, 90.0, 170.0, 400.0] {
             for (low, high) in [(0.0, 1.0), (-7.3, 912.0), (1e-7, 3e-7), (5.0, 5.02), (-2e9, 1e9)] {
-                let axis = Axis::linear("x", low, high);
+                let axis = ChartAxis::linear("x", low, high);
                 let found = axis.ticks(length, &room).ticks;
                 assert!(found.iter().all(|tick| tick.at >= low - 1e-9 * high.abs() && tick.at <= high * (1.0 + 1e-9)));
                 for pair in found.windows(2) {
@@ -252,25 +252,25 @@ mod tests {
 
     #[test]
     fn large_numbers_have_their_power_in_the_title() {
-        let axis = Axis::linear("stiffness [N/m]", 0.0, 2.4e6);
+        let axis = ChartAxis::linear("stiffness [N/m]", 0.0, 2.4e6);
         let found = axis.ticks(120.0, &room);
         assert_eq!(found.exponent, 6);
         assert_eq!(axis.title(6), Label::new("stiffness [10^{6} N/m]"));
-        assert_eq!(Axis::linear("ratio", 0.0, 1.0).title(-6), Label::new("ratio [10^{−6}]"));
+        assert_eq!(ChartAxis::linear("ratio", 0.0, 1.0).title(-6), Label::new("ratio [10^{−6}]"));
         assert!(texts(&axis, 120.0).contains(&"2.0".to_owned()) || texts(&axis, 120.0).contains(&"2".to_owned()));
     }
 
     #[test]
     fn decades_have_minor_ticks() {
-        let axis = Axis::logarithmic("x", 1e-5, 1.0);
+        let axis = ChartAxis::logarithmic("x", 1e-5, 1.0);
         let found = axis.ticks(150.0, &room).ticks;
         assert_eq!(found.len(), 5 * 9 + 1);
         assert_eq!(found.iter().filter(|tick| tick.label.is_some()).count(), 6, "{:?}", texts(&axis, 150.0));
-        assert_eq!(texts(&Axis::logarithmic("f", 0.1, 100.0), 200.0), ["0.1", "1", "10", "100"]);
+        assert_eq!(texts(&ChartAxis::logarithmic("f", 0.1, 100.0), 200.0), ["0.1", "1", "10", "100"]);
         // Within a decade the multiples have labels.
-        assert_eq!(texts(&Axis::logarithmic("f", 2.0, 8.0), 300.0), ["2", "3", "4", "5", "6", "7", "8"]);
+        assert_eq!(texts(&ChartAxis::logarithmic("f", 2.0, 8.0), 300.0), ["2", "3", "4", "5", "6", "7", "8"]);
         // Twenty decades on a short axis: labels of some of them, no minor ticks.
-        let many = Axis::logarithmic("x", 1e-10, 1e10);
+        let many = ChartAxis::logarithmic("x", 1e-10, 1e10);
         let labels = texts(&many, 100.0);
         assert!(labels.len() >= 3 && labels.len() <= 5, "{labels:?}");
         assert_eq!(many.ticks(100.0, &room).ticks.len(), 21);

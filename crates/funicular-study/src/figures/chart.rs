@@ -1,14 +1,14 @@
 //! Charts: panels one above the other with a common horizontal axis, and a legend above them.
 
-use super::axis::{Axis, Placed, Ticks};
-use super::drawing::{Align, BLACK, Colour, Drawing, Frame, Label, Point, Stroke, WHITE, clipped, simplified};
+use super::axis::{ChartAxis, Placed, Ticks};
+use super::drawing::{Align, BLACK, Colour, Drawing, Frame, Label, PaperPoint, Stroke, WHITE, clipped, simplified};
 use super::map::{ColourBar, Map};
 use super::style::{AXIS_WIDTH, Symbol, Type};
 
 /// Chart of panels with one horizontal axis.
 pub(crate) struct Chart {
     pub(crate) title: String,
-    pub(crate) x: Axis,
+    pub(crate) x: ChartAxis,
     pub(crate) panels: Vec<Panel>,
     pub(crate) legend: Vec<Entry>,
     pub(crate) colour_bar: Option<ColourBar>,
@@ -16,7 +16,7 @@ pub(crate) struct Chart {
 
 /// Panel of a chart.
 pub(crate) struct Panel {
-    pub(crate) y: Axis,
+    pub(crate) y: ChartAxis,
     /// Height relative to the width of the figure.
     pub(crate) height: f64,
     /// True if both axes have the same scale, which then gives the height.
@@ -62,7 +62,7 @@ pub(crate) enum Sample {
 pub(crate) const BAND: Colour = [0xdc, 0xdc, 0xdc];
 
 impl Panel {
-    pub(crate) fn new(y: Axis, height: f64, layers: Vec<Layer>) -> Self {
+    pub(crate) fn new(y: ChartAxis, height: f64, layers: Vec<Layer>) -> Self {
         Self { y, height, equal_scales: false, bare: false, layers }
     }
 }
@@ -175,7 +175,7 @@ impl Chart {
 
 impl Sample {
     /// Draws the sample from a point to the right.
-    fn draw(&self, drawing: &mut Drawing, at: Point, length: f64, style: &Type) {
+    fn draw(&self, drawing: &mut Drawing, at: PaperPoint, length: f64, style: &Type) {
         let [x, y] = at;
         let middle = [x + 0.5 * length, y];
         let half = 0.38 * style.size;
@@ -246,34 +246,39 @@ impl Panel {
 
 fn draw_layer(drawing: &mut Drawing, placed: &Placed<'_>, layer: &Layer, style: &Type) {
     let frame = placed.frame;
+
     match layer {
         Layer::Line { points, stroke } => {
-            let points: Vec<Point> = points.iter().map(|(x, y)| placed.at(*x, *y)).collect();
+            let points: Vec<PaperPoint> = points.iter().map(|(x, y)| placed.at(*x, *y)).collect();
             // A value of zero on a logarithmic axis lies far below the panel, not at infinity: the line leads there.
             let below = 10.0 * frame.height();
-            let points: Vec<Point> = points
+            let points: Vec<PaperPoint> = points
                 .into_iter()
                 .map(|[x, y]| if y == f64::INFINITY { [x, frame.bottom + below] } else { [x, y] })
                 .collect();
             let parts = clipped(&points, &frame);
             drawing.lines(parts.iter().map(|part| simplified(part)).collect(), stroke.clone());
         }
+
         Layer::Symbols { points, symbol } => {
-            let points: Vec<Point> = points.iter().map(|(x, y)| placed.at(*x, *y)).collect();
-            let inside: Vec<Point> = points.into_iter().filter(|point| frame.contains(*point)).collect();
+            let points: Vec<PaperPoint> = points.iter().map(|(x, y)| placed.at(*x, *y)).collect();
+            let inside: Vec<PaperPoint> = points.into_iter().filter(|point| frame.contains(*point)).collect();
             symbol.draw(drawing, &inside, style);
         }
+
         Layer::Stems { x, from, to, stroke } => {
             let y = |part: f64| frame.bottom - part * frame.height();
             let inside = x.iter().map(|x| placed.at(*x, placed.y.low)[0]);
             let inside = inside.filter(|x| (frame.left..=frame.right).contains(x));
             drawing.lines(inside.map(|x| vec![[x, y(*from)], [x, y(*to)]]).collect(), stroke.clone());
         }
+
         Layer::Bands(bands) => {
             let x = |value: f64| placed.at(value, placed.y.low)[0].clamp(frame.left, frame.right);
             let areas = bands.iter().map(|(from, to)| Frame { left: x(*from), right: x(*to), ..frame }.corners());
             drawing.areas(areas.collect(), Some(BAND), None);
         }
+
         Layer::Upright { texts, colour } => {
             for (x, y, text) in texts {
                 let [x, y] = placed.at(*x, *y);
@@ -284,6 +289,7 @@ fn draw_layer(drawing: &mut Drawing, placed: &Placed<'_>, layer: &Layer, style: 
                 if !(frame.contains([x, end]) && frame.contains([x, from])) {
                     continue;
                 }
+
                 // White below the text keeps it legible on a curve.
                 let (wide, tall) = (0.42 * style.small, 0.1 * style.small);
                 let area = Frame { left: x - wide, top: end - tall, right: x + wide, bottom: from + tall };
@@ -291,6 +297,7 @@ fn draw_layer(drawing: &mut Drawing, placed: &Placed<'_>, layer: &Layer, style: 
                 drawing.turned_text(label, [base, from], Align::Start, 90.0, style.small, *colour);
             }
         }
+
         Layer::Map(map) => map.draw(drawing, placed, style),
     }
 }

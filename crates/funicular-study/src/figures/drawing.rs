@@ -3,7 +3,7 @@
 use super::font::Font;
 
 /// Position on the page [pt]: from the left, and from the top downwards.
-pub(crate) type Point = [f64; 2];
+pub(crate) type PaperPoint = [f64; 2];
 
 /// Colour: red, green, blue.
 pub(crate) type Colour = [u8; 3];
@@ -32,12 +32,12 @@ impl Frame {
     }
 
     /// True if the point is inside or on the edge.
-    pub(crate) fn contains(&self, p: Point) -> bool {
+    pub(crate) fn contains(&self, p: PaperPoint) -> bool {
         (self.left..=self.right).contains(&p[0]) && (self.top..=self.bottom).contains(&p[1])
     }
 
     /// Corners around the rectangle.
-    pub(crate) fn corners(&self) -> Vec<Point> {
+    pub(crate) fn corners(&self) -> Vec<PaperPoint> {
         vec![[self.left, self.top], [self.right, self.top], [self.right, self.bottom], [self.left, self.bottom]]
     }
 }
@@ -61,21 +61,21 @@ impl Stroke {
 
 /// Lines or areas with one style.
 #[derive(Debug, Clone)]
-pub(crate) struct Path {
+pub(crate) struct DrawnPath {
     /// Lines, each through its points.
-    pub(crate) lines: Vec<Vec<Point>>,
+    pub(crate) lines: Vec<Vec<PaperPoint>>,
     /// True if every line ends where it begins.
     pub(crate) closed: bool,
     pub(crate) fill: Option<Colour>,
     pub(crate) stroke: Option<Stroke>,
 }
 
-/// Text of which parts may be raised as exponents.
+/// Text whose parts may be raised as exponents.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Label(pub(crate) Vec<(String, bool)>);
 
 impl Label {
-    /// Text in which `^{…}` is an exponent.
+    /// Label from a text in which `^{…}` is an exponent.
     pub(crate) fn new(text: &str) -> Self {
         let mut runs = Vec::new();
         let mut rest = text;
@@ -93,7 +93,7 @@ impl Label {
         Self(runs)
     }
 
-    /// Text as it is, without exponents: names that the user chose.
+    /// Label without exponents, for names that the user chose.
     pub(crate) fn plain(text: &str) -> Self {
         Self(vec![(text.to_owned(), false)])
     }
@@ -115,7 +115,7 @@ pub(crate) enum Align {
 pub(crate) struct Text {
     pub(crate) label: Label,
     /// Start of the base line [pt].
-    pub(crate) at: Point,
+    pub(crate) at: PaperPoint,
     /// Direction of the text [°], counterclockwise.
     pub(crate) angle: f64,
     /// Size of the font [pt].
@@ -126,7 +126,7 @@ pub(crate) struct Text {
 /// Part of a drawing, in the order of drawing.
 #[derive(Debug, Clone)]
 pub(crate) enum Item {
-    Path(Path),
+    Path(DrawnPath),
     Text(Text),
 }
 
@@ -148,22 +148,22 @@ impl Drawing {
     }
 
     /// Draws a line through points.
-    pub(crate) fn line(&mut self, points: Vec<Point>, stroke: Stroke) {
+    pub(crate) fn line(&mut self, points: Vec<PaperPoint>, stroke: Stroke) {
         self.lines(vec![points], stroke);
     }
 
     /// Draws lines with one style.
-    pub(crate) fn lines(&mut self, lines: Vec<Vec<Point>>, stroke: Stroke) {
-        let lines: Vec<Vec<Point>> = lines.into_iter().filter(|line| line.len() > 1).collect();
+    pub(crate) fn lines(&mut self, lines: Vec<Vec<PaperPoint>>, stroke: Stroke) {
+        let lines: Vec<Vec<PaperPoint>> = lines.into_iter().filter(|line| line.len() > 1).collect();
         if !lines.is_empty() {
-            self.items.push(Item::Path(Path { lines, closed: false, fill: None, stroke: Some(stroke) }));
+            self.items.push(Item::Path(DrawnPath { lines, closed: false, fill: None, stroke: Some(stroke) }));
         }
     }
 
     /// Draws areas with one style.
-    pub(crate) fn areas(&mut self, lines: Vec<Vec<Point>>, fill: Option<Colour>, stroke: Option<Stroke>) {
+    pub(crate) fn areas(&mut self, lines: Vec<Vec<PaperPoint>>, fill: Option<Colour>, stroke: Option<Stroke>) {
         if !lines.is_empty() {
-            self.items.push(Item::Path(Path { lines, closed: true, fill, stroke }));
+            self.items.push(Item::Path(DrawnPath { lines, closed: true, fill, stroke }));
         }
     }
 
@@ -175,12 +175,20 @@ impl Drawing {
     }
 
     /// Draws a text whose base line is at a point.
-    pub(crate) fn text(&mut self, label: Label, at: Point, align: Align, size: f64, colour: Colour) {
+    pub(crate) fn text(&mut self, label: Label, at: PaperPoint, align: Align, size: f64, colour: Colour) {
         self.turned_text(label, at, align, 0.0, size, colour);
     }
 
     /// Draws a text in a direction [°], counterclockwise.
-    pub(crate) fn turned_text(&mut self, label: Label, at: Point, align: Align, angle: f64, size: f64, colour: Colour) {
+    pub(crate) fn turned_text(
+        &mut self,
+        label: Label,
+        at: PaperPoint,
+        align: Align,
+        angle: f64,
+        size: f64,
+        colour: Colour,
+    ) {
         let back = self.width_of(&label, size)
             * match align {
                 Align::Start => 0.0,
@@ -203,32 +211,36 @@ impl Drawing {
 const MIN_FITTING: f64 = 0.6;
 
 /// Parts of a line inside a frame. Points that are not finite end a part.
-pub(crate) fn clipped(points: &[Point], frame: &Frame) -> Vec<Vec<Point>> {
-    let mut parts: Vec<Vec<Point>> = Vec::new();
-    let mut part: Vec<Point> = Vec::new();
+pub(crate) fn clipped(points: &[PaperPoint], frame: &Frame) -> Vec<Vec<PaperPoint>> {
+    let mut parts: Vec<Vec<PaperPoint>> = Vec::new();
+    let mut part: Vec<PaperPoint> = Vec::new();
+
     for pair in points.windows(2) {
         let inside = if pair.iter().flatten().all(|x| x.is_finite()) { segment(pair[0], pair[1], frame) } else { None };
         let Some((from, to)) = inside else {
             parts.push(std::mem::take(&mut part));
             continue;
         };
+
         // The segment begins where the last one ended, or where the line enters the frame.
         if part.is_empty() || !frame.contains(pair[0]) {
             parts.push(std::mem::take(&mut part));
             part.push(from);
         }
         part.push(to);
+
         if !frame.contains(pair[1]) {
             parts.push(std::mem::take(&mut part));
         }
     }
+
     parts.push(part);
     parts.retain(|part| part.len() > 1);
     parts
 }
 
 /// Part of a segment inside a frame (Liang and Barsky).
-fn segment(a: Point, b: Point, frame: &Frame) -> Option<(Point, Point)> {
+fn segment(a: PaperPoint, b: PaperPoint, frame: &Frame) -> Option<(PaperPoint, PaperPoint)> {
     let d = [b[0] - a[0], b[1] - a[1]];
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
     let edges = [
@@ -237,6 +249,7 @@ fn segment(a: Point, b: Point, frame: &Frame) -> Option<(Point, Point)> {
         (-d[1], a[1] - frame.top),
         (d[1], frame.bottom - a[1]),
     ];
+
     for (slope, room) in edges {
         if slope == 0.0 {
             if room < 0.0 {
@@ -248,6 +261,7 @@ fn segment(a: Point, b: Point, frame: &Frame) -> Option<(Point, Point)> {
             leave = leave.min(room / slope);
         }
     }
+
     let at = |t: f64| [a[0] + t * d[0], a[1] + t * d[1]];
     (enter <= leave).then(|| (if enter > 0.0 { at(enter) } else { a }, if leave < 1.0 { at(leave) } else { b }))
 }
@@ -256,7 +270,7 @@ fn segment(a: Point, b: Point, frame: &Frame) -> Option<(Point, Point)> {
 const SIMPLER: f64 = 0.03;
 
 /// Line with fewer points that differs by at most [`SIMPLER`] from the original (Douglas and Peucker).
-pub(crate) fn simplified(points: &[Point]) -> Vec<Point> {
+pub(crate) fn simplified(points: &[PaperPoint]) -> Vec<PaperPoint> {
     let points = columns(points);
     let n = points.len();
     if n < 3 {
@@ -281,8 +295,8 @@ pub(crate) fn simplified(points: &[Point]) -> Vec<Point> {
 
 /// Line in which runs of points that share a narrow column are replaced by their first, lowest, highest and last point.
 /// It bounds the work of [`simplified`] for a curve of a million points.
-fn columns(points: &[Point]) -> Vec<Point> {
-    let column = |p: &Point| (p[0] / SIMPLER).floor() as i64;
+fn columns(points: &[PaperPoint]) -> Vec<PaperPoint> {
+    let column = |p: &PaperPoint| (p[0] / SIMPLER).floor() as i64;
     let mut all = Vec::new();
     for run in points.chunk_by(|a, b| column(a) == column(b)) {
         if run.len() < 5 {
@@ -301,7 +315,7 @@ fn columns(points: &[Point]) -> Vec<Point> {
 }
 
 /// Distance of a point from a segment.
-fn distance(p: Point, a: Point, b: Point) -> f64 {
+fn distance(p: PaperPoint, a: PaperPoint, b: PaperPoint) -> f64 {
     let (d, r) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let square = d[0] * d[0] + d[1] * d[1];
     let t = if square > 0.0 { ((r[0] * d[0] + r[1] * d[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
@@ -328,7 +342,7 @@ mod tests {
 
     #[test]
     fn a_simpler_line_stays_close_to_the_original() {
-        let wave: Vec<Point> =
+        let wave: Vec<PaperPoint> =
             (0..200_000).map(|i| f64::from(i) / 1000.0).map(|x| [x, 50.0 * (x / 7.0).sin()]).collect();
         let simple = simplified(&wave);
         assert!(simple.len() < 2000, "{}", simple.len());
@@ -338,7 +352,7 @@ mod tests {
             assert!(near < 2.0 * SIMPLER, "{point:?}: {near}");
         }
         // A resonance that is narrower than a column keeps its height.
-        let mut peak: Vec<Point> = (0..1000).map(|i| [f64::from(i) * 1e-5, 0.0]).collect();
+        let mut peak: Vec<PaperPoint> = (0..1000).map(|i| [f64::from(i) * 1e-5, 0.0]).collect();
         peak[437][1] = 80.0;
         assert!(simplified(&peak).contains(&peak[437]));
     }

@@ -22,7 +22,8 @@ pub(crate) struct DriveLines {
 impl DriveLines {
     /// Lines of a cable at rest; `None` without a pulley.
     ///
-    /// The robot file does not say where the drum is. It is drawn as if the cable came to the pulley in a straight line.
+    /// The robot file does not say where the drum is. It is drawn as if the cable came to the pulley in a straight
+    /// line.
     pub(crate) fn of(cable: &Cable, state: &CableState) -> Option<Self> {
         let at_rest = state.drive.as_ref().and_then(|drive| drive.contact);
         let contact = at_rest.or_else(|| cable.anchor.contact(&state.attachment_w))?;

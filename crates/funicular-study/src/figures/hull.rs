@@ -16,27 +16,8 @@ pub(crate) fn faces(points: &[Vec3]) -> Vec<Vec<usize>> {
     if let Some(order) = polygon(points, reach) {
         return vec![order];
     }
-    let mut faces: Vec<Vec<usize>> = Vec::new();
-    for i in 0..points.len() {
-        for j in i + 1..points.len() {
-            for k in j + 1..points.len() {
-                let normal = (points[j] - points[i]).cross(&(points[k] - points[i]));
-                if normal.norm() < 1e-6 * reach * reach {
-                    continue;
-                }
-                let normal = normal.normalize();
-                let height = |p: &Vec3| normal.dot(&(p - points[i]));
-                let above = points.iter().any(|p| height(p) > 1e-3 * reach);
-                let below = points.iter().any(|p| height(p) < -1e-3 * reach);
-                let corners: Vec<usize> =
-                    (0..points.len()).filter(|&l| height(&points[l]).abs() <= 1e-3 * reach).collect();
-                if (above && below) || faces.contains(&corners) {
-                    continue;
-                }
-                faces.push(corners);
-            }
-        }
-    }
+
+    let mut faces = flat_corners(points, reach);
     for corners in &mut faces {
         let around: Vec<Vec3> = corners.iter().map(|&l| points[l]).collect();
         if let Some(order) = polygon(&around, reach) {
@@ -44,6 +25,40 @@ pub(crate) fn faces(points: &[Vec3]) -> Vec<Vec<usize>> {
         }
     }
     faces
+}
+
+/// Corners of each flat side of the convex hull, in no order around it.
+fn flat_corners(points: &[Vec3], reach: f64) -> Vec<Vec<usize>> {
+    let mut faces: Vec<Vec<usize>> = Vec::new();
+    for i in 0..points.len() {
+        for j in i + 1..points.len() {
+            for k in j + 1..points.len() {
+                let Some(corners) = corners_of_side(points, [i, j, k], reach) else { continue };
+                if !faces.contains(&corners) {
+                    faces.push(corners);
+                }
+            }
+        }
+    }
+    faces
+}
+
+/// Points in the plane of three points; `None` if the three are nearly on a line, or if points lie on both sides of
+/// their plane.
+fn corners_of_side(points: &[Vec3], [i, j, k]: [usize; 3], reach: f64) -> Option<Vec<usize>> {
+    let normal = (points[j] - points[i]).cross(&(points[k] - points[i]));
+    if normal.norm() < 1e-6 * reach * reach {
+        return None;
+    }
+
+    let normal = normal.normalize();
+    let height = |p: &Vec3| normal.dot(&(p - points[i]));
+    let above = points.iter().any(|p| height(p) > 1e-3 * reach);
+    let below = points.iter().any(|p| height(p) < -1e-3 * reach);
+    if above && below {
+        return None;
+    }
+    Some((0..points.len()).filter(|&l| height(&points[l]).abs() <= 1e-3 * reach).collect())
 }
 
 #[cfg(test)]

@@ -1,15 +1,16 @@
 //! Figures of requests: what each command draws.
 
-use super::axis::Axis;
+use super::axis::ChartAxis;
 use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
-use super::space::{Shape, Space};
-use super::style::{self, GREEN, GREY, ORANGE, Symbol, VERMILION};
-use super::{Choice, Figure, Kind};
+use super::space::{RobotShape, Space};
+use super::style::{self, GREY, Symbol};
+use super::{Figure, FigureChoice, FigureContent};
 use crate::Watch;
 use crate::analyses::modes::with_rigid_cables;
 use crate::analyses::{compare, frf, statics};
-use crate::at_rest::{self, AtRest};
+use crate::at_rest::{self, AtRest, ModesBelow};
+use crate::figure_style::{MODE_TICKS, ModeTick, model_colour, rgb};
 use crate::request::{self, Request};
 use crate::text::{counted, decimals, significant};
 use anyhow::{Result, bail};
@@ -21,7 +22,7 @@ use funicular::modes::{self, Mode};
 use funicular::robot::Robot;
 
 /// Figure with its warnings.
-pub struct Made {
+pub struct RequestFigure {
     /// The figure.
     pub figure: Figure,
     /// Sentences that the user should know before trusting the figure.
@@ -33,7 +34,12 @@ pub struct Made {
 ///
 /// # Errors
 /// A command without a figure, a choice that does not fit the command, or the errors of the command.
-pub fn of_request(request: &Request, robot: Robot, choice: &Choice, watch: &mut dyn Watch) -> Result<Made> {
+pub fn of_request(
+    request: &Request,
+    robot: Robot,
+    choice: &FigureChoice,
+    watch: &mut dyn Watch,
+) -> Result<RequestFigure> {
     if choice.mode.is_some() && !matches!(request, Request::Modes(_)) {
         bail!("⟪figure_mode⟫ chooses a mode shape of `modes`: leave it out for `{}`", request.command());
     }
@@ -50,8 +56,8 @@ pub fn of_request(request: &Request, robot: Robot, choice: &Choice, watch: &mut 
     }
 }
 
-fn chart(chart: Chart, warnings: Vec<String>) -> Made {
-    Made { figure: Figure(Kind::Chart(chart)), warnings }
+fn chart(chart: Chart, warnings: Vec<String>) -> RequestFigure {
+    RequestFigure { figure: Figure(FigureContent::Chart(chart)), warnings }
 }
 
 fn entry(text: impl Into<String>, sample: Sample) -> Entry {
@@ -59,7 +65,7 @@ fn entry(text: impl Into<String>, sample: Sample) -> Entry {
 }
 
 /// Robot at its equilibrium.
-fn equilibrium(robot: Robot, of: &request::StaticsRequest) -> Result<Made> {
+fn equilibrium(robot: Robot, of: &request::StaticsRequest) -> Result<RequestFigure> {
     if of.all {
         bail!("a figure shows one equilibrium: leave out ⟪all⟫");
     }
@@ -67,24 +73,22 @@ fn equilibrium(robot: Robot, of: &request::StaticsRequest) -> Result<Made> {
     let warnings = statics::run(robot.clone(), of)?.warnings;
     let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?;
     let space = Space::new(&at_rest.robot, &at_rest.equilibrium, None, Vec::new());
-    Ok(Made { figure: Figure(Kind::Space(Box::new(space))), warnings })
+    Ok(RequestFigure { figure: Figure(FigureContent::Space(Box::new(space))), warnings })
 }
 
 /// Spectrum of the natural frequencies, or the shape of one mode.
-fn natural_frequencies(robot: Robot, of: &request::ModesRequest, choice: &Choice) -> Result<Made> {
+fn natural_frequencies(robot: Robot, of: &request::ModesRequest, choice: &FigureChoice) -> Result<RequestFigure> {
     request::check_positive("below_hz", of.below_hz)?;
     let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?;
-    let (dynamics, found, mut warnings) = if of.rigid_cables {
+    let (dynamics, found, warnings) = if of.rigid_cables {
         let (found, warnings) = with_rigid_cables(&at_rest, of)?;
         (None, found, warnings)
     } else {
         let linearisation = at_rest::linearisation(&of.model, at_rest.equilibrium.model);
-        let (dynamics, warnings) = at_rest.dynamics(linearisation, of.below_hz)?;
-        modes::check_count(&dynamics, of.below_hz, modes::MAX_MODES)?;
-        let found = modes::below(&dynamics, of.below_hz);
-        (Some(dynamics), found, warnings)
+        let ModesBelow { dynamics, modes, warnings } =
+            at_rest.modes_below(linearisation, of.below_hz, modes::MAX_MODES)?;
+        (Some(dynamics), modes, warnings)
     };
-    warnings.extend(found.caveat());
     let Some(number) = choice.mode else {
         return Ok(chart(spectrum(&at_rest.robot.name, &found), warnings));
     };
@@ -101,47 +105,55 @@ fn natural_frequencies(robot: Robot, of: &request::ModesRequest, choice: &Choice
             found.modes.len()
         );
     };
-    let moved = moved(&at_rest, dynamics.as_ref(), mode)?;
+    let moved = mode_shape(&at_rest, dynamics.as_ref(), mode)?;
     let head = vec![format!(
         "Mode {number}: {} Hz, {}; dashed: at equilibrium",
         decimals(mode.frequency_hz, 3),
         mode.kind.name()
     )];
     let space = Space::new(&at_rest.robot, &at_rest.equilibrium, Some(moved), head);
-    Ok(Made { figure: Figure(Kind::Space(Box::new(space))), warnings })
+    Ok(RequestFigure { figure: Figure(FigureContent::Space(Box::new(space))), warnings })
 }
 
-/// Kinds of modes with symbol, stroke and height of their ticks below a response. They differ in grey, too.
-fn kinds() -> [(modes::Kind, Symbol, Stroke, f64); 4] {
-    let symbol = |shape, colour| Symbol { shape, colour };
-    [
-        (modes::Kind::Cable, symbol(style::Shape::Circle, GREY), Stroke::solid(GREY, 0.5), 0.45),
-        (modes::Kind::Drive, symbol(style::Shape::Triangle, style::BLUE), Stroke::solid(style::BLUE, 0.65), 0.6),
-        (modes::Kind::Mixed, symbol(style::Shape::Diamond, GREEN), Stroke::solid(GREEN, 0.8), 0.75),
-        (modes::Kind::Platform, symbol(style::Shape::Square, VERMILION), Stroke::solid(VERMILION, 1.1), 1.0),
-    ]
+/// Symbol of a kind of mode in a spectrum.
+fn kind_symbol(tick: &ModeTick) -> Symbol {
+    let shape = match tick.kind {
+        modes::Kind::Cable => style::SymbolShape::Circle,
+        modes::Kind::Drive => style::SymbolShape::Triangle,
+        modes::Kind::Mixed => style::SymbolShape::Diamond,
+        modes::Kind::Platform => style::SymbolShape::Square,
+    };
+    Symbol { shape, colour: rgb(tick.colour) }
+}
+
+/// Stroke of the stems and ticks of a kind of mode.
+fn kind_stroke(tick: &ModeTick) -> Stroke {
+    Stroke::solid(rgb(tick.colour), tick.width_pt)
 }
 
 /// Platform's share of the kinetic energy of every mode, over frequency.
 fn spectrum(name: &str, found: &modes::Modes) -> Chart {
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
-    for (kind, symbol, stroke, _) in kinds() {
-        let of_kind: Vec<&Mode> = found.modes.iter().filter(|mode| mode.kind == kind).collect();
+    for tick in &MODE_TICKS {
+        let of_kind: Vec<&Mode> = found.modes.iter().filter(|mode| mode.kind == tick.kind).collect();
         if of_kind.is_empty() {
             continue;
         }
+
+        let symbol = kind_symbol(tick);
         let points: Vec<(f64, f64)> =
             of_kind.iter().map(|mode| (mode.frequency_hz, 100.0 * mode.platform_energy_fraction)).collect();
         let stems = points.iter().flat_map(|(x, y)| [(*x, 0.0), (*x, *y), (f64::NAN, 0.0)]).collect();
-        layers.push(Layer::Line { points: stems, stroke });
+        layers.push(Layer::Line { points: stems, stroke: kind_stroke(tick) });
         layers.push(Layer::Symbols { points, symbol });
-        legend.push(entry(format!("{} ({})", kind.name(), of_kind.len()), Sample::Symbol(symbol)));
+        legend.push(entry(format!("{} ({})", tick.kind.name(), of_kind.len()), Sample::Symbol(symbol)));
     }
-    let y = Axis::linear("platform's share of energy [%]", -5.0, 105.0)
+
+    let y = ChartAxis::linear("platform's share of energy [%]", -5.0, 105.0)
         .with_labels([0, 25, 50, 75, 100].map(|share| (f64::from(share), share.to_string())).to_vec());
     Chart {
         title: format!("{name}: natural frequencies"),
-        x: Axis::linear("natural frequency [Hz]", 0.0, found.below_hz),
+        x: ChartAxis::linear("natural frequency [Hz]", 0.0, found.below_hz),
         panels: vec![Panel::new(y, 0.42, layers)],
         legend,
         colour_bar: None,
@@ -160,7 +172,7 @@ const MIN_STATIONS: usize = 65;
 const MAX_STATIONS: usize = 2001;
 
 /// Shape of the robot in a mode, enlarged so that the motion is visible. Without `dynamics` the cables stay straight.
-fn moved(at_rest: &AtRest, dynamics: Option<&Dynamics>, mode: &Mode) -> Result<Shape> {
+fn mode_shape(at_rest: &AtRest, dynamics: Option<&Dynamics>, mode: &Mode) -> Result<RobotShape> {
     let AtRest { robot, equilibrium, .. } = at_rest;
     let half_waves = equilibrium
         .cables
@@ -210,7 +222,7 @@ fn moved(at_rest: &AtRest, dynamics: Option<&Dynamics>, mode: &Mode) -> Result<S
     let amplitude = if amplitude.is_finite() { amplitude } else { 0.0 };
 
     let cables = points.into_iter().zip(motions);
-    Ok(Shape {
+    Ok(RobotShape {
         cables: cables.map(|(line, u)| line.into_iter().zip(u).map(|(p, u)| p + u * amplitude).collect()).collect(),
         corners: corners.into_iter().map(|p| p + rigid(p) * amplitude).collect(),
         mass_centre: centre + rigid(centre) * amplitude,
@@ -225,7 +237,7 @@ const MAX_DECADES: f64 = 8.0;
 const LABEL_DISTANCE: f64 = 0.05;
 
 /// Magnitude and phase of a frequency response, with its natural frequencies.
-fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Result<Made> {
+fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Result<RequestFigure> {
     // A curve has every peak at its height, whatever the requested frequencies.
     let found = frf::run(robot.clone(), &request::FrfRequest { adaptive: true, ..of.clone() }, watch)?;
     let mut warnings = found.warnings.clone();
@@ -237,9 +249,9 @@ fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Re
     let (first, last) = (of.range.from_hz, of.range.to_hz);
     let x_axis = || {
         if of.range.log {
-            Axis::logarithmic("frequency [Hz]", first, last)
+            ChartAxis::logarithmic("frequency [Hz]", first, last)
         } else {
-            Axis::linear("frequency [Hz]", first, last)
+            ChartAxis::linear("frequency [Hz]", first, last)
         }
     };
 
@@ -263,7 +275,7 @@ fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Re
     let y = magnitude_axis(&first_pair.unit, low, high, !peaks.is_empty());
     magnitudes.push(Layer::Upright { texts: peaks, colour: BLACK });
 
-    let phase_axis = Axis::linear("phase [°]", -190.0, 190.0).with_labels(
+    let phase_axis = ChartAxis::linear("phase [°]", -190.0, 190.0).with_labels(
         [-180, -90, 0, 90, 180].map(|angle: i32| (f64::from(angle), angle.to_string().replace('-', "−"))).to_vec(),
     );
     let mut panels = vec![Panel::new(y, 0.5, magnitudes), Panel::new(phase_axis, 0.24, phases)];
@@ -272,7 +284,7 @@ fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Re
     let (stems, entries) = stems(&marks, first, last);
     legend.extend(entries);
     if !stems.is_empty() {
-        panels.push(Panel { bare: true, ..Panel::new(Axis::linear("", 0.0, 1.0), 0.05, stems) });
+        panels.push(Panel { bare: true, ..Panel::new(ChartAxis::linear("", 0.0, 1.0), 0.05, stems) });
     }
     Ok(chart(
         Chart { title: format!("{}: frequency response", found.robot), x: x_axis(), panels, legend, colour_bar: None },
@@ -284,8 +296,8 @@ fn refuse_several_units(found: &frf::Frf) -> Result<()> {
     let unit = &found.responses[0].unit;
     if let Some(other) = found.responses.iter().find(|pair| pair.unit != *unit) {
         bail!(
-            "a figure shows responses with one unit, and these have {unit} and {}: choose ⟪input⟫ and ⟪output⟫ with one \
-             unit, or write .csv or .json",
+            "a figure shows responses with one unit, and these have {unit} and {}: choose ⟪input⟫ and ⟪output⟫ with \
+             one unit, or write .csv or .json",
             other.unit
         );
     }
@@ -293,24 +305,29 @@ fn refuse_several_units(found: &frf::Frf) -> Result<()> {
 }
 
 /// Axis of a magnitude between two values, with room above the curves, and more if there are `numbers` above the peaks.
-fn magnitude_axis(unit: &str, low: f64, high: f64, numbers: bool) -> Axis {
+fn magnitude_axis(unit: &str, low: f64, high: f64, numbers: bool) -> ChartAxis {
     let low = low.max(high / 10_f64.powf(MAX_DECADES));
     let (low, high) = if high > 0.0 { (low, high) } else { (0.1, 1.0) };
     let above = if numbers { 0.3 } else { 0.06 };
     let room = (high / low).log10().max(0.5);
-    Axis::logarithmic(format!("magnitude [{unit}]"), low * 10_f64.powf(-0.05 * room), high * 10_f64.powf(above * room))
+    ChartAxis::logarithmic(
+        format!("magnitude [{unit}]"),
+        low * 10_f64.powf(-0.05 * room),
+        high * 10_f64.powf(above * room),
+    )
 }
 
 /// Stems of the natural frequencies, by kind, and the legend's entries. A kind without any in the range is left out.
 fn stems(marks: &[Mode], first: f64, last: f64) -> (Vec<Layer>, Vec<Entry>) {
     let (mut stems, mut legend) = (Vec::new(), Vec::new());
-    for (kind, _, stroke, height) in kinds() {
-        let x: Vec<f64> = marks.iter().filter(|mode| mode.kind == kind).map(|mode| mode.frequency_hz).collect();
+    for tick in &MODE_TICKS {
+        let x: Vec<f64> = marks.iter().filter(|mode| mode.kind == tick.kind).map(|mode| mode.frequency_hz).collect();
         if !x.iter().any(|x| (first..=last).contains(x)) {
             continue;
         }
-        legend.push(entry(format!("{} mode", kind.name()), Sample::Stem(stroke.clone())));
-        stems.push(Layer::Stems { x, from: 0.0, to: height, stroke });
+        let stroke = kind_stroke(tick);
+        legend.push(entry(format!("{} mode", tick.kind.name()), Sample::Stem(stroke.clone())));
+        stems.push(Layer::Stems { x, from: 0.0, to: tick.height, stroke });
     }
     (stems, legend)
 }
@@ -344,7 +361,7 @@ fn marks(robot: Robot, of: &request::FrfRequest) -> Result<(Vec<Mode>, Option<St
 }
 
 /// Most prominent peaks at a minimum distance from each other, with their frequencies.
-fn labelled_peaks(peaks: &[frf::PeakRow], x: &Axis) -> Vec<(f64, f64, String)> {
+fn labelled_peaks(peaks: &[frf::PeakRow], x: &ChartAxis) -> Vec<(f64, f64, String)> {
     let mut order: Vec<&frf::PeakRow> = peaks.iter().collect();
     order.sort_by(|a, b| b.prominence_db.total_cmp(&a.prominence_db));
     let mut kept: Vec<&frf::PeakRow> = Vec::new();
@@ -366,7 +383,7 @@ const LACKING: f64 = 60.0;
 const LINE: f64 = 1.8;
 
 /// Differences between the natural frequencies of each cable model and those of the reference.
-fn comparison(robot: Robot, of: &request::CompareRequest) -> Result<Made> {
+fn comparison(robot: Robot, of: &request::CompareRequest) -> Result<RequestFigure> {
     let found = compare::run(robot, of)?;
     let reference = found.models.iter().find(|model| model.cable_model == found.reference);
     let all: Vec<f64> = reference.map_or_else(Vec::new, |model| model.modes.iter().map(|m| m.frequency_hz).collect());
@@ -391,14 +408,14 @@ fn comparison(robot: Robot, of: &request::CompareRequest) -> Result<Made> {
         let lacking: Vec<(f64, f64)> =
             all.iter().enumerate().filter(|(i, _)| !has(*i)).map(|(_, hz)| (*hz, highest)).collect();
         lacking_any |= !lacking.is_empty();
-        layers.push(Layer::Symbols { points: lacking, symbol: Symbol { shape: style::Shape::Cross, ..symbol } });
+        layers.push(Layer::Symbols { points: lacking, symbol: Symbol { shape: style::SymbolShape::Cross, ..symbol } });
     }
     legend.push(entry(format!("{} %", significant(tolerance, 2)), Sample::Line(limit)));
     if lacking_any {
-        let cross = Symbol { shape: style::Shape::Cross, colour: BLACK };
+        let cross = Symbol { shape: style::SymbolShape::Cross, colour: BLACK };
         legend.push(entry("mode that the model of this colour lacks", Sample::Symbol(cross)));
     }
-    let y = Axis::logarithmic("difference [%]", 0.7 * MIN_DIFFERENCE, highest * LINE).with_labels(
+    let y = ChartAxis::logarithmic("difference [%]", 0.7 * MIN_DIFFERENCE, highest * LINE).with_labels(
         [(1e-4, "≤ 10^{−4}"), (1e-3, "10^{−3}"), (1e-2, "0.01"), (0.1, "0.1"), (1.0, "1"), (10.0, "10")]
             .map(|(at, text)| (at, text.to_owned()))
             .to_vec(),
@@ -407,7 +424,7 @@ fn comparison(robot: Robot, of: &request::CompareRequest) -> Result<Made> {
     Ok(chart(
         Chart {
             title: format!("{}: cable models", found.robot),
-            x: Axis::linear("natural frequency [Hz]", 0.0, found.below_hz),
+            x: ChartAxis::linear("natural frequency [Hz]", 0.0, found.below_hz),
             panels: vec![Panel::new(y, 0.55, layers)],
             legend,
             colour_bar: None,
@@ -416,14 +433,15 @@ fn comparison(robot: Robot, of: &request::CompareRequest) -> Result<Made> {
     ))
 }
 
-/// Symbol of a cable model, in the colours of the report.
+/// Symbol of a cable model, in its colour of all figures.
 fn of_model(name: &str) -> Symbol {
-    let (shape, colour) = match CableModel::ALL.into_iter().find(|model| model.name() == name) {
-        Some(CableModel::ShallowDynamic) => (style::Shape::Circle, style::BLUE),
-        Some(CableModel::ShallowStatic) => (style::Shape::Square, ORANGE),
-        Some(CableModel::Spring) => (style::Shape::Triangle, GREEN),
-        Some(CableModel::CatenaryStatic) => (style::Shape::Diamond, style::PURPLE),
-        Some(CableModel::CatenaryDynamic) | None => (style::Shape::HollowCircle, BLACK),
+    let model = CableModel::ALL.into_iter().find(|model| model.name() == name).unwrap_or(CableModel::CatenaryDynamic);
+    let shape = match model {
+        CableModel::ShallowDynamic => style::SymbolShape::Circle,
+        CableModel::ShallowStatic => style::SymbolShape::Square,
+        CableModel::Spring => style::SymbolShape::Triangle,
+        CableModel::CatenaryStatic => style::SymbolShape::Diamond,
+        CableModel::CatenaryDynamic => style::SymbolShape::HollowCircle,
     };
-    Symbol { shape, colour }
+    Symbol { shape, colour: rgb(model_colour(model)) }
 }

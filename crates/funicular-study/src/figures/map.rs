@@ -1,9 +1,9 @@
 //! Maps of a quantity over two axes: coloured cells, contours with labels, hatched infeasible cells, a colour bar.
 
 use super::axis::Placed;
-use super::axis::{Axis, nice_step, round_numbers};
+use super::axis::{ChartAxis, nice_step, round_numbers};
 use super::contour::contours;
-use super::drawing::{Align, BLACK, Colour, Drawing, Frame, Label, Point, Stroke, WHITE};
+use super::drawing::{Align, BLACK, Colour, Drawing, Frame, Label, PaperPoint, Stroke, WHITE};
 use super::style::{AXIS_WIDTH, Type, lightness, of_map};
 use crate::text::short;
 
@@ -66,11 +66,11 @@ impl ColourScale {
     }
 
     /// Axis of the colour bar.
-    fn axis(&self, title: &str) -> Axis {
+    fn axis(&self, title: &str) -> ChartAxis {
         if self.logarithmic {
-            Axis::logarithmic(title, self.low, self.high)
+            ChartAxis::logarithmic(title, self.low, self.high)
         } else {
-            Axis::linear(title, self.low, self.high)
+            ChartAxis::linear(title, self.low, self.high)
         }
     }
 }
@@ -97,7 +97,7 @@ impl Map {
 
         // Neighbours of one shade are one area; areas of one shade are one path.
         let shade = |value: f64| (self.scale.fraction(value) * (SHADES - 1.0)).round() as usize;
-        let mut by_shade: Vec<Vec<Vec<Point>>> = vec![Vec::new(); SHADES as usize];
+        let mut by_shade: Vec<Vec<Vec<PaperPoint>>> = vec![Vec::new(); SHADES as usize];
         for (j, from, to) in self.runs(|cell| Some(self.values[cell]).filter(|value| value.is_finite()).map(shade)) {
             let value = self.values[j * self.x.len() + from];
             by_shade[shade(value)].push(cells(j, from, to, OVERLAP).corners());
@@ -140,7 +140,7 @@ impl Map {
     }
 
     /// Edges between infeasible cells and all others.
-    fn boundary(&self, x: &[f64], y: &[f64]) -> Vec<Vec<Point>> {
+    fn boundary(&self, x: &[f64], y: &[f64]) -> Vec<Vec<PaperPoint>> {
         let (n, m) = (self.x.len(), self.y.len());
         let at = |i: usize, j: usize| self.infeasible[j * n + i];
         let mut lines = Vec::new();
@@ -161,7 +161,7 @@ impl Map {
         for level in self.scale.levels() {
             let ink = if lightness(of_map(self.scale.fraction(level))) > 0.45 { BLACK } else { WHITE };
             let stroke = Stroke::solid(ink, 0.6);
-            let mut lines: Vec<Vec<Point>> = contours(&self.x, &self.y, &self.values, level)
+            let mut lines: Vec<Vec<PaperPoint>> = contours(&self.x, &self.y, &self.values, level)
                 .into_iter()
                 .map(|line| line.into_iter().map(|[x, y]| placed.at(x, y)).collect())
                 .collect();
@@ -196,27 +196,30 @@ impl Map {
 
 /// Place of a label on a line, and the parts of the line beside it.
 struct LabelPlace {
-    middle: Point,
+    middle: PaperPoint,
     angle: f64,
-    before: Vec<Point>,
-    behind: Vec<Point>,
+    before: Vec<PaperPoint>,
+    behind: Vec<PaperPoint>,
     area: Frame,
 }
 
 /// Place for a label of a width: near the middle of the line, inside the frame, apart from the labels before.
-fn label_place(line: &[Point], width: f64, frame: &Frame, taken: &[Frame]) -> Option<LabelPlace> {
+fn label_place(line: &[PaperPoint], width: f64, frame: &Frame, taken: &[Frame]) -> Option<LabelPlace> {
     let total = length(line);
     let half = 0.5 * width + 1.5;
+
     for part in [0.5, 0.4, 0.6, 0.3, 0.7, 0.22, 0.78] {
         let at = part * total;
         let (before, _) = split(line, at - half);
         let (_, behind) = split(line, at + half);
         let (Some(a), Some(b)) = (before.last().copied(), behind.first().copied()) else { continue };
         let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+
         // A sharp bend leaves no room for the text.
         if (b[0] - a[0]).hypot(b[1] - a[1]) < 1.7 * half {
             continue;
         }
+
         let mut angle = (-(b[1] - a[1])).atan2(b[0] - a[0]).to_degrees();
         // Texts are read from left to right.
         if angle > 90.0 {
@@ -224,6 +227,7 @@ fn label_place(line: &[Point], width: f64, frame: &Frame, taken: &[Frame]) -> Op
         } else if angle <= -90.0 {
             angle += 180.0;
         }
+
         let reach = half + 2.0;
         let area = Frame {
             left: middle[0] - reach,
@@ -231,6 +235,7 @@ fn label_place(line: &[Point], width: f64, frame: &Frame, taken: &[Frame]) -> Op
             top: middle[1] - reach,
             bottom: middle[1] + reach,
         };
+
         let inside = frame.contains([area.left, area.top]) && frame.contains([area.right, area.bottom]);
         let apart = |other: &Frame| {
             area.right < other.left || area.left > other.right || area.bottom < other.top || area.top > other.bottom
@@ -239,15 +244,16 @@ fn label_place(line: &[Point], width: f64, frame: &Frame, taken: &[Frame]) -> Op
             return Some(LabelPlace { middle, angle, before, behind, area });
         }
     }
+
     None
 }
 
-fn length(line: &[Point]) -> f64 {
+fn length(line: &[PaperPoint]) -> f64 {
     line.windows(2).map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).sum()
 }
 
 /// Parts of a line before and behind a length from its start.
-fn split(line: &[Point], at: f64) -> (Vec<Point>, Vec<Point>) {
+fn split(line: &[PaperPoint], at: f64) -> (Vec<PaperPoint>, Vec<PaperPoint>) {
     let mut gone = 0.0;
     for (i, pair) in line.windows(2).enumerate() {
         let step = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
@@ -288,8 +294,10 @@ const HATCH: f64 = 0.5;
 pub(crate) fn hatch(drawing: &mut Drawing, areas: &[Frame], style: &Type) {
     use std::collections::BTreeMap;
     let step = HATCH * style.size * 2_f64.sqrt();
+
     // On the line with number k, x + y = k · step. Its parts are kept as ranges of x.
     let mut parts: BTreeMap<i64, Vec<(f64, f64)>> = BTreeMap::new();
+
     for area in areas {
         let (first, last) = ((area.left + area.top) / step, (area.right + area.bottom) / step);
         for k in first.ceil() as i64..=last.floor() as i64 {
@@ -300,10 +308,13 @@ pub(crate) fn hatch(drawing: &mut Drawing, areas: &[Frame], style: &Type) {
             }
         }
     }
+
     let mut lines = Vec::new();
+
     for (k, mut ranges) in parts {
         let sum = k as f64 * step;
         ranges.sort_by(|a, b| a.0.total_cmp(&b.0));
+
         let mut joined: Vec<(f64, f64)> = Vec::new();
         for (from, to) in ranges {
             match joined.last_mut() {
@@ -311,8 +322,10 @@ pub(crate) fn hatch(drawing: &mut Drawing, areas: &[Frame], style: &Type) {
                 _ => joined.push((from, to)),
             }
         }
+
         lines.extend(joined.into_iter().map(|(from, to)| vec![[from, sum - from], [to, sum - to]]));
     }
+
     drawing.lines(lines, Stroke::solid(HATCHING, 0.4));
 }
 

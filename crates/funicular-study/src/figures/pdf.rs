@@ -1,6 +1,6 @@
 //! Drawings as PDF: one page of the size of the figure, with the used letters of the font embedded.
 
-use super::drawing::{Colour, Drawing, Item, Path, RAISED, Text};
+use super::drawing::{Colour, Drawing, DrawnPath, Item, RAISED, Text};
 use super::font::Font;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
@@ -130,16 +130,18 @@ fn page_content(drawing: &Drawing, letters: &Letters) -> Vec<u8> {
     content.finish().as_slice().to_vec()
 }
 
-fn draw_path(content: &mut Content, path: &Path, height: f64) {
+fn draw_path(content: &mut Content, path: &DrawnPath, height: f64) {
     if let Some(fill) = path.fill {
         let [r, g, b] = parts(fill);
         content.set_fill_rgb(r, g, b);
     }
+
     if let Some(stroke) = &path.stroke {
         let [r, g, b] = parts(stroke.colour);
         content.set_stroke_rgb(r, g, b).set_line_width(stroke.width as f32);
         content.set_dash_pattern(stroke.dashes.iter().map(|length| *length as f32), 0.0);
     }
+
     for line in &path.lines {
         for (i, point) in line.iter().enumerate() {
             let (x, y) = (rounded(point[0]), rounded(height - point[1]));
@@ -153,6 +155,7 @@ fn draw_path(content: &mut Content, path: &Path, height: f64) {
             content.close_path();
         }
     }
+
     match (path.fill.is_some(), path.stroke.is_some()) {
         (true, true) => content.fill_nonzero_and_stroke(),
         (true, false) => content.fill_nonzero(),

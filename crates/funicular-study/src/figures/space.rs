@@ -1,7 +1,7 @@
 //! The robot in space: parallel projection, hanging cables, the platform between its attachments, a floor with scales.
 
 use super::axis::{nice_step, round_numbers};
-use super::drawing::{Align, BLACK, Colour, Drawing, Label, Point, Stroke, WHITE};
+use super::drawing::{Align, BLACK, Colour, Drawing, Label, PaperPoint, Stroke, WHITE};
 use super::drive::DriveLines;
 use super::hull::faces;
 use super::style::{AXIS_WIDTH, BLUE, CURVE_WIDTH, GREY, Type, VERMILION, around};
@@ -16,8 +16,8 @@ use std::f64::consts::TAU;
 /// Robot in space, at equilibrium and, for a mode shape, moved.
 pub(crate) struct Space {
     pub(crate) title: String,
-    rest: Shape,
-    moved: Option<Shape>,
+    rest: RobotShape,
+    moved: Option<RobotShape>,
     /// Pulleys and drums at rest.
     drives: Vec<DriveLines>,
     /// Flexible supports at rest.
@@ -33,7 +33,7 @@ pub(crate) struct Space {
 
 /// Positions of cables and platform [m].
 #[derive(Debug, Clone)]
-pub(crate) struct Shape {
+pub(crate) struct RobotShape {
     /// Points along each cable from the platform to the anchor.
     pub(crate) cables: Vec<Vec<Vec3>>,
     /// Attachments.
@@ -44,7 +44,7 @@ pub(crate) struct Shape {
 /// Number of intervals of a drawn cable.
 const INTERVALS: u32 = 64;
 
-impl Shape {
+impl RobotShape {
     /// Robot at equilibrium.
     fn at_rest(robot: &Robot, equilibrium: &Equilibrium) -> Self {
         let fraction = |k: u32| f64::from(k) / f64::from(INTERVALS);
@@ -62,8 +62,8 @@ impl Shape {
 
 impl Space {
     /// Drawing of a robot at equilibrium; `moved` is its shape in a mode.
-    pub(crate) fn new(robot: &Robot, equilibrium: &Equilibrium, moved: Option<Shape>, head: Vec<String>) -> Self {
-        let rest = Shape::at_rest(robot, equilibrium);
+    pub(crate) fn new(robot: &Robot, equilibrium: &Equilibrium, moved: Option<RobotShape>, head: Vec<String>) -> Self {
+        let rest = RobotShape::at_rest(robot, equilibrium);
         let anchors: Vec<Vec3> = equilibrium.cables.iter().map(|state| state.anchor_w).collect();
         let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
         let reach = extent(&anchors);
@@ -114,7 +114,7 @@ impl Space {
     }
 
     /// Cables and platform from back to front.
-    fn draw_shape(&self, drawing: &mut Drawing, view: &View, shape: &Shape, style: &Type) {
+    fn draw_shape(&self, drawing: &mut Drawing, view: &View, shape: &RobotShape, style: &Type) {
         let centre = shape.corners.iter().sum::<Vec3>() / shape.corners.len() as f64;
         // A point mass is drawn last, on top of its cables' ends.
         let of_platform = if self.faces.is_empty() { f64::INFINITY } else { view.depth(centre) };
@@ -136,19 +136,22 @@ impl Space {
         &self,
         drawing: &mut Drawing,
         view: &View,
-        shape: &Shape,
+        shape: &RobotShape,
         fill: Option<Colour>,
         edge: &Stroke,
         style: &Type,
     ) {
         let depth =
             |face: &[usize]| face.iter().map(|&i| view.depth(shape.corners[i])).sum::<f64>() / face.len() as f64;
+
         let mut order: Vec<&Vec<usize>> = self.faces.iter().collect();
         order.sort_by(|a, b| depth(a).total_cmp(&depth(b)));
+
         for face in order {
-            let corners: Vec<Point> = face.iter().map(|&i| view.at(shape.corners[i])).collect();
+            let corners: Vec<PaperPoint> = face.iter().map(|&i| view.at(shape.corners[i])).collect();
             drawing.areas(vec![corners], fill, Some(edge.clone()));
         }
+
         if fill.is_some() {
             let half = if self.faces.is_empty() { 0.4 * style.size } else { 0.16 * style.size };
             let [x, y] = view.at(shape.mass_centre);
@@ -159,10 +162,12 @@ impl Space {
 
     /// Wheels, and the cable from the exit points to the drums.
     fn draw_drives(&self, drawing: &mut Drawing, view: &View, style: &Type) {
-        let flat = |line: &[Vec3]| line.iter().map(|p| view.at(*p)).collect::<Vec<Point>>();
+        let flat = |line: &[Vec3]| line.iter().map(|p| view.at(*p)).collect::<Vec<PaperPoint>>();
+
         for drive in &self.drives {
             drawing.areas(vec![flat(&drive.wheel)], None, Some(Stroke::solid(GREY, AXIS_WIDTH)));
             drawing.line(flat(&drive.path), Stroke::solid(BLUE, 0.5 * CURVE_WIDTH));
+
             for (_, wheel) in &drive.guide_wheels {
                 let [x, y] = view.at(*wheel);
                 let corner = |k: u32| {
@@ -172,6 +177,7 @@ impl Space {
                 let circle = (0..24).map(corner).collect();
                 drawing.areas(vec![circle], Some(WHITE), Some(Stroke::solid(GREY, AXIS_WIDTH)));
             }
+
             if let Some(drum) = drive.drum {
                 let half = 0.17 * style.size;
                 let [x, y] = view.at(drum);
@@ -188,7 +194,7 @@ impl Space {
         let capital = drawing.font.capital_height() * style.small;
         let (bar, thin) = (Stroke::solid(BLACK, 2.0 * AXIS_WIDTH), Stroke::solid(BLACK, AXIS_WIDTH));
         for support in &self.supports {
-            let mut points: Vec<Point> = support.anchors.iter().map(|p| view.at(*p)).collect();
+            let mut points: Vec<PaperPoint> = support.anchors.iter().map(|p| view.at(*p)).collect();
             points.sort_by(|a, b| a[1].total_cmp(&b[1]));
             let Some([x, y]) = points.last().copied() else { continue };
 
@@ -338,7 +344,7 @@ struct View {
     towards: Vec3,
     scale: f64,
     /// Place of the origin of the world on the page.
-    origin: Point,
+    origin: PaperPoint,
     height: f64,
 }
 
@@ -365,7 +371,7 @@ impl View {
         Self { right, up, towards, scale, origin, height }
     }
 
-    fn at(&self, p: Vec3) -> Point {
+    fn at(&self, p: Vec3) -> PaperPoint {
         [self.origin[0] + self.scale * self.right.dot(&p), self.origin[1] - self.scale * self.up.dot(&p)]
     }
 

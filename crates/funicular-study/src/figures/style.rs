@@ -1,17 +1,18 @@
 //! Sizes, colours, dashes and symbols of figures.
 //!
-//! Colours are those of Okabe and Ito, which people with any colour vision can distinguish. Lines differ in their
-//! dashes too, so that a figure printed in grey keeps its meaning.
+//! Colours are those of [`crate::figure_style`]. Lines differ in their dashes too, so that a figure printed in grey
+//! keeps its meaning.
 
-use super::drawing::{BLACK, Colour, Drawing, Frame, Point, Stroke, WHITE};
+use super::drawing::{BLACK, Colour, Drawing, Frame, PaperPoint, Stroke, WHITE};
+use crate::figure_style::{colour, rgb};
 
-pub(crate) const ORANGE: Colour = [0xe6, 0x9f, 0x00];
-pub(crate) const SKY: Colour = [0x56, 0xb4, 0xe9];
-pub(crate) const GREEN: Colour = [0x00, 0x9e, 0x73];
-pub(crate) const BLUE: Colour = [0x00, 0x72, 0xb2];
-pub(crate) const VERMILION: Colour = [0xd5, 0x5e, 0x00];
-pub(crate) const PURPLE: Colour = [0xcc, 0x79, 0xa7];
-pub(crate) const GREY: Colour = [0x8a, 0x8a, 0x8a];
+pub(crate) const ORANGE: Colour = rgb(colour::ORANGE);
+pub(crate) const SKY: Colour = rgb(colour::SKY);
+pub(crate) const GREEN: Colour = rgb(colour::GREEN);
+pub(crate) const BLUE: Colour = rgb(colour::BLUE);
+pub(crate) const VERMILION: Colour = rgb(colour::VERMILION);
+pub(crate) const PURPLE: Colour = rgb(colour::PURPLE);
+pub(crate) const GREY: Colour = rgb(colour::GREY);
 
 /// Width of axes and ticks [pt]; publishers ask for at least 0.25 pt.
 pub(crate) const AXIS_WIDTH: f64 = 0.5;
@@ -30,8 +31,14 @@ const DASHES: [&[f64]; 8] = [
     &[3.0, 1.4],
     &[10.0, 1.6, 3.0, 1.6],
 ];
-const SHAPES: [Shape; 6] =
-    [Shape::Circle, Shape::Square, Shape::Triangle, Shape::Diamond, Shape::Cross, Shape::HollowCircle];
+const SHAPES: [SymbolShape; 6] = [
+    SymbolShape::Circle,
+    SymbolShape::Square,
+    SymbolShape::Triangle,
+    SymbolShape::Diamond,
+    SymbolShape::Cross,
+    SymbolShape::HollowCircle,
+];
 
 /// Line of the curve with this number.
 pub(crate) fn curve(number: usize) -> Stroke {
@@ -63,7 +70,7 @@ impl Type {
 
 /// Shape of a symbol.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Shape {
+pub(crate) enum SymbolShape {
     Circle,
     HollowCircle,
     Square,
@@ -75,25 +82,26 @@ pub(crate) enum Shape {
 /// Symbol at a point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Symbol {
-    pub(crate) shape: Shape,
+    pub(crate) shape: SymbolShape,
     pub(crate) colour: Colour,
 }
 
 impl Symbol {
     /// Draws the symbol at points.
-    pub(crate) fn draw(self, drawing: &mut Drawing, points: &[Point], style: &Type) {
+    pub(crate) fn draw(self, drawing: &mut Drawing, points: &[PaperPoint], style: &Type) {
         let half = 0.19 * style.size;
-        let around = |[x, y]: Point, corners: &[[f64; 2]]| -> Vec<Point> {
+        let around = |[x, y]: PaperPoint, corners: &[[f64; 2]]| -> Vec<PaperPoint> {
             corners.iter().map(|[dx, dy]| [x + half * dx, y + half * dy]).collect()
         };
         let circle: Vec<[f64; 2]> =
             (0..12).map(|k| f64::from(k) * 30_f64.to_radians()).map(|angle| [angle.cos(), angle.sin()]).collect();
+
         let corners: &[[f64; 2]] = match self.shape {
-            Shape::Circle | Shape::HollowCircle => &circle,
-            Shape::Square => &[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],
-            Shape::Triangle => &[[-1.1, 0.8], [0.0, -1.1], [1.1, 0.8]],
-            Shape::Diamond => &[[0.0, -1.25], [1.25, 0.0], [0.0, 1.25], [-1.25, 0.0]],
-            Shape::Cross => {
+            SymbolShape::Circle | SymbolShape::HollowCircle => &circle,
+            SymbolShape::Square => &[[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]],
+            SymbolShape::Triangle => &[[-1.1, 0.8], [0.0, -1.1], [1.1, 0.8]],
+            SymbolShape::Diamond => &[[0.0, -1.25], [1.25, 0.0], [0.0, 1.25], [-1.25, 0.0]],
+            SymbolShape::Cross => {
                 let lines = points
                     .iter()
                     .flat_map(|p| [around(*p, &[[-0.9, -0.9], [0.9, 0.9]]), around(*p, &[[-0.9, 0.9], [0.9, -0.9]])]);
@@ -101,8 +109,9 @@ impl Symbol {
                 return;
             }
         };
-        let areas: Vec<Vec<Point>> = points.iter().map(|p| around(*p, corners)).collect();
-        let fill = if self.shape == Shape::HollowCircle { WHITE } else { self.colour };
+
+        let areas: Vec<Vec<PaperPoint>> = points.iter().map(|p| around(*p, corners)).collect();
+        let fill = if self.shape == SymbolShape::HollowCircle { WHITE } else { self.colour };
         drawing.areas(areas, Some(fill), Some(Stroke::solid(self.colour, 0.5)));
     }
 }
@@ -136,7 +145,7 @@ pub(crate) fn lightness([r, g, b]: Colour) -> f64 {
 }
 
 /// Rectangle around points.
-pub(crate) fn around(points: impl Iterator<Item = Point>) -> Frame {
+pub(crate) fn around(points: impl Iterator<Item = PaperPoint>) -> Frame {
     let mut frame =
         Frame { left: f64::INFINITY, top: f64::INFINITY, right: f64::NEG_INFINITY, bottom: f64::NEG_INFINITY };
     for [x, y] in points {

@@ -3,7 +3,7 @@
 //! Texts stay texts, in the sans serif fonts that journals ask for; a program for drawings can edit them. Arial and
 //! Helvetica are narrower than the font whose widths place the texts, so that no text overlaps another.
 
-use super::drawing::{Colour, Drawing, Item, Path, RAISED, Text};
+use super::drawing::{Colour, Drawing, DrawnPath, Item, RAISED, Text};
 use std::fmt::Write as _;
 
 const FAMILY: &str = "Arial, Helvetica, 'Liberation Sans', 'Noto Sans', sans-serif";
@@ -25,17 +25,19 @@ pub(crate) fn svg(drawing: &Drawing) -> String {
         number(width),
         number(height),
     );
+
     for item in &drawing.items {
         match item {
             Item::Path(path) => path_element(&mut out, path),
             Item::Text(text) => text_element(&mut out, text),
         }
     }
+
     out.push_str("</svg>\n");
     out
 }
 
-fn path_element(out: &mut String, path: &Path) {
+fn path_element(out: &mut String, path: &DrawnPath) {
     out.push_str("<path d=\"");
     for line in &path.lines {
         for (i, point) in line.iter().enumerate() {
@@ -64,7 +66,9 @@ fn text_element(out: &mut String, text: &Text) {
         let _ = write!(out, " transform=\"rotate({} {x} {y})\"", number(-text.angle));
     }
     out.push('>');
+
     let mut was_raised = false;
+
     for (run, raised) in &text.label.0 {
         if *raised || was_raised {
             let (size, down) = match (was_raised, *raised) {
@@ -79,6 +83,7 @@ fn text_element(out: &mut String, text: &Text) {
             out.push_str(&escaped(run));
         }
     }
+
     out.push_str("</text>\n");
 }
 

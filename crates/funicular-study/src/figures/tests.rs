@@ -1,17 +1,17 @@
 //! Figures as files: what their SVG and PDF contain.
 
 use super::drawing::{Drawing, Item};
-use super::{Choice, Figure, Kind, Made, Size, of_request, style::Type, width_mm};
+use super::{Figure, FigureChoice, FigureContent, RequestFigure, Size, of_request, style::Type, width_mm};
 use crate::{Request, Silent};
 use funicular::robot::Robot;
 use serde_json::json;
 
-fn made(request: serde_json::Value, mode: Option<usize>) -> Made {
+fn made(request: serde_json::Value, mode: Option<usize>) -> RequestFigure {
     let mut request = request;
     request["robot"] = json!({"name": "robot.toml", "text": funicular_robots::YUAN2014_4MM});
     let request = Request::from_json(&request.to_string()).unwrap();
     let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
-    of_request(&request, robot, &Choice { mode }, &mut Silent).unwrap()
+    of_request(&request, robot, &FigureChoice { mode }, &mut Silent).unwrap()
 }
 
 fn response() -> Figure {
@@ -60,7 +60,7 @@ fn boxes(drawing: &Drawing) -> Vec<([f64; 4], String)> {
 #[test]
 fn charts_have_no_overlapping_texts_and_none_beyond_the_page() {
     for (name, figure) in all() {
-        let Kind::Chart(chart) = &figure.0 else { continue };
+        let FigureContent::Chart(chart) = &figure.0 else { continue };
         for (width, font) in [(40.0, 6.0), (84.0, 8.0), (88.0, 8.0), (88.0, 10.0), (181.0, 8.0), (190.0, 10.0)] {
             let points = width * super::POINTS;
             let drawing = chart.draw(points, &Type::new(font));
@@ -100,7 +100,7 @@ fn an_svg_has_its_size_and_its_texts_and_is_xml() {
 #[test]
 fn the_drawn_response_has_the_peak_where_the_result_has_it() {
     let figure = response();
-    let Kind::Chart(chart) = &figure.0 else { panic!("a chart") };
+    let FigureContent::Chart(chart) = &figure.0 else { panic!("a chart") };
     let drawing = chart.draw(250.0, &Type::new(8.0));
     // The highest peak has a number: 9.37 Hz, as in the table of `frf`. It stands above the top of the curve.
     let texts = boxes(&drawing);
@@ -156,7 +156,7 @@ fn a_mode_that_is_not_in_the_list_is_refused() {
     let request = Request::from_json(&request.to_string()).unwrap();
     let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
     for mode in [0, 99] {
-        let said = of_request(&request, robot.clone(), &Choice { mode: Some(mode) }, &mut Silent).err().unwrap();
+        let said = of_request(&request, robot.clone(), &FigureChoice { mode: Some(mode) }, &mut Silent).err().unwrap();
         assert!(said.to_string().contains("give 1 to 8"), "{said}");
     }
 }

@@ -26,16 +26,20 @@ const GRAVITY: Vec3 = Vec3::new(0.0, 0.0, -9.81);
 pub(crate) fn read(bodies: &Xml, cables: &Xml, wanted_set: Option<&str>) -> Result<Draft> {
     let body = bodies::read(bodies)?;
     let set = cables::read(cables, wanted_set, &body.center_of_mass_p)?;
+
     let stem = bodies.file().stem();
     let stem = stem.strip_suffix("_bodies").unwrap_or(&stem);
     let name = if stem.is_empty() { clean(&body.name) } else { stem.to_owned() };
+
     let mut notes =
         vec!["Platform frame: at the joint of the source's link. Gravity 9.81 m/s² along -z, as in CASPR".to_owned()];
     if body.pose.is_none() {
         notes.push("The file has no pose, q_initial: give ⟪pose⟫ to import or to an analysis".to_owned());
     }
+
     let mut lost = body.lost;
     lost.extend(set.lost);
+
     Ok(Draft {
         name: if set.is_only { name } else { format!("{name}, cables {}", set.id) },
         source: format!("CASPR model, {} and {}, cable set {}", bodies.file().name(), cables.file().name(), set.id),

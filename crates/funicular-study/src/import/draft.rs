@@ -2,8 +2,9 @@
 
 pub(crate) mod file;
 
+use crate::at_rest;
 use crate::request::{self, ImportPlatform, ImportRopes};
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use funicular::math::{Mat3, Rotation, Vec3};
 use funicular::robot::{Pose, Robot};
 use funicular::statics::TensionRange;
@@ -147,7 +148,8 @@ impl Draft {
             ];
             if let Some((option, _)) = given.iter().find(|(_, given)| *given) {
                 bail!(
-                    "the platform is a point mass, which has neither inertia tensor nor centre of mass: leave out {option}"
+                    "the platform is a point mass, which has neither inertia tensor nor centre of mass: leave \
+                     out {option}"
                 );
             }
         }
@@ -234,8 +236,8 @@ impl Draft {
         }
         if self.cables.iter().any(|cable| cable.attachment_p != Vec3::zeros()) {
             self.notes.push(
-                "The platform translates only. Its cables end in one point here: each anchor is the source's anchor minus \
-                 the source's attachment; lengths, forces and motion do not change"
+                "The platform translates only. Its cables end in one point here: each anchor is the source's anchor \
+                 minus the source's attachment; lengths, forces and motion do not change"
                     .to_owned(),
             );
             for cable in &mut self.cables {
@@ -249,9 +251,8 @@ impl Draft {
 
     fn set_state(&mut self, options: &ImportPlatform) -> Result<()> {
         let Some(pose) = options.pose.map(request::Pose::to_robot).transpose()? else { return Ok(()) };
-        if self.platform.motion == DraftMotion::PointMass && pose.rot_wp.angle() != 0.0 {
-            bail!("a point mass has no orientation: give ⟪pose⟫ x,y,z");
-        }
+        at_rest::refuse_orientation(self.platform.motion == DraftMotion::PointMass, &pose)
+            .map_err(|error| anyhow!("⟪pose⟫: {error}"))?;
         match self.state {
             DraftState::Lengths => {
                 self.lost.push("the unstrained lengths of the source: ⟪pose⟫ replaces them".to_owned());

@@ -158,17 +158,19 @@ fn cable(
         bail!(line.row.error(
             file,
             format!(
-                "line {} ends at point {}, which is not fixed: a cable of a robot file runs straight from its anchor to the \
-                 platform",
+                "line {} ends at point {}, which is not fixed: a cable of a robot file runs straight from its anchor \
+                 to the platform",
                 line.id, anchor.id
             )
         ));
     }
+
     let Some(kind) = model.types.iter().find(|kind| kind.word == line.kind) else {
         bail!(
             line.row.error(file, format!("line {} is of type `{}`, which is not defined", line.id, clean(line.kind)))
         );
     };
+
     Ok(DraftCable {
         name: line.id.to_string(),
         anchor_w: anchor.position,

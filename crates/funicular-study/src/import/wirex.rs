@@ -50,15 +50,18 @@ pub(crate) fn read(xml: &Xml) -> Result<Draft> {
             None => bail!(xml.error(root, "<models> has no <robot>")),
         }
     };
+
     let mut assumed = Vec::new();
     let mut lost = Vec::new();
     if robots.len() > 1 {
         lost.push(format!("{} more robots of the file: only the first is read, as in WireX", robots.len() - 1));
     }
+
     let motion = motion(xml, robot)?;
     let rope = rope(xml, root, &mut assumed, &mut lost)?;
     let cables = cables(xml, root, robot, &rope, &mut assumed, &mut lost)?;
     let platform = platform(xml, robot, motion, &mut assumed)?;
+
     if children(robot, "application").next().is_some() {
         lost.push("<application>, its load and its limits".to_owned());
     }
@@ -68,7 +71,9 @@ pub(crate) fn read(xml: &Xml) -> Result<Draft> {
             drum(xml, winch)?
         ));
     }
+
     let name = clean(robot.attribute("name").unwrap_or_default());
+
     Ok(Draft {
         name: if name.is_empty() { xml.file().stem() } else { name },
         source: source(xml, robot),
@@ -125,12 +130,15 @@ fn platform(xml: &Xml, robot: Node, motion: DraftMotion, assumed: &mut Vec<Strin
             place: xml.place(robot),
         });
     };
+
     let mass = xml.optional_attribute_number(node, "mass")?;
     if let Some(mass) = mass.filter(|mass| *mass < 0.0) {
         bail!(xml.error(node, format!("attribute `mass` is {mass} kg, it must be positive")));
     }
+
     let center = xml.optional(node, "centerofgravity")?.map(|center| xml.attribute_vector(center)).transpose()?;
     let tensor = xml.optional(node, "inertiatensor")?.map(|tensor| inertia(xml, tensor)).transpose()?.flatten();
+
     if motion != DraftMotion::PointMass {
         if center == Some(DEFAULT_CENTER) {
             assumed.push(
@@ -147,6 +155,7 @@ fn platform(xml: &Xml, robot: Node, motion: DraftMotion, assumed: &mut Vec<Strin
             );
         }
     }
+
     Ok(DraftPlatform {
         mass: mass.filter(|mass| *mass > 0.0),
         inertia_p: Some(tensor.unwrap_or(Mat3::from_diagonal(&DEFAULT_MOMENTS))),
@@ -175,11 +184,13 @@ fn inertia(xml: &Xml, node: Node) -> Result<Option<Mat3>> {
 fn rope(xml: &Xml, root: Node, assumed: &mut Vec<String>, lost: &mut Vec<String>) -> Result<DraftRope> {
     let all: Vec<Node> = children(root, "cable").collect();
     let Some(&node) = all.first() else { return Ok(DraftRope::default()) };
+
     if all.len() > 1 {
         let names: Vec<String> =
             all[1..].iter().map(|n| clean(n.attribute("name").unwrap_or("without name"))).collect();
         lost.push(format!("<cable> {}: only the first <cable> is read, for all chains, as in WireX", listed(&names)));
     }
+
     let quantity = |name| -> Result<Option<f64>> {
         let value = xml.optional_attribute_number(node, name)?;
         match value.filter(|value| *value < 0.0) {
@@ -189,6 +200,7 @@ fn rope(xml: &Xml, root: Node, assumed: &mut Vec<String>, lost: &mut Vec<String>
             None => Ok(value),
         }
     };
+
     let rope = DraftRope {
         name: clean(node.attribute("name").unwrap_or_default()),
         mass_per_length: quantity("weight")?,
@@ -197,6 +209,7 @@ fn rope(xml: &Xml, root: Node, assumed: &mut Vec<String>, lost: &mut Vec<String>
         diameter: quantity("radius")?.filter(|radius| *radius > 0.0).map(|radius| 2.0 * radius),
         breaking_load: quantity("breaking_load")?.filter(|load| *load > 0.0),
     };
+
     if let (Some(mass), Some(diameter)) = (rope.mass_per_length.filter(|mass| *mass > 0.0), rope.diameter) {
         let density = mass / (std::f64::consts::FRAC_PI_4 * diameter * diameter);
         if !DENSITIES.contains(&density) {
@@ -207,6 +220,7 @@ fn rope(xml: &Xml, root: Node, assumed: &mut Vec<String>, lost: &mut Vec<String>
             ));
         }
     }
+
     for (name, what) in [
         ("damping", "a damping per length of unknown unit"),
         ("max_length", "the maximum length [m]"),
@@ -216,6 +230,7 @@ fn rope(xml: &Xml, root: Node, assumed: &mut Vec<String>, lost: &mut Vec<String>
             lost.push(format!("`{name}` {value} of <cable>, {what}"));
         }
     }
+
     Ok(rope)
 }
 
@@ -226,8 +241,8 @@ fn drum(xml: &Xml, winch: Node) -> Result<String> {
     Ok(radius.map_or_else(String::new, |radius| format!(" (radius {radius} m)")))
 }
 
-/// Swivelling pulley of a `<base>`; `None` without a radius. The swivel axis is the z axis of the frame of the base, and
-/// the cable enters along it. WireX counts lengths from the point of the base.
+/// Swivelling pulley of a `<base>`; `None` without a radius. The swivel axis is the z axis of the frame of the base,
+/// and the cable enters along it. WireX counts lengths from the point of the base.
 fn pulley(xml: &Xml, base: Node) -> Result<Option<DraftPulley>> {
     let Some(radius) = xml.optional_attribute_number(base, "radius")?.filter(|radius| *radius != 0.0) else {
         return Ok(None);
@@ -260,6 +275,7 @@ fn cables(
     let geometry = xml.required(robot, "geometry")?;
     let minimum = children(root, "cable").next().map(|node| xml.optional_attribute_number(node, "minimum_load"));
     let minimum = minimum.transpose()?.flatten().filter(|limit| *limit > 0.0);
+
     let mut cables = Vec::new();
     for chain in geometry.children().filter(Node::is_element) {
         if tag(chain) != "chain" {
@@ -267,6 +283,7 @@ fn cables(
             lost.push(format!("<{}> in <geometry>, an unknown element", tag(chain)));
             continue;
         }
+
         let base = xml.required(chain, "base")?;
         cables.push(DraftCable {
             name: clean(chain.attribute("id").unwrap_or_default()),
@@ -278,15 +295,18 @@ fn cables(
             pulley: pulley(xml, base)?,
         });
     }
+
     if cables.is_empty() {
         bail!(xml.error(geometry, "<geometry> has no <chain>: the robot has no cables"));
     }
+
     if cables.iter().any(|cable| cable.pulley.is_some_and(|pulley| pulley.radius == DEFAULT_PULLEY_RADIUS)) {
         assumed.push(format!(
-            "the pulleys of radius {DEFAULT_PULLEY_RADIUS} m: the radius is in the file, but WireX writes it for pulleys of \
-             unknown size; `radius_m` of [pulleys] gives another"
+            "the pulleys of radius {DEFAULT_PULLEY_RADIUS} m: the radius is in the file, but WireX writes it for \
+             pulleys of unknown size; `radius_m` of [pulleys] gives another"
         ));
     }
+
     Ok(cables)
 }
 

@@ -1,7 +1,7 @@
 //! Functions of a Universal File as measured responses of the robot: signals, points and SI units.
 
 use super::MeasuredResponse;
-use super::uff::{Axis, Function, NodeDirection, UffFile};
+use super::uff::{Function, NodeDirection, UffAxis, UffFile};
 use anyhow::{Result, bail};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -43,25 +43,30 @@ pub fn responses_of_uff(
     nodes: &[NodePoint],
 ) -> Result<(Vec<MeasuredResponse>, Vec<String>)> {
     let (mut responses, mut notes) = (Vec::new(), Vec::new());
+
     for (i, known) in nodes.iter().enumerate() {
         if nodes[..i].iter().any(|other| other.node == known.node) {
             bail!("⟪node⟫ {}: the node is there twice; give it one point", known.node);
         }
+
         let is_of =
             |function: &Function| [&function.response, &function.reference].iter().any(|end| end.node == known.node);
         if !file.functions.iter().any(is_of) {
             notes.push(format!("{path}: no function is at node {}, whose point is not used", known.node));
         }
     }
+
     let mut others: BTreeMap<i64, usize> = BTreeMap::new();
+
     for function in &file.functions {
         if function.kind == RESPONSE && matches!(function.abscissa.kind, FREQUENCY | UNKNOWN | GENERAL) {
-            let of = Response { path, file, function, nodes };
+            let of = UffResponse { path, file, function, nodes };
             responses.push(of.converted()?);
         } else {
             *others.entry(function.kind).or_default() += 1;
         }
     }
+
     for (kind, count) in others {
         notes.push(format!(
             "{path}: {} of type {kind} left out; frequency responses have type {RESPONSE}",
@@ -71,21 +76,23 @@ pub fn responses_of_uff(
     for (kind, count) in &file.skipped {
         notes.push(format!("{path}: {} {kind} left out", crate::text::counted(*count, "dataset")));
     }
+
     if responses.is_empty() {
         bail!("{path} has no frequency response: no dataset 58 has a function of type {RESPONSE}");
     }
+
     Ok((responses, notes))
 }
 
 /// Response in a file.
-struct Response<'a> {
+struct UffResponse<'a> {
     path: &'a str,
     file: &'a UffFile,
     function: &'a Function,
     nodes: &'a [NodePoint],
 }
 
-impl Response<'_> {
+impl UffResponse<'_> {
     /// Beginning of a message about this function.
     fn place(&self) -> String {
         format!("{}: the function in line {}", self.path, self.function.line + 1)
@@ -119,8 +126,8 @@ impl Response<'_> {
         let parts = values.iter().flat_map(|value| [value.re, value.im]).chain(abscissae.iter().copied());
         if let Some(number) = parts.into_iter().find(|number| *number != 0.0 && !MAGNITUDES.contains(&number.abs())) {
             bail!(
-                "{} has the number {number:e}, which nobody measures: in binary data (dataset 58b) the byte order of the \
-                 file is wrong, or the data are damaged",
+                "{} has the number {number:e}, which nobody measures: in binary data (dataset 58b) the byte order of \
+                 the file is wrong, or the data are damaged",
                 self.place()
             );
         }
@@ -174,7 +181,7 @@ impl Response<'_> {
     }
 
     /// Factor to SI units, in which displacements are metres or radians, and loads newtons or newton metres.
-    fn to_si(&self, numerator: &Axis, denominator: &Axis, out_turns: bool, in_turns: bool) -> Result<f64> {
+    fn to_si(&self, numerator: &UffAxis, denominator: &UffAxis, out_turns: bool, in_turns: bool) -> Result<f64> {
         let units = self.file.units;
         for axis in [numerator, denominator] {
             let label = axis.unit.to_lowercase();
@@ -184,7 +191,8 @@ impl Response<'_> {
                 && !units.converts()
             {
                 bail!(
-                    "{} has the unit `{}`, but the file gives no factor to SI units (dataset 164): export it in SI units",
+                    "{} has the unit `{}`, but the file gives no factor to SI units (dataset 164): export it \
+                     in SI units",
                     self.place(),
                     axis.unit
                 );

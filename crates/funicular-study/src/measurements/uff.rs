@@ -1,8 +1,8 @@
 //! Reader of Universal Files: datasets 58 and 58b (functions), 15 and 2411 (nodes), 55 (mode shapes), 151 (header) and
 //! 164 (units). Other datasets are skipped.
 //!
-//! A dataset stands between two lines `    -1`. The body of a 58b is binary; it is passed by its number of bytes, because
-//! it may contain any bytes.
+//! A dataset stands between two lines `    -1`. The body of a 58b is binary; it is passed by its number of bytes,
+//! because it may contain any bytes.
 
 use super::check_size;
 use super::uff_numbers::{Line, Lines, is_delimiter};
@@ -65,7 +65,7 @@ pub struct NodeDirection {
 
 /// One of the axes of a function.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Axis {
+pub struct UffAxis {
     /// Specific data type: 8 displacement, 11 velocity, 12 acceleration, 13 force, 17 time, 18 frequency.
     pub kind: i64,
     /// Label.
@@ -94,11 +94,11 @@ pub struct Function {
     /// True if the ordinates are complex.
     pub is_complex: bool,
     /// Axis of the abscissae.
-    pub abscissa: Axis,
+    pub abscissa: UffAxis,
     /// Axis of the ordinates, or of their numerator.
-    pub numerator: Axis,
+    pub numerator: UffAxis,
     /// Axis of the ordinates' denominator.
-    pub denominator: Axis,
+    pub denominator: UffAxis,
 }
 
 /// Mode shape of dataset 55.
@@ -118,7 +118,8 @@ impl UffFile {
     /// Reads the bytes of a file; `path` is its name in messages.
     ///
     /// # Errors
-    /// A file that is too large or no Universal File, or a dataset that is cut off or has a wrong number, with the line.
+    /// A file that is too large or no Universal File, or a dataset that is cut off or has a wrong number, with the
+    /// line.
     pub fn read(path: &str, bytes: &[u8]) -> Result<Self> {
         check_size(path, bytes.len())?;
         let mut file = Self::default();
@@ -141,20 +142,24 @@ impl UffFile {
         let Some(bytes) = lines.next() else { return Ok(()) };
         let line = Line { bytes, number: lines.number };
         let kind = line.text(0, 7);
+
         match kind.as_str() {
             "58" | "58b" | "58B" => {
                 let function = if kind == "58" { function(lines, None)? } else { function(lines, Some(&line))? };
                 self.functions.push(function);
                 close(lines, 58)
             }
+
             "15" => self.nodes_15(lines),
             "2411" => self.nodes_2411(lines),
             "55" => self.shape(lines),
+
             "151" => {
                 let model = lines.expect("the name of the model (dataset 151)")?;
                 self.model = Some(model.text(0, 80)).filter(|model| !model.is_empty());
                 skip(lines)
             }
+
             "164" => {
                 lines.expect("the code of the units (dataset 164)")?;
                 let factors = lines.expect("the factors of the units (dataset 164)")?;
@@ -168,6 +173,7 @@ impl UffFile {
                 self.units = Units { length, force, given: true };
                 skip(lines)
             }
+
             _ => {
                 *self.skipped.entry(line.text(0, 80)).or_default() += 1;
                 skip(lines)
@@ -285,7 +291,7 @@ fn close(lines: &mut Lines<'_>, dataset: u32) -> Result<()> {
 }
 
 /// Form of the ordinates.
-struct Form {
+struct OrdinateForm {
     is_complex: bool,
     is_double: bool,
     is_even: bool,
@@ -294,7 +300,7 @@ struct Form {
     step: f64,
 }
 
-impl Form {
+impl OrdinateForm {
     /// Numbers per point, abscissa included.
     fn per_point(&self) -> usize {
         usize::from(!self.is_even) + if self.is_complex { 2 } else { 1 }
@@ -336,7 +342,7 @@ fn function(lines: &mut Lines<'_>, binary: Option<&Line<'_>>) -> Result<Function
     }
     let points = usize::try_from(line.whole(10, 20)?)
         .map_err(|_| anyhow!("line {}: a negative number of points (dataset 58)", line.number))?;
-    let form = Form {
+    let form = OrdinateForm {
         is_complex: ordinates >= 5,
         is_double: matches!(ordinates, 4 | 6),
         is_even: line.whole(20, 30)? == 1,
@@ -344,9 +350,9 @@ fn function(lines: &mut Lines<'_>, binary: Option<&Line<'_>>) -> Result<Function
         first: line.real(30, 43)?,
         step: line.real(43, 56)?,
     };
-    let mut axis = |what: &str| -> Result<Axis> {
+    let mut axis = |what: &str| -> Result<UffAxis> {
         let line = lines.expect(what)?;
-        Ok(Axis { kind: line.whole(0, 10)?, label: line.text(26, 46), unit: line.text(47, 67) })
+        Ok(UffAxis { kind: line.whole(0, 10)?, label: line.text(26, 46), unit: line.text(47, 67) })
     };
     let abscissa = axis("the abscissa (dataset 58)")?;
     let numerator = axis("the ordinate (dataset 58)")?;
@@ -374,7 +380,7 @@ fn function(lines: &mut Lines<'_>, binary: Option<&Line<'_>>) -> Result<Function
 }
 
 /// Numbers of a text body, by columns. Single ordinates have 13 columns and double ones 20; abscissae always have 13.
-fn ascii_numbers(lines: &mut Lines<'_>, form: &Form) -> Result<Vec<f64>> {
+fn ascii_numbers(lines: &mut Lines<'_>, form: &OrdinateForm) -> Result<Vec<f64>> {
     // Widths of the fields of a line.
     let widths: &[usize] = match (form.is_even, form.is_complex, form.is_double) {
         (_, _, false) => &[13; 6],
@@ -407,7 +413,7 @@ fn ascii_numbers(lines: &mut Lines<'_>, form: &Form) -> Result<Vec<f64>> {
 }
 
 /// Numbers of a binary body.
-fn binary_numbers(lines: &mut Lines<'_>, form: &Form, head: &Line<'_>) -> Result<Vec<f64>> {
+fn binary_numbers(lines: &mut Lines<'_>, form: &OrdinateForm, head: &Line<'_>) -> Result<Vec<f64>> {
     let (order, format, texts) = (head.whole(7, 13)?, head.whole(13, 19)?, head.whole(19, 31)?);
     if !matches!(order, 1 | 2) {
         bail!("line {}: byte order {order} (dataset 58b), it must be 1 (little endian) or 2 (big endian)", head.number);
@@ -423,8 +429,8 @@ fn binary_numbers(lines: &mut Lines<'_>, form: &Form, head: &Line<'_>) -> Result
     let body = lines.take(size)?;
     lines.skip_line_end();
 
-    // Uneven abscissae of double ordinates are single numbers by the format, and double ones by some programs: the number
-    // of bytes decides.
+    // Uneven abscissae of double ordinates are single numbers by the format, and double ones by some programs: the
+    // number of bytes decides.
     let ordinates = form.per_point() - usize::from(!form.is_even);
     let wide = if form.is_double { 8 } else { 4 };
     let abscissa_sizes: &[usize] = match (form.is_even, form.is_double) {

@@ -81,7 +81,8 @@ impl NewFile<'_> {
             &mut out,
             "",
             &format!(
-                "Robot file of funicular {}, written by `new`. Its numbers are starting values: replace them by your own.",
+                "Robot file of funicular {}, written by `new`. Its numbers are starting values: replace them \
+                 by your own.",
                 env!("CARGO_PKG_VERSION")
             ),
         );
@@ -101,8 +102,8 @@ impl NewFile<'_> {
         // A point mass bears no moment, and every force at its own point.
         let unused: &[&str] =
             if self.request.motion == NewMotion::PointMass { &["moment_n_m", "point_m"] } else { &[] };
-        Section::new(&mut out, "[loads]").rest(unused);
-        Section::new(&mut out, "[wind]").rest(&[]);
+        FileSection::new(&mut out, "[loads]").rest(unused);
+        FileSection::new(&mut out, "[wind]").rest(&[]);
         self.state(&mut out, pose);
         Ok(out)
     }
@@ -113,7 +114,7 @@ impl NewFile<'_> {
             Some(csv) => format!("points from {}; other numbers are starting values", csv.name()),
             None => "starting values".to_owned(),
         };
-        let mut root = Section { out, header: top_of_file().header };
+        let mut root = FileSection { out, header: top_of_file().header };
         root.value("name", &quoted(name));
         root.value("source", &quoted(&source));
         root.rest(&["name", "source"]);
@@ -121,7 +122,7 @@ impl NewFile<'_> {
 
     fn platform(&self, out: &mut String, pose: &Pose) -> Result<()> {
         let motion = self.request.motion;
-        let mut section = Section::new(out, "[platform]");
+        let mut section = FileSection::new(out, "[platform]");
         section.value("mass_kg", &float(self.mass));
         section.value("motion", &quoted(motion.name()));
 
@@ -165,12 +166,14 @@ impl NewFile<'_> {
     }
 
     fn material(&self, out: &mut String) {
-        let mut section = Section::new(out, "[materials.NAME]");
+        let mut section = FileSection::new(out, "[materials.NAME]");
+
         match self.rope {
             Rope::Wire { construction, diameter } => {
                 section.note(&format!(
-                    "Wire rope {}, {} mm: metal area C d², mass W d² and breaking load K d² R with the factors of EN 12385 \
-                     and R = {GRADE} N/mm². The modulus on the metal area is a starting value: replace it by that of your rope.",
+                    "Wire rope {}, {} mm: metal area C d², mass W d² and breaking load K d² R with the factors of EN \
+                     12385 and R = {GRADE} N/mm². The modulus on the metal area is a starting value: replace it by \
+                     that of your rope.",
                     construction.name(),
                     short(diameter * 1e3, 4)
                 ));
@@ -179,6 +182,7 @@ impl NewFile<'_> {
                 section.value("mass_kg_per_m", &float(digits(construction.mass_per_length(diameter), 6)));
                 section.value("damping_ratio", &float(DAMPING_RATIO));
                 section.value("breaking_load_n", &float(digits(construction.breaking_load(diameter), 4)));
+
                 let given = ["youngs_modulus_pa", "area_m2", "mass_kg_per_m", "damping_ratio", "breaking_load_n"];
                 // The drag diameter alone is refused, and so is a drag coefficient without a diameter.
                 section.rest(&[&given[..], &["drag_coefficient", "drag_diameter_m"]].concat());
@@ -193,7 +197,7 @@ impl NewFile<'_> {
 
     fn all_cables(&self, out: &mut String) {
         for (i, cable) in self.cables.iter().enumerate() {
-            let mut section = Section::new(out, "[[cables]]");
+            let mut section = FileSection::new(out, "[[cables]]");
             let values = [
                 ("name", Some(quoted(&cable.name))),
                 ("material", Some(quoted(ROPE))),
@@ -213,7 +217,7 @@ impl NewFile<'_> {
     }
 
     fn state(&self, out: &mut String, pose: &Pose) {
-        let mut section = Section::new(out, "[state]");
+        let mut section = FileSection::new(out, "[state]");
         section.value("position_m", &vector(&pose.position_w.map(rounded)));
         let angles = angles(pose);
         if self.request.motion == NewMotion::PointMass {
@@ -228,12 +232,12 @@ impl NewFile<'_> {
 }
 
 /// Table of the file that is being written.
-struct Section<'o> {
+struct FileSection<'o> {
     out: &'o mut String,
     header: &'static str,
 }
 
-impl<'o> Section<'o> {
+impl<'o> FileSection<'o> {
     /// Begins a table.
     fn new(out: &'o mut String, header: &'static str) -> Self {
         add_line(out, "");

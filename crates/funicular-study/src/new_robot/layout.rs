@@ -167,6 +167,7 @@ impl Room {
     /// Cables of a platform in the plane y = 0, in pairs left and right from top to bottom.
     fn in_plane(&self, count: usize) -> Vec<(Vec3, Vec3)> {
         let [a, _, c] = self.sides;
+
         if count == 3 {
             // The lines of three mirrored cables meet in one point, about which nothing resists a rotation. So the
             // right cable is a lower one, and the third cable balances it above the left corner.
@@ -179,6 +180,7 @@ impl Room {
                 (above, corner(-1.0)),
             ];
         }
+
         let pairs = count / 2;
         let below = |pair: usize| pair as f64 / (pairs.max(2) - 1) as f64;
         let ends = |pair: usize, sign: f64| {
@@ -186,6 +188,7 @@ impl Room {
             let anchor = Vec3::new(sign * self.half, 0.0, self.height * (1.0 - PAIR_OVER_HEIGHT * below(pair)));
             (anchor, Vec3::new(sign * 0.5 * a, 0.0, c * (0.5 - below(pair))))
         };
+
         let paired = (0..pairs).flat_map(|pair| [ends(pair, -1.0), ends(pair, 1.0)]);
         paired.chain((count % 2 == 1).then(|| self.cable_from_above())).collect()
     }

@@ -73,8 +73,8 @@ pub(super) fn read(csv: &SourceFile, unit: Option<LengthUnit>, motion: NewMotion
 
     if cables.is_empty() {
         bail!(
-            "{shown} has no cables: give one line per cable, with name (optional), anchor x, y, z and attachment x, y, z, \
-             separated by commas"
+            "{shown} has no cables: give one line per cable, with name (optional), anchor x, y, z and attachment x, y, \
+             z, separated by commas"
         );
     }
     Ok(cables)

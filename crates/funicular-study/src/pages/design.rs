@@ -1,7 +1,7 @@
 //! Page about a design: poses before and after, moved points, gains of more room, course of the search.
 
 use super::Shell;
-use super::figure::{Figure, axis, colour, line, plain, points, with};
+use super::figure::{PageFigure, axis, colour, line, plain, points, with};
 use super::table::{PageTable, fixed, significant};
 use crate::analyses::design::{ChosenValue, Designed};
 use anyhow::Context as _;
@@ -17,13 +17,13 @@ struct DesignPage<'a> {
     shell: Shell,
     found: &'a Designed,
     summary: String,
-    poses_figure: Figure,
+    poses_figure: PageFigure,
     poses: PageTable,
     demands: Option<PageTable>,
-    points: Option<Figure>,
-    room: Figure,
+    points: Option<PageFigure>,
+    room: PageFigure,
     values: PageTable,
-    history: Figure,
+    history: PageFigure,
     command_line: String,
 }
 
@@ -55,7 +55,7 @@ pub fn page(found: &Designed, command_line: String) -> anyhow::Result<String> {
 }
 
 /// Figure of the goal at every pose, before and after.
-fn poses_figure(found: &Designed) -> Figure {
+fn poses_figure(found: &Designed) -> PageFigure {
     let x: Vec<f64> = (1..=found.poses.len()).map(|pose| pose as f64).collect();
     let of =
         |value: fn(&crate::analyses::design::DesignPose) -> f64| found.poses.iter().map(value).collect::<Vec<f64>>();
@@ -64,7 +64,7 @@ fn poses_figure(found: &Designed) -> Figure {
         points("after", &x, &of(|row| row.after), colour::BLUE, "circle"),
     ];
     let unit = found.unit;
-    Figure::new(
+    PageFigure::new(
         "figure-poses",
         340,
         format!(
@@ -129,7 +129,7 @@ struct MovedPoint {
 }
 
 /// Points of the cables among the values.
-fn moved(values: &[ChosenValue]) -> Vec<MovedPoint> {
+fn points_before_and_after(values: &[ChosenValue]) -> Vec<MovedPoint> {
     let mut found: Vec<MovedPoint> = Vec::new();
     for row in values {
         let Some((path, component)) = row.path.rsplit_once('.') else { continue };
@@ -145,20 +145,23 @@ fn moved(values: &[ChosenValue]) -> Vec<MovedPoint> {
 }
 
 /// Figure of the moves of points, from above and from the side; `None` if no point with x has moved.
-fn moved_points(found: &Designed) -> Option<Figure> {
-    let points_moved = moved(&found.values);
+fn moved_points(found: &Designed) -> Option<PageFigure> {
+    let points_moved = points_before_and_after(&found.values);
     let full: Vec<&MovedPoint> = points_moved.iter().filter(|point| point.start.iter().all(Option::is_some)).collect();
     if full.is_empty() {
         return None;
     }
+
     let mut data: Vec<Value> = Vec::new();
     for (k, second) in [("x", "y"), ("x2", "y2")].into_iter().zip([1, 2]) {
         let axes = json!({"xaxis": k.0, "yaxis": k.1, "showlegend": second == 1});
+
         let of = |component: usize, start: bool| -> Vec<f64> {
             full.iter()
                 .filter_map(|point| if start { point.start[component] } else { point.value[component] })
                 .collect()
         };
+
         for point in &full {
             let ends = |component: usize| -> Vec<f64> {
                 [point.start[component], point.value[component]].into_iter().flatten().collect()
@@ -166,6 +169,7 @@ fn moved_points(found: &Designed) -> Option<Figure> {
             let segment = line("", &ends(0), &ends(second), colour::GREY, "solid");
             data.push(with(with(segment, axes.clone()), json!({"showlegend": false, "hoverinfo": "skip"})));
         }
+
         let named = |values: Value, colour_of: &str| {
             let names: Vec<String> = full.iter().map(|point| plain(&point.path)).collect();
             with(with(values, axes.clone()), json!({"text": names, "marker": {"color": colour_of, "size": 7}}))
@@ -176,7 +180,8 @@ fn moved_points(found: &Designed) -> Option<Figure> {
         ));
         data.push(named(points("after", &of(0, false), &of(second, false), colour::BLUE, "circle"), colour::BLUE));
     }
-    Some(Figure::new(
+
+    Some(PageFigure::new(
         "figure-points",
         520,
         "Points of the cables before and after: from above (left) and from the side (right).".to_owned(),
@@ -191,7 +196,7 @@ fn moved_points(found: &Designed) -> Option<Figure> {
 }
 
 /// Figure of the gains of more room at the bounds.
-fn room(found: &Designed) -> Figure {
+fn room(found: &Designed) -> PageFigure {
     let mut rows: Vec<&ChosenValue> = found.values.iter().filter(|row| row.gain_per_unit > 0.0).collect();
     let gain = |row: &ChosenValue| row.gain_per_unit * 0.1 * (row.maximum - row.minimum);
     rows.sort_by(|a, b| gain(a).total_cmp(&gain(b)));
@@ -201,14 +206,17 @@ fn room(found: &Designed) -> Figure {
         "type": "bar", "orientation": "h", "x": gains, "y": names, "marker": {"color": colour::BLUE},
         "hovertemplate": "%{y}<br>%{x:.4g}<extra></extra>",
     })];
-    Figure::new(
+    PageFigure::new(
         "figure-room",
         120 + 22 * rows.len(),
-        "Gain of the goal if the bound at which a value is moves outwards by a tenth of the distance of its bounds, by the \
-         multipliers of the last linear problem."
+        "Gain of the goal if the bound at which a value is moves outwards by a tenth of the distance of its bounds, by \
+         the multipliers of the last linear problem."
             .to_owned(),
         &data,
-        json!({"margin": {"l": 210}, "xaxis": axis(&format!("gain [{}]", found.unit), json!({"exponentformat": "power"}))}),
+        json!({
+            "margin": {"l": 210},
+            "xaxis": axis(&format!("gain [{}]", found.unit), json!({"exponentformat": "power"})),
+        }),
     )
 }
 
@@ -219,27 +227,19 @@ fn values(found: &Designed) -> PageTable {
         &["<value", "<unit", "before", "after", "minimum", "maximum", "<remark", "gain per unit"],
     );
     for row in &found.values {
-        table.row(vec![
-            row.path.clone(),
-            row.unit.to_owned(),
-            significant(row.start, 6),
-            significant(row.value, 6),
-            significant(row.minimum, 6),
-            significant(row.maximum, 6),
-            row.at_bound.map_or_else(String::new, |bound| format!("at its {bound}")),
-            if row.at_bound.is_some() { significant(row.gain_per_unit, 3) } else { String::new() },
-        ]);
+        let gain = if row.at_bound.is_some() { significant(row.gain_per_unit, 3) } else { String::new() };
+        table.row(row.cells(significant).into_iter().chain([gain]).collect());
     }
     table
 }
 
 /// Figure of the goal after every iteration.
-fn history(found: &Designed) -> Figure {
+fn history(found: &Designed) -> PageFigure {
     let y: Vec<f64> = std::iter::once(found.before).chain(found.history.iter().copied()).collect();
     let x: Vec<f64> = (0..y.len()).map(|step| step as f64).collect();
     let course =
         with(line("goal", &x, &y, colour::BLUE, "solid"), json!({"mode": "lines+markers", "showlegend": false}));
-    Figure::new(
+    PageFigure::new(
         "figure-history",
         300,
         format!("Goal after every step that improved it; {} points were computed.", found.evaluations),

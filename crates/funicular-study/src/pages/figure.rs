@@ -9,35 +9,17 @@ pub(crate) mod response;
 pub(crate) mod robot;
 pub(crate) mod shapes;
 
+pub(crate) use crate::figure_style::{colour, kind_colour};
+
+use crate::figure_style::model_colour;
 use askama::Template;
 use funicular::cable::CableModel;
-use funicular::modes::Kind;
 use serde_json::{Value, json};
-
-/// Okabe and Ito's colours, which people with any colour vision can distinguish.
-pub(crate) mod colour {
-    /// Black.
-    pub(crate) const BLACK: &str = "#000000";
-    /// Orange.
-    pub(crate) const ORANGE: &str = "#e69f00";
-    /// Sky blue.
-    pub(crate) const SKY: &str = "#56b4e9";
-    /// Bluish green.
-    pub(crate) const GREEN: &str = "#009e73";
-    /// Blue.
-    pub(crate) const BLUE: &str = "#0072b2";
-    /// Vermilion.
-    pub(crate) const VERMILION: &str = "#d55e00";
-    /// Reddish purple.
-    pub(crate) const PURPLE: &str = "#cc79a7";
-    /// Grey, for marks that are not data.
-    pub(crate) const GREY: &str = "#8a8a8a";
-}
 
 /// Figure with a caption.
 #[derive(Template)]
 #[template(path = "figure.html")]
-pub(crate) struct Figure {
+pub(crate) struct PageFigure {
     id: String,
     height: usize,
     caption: String,
@@ -46,7 +28,7 @@ pub(crate) struct Figure {
     scene: bool,
 }
 
-impl Figure {
+impl PageFigure {
     /// Creates a figure from plotly's traces and layout; the common style is added to `layout`.
     pub(crate) fn new(
         id: impl Into<String>,
@@ -56,11 +38,16 @@ impl Figure {
         layout: Value,
     ) -> Self {
         let mut full = json!({
-            "font": {"family": "system-ui, -apple-system, Segoe UI, Roboto, Helvetica Neue, Arial, sans-serif", "size": 13, "color": "#1b1b1b"},
+            "font": {
+                "family": "system-ui, -apple-system, Segoe UI, Roboto, Helvetica Neue, Arial, sans-serif", "size": 13,
+                "color": "#1b1b1b",
+            },
             "paper_bgcolor": "#ffffff",
             "plot_bgcolor": "#ffffff",
             "margin": {"l": 64, "r": 16, "t": 34, "b": 52},
-            "legend": {"orientation": "h", "x": 0, "xanchor": "left", "y": 1.01, "yanchor": "bottom", "font": {"size": 12}},
+            "legend": {
+                "orientation": "h", "x": 0, "xanchor": "left", "y": 1.01, "yanchor": "bottom", "font": {"size": 12},
+            },
             "hovermode": "closest",
             "autosize": true,
         });
@@ -93,7 +80,8 @@ pub(crate) fn with(mut base: Value, over: Value) -> Value {
 /// Cartesian axis with a title.
 pub(crate) fn axis(title: &str, more: Value) -> Value {
     let base = json!({
-        "title": {"text": title, "standoff": 10, "font": {"size": 13}}, "tickfont": {"size": 12}, "showline": true, "linecolor": "#444444", "ticks": "outside", "tickcolor": "#444444",
+        "title": {"text": title, "standoff": 10, "font": {"size": 13}}, "tickfont": {"size": 12}, "showline": true,
+        "linecolor": "#444444", "ticks": "outside", "tickcolor": "#444444",
         "gridcolor": "#ebebeb", "zeroline": false, "mirror": true,
     });
     with(base, more)
@@ -127,21 +115,11 @@ pub(crate) fn plain(text: &str) -> String {
 
 /// Colour and dash of a cable model, equal in all figures.
 pub(crate) fn model_style(model: CableModel) -> (&'static str, &'static str) {
-    match model {
-        CableModel::CatenaryDynamic => (colour::BLACK, "solid"),
-        CableModel::ShallowDynamic => (colour::BLUE, "solid"),
-        CableModel::ShallowStatic => (colour::ORANGE, "dash"),
-        CableModel::Spring => (colour::GREEN, "dot"),
-        CableModel::CatenaryStatic => (colour::PURPLE, "dashdot"),
-    }
-}
-
-/// Colour of a kind of mode.
-pub(crate) fn kind_colour(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Platform => colour::VERMILION,
-        Kind::Mixed => colour::PURPLE,
-        Kind::Cable => colour::SKY,
-        Kind::Drive => colour::ORANGE,
-    }
+    let dash = match model {
+        CableModel::CatenaryDynamic | CableModel::ShallowDynamic => "solid",
+        CableModel::ShallowStatic => "dash",
+        CableModel::Spring => "dot",
+        CableModel::CatenaryStatic => "dashdot",
+    };
+    (model_colour(model), dash)
 }

@@ -1,7 +1,7 @@
 //! Page about a fit: values with deviations, measured and fitted curves, natural frequencies, correlations.
 
 use super::Shell;
-use super::figure::{Figure, axis, colour, line, plain, points, with};
+use super::figure::{PageFigure, axis, colour, line, plain, points, with};
 use super::table::{PageTable, fixed, significant};
 use crate::analyses::identify::{FittedResponse, Identified, ValueRow};
 use crate::identification::LIMIT;
@@ -20,11 +20,11 @@ struct IdentifyPage<'a> {
     found: &'a Identified,
     values: PageTable,
     chi2: String,
-    responses: Vec<Figure>,
-    frequencies: Option<(Figure, PageTable)>,
+    responses: Vec<PageFigure>,
+    frequencies: Option<(PageFigure, PageTable)>,
     statics: Option<PageTable>,
-    profiles: Vec<Figure>,
-    correlations: Figure,
+    profiles: Vec<PageFigure>,
+    correlations: PageFigure,
     command_line: String,
 }
 
@@ -59,6 +59,7 @@ fn values(found: &Identified) -> PageTable {
         "Identified values with standard deviations and the intervals that hold them with 95 %.",
         &["<value", "<unit", "start", "identified", "deviation", "95 % from", "to", "<prior", "<remark"],
     );
+
     for row in &found.values {
         let number =
             |value: Option<f64>, digits| value.map_or_else(|| text::NONE.to_owned(), |v| significant(v, digits));
@@ -67,6 +68,7 @@ fn values(found: &Identified) -> PageTable {
             (None, None) => "not determined".to_owned(),
             (None, Some(_)) => String::new(),
         };
+
         table.row(vec![
             row.path.clone(),
             row.unit.to_owned(),
@@ -81,23 +83,27 @@ fn values(found: &Identified) -> PageTable {
             remark,
         ]);
     }
+
     table
 }
 
 /// Figure of a measured response, the response before the fit and the fitted one: magnitude, and phase below.
-fn curves(number: usize, response: &FittedResponse) -> Figure {
+fn curves(number: usize, response: &FittedResponse) -> PageFigure {
     let polar = |real: &[f64], imag: &[f64]| {
         let magnitude: Vec<f64> = real.iter().zip(imag).map(|(re, im)| re.hypot(*im)).collect();
         let phase: Vec<f64> = real.iter().zip(imag).map(|(re, im)| im.atan2(*re).to_degrees()).collect();
         (magnitude, phase)
     };
+
     let x = &response.frequency_hz;
     let mut data: Vec<Value> = Vec::new();
+
     let (magnitude, phase) = polar(&response.measured_real, &response.measured_imag);
     let small = json!({"marker": {"size": 4}, "legendgroup": "measured"});
     data.push(with(points("measured", x, &magnitude, colour::GREY, "circle"), small.clone()));
     let below = json!({"yaxis": "y2", "showlegend": false});
     data.push(with(with(points("measured", x, &phase, colour::GREY, "circle"), small), below.clone()));
+
     for (name, real, imag, colour, dash) in [
         ("before the fit", &response.before_real, &response.before_imag, colour::ORANGE, "dot"),
         ("fitted", &response.fitted_real, &response.fitted_imag, colour::BLUE, "solid"),
@@ -106,12 +112,14 @@ fn curves(number: usize, response: &FittedResponse) -> Figure {
         data.push(with(line(name, x, &magnitude, colour, dash), json!({"legendgroup": name})));
         data.push(with(with(line(name, x, &phase, colour, dash), json!({"legendgroup": name})), below.clone()));
     }
+
     let name = if response.name.is_empty() {
         format!("{}/{}", response.output, response.input)
     } else {
         response.name.clone()
     };
-    Figure::new(
+
+    PageFigure::new(
         format!("figure-response-{}", number + 1),
         560,
         format!(
@@ -126,29 +134,34 @@ fn curves(number: usize, response: &FittedResponse) -> Figure {
             "yaxis": axis(&format!("magnitude [{}]", response.unit), json!({
                 "type": "log", "domain": [0.36, 1.0], "exponentformat": "power", "dtick": 1,
             })),
-            "yaxis2": axis("phase [°]", json!({"domain": [0.0, 0.3], "range": [-190, 190], "tickvals": [-180, -90, 0, 90, 180]})),
+            "yaxis2": axis("phase [°]", json!({
+                "domain": [0.0, 0.3], "range": [-190, 190], "tickvals": [-180, -90, 0, 90, 180],
+            })),
             "margin": {"l": 78},
         }),
     )
 }
 
 /// Figure of the differences of all natural frequencies before and after the fit.
-fn differences(found: &Identified) -> Figure {
+fn differences(found: &Identified) -> PageFigure {
     let x: Vec<f64> = found.frequencies.iter().map(|row| row.measured_hz).collect();
     let relative = |hz: fn(&crate::analyses::identify::FrequencyRow) -> f64| -> Vec<f64> {
         found.frequencies.iter().map(|row| 100.0 * (hz(row) / row.measured_hz - 1.0)).collect()
     };
+
     let data = [
         points("before the fit", &x, &relative(|row| row.before_hz), colour::ORANGE, "circle-open"),
         points("fitted", &x, &relative(|row| row.fitted_hz), colour::BLUE, "circle"),
     ];
+
     let rms = |value: Option<f64>| value.map_or_else(|| text::NONE.to_owned(), |value| significant(100.0 * value, 3));
-    Figure::new(
+
+    PageFigure::new(
         "figure-differences",
         340,
         format!(
-            "Differences of the computed natural frequencies from the measured ones: root mean square {} %, before the fit \
-             {} %.",
+            "Differences of the computed natural frequencies from the measured ones: root mean square {} %, before the \
+             fit {} %.",
             rms(found.frequency_rms),
             rms(found.frequency_rms_before)
         ),
@@ -175,8 +188,10 @@ fn frequencies(found: &Identified) -> PageTable {
             "damping fitted",
         ],
     );
+
     for row in &found.frequencies {
         let damping = |value: Option<f64>| value.map_or_else(|| text::NONE.to_owned(), |value| significant(value, 3));
+
         table.row(vec![
             row.experiment.clone(),
             row.number.to_string(),
@@ -210,13 +225,15 @@ fn statics(found: &Identified) -> PageTable {
 }
 
 /// Figure of the rise of χ² on both sides of a value, if its profile was computed.
-fn profile(number: usize, row: &ValueRow) -> Option<Figure> {
+fn profile(number: usize, row: &ValueRow) -> Option<PageFigure> {
     let profile = row.profile.as_ref()?;
     let x: Vec<f64> = profile.points.iter().map(|point| point.value - row.value).collect();
     let y: Vec<f64> = profile.points.iter().map(|point| point.chi2_rise).collect();
     let curve = line("others fitted again", &x, &y, colour::BLUE, "solid");
+
     let mut data =
         vec![with(curve, json!({"mode": "lines+markers", "line": {"shape": "spline"}, "marker": {"size": 5}}))];
+
     let limit = LIMIT * LIMIT;
     if let (Some([low, high]), Some(from), Some(to)) = (row.interval_95, x.first(), x.last()) {
         // The deviation's interval as the parabola of χ², whose coordinate may be a logarithm.
@@ -228,14 +245,17 @@ fn profile(number: usize, row: &ValueRow) -> Option<Figure> {
         let rises: Vec<f64> = parabola.iter().map(|x| at(*x)).collect();
         data.push(line("by the deviation", &parabola, &rises, colour::GREY, "dash"));
     }
+
     if let (Some(from), Some(to)) = (x.first(), x.last()) {
         data.push(line("limit for 95 %", &[*from, *to], &[limit, limit], colour::VERMILION, "dot"));
     }
+
     let name = plain(&row.path);
     let end = |end: Option<f64>| {
         end.map_or_else(|| "no lower or upper end".to_owned(), |end| format!("{} {}", significant(end, 6), row.unit))
     };
-    Some(Figure::new(
+
+    Some(PageFigure::new(
         format!("figure-profile-{}", number + 1),
         320,
         format!("Profile of {name}: χ² reaches its limit for 95 % at {} and {}.", end(profile.from), end(profile.to)),
@@ -248,13 +268,13 @@ fn profile(number: usize, row: &ValueRow) -> Option<Figure> {
 }
 
 /// Figure of all correlations.
-fn correlations(found: &Identified) -> Figure {
+fn correlations(found: &Identified) -> PageFigure {
     let names: Vec<String> = found.values.iter().map(|row| plain(&row.path)).collect();
     let data = [json!({
         "type": "heatmap", "x": names, "y": names, "z": found.correlations, "zmin": -1, "zmax": 1, "colorscale": "RdBu",
         "hovertemplate": "%{x}<br>%{y}<br>%{z:.3f}<extra></extra>",
     })];
-    Figure::new(
+    PageFigure::new(
         "figure-correlations",
         // The margins with the names, and a row per value; below that the numbers of the scale touch.
         260 + 34 * found.values.len(),

@@ -1,7 +1,7 @@
 //! `live`: the page on which one can drag the platform, with a robot in it.
 //!
-//! The page is built by `scripts/web`. It is part of this crate if the variable `FUNICULAR_PAGE` names its file when the
-//! crate is built, as `scripts/release` does.
+//! The page is built by `scripts/web`. It is part of this crate if the variable `FUNICULAR_PAGE` names its file when
+//! the crate is built, as `scripts/release` does.
 
 use crate::names::TensionRuleName;
 use crate::request::{LiveRequest, Pose, RobotText};
@@ -102,7 +102,8 @@ mod tests {
         let set = json!([{ "path": "name", "value": "</script><b>" }]);
         let text = funicular_robots::COGIRO;
         let of = request(&json!({
-            "robot": { "name": "a.toml", "text": text, "set": set }, "pose": [1.0, 2.0, 1.5], "wind_m_s": [5.0, 0.0, 0.0],
+            "robot": { "name": "a.toml", "text": text, "set": set }, "pose": [1.0, 2.0, 1.5],
+            "wind_m_s": [5.0, 0.0, 0.0],
             "tension_rule": "middle", "cable_model": "spring",
         }));
         let made = page_with(&page, &of).unwrap();

@@ -9,7 +9,7 @@ mod published;
 mod single_cable;
 
 use super::Shell;
-use super::figure::Figure;
+use super::figure::PageFigure;
 use super::table::PageTable;
 use anyhow::Context as _;
 use askama::Template;
@@ -34,19 +34,19 @@ pub(crate) const CONTENTS: &[(&str, &str)] = &[
 #[template(path = "paper.html")]
 struct PaperPage {
     shell: Shell,
-    cable_figure: Figure,
+    cable_figure: PageFigure,
     cable_numbers: PageTable,
     cable_elements: PageTable,
     geometry: PageTable,
     ideal_poses: PageTable,
-    distances: [Figure; 2],
-    by_axis: [Figure; 2],
+    distances: [PageFigure; 2],
+    by_axis: [PageFigure; 2],
     thresholds: PageTable,
     moorpy: PageTable,
     parameters: PageTable,
     fits: PageTable,
     fit_sentences: [String; 2],
-    test_figures: Vec<Figure>,
+    test_figures: Vec<PageFigure>,
     lists: Vec<PageTable>,
     counts: PageTable,
     sag_text: String,
@@ -62,6 +62,7 @@ pub fn paper(command_line: String) -> anyhow::Result<String> {
     let sweeps = [pose::Sweep::of(&small), pose::Sweep::of(&large)];
     let outcomes = dynamic_test::outcomes([&small, &large])?;
     let fits = dynamic_test::Fits::of([&small, &large])?;
+
     let page = PaperPage {
         shell: Shell::new("Yuan, Courteille and Deblaise 2014: published and computed".to_owned(), CONTENTS),
         cable_figure: single_cable::figure(),
@@ -82,6 +83,7 @@ pub fn paper(command_line: String) -> anyhow::Result<String> {
         sag_text: dynamic_test::sag_text(&outcomes),
         command_line,
     };
+
     page.render().context("the page could not be written as HTML")
 }
 

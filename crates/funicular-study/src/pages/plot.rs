@@ -6,10 +6,10 @@ mod rows;
 mod slices;
 mod tracking;
 
-pub use figure::{Choice, Made, figure};
+pub use figure::{SweepFigure, SweepFigureChoice, figure};
 
 use super::Shell;
-use super::figure::Figure;
+use super::figure::PageFigure;
 use super::table::{PageTable, significant};
 use crate::Watch;
 use crate::error::Cancelled;
@@ -61,7 +61,7 @@ struct PlotPage<'a> {
     numbers: PageTable,
     statuses: PageTable,
     slices: Option<Slices>,
-    curves: Vec<Figure>,
+    curves: Vec<PageFigure>,
     robot_text: &'a str,
     /// Plan of the rows as in the file.
     plan: String,
@@ -103,6 +103,7 @@ fn page(input: &PlotInput) -> anyhow::Result<Page> {
     let rows = Rows::read(input.file)?;
     let mut notes = notes(input, &rows);
     let robot = robot_name(&record.plan);
+
     let is_sweep = record.plan.get("command").is_some_and(|command| command == "sweep");
     let (slices, curves) = if rows.axes.len() >= 2 {
         (Some(Slices::new(&rows, is_sweep)), Vec::new())
@@ -117,6 +118,7 @@ fn page(input: &PlotInput) -> anyhow::Result<Page> {
         }
         (None, curves::figures(&rows, tracking.ok().flatten()))
     };
+
     let what = if is_sweep { "sweep" } else { "map" };
     let page = PlotPage {
         shell: Shell::new(format!("{robot}: {what}"), CONTENTS),
@@ -131,6 +133,7 @@ fn page(input: &PlotInput) -> anyhow::Result<Page> {
         label: &input.label,
         command_line: &input.command_line,
     };
+
     let html = page.render().context("the page could not be written as HTML")?;
     Ok(Page { html, notes })
 }
@@ -149,6 +152,7 @@ fn notes(input: &PlotInput, rows: &Rows) -> Vec<String> {
             rows.rows, rows.planned
         ));
     }
+
     let thinned: Vec<String> = rows
         .axes
         .iter()
@@ -171,6 +175,7 @@ fn notes(input: &PlotInput, rows: &Rows) -> Vec<String> {
             rows.rows
         ));
     }
+
     if !rows.requested_words.is_empty() {
         notes.push(format!("no figure for {}: the values are words, not numbers", rows.requested_words.join(", ")));
     }
@@ -181,6 +186,7 @@ fn key(rows: &Rows) -> Vec<(&'static str, String)> {
     let share = 100.0 * rows.feasible as f64 / rows.rows.max(1) as f64;
     let mut key =
         vec![("rows", rows.rows.to_string()), ("feasible", format!("{} ({} %)", rows.feasible, significant(share, 3)))];
+
     let range = |axis: &rows::PlotAxis| {
         let ends = [axis.steps.at(0), axis.steps.at(axis.steps.count() - 1)].map(brief);
         format!(
@@ -191,11 +197,13 @@ fn key(rows: &Rows) -> Vec<(&'static str, String)> {
             counted(axis.steps.count(), "value")
         )
     };
+
     if rows.is_list {
         key.push(("points", "a list of poses".to_owned()));
     } else if !rows.axes.is_empty() {
         key.push(("varies", rows.axes.iter().map(range).collect::<Vec<_>>().join("; ")));
     }
+
     let fixed = rows.fixed.iter().map(|(name, unit, value)| match unit.as_str() {
         "deg" => format!("{name} = {}°", brief(*value)),
         unit => format!("{name} = {} {unit}", brief(*value)),
@@ -236,11 +244,13 @@ fn numbers(rows: &Rows) -> PageTable {
             parts.map(|(axis, value)| format!("{}\u{a0}=\u{a0}{}", axis.name, brief(value))).collect();
         parts.join(", ")
     };
+
     let mut table = PageTable::new(
         "table-numbers",
         "All quantities: number of rows with a value, minimum and maximum, and the first row with each of them.",
         &["<quantity", "<unit", "rows", "min", "<<at", "max", "<<at", "<<meaning"],
     );
+
     for series in &rows.series {
         let unit = if series.unit == "1" { "–" } else { &series.unit };
         let mut cells = vec![label(&series.name), unit.to_owned(), series.count.to_string()];
@@ -251,6 +261,7 @@ fn numbers(rows: &Rows) -> PageTable {
             cells.extend([significant(series.max.0, 5), place(series.max.1)]);
         }
         cells.push(series.about.clone());
+
         table.row(cells);
     }
     table

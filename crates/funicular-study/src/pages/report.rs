@@ -9,11 +9,11 @@ pub use of_request::{about, of_request};
 use super::Shell;
 use super::figure::response::{Marks, ResponseCurve};
 use super::figure::shapes::{self, Shapes};
-use super::figure::{Figure, model_style, response, robot as drawing};
+use super::figure::{PageFigure, model_style, response, robot as drawing};
 use super::table::{PageTable, fixed, significant};
-use crate::analyses::check::{LoadRow, WindRow};
 use crate::analyses::modes::FirstPlatformMode;
-use crate::at_rest::AtRest;
+use crate::analyses::shared::{LoadRow, WindRow};
+use crate::at_rest::{AtRest, ModesBelow};
 use crate::text::{counted, short};
 use anyhow::Context as _;
 use askama::Template;
@@ -64,22 +64,22 @@ struct ReportPage<'a> {
     source: &'a str,
     key: Vec<(&'static str, String)>,
     state: String,
-    robot_figure: Figure,
-    platform_figure: Figure,
+    robot_figure: PageFigure,
+    platform_figure: PageFigure,
     tension_table: PageTable,
     drive_table: Option<PageTable>,
     support_table: Option<PageTable>,
     friction_table: Option<PageTable>,
-    tension_figure: Figure,
-    sag_figure: Figure,
+    tension_figure: PageFigure,
+    sag_figure: PageFigure,
     stiffness_table: Option<PageTable>,
     modes_text: String,
-    modes_figure: Figure,
+    modes_figure: PageFigure,
     shapes: Result<Shapes, String>,
     modes_table: PageTable,
     held_table: Option<PageTable>,
-    gradients: Result<Figure, String>,
-    response_figure: Figure,
+    gradients: Result<PageFigure, String>,
+    response_figure: PageFigure,
     peaks_table: PageTable,
     response_notes: Vec<String>,
     comparison: Result<parts::ComparisonPart, String>,
@@ -116,11 +116,9 @@ pub struct Report {
 pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     let ReportInput { at_rest, linearisation, below_hz, .. } = *input;
     let AtRest { robot, equilibrium, .. } = at_rest;
-    let (dynamics, mut warnings) = at_rest.dynamics(linearisation, below_hz)?;
-    modes::check_count(&dynamics, below_hz, MAX_MODES)?;
-    let found = modes::below(&dynamics, below_hz);
-    warnings.extend(found.caveat());
-    let (response_figure, peaks_table, response_notes) = respond(input, &dynamics, &found)?;
+    let ModesBelow { dynamics, modes: found, warnings } = at_rest.modes_below(linearisation, below_hz, MAX_MODES)?;
+    let (response_figure, peaks_table, response_notes) = response_part(input, &dynamics, &found)?;
+
     let page = ReportPage {
         shell: Shell::new(robot.name.clone(), CONTENTS),
         source: robot.source.trim_end_matches('.'),
@@ -151,6 +149,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
         file_label: input.file_label,
         robot_text: input.robot_text,
     };
+
     let html = page.render().context("the report could not be written as HTML")?;
     Ok(Report { html, warnings })
 }
@@ -182,6 +181,7 @@ fn key_numbers(at_rest: &AtRest, found: &Modes, platform_share: f64) -> Vec<(&'s
     let p = equilibrium.pose.position_w;
     let tensions = || equilibrium.cables.iter().map(|c| c.tension_platform);
     let (minimum, maximum) = (tensions().fold(f64::INFINITY, f64::min), tensions().fold(f64::NEG_INFINITY, f64::max));
+
     let mut key = vec![
         ("platform mass", format!("{} kg", significant(robot.platform.mass, 4))),
         ("position x, y, z", format!("{}, {}, {} m", fixed(p.x, 4), fixed(p.y, 4), fixed(p.z, 4))),
@@ -190,12 +190,14 @@ fn key_numbers(at_rest: &AtRest, found: &Modes, platform_share: f64) -> Vec<(&'s
         let [roll, pitch, yaw] = rotation::to_roll_pitch_yaw_deg(&equilibrium.pose.rot_wp);
         key.push(("roll, pitch, yaw", format!("{}, {}, {} °", fixed(roll, 2), fixed(pitch, 2), fixed(yaw, 2))));
     }
+
     if let Some(load) = LoadRow::of(&robot.load) {
         key.push(("load", load.text()));
     }
     if let Some(wind) = WindRow::of(&robot.wind) {
         key.push(("wind", wind.text()));
     }
+
     if let Some(held) = &at_rest.held_pose {
         let [x, y, z] = PoseDifference::between(held, &equilibrium.pose).translation.map(|part| fixed(1e3 * part, 2));
         key.push(("displacement at held lengths", format!("{x}, {y}, {z} mm")));
@@ -203,10 +205,12 @@ fn key_numbers(at_rest: &AtRest, found: &Modes, platform_share: f64) -> Vec<(&'s
     if let Some(rule) = &at_rest.rule {
         key.push(("tension rule", rule.name().to_owned()));
     }
+
     key.push(("tensions at the platform", format!("{} to {} N", significant(minimum, 4), significant(maximum, 4))));
     if let Some(first) = found.modes.first() {
         key.push(("first natural frequency", format!("{} Hz", significant(first.frequency_hz, 4))));
     }
+
     let of_platform = match FirstPlatformMode::of(found, platform_share) {
         Some(first) => format!(
             "{} Hz (no. {}, {} % of its energy in the platform)",
@@ -221,6 +225,7 @@ fn key_numbers(at_rest: &AtRest, found: &Modes, platform_share: f64) -> Vec<(&'s
         ),
     };
     key.push(("first platform mode", of_platform));
+
     let count = found.modes.len();
     let certified = if found.certified { "certified complete" } else { "not certified" };
     key.push(("natural frequencies", format!("{count} below {} Hz, {certified}", found.below_hz)));
@@ -256,6 +261,7 @@ fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
         Assembly::WithoutGeometricStiffness => "assembly without geometric stiffness, as in Yuan et al. 2014",
     };
     let plane = if linearisation.in_plane_only { ", cables with in-plane stiffness only" } else { "" };
+
     let certified = if found.certified {
         format!(
             "The Wittrick–Williams count gives {} natural frequencies below {} Hz, and all of them are listed",
@@ -270,6 +276,7 @@ fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
             found.modes.len()
         )
     };
+
     let mut kinds = vec![
         counted(of(Kind::Platform), "platform mode"),
         counted(of(Kind::Cable), "cable mode"),
@@ -277,6 +284,7 @@ fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
     ];
     // Drives without inertia have no modes of their own.
     kinds.extend((of(Kind::Drive) > 0).then(|| counted(of(Kind::Drive), "drive mode")));
+
     let model = linearisation.cable_model.name();
     format!("Cable model: {model}; {assembly}{plane}. {certified}. Kinds: {}.", kinds.join(", "))
 }
@@ -296,20 +304,22 @@ fn shapes_of(robot: &Robot, equilibrium: &Equilibrium, dynamics: &Dynamics, foun
 }
 
 /// Responses with the requested model and with all other models that work at this state.
-fn respond(
+fn response_part(
     input: &ReportInput<'_>,
     dynamics: &Dynamics,
     found: &Modes,
-) -> anyhow::Result<(Figure, PageTable, Vec<String>)> {
+) -> anyhow::Result<(PageFigure, PageTable, Vec<String>)> {
     let ReportInput { at_rest: AtRest { robot, equilibrium, .. }, linearisation, below_hz, frf_unit: unit, .. } =
         *input;
     let (force, u) = &input.frf_input;
     let (motion, v, quantity) = &input.frf_output;
+
     let draw = |dynamics: &Dynamics, found: &Modes| {
         let model = dynamics.linearisation.cable_model;
         let at = (dynamics, below_hz, &found.modes[..]);
         ResponseCurve::of(model.name(), model_style(model), at, u, &[*v], *quantity)
     };
+
     let mut curves = vec![draw(dynamics, found)?];
     let mut notes = Vec::new();
     for cable_model in
@@ -332,6 +342,7 @@ fn respond(
             }
         }
     }
+
     let tops = curves[0].peaks(PEAK_PROMINENCE_DB);
     let caption = format!(
         "Response of {motion} to {force}: magnitude and phase. Ticks: natural frequencies with the model {}; numbers: \
@@ -339,6 +350,7 @@ fn respond(
          catenary-static) have no damping; their resonances exceed the figure.",
         linearisation.cable_model.name()
     );
+
     let marks = Marks { modes: &found.modes, peaks: &tops, published: None, phase: true };
     let figure = response::figure("figure-response", caption, unit, below_hz, &curves, &marks);
     Ok((figure, peaks_table(&tops, found, unit), notes))
@@ -360,9 +372,11 @@ fn peaks_table(tops: &[Peak], found: &Modes, unit: &str) -> PageTable {
             "<kind of that mode",
         ],
     );
+
     for peak in tops {
         let distance = |f: f64| (f - peak.frequency_hz).abs();
         let nearest = found.modes.iter().min_by(|a, b| distance(a.frequency_hz).total_cmp(&distance(b.frequency_hz)));
+
         table.row(vec![
             fixed(peak.frequency_hz, 3),
             fixed(peak.prominence_db, 1),
@@ -371,5 +385,6 @@ fn peaks_table(tops: &[Peak], found: &Modes, unit: &str) -> PageTable {
             nearest.map_or("–", |m| m.kind.name()).to_owned(),
         ]);
     }
+
     table
 }

@@ -1,7 +1,7 @@
 //! Page about uncertain results: values with error bars, shares of the numbers that deviate, tables.
 
 use super::Shell;
-use super::figure::{Figure, axis, colour, plain, rounded};
+use super::figure::{PageFigure, axis, colour, plain, rounded};
 use super::table::{PageTable, significant};
 use crate::analyses::uncertainty::{PoseUncertainty, UncertainResult, Uncertainties};
 use crate::text::{self, short};
@@ -27,7 +27,7 @@ const METHODS: [(&str, &str, &str); 2] = [("linear", colour::BLUE, "circle"), ("
 struct UncertaintyPage<'a> {
     shell: Shell,
     found: &'a Uncertainties,
-    figures: Vec<Figure>,
+    figures: Vec<PageFigure>,
     results: PageTable,
     reasons: Vec<String>,
     numbers: PageTable,
@@ -72,12 +72,13 @@ fn bars(results: &[&UncertainResult]) -> Value {
     };
     json!({
         "type": "data", "symmetric": false, "thickness": 1.6, "width": 5,
-        "array": rounded(&side(|[_, to], value| to - value)), "arrayminus": rounded(&side(|[from, _], value| value - from)),
+        "array": rounded(&side(|[_, to], value| to - value)),
+        "arrayminus": rounded(&side(|[from, _], value| value - from)),
     })
 }
 
 /// Figures of one pose: the results of each unit with error bars, then the shares of the groups.
-fn of_one_pose(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> {
+fn of_one_pose(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<PageFigure> {
     // Responses at several frequencies have figures over the frequency.
     let over_frequency = over_frequency(found, pose);
     let is_beside = |result: &&UncertainResult| over_frequency.is_empty() || result.at_hz.is_none();
@@ -107,7 +108,7 @@ fn of_one_pose(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> {
             .collect();
         // The categories are in the order of the results, from above.
         let order: Vec<String> = of_unit.iter().map(|result| plain(&result.name)).collect();
-        figures.push(Figure::new(
+        figures.push(PageFigure::new(
             format!("figure-results-{}", figures.len() + 1),
             130 + 22 * of_unit.len(),
             format!("Results in {unit} with the intervals that hold 95 % of all robots."),
@@ -128,7 +129,7 @@ fn of_one_pose(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> {
 }
 
 /// Figures of a response at several frequencies: magnitude and phase with error bars. Empty for a single frequency.
-fn over_frequency(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> {
+fn over_frequency(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<PageFigure> {
     let Some(response) = &found.response else { return Vec::new() };
     let of_unit = |unit: &str| -> Vec<&UncertainResult> {
         let mut all: Vec<&UncertainResult> =
@@ -136,9 +137,11 @@ fn over_frequency(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> 
         all.sort_by(|a, b| a.at_hz.unwrap_or_default().total_cmp(&b.at_hz.unwrap_or_default()));
         all
     };
+
     if of_unit("dB").len() < 2 {
         return Vec::new();
     }
+
     let title = format!("{} / {}", plain(&response.output), plain(&response.input));
     let magnitude = format!("magnitude [dB of 1 {}]", response.unit);
     [("magnitude", "dB", magnitude), ("phase", "degrees", "phase [°]".to_owned())]
@@ -147,10 +150,12 @@ fn over_frequency(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> 
             let all = of_unit(unit);
             let line: Vec<f64> = all.iter().map(|result| result.value).collect();
             let hz = |of: &[&UncertainResult]| -> Vec<f64> { of.iter().filter_map(|result| result.at_hz).collect() };
+
             let mut traces = vec![json!({
                 "type": "scatter", "mode": "lines", "name": "undisturbed", "x": rounded(&hz(&all)), "y": rounded(&line),
                 "line": {"color": colour::GREY, "width": 1}, "hoverinfo": "skip",
             })];
+
             for (method, colour, symbol) in METHODS {
                 let own: Vec<&UncertainResult> = all.iter().copied().filter(|r| r.method == method).collect();
                 if !own.is_empty() {
@@ -162,7 +167,8 @@ fn over_frequency(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> 
                     }));
                 }
             }
-            Figure::new(
+
+            PageFigure::new(
                 format!("figure-response-{name}"),
                 340,
                 format!("Response {title}: {name} with the intervals that hold 95 % of all robots."),
@@ -174,10 +180,11 @@ fn over_frequency(found: &Uncertainties, pose: &PoseUncertainty) -> Vec<Figure> 
 }
 
 /// Stacked bars of the shares of the groups in the variance of each result.
-fn shares(found: &Uncertainties, pose: &PoseUncertainty) -> Figure {
+fn shares(found: &Uncertainties, pose: &PoseUncertainty) -> PageFigure {
     let with_shares: Vec<&UncertainResult> =
         pose.results.iter().filter(|result| result.group_shares.is_some()).collect();
     let names: Vec<String> = with_shares.iter().map(|result| plain(&result.name)).collect();
+
     let traces: Vec<Value> = (found.groups.iter().enumerate())
         .map(|(g, group)| {
             let of_group: Vec<f64> = with_shares
@@ -190,10 +197,12 @@ fn shares(found: &Uncertainties, pose: &PoseUncertainty) -> Figure {
             })
         })
         .collect();
-    Figure::new(
+
+    PageFigure::new(
         "figure-shares",
         130 + 22 * with_shares.len(),
-        "Shares of the groups in the variance of each result. Total shares of sampled results may add up to more than 100 %.",
+        "Shares of the groups in the variance of each result. Total shares of sampled results may add up to \
+         more than 100 %.",
         &traces,
         json!({
             "barmode": "stack",
@@ -204,7 +213,7 @@ fn shares(found: &Uncertainties, pose: &PoseUncertainty) -> Figure {
 }
 
 /// Figures over the poses: one per result, with error bars.
-fn over_poses(found: &Uncertainties) -> Vec<Figure> {
+fn over_poses(found: &Uncertainties) -> Vec<PageFigure> {
     let mut names: Vec<(&str, &str)> = Vec::new();
     for result in found.poses.iter().flat_map(|pose| &pose.results) {
         if !names.iter().any(|(name, _)| *name == result.name) {
@@ -233,7 +242,7 @@ fn over_poses(found: &Uncertainties) -> Vec<Figure> {
                 "error_y": bars(&own), "marker": {"color": colour, "symbol": symbol, "size": 6},
             }));
         }
-        Figure::new(
+        PageFigure::new(
             format!("figure-poses-{}", i + 1),
             300,
             format!("{}: values with the intervals that hold 95 % of all robots.", plain(name)),
@@ -283,12 +292,15 @@ fn results(found: &Uncertainties) -> PageTable {
             "<<largest shares",
         ],
     );
+
     let number = |value: Option<f64>, digits| value.map_or_else(|| text::NONE.to_owned(), |v| significant(v, digits));
+
     for (i, pose) in found.poses.iter().enumerate() {
         for result in &pose.results {
             let shares: Vec<String> = (result.largest.iter().take(3))
                 .map(|of| format!("{} {} %", of.path, text::significant(100.0 * of.share, 2)))
                 .collect();
+
             table.row(vec![
                 (i + 1).to_string(),
                 result.name.clone(),
@@ -304,6 +316,7 @@ fn results(found: &Uncertainties) -> PageTable {
             ]);
         }
     }
+
     table
 }
 

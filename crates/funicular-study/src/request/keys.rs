@@ -53,8 +53,8 @@ pub const KEYS: &[(&str, &str)] = &[
     ),
     (
         "rigid_cables",
-        "modes of a robot on straight cables without mass and rigid in length, of the motions that they leave free; with \
-         the static model `ideal` or `spring`",
+        "modes of a robot on straight cables without mass and rigid in length, of the motions that they leave free; \
+         with the static model `ideal` or `spring`",
     ),
     ("platform", "compare the modes of the platform alone"),
     ("platform_share", "minimum fraction of the kinetic energy in the platform for a mode of the platform"),
@@ -92,8 +92,8 @@ pub const KEYS: &[(&str, &str)] = &[
     ),
     (
         "change",
-        "values of the robot file that a design chooses: `path`, and `plus_minus` around the present value or `minimum` and \
-         `maximum`",
+        "values of the robot file that a design chooses: `path`, and `plus_minus` around the present value or \
+         `minimum` and `maximum`",
     ),
     ("goal", "number that a design improves: `first`, `platform`, `stiffness`, `rope-mass` or `rope-length`"),
     ("weights", "weights of the poses of a design, one per pose, for their mean instead of the worst pose"),

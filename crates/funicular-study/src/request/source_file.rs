@@ -33,6 +33,7 @@ impl SourceFile {
         if bytes.len() > MAX_BYTES {
             bail!("{path} is larger than {} MiB, the limit for the file of one robot", MAX_BYTES >> 20);
         }
+
         let declared = declared_encoding(bytes);
         let (encoding, guessed) = match Encoding::for_bom(bytes) {
             Some((encoding, _)) => (encoding, None),
@@ -46,13 +47,16 @@ impl SourceFile {
                 None => (WINDOWS_1252, Some(WINDOWS_1252.name().to_owned())),
             },
         };
+
         let (text, _, broken) = encoding.decode(bytes);
         if broken {
             bail!("{path} is no text in {}, the encoding that it declares; save it as UTF-8", encoding.name());
         }
+
         if let Some(at) = text.find('\0') {
             bail!("{path} is no text: character {} is zero", at + 1);
         }
+
         Ok(Self { path, text: text.into_owned(), guessed_encoding: guessed })
     }
 

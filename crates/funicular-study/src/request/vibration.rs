@@ -29,7 +29,7 @@ pub struct ModesRequest {
     #[serde(default = "platform_share")]
     pub platform_share: f64,
     /// Compute the damped mode of every undamped mode; otherwise damping ratios are of first order in the damping.
-    #[serde(default = "yes")]
+    #[serde(default = "enabled")]
     pub damped: bool,
     /// Cables that are rigid in length: the motions that they leave free.
     #[serde(default)]
@@ -175,7 +175,7 @@ fn one() -> f64 {
     1.0
 }
 
-fn yes() -> bool {
+fn enabled() -> bool {
     true
 }
 

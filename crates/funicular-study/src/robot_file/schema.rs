@@ -67,7 +67,9 @@ fn of_key(key: &Key) -> Value {
         }
         KeyValue::Numbers(numbers) => of_numbers(numbers),
     };
+
     schema["description"] = description(key).into();
+
     match key.absent {
         Absent::Default(numbers) if key.numeric_value().is_some_and(|numeric| numeric.shape == Shape::Number) => {
             schema["default"] = numbers[0].into();
@@ -133,6 +135,7 @@ mod tests {
     fn every_key_is_in_the_schema_with_its_meaning_and_the_required_ones_are_required() {
         let schema = schema();
         let mut keys = 0;
+
         let mut check = |table: &Table, schema: &Value| {
             assert_eq!(schema["properties"].as_object().unwrap().len(), table.keys.len());
             for key in table.keys {
@@ -143,6 +146,7 @@ mod tests {
                 keys += 1;
             }
         };
+
         for table in TABLES {
             let properties = &schema["properties"];
             let named = table.header.strip_prefix('[').and_then(|header| header.strip_suffix(".NAME]"));
@@ -152,8 +156,10 @@ mod tests {
                 header if header.starts_with('[') => &properties[header.trim_matches(['[', ']'])],
                 _ => &schema,
             };
+
             check(table, own);
         }
+
         assert!(keys > 55, "{keys}");
     }
 }

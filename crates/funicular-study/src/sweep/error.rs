@@ -76,8 +76,8 @@ pub enum SweepError {
     },
     /// Quantity that does not exist for a robot with fewer cables than degrees of freedom.
     #[error(
-        "`{quantity}` does not exist for {cables} cables with {dof} degrees of freedom, which cannot hold a given pose: \
-         leave it out"
+        "`{quantity}` does not exist for {cables} cables with {dof} degrees of freedom, which cannot hold a given \
+         pose: leave it out"
     )]
     TooFewCables {
         /// Name of the quantity.

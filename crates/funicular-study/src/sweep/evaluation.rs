@@ -113,6 +113,7 @@ impl PointEvaluation<'_> {
                 self.options.highest_hz,
             )
         });
+
         match found {
             Ok(lowest) => {
                 if !lowest.certified {

@@ -27,7 +27,7 @@ pub struct PointModes {
 pub fn lowest_modes(point: &Point, count: usize, options: &Options) -> Result<PointModes, String> {
     let (robot, state) = point.robot.as_ref().map_err(Clone::clone)?;
     let rest = point.solve(robot, state, options).map_err(|error| error.to_string())?.equilibrium;
-    if let Some(status) = Status::refusing(robot, &rest) {
+    if let Some(status) = Status::of_infeasible(robot, &rest) {
         return Err(status.reason);
     }
     let found = search(robot, &rest, options.linearisation, count, options.highest_hz);
@@ -65,8 +65,8 @@ pub(super) fn lowest(
     Ok(Lowest { modes: modes.iter().map(|mode| (mode.frequency_hz, mode.kind)).collect(), certified })
 }
 
-/// Lowest natural frequency of a mode with at least the fraction `share` of its kinetic energy in the platform, and true
-/// if the list up to it is certified.
+/// Lowest natural frequency of a mode with at least the fraction `share` of its kinetic energy in the platform, and
+/// true if the list up to it is certified.
 pub(super) fn first_platform(
     robot: &Robot,
     rest: &Equilibrium,
@@ -86,10 +86,10 @@ pub(super) fn first_platform(
 fn no_platform_mode(error: &PlatformModeError, share: f64) -> String {
     let PlatformModeError::TooMany(TooMany { count, below_hz, max }) = error else { return error.to_string() };
     format!(
-        "no mode of the platform was found: of the natural frequencies below {} Hz, none has at least {} % of its kinetic \
-         energy in the platform, and below {below_hz:.4} Hz there are {count}, more than the {max} that are computed. The \
-         cables vibrate far below the platform here, as they do with low tensions; require a smaller share, or use a cable \
-         model without vibrations of the cables, as `spring`",
+        "no mode of the platform was found: of the natural frequencies below {} Hz, none has at least {} % of its \
+         kinetic energy in the platform, and below {below_hz:.4} Hz there are {count}, more than the {max} that are \
+         computed. The cables vibrate far below the platform here, as they do with low tensions; require a smaller \
+         share, or use a cable model without vibrations of the cables, as `spring`",
         // The limit is doubled from search to search.
         format_args!("{:.4}", 0.5 * below_hz),
         100.0 * share,

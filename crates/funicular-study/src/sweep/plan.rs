@@ -168,11 +168,13 @@ fn row_columns(robot: &Robot, quantities: &[Quantity], with_distance: bool) -> V
         about: about.to_owned(),
         kind,
     };
+
     let mut columns = vec![
         own("feasible", "there is an equilibrium with tensions within the limits", ColumnKind::Flag),
         own("status", "ok, or a short code of the value that is missing and why", ColumnKind::Text),
         own("reason", "reason of the status, with numbers", ColumnKind::Text),
     ];
+
     if with_distance {
         columns.push(Column {
             name: "nearest_pose_distance_m".to_owned(),
@@ -181,6 +183,7 @@ fn row_columns(robot: &Robot, quantities: &[Quantity], with_distance: bool) -> V
             kind: ColumnKind::Real,
         });
     }
+
     columns.extend(quantities.iter().flat_map(|quantity| quantity.columns(robot)));
     columns
 }

@@ -131,13 +131,13 @@ impl Poses {
         Self { robot, holder: None, parameters: None, which: PoseSet::List(poses) }
     }
 
-    /// These poses with held lengths: those with which `holder` rests at each pose.
+    /// Map whose robot holds unstrained lengths: those with which `holder` rests at each pose.
     #[must_use]
     pub fn holding(self, holder: Option<Robot>) -> Self {
         Self { holder, ..self }
     }
 
-    /// These poses with the numbers of the robot file, for derivatives.
+    /// Map with the numbers of the robot file, for derivatives.
     #[must_use]
     pub fn with_parameters(self, parameters: Option<Parameters>) -> Self {
         Self { parameters: parameters.map(Arc::new), ..self }
@@ -213,6 +213,7 @@ impl Points for Poses {
                 let [x, y, z, roll, pitch, yaw] = poses[i];
                 (poses[i], Pose::new([x, y, z], [roll, pitch, yaw]))
             }
+
             PoseSet::Grid { axes, turns, base } => {
                 let mut at = [0.0; 6];
                 for ((value, steps), digit) in
@@ -220,6 +221,7 @@ impl Points for Poses {
                 {
                     *value = steps.at(digit);
                 }
+
                 let mut pose = Pose::new([at[0], at[1], at[2]], [at[3], at[4], at[5]]);
                 if !turns {
                     // The quaternion is used directly, without the rounding of angles.
@@ -228,9 +230,11 @@ impl Points for Poses {
                 (at, pose)
             }
         };
+
         for value in &mut at {
             *value += 0.0;
         }
+
         Point {
             coordinates: at[..self.width()].to_vec(),
             robot: Ok((Cow::Borrowed(&self.robot), Cow::Owned(State::Pose(pose)))),

@@ -133,7 +133,7 @@ impl Quantity {
     }
 
     /// Path of the number of the robot file by which it differentiates.
-    pub(crate) fn path(&self) -> Option<&set_values::Path> {
+    pub(crate) fn path(&self) -> Option<&set_values::ValuePath> {
         self.parameter.sensitivity().map(Sensitivity::path)
     }
 
@@ -255,6 +255,7 @@ impl std::str::FromStr for Quantity {
 
 fn hint(text: &str) -> String {
     let head = text.split(':').next().unwrap_or(text);
+
     match TABLE.iter().find(|definition| definition.head() == head).map(|definition| &definition.takes) {
         Some(ParameterKind::Count) => {
             return format!(": give a whole number from 1 to {MAX_FREQUENCIES} after the colon, as in {head}:3");
@@ -270,6 +271,7 @@ fn hint(text: &str) -> String {
         }
         _ => {}
     }
+
     let near = nearest(head, TABLE.iter().map(Definition::head));
     match near.and_then(|near| TABLE.iter().find(|definition| definition.head() == near)) {
         Some(definition) => format!("; did you mean `{}`?", definition.name),

@@ -1,5 +1,6 @@
 //! Description of a file of rows: robot, plan, columns. Files belong to the same sweep if their descriptions are equal.
 
+use crate::request::Axis;
 use crate::sweep::{Chunk, Column, ColumnKind, Values};
 use serde_json::{Map, Value, json};
 use std::fmt;
@@ -24,6 +25,12 @@ pub struct Record {
     pub chunk_rows: usize,
     /// Part of the sweep that the file holds; `None` for the complete sweep.
     pub part: Option<Part>,
+}
+
+/// Axes in the plan of a file: axes of a grid of poses, or values of the robot file.
+pub fn axes_of(plan: &Map<String, Value>) -> Option<Vec<Axis>> {
+    let axes = plan.get("grid").or_else(|| plan.get("vary"))?;
+    serde_json::from_value(axes.clone()).ok()
 }
 
 /// Part `k/n` of a sweep.
@@ -107,7 +114,9 @@ impl Record {
             .columns
             .iter()
             .map(|column| {
-                json!({ "name": column.name, "unit": column.unit, "about": column.about, "kind": kind_name(column.kind) })
+                json!({
+                    "name": column.name, "unit": column.unit, "about": column.about, "kind": kind_name(column.kind),
+                })
             })
             .collect();
         json!({

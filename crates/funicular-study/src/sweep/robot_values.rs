@@ -10,7 +10,7 @@ use std::borrow::Cow;
 #[derive(Debug, Clone, PartialEq)]
 pub struct ValueAxis {
     /// Path of the value in the robot file.
-    pub path: set_values::Path,
+    pub path: set_values::ValuePath,
     /// Values along the axis.
     pub steps: Steps,
 }
@@ -86,8 +86,8 @@ impl RobotValues {
         Ok(variations)
     }
 
-    /// These robots with held lengths: those with which robots of another text rest at the pose of each point. In that
-    /// text only the values of `[state]` vary, if they do.
+    /// Sweep whose robots hold unstrained lengths: those with which the robots of another text rest at the pose of each
+    /// point. In that text only the values of `[state]` vary.
     ///
     /// # Errors
     /// A message for the user: a robot that the text does not make.
@@ -204,7 +204,7 @@ impl Points for RobotValues {
 }
 
 /// Unit of a column: that of the robot file's number, in the letters of the files of rows.
-fn unit(path: &set_values::Path) -> String {
+fn unit(path: &set_values::ValuePath) -> String {
     path.unit().unwrap_or("1").replace("degrees", "deg").replace('²', "2").replace('³', "3")
 }
 
@@ -271,16 +271,19 @@ mod tests {
             let parameters = Parameters::from_toml(text).unwrap();
             let list = parameters.list();
             assert!(list.len() > 20, "{text}");
+
             let mut random = 20_140_531_u64;
             let mut next = |count: u64| {
                 random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
                 (random >> 33) % count
             };
+
             for (i, parameter) in list.iter().enumerate().filter(|(_, parameter)| parameter.given) {
                 assert_eq!(parameters.robot_with(&[(i, parameter.value)]).as_ref(), Ok(parameters.robot()));
                 let index_path = set_values::path(&by_index(&parameters, i)).unwrap();
                 assert_eq!(parameters.find(index_path.keys()), Some(i), "{}", index_path.text);
                 assert!(index_path.is_same(&set_values::path(&parameter.path()).unwrap()));
+
                 let factor = 1.0 + next(1_000_000) as f64 * 1e-6;
                 for value in [parameter.value * factor, parameter.value + 0.1, -factor, 0.0, 1e-13, 0.7, 3e12, f64::NAN]
                 {
@@ -289,13 +292,16 @@ mod tests {
                     if other != i && list[other].given {
                         changes.push((other, list[other].value * factor));
                     }
+
                     // Names and indices of components take turns.
                     let named = next(2) == 0;
                     let path_of = |at: usize| if named { list[at].path() } else { by_index(&parameters, at) };
                     let path = |at: usize| set_values::path(&path_of(at)).unwrap();
                     let assignments: Vec<_> =
                         changes.iter().map(|(at, value)| path(*at).with(OPTION, *value)).collect();
+
                     let edited = Robot::from_toml(&set_values::apply(text, &assignments).unwrap());
+
                     match (parameters.robot_with(&changes), edited) {
                         // The texts are compared too, because zeros of both signs are equal and their texts are not.
                         (Ok(one), Ok(other)) => {
@@ -314,6 +320,7 @@ mod tests {
                 }
             }
         }
+
         assert!(equal > 1000 && refused > 1000, "{equal} {refused}");
     }
 
@@ -322,7 +329,8 @@ mod tests {
     #[test]
     fn a_sweep_over_numbers_has_the_robots_of_the_edited_texts() {
         let text = funicular_robots::COGIRO;
-        // The second value, the tables of load and wind, and the limits of a cable are not in the file. The limits exclude each other in some rows.
+        // The second value, the tables of load and wind, and the limits of a cable are not in the file. The limits
+        // exclude each other in some rows.
         let axes = [
             ("cables.1.anchor_m.z", Steps::range(5.0, 6.0, 3)),
             ("platform.translational_damping_n_s_m.x", Steps::range(0.0, 0.2, 2)),
@@ -332,15 +340,18 @@ mod tests {
             ("cables.2.minimum_tension_n", Steps::range(10.0, 400.0, 3)),
             ("cables.2.maximum_tension_n", Steps::range(300.0, 1000.0, 3)),
         ];
+
         let axes = axes.map(|(path, steps)| ValueAxis::new(path, steps.unwrap()).unwrap()).to_vec();
         let sweep = RobotValues::new(text.to_owned(), axes, Box::new(Ok)).unwrap();
         assert!(sweep.numbers.is_some() && !text.contains("[loads]") && !text.contains("[wind]"));
+
         let (mut robots, mut refusals) = (0, 0);
         for i in 0..sweep.count() {
             let by_text = sweep.robot(&sweep.assignments(&sweep.values(i)));
             assert_eq!(sweep.robot_at(&sweep.values(i)), by_text);
             if by_text.is_ok() { robots += 1 } else { refusals += 1 }
         }
+
         assert!(robots > 0 && refusals > 0, "{robots} {refusals}");
     }
 

@@ -22,6 +22,7 @@ pub(super) fn cells(
     out: &mut Vec<Value>,
 ) {
     let begin = out.len();
+
     match feasible(point, options) {
         Err(status) => {
             head(false, Some(status), out);
@@ -29,8 +30,9 @@ pub(super) fn cells(
         }
         Ok((robot, Solution { equilibrium, requested_pose, .. })) => {
             // The quantities are evaluated first, because the status depends on values that are missing.
-            let hold = hold(point);
+            let hold = held_quantity(point);
             let (values, missing) = quantity_values(robot, &equilibrium, hold, read, quantities, options);
+
             head(true, missing, out);
             if with_distance {
                 out.push(Value::real(requested_pose.map(|(_, distance)| distance)));
@@ -44,14 +46,14 @@ pub(super) fn cells(
 fn feasible<'p>(point: &'p Point, options: &Options) -> Result<(&'p Robot, Solution), Status> {
     let (robot, state) = point.robot.as_ref().map_err(|reason| Status::new("invalid-robot", reason))?;
     let rest = point.solve(robot, state, options).map_err(|error| Status::of_error(&error))?;
-    match Status::refusing(robot, &rest.equilibrium) {
+    match Status::of_infeasible(robot, &rest.equilibrium) {
         Some(status) => Err(status),
         None => Ok((robot, rest)),
     }
 }
 
 /// Quantity that stays while a number of the robot changes: the lengths if they are given or held, else the pose.
-fn hold(point: &Point) -> Hold {
+fn held_quantity(point: &Point) -> Hold {
     let of_lengths = point.robot.as_ref().is_ok_and(|(_, state)| matches!(**state, State::Lengths(_)));
     if of_lengths || point.holder.is_some() { Hold::Lengths } else { Hold::Pose }
 }

@@ -3,7 +3,7 @@
 use super::columns::{Column, Value};
 use super::evaluation::PointEvaluation;
 use super::status::Status;
-use crate::set_values::{self, Path};
+use crate::set_values::{self, ValuePath};
 use funicular::gradient::Gradients;
 use funicular::modes;
 use funicular::robot::RobotChange;
@@ -31,7 +31,7 @@ const RESULTS: [(&str, Differentiated); 4] = [
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Sensitivity {
     result: (&'static str, Differentiated),
-    path: Path,
+    path: ValuePath,
 }
 
 impl Sensitivity {
@@ -53,8 +53,8 @@ impl Sensitivity {
         }
         let names: Vec<&str> = RESULTS.iter().map(|(name, _)| *name).collect();
         format!(
-            ": give a result and the path of a number after the colon, as in sensitivity:first-frequency:platform.mass_kg; \
-             results are {}",
+            ": give a result and the path of a number after the colon, as in \
+             sensitivity:first-frequency:platform.mass_kg; results are {}",
             names.join(", ")
         )
     }
@@ -65,7 +65,7 @@ impl Sensitivity {
     }
 
     /// Path of the number.
-    pub(super) fn path(&self) -> &Path {
+    pub(super) fn path(&self) -> &ValuePath {
         &self.path
     }
 
@@ -107,12 +107,15 @@ impl Sensitivity {
     fn derivatives(&self, row: &PointEvaluation<'_>) -> Result<Vec<f64>, Status> {
         let none = |reason: &dyn Display| Status::new("no-derivative", &reason.to_string());
         let change = self.change(row)?;
+
         let gradients = match row.rule() {
             Some(rule) => Gradients::by_rule(row.robot, row.rest, rule),
             None => Gradients::new(row.robot, row.rest, row.hold),
         };
         let gradients = gradients.map_err(|error| none(&error))?;
+
         let along = |all: Vec<RobotChange>| all.iter().map(|gradient| gradient.dot(&change)).collect();
+
         Ok(match self.result.1 {
             Differentiated::Tensions => along(gradients.tensions_platform()),
             Differentiated::Lengths => along(gradients.lengths()),

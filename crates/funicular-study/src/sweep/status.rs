@@ -62,7 +62,7 @@ impl Status {
     }
 
     /// Status of an infeasible equilibrium: a tension is beyond a limit of the robot.
-    pub(super) fn refusing(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
+    pub(super) fn of_infeasible(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
         warnings::of_statics(robot, equilibrium).iter().find_map(|warning| match warning {
             Warning::Breaks { .. } | Warning::BeyondLimit { .. } => Some(Self::new("tension-limits", warning)),
             _ => None,

@@ -53,12 +53,15 @@ impl Written {
                 (true, false, true) => 3,
                 (true, ..) => 4,
             };
+
             let mut count = 0;
+
             for point in self.numbers() {
                 for (i, number) in point.iter().enumerate() {
                     let text = if wide(i) { format!("{number:>20.12e}") } else { format!("{number:>13.5e}") };
                     out.extend(text.bytes());
                     count += 1;
+
                     if count % per_line == 0 {
                         out.push(b'\n');
                     }
@@ -69,6 +72,7 @@ impl Written {
             }
             return out;
         };
+
         for point in self.numbers() {
             for (i, number) in point.iter().enumerate() {
                 let is_abscissa = !self.is_even && i == 0;
@@ -99,6 +103,7 @@ impl Written {
                 0
             ),
         };
+
         let mut out = format!(
             "    -1\n   151\nsome model\nx\n    -1\n    -1\n{kind}\ntest\na\nb\nc\nd\n{:5}{:10}{:5}{:10} {:10}{:10}{:4} {:10}{:10}{:4}\n\
              {:10}{:10}{:10}{:13.5e}{:13.5e}{:13.5e}\n",
@@ -119,9 +124,11 @@ impl Written {
             0.25,
             0.0
         );
+
         for (kind, unit) in [(18, "Hz"), (12, "m/s^2"), (13, "N"), (0, "NONE")] {
             writeln!(out, "{kind:10}{:5}{:5}{:5} {:20} {unit:20}", 0, 0, 0, "label").unwrap();
         }
+
         let mut out = out.into_bytes();
         out.extend(body);
         out.extend(b"    -1\n");
@@ -182,6 +189,7 @@ fn damaged_files_are_errors_and_never_panics() {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) as usize % below
     };
+
     for form in Written::all() {
         let whole = form.file();
         for end in 0..whole.len() {
@@ -189,18 +197,21 @@ fn damaged_files_are_errors_and_never_panics() {
             // A file cut off behind the header is complete in itself, and has no function.
             assert!(cut.is_err() || cut.unwrap().functions.len() <= 1, "{end}");
         }
+
         for _ in 0..2000 {
             let mut bytes = whole.clone();
             for _ in 0..=random(4) {
                 let at = random(bytes.len());
                 bytes[at] = random(256) as u8;
             }
+
             if let Ok(file) = UffFile::read("a.uff", &bytes) {
                 let nodes = [3, 7].map(|node| NodePoint { node, point_m: [0.0; 3] });
                 let _ = responses_of_uff("a.uff", &file, &nodes);
             }
         }
     }
+
     // Counts that no memory holds.
     let form = Written { ordinates: 6, is_even: true, binary: None, wide_abscissae: false };
     let huge = String::from_utf8(form.file()).unwrap().replace("         6         5", "         6 999999999");
@@ -232,8 +243,8 @@ fn responses_have_signs_points_and_si_units() {
     let error = responses_of_uff("a.uff", &file, &[]).unwrap_err().to_string();
     assert_eq!(
         error,
-        "a.uff: the function in line 8 is at node 3, whose place on the platform is unknown: give ⟪node⟫ 3=x,y,z in the \
-         platform frame [m]"
+        "a.uff: the function in line 8 is at node 3, whose place on the platform is unknown: give ⟪node⟫ 3=x,y,z in \
+         the platform frame [m]"
     );
 
     // Node 7 in dataset 15 in millimetres, node 3 by the option; millimetres and kilonewtons.
@@ -282,13 +293,16 @@ fn written_responses_are_read_with_their_digits() {
         })) else {
             panic!("frf was requested")
         };
+
         let file = UffFile::read("a.uff", &frf_file(&found).unwrap()).unwrap();
         let (responses, _) = responses_of_uff("a.uff", &file, &[]).unwrap();
         assert_eq!(responses.len(), 6);
+
         for (read, pair) in responses.iter().zip(&found.responses) {
             assert_eq!(read.input, pair.input);
             let sign = if pair.output == "x:0,0,-1" { -1.0 } else { 1.0 };
             assert_eq!(read.output, if sign < 0.0 { "z" } else { &pair.output });
+
             for k in 0..26 {
                 let size = pair.real[k].hypot(pair.imag[k]);
                 assert!((read.real[k] * sign - pair.real[k]).abs() <= 1e-12 * size);

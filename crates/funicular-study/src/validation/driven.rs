@@ -23,9 +23,10 @@ const FREQUENCIES: f64 = 1e-9;
 /// hundred thousandth of the stiffness of the cables, whose rounding it has.
 const AT_CONSTANT_TORQUE: f64 = 1e-8;
 
-/// Relative error of the forces by a motion of an anchor whose drum stays on the ground. The formula of the reference measures
-/// the elongation of the drum side with the stretch at the exit point also at the entry point, where it differs by up to
-/// 1e-7: the reference's own second method differs from it by 5e-8 to 4e-7 there, and by 1e-10 in all else.
+/// Relative error of the forces by a motion of an anchor whose drum stays on the ground. The formula of the reference
+/// measures the elongation of the drum side with the stretch at the exit point also at the entry point, where it
+/// differs by up to 1e-7: the reference's own second method differs from it by 5e-8 to 4e-7 there, and by 1e-10 in all
+/// else.
 const AT_MOVING_ANCHOR: f64 = 1.5e-7;
 
 pub(super) fn comparisons(of: &Drives) -> Result<Vec<Comparison>> {
@@ -67,6 +68,7 @@ fn equip(robot: &mut Robot, parts: &DriveParts) {
     }
 }
 
+/// Comparisons of one robot whose drives move.
 fn driven(row: &DrivenRobot, mut robot: Robot, source: &str) -> Result<Vec<Comparison>> {
     equip(&mut robot, &row.parts);
     let State::Lengths(lengths) = &robot.state else { return Err(anyhow!("the lengths are given")) };
@@ -152,6 +154,7 @@ fn servo_damped(theirs: &ServoDamped, mut robot: Robot, rest: &Equilibrium, case
     ])
 }
 
+/// Comparisons of one cable whose drive moves.
 fn cable(row: &DrivenCable, at_rest: &CableToWinch, source: &str) -> Result<Vec<Comparison>> {
     // A point mass in equilibrium at the platform's point: its load balances the cable.
     let mut robot = drives::to_winch_robot(at_rest)?;
@@ -178,51 +181,27 @@ fn cable(row: &DrivenCable, at_rest: &CableToWinch, source: &str) -> Result<Vec<
         case.relative("clamped frequencies [Hz]", &row.clamped_frequencies_hz, &clamped, FREQUENCIES, Bound::Rounding),
     ];
 
-    // Dynamic stiffness; and the forces per commanded length, per motion of the anchor and per motion of anchor and drum on
-    // a platform that is held: those on the mass, which D moves.
+    // Dynamic stiffness, and forces by the inputs.
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), limit)?;
-    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
-    let length = Signal::Drive { cable: 0, signal: DriveSignal::Length };
-    let anchor = axes.map(|direction_w| Signal::Frame(FrameInput::Anchor { cable: 0, direction_w }));
-    let base = axes.map(|direction_w| Signal::Frame(FrameInput::BaseAlong(direction_w)));
-    let inputs: Vec<Signal> = [length].into_iter().chain(anchor).chain(base).collect();
-    let outputs = axes.map(|direction_w| Signal::Along { direction_w, point_p: Vec3::zeros() });
-    let inputs = Port::all(&robot, &rest, &dynamics, &inputs, false)?;
-    let outputs: Vec<(Port, Quantity)> = Port::all(&robot, &rest, &dynamics, &outputs, false)?
-        .into_iter()
-        .map(|port| (port, Quantity::Displacement))
-        .collect();
-
+    let by_inputs = HeldPlatform::new(&robot, &rest, &dynamics)?;
     for theirs in &row.dynamic {
-        let omega = theirs.frequency_hz * TAU;
-        let k = found.damped(omega);
-        let (re, im) = (k.map(|z| z.re).in_world(found.axes()), k.map(|z| z.im).in_world(found.axes()));
-        let flat = |re: &[f64], im: &[f64]| re.iter().chain(im).copied().collect::<Vec<f64>>();
-        let columns = |rows: &[[f64; 3]; 3]| Mat3::from_fn(|i, j| rows[i][j]);
-        let together = |re: &[[f64; 3]; 3], im: &[[f64; 3]; 3]| flat(columns(re).as_slice(), columns(im).as_slice());
         let at = format!("at {} Hz", theirs.frequency_hz);
-        let theirs_k = together(&theirs.stiffness_re, &theirs.stiffness_im);
-        let ours_k = flat(re.as_slice(), im.as_slice());
+        let k = found.damped(theirs.frequency_hz * TAU);
+        let (re, im) = (k.map(|z| z.re).in_world(found.axes()), k.map(|z| z.im).in_world(found.axes()));
+        let theirs_k = by_columns(&theirs.stiffness_re, &theirs.stiffness_im);
+        let ours_k = joined(re.as_slice(), im.as_slice());
         rows.push(case.together(&format!("stiffness {at} [N/m]"), &theirs_k, &ours_k, AT_CONSTANT_TORQUE, digits));
 
-        // f = D x for each input: one column of three components.
-        let x = response::matrix(&dynamics, &[theirs.frequency_hz], &inputs, &outputs)?;
-        let d = dynamics.stiffness(omega);
-        let force = |input: usize, i: usize| -> Complex {
-            let x = |j: usize| x[j * inputs.len() + input][0];
-            (0..3).map(|j| d[(i, j)] * x(j)).sum::<Complex>() - omega * omega * robot.platform.mass * x(i)
-        };
-        let forces = |inputs: std::ops::Range<usize>| -> Vec<f64> {
-            let all: Vec<Complex> =
-                inputs.flat_map(|input| (0..3).map(move |i| (input, i))).map(|(k, i)| force(k, i)).collect();
-            all.iter().map(|f| f.re).chain(all.iter().map(|f| f.im)).collect()
-        };
+        let forces = by_inputs.forces(theirs.frequency_hz)?;
         let by_base = theirs.base_re.as_ref().zip(theirs.base_im.as_ref());
-        let by_base = by_base.map(|(re, im)| ("motion of anchor and drum", together(re, im), forces(4..7)));
-        let by_base = by_base.map(|(what, theirs, ours)| (what, theirs, ours, AT_CONSTANT_TORQUE));
+        let by_base = by_base.map(|(re, im)| {
+            ("motion of anchor and drum", by_columns(re, im), parts(&forces[4..7]), AT_CONSTANT_TORQUE)
+        });
+        let by_length = joined(&theirs.length_re, &theirs.length_im);
+        let by_anchor = by_columns(&theirs.anchor_re, &theirs.anchor_im);
         for (what, theirs, ours, tolerance) in [
-            ("length", flat(&theirs.length_re, &theirs.length_im), forces(0..1), AT_CONSTANT_TORQUE),
-            ("motion of the anchor", together(&theirs.anchor_re, &theirs.anchor_im), forces(1..4), AT_MOVING_ANCHOR),
+            ("length", by_length, parts(&forces[0..1]), AT_CONSTANT_TORQUE),
+            ("motion of the anchor", by_anchor, parts(&forces[1..4]), AT_MOVING_ANCHOR),
         ]
         .into_iter()
         .chain(by_base)
@@ -231,4 +210,61 @@ fn cable(row: &DrivenCable, at_rest: &CableToWinch, source: &str) -> Result<Vec<
         }
     }
     Ok(rows)
+}
+
+/// Real parts, then imaginary parts.
+fn joined(re: &[f64], im: &[f64]) -> Vec<f64> {
+    re.iter().chain(im).copied().collect()
+}
+
+/// Entries of a complex matrix by columns: all real parts, then all imaginary parts.
+fn by_columns(re: &[[f64; 3]; 3], im: &[[f64; 3]; 3]) -> Vec<f64> {
+    let columns = |rows: &[[f64; 3]; 3]| Mat3::from_fn(|i, j| rows[i][j]);
+    joined(columns(re).as_slice(), columns(im).as_slice())
+}
+
+/// Components of complex forces: all real parts, then all imaginary parts.
+fn parts(forces: &[[Complex; 3]]) -> Vec<f64> {
+    let all = || forces.iter().flatten();
+    all().map(|f| f.re).chain(all().map(|f| f.im)).collect()
+}
+
+/// Point mass on one cable, which the forces by the inputs of its drive would hold in place.
+struct HeldPlatform<'a> {
+    dynamics: &'a Dynamics,
+    /// Mass of the platform [kg].
+    mass: f64,
+    /// Commanded length, motions of the anchor along x, y, z, and motions of anchor and drum along x, y, z.
+    inputs: Vec<Port>,
+    /// Displacements of the platform along x, y, z.
+    outputs: Vec<(Port, Quantity)>,
+}
+
+impl<'a> HeldPlatform<'a> {
+    fn new(robot: &Robot, rest: &Equilibrium, dynamics: &'a Dynamics) -> Result<Self> {
+        let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+        let length = Signal::Drive { cable: 0, signal: DriveSignal::Length };
+        let anchor = axes.map(|direction_w| Signal::Frame(FrameInput::Anchor { cable: 0, direction_w }));
+        let base = axes.map(|direction_w| Signal::Frame(FrameInput::BaseAlong(direction_w)));
+        let inputs: Vec<Signal> = [length].into_iter().chain(anchor).chain(base).collect();
+        let outputs = axes.map(|direction_w| Signal::Along { direction_w, point_p: Vec3::zeros() });
+
+        let inputs = Port::all(robot, rest, dynamics, &inputs, false)?;
+        let outputs = Port::all(robot, rest, dynamics, &outputs, false)?;
+        let outputs = outputs.into_iter().map(|port| (port, Quantity::Displacement)).collect();
+        Ok(Self { dynamics, mass: robot.platform.mass, inputs, outputs })
+    }
+
+    /// Force on the held platform per unit of each input at a frequency [Hz]: D x, without the part of D that moves the
+    /// mass.
+    fn forces(&self, frequency_hz: f64) -> Result<Vec<[Complex; 3]>> {
+        let omega = frequency_hz * TAU;
+        let x = response::matrix(self.dynamics, &[frequency_hz], &self.inputs, &self.outputs)?;
+        let d = self.dynamics.stiffness(omega);
+        let force = |input: usize, i: usize| -> Complex {
+            let x = |j: usize| x[j * self.inputs.len() + input][0];
+            (0..3).map(|j| d[(i, j)] * x(j)).sum::<Complex>() - omega * omega * self.mass * x(i)
+        };
+        Ok((0..self.inputs.len()).map(|input| std::array::from_fn(|i| force(input, i))).collect())
+    }
 }

@@ -17,6 +17,7 @@ pub(super) fn section(drives: &Drives, moving: Vec<Comparison>) -> Result<Sectio
     for row in &drives.straight.rows {
         rows.extend(straight(row, &drives.straight.source));
     }
+
     for row in &drives.sagging.rows {
         rows.extend(sagging(row, &drives.sagging.source)?);
     }
@@ -27,6 +28,7 @@ pub(super) fn section(drives: &Drives, moving: Vec<Comparison>) -> Result<Sectio
         rows.extend(robot(row, &drives.robots.source)?);
     }
     rows.extend(moving);
+
     for row in &drives.friction_corners.rows {
         let robot = with_friction(drives, &row.robot, row.friction_coefficient)?;
         rows.extend(friction_corner(row, &robot, &drives.friction_corners.source)?);
@@ -35,6 +37,7 @@ pub(super) fn section(drives: &Drives, moving: Vec<Comparison>) -> Result<Sectio
         let robot = with_friction(drives, &row.robot, row.friction_coefficient * SMALL_FRICTION)?;
         rows.extend(friction_half_widths(row, &robot, &drives.friction_half_widths.source)?);
     }
+
     Ok(Section {
         title: "Pulleys and winches",
         note: "Straight cables over swivelling pulleys against the closed forms of other programs; sagging elastic \
@@ -49,8 +52,8 @@ pub(super) fn section(drives: &Drives, moving: Vec<Comparison>) -> Result<Sectio
 /// Rounding of closed forms with lengths of some metres.
 const CLOSED_FORM: f64 = 2e-14;
 
-/// Rounding of the solution: the unknowns are found to 1e-13, and a taut cable turns a relative error of its length into
-/// one of its tension that is EA/T times as large.
+/// Rounding of the solution: the unknowns are found to 1e-13, and a taut cable turns a relative error of its length
+/// into one of its tension that is EA/T times as large.
 const SOLVED: f64 = 1e-10;
 
 /// Relative difference of half widths due to the strain on the wheel, which the reference leaves out in the term of the
@@ -212,8 +215,8 @@ const LAST_CHANGE: f64 = 1e-14;
 /// Maximum number of rounds. Each reduces the error by about the friction exponent.
 const MAX_ROUNDS: usize = 60;
 
-/// Equilibrium with friction: cables without friction whose lengths are shorter by the excess of friction, which follows
-/// from their tensions.
+/// Equilibrium with friction: cables without friction whose lengths are shorter by the excess of friction, which
+/// follows from their tensions.
 fn friction_corner(row: &FrictionCorner, robot: &Robot, source: &str) -> Result<Vec<Comparison>> {
     let State::Lengths(lengths) = &robot.state else { return Err(anyhow!("the lengths are given")) };
     let used: Vec<f64> = row.last_towards_platform.iter().map(|towards| if *towards { 1.0 } else { -1.0 }).collect();
@@ -319,6 +322,7 @@ pub(super) fn robot_of(row: &RobotWithWinches) -> Result<Robot> {
         row.radius_m,
         winch_text(row.drum_side_length_m, row.winch_stiffness_n_per_m)
     );
+
     let cables = row.anchors_m.iter().zip(&row.attachments_m).zip(&row.unstrained_lengths_m).enumerate();
     for (i, ((anchor, attachment), length)) in cables {
         write!(
@@ -328,5 +332,6 @@ pub(super) fn robot_of(row: &RobotWithWinches) -> Result<Robot> {
             i + 1
         )?;
     }
+
     Ok(Robot::from_toml(&text)?)
 }

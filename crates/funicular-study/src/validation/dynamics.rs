@@ -55,27 +55,34 @@ fn fig2(of: &Fig2, upper_end_moves: bool, damping: Damping) -> ShallowDynamic {
 fn roots(published: &Published) -> Vec<Comparison> {
     // λ² that stands for the inextensible cable: its roots differ from the limit by a relative 1e-15.
     const INEXTENSIBLE: f64 = 1e18;
+
     let table = &published.irvine_caughey;
     let rows = table.rows.iter().map(|row| {
         let name =
             row.lambda2.map_or_else(|| "inextensible".to_owned(), |l| format!("λ² = {}", crate::text::short(l, 8)));
+
         let mut cable = fig2(&published.fig2_cable, true, Damping::Ratio(0.0));
         cable.sag.lambda2 = row.lambda2.unwrap_or(INEXTENSIBLE);
         cable.in_plane_only = true;
+
         // Ω = 1 at this ω.
         let unit = 0.5 / cable.gamma_by_square.sqrt();
         let last = row.roots[3].max(8.0 * PI);
         let found: Vec<f64> =
             cable.clamped_frequencies_below(unit * last * (1.0 + 1e-9)).into_iter().map(|omega| omega / unit).collect();
+
         // The fifth root of the table's kind lies above 8 π, so there are eight frequencies in total.
         let mut expected: Vec<(f64, bool)> = row.roots.iter().map(|root| (*root, true)).collect();
         expected.extend((1..=4).map(|k| (f64::from(2 * k) * PI, false)));
         expected.sort_by(|a, b| a.0.total_cmp(&b.0));
+
         let none_invented = if found.len() == expected.len() { 0.0 } else { f64::NAN };
         let gaps = expected.iter().zip(&found).map(|((theirs, _), ours)| (ours / theirs - 1.0).abs());
         let difference = worst(gaps.chain([none_invented]));
+
         let shown: Vec<f64> =
             expected.iter().zip(&found).filter(|((_, shown), _)| *shown).map(|(_, ours)| *ours).collect();
+
         Case { name, source: &table.source }.row(
             "first four Ω",
             (&row.roots, &shown),
@@ -84,6 +91,7 @@ fn roots(published: &Published) -> Vec<Comparison> {
             Bound::Rounding,
         )
     });
+
     rows.collect()
 }
 

@@ -21,6 +21,7 @@ pub(super) fn section(
     robots: &IndependentReference,
 ) -> Result<Section> {
     let mut rows = Vec::new();
+
     for cable in &reference.cables {
         rows.extend(alone(&reference.about, cable)?);
     }
@@ -29,6 +30,7 @@ pub(super) fn section(
         rows.extend(in_robot(&reference.about, case, toml)?);
     }
     rows.extend(bessel(published)?);
+
     Ok(Section {
         title: "Catenary-dynamic cables, computed independently",
         note: "Vibration about the elastic catenary, of any sag, axial waves included. The other program uses finite \

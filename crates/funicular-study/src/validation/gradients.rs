@@ -14,8 +14,8 @@ use funicular::statics::{self, Equilibrium, StaticModel};
 const STATICS: f64 = 1e-9;
 const FREQUENCIES: f64 = 1e-8;
 
-/// Largest relative difference of tensions with the pose held. There the axial stiffness hardly changes them: its derivatives,
-/// 1e-9 N/N, are differences of terms a million times as large, whose rounding they have.
+/// Largest relative difference of tensions with the pose held. There the axial stiffness hardly changes them: its
+/// derivatives, 1e-9 N/N, are differences of terms a million times as large, whose rounding they have.
 const TENSIONS_AT_POSE: f64 = 6e-9;
 
 pub(super) fn section(reference: &GradientReference) -> Result<Section> {
@@ -32,10 +32,10 @@ pub(super) fn section(reference: &GradientReference) -> Result<Section> {
     }
     Ok(Section {
         title: "Gradients",
-        note: "Derivatives by numbers of the robot, all from one reverse pass per result, against a complex step of 1e-30 \
-               through a separate program in 80-bit arithmetic. Each difference is relative to the largest derivative of \
-               the same kind by the same number; the table shows the derivatives by the mass of the platform that are \
-               largest in the reference, and the largest difference over all numbers.",
+        note: "Derivatives by numbers of the robot, all from one reverse pass per result, against a complex step of \
+               1e-30 through a separate program in 80-bit arithmetic. Each difference is relative to the largest \
+               derivative of the same kind by the same number; the table shows the derivatives by the mass of the \
+               platform that are largest in the reference, and the largest difference over all numbers.",
         rows,
     })
 }

@@ -16,6 +16,7 @@ use std::f64::consts::TAU;
 
 pub(super) fn section(independent: &IndependentReference) -> Result<Section> {
     let mut rows = Vec::new();
+
     for given in &independent.cases {
         let (robot, lengths) = robot(&given.toml)?;
         let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
@@ -24,9 +25,11 @@ pub(super) fn section(independent: &IndependentReference) -> Result<Section> {
             "{}: the reference needs one row per cable",
             given.id
         );
+
         let springs = statics::forward(&robot, &lengths, StaticModel::Spring, None)?;
         let compared =
             RobotComparison { case: Case { name: given.id.clone(), source: &independent.about }, given, robot, rest };
+
         compared.equilibrium(&mut rows);
         compared.springs(&springs, &mut rows);
         compared.static_stiffness(&mut rows)?;
@@ -34,6 +37,7 @@ pub(super) fn section(independent: &IndependentReference) -> Result<Section> {
         compared.modes(&mut rows)?;
         compared.responses(&mut rows)?;
     }
+
     Ok(Section {
         title: "Fourteen robots, computed independently",
         note: "Both programs have the same models and no code in common. The equilibria are found without a given \
@@ -193,10 +197,12 @@ impl RobotComparison<'_> {
             let ModeList { below_hz, frequencies_hz, platform_at_rest } = theirs;
             let found =
                 modes::below(&self.shallow_dynamic(&self.robot, Assembly::Consistent, in_plane_only)?, *below_hz);
+
             let count = format!("modes below {below_hz} Hz{name}");
             // A list that its mode count does not certify does not pass.
             let certified = if found.certified { found.modes.len() } else { 0 };
             rows.push(self.case.count(&count, frequencies_hz.len(), certified));
+
             let resting: f64 = platform_at_rest.iter().map(|(_, several)| several).sum();
             let found_resting = found.modes.iter().filter(|mode| mode.platform_energy_fraction == 0.0).count();
             rows.push(self.case.count(
@@ -204,10 +210,12 @@ impl RobotComparison<'_> {
                 resting as usize,
                 found_resting,
             ));
+
             let pairs: Vec<[f64; 2]> =
                 frequencies_hz.iter().zip(&found.modes).map(|(a, b)| [*a, b.frequency_hz]).collect();
             rows.push(self.each(&format!("natural frequencies{name}, last [Hz]"), &pairs, 1e-10));
         }
+
         Ok(())
     }
 

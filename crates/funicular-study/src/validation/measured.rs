@@ -33,6 +33,7 @@ pub(super) fn section(table: &ReferenceTable<MeasuredPose>) -> Result<Section> {
         by_pulleys.extend(found.by_pulleys);
         rows.extend(found.rows);
     }
+
     let theirs: Vec<f64> = table.rows.iter().flat_map(|row| differences(&row.measured_hz, &row.model_hz)).collect();
     let case = Case { name: format!("all {} measured frequencies", theirs.len()), source: &table.source };
     rows.push(case.absolute(
@@ -42,6 +43,7 @@ pub(super) fn section(table: &ReferenceTable<MeasuredPose>) -> Result<Section> {
         PERCENT,
         Bound::Rounding,
     ));
+
     let pairs = table.rows.iter().flat_map(|row| row.fixed_points_hz.iter().zip(&row.model_hz));
     let theirs: Vec<f64> = pairs.map(|(fixed, model)| fixed / model - 1.0).collect();
     rows.push(case.absolute(
@@ -51,20 +53,21 @@ pub(super) fn section(table: &ReferenceTable<MeasuredPose>) -> Result<Section> {
         BALANCED,
         Bound::Model("balance at the pose"),
     ));
+
     Ok(Section {
         title: "Measured natural frequencies of a robot with few cables",
         note: "The prototype of the University of Bologna, a platform on four, three or two cables over swivelling \
                pulleys, at 69 poses. Lengths and model frequencies are the source's own model: cables without mass and \
                rigid in length. The measured frequencies are not independent of that model. The source looked for each \
-               peak within 7 % of its model's frequency, so that none can differ by more, and a wrong model would still \
-               agree to 7 %. Mean and root mean square say more: the measured frequencies are higher by 1.3 %. The \
-               oscillations were large, up to several centimetres and degrees, and the program's modes are linear.",
+               peak within 7 % of its model's frequency, so that none can differ by more, and a wrong model would \
+               still agree to 7 %. Mean and root mean square say more: the measured frequencies are higher by 1.3 %. \
+               The oscillations were large, up to several centimetres and degrees, and the program's modes are linear.",
         rows,
     })
 }
 
-/// Comparisons of a pose, the relative differences of its measured frequencies from the model's, and the relative changes
-/// of the model's frequencies by fixed points instead of pulleys.
+/// Comparisons of a pose, the relative differences of its measured frequencies from the model's, and the relative
+/// changes of the model's frequencies by fixed points instead of pulleys.
 struct AtPose {
     rows: Vec<Comparison>,
     measured: Vec<f64>,
@@ -139,11 +142,11 @@ fn robot(cables: usize) -> Result<Robot> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figures::axis::Axis;
+    use crate::figures::axis::ChartAxis;
     use crate::figures::chart::{Chart, Entry, Layer, Panel, Sample};
     use crate::figures::drawing::{BLACK, Stroke};
-    use crate::figures::style::{BLUE, GREEN, GREY, Shape, Symbol, VERMILION};
-    use crate::figures::{Figure, Kind, Size};
+    use crate::figures::style::{BLUE, GREEN, GREY, Symbol, SymbolShape, VERMILION};
+    use crate::figures::{Figure, FigureContent, Size};
     use crate::validation::reference::measured;
 
     /// Highest frequency of the figure [Hz].
@@ -159,7 +162,7 @@ mod tests {
 
         let mut legend = Vec::new();
         for (cables, shape, colour) in
-            [(2, Shape::Circle, BLUE), (3, Shape::Square, VERMILION), (4, Shape::Triangle, GREEN)]
+            [(2, SymbolShape::Circle, BLUE), (3, SymbolShape::Square, VERMILION), (4, SymbolShape::Triangle, GREEN)]
         {
             let table = measured().unwrap().grab;
             let pairs = table.rows.into_iter().filter(|row| row.cables == cables).flat_map(|row| {
@@ -173,10 +176,10 @@ mod tests {
         }
         legend.push(Entry { text: "window of the peaks".to_owned(), sample: Sample::Line(window) });
 
-        let panel = Panel::new(Axis::linear("measured − computed [%]", -8.0, 8.0), 0.5, layers);
-        Figure(Kind::Chart(Chart {
+        let panel = Panel::new(ChartAxis::linear("measured − computed [%]", -8.0, 8.0), 0.5, layers);
+        Figure(FigureContent::Chart(Chart {
             title: "Measured natural frequencies of the GRAB prototype".to_owned(),
-            x: Axis::linear("computed natural frequency [Hz]", 0.0, HIGHEST_HZ),
+            x: ChartAxis::linear("computed natural frequency [Hz]", 0.0, HIGHEST_HZ),
             panels: vec![panel],
             legend,
             colour_bar: None,

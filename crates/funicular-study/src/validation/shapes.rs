@@ -31,19 +31,14 @@ pub(super) fn of_robot(source: &str, given: &ShapesOfRobot, toml: &str) -> Resul
     let list = modes::below(&dynamics, given.below_hz).modes;
     ensure!(!given.modes.is_empty(), "{}: no modes to compare", given.robot);
 
-    // One comparison per mode.
     let compared = ShapeComparison { robot: &robot, rest: &rest, dynamics: &dynamics, fractions: &given.fractions };
-    let mut all = Vec::new();
-    let (mut at_rest, mut shown) = (0, None);
-    for theirs in &given.modes {
-        let ours = list.get(theirs.index).context("a mode that the list does not have")?;
-        all.push(compared.differences(theirs, ours)?);
-        at_rest += usize::from(ours.kind == ModeKind::Cable && ours.shape.iter().all(|x| *x == 0.0));
-        if let Some(mass) = theirs.modal_mass_kg {
-            shown = Some((theirs, ours, mass));
-        }
-    }
-    let (theirs, ours, modal_mass) = shown.context("a mode that moves the platform")?;
+    let pairs = given.modes.iter().map(|theirs| Some((theirs, list.get(theirs.index)?)));
+    let pairs: Vec<_> = pairs.collect::<Option<_>>().context("a mode that the list does not have")?;
+    let all = pairs.iter().map(|(theirs, ours)| compared.differences(theirs, ours)).collect::<Result<Vec<_>>>()?;
+    let rests = |ours: &Mode| ours.kind == ModeKind::Cable && ours.shape.iter().all(|x| *x == 0.0);
+    let at_rest = pairs.iter().filter(|(_, ours)| rests(ours)).count();
+    let last_moving = pairs.iter().rev().find_map(|(theirs, ours)| Some((*theirs, *ours, theirs.modal_mass_kg?)));
+    let (theirs, ours, modal_mass) = last_moving.context("a mode that moves the platform")?;
 
     let platform = theirs.kinetic_energy_fraction["platform"];
     let several = given.modes.len();

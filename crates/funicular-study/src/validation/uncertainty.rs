@@ -10,7 +10,8 @@ use serde_json::json;
 /// Number of sampled robots.
 const SAMPLES: usize = 2000;
 
-/// Maximum relative difference of a deviation: 2000 robots have it to 1.6 %, and the results are linear to a few per cent.
+/// Maximum relative difference of a deviation: 2000 robots have it to 1.6 %, and the results are linear to a few per
+/// cent.
 const DEVIATION: f64 = 0.06;
 
 /// Maximum difference of the share of robots in an interval: the share of 2000 robots has a deviation of 0.5 %.
@@ -34,10 +35,10 @@ pub(super) fn section() -> Result<Section> {
     }
     Ok(Section {
         title: "Uncertainty",
-        note: "Deviations of poses, tensions and minimum stiffness by the gradients, beside those of sampled robots: the mass of \
-               the platform deviates by 1 % (normal), its centre by 1 mm (normal), and anchors or lengths are anywhere within \
-               their tolerance. Of each kind the result with the largest difference is shown. The share is that of the sampled \
-               robots whose result is in the linear interval of 95 %.",
+        note: "Deviations of poses, tensions and minimum stiffness by the gradients, beside those of sampled robots: \
+               the mass of the platform deviates by 1 % (normal), its centre by 1 mm (normal), and anchors or lengths \
+               are anywhere within their tolerance. Of each kind the result with the largest difference is shown. The \
+               share is that of the sampled robots whose result is in the linear interval of 95 %.",
         rows,
     })
 }
@@ -46,7 +47,8 @@ pub(super) fn section() -> Result<Section> {
 fn compare(name: &str, text: &str, tolerance: &str, rows: &mut Vec<Comparison>) -> Result<()> {
     let request = |method: &str| {
         json!({
-            "command": "uncertainty", "robot": {"name": name, "text": text}, "of": ["pose", "tensions", "stiffness-min"],
+            "command": "uncertainty", "robot": {"name": name, "text": text},
+            "of": ["pose", "tensions", "stiffness-min"],
             "deviations": ["platform.mass_kg=1%", "platform.center_of_mass_m=0.001"], "tolerances": [tolerance],
             "method": method, "samples": SAMPLES,
         })

@@ -65,6 +65,22 @@ pub struct ChosenValue {
     pub gain_per_unit: f64,
 }
 
+impl ChosenValue {
+    /// Cells of a row in a table: path, unit, value before and after, minimum, maximum, and the bound at which it is.
+    /// `number` writes a number with a count of significant digits.
+    pub fn cells(&self, number: impl Fn(f64, usize) -> String) -> [String; 7] {
+        [
+            self.path.clone(),
+            self.unit.to_owned(),
+            number(self.start, 6),
+            number(self.value, 6),
+            number(self.minimum, 6),
+            number(self.maximum, 6),
+            self.at_bound.map_or_else(String::new, |bound| format!("at its {bound}")),
+        ]
+    }
+}
+
 /// Demand at the pose where it is met least.
 #[derive(Serialize)]
 pub struct DemandRow {

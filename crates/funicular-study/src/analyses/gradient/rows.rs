@@ -1,7 +1,6 @@
 //! Results with their derivatives, one row each.
 
 use super::{GradientResult, RefusedResult};
-use crate::analyses::frf;
 use crate::request::{self, GradientRequest};
 use anyhow::{Result, bail};
 use funicular::dynamics::Dynamics;
@@ -163,7 +162,7 @@ impl GradientRows<'_> {
         let rows = vibration.responses(&[from], &[(to, quantity)], &[at_hz], self.changes)?;
         let Some(found) = rows.first().and_then(|row| row.first()) else { bail!("the response has no value") };
 
-        let unit = frf::unit(&input, &output);
+        let unit = crate::signals::response_unit(&input, &output);
         for (part, value, derivatives) in [
             ("real part", found.value.re, found.along.iter().map(|z| z.re + 0.0).collect()),
             ("imaginary part", found.value.im, found.along.iter().map(|z| z.im + 0.0).collect()),

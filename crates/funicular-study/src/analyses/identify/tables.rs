@@ -1,6 +1,5 @@
 //! Tables of measured and fitted numbers.
 
-use crate::analyses::frf;
 use crate::identification::{IdentifiedModel, Observation, Subject};
 use crate::measurements::MeasuredResponse;
 use crate::request::{self, Experiment};
@@ -216,7 +215,7 @@ fn fitted_response<'a>(
 /// Unit of a response whose signals were checked.
 fn unit(input: &str, output: &str) -> String {
     match (request::input(input), request::output(output)) {
-        (Ok(input), Ok(output)) => frf::unit(&input, &output),
+        (Ok(input), Ok(output)) => crate::signals::response_unit(&input, &output),
         _ => String::new(),
     }
 }

@@ -5,11 +5,12 @@ use super::{
     stopped_or_error,
 };
 use crate::Watch;
+use crate::analyses::found;
 use crate::analyses::shared::Models;
-use crate::analyses::{found, frf};
 use crate::at_rest::AtRest;
 use crate::names::{ModelForm, Named};
 use crate::request;
+use crate::signals::response_unit;
 use anyhow::Result;
 use funicular::math::DMat;
 use funicular::reduced_model::{
@@ -109,7 +110,7 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest, watch: &mut dyn
     let response = |row: &ResponseOfPair| ResponseRow {
         output: outputs[row.output].name.clone(),
         input: inputs[row.input].name.clone(),
-        unit: frf::unit(&signals.0[row.input].0, &signals.1[row.output].0),
+        unit: response_unit(&signals.0[row.input].0, &signals.1[row.output].0),
         coupled: row.coupled,
         peak: row.peak,
         peak_hz: row.peak_hz,

@@ -1,10 +1,9 @@
 //! Frequency responses among the results: magnitude and phase.
 
-use crate::analyses::frf;
 use crate::analyses::result_groups::missing_option;
 use crate::at_rest::AtRest;
 use crate::request::{self, ResponsePoints, UncertaintyRequest};
-use crate::signals::{Input, Output};
+use crate::signals::{Input, Output, response_unit};
 use anyhow::{Result, anyhow, bail};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Vec3};
@@ -67,7 +66,7 @@ impl RequestedResponse {
 
     /// Names of input and output, and unit of the response.
     pub(super) fn names(&self) -> (&str, &str, String) {
-        (&self.input.name, &self.output.name, frf::unit(&self.input, &self.output))
+        (&self.input.name, &self.output.name, response_unit(&self.input, &self.output))
     }
 
     /// Quantity of the output.

@@ -79,24 +79,7 @@ fn from_quaternion(w: f64, v: &Vec3) -> Rotation {
 
 /// Reads the body of a file.
 pub(super) fn read(xml: &Xml) -> Result<CasprLink> {
-    let root = xml.root();
-    let links = if tag(root) == "links" { root } else { xml.required(root, "links")? };
-    let all: Vec<Node> = links.children().filter(Node::is_element).collect();
-    let link = match all[..] {
-        [link] => link,
-        [] => bail!(xml.error(links, "<links> has no <link_rigid>: the robot has no moving body")),
-        [_, second, ..] => bail!(xml.error(
-            second,
-            format!(
-                "the robot has {} links; only robots with one moving platform are supported, no chains of links",
-                all.len()
-            )
-        )),
-    };
-    if tag(link) != "link_rigid" {
-        bail!(xml.error(link, format!("<{}> is not known; a platform is a <link_rigid>", tag(link))));
-    }
-
+    let link = link(xml)?;
     let parent = xml.required(link, "parent")?;
     let parent_link = xml.child_number(parent, "num")?;
     if parent_link != 0.0 {
@@ -128,7 +111,7 @@ pub(super) fn read(xml: &Xml) -> Result<CasprLink> {
     if joint_node.has_attribute("q_min") || joint_node.has_attribute("q_max") {
         lost.push("the limits of the platform's motion, q_min and q_max".to_owned());
     }
-    if children(root, "operational_spaces").next().is_some() {
+    if children(xml.root(), "operational_spaces").next().is_some() {
         lost.push("<operational_spaces>".to_owned());
     }
 
@@ -145,6 +128,28 @@ pub(super) fn read(xml: &Xml) -> Result<CasprLink> {
     })
 }
 
+/// Moving body of the robot.
+fn link<'n>(xml: &'n Xml<'_>) -> Result<Node<'n, 'n>> {
+    let root = xml.root();
+    let links = if tag(root) == "links" { root } else { xml.required(root, "links")? };
+    let all: Vec<Node> = links.children().filter(Node::is_element).collect();
+    let link = match all[..] {
+        [link] => link,
+        [] => bail!(xml.error(links, "<links> has no <link_rigid>: the robot has no moving body")),
+        [_, second, ..] => bail!(xml.error(
+            second,
+            format!(
+                "the robot has {} links; only robots with one moving platform are supported, no chains of links",
+                all.len()
+            )
+        )),
+    };
+    if tag(link) != "link_rigid" {
+        bail!(xml.error(link, format!("<{}> is not known; a platform is a <link_rigid>", tag(link))));
+    }
+    Ok(link)
+}
+
 /// Motion of a joint, and its place if the file gives the joint's coordinates.
 fn joint(xml: &Xml, node: Node) -> Result<(DraftMotion, Option<(Vec3, Rotation)>)> {
     let kind = node.attribute("type").unwrap_or_default().trim();
@@ -158,12 +163,13 @@ fn joint(xml: &Xml, node: Node) -> Result<(DraftMotion, Option<(Vec3, Rotation)>
         bail!(xml.error(
             node,
             format!(
-                "joint `{}` is {which}; platforms are SPATIAL_EULER_XYZ, SPATIAL_QUATERNION, T_XYZ (point mass), PLANAR_XY, \
-                 PLANAR_XZ and PLANAR_YZ",
+                "joint `{}` is {which}; platforms are SPATIAL_EULER_XYZ, SPATIAL_QUATERNION, T_XYZ (point mass), \
+                 PLANAR_XY, PLANAR_XZ and PLANAR_YZ",
                 clean(kind)
             )
         ));
     };
+
     if node.attribute("actuated").is_some_and(|text| text.trim() == "true") {
         bail!(xml.error(
             node,
@@ -171,9 +177,11 @@ fn joint(xml: &Xml, node: Node) -> Result<(DraftMotion, Option<(Vec3, Rotation)>
              describe"
         ));
     }
+
     let text = node.attribute("q_initial").map(str::trim).filter(|text| !text.is_empty());
     // Models from before 2017 have no coordinates.
     let Some(text) = text else { return Ok((joint.motion, None)) };
+
     let q = text::numbers(text).map_err(|wrong| xml.error(node, format!("attribute `q_initial` holds {wrong}")))?;
     if q.len() != joint.count {
         let count = joint.count;
@@ -182,6 +190,7 @@ fn joint(xml: &Xml, node: Node) -> Result<(DraftMotion, Option<(Vec3, Rotation)>
     if joint.count == 7 && q[3..].iter().all(|part| *part == 0.0) {
         bail!(xml.error(node, "attribute `q_initial` holds the quaternion zero, which is no orientation"));
     }
+
     Ok((joint.motion, Some((joint.place)(&q))))
 }
 
@@ -206,10 +215,12 @@ fn inertia(
     let entry = |name| xml.number(xml.required(node, name)?);
     let [xx, yy, zz] = [entry("Ixx")?, entry("Iyy")?, entry("Izz")?];
     let [xy, xz, yz] = [entry("Ixy")?, entry("Ixz")?, entry("Iyz")?];
+
     let tensor = Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
     if tensor == Mat3::zeros() {
         return Ok(None);
     }
+
     if [xy, xz, yz].iter().any(|product| *product != 0.0) {
         assumed.push(
             "Ixy, Ixz and Iyz are entries of the tensor, as in CASPR; if they are products of inertia, the integrals \
@@ -217,6 +228,7 @@ fn inertia(
                 .to_owned(),
         );
     }
+
     // Models from before 2017 write CoM.
     match node.attribute("ref").map(|text| text.trim().to_ascii_lowercase()).as_deref() {
         Some("com") => Ok(Some(tensor)),

@@ -24,6 +24,7 @@ pub(super) fn read(xml: &Xml, requested: Option<&str>, center_of_mass_p: &Vec3) 
     let ids: Vec<String> = sets.iter().map(|set| clean(id_of(set))).collect();
     let node = chosen(xml, &sets, &ids, requested)?;
     let id = clean(id_of(&node));
+
     let mut losses = CasprLosses::default();
     let mut cables = Vec::new();
     for cable in node.children().filter(Node::is_element) {
@@ -32,6 +33,7 @@ pub(super) fn read(xml: &Xml, requested: Option<&str>, center_of_mass_p: &Vec3) 
     if cables.is_empty() {
         bail!(xml.error(node, format!("cable set \"{id}\" has no cables")));
     }
+
     let mut lost = losses.lost();
     let others: Vec<String> = sets.iter().zip(ids).filter(|(set, _)| **set != node).map(|(_, id)| id).collect();
     if !others.is_empty() {
@@ -45,7 +47,7 @@ fn id_of<'n>(set: &Node<'n, '_>) -> &'n str {
     set.attribute("id").unwrap_or_default()
 }
 
-/// Chooses the set to read.
+/// Set to read: the requested one, or else the file's default.
 fn chosen<'n, 'a>(
     xml: &Xml<'a>,
     sets: &[Node<'n, 'a>],
@@ -53,24 +55,32 @@ fn chosen<'n, 'a>(
     requested: Option<&str>,
 ) -> Result<Node<'n, 'a>> {
     let root = xml.root();
-    let (name, whose) = match (requested, root.attribute("default_cable_set").map(str::trim)) {
-        (Some(name), _) => (name, "⟪cable_set⟫"),
-        (None, Some(name)) if !name.is_empty() => (name, "default_cable_set"),
-        _ => match sets {
-            [only] => return Ok(*only),
-            [] => bail!(xml.error(root, "<cables> has no <cable_set>")),
-            _ => bail!(xml.error(
-                root,
-                format!(
-                    "the file has several sets and no default_cable_set; choose one with ⟪cable_set⟫: {}",
-                    listed(ids)
-                )
-            )),
-        },
-    };
+    let default = root.attribute("default_cable_set").map(str::trim).filter(|name| !name.is_empty());
+    match (requested, default, sets) {
+        (Some(name), ..) => of_name(xml, sets, ids, name, "⟪cable_set⟫"),
+        (None, Some(name), _) => of_name(xml, sets, ids, name, "default_cable_set"),
+        (None, None, [only]) => Ok(*only),
+        (None, None, []) => bail!(xml.error(root, "<cables> has no <cable_set>")),
+        (None, None, _) => bail!(xml.error(
+            root,
+            format!("the file has several sets and no default_cable_set; choose one with ⟪cable_set⟫: {}", listed(ids))
+        )),
+    }
+}
+
+/// Set with a name. `origin` says where the name was given.
+fn of_name<'n, 'a>(
+    xml: &Xml<'a>,
+    sets: &[Node<'n, 'a>],
+    ids: &[String],
+    name: &str,
+    origin: &str,
+) -> Result<Node<'n, 'a>> {
+    let root = xml.root();
     // Compare complete names: names in messages are cut off, and two long names may begin alike.
     let is_requested = |id: &str| id.split_whitespace().eq(name.split_whitespace());
     let mut found = sets.iter().filter(|set| is_requested(id_of(set))).copied();
+
     match (found.next(), found.next()) {
         (Some(set), None) => Ok(set),
         (Some(_), Some(second)) => bail!(xml.error(second, format!("a second set is called \"{}\"", clean(name)))),
@@ -82,7 +92,7 @@ fn chosen<'n, 'a>(
             bail!(xml.error(
                 root,
                 format!(
-                    "{whose} names the set \"{}\", which does not exist: {near}the file has {}",
+                    "{origin} names the set \"{}\", which does not exist: {near}the file has {}",
                     clean(name),
                     listed(ids)
                 )
@@ -93,47 +103,16 @@ fn chosen<'n, 'a>(
 
 fn read_cable(xml: &Xml, node: Node, center_of_mass_p: &Vec3, losses: &mut CasprLosses) -> Result<DraftCable> {
     let name = clean(node.attribute("name").unwrap_or_default());
-    let has_stiffness = match tag(node) {
-        "cable_ideal" => false,
-        "cable_linear_spring" => true,
-        other => {
-            let why = match other {
-                "cable_passive_linear_spring" => "a passive spring, which a robot file cannot hold",
-                "cable_vsd_torsion_spring" | "cable_vsd_flexure_linear" | "cable_vsd_polynomial" => {
-                    "a cable in series with a device of variable stiffness, which a robot file cannot hold"
-                }
-                "muscle_hill_type" | "pneumatic_artificial_muscle" => "a muscle, which a robot file cannot hold",
-                _ => "of an unknown kind",
-            };
-            bail!(xml.error(
-                node,
-                format!("<{other}> \"{name}\" is {why}; cables are <cable_ideal> and <cable_linear_spring>")
-            ));
-        }
-    };
-    let from_center =
-        match node.attribute("attachment_reference").map(str::trim) {
-            Some("joint") => false,
-            Some("com") => true,
-            Some(other) => bail!(xml.error(
-                node,
-                format!(
-                    "attribute `attachment_reference` of cable \"{name}\" is `{}`, it must be joint or com",
-                    clean(other)
-                )
-            )),
-            None => bail!(xml.error(
-                node,
-                format!("cable \"{name}\" has no attribute `attachment_reference`, it must be joint or com")
-            )),
-        };
-    let mut rope = DraftRope::default();
+    let is_spring = is_spring(xml, node, &name)?;
+    let from_center = is_attached_from_center(xml, node, &name)?;
+
     let mut limits = [None; 2];
     if let Some(properties) = xml.optional(node, "properties")? {
         limits = [limit(xml, properties, "force_min")?, limit(xml, properties, "force_max")?];
         losses.diameters |= xml.optional(properties, "diameter")?.is_some();
     }
-    if has_stiffness {
+    let mut rope = DraftRope::default();
+    if is_spring {
         // K is EA: CASPR divides it by the cable's length to get a stiffness in N/m.
         let stiffness = xml.required(xml.required(node, "properties")?, "K")?;
         let value = xml.number(stiffness)?;
@@ -142,9 +121,45 @@ fn read_cable(xml: &Xml, node: Node, center_of_mass_p: &Vec3, losses: &mut Caspr
         }
         rope.axial_stiffness = Some(value);
     }
+
     let Ends { anchor_w, pulley, attachment_p } = ends(xml, xml.required(node, "attachments")?, &name, losses)?;
     let attachment_p = if from_center { attachment_p + center_of_mass_p } else { attachment_p };
     Ok(DraftCable { name, anchor_w, attachment_p, rope, limits, unstrained_length: None, pulley })
+}
+
+/// True for a cable with stiffness, false for an ideal one. Other kinds are refused.
+fn is_spring(xml: &Xml, node: Node, cable: &str) -> Result<bool> {
+    let kind = tag(node);
+    let why = match kind {
+        "cable_ideal" => return Ok(false),
+        "cable_linear_spring" => return Ok(true),
+        "cable_passive_linear_spring" => "a passive spring, which a robot file cannot hold",
+        "cable_vsd_torsion_spring" | "cable_vsd_flexure_linear" | "cable_vsd_polynomial" => {
+            "a cable in series with a device of variable stiffness, which a robot file cannot hold"
+        }
+        "muscle_hill_type" | "pneumatic_artificial_muscle" => "a muscle, which a robot file cannot hold",
+        _ => "of an unknown kind",
+    };
+    bail!(xml.error(node, format!("<{kind}> \"{cable}\" is {why}; cables are <cable_ideal> and <cable_linear_spring>")))
+}
+
+/// True if the attachment is given from the centre of mass, false if it is given from the joint.
+fn is_attached_from_center(xml: &Xml, node: Node, cable: &str) -> Result<bool> {
+    match node.attribute("attachment_reference").map(str::trim) {
+        Some("joint") => Ok(false),
+        Some("com") => Ok(true),
+        Some(other) => bail!(xml.error(
+            node,
+            format!(
+                "attribute `attachment_reference` of cable \"{cable}\" is `{}`, it must be joint or com",
+                clean(other)
+            )
+        )),
+        None => bail!(xml.error(
+            node,
+            format!("cable \"{cable}\" has no attribute `attachment_reference`, it must be joint or com")
+        )),
+    }
 }
 
 /// Tension limit; an infinite one counts as none.
@@ -177,40 +192,14 @@ fn ends(xml: &Xml, attachments: Node, cable: &str, losses: &mut CasprLosses) -> 
         };
         bail!(xml.error(attachments, format!("cable \"{cable}\" has {count} attachments; {why}")));
     };
-    let mut base = None;
-    let mut platform = None;
-    let mut pulley = None;
+
+    let (mut base, mut platform, mut pulley) = (None, None, None);
     for node in [first, second] {
-        let (is_platform, point) = match tag(node) {
-            "attachment" => {
-                let link = xml.required(node, "link")?;
-                let number = link.text().unwrap_or_default().trim();
-                let Some(is_platform) = (match number {
-                    "0" => Some(false),
-                    "1" => Some(true),
-                    _ => None,
-                }) else {
-                    let shown = clean(number);
-                    let message =
-                        format!("<link> of cable \"{cable}\" is `{shown}`; 0 is the base and 1 the only link");
-                    bail!(xml.error(link, message));
-                };
-                (is_platform, xml.child_vector(node, "location")?)
-            }
-            "base_rotating_pulley" => {
-                pulley = rotating_pulley(xml, node)?;
-                let point = match pulley {
-                    Some(_) => xml.child_vector(node, "fixed_location")?,
-                    None => losses.pulley(xml, node, cable, "fixed_location")?,
-                };
-                (false, point)
-            }
-            "screw_base_rotating_pulley" => (false, losses.pulley(xml, node, cable, "constant_winch_point")?),
-            other => bail!(xml.error(node, format!("<{other}> of cable \"{cable}\" is an unknown kind of attachment"))),
-        };
-        let end = if is_platform { &mut platform } else { &mut base };
-        if end.replace(point).is_some() {
-            let both = if is_platform { "the platform" } else { "the base" };
+        let end = end(xml, node, cable, losses)?;
+        pulley = end.pulley.or(pulley);
+        let place = if end.is_platform { &mut platform } else { &mut base };
+        if place.replace(end.point).is_some() {
+            let both = if end.is_platform { "the platform" } else { "the base" };
             bail!(xml.error(
                 node,
                 format!(
@@ -219,10 +208,48 @@ fn ends(xml: &Xml, attachments: Node, cable: &str, losses: &mut CasprLosses) -> 
             ));
         }
     }
+
     let (Some(anchor_w), Some(attachment_p)) = (base, platform) else {
         bail!(xml.error(attachments, format!("cable \"{cable}\" does not run from the base to the platform")));
     };
     Ok(Ends { anchor_w, pulley, attachment_p })
+}
+
+/// End of a cable on the base, world frame, or on the platform, platform frame.
+struct CasprEnd {
+    is_platform: bool,
+    point: Vec3,
+    pulley: Option<DraftPulley>,
+}
+
+/// Reads one end of a cable.
+fn end(xml: &Xml, node: Node, cable: &str, losses: &mut CasprLosses) -> Result<CasprEnd> {
+    let on_base = |point: Vec3, pulley| CasprEnd { is_platform: false, point, pulley };
+    Ok(match tag(node) {
+        "attachment" => {
+            let is_platform = is_on_platform(xml, node, cable)?;
+            CasprEnd { is_platform, point: xml.child_vector(node, "location")?, pulley: None }
+        }
+        "base_rotating_pulley" => match rotating_pulley(xml, node)? {
+            Some(pulley) => on_base(xml.child_vector(node, "fixed_location")?, Some(pulley)),
+            None => on_base(losses.pulley(xml, node, cable, "fixed_location")?, None),
+        },
+        "screw_base_rotating_pulley" => on_base(losses.pulley(xml, node, cable, "constant_winch_point")?, None),
+        other => bail!(xml.error(node, format!("<{other}> of cable \"{cable}\" is an unknown kind of attachment"))),
+    })
+}
+
+/// True for an attachment at the only link, false for one at the base.
+fn is_on_platform(xml: &Xml, attachment: Node, cable: &str) -> Result<bool> {
+    let link = xml.required(attachment, "link")?;
+    match link.text().unwrap_or_default().trim() {
+        "0" => Ok(false),
+        "1" => Ok(true),
+        number => bail!(xml.error(
+            link,
+            format!("<link> of cable \"{cable}\" is `{}`; 0 is the base and 1 the only link", clean(number))
+        )),
+    }
 }
 
 /// Swivelling pulley at the base; `None` without a radius, or without the vector along which the cable enters.

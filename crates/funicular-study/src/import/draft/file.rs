@@ -47,48 +47,16 @@ impl Draft {
         }
     }
 
+    /// Writes the tables of the file, without the comments at its head.
     pub(super) fn tables(&self, out: &mut String) {
         let mut line = |text: String| out.push_str(&(text + "\n"));
         line(format!("\nname = {}", quoted(&self.name)));
         line(format!("source = {}", quoted(&self.source)));
         line(format!("gravity_m_s2 = {}", vector(&self.gravity_w)));
-        line("\n[platform]".to_owned());
-        line(format!("mass_kg = {}", float(self.platform.mass.unwrap_or_default())));
-        match self.platform.motion {
-            DraftMotion::PointMass => line("motion = \"point-mass\"".to_owned()),
-            of @ (DraftMotion::Rigid | DraftMotion::Planar { .. }) => {
-                if let DraftMotion::Planar { plane } = of {
-                    line(format!("motion = \"planar-{plane}\""));
-                    // The plane of a planar robot goes through its pose.
-                    if let (DraftState::Pose(pose), Some(normal)) = (&self.state, of.normal_axis()) {
-                        line(format!("plane_offset_m = {}", float(pose.position_w[normal])));
-                    }
-                }
-                let inertia = self.platform.inertia_p.unwrap_or_default();
-                // For planar robots the sources give only the moment about the normal. The other moments are zero,
-                // which no body has, so the robot file gets this one moment.
-                line(match of.normal_axis() {
-                    Some(normal) => format!("inertia_kg_m2 = {}", float(inertia[(normal, normal)])),
-                    None => format!("inertia_kg_m2 = {}", tensor(&inertia)),
-                });
-                line(format!("center_of_mass_m = {}", vector(&self.platform.center_of_mass_p.unwrap_or_default())));
-            }
-        }
-        let ropes = self.ropes();
-        for (name, rope) in &ropes {
-            line(format!("\n[materials.{}]", key(name)));
-            if let Some(stiffness) = rope.axial_stiffness {
-                line(format!("axial_stiffness_n = {}", float(stiffness)));
-            } else {
-                line(format!("youngs_modulus_pa = {}", float(rope.youngs_modulus.unwrap_or_default())));
-                line(format!("diameter_m = {}", float(rope.diameter.unwrap_or_default())));
-            }
-            line(format!("mass_kg_per_m = {}", float(rope.mass_per_length.unwrap_or_default())));
-            if let Some(load) = rope.breaking_load {
-                line(format!("breaking_load_n = {}", float(load)));
-            }
-        }
-        let pulleys = self.pulleys();
+        self.write_platform(&mut line);
+
+        let (ropes, pulleys) = (self.ropes(), self.pulleys());
+        write_ropes(&ropes, &mut line);
         for (name, pulley) in &pulleys {
             line(format!("\n[pulleys.{name}]\nradius_m = {}", float(pulley.radius)));
             line(format!("entry_direction = {}", vector(&pulley.entry_direction_w)));
@@ -98,6 +66,7 @@ impl Draft {
             let pulley = cable.pulley.and_then(|own| pulleys.iter().find(|(_, pulley)| *pulley == own));
             line(self.cable(cable, material, pulley.map(|(name, _)| name)));
         }
+
         if let DraftState::Pose(pose) = &self.state {
             line("\n[state]".to_owned());
             line(format!("position_m = {}", vector(&pose.position_w)));
@@ -106,6 +75,33 @@ impl Draft {
                 line(format!("roll_pitch_yaw_deg = {}", vector(&angles)));
             }
         }
+    }
+
+    /// Writes the table `[platform]`.
+    fn write_platform(&self, line: &mut impl FnMut(String)) {
+        line("\n[platform]".to_owned());
+        line(format!("mass_kg = {}", float(self.platform.mass.unwrap_or_default())));
+        let motion = self.platform.motion;
+        if motion == DraftMotion::PointMass {
+            line("motion = \"point-mass\"".to_owned());
+            return;
+        }
+        if let DraftMotion::Planar { plane } = motion {
+            line(format!("motion = \"planar-{plane}\""));
+            // The plane of a planar robot goes through its pose.
+            if let (DraftState::Pose(pose), Some(normal)) = (&self.state, motion.normal_axis()) {
+                line(format!("plane_offset_m = {}", float(pose.position_w[normal])));
+            }
+        }
+
+        let inertia = self.platform.inertia_p.unwrap_or_default();
+        // For planar robots the sources give only the moment about the normal. The other moments are zero, which no
+        // body has, so the robot file gets this one moment.
+        line(match motion.normal_axis() {
+            Some(normal) => format!("inertia_kg_m2 = {}", float(inertia[(normal, normal)])),
+            None => format!("inertia_kg_m2 = {}", tensor(&inertia)),
+        });
+        line(format!("center_of_mass_m = {}", vector(&self.platform.center_of_mass_p.unwrap_or_default())));
     }
 
     /// Distinct pulleys, each with a name.
@@ -127,9 +123,11 @@ impl Draft {
             quoted(material),
             vector(&cable.anchor_w)
         );
+
         let mut line = |key: &str, value: String| {
             let _ = write!(text, "\n{key} = {value}");
         };
+
         if let Some(pulley) = pulley {
             line("pulley", quoted(pulley));
         }
@@ -144,6 +142,7 @@ impl Draft {
                 line(key, float(limit));
             }
         }
+
         text
     }
 
@@ -164,6 +163,23 @@ impl Draft {
             ropes.push((name, rope));
         }
         ropes
+    }
+}
+
+/// Writes a table `[materials.NAME]` for each rope.
+fn write_ropes(ropes: &[(String, &DraftRope)], line: &mut impl FnMut(String)) {
+    for (name, rope) in ropes {
+        line(format!("\n[materials.{}]", key(name)));
+        if let Some(stiffness) = rope.axial_stiffness {
+            line(format!("axial_stiffness_n = {}", float(stiffness)));
+        } else {
+            line(format!("youngs_modulus_pa = {}", float(rope.youngs_modulus.unwrap_or_default())));
+            line(format!("diameter_m = {}", float(rope.diameter.unwrap_or_default())));
+        }
+        line(format!("mass_kg_per_m = {}", float(rope.mass_per_length.unwrap_or_default())));
+        if let Some(load) = rope.breaking_load {
+            line(format!("breaking_load_n = {}", float(load)));
+        }
     }
 }
 

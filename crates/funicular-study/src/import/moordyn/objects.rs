@@ -124,7 +124,7 @@ impl<'a> MoorDynModel<'a> {
         }
 
         model.check_ids(file)?;
-        model.conclude(file, losses, water)?;
+        model.note_losses(file, losses, water)?;
         Ok(model)
     }
 
@@ -139,8 +139,8 @@ impl<'a> MoorDynModel<'a> {
             bail!(line.row.error(
                 file,
                 format!(
-                    "column {} is `{}`, which is no number of a point; the columns have to be those of MoorDyn version 2: ID, \
-                     LineType, AttachA, AttachB, UnstrLen",
+                    "column {} is `{}`, which is no number of a point; the columns have to be those of MoorDyn version \
+                     2: ID, LineType, AttachA, AttachB, UnstrLen",
                     3 + end,
                     clean(word)
                 )
@@ -163,6 +163,7 @@ impl<'a> MoorDynModel<'a> {
         if self.types.iter().any(|known| known.word == word) {
             bail!(row.error(file, format!("a second line type is called `{name}`")));
         }
+
         let stiffness = row.word(file, 3, "EA")?;
         let mut parts = stiffness.split('|');
         let statically = parts.next().unwrap_or_default();
@@ -174,6 +175,7 @@ impl<'a> MoorDynModel<'a> {
                 format!("column 4 (EA) is {wrong}; a separate file with a table of tension over strain is not read")
             )),
         };
+
         if parts.next().is_some() {
             losses.damping.push(format!("the dynamic stiffness of `{name}`"));
         }
@@ -183,18 +185,19 @@ impl<'a> MoorDynModel<'a> {
         if row.words.get(5).is_some_and(|word| text::number(word) != Ok(0.0)) {
             losses.bending.push(format!("`{name}`"));
         }
+
         Ok(SourceLineType { word, name, mass_per_length: row.quantity(file, 2, "Mass/m")?, axial_stiffness })
     }
 
     fn check_ids(&self, file: &SourceFile) -> Result<()> {
-        fn twice<'r, 'a: 'r>(mut rows: Vec<(usize, &'r SourceRow<'a>)>) -> Option<(usize, &'r SourceRow<'a>)> {
+        fn repeated_id<'r, 'a: 'r>(mut rows: Vec<(usize, &'r SourceRow<'a>)>) -> Option<(usize, &'r SourceRow<'a>)> {
             rows.sort_by_key(|(id, row)| (*id, row.line));
             rows.windows(2).find(|pair| pair[0].0 == pair[1].0).map(|pair| pair[1])
         }
         for (what, again) in [
-            ("body", twice(self.bodies.iter().map(|body| (body.id, &body.row)).collect())),
-            ("point", twice(self.points.iter().map(|point| (point.id, &point.row)).collect())),
-            ("line", twice(self.lines.iter().map(|line| (line.id, &line.row)).collect())),
+            ("body", repeated_id(self.bodies.iter().map(|body| (body.id, &body.row)).collect())),
+            ("point", repeated_id(self.points.iter().map(|point| (point.id, &point.row)).collect())),
+            ("line", repeated_id(self.lines.iter().map(|line| (line.id, &line.row)).collect())),
         ] {
             if let Some((id, row)) = again {
                 bail!(row.error(file, format!("a second {what} has the number {id}")));
@@ -203,7 +206,7 @@ impl<'a> MoorDynModel<'a> {
         Ok(())
     }
 
-    fn conclude(&mut self, file: &SourceFile, losses: MoorDynLosses, water: Option<f64>) -> Result<()> {
+    fn note_losses(&mut self, file: &SourceFile, losses: MoorDynLosses, water: Option<f64>) -> Result<()> {
         if self.lines.is_empty() {
             bail!("{}: the file has no lines", file.path);
         }
@@ -239,9 +242,11 @@ fn body<'a>(file: &SourceFile, row: SourceRow<'a>, losses: &mut MoorDynLosses) -
         "FIXED" | "FIX" | "ANCHOR" => false,
         _ => bail!(row.error(file, format!("body {id} is `{}`; bodies are free, coupled or fixed", clean(&kind)))),
     };
+
     for (column, name) in ["X0", "Y0", "Z0", "r0", "p0", "y0"].into_iter().enumerate() {
         row.number(file, 2 + column, name)?;
     }
+
     let center_p = match row.numbers(file, 9, "CG")?[..] {
         [z] => Vec3::new(0.0, 0.0, z),
         [x, y, z] => Vec3::new(x, y, z),
@@ -249,6 +254,7 @@ fn body<'a>(file: &SourceFile, row: SourceRow<'a>, losses: &mut MoorDynLosses) -
             bail!(row.error(file, format!("column 10 (CG) holds {} numbers, one or three are known", other.len())))
         }
     };
+
     let moments = match row.numbers(file, 10, "I")?[..] {
         [all] => Vec3::repeat(all),
         [x, y, z] => Vec3::new(x, y, z),
@@ -256,9 +262,11 @@ fn body<'a>(file: &SourceFile, row: SourceRow<'a>, losses: &mut MoorDynLosses) -
             bail!(row.error(file, format!("column 11 (I) holds {} numbers, one or three are known", other.len())))
         }
     };
+
     if row.words.get(11).is_some_and(|word| text::number(word) != Ok(0.0)) {
         losses.volumes.push(format!("the volume of body {id}"));
     }
+
     let mass = row.quantity(file, 8, "Mass")?;
     Ok(MoorDynBody { id, is_free, mass, center_p, inertia_p: Mat3::from_diagonal(&moments), row })
 }
@@ -281,8 +289,10 @@ fn point<'a>(file: &SourceFile, row: SourceRow<'a>, losses: &mut MoorDynLosses) 
             )),
         },
     };
+
     let position = Vec3::new(row.number(file, 2, "X")?, row.number(file, 3, "Y")?, row.number(file, 4, "Z")?);
     let mass = row.words.get(5).map_or(Ok(0.0), |_| row.quantity(file, 5, "Mass"))?;
+
     if row.words.get(6).is_some_and(|word| text::number(word) != Ok(0.0)) {
         losses.volumes.push(format!("the volume of point {id}"));
     }
@@ -290,6 +300,7 @@ fn point<'a>(file: &SourceFile, row: SourceRow<'a>, losses: &mut MoorDynLosses) 
     if row.words.len() >= 12 && row.words[7..10].iter().any(|word| text::number(word) != Ok(0.0)) {
         losses.forces.push(format!("the external force on point {id}"));
     }
+
     Ok(MoorDynPoint { id, holder, position, mass, row })
 }
 

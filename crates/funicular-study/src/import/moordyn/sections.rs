@@ -45,6 +45,7 @@ pub(super) fn rows(text: &str) -> Vec<(SectionKind, SourceRow<'_>)> {
     let mut rows = Vec::new();
     let mut kind = None;
     let mut to_skip = 0;
+
     for (i, line) in text.lines().enumerate() {
         if let Some(header) = header(line) {
             kind = Some(header);
@@ -52,11 +53,13 @@ pub(super) fn rows(text: &str) -> Vec<(SectionKind, SourceRow<'_>)> {
             to_skip = if header == SectionKind::Options { 0 } else { 2 };
             continue;
         }
+
         let Some(kind) = kind else { continue };
         if to_skip > 0 {
             to_skip -= 1;
             continue;
         }
+
         let words: Vec<&str> = without_comment(line).split_whitespace().collect();
         if !words.is_empty() {
             rows.push((kind, SourceRow { line: i + 1, words }));

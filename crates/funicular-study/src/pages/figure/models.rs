@@ -1,6 +1,6 @@
 //! Figure of the differences between the modes of each cable model and those of the reference.
 
-use super::{Figure, axis, colour, model_style, points, with};
+use super::{PageFigure, axis, colour, model_style, points, with};
 use funicular::compare::{Comparison, TOLERANCE};
 use serde_json::{Value, json};
 
@@ -12,12 +12,13 @@ const LACKING: f64 = 60.0;
 const LINE: f64 = 1.6;
 
 /// Differences over frequency; `None` if the reference has no modes.
-pub(crate) fn figure(comparison: &Comparison) -> Option<Figure> {
+pub(crate) fn figure(comparison: &Comparison) -> Option<PageFigure> {
     let reference = comparison.models.iter().find(|model| model.model == comparison.reference)?;
     let modes = &reference.modes.as_ref().ok()?.modes;
     if modes.is_empty() {
         return None;
     }
+
     let mut traces: Vec<Value> = Vec::new();
     let others = comparison.models.iter().filter(|model| model.model != comparison.reference && model.modes.is_ok());
     let mut highest = LACKING;
@@ -26,18 +27,22 @@ pub(crate) fn figure(comparison: &Comparison) -> Option<Figure> {
         let found: Vec<f64> = result.matches.iter().map(|of| of.reference_hz).collect();
         let differences: Vec<f64> =
             result.matches.iter().map(|of| (100.0 * of.relative_difference.abs()).max(MIN_DIFFERENCE)).collect();
+
         let group = json!({ "legendgroup": result.model.name() });
         traces.push(with(points(result.model.name(), &found, &differences, colour, "circle"), group.clone()));
+
         let has = |index: usize| result.matches.iter().any(|of| of.reference_index == index);
         let lacking: Vec<f64> =
             modes.iter().enumerate().filter(|(i, _)| !has(*i)).map(|(_, mode)| mode.frequency_hz).collect();
         highest *= LINE;
+
         if !lacking.is_empty() {
             let name = format!("{}: missing", result.model.name());
             let trace = points(&name, &lacking, &vec![highest; lacking.len()], colour, "x-thin-open");
             traces.push(with(trace, with(group, json!({ "showlegend": false }))));
         }
     }
+
     let tolerance = 100.0 * TOLERANCE;
     let layout = json!({
         "xaxis": axis("natural frequency [Hz]", json!({ "range": [0.0, comparison.below_hz] })),
@@ -56,10 +61,11 @@ pub(crate) fn figure(comparison: &Comparison) -> Option<Figure> {
             "showarrow": false, "text": "× a mode that the model does not have",
         }],
     });
+
     let caption = format!(
         "Relative difference between the natural frequencies of each cable model and those of the model {}, over \
          frequency. Dotted line: {tolerance} %. Crosses at the top: modes that the model of that colour does not have.",
         comparison.reference.name(),
     );
-    Some(Figure::new("figure-models", 420, caption, &traces, layout))
+    Some(PageFigure::new("figure-models", 420, caption, &traces, layout))
 }

@@ -1,6 +1,6 @@
 //! Figures over frequency: responses with phase and modes as ticks, and the kinds of modes.
 
-use super::{Figure, axis, colour, kind_colour, line, rounded, with};
+use super::{PageFigure, axis, colour, kind_colour, line, rounded, with};
 use funicular::dynamics::Dynamics;
 use funicular::math::{Complex, Vec6};
 use funicular::modes::{Kind, Mode, Modes};
@@ -108,7 +108,7 @@ pub(crate) fn figure(
     below_hz: f64,
     curves: &[ResponseCurve],
     marks: &Marks<'_>,
-) -> Figure {
+) -> PageFigure {
     // The range ignores the first twentieth of the axis: an accelerance falls to zero there and would compress the
     // rest.
     let shown = curves[0].frequencies_hz.iter().zip(curves[0].magnitude()).filter(|(f, _)| **f > 0.05 * below_hz);
@@ -122,7 +122,8 @@ pub(crate) fn figure(
     if let Some((name, frequencies)) = marks.published {
         for frequency in frequencies {
             shapes.push(json!({
-                "type": "line", "x0": frequency, "x1": frequency, "yref": "y domain", "y0": 0, "y1": 1, "layer": "below",
+                "type": "line", "x0": frequency, "x1": frequency, "yref": "y domain", "y0": 0, "y1": 1,
+                "layer": "below",
                 "line": {"color": colour::GREY, "width": 1, "dash": "dash"},
             }));
         }
@@ -135,10 +136,12 @@ pub(crate) fn figure(
     let mut layout = json!({
         "xaxis": axis("frequency [Hz]", json!({"range": [0, below_hz], "anchor": "y3", "mirror": "all"})),
         "yaxis": axis(&format!("magnitude [{unit}]"), json!({
-            "type": "log", "domain": magnitude, "exponentformat": "power", "dtick": 1, "range": [low - 0.2 * room, high + room],
+            "type": "log", "domain": magnitude, "exponentformat": "power", "dtick": 1,
+            "range": [low - 0.2 * room, high + room],
         })),
         "yaxis3": axis("", json!({
-            "domain": strip, "range": [-1, 1], "showticklabels": false, "ticks": "", "showgrid": false, "fixedrange": true,
+            "domain": strip, "range": [-1, 1], "showticklabels": false, "ticks": "", "showgrid": false,
+            "fixedrange": true,
         })),
         "annotations": peak_labels(marks.peaks, below_hz, curves[0].style.0),
         "shapes": shapes,
@@ -148,7 +151,7 @@ pub(crate) fn figure(
             axis("phase [°]", json!({"domain": phase, "range": [-190, 190], "tickvals": [-180, -90, 0, 90, 180]}));
     }
     layout["margin"] = json!({"l": 78});
-    Figure::new(id, if marks.phase { 600 } else { 430 }, caption, &data, layout)
+    PageFigure::new(id, if marks.phase { 600 } else { 430 }, caption, &data, layout)
 }
 
 /// Lines of the magnitudes and, below them, of the phases.
@@ -163,7 +166,10 @@ fn traces(curves: &[ResponseCurve], unit: &str, with_phase: bool) -> Vec<Value> 
             let trace = line(&curve.name, &x, &y, curve.style.0, curve.style.1);
             data.push(with(
                 trace,
-                json!({"yaxis": "y2", "showlegend": false, "legendgroup": curve.name, "hovertemplate": "%{x:.3f} Hz<br>%{y:.0f}°"}),
+                json!({
+                    "yaxis": "y2", "showlegend": false, "legendgroup": curve.name,
+                    "hovertemplate": "%{x:.3f} Hz<br>%{y:.0f}°",
+                }),
             ));
         }
     }
@@ -177,8 +183,10 @@ fn peak_labels(peaks: &[Peak], below_hz: f64, colour: &str) -> Vec<Value> {
         .iter()
         .map(|peak| {
             json!({
-                "x": peak.frequency_hz, "y": peak.magnitude.log10(), "text": format!("{:.2}", peak.frequency_hz), "textangle": -90,
-                "showarrow": false, "yanchor": "bottom", "yshift": 3, "bgcolor": "rgba(255,255,255,0.75)", "borderpad": 0, "font": {"size": 11, "color": colour},
+                "x": peak.frequency_hz, "y": peak.magnitude.log10(), "text": format!("{:.2}", peak.frequency_hz),
+                "textangle": -90,
+                "showarrow": false, "yanchor": "bottom", "yshift": 3, "bgcolor": "rgba(255,255,255,0.75)",
+                "borderpad": 0, "font": {"size": 11, "color": colour},
             })
         })
         .collect()
@@ -210,9 +218,13 @@ fn ticks(modes: &[Mode]) -> Vec<Value> {
         .map(|(kind, found)| {
             let x: Vec<f64> = found.iter().map(|m| m.frequency_hz).collect();
             json!({
-                "type": "scatter", "mode": "markers", "name": format!("{} mode", kind.name()), "x": rounded(&x), "y": vec![0; x.len()],
+                "type": "scatter", "mode": "markers", "name": format!("{} mode", kind.name()), "x": rounded(&x),
+                "y": vec![0; x.len()],
                 "yaxis": "y3", "hovertemplate": "%{x:.4f} Hz",
-                "marker": {"symbol": "line-ns-open", "size": 26, "color": kind_colour(kind), "line": {"width": 1.5, "color": kind_colour(kind)}},
+                "marker": {
+                    "symbol": "line-ns-open", "size": 26, "color": kind_colour(kind),
+                    "line": {"width": 1.5, "color": kind_colour(kind)},
+                },
             })
         })
         .collect()
@@ -226,34 +238,43 @@ fn of_kinds(modes: &[Mode]) -> impl Iterator<Item = (Kind, Vec<&Mode>)> {
 }
 
 /// Figure of the platform's share of the kinetic energy of every mode, over frequency.
-pub(crate) fn strip(modes: &Modes) -> Figure {
+pub(crate) fn strip(modes: &Modes) -> PageFigure {
     let mut data = Vec::new();
+
     for (kind, found) in of_kinds(&modes.modes) {
         let (mut stem_x, mut stem_y) = (Vec::new(), Vec::new());
         for mode in &found {
             stem_x.extend([mode.frequency_hz, mode.frequency_hz, f64::NAN]);
             stem_y.extend([0.0, 100.0 * mode.platform_energy_fraction, f64::NAN]);
         }
+
         let colour = kind_colour(kind);
         data.push(with(
             line("", &stem_x, &stem_y, colour, "solid"),
             json!({"showlegend": false, "hoverinfo": "skip", "line": {"width": 1.2}, "legendgroup": kind.name()}),
         ));
+
         let symbol = match kind {
             Kind::Platform => "circle",
             Kind::Mixed => "diamond",
             Kind::Cable => "line-ns-open",
             Kind::Drive => "triangle-up",
         };
+
         let x: Vec<f64> = found.iter().map(|m| m.frequency_hz).collect();
         let y: Vec<f64> = found.iter().map(|m| 100.0 * m.platform_energy_fraction).collect();
         data.push(json!({
-            "type": "scatter", "mode": "markers", "name": format!("{} ({})", kind.name(), found.len()), "x": rounded(&x), "y": rounded(&y),
+            "type": "scatter", "mode": "markers", "name": format!("{} ({})", kind.name(), found.len()),
+            "x": rounded(&x), "y": rounded(&y),
             "legendgroup": kind.name(), "hovertemplate": "%{x:.4f} Hz<br>platform %{y:.1f} % of the energy",
-            "marker": {"symbol": symbol, "size": if kind == Kind::Cable { 10 } else { 8 }, "color": colour, "line": {"color": colour, "width": 1.4}},
+            "marker": {
+                "symbol": symbol, "size": if kind == Kind::Cable { 10 } else { 8 }, "color": colour,
+                "line": {"color": colour, "width": 1.4},
+            },
         }));
     }
-    Figure::new(
+
+    PageFigure::new(
         "figure-modes",
         300,
         format!(

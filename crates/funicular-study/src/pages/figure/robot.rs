@@ -1,6 +1,6 @@
 //! Figures of the robot in space, to scale and with hanging cables.
 
-use super::{Figure, colour, plain, rounded};
+use super::{PageFigure, colour, plain, rounded};
 use crate::figures::drive::DriveLines;
 use crate::figures::hull::faces;
 use crate::figures::supports::SupportAtRest;
@@ -17,66 +17,75 @@ const CABLE_COLOURS: [&str; 7] =
     [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::SKY, colour::BLACK];
 
 /// Figure of the complete robot.
-pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
-    let mut data: Vec<Value> = equilibrium
-        .cables
-        .iter()
-        .enumerate()
-        .map(|(i, state)| {
-            let hover = format!(
-                "cable {}<br>{:.4} m unstrained<br>{:.2} N at the platform<extra></extra>",
-                plain(&robot.cables[i].name),
-                state.unstrained_length,
-                state.tension_platform
-            );
-            cable_line(i, &curve(state, state.free_length()), &hover)
-        })
-        .collect();
+pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
+    let mut data: Vec<Value> = (0..robot.cables.len()).map(|i| cable(robot, equilibrium, i)).collect();
     let anchors: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.anchor_w).collect();
-    let names: Vec<String> = robot.cables.iter().map(|c| plain(&c.name)).collect();
-    let reach = extent(&anchors);
-    let places = sides(&anchors, reach);
-    let mut trace = labelled(&anchors, &names, &places, colour::BLACK, "square", "anchor");
-    trace["text"] = json!(joined(&anchors, &names, &places, reach));
-    data.push(trace);
+    data.push(named_anchors(robot, &anchors));
     data.extend(platform(robot, equilibrium, false));
-    let mut points = anchors.clone();
+
+    let mut points = anchors;
     for state in &equilibrium.cables {
         points.extend(curve(state, state.free_length()));
     }
     let mut driven = "";
     for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
         let Some(lines) = DriveLines::of(cable, state) else { continue };
-        driven = " At pulleys the squares are the exit points. The drums, grey squares, stand where they would be if the \
-                  cable came to its pulley in a straight line.";
-        let hover = format!("cable {}<extra></extra>", plain(&cable.name));
-        data.push(cable_line(i, &lines.path, &hover));
-        data.push(wheel(&lines.wheel));
-        data.extend(lines.drum.map(|drum| {
-            let hover = format!("drum of cable {}<extra></extra>", plain(&cable.name));
-            marker(drum, "square", 4, &hover)
-        }));
-        data.extend(lines.guide_wheels.iter().map(|(name, wheel)| {
-            let hover = format!("guide wheel {} of cable {}<extra></extra>", plain(name), plain(&cable.name));
-            marker(*wheel, "circle-open", 6, &hover)
-        }));
+        driven = " At pulleys the squares are the exit points. The drums, grey squares, stand where they would be if \
+                  the cable came to its pulley in a straight line.";
+        data.extend(drive(i, &cable.name, &lines));
         points.extend(lines.points());
     }
+
     let supports = SupportAtRest::all(robot, equilibrium);
     let supported = if supports.is_empty() { "" } else { " Crosses with a bar to their anchors: flexible supports." };
     data.extend(supports.iter().flat_map(support));
+
     let scene = scene(&points, true, WIDE);
-    Figure::new(
+    PageFigure::new(
         "figure-robot",
         400,
         format!(
             "The robot at its equilibrium, with one scale for all three axes. Lines: cables; squares: anchors with the \
-             cables' names; dark body: the platform, spanned by the attachments.{driven}{supported} Drag to rotate, scroll to zoom, \
-             point at a cable for its length and tension."
+             cables' names; dark body: the platform, spanned by the attachments.{driven}{supported} Drag to rotate, \
+             scroll to zoom, point at a cable for its length and tension."
         ),
         &data,
         json!({"scene": scene, "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
     )
+}
+
+/// Trace of the free span of cable `i`.
+fn cable(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> Value {
+    let state = &equilibrium.cables[i];
+    let hover = format!(
+        "cable {}<br>{:.4} m unstrained<br>{:.2} N at the platform<extra></extra>",
+        plain(&robot.cables[i].name),
+        state.unstrained_length,
+        state.tension_platform
+    );
+    cable_line(i, &curve(state, state.free_length()), &hover)
+}
+
+/// Trace of the anchors with the names of their cables.
+fn named_anchors(robot: &Robot, anchors: &[Vec3]) -> Value {
+    let names: Vec<String> = robot.cables.iter().map(|c| plain(&c.name)).collect();
+    let reach = extent(anchors);
+    let places = sides(anchors, reach);
+    let mut trace = labelled(anchors, &names, &places, colour::BLACK, "square", "anchor");
+    trace["text"] = json!(joined(anchors, &names, &places, reach));
+    trace
+}
+
+/// Traces of the drive of cable `i`: the cable beyond its exit point, the pulley, the drum and the guide wheels.
+fn drive(i: usize, cable: &str, lines: &DriveLines) -> Vec<Value> {
+    let cable = plain(cable);
+    let mut traces = vec![cable_line(i, &lines.path, &format!("cable {cable}<extra></extra>")), wheel(&lines.wheel)];
+    traces.extend(lines.drum.map(|drum| marker(drum, "square", 4, &format!("drum of cable {cable}<extra></extra>"))));
+    traces.extend(lines.guide_wheels.iter().map(|(name, wheel)| {
+        let hover = format!("guide wheel {} of cable {cable}<extra></extra>", plain(name));
+        marker(*wheel, "circle-open", 6, &hover)
+    }));
+    traces
 }
 
 /// Grey marker at a place.
@@ -93,7 +102,8 @@ fn support(support: &SupportAtRest) -> [Value; 2] {
     let bar: Vec<Vec3> = support.anchors.iter().flat_map(|anchor| [middle, *anchor]).collect();
     let [x, y, z] = coordinates(&bar);
     let bar = json!({
-        "type": "scatter3d", "mode": "lines", "x": x, "y": y, "z": z, "line": {"color": "#777777", "width": 7}, "hoverinfo": "skip",
+        "type": "scatter3d", "mode": "lines", "x": x, "y": y, "z": z, "line": {"color": "#777777", "width": 7},
+        "hoverinfo": "skip",
     });
     let moved = support.displacement * 1e3;
     let hover = format!(
@@ -115,16 +125,18 @@ fn support(support: &SupportAtRest) -> [Value; 2] {
 fn wheel(rim: &[Vec3]) -> Value {
     let [x, y, z] = coordinates(rim);
     json!({
-        "type": "scatter3d", "mode": "lines", "x": x, "y": y, "z": z, "line": {"color": "#777777", "width": 3}, "hoverinfo": "skip",
+        "type": "scatter3d", "mode": "lines", "x": x, "y": y, "z": z, "line": {"color": "#777777", "width": 3},
+        "hoverinfo": "skip",
     })
 }
 
 /// Figure of the platform and the first part of its cables.
-pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
     let attachments: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.attachment_w).collect();
     let reach = extent(&attachments).max(0.2);
     let mut points = attachments.clone();
     let mut data = Vec::new();
+
     for (i, state) in equilibrium.cables.iter().enumerate() {
         let hover = format!("cable {}<extra></extra>", plain(&robot.cables[i].name));
         let part = (0.6 * reach / state.chord()).min(1.0);
@@ -132,6 +144,7 @@ pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
         data.push(cable_line(i, &stub, &hover));
         points.extend(stub);
     }
+
     data.extend(platform(robot, equilibrium, true));
     let origin = equilibrium.pose.position_w;
     for (k, (name, colour)) in
@@ -142,18 +155,22 @@ pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
         let tip = origin + equilibrium.pose.rot_wp * unit;
         points.push(tip);
         data.push(json!({
-            "type": "scatter3d", "mode": "lines+text", "x": rounded(&[origin.x, tip.x]), "y": rounded(&[origin.y, tip.y]),
+            "type": "scatter3d", "mode": "lines+text", "x": rounded(&[origin.x, tip.x]),
+            "y": rounded(&[origin.y, tip.y]),
             "z": rounded(&[origin.z, tip.z]), "line": {"color": colour, "width": 5}, "text": ["", name],
             "textfont": {"color": colour, "size": 13}, "hoverinfo": "skip",
         }));
     }
-    Figure::new(
+
+    PageFigure::new(
         "figure-platform",
         400,
-        "The platform: attachments with the cables' names, axes of the platform frame, centre of mass (diamond), and the \
-         first part of each cable.",
+        "The platform: attachments with the cables' names, axes of the platform frame, centre of mass (diamond), and \
+         the first part of each cable.",
         &data,
-        json!({"scene": scene(&points, false, SQUARE), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
+        json!({
+            "scene": scene(&points, false, SQUARE), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0},
+        }),
     )
 }
 
@@ -168,23 +185,28 @@ const FILL: f64 = 1.35;
 fn scene(points: &[Vec3], floor: bool, width: f64) -> Value {
     let ranges = ranges(points, floor);
     let span = ranges.map(|(low, high)| high - low);
+
     let [x, y, z] = EYE;
     let (level, far) = (x.hypot(y), x.hypot(y).hypot(z));
     let across = (span[0] * y.abs() + span[1] * x.abs()) / level;
     let upright = (span[2] * level + (span[0] * x.abs() + span[1] * y.abs()) / level * z) / far;
     let scale = FILL * (width / across).min(1.0 / upright);
+
     let axis = |k: usize, title: &str| {
         json!({
-            "title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 10}, "nticks": 6, "showbackground": k == 2,
+            "title": {"text": title, "font": {"size": 12}}, "tickfont": {"size": 10}, "nticks": 6,
+            "showbackground": k == 2,
             "range": rounded(&[ranges[k].0, ranges[k].1]), "backgroundcolor": "#f3f4f5", "gridcolor": "#d9d9d9",
             "zeroline": false, "showspikes": false,
         })
     };
+
     let ratio = rounded(&span.map(|s| s * scale));
     json!({
         "aspectmode": "manual", "aspectratio": {"x": ratio[0], "y": ratio[1], "z": ratio[2]},
         "camera": {
-            "eye": {"x": x, "y": y, "z": z}, "center": {"x": 0.0, "y": 0.0, "z": -0.06}, "projection": {"type": "orthographic"},
+            "eye": {"x": x, "y": y, "z": z}, "center": {"x": 0.0, "y": 0.0, "z": -0.06},
+            "projection": {"type": "orthographic"},
         },
         "xaxis": axis(0, "x [m]"), "yaxis": axis(1, "y [m]"), "zaxis": axis(2, "z [m]"),
     })
@@ -226,6 +248,7 @@ fn platform(robot: &Robot, equilibrium: &Equilibrium, names: bool) -> Vec<Value>
     let attachments: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.attachment_w).collect();
     let com = equilibrium.pose.point_w(&robot.platform.center_of_mass_p);
     let reach = extent(&attachments);
+
     let mut data = Vec::new();
     if reach > 0.0 {
         data.push(body(&attachments, reach));
@@ -235,13 +258,15 @@ fn platform(robot: &Robot, equilibrium: &Equilibrium, names: bool) -> Vec<Value>
             data.push(labelled(&attachments, &labels, &places, "#333333", "circle", "attachment"));
         }
     }
+
     let hover = format!(
         "centre of mass, {:.2} kg<br>(%{{x:.4f}}, %{{y:.4f}}, %{{z:.4f}}) m<extra></extra>",
         robot.platform.mass
     );
     data.push(json!({
         "type": "scatter3d", "mode": "markers", "x": [com.x], "y": [com.y], "z": [com.z],
-        "marker": {"color": colour::BLACK, "symbol": "diamond", "size": if names { 5 } else { 3 }}, "hovertemplate": hover,
+        "marker": {"color": colour::BLACK, "symbol": "diamond", "size": if names { 5 } else { 3 }},
+        "hovertemplate": hover,
     }));
     data
 }
@@ -250,7 +275,8 @@ fn platform(robot: &Robot, equilibrium: &Equilibrium, names: bool) -> Vec<Value>
 fn body(points: &[Vec3], reach: f64) -> Value {
     let [x, y, z] = coordinates(points);
     let mut mesh = json!({
-        "type": "mesh3d", "x": x, "y": y, "z": z, "color": "#555555", "opacity": 0.55, "flatshading": true, "hoverinfo": "skip",
+        "type": "mesh3d", "x": x, "y": y, "z": z, "color": "#555555", "opacity": 0.55, "flatshading": true,
+        "hoverinfo": "skip",
         // For the script that saves the figure as lines; plotly computes the hull itself.
         "meta": {"faces": faces(points)},
     });

@@ -190,9 +190,11 @@ fn scenery(robot: &Robot, equilibrium: &Equilibrium, drawn: usize) -> Value {
     let anchors: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.anchor_w).collect();
     let attachments: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.attachment_w).collect();
     let names: Vec<String> = robot.cables.iter().map(|c| c.name.clone()).collect();
+
     let reach = extent(&anchors);
     let places = sides(&anchors, reach);
     let labels = joined(&anchors, &names, &places, reach);
+
     let mut points = anchors.clone();
     let cables: Vec<Value> = equilibrium
         .cables
@@ -210,9 +212,11 @@ fn scenery(robot: &Robot, equilibrium: &Equilibrium, drawn: usize) -> Value {
             json!({"name": names[i], "label": labels[i], "place": places[i], "rest": rounded(&flat)})
         })
         .collect();
+
     points.extend(&attachments);
     let ranges = ranges(&points, true);
     let triple = |p: &Vec3| rounded(&[p.x, p.y, p.z]);
+
     json!({
         "drawn": drawn,
         "low": rounded(&ranges.map(|(low, _)| low)),

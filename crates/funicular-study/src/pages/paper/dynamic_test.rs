@@ -6,7 +6,7 @@ use super::matching::{Agreement, MAX_DIFFERENCE};
 use super::pose::lengths;
 use super::published::{DYNAMIC, EXPERIMENT, SPRING, STATIC_SAG};
 use crate::pages::figure::response::{Marks, ResponseCurve, figure};
-use crate::pages::figure::{Figure, model_style};
+use crate::pages::figure::{PageFigure, model_style};
 use crate::pages::table::{PageTable, fixed, listed};
 use anyhow::Context as _;
 use funicular::cable::{CableModel, SHALLOW_SAG_LIMIT, Sag};
@@ -26,7 +26,7 @@ const PROMINENCE_DB: f64 = 0.5;
 const CABLES: [&str; 2] = ["4 mm", "8 mm"];
 
 /// Parameters of the dynamic test, found by search.
-struct Identified {
+struct DynamicTest {
     name: &'static str,
     figure_id: &'static str,
     /// Index of the cable set: 4 mm, 8 mm.
@@ -40,7 +40,7 @@ struct Identified {
 }
 
 /// Set that meets the nine printed frequencies of the two static models; [`super::fit`] has its deviations.
-const IDENTIFIED: [Identified; 1] = [Identified {
+const IDENTIFIED: [DynamicTest; 1] = [DynamicTest {
     name: "4 mm",
     figure_id: "figure-test",
     cables: 0,
@@ -59,7 +59,7 @@ const STARTS: [(f64, [f64; 3], [[f64; 3]; 3]); 2] = [
 
 /// Results of one set of parameters.
 pub(crate) struct Outcome {
-    set: &'static Identified,
+    set: &'static DynamicTest,
     peaks: Vec<Peak>,
     natural: Modes,
     static_sag: Modes,
@@ -79,7 +79,7 @@ pub(crate) fn outcomes(robots: [&Robot; 2]) -> anyhow::Result<Vec<Outcome>> {
         .collect()
 }
 
-fn outcome(robot: &Robot, set: &'static Identified) -> anyhow::Result<Outcome> {
+fn outcome(robot: &Robot, set: &'static DynamicTest) -> anyhow::Result<Outcome> {
     let mut robot = robot.clone();
     robot.platform.mass = set.mass;
     robot.platform.center_of_mass_p = Vec3::from(set.center_of_mass);
@@ -88,12 +88,14 @@ fn outcome(robot: &Robot, set: &'static Identified) -> anyhow::Result<Outcome> {
     for cable in &mut robot.cables {
         cable.material.damping = Damping::Ratio(set.damping_ratio);
     }
+
     let rest = statics::forward(&robot, &lengths(&robot), StaticModel::Catenary, None)?;
     // Force and sensor are placed at the attachment of cable 3; the paper gives neither.
     let point_p = robot.cables[2].attachment_p;
     let along = |direction_w: Vec3| response::along(&direction_w, &point_p, &rest.pose);
     let input = along(Vec3::z());
     let outputs = [Vec3::x(), Vec3::y(), Vec3::z()].map(along);
+
     let with = |cable_model| -> anyhow::Result<(Modes, ResponseCurve)> {
         let linearisation = Linearisation {
             cable_model,
@@ -114,11 +116,14 @@ fn outcome(robot: &Robot, set: &'static Identified) -> anyhow::Result<Outcome> {
         )?;
         Ok((found, curve))
     };
+
     let (natural, dynamic) = with(CableModel::ShallowDynamic)?;
     let (static_sag, sag_curve) = with(CableModel::ShallowStatic)?;
     let (spring, spring_curve) = with(CableModel::Spring)?;
+
     let peaks = dynamic.peaks(PROMINENCE_DB);
     let sags = rest.cables.iter().enumerate().map(|(i, state)| Sag::of(&robot, i, state).ratio()).collect();
+
     Ok(Outcome { set, peaks, natural, static_sag, spring, sags, curves: vec![dynamic, sag_curve, spring_curve] })
 }
 
@@ -149,12 +154,12 @@ impl Fits {
     pub(crate) fn table(&self) -> PageTable {
         let mut table = PageTable::new(
             "table-fit",
-            "Platform fitted to the nine printed frequencies of the two static models, with either cable set. A printed \
-             tenth has a deviation of 0.03 Hz. Known beforehand: centre of mass within 3 cm, in z 6 cm, of the origin; radii of \
-             the second moments 0.1 m within a factor of 2.2; correlations of their products tanh of 0 ± 1; nothing of the \
-             mass. Deviations are standard deviations. Undetermined: combinations of the ten values that follow from what \
-             is known beforehand. Likelihood: probability of the nine frequencies, integrated over all platforms, relative to \
-             the other cable set.",
+            "Platform fitted to the nine printed frequencies of the two static models, with either cable set. A \
+             printed tenth has a deviation of 0.03 Hz. Known beforehand: centre of mass within 3 cm, in z 6 cm, of the \
+             origin; radii of the second moments 0.1 m within a factor of 2.2; correlations of their products tanh of \
+             0 ± 1; nothing of the mass. Deviations are standard deviations. Undetermined: combinations of the ten \
+             values that follow from what is known beforehand. Likelihood: probability of the nine frequencies, \
+             integrated over all platforms, relative to the other cable set.",
             &[
                 "<cables",
                 "χ² of nine",
@@ -169,8 +174,10 @@ impl Fits {
                 "likelihood|log₁₀",
             ],
         );
+
         for (i, fit) in self.0.iter().enumerate() {
             let center: [f64; 3] = fit.platform.center_p.into();
+
             table.row(vec![
                 CABLES[i].to_owned(),
                 fixed(fit.chi2, 2),
@@ -193,21 +200,22 @@ impl Fits {
         let [small, large] = &self.0;
         let millimetres = small.center_std.map(|std| 1e3 * std);
         let relative = small.gyration_std.iter().zip(&small.gyration).map(|(std, radius)| 100.0 * std / radius);
+
         [
             format!(
-                "The 4 mm cables meet all nine printed frequencies of the two static models, and there is no other natural \
-                 frequency of these models below {BELOW_HZ} Hz. Printed tenths have a deviation of about 0.03 Hz. They \
-                 determine the mass to ± {} kg, the centre of mass to ± {} mm, and the radii of gyration to ± {} %. They do not \
-                 tell {} of the ten values, mainly of the products of inertia.",
+                "The 4 mm cables meet all nine printed frequencies of the two static models, and there is no other \
+                 natural frequency of these models below {BELOW_HZ} Hz. Printed tenths have a deviation of about 0.03 \
+                 Hz. They determine the mass to ± {} kg, the centre of mass to ± {} mm, and the radii of gyration to ± \
+                 {} %. They do not tell {} of the ten values, mainly of the products of inertia.",
                 fixed(small.mass_std, 1),
                 listed(&millimetres, 0),
                 fixed(relative.fold(0.0, f64::max), 0),
                 crate::text::counted(small.undetermined, "combination"),
             ),
             format!(
-                "No platform on the 8 mm cables that the search found meets them: the sum of squared deviations stays at {}, \
-                 with {} kg, above the largest mass of the paper's static test. Under the same assumptions about centre and \
-                 size of the platform the 8 mm cables are less likely by {} orders of magnitude.",
+                "No platform on the 8 mm cables that the search found meets them: the sum of squared deviations stays \
+                 at {}, with {} kg, above the largest mass of the paper's static test. Under the same assumptions \
+                 about centre and size of the platform the 8 mm cables are less likely by {} orders of magnitude.",
                 fixed(large.chi2, 0),
                 fixed(large.platform.mass, 0),
                 fixed(self.orders(), 0),
@@ -226,7 +234,7 @@ impl Outcome {
     }
 
     /// Figure 7 of the paper with this set.
-    pub(crate) fn figure(&self) -> Figure {
+    pub(crate) fn figure(&self) -> PageFigure {
         let caption = format!(
             "Fig. 7 with parameter set {} (identified by us, not published): |x| + |y| + |z| of the acceleration at \
              the attachment of cable 3 per vertical force there. Ticks: all natural frequencies with the cable model \
@@ -266,8 +274,8 @@ fn tensor_entries(rows: &[[f64; 3]; 3]) -> [f64; 6] {
 pub(crate) fn parameters(outcomes: &[Outcome]) -> PageTable {
     let mut table = PageTable::new(
         "table-identified",
-        "Parameters of the dynamic test, identified by us and not published. Inertia: tensor about the centre of mass in \
-         platform axes; centre of mass relative to the platform origin; sag divided by chord at the resulting \
+        "Parameters of the dynamic test, identified by us and not published. Inertia: tensor about the centre of mass \
+         in platform axes; centre of mass relative to the platform origin; sag divided by chord at the resulting \
          equilibrium.",
         &[
             "<set",
@@ -281,9 +289,11 @@ pub(crate) fn parameters(outcomes: &[Outcome]) -> PageTable {
             "<<origin",
         ],
     );
+
     for outcome in outcomes {
         let set = outcome.set;
         let (minimum, maximum) = outcome.sags.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), s| (a.min(*s), b.max(*s)));
+
         table.row(vec![
             set.name.to_owned(),
             CABLES[set.cables].to_owned(),
@@ -307,6 +317,7 @@ pub(crate) fn lists(outcomes: &[Outcome]) -> Vec<PageTable> {
     let list = |id, what: &str, published: &[f64], ours: &dyn Fn(&Outcome) -> Vec<f64>| {
         side_by_side(id, what, published, outcomes, ours)
     };
+
     vec![
         list(
             "table-dynamic",
@@ -341,11 +352,13 @@ fn side_by_side(
     columns.extend(published.iter().map(|f| format!("{f:.1}|Hz")));
     columns.extend(["missing", "extra", "<<extra frequencies|Hz", "rms|Hz", "largest|Hz"].map(str::to_owned));
     let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+
     let caption = format!(
         "Table III, {what}; below {BELOW_HZ} Hz. Header: the published list. Frequencies are paired in order if they \
          are closer than {MAX_DIFFERENCE} Hz; rms and largest difference are those of the pairs.",
     );
     let mut table = PageTable::new(id, caption, &columns);
+
     for outcome in outcomes {
         let agreement = Agreement::of(published, &ours(outcome));
         let mut cells = vec![outcome.set.name.to_owned()];
@@ -357,6 +370,7 @@ fn side_by_side(
             fixed(agreement.rms(), 3),
             fixed(agreement.largest(), 2),
         ]);
+
         table.row(cells);
     }
     table
@@ -390,7 +404,8 @@ mod tests {
     use super::*;
     use crate::pages::paper::robots;
 
-    /// Every printed frequency of both static models is met to its printed tenth, and there is no other one below 10 Hz.
+    /// Every printed frequency of both static models is met to its printed tenth, and there is no other one below 10
+    /// Hz.
     #[test]
     fn the_set_meets_the_nine_frequencies_of_the_static_models() {
         let [small, large] = robots().unwrap();
@@ -406,8 +421,8 @@ mod tests {
         assert!(all.iter().all(|o| o.natural.certified));
     }
 
-    /// The set on the page is the fit of the 4 mm cables within its deviations, and the 8 mm cables cannot meet the nine
-    /// frequencies.
+    /// The set on the page is the fit of the 4 mm cables within its deviations, and the 8 mm cables cannot meet the
+    /// nine frequencies.
     #[test]
     fn the_nine_frequencies_tell_the_cables_apart() {
         let [small, large] = robots().unwrap();

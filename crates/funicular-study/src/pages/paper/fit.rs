@@ -50,8 +50,8 @@ impl Platform {
         (Mat3::identity() * (0.5 * self.inertia_p.trace()) - self.inertia_p) / self.mass
     }
 
-    /// Dimensionless unknowns: radii √(∫ x² dm / m) along the three axes, and the correlations of their products, that of
-    /// y and z at given x. A tensor of any unknowns is that of a body.
+    /// Dimensionless unknowns: radii √(∫ x² dm / m) along the three axes, and the correlations of their products, that
+    /// of y and z at given x. A tensor of any unknowns is that of a body.
     fn unknowns(&self) -> [f64; UNKNOWNS] {
         let moments = self.moments();
         let radii = [0, 1, 2].map(|i| moments[(i, i)].sqrt());
@@ -86,7 +86,7 @@ pub(super) struct Fit {
     pub(super) platform: Platform,
     /// Sum of the squares of the nine differences, in deviations of a printed tenth.
     pub(super) chi2: f64,
-    /// This sum with the priors.
+    /// Sum of the squares of all differences, those from the priors included.
     pub(super) chi2_with_priors: f64,
     /// Deviations of mass [kg], centre of mass [m] and radii of gyration [m].
     pub(super) mass_std: f64,
@@ -161,22 +161,25 @@ pub(super) fn fit(robot: &Robot, start: &Platform) -> Option<Fit> {
     let mut bounds = [(-BOUND, BOUND); UNKNOWNS];
     bounds[0] = (MASS_KG.0.ln(), MASS_KG.1.ln());
     let found = minimise(&mut Nine { robot }, &start.unknowns(), &bounds, 100)?;
-    Some(judged(&found))
+    Some(fit_with_precision(&found))
 }
 
-fn judged(found: &Minimum) -> Fit {
+fn fit_with_precision(found: &Minimum) -> Fit {
     let platform = Platform::at(&found.x);
     let count = SPRING.len() + STATIC_SAG.len();
+
     let all = precision(&found.jacobian, &[1.0; UNKNOWNS]);
     let deviation = |by: &[f64; UNKNOWNS]| {
         let entries = (0..UNKNOWNS).flat_map(|i| (0..UNKNOWNS).map(move |j| (i, j)));
         entries.map(|(i, j)| by[i] * all.covariance[(i, j)] * by[j]).sum::<f64>().sqrt()
     };
+
     let unit = |k: usize, size: f64| {
         let mut by = [0.0; UNKNOWNS];
         by[k] = size;
         by
     };
+
     let gyration_by = |axis: usize| -> [f64; UNKNOWNS] {
         std::array::from_fn(|k| {
             let [before, after] = [-STEP, STEP].map(|step| {
@@ -187,9 +190,12 @@ fn judged(found: &Minimum) -> Fit {
             (after - before) / (2.0 * STEP)
         })
     };
+
     let alone = precision(&found.jacobian.rows(0, count).into_owned(), &[1.0; UNKNOWNS]);
+
     // ∫ exp(−χ²/2) is exp(−χ²/2) at the minimum times √det(2π C), and det C the inverse product of the squares.
     let log_volume: f64 = -all.directions.iter().map(|(value, _)| value.ln()).sum::<f64>();
+
     Fit {
         platform,
         chi2: found.residuals[..count].iter().map(|r| r * r).sum(),

@@ -1,7 +1,7 @@
 //! Tables I and II and Fig. 6 of the paper: geometry, ideal poses, and errors of simpler static models.
 
 use super::published::{IDEAL_POSITION, MOORPY};
-use crate::pages::figure::{Figure, axis, colour, line, points, with};
+use crate::pages::figure::{PageFigure, axis, colour, line, points, with};
 use crate::pages::table::{PageTable, fixed};
 use funicular::pose_error::{PoseErrorPoint, Threshold, threshold};
 use funicular::robot::{Robot, State};
@@ -46,8 +46,9 @@ pub(crate) fn lengths(robot: &Robot) -> Vec<f64> {
 pub(crate) fn geometry(sweeps: &[Sweep; 2]) -> PageTable {
     let mut table = PageTable::new(
         "table-geometry",
-        "The paper's Tables I and II: anchors in the world frame, attachments in the platform frame, unstrained lengths of \
-         both cable sets. These are inputs here; both sets have E = 20 GPa, 0.067 kg/m (4 mm) and 0.251 kg/m (8 mm).",
+        "The paper's Tables I and II: anchors in the world frame, attachments in the platform frame, unstrained \
+         lengths of both cable sets. These are inputs here; both sets have E = 20 GPa, 0.067 kg/m (4 mm) and 0.251 \
+         kg/m (8 mm).",
         &["<cable", "anchor x|m", "y|m", "z|m", "attachment x|m", "y|m", "z|m", "length, 4 mm|m", "length, 8 mm|m"],
     );
     for (i, cable) in sweeps[0].robot.cables.iter().enumerate() {
@@ -69,6 +70,7 @@ pub(crate) fn ideal_poses(sweeps: &[Sweep; 2]) -> PageTable {
          data.",
         &["<cable set", "<", "x|m", "y|m", "z|m", "largest error of a length|m"],
     );
+
     for ((sweep, name), theirs) in sweeps.iter().zip(SET_NAMES).zip(IDEAL_POSITION) {
         if let Ok(ideal) = &sweep.points[0].ideal {
             let p = ideal.pose.position_w;
@@ -78,38 +80,46 @@ pub(crate) fn ideal_poses(sweeps: &[Sweep; 2]) -> PageTable {
             cells.push(format!("{:.0e}", closure.fold(0.0, f64::max)).replace('-', "−"));
             table.marked_row("rule", cells);
         }
+
         let mut cells = vec![name.to_owned(), "independent".to_owned()];
         cells.extend(theirs.map(|v| fixed(v, 4)));
         cells.push("–".to_owned());
+
         table.row(cells);
     }
     table
 }
 
 /// Fig. 6: distance of the platform from its ideal position, for cable set 0 (4 mm) or 1 (8 mm).
-pub(crate) fn distance_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
+pub(crate) fn distance_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
     let sweep = &sweeps[set];
     let masses: Vec<f64> = sweep.points.iter().map(|p| p.mass).collect();
+
     let curve = |of: fn(&PoseErrorPoint) -> Option<funicular::pose_error::PoseDifference>| {
         sweep.points.iter().map(|p| of(p).map_or(f64::NAN, |d| 1e3 * d.distance)).collect::<Vec<_>>()
     };
+
     let mut data = vec![
         line("catenary", &masses, &curve(PoseErrorPoint::catenary_from_ideal), colour::BLUE, "solid"),
         line("spring", &masses, &curve(PoseErrorPoint::spring_from_ideal), colour::GREEN, "dot"),
         line("spring from catenary", &masses, &curve(PoseErrorPoint::spring_from_catenary), colour::ORANGE, "dash"),
     ];
     data.push(independent(sweep, set));
+
     let id = ["figure-pose-4mm", "figure-pose-8mm"][set];
     let caption = format!(
-        "The paper's Fig. 6, {} cables: distance of the platform from its ideal position over the platform's mass. Circles: \
-         MoorPy 1.3.0.",
+        "The paper's Fig. 6, {} cables: distance of the platform from its ideal position over the platform's mass. \
+         Circles: MoorPy 1.3.0.",
         SET_NAMES[set]
     );
     let layout = json!({
         "xaxis": axis("platform mass [kg]", json!({"range": [5, 90]})),
-        "yaxis": axis("distance [mm]", json!({"type": "log", "exponentformat": "power", "tickvals": [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200]})),
+        "yaxis": axis("distance [mm]", json!({
+            "type": "log", "exponentformat": "power", "tickvals": [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200],
+        })),
     });
-    Figure::new(id, 380, caption, &data, layout)
+
+    PageFigure::new(id, 380, caption, &data, layout)
 }
 
 /// Distances of MoorPy's equilibria from the ideal position [mm].
@@ -124,9 +134,10 @@ fn independent(sweep: &Sweep, set: usize) -> Value {
 }
 
 /// Fig. 6 per axis: components of the displacement from the ideal position.
-pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
+pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
     let sweep = &sweeps[set];
     let masses: Vec<f64> = sweep.points.iter().map(|p| p.mass).collect();
+
     let mut data = Vec::new();
     for (k, (name, colour)) in
         [("x", colour::VERMILION), ("y", colour::GREEN), ("z", colour::BLUE)].into_iter().enumerate()
@@ -134,12 +145,14 @@ pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
         let curve = |of: fn(&PoseErrorPoint) -> Option<funicular::pose_error::PoseDifference>| {
             sweep.points.iter().map(|p| of(p).map_or(f64::NAN, |d| 1e3 * d.translation[k])).collect::<Vec<_>>()
         };
+
         data.push(line(name, &masses, &curve(PoseErrorPoint::catenary_from_ideal), colour, "solid"));
         data.push(with(
             line(&format!("{name}, spring"), &masses, &curve(PoseErrorPoint::spring_from_ideal), colour, "dot"),
             json!({"line": {"width": 2.2}, "showlegend": false}),
         ));
     }
+
     let id = ["figure-axes-4mm", "figure-axes-8mm"][set];
     let caption = format!(
         "Displacement from the ideal position per world axis, {} cables; solid: catenary, dotted: spring.",
@@ -149,7 +162,8 @@ pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> Figure {
         "xaxis": axis("platform mass [kg]", json!({"range": [5, 90]})),
         "yaxis": axis("displacement [mm]", json!({"zeroline": true, "zerolinecolor": "#aaaaaa"})),
     });
-    Figure::new(id, 380, caption, &data, layout)
+
+    PageFigure::new(id, 380, caption, &data, layout)
 }
 
 /// Table of the masses above which the spring model is within a tolerance of the catenary.

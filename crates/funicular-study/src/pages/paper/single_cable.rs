@@ -1,7 +1,7 @@
 //! Fig. 2 of the paper: stiffness of one cable over frequency.
 
 use super::published::{FIG2_PRINTED, FINITE_ELEMENTS};
-use crate::pages::figure::{Figure, axis, colour, line, points, with};
+use crate::pages::figure::{PageFigure, axis, colour, line, points, with};
 use crate::pages::table::{PageTable, fixed};
 use funicular::cable::shallow_dynamic::ShallowDynamic;
 use funicular::cable::{LocalAxes, Sag};
@@ -55,18 +55,21 @@ fn horizontal_undamped(cable: &ShallowDynamic, frequency_hz: f64) -> f64 {
 }
 
 /// Figure of |K11| over frequency, with independent finite elements.
-pub(crate) fn figure() -> Figure {
+pub(crate) fn figure() -> PageFigure {
     let frequencies: Vec<f64> = (0..=POINTS).map(|k| BELOW_HZ * f64::from(k) / f64::from(POINTS)).collect();
+
     let curve = |name: &str, mass, end, colour, dash| {
         let cable = cable(mass, end);
         let values: Vec<f64> = frequencies.iter().map(|f| horizontal(&cable, *f)).collect();
         with(line(name, &frequencies, &values, colour, dash), json!({"hovertemplate": "%{x:.2f} Hz<br>%{y:.4g} N/m"}))
     };
+
     let elements = |name: &str, column: usize, colour, symbol| {
         let x: Vec<f64> = FINITE_ELEMENTS.iter().map(|row| row[0]).collect();
         let y: Vec<f64> = FINITE_ELEMENTS.iter().map(|row| row[column].abs()).collect();
         points(name, &x, &y, colour, symbol)
     };
+
     let data = [
         curve("shallow-dynamic, lower end, 0.067 kg/m", MASS_TABLE_II, MovedEnd::Lower, colour::BLUE, "solid"),
         curve("shallow-dynamic, upper end, 0.067 kg/m", MASS_TABLE_II, MovedEnd::Upper, colour::VERMILION, "solid"),
@@ -74,7 +77,8 @@ pub(crate) fn figure() -> Figure {
         elements("finite elements, lower end", 2, colour::BLUE, "circle-open"),
         elements("finite elements, upper end", 1, colour::VERMILION, "diamond-open"),
     ];
-    Figure::new(
+
+    PageFigure::new(
         "figure-cable-stiffness",
         470,
         "The paper's Fig. 2: magnitude of the horizontal end stiffness K11 of one cable (E = 20 GPa, A = 1.2566·10⁻⁵ \
@@ -99,6 +103,7 @@ pub(crate) fn numbers() -> PageTable {
          of its Table II and with the mass per length that reproduces the printed λ² and ε.",
         &["<", "mass per length|kg/m", "λ²", "ε", "Le/l", "held cable, in plane: first resonance|Hz", "second|Hz"],
     );
+
     let (lambda2, epsilon) = FIG2_PRINTED;
     let blank = || "–".to_owned();
     table.row(vec![
@@ -110,10 +115,13 @@ pub(crate) fn numbers() -> PageTable {
         blank(),
         blank(),
     ]);
+
     for (name, mass) in [("from Table II", MASS_TABLE_II), ("to match the printed values", MASS_PRINTED)] {
         let mut cable = cable(mass, MovedEnd::Lower);
         cable.in_plane_only = true;
+
         let held = cable.clamped_frequencies_below(BELOW_HZ * TAU);
+
         table.row(vec![
             name.into(),
             fixed(mass, 3),
@@ -145,13 +153,16 @@ pub(crate) fn against_elements() -> PageTable {
             "difference|%",
         ],
     );
+
     let (lower, upper) = (cable(MASS_TABLE_II, MovedEnd::Lower), cable(MASS_TABLE_II, MovedEnd::Upper));
+
     for [frequency, theirs_upper, theirs_lower] in FINITE_ELEMENTS {
         let mut cells = vec![fixed(frequency, 1)];
         for (theirs, cable) in [(theirs_lower, &lower), (theirs_upper, &upper)] {
             let ours = horizontal_undamped(cable, frequency);
             cells.extend([fixed(theirs, 1), fixed(ours, 1), fixed(100.0 * (ours / theirs - 1.0), 2)]);
         }
+
         table.row(cells);
     }
     table

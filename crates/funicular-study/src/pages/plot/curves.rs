@@ -2,7 +2,7 @@
 
 use super::rows::{Rows, Series, label, with_unit};
 use super::{Tracking, axis_title};
-use crate::pages::figure::{Figure, axis, colour, line, plain, rounded, with};
+use crate::pages::figure::{PageFigure, axis, colour, line, plain, rounded, with};
 use crate::sweep::CODES;
 use serde_json::{Value, json};
 
@@ -57,8 +57,8 @@ fn is_frequency(series: &Series) -> bool {
 }
 
 /// Figures of all quantities, one per kind, the natural frequencies first.
-pub(super) fn figures(rows: &Rows, tracking: Option<&Tracking>) -> Vec<Figure> {
-    let along = along(rows);
+pub(super) fn figures(rows: &Rows, tracking: Option<&Tracking>) -> Vec<PageFigure> {
+    let along = horizontal_axis(rows);
     let mut figures = Vec::new();
     if let Some(tracking) = tracking {
         figures.push(campbell(rows, &along, tracking));
@@ -98,17 +98,19 @@ pub(super) fn family(series: &Series) -> String {
 
 /// Horizontal axis of the rows: the value that varies. For a list of poses it is the length of the path, or the number
 /// of the row if all positions are equal.
-pub(super) fn along(rows: &Rows) -> HorizontalAxis {
+pub(super) fn horizontal_axis(rows: &Rows) -> HorizontalAxis {
     if let [axis] = &rows.axes[..] {
         let x = rows.places.iter().map(|place| rows.at(*place)[0]).collect();
         return HorizontalAxis { title: axis_title(&axis.name, &axis.unit), x, short: axis.name.clone() };
     }
+
     let positions: Vec<&Vec<f64>> = rows
         .coordinates
         .iter()
         .filter(|(name, ..)| ["x_m", "y_m", "z_m"].contains(&name.as_str()))
         .map(|c| &c.2)
         .collect();
+
     let mut length = 0.0;
     let path: Vec<f64> = (0..rows.places.len())
         .map(|i| {
@@ -117,6 +119,7 @@ pub(super) fn along(rows: &Rows) -> HorizontalAxis {
             length
         })
         .collect();
+
     if rows.is_list && length > 0.0 {
         HorizontalAxis { title: "length of the path [m]".to_owned(), x: path, short: "path".to_owned() }
     } else {
@@ -180,7 +183,7 @@ fn shading(rows: &Rows, along: &HorizontalAxis) -> &'static str {
 }
 
 /// Markers for single values between two missing ones, where a line has no length.
-fn alone(along: &HorizontalAxis, series: &Series, colour: &str) -> Value {
+fn isolated_points(along: &HorizontalAxis, series: &Series, colour: &str) -> Value {
     let there = |i: Option<usize>| i.and_then(|i| series.values.get(i)).is_some_and(|value| value.is_finite());
     let alone = (0..series.values.len()).filter(|&i| there(Some(i)) && !there(i.checked_sub(1)) && !there(Some(i + 1)));
     let (x, y): (Vec<f64>, Vec<f64>) = alone.map(|i| (along.x[i], series.values[i])).unzip();
@@ -191,8 +194,9 @@ fn alone(along: &HorizontalAxis, series: &Series, colour: &str) -> Value {
 }
 
 /// Lines through the values, with gaps where values are missing.
-fn curves(id: String, rows: &Rows, along: &HorizontalAxis, members: &[&Series]) -> Figure {
+fn curves(id: String, rows: &Rows, along: &HorizontalAxis, members: &[&Series]) -> PageFigure {
     let few = along.x.len() <= 60;
+
     let data: Vec<Value> = members
         .iter()
         .enumerate()
@@ -203,18 +207,22 @@ fn curves(id: String, rows: &Rows, along: &HorizontalAxis, members: &[&Series]) 
             if few {
                 trace = with(trace, json!({"mode": "lines+markers", "marker": {"size": 4, "color": colour}}));
             }
+
             let hover = format!("{} %{{x}}<br>%{{y:.5g}} {}", plain(&along.short), plain(&series.unit));
             let more = json!({"hovertemplate": hover, "connectgaps": false, "legendgroup": series.name});
             let trace = with(trace, more.clone());
             if few {
                 return vec![trace];
             }
-            let alone = with(alone(along, series, colour), more);
+
+            let alone = with(isolated_points(along, series, colour), more);
             [Some(trace), Some(alone).filter(|alone| alone["x"] != json!([]))].into_iter().flatten().collect()
         })
         .collect::<Vec<_>>()
         .concat();
+
     let y = vertical_title(members);
+
     let caption = match members {
         [one] => format!("{}: {}.", label(&one.name), one.about),
         several => {
@@ -231,10 +239,12 @@ fn curves(id: String, rows: &Rows, along: &HorizontalAxis, members: &[&Series]) 
             format!("{}.", parts.join("; "))
         }
     };
+
     let caption = format!("{}{}", capitalised(&caption), shading(rows, along));
+
     // The margin leaves room for the buttons above the legend.
     let more = json!({"showlegend": members.len() > 1, "margin": {"t": if members.len() > 1 { 56 } else { 34 }}});
-    Figure::new(id, if members.len() > 10 { 460 } else { 380 }, caption, &data, layout(rows, along, &y, more))
+    PageFigure::new(id, if members.len() > 10 { 460 } else { 380 }, caption, &data, layout(rows, along, &y, more))
 }
 
 /// Title of the vertical axis of quantities that share a figure.
@@ -266,17 +276,20 @@ fn capitalised(text: &str) -> String {
 }
 
 /// Figure of the natural frequencies: one line per branch of modes, coloured by the platform's share of the energy.
-fn campbell(rows: &Rows, along: &HorizontalAxis, tracking: &Tracking) -> Figure {
+fn campbell(rows: &Rows, along: &HorizontalAxis, tracking: &Tracking) -> PageFigure {
     let count = frequencies(rows).len();
     let branches = tracking.branches.iter().flatten().max().map_or(0, |last| last + 1);
+
     let mut data = Vec::new();
     let (mut x, mut y, mut share, mut text) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+
     for branch in 0..branches {
         let (mut line_x, mut line_y) = (Vec::new(), Vec::new());
         for (at, place) in rows.places.iter().enumerate() {
             let step = place - rows.places[0];
             let of_step = tracking.branches.get(step).map_or(&[][..], Vec::as_slice);
             let modes = tracking.modes.get(step).map_or(&[][..], Vec::as_slice);
+
             let Some(k) = of_step.iter().position(|of| *of == branch).filter(|k| *k < count) else {
                 line_x.push(along.x[at]);
                 line_y.push(f64::NAN);
@@ -289,21 +302,31 @@ fn campbell(rows: &Rows, along: &HorizontalAxis, tracking: &Tracking) -> Figure 
             share.push(100.0 * modes[k].platform_energy_fraction);
             text.push(format!("mode {} of its row, branch {}, {}", k + 1, branch + 1, modes[k].kind.name()));
         }
+
         if line_y.iter().filter(|y| y.is_finite()).count() > 1 {
             let trace = line("", &line_x, &line_y, "#6b6b6b", "solid");
             data.push(with(trace, json!({"showlegend": false, "hoverinfo": "skip", "line": {"width": 1.1}})));
         }
     }
+
+    let hover = format!(
+        "{} %{{x}}<br>%{{y:.4f}} Hz<br>platform %{{marker.color:.0f}} % of the energy<br>%{{text}}<extra></extra>",
+        plain(&along.short)
+    );
     let size = if along.x.len() > 120 { 4.0 } else { 6.0 };
     data.push(json!({
         "type": "scatter", "mode": "markers", "x": rounded(&x), "y": rounded(&y), "text": text, "showlegend": false,
-        "hovertemplate": format!("{} %{{x}}<br>%{{y:.4f}} Hz<br>platform %{{marker.color:.0f}} % of the energy<br>%{{text}}<extra></extra>", plain(&along.short)),
+        "hovertemplate": hover,
         "marker": {
             "size": size, "color": rounded(&share), "cmin": 0, "cmax": 100, "line": {"width": 0},
             "colorscale": [[0.0, "#fdd56a"], [0.25, "#f89540"], [0.5, "#d5536f"], [0.75, "#8f0da4"], [1.0, "#0d0887"]],
-            "colorbar": {"title": {"text": "platform's share of the energy [%]", "side": "right", "font": {"size": 12}}, "thickness": 14, "outlinewidth": 0, "tickfont": {"size": 11}},
+            "colorbar": {
+                "title": {"text": "platform's share of the energy [%]", "side": "right", "font": {"size": 12}},
+                "thickness": 14, "outlinewidth": 0, "tickfont": {"size": 11},
+            },
         },
     }));
+
     let caption = format!(
         "The lowest {count} natural frequencies. A line joins modes with the most similar motion from one value to the \
          next (MAC of the complete robot, weighted by mass, at least 0.5). Colour: the platform's share of the kinetic \
@@ -311,5 +334,6 @@ fn campbell(rows: &Rows, along: &HorizontalAxis, tracking: &Tracking) -> Figure 
          modes exchange their motions, and the colours change along the lines.{}",
         shading(rows, along)
     );
-    Figure::new("figure-modes", 520, caption, &data, layout(rows, along, "natural frequency [Hz]", json!({})))
+
+    PageFigure::new("figure-modes", 520, caption, &data, layout(rows, along, "natural frequency [Hz]", json!({})))
 }

@@ -2,17 +2,17 @@
 
 use super::rows::{NOT_COMPUTED, Rows, Series, label, robot_name, with_unit};
 use super::{axis_title, brief, curves, refuse_no_rows, status};
-use crate::figures::axis::Axis;
+use crate::figures::axis::ChartAxis;
 use crate::figures::chart::{Chart, Entry, Layer, Panel, Sample};
 use crate::figures::map::{ColourBar, ColourScale, Map, limits};
-use crate::figures::{Figure, Kind, style};
+use crate::figures::{Figure, FigureContent, style};
 use crate::sweep::{Quantity, SweepRows};
 use anyhow::{Result, anyhow, bail};
 use funicular::robot::Robot;
 
 /// Choice of what the figure of a map or sweep shows.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Choice {
+pub struct SweepFigureChoice {
     /// Name of the quantity, as `tension-max`, or of its column, as `tension_max_n`.
     pub quantity: Option<String>,
     /// Names of the horizontal and the vertical axis of a slice.
@@ -22,7 +22,7 @@ pub struct Choice {
 }
 
 /// Figure of rows, with its notes.
-pub struct Made {
+pub struct SweepFigure {
     /// The figure.
     pub figure: Figure,
     /// Notes for the user: which slice is drawn, and what the figure leaves out.
@@ -33,7 +33,7 @@ pub struct Made {
 ///
 /// # Errors
 /// A damaged file, a file without rows, several quantities without a choice, or a choice that the rows do not have.
-pub fn figure(file: &dyn SweepRows, place: &str, choice: &Choice) -> Result<Made> {
+pub fn figure(file: &dyn SweepRows, place: &str, choice: &SweepFigureChoice) -> Result<SweepFigure> {
     refuse_no_rows(file, place)?;
     let rows = Rows::read(file)?;
     let name = robot_name(&file.record().plan);
@@ -69,6 +69,7 @@ fn chosen<'a>(groups: &[Vec<&'a Series>], wanted: Option<&ChosenColumns>) -> Res
     let names = |groups: &[Vec<&Series>]| -> String {
         groups.iter().map(|group| group[0].name.as_str()).collect::<Vec<_>>().join(", ")
     };
+
     let Some(wanted) = wanted else {
         return match groups {
             [] => Err(anyhow!("no row has a value, so there is nothing to draw")),
@@ -79,11 +80,13 @@ fn chosen<'a>(groups: &[Vec<&'a Series>], wanted: Option<&ChosenColumns>) -> Res
             )),
         };
     };
+
     let found: Vec<Vec<&Series>> = groups
         .iter()
         .map(|group| group.iter().copied().filter(|series| wanted.columns.contains(&series.name)).collect::<Vec<_>>())
         .filter(|group| !group.is_empty())
         .collect();
+
     match &found[..] {
         [] => Err(anyhow!("⟪quantity⟫: the rows have no numbers of `{}`; they have {}", wanted.text, names(groups))),
         [one] => Ok(one.clone()),
@@ -96,7 +99,7 @@ fn chosen<'a>(groups: &[Vec<&'a Series>], wanted: Option<&ChosenColumns>) -> Res
 }
 
 /// Curves of one group of quantities.
-fn lines(rows: &Rows, name: &str, wanted: Option<&ChosenColumns>, choice: &Choice) -> Result<Made> {
+fn lines(rows: &Rows, name: &str, wanted: Option<&ChosenColumns>, choice: &SweepFigureChoice) -> Result<SweepFigure> {
     if choice.plane.is_some() || !choice.at.is_empty() {
         bail!("these rows have one axis: ⟪plane⟫ and ⟪at⟫ choose a slice of a grid with two or more");
     }
@@ -111,12 +114,12 @@ fn lines(rows: &Rows, name: &str, wanted: Option<&ChosenColumns>, choice: &Choic
     let groups: Vec<Vec<&Series>> = groups.into_iter().map(|(_, members)| members).collect();
     let members = chosen(&groups, wanted)?;
 
-    let along = curves::along(rows);
+    let along = curves::horizontal_axis(rows);
     let (from, to) = bounds(along.x.iter().copied());
-    let x = Axis::linear(along.title.clone(), from, to);
+    let x = ChartAxis::linear(along.title.clone(), from, to);
     let (low, high) = bounds(members.iter().flat_map(|series| series.values.iter().copied()));
     let room = 0.05 * (high - low);
-    let y = Axis::linear(curves::vertical_title(&members), low - room, high + room);
+    let y = ChartAxis::linear(curves::vertical_title(&members), low - room, high + room);
 
     let bands = curves::infeasible_ranges(rows, &along);
     let has_bands = !bands.is_empty();
@@ -146,7 +149,7 @@ fn lines(rows: &Rows, name: &str, wanted: Option<&ChosenColumns>, choice: &Choic
     }
     let title = format!("{name}: {}", label(&members[0].name));
     let chart = Chart { title, x, panels: vec![Panel::new(y, 0.58, layers)], legend, colour_bar: None };
-    Ok(Made { figure: Figure(Kind::Chart(chart)), notes })
+    Ok(SweepFigure { figure: Figure(FigureContent::Chart(chart)), notes })
 }
 
 /// Maximum number of rows at which every value has a symbol.
@@ -164,7 +167,7 @@ fn bounds(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// Slice of a grid.
-fn slice(rows: &Rows, name: &str, wanted: Option<&ChosenColumns>, choice: &Choice) -> Result<Made> {
+fn slice(rows: &Rows, name: &str, wanted: Option<&ChosenColumns>, choice: &SweepFigureChoice) -> Result<SweepFigure> {
     let groups: Vec<Vec<&Series>> =
         rows.series.iter().filter(|series| series.count > 0).map(|series| vec![series]).collect();
     let series = chosen(&groups, wanted)?[0];
@@ -186,7 +189,7 @@ fn slice(rows: &Rows, name: &str, wanted: Option<&ChosenColumns>, choice: &Choic
     let title = with_unit(&label(&series.name), &series.unit);
     let axis = |k: usize, values: &[f64]| {
         let (low, high) = limits(values);
-        Axis::linear(axis_title(&rows.axes[k].name, &rows.axes[k].unit), low, high)
+        ChartAxis::linear(axis_title(&rows.axes[k].name, &rows.axes[k].unit), low, high)
     };
     let (x_axis, y_axis) = (axis(h, &x), axis(v, &y));
     let ratio = (y_axis.high - y_axis.low) / (x_axis.high - x_axis.low);
@@ -205,12 +208,12 @@ fn slice(rows: &Rows, name: &str, wanted: Option<&ChosenColumns>, choice: &Choic
         legend,
         colour_bar: Some(ColourBar { title, scale }),
     };
-    Ok(Made { figure: Figure(Kind::Chart(chart)), notes })
+    Ok(SweepFigure { figure: Figure(FigureContent::Chart(chart)), notes })
 }
 
 /// Sentences about what the slice does not show: places on the other axes that the user has not given, and values that
 /// are left out.
-fn slice_notes(rows: &Rows, choice: &Choice, [h, v]: [usize; 2], at: &[usize]) -> Result<Vec<String>> {
+fn slice_notes(rows: &Rows, choice: &SweepFigureChoice, [h, v]: [usize; 2], at: &[usize]) -> Result<Vec<String>> {
     let mut notes = Vec::new();
     let mut given = Vec::new();
     for (name, _) in &choice.at {
@@ -247,7 +250,7 @@ fn slice_cells(rows: &Rows, [h, v]: [usize; 2], at: &[usize]) -> Vec<usize> {
 }
 
 /// Axes of the slice: the chosen ones, or the two with most cells, in the order of the file.
-fn plane(rows: &Rows, choice: &Choice) -> Result<(usize, usize)> {
+fn plane(rows: &Rows, choice: &SweepFigureChoice) -> Result<(usize, usize)> {
     let Some([h, v]) = &choice.plane else {
         let n = rows.axes.len();
         let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
@@ -271,26 +274,32 @@ fn axis_of(rows: &Rows, key: &str, name: &str) -> Result<usize> {
 }
 
 /// Position of the slice on every axis: the chosen values, the middle elsewhere.
-fn places(rows: &Rows, choice: &Choice, plane: [usize; 2]) -> Result<Vec<usize>> {
+fn places(rows: &Rows, choice: &SweepFigureChoice, plane: [usize; 2]) -> Result<Vec<usize>> {
     /// Maximum distance of a chosen value from a value of the grid, relative to the range of the axis.
     const NEAR: f64 = 1e-6;
+
     let mut at: Vec<usize> = rows.axes.iter().map(|axis| (axis.kept() - 1) / 2).collect();
+
     for (name, wanted) in &choice.at {
         let k = axis_of(rows, "at", name)?;
         if plane.contains(&k) {
             bail!("⟪at⟫: {name} is an axis of the slice itself; the slice shows all its values");
         }
+
         let values = rows.axes[k].values();
         let range = values[values.len() - 1] - values[0];
         let distance = |value: f64| (value - wanted).abs();
         let nearest = (0..values.len()).min_by(|&i, &j| distance(values[i]).total_cmp(&distance(values[j])));
         let nearest = nearest.unwrap_or_default();
+
         if distance(values[nearest]) > NEAR * range {
             let near: Vec<String> =
                 values[nearest.saturating_sub(1)..(nearest + 2).min(values.len())].iter().map(|v| brief(*v)).collect();
             bail!("⟪at⟫: {name} = {wanted} is not a value of these rows; the nearest values are {}", near.join(", "));
         }
+
         at[k] = nearest;
     }
+
     Ok(at)
 }

@@ -1,7 +1,7 @@
 //! Rows of a sweep for the figures of a page: all rows are counted and binned, and as many are kept as the page may
 //! hold.
 
-use crate::sweep::{CODES, Chunk, Column, ColumnKind, MAX_POINTS, Steps, SweepRows, Values, axes_of};
+use crate::sweep::{CODES, Chunk, Column, ColumnKind, MAX_POINTS, Record, Steps, SweepRows, Values, axes_of};
 use anyhow::{Context as _, Result, bail};
 use serde_json::Value;
 
@@ -106,6 +106,21 @@ pub(super) struct Rows {
     first_row: usize,
 }
 
+/// Message of a file whose plan and rows contradict each other.
+const DAMAGED: &str = "the file's plan does not fit its rows: the file is damaged, or another program wrote it";
+
+/// Number of columns before the columns of feasibility, status and reason, which every file has.
+fn coordinate_count(record: &Record) -> Result<usize> {
+    let coordinates = record.columns.iter().take_while(|column| column.kind == ColumnKind::Real).count();
+    let head = record.columns.get(coordinates..coordinates + 3);
+    let expected = [ColumnKind::Flag, ColumnKind::Text, ColumnKind::Text];
+    let fits = head.is_some_and(|head| head.iter().map(|column| column.kind).eq(expected));
+    if !fits || record.rows > MAX_POINTS {
+        bail!(DAMAGED);
+    }
+    Ok(coordinates)
+}
+
 impl Rows {
     /// Reads a file twice, because the range of the values has to be known before they are binned.
     ///
@@ -136,23 +151,15 @@ impl Rows {
     fn empty(file: &dyn SweepRows) -> Result<Self> {
         let record = file.record();
         let columns = &record.columns;
-        let damaged = "the file's plan does not fit its rows: the file is damaged, or another program wrote it";
-        let coordinates = columns.iter().take_while(|column| column.kind == ColumnKind::Real).count();
-        let head = columns.get(coordinates..coordinates + 3);
-        if head
-            .is_none_or(|head| head.iter().map(|c| c.kind).ne([ColumnKind::Flag, ColumnKind::Text, ColumnKind::Text]))
-            || record.rows > MAX_POINTS
-        {
-            bail!(damaged);
-        }
+        let coordinates = coordinate_count(record)?;
         let numbers = columns.iter().skip(coordinates + 3);
         let (numbers, words): (Vec<&Column>, Vec<&Column>) =
             numbers.partition(|column| column.kind == ColumnKind::Real);
 
         let is_list = record.plan.contains_key("poses");
-        let grid = if is_list { None } else { Some(grid_of(&record.plan).with_context(|| damaged)?) };
+        let grid = if is_list { None } else { Some(grid_of(&record.plan).context(DAMAGED)?) };
         if grid.as_ref().is_some_and(|grid| points_of(grid) != record.rows) {
-            bail!(damaged);
+            bail!(DAMAGED);
         }
         let (mut axes, fixed) = grid.map_or_else(Default::default, |grid| split(grid, &columns[..coordinates]));
 
@@ -213,6 +220,7 @@ impl Rows {
                 }
             }
         }
+
         for (series, column) in self.series.iter_mut().zip(of_series) {
             let Values::Real(values) = &chunk.columns[*column] else { continue };
             for (i, value) in values.iter().enumerate() {
@@ -235,6 +243,7 @@ impl Rows {
             Values::Real(values) => values[row].unwrap_or(f64::NAN),
             _ => f64::NAN,
         };
+
         for row in 0..chunk.rows() {
             let kept = self.slot(first + row);
             let slot = match kept {
@@ -250,9 +259,11 @@ impl Rows {
                 }
                 None => None,
             };
+
             if let (Some(slot), Values::Text(status)) = (slot, &chunk.columns[head + 1]) {
                 self.status[slot] = code_of(status[row].as_deref());
             }
+
             for (series, column) in self.series.iter_mut().zip(of_series) {
                 let value = real(*column, row);
                 if value.is_finite() {

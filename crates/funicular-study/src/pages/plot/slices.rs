@@ -28,13 +28,16 @@ impl Slices {
     pub(super) fn new(rows: &Rows, is_sweep: bool) -> Self {
         let axes = &rows.axes;
         let title = |i: usize| axis_title(&axes[i].name, &axes[i].unit);
+
         // Pairs of axes, the pair with most cells first; within a pair in the order of the file.
         let mut pairs: Vec<(usize, usize)> =
             (0..axes.len()).flat_map(|i| (i + 1..axes.len()).map(move |j| (i, j))).collect();
         pairs.sort_by_key(|(i, j)| std::cmp::Reverse(axes[*i].kept() * axes[*j].kept()));
+
         let position = |name: &str| axes.iter().position(|axis| axis.name == name);
         let space = if is_sweep { None } else { position("x").zip(position("y")).zip(position("z")) };
         let space = space.map(|((x, y), z)| [x, y, z]);
+
         let header = json!({
             "axes": (0..axes.len()).map(|i| json!({
                 "name": axes[i].name, "title": title(i), "unit": axes[i].unit, "values": axes[i].values(),
@@ -42,7 +45,8 @@ impl Slices {
             "pairs": pairs,
             "space": space,
             "quantities": rows.series.iter().map(|series| json!({
-                "name": label(&series.name), "title": with_unit(&label(&series.name), &series.unit), "unit": series.unit,
+                "name": label(&series.name), "title": with_unit(&label(&series.name), &series.unit),
+                "unit": series.unit,
                 "count": series.count, "bins": series.bins.to_vec(),
                 "min": if series.count > 0 { series.min.0 } else { 0.0 },
                 "max": if series.count > 0 { series.max.0 } else { 0.0 },
@@ -50,8 +54,13 @@ impl Slices {
             "statuses": rows.counts.iter().map(|count| json!({
                 "code": count.code, "name": status(count.code).0, "rows": count.rows, "colour": colour_of(count.code),
             })).collect::<Vec<_>>(),
-            "feasible": CODES.iter().filter(|code| !code.1.starts_with("infeasible")).map(|code| code.0).collect::<Vec<_>>(),
+            "feasible": CODES
+                .iter()
+                .filter(|code| !code.1.starts_with("infeasible"))
+                .map(|code| code.0)
+                .collect::<Vec<_>>(),
         });
+
         // Format: length of the header, the header, the status of every cell, then all values of one quantity after
         // another.
         let header = header.to_string();
@@ -62,6 +71,7 @@ impl Slices {
         bytes.extend(
             rows.series.iter().flat_map(|series| &series.values).flat_map(|value| (*value as f32).to_le_bytes()),
         );
+
         Self {
             packed: packed(&bytes),
             quantities: rows.series.iter().map(|series| label(&series.name)).collect(),

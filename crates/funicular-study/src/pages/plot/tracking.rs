@@ -33,19 +33,23 @@ fn follow(file: &dyn SweepRows, record: &Record, count: usize, watch: &mut dyn W
             counted(file.rows(), "value")
         ));
     }
+
     let again = PreparedSweep::of_record(record).map_err(|error| format!("{error:#}"))?;
     let mut steps: Vec<Vec<(Mode, Tracked)>> = Vec::with_capacity(file.rows());
     for i in file.first_row()..file.first_row() + file.rows() {
         // A row without modes has its reason in the file.
         let found = lowest_modes(&again.points().point(i), count, again.options());
         steps.push(found.map_or_else(|_| Vec::new(), |found| found.modes.into_iter().zip(found.tracked).collect()));
+
         watch.progress(steps.len(), file.rows(), "values with their modes");
         if watch.is_cancelled() {
             return Err("stopped before the end".to_owned());
         }
     }
+
     let (modes, tracked): (Vec<Vec<Mode>>, Vec<Vec<Tracked>>) =
         steps.into_iter().map(|step| step.into_iter().unzip()).unzip();
     let branches = track(&tracked);
+
     Ok(Tracking { modes, branches })
 }

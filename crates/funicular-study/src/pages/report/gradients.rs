@@ -2,7 +2,7 @@
 
 use crate::analyses::gradient::{GradientColumns, meaning};
 use crate::at_rest::AtRest;
-use crate::pages::figure::{Figure, axis, colour, plain, rounded};
+use crate::pages::figure::{PageFigure, axis, colour, plain, rounded};
 use crate::text::short;
 use funicular::dynamics::Dynamics;
 use funicular::gradient::{Gradients, Hold};
@@ -22,7 +22,7 @@ pub(super) fn first_frequencies(
     robot_text: &str,
     dynamics: &Dynamics,
     found: &Modes,
-) -> Result<Figure, String> {
+) -> Result<PageFigure, String> {
     let columns = GradientColumns::of(at_rest, robot_text, &[], &[]).map_err(|error| error.to_string())?;
     let gradients = Gradients::new(&at_rest.robot, &at_rest.equilibrium, Hold::Lengths).map_err(|e| e.to_string())?;
     let vibration = gradients.vibration(dynamics).map_err(|error| error.to_string())?;
@@ -58,15 +58,16 @@ pub(super) fn first_frequencies(
         .map(|((hz, of), colour)| {
             let values: Vec<f64> = order.iter().map(|(_, k)| 1e3 * of[*k]).collect();
             json!({
-                "type": "bar", "orientation": "h", "name": format!("{} Hz", short(*hz, 4)), "x": rounded(&values), "y": labels,
+                "type": "bar", "orientation": "h", "name": format!("{} Hz", short(*hz, 4)), "x": rounded(&values),
+                "y": labels,
                 "marker": {"color": colour},
             })
         })
         .collect();
     let caption = format!(
         "What moves the first frequencies: change of each over the tolerance of the numbers that move them most. \
-         Positions and lengths have a tolerance of 1 mm, angles 0.1°, other values 1 %; {}. `funicular gradient` gives all \
-         derivatives.",
+         Positions and lengths have a tolerance of 1 mm, angles 0.1°, other values 1 %; {}. `funicular gradient` gives \
+         all derivatives.",
         meaning(at_rest, Hold::Lengths)
     );
     let layout = json!({
@@ -74,5 +75,5 @@ pub(super) fn first_frequencies(
         "xaxis": axis("change of the frequency [mHz]", json!({"zeroline": true, "zerolinecolor": "#444444"})),
         "yaxis": axis("", json!({"automargin": true})),
     });
-    Ok(Figure::new("figure-gradients", 560, caption.replace('`', ""), &bars, layout))
+    Ok(PageFigure::new("figure-gradients", 560, caption.replace('`', ""), &bars, layout))
 }

@@ -1,12 +1,11 @@
 //! Report of a request: the robot at its state, with a default response if none is requested.
 
 use super::{Report, ReportInput, report};
-use crate::analyses::frf;
 use crate::at_rest::{self, AtRest};
 use crate::pages::table::listed;
 use crate::request;
 use crate::robot_file::RobotFile;
-use crate::signals::{Input, Output, Place};
+use crate::signals::{Input, Output, Place, response_unit};
 use anyhow::{Result, anyhow};
 use funicular::math::Vec3;
 use funicular::response::{Quantity, Signal};
@@ -41,13 +40,16 @@ pub fn about(
 ) -> Result<Report> {
     request::check_positive("below_hz", request.below_hz)?;
     request::check_fraction("platform_share", request.platform_share)?;
+
     let (from, to) = response(request, &at_rest.robot)?;
     let [input, output] = at_rest::signals(&at_rest.robot, &from, &to, &request.points)?;
+
     let vector = |signal: Signal, name: &str| {
         signal.platform_vector(&at_rest.equilibrium.pose).ok_or_else(|| {
             anyhow!("{name} is on a cable, but the report shows a response of the platform: use `funicular frf` for it")
         })
     };
+
     report(&ReportInput {
         platform_share: request.platform_share,
         at_rest,
@@ -57,7 +59,7 @@ pub fn about(
         below_hz: request.below_hz,
         frf_input: (input_in_words(&from, request.points.input_point_m), vector(input, &from.name)?),
         frf_output: (output_in_words(&to, request.points.output_point_m), vector(output, &to.name)?, to.quantity),
-        frf_unit: &frf::unit(&from, &to),
+        frf_unit: &response_unit(&from, &to),
         command_line,
     })
 }

@@ -1,10 +1,10 @@
 //! Tables and bar charts of a report.
 
 use super::prose;
-use crate::analyses::statics::LimitNumbers;
+use crate::analyses::shared::LimitNumbers;
 use crate::analyses::{modes, statics};
 use crate::at_rest::AtRest;
-use crate::pages::figure::{self, Figure, axis, colour, plain, rounded};
+use crate::pages::figure::{self, PageFigure, axis, colour, plain, rounded};
 use crate::pages::table::{PageTable, fixed, listed, significant};
 use crate::text::NONE;
 use funicular::cable::{SHALLOW_SAG_LIMIT, Sag};
@@ -74,11 +74,12 @@ pub(crate) fn tension_table(at_rest: &AtRest) -> PageTable {
     table
 }
 
-/// Table of the interval in which friction of pulleys leaves pose and tensions; `None` without friction, and if friction
-/// may move the platform without limit.
+/// Table of the interval in which friction of pulleys leaves pose and tensions; `None` without friction, and if
+/// friction may move the platform without limit.
 pub(crate) fn friction_table(at_rest: &AtRest) -> Option<PageTable> {
     let found = statics::FrictionRow::of(at_rest).ok()?;
     let range = |[min, max]: [f64; 2], digits: usize| format!("{} to {}", fixed(min, digits), fixed(max, digits));
+
     let motion = match &found.motion {
         Some(motion) => {
             let mm = motion.translation_m.map(|pair| range(pair.map(|metres| 1e3 * metres), 3)).join(", ");
@@ -90,12 +91,15 @@ pub(crate) fn friction_table(at_rest: &AtRest) -> Option<PageTable> {
         }
         None => "The pose and the tensions at the platform are held.".to_owned(),
     };
+
     let caption = format!(
         "Friction of pulleys: minimum to maximum if every cable may have run last towards the platform or towards its \
          drum. {motion} All other results leave friction out."
     );
+
     let columns = ["<cable", "friction exponent|–", "beyond exit|mm", "tension, drum|N", "tension, platform|N"];
     let mut table = PageTable::new("table-friction", caption, &columns);
+
     for cable in &found.cables {
         table.row(vec![
             cable.name.clone(),
@@ -105,6 +109,7 @@ pub(crate) fn friction_table(at_rest: &AtRest) -> Option<PageTable> {
             range(cable.tension_platform_n, 3),
         ]);
     }
+
     Some(table)
 }
 
@@ -113,10 +118,11 @@ pub(crate) fn drive_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Pa
     if robot.cables.iter().all(|cable| cable.anchor.is_fixed()) {
         return None;
     }
+
     let mut table = PageTable::new(
         "table-drives",
-        "Pulleys and winches. Wrap: angle over which the cable touches its wheel. The unstrained length of a cable is the \
-         sum of its free span, the arc on the wheel and the drum side."
+        "Pulleys and winches. Wrap: angle over which the cable touches its wheel. The unstrained length of a cable is \
+         the sum of its free span, the arc on the wheel and the drum side."
             .to_owned(),
         &[
             "<cable",
@@ -131,10 +137,12 @@ pub(crate) fn drive_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Pa
             "<exit point|m",
         ],
     );
+
     for (cable, row) in robot.cables.iter().zip(&equilibrium.cables) {
         let name = |name: Option<&String>| name.map_or_else(|| NONE.to_owned(), Clone::clone);
         let contact = row.drive.as_ref().and_then(|drive| drive.contact);
         let wrap = contact.or_else(|| cable.anchor.contact(&row.attachment_w)).map(|contact| contact.wrap.to_degrees());
+
         let [arc, drum_side] = match &row.drive {
             Some(drive) => [drive.arc_length, drive.drum_side_length],
             // Ideal cables.
@@ -142,6 +150,7 @@ pub(crate) fn drive_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Pa
                 [row.unstrained_length - row.chord() - cable.anchor.drum_side_length(), cable.anchor.drum_side_length()]
             }
         };
+
         let free = row.unstrained_length - arc - drum_side;
         let exit = row.anchor_w;
         table.row(vec![
@@ -157,6 +166,7 @@ pub(crate) fn drive_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<Pa
             format!("{}, {}, {}", fixed(exit.x, 4), fixed(exit.y, 4), fixed(exit.z, 4)),
         ]);
     }
+
     Some(table)
 }
 
@@ -165,14 +175,17 @@ pub(crate) fn support_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<
     if !robot.has_supports() {
         return None;
     }
+
     let mut table = PageTable::new(
         "table-supports",
-        "Flexible supports. Displacement: of the anchors from their places without forces, world axes. Force: of all cables on \
-         the support, world axes."
+        "Flexible supports. Displacement: of the anchors from their places without forces, world axes. Force: of all \
+         cables on the support, world axes."
             .to_owned(),
         &["<support", "<cables", "<displacement|mm", "<force|N"],
     );
+
     let moved = equilibrium.support_displacements(robot);
+
     for (i, (support, displacement_w)) in robot.supports.iter().zip(moved).enumerate() {
         let carried = robot.cables.iter().filter(|cable| cable.anchor.support == Some(i));
         let vector = |v: Vec3, digits: usize| [v.x, v.y, v.z].map(|entry| fixed(entry, digits)).join(", ");
@@ -183,14 +196,15 @@ pub(crate) fn support_table(robot: &Robot, equilibrium: &Equilibrium) -> Option<
             vector(support.stiffness_w * displacement_w, 1),
         ]);
     }
+
     Some(table)
 }
 
 /// Maximum number of modes in the table with held exit points.
 const MAX_HELD: usize = 10;
 
-/// Table of the first natural frequencies beside those with held exit points; `None` if all cables end at fixed points of
-/// a rigid frame, or if there are none with held exit points.
+/// Table of the first natural frequencies beside those with held exit points; `None` if all cables end at fixed points
+/// of a rigid frame, or if there are none with held exit points.
 ///
 /// A cable that cannot slip at its exit point is a robot with more constraints, so that no frequency is lower.
 pub(crate) fn held_table(
@@ -200,14 +214,16 @@ pub(crate) fn held_table(
     found: &Modes,
 ) -> Option<PageTable> {
     let held = modes_with_held_exits(robot, equilibrium, linearisation, found.below_hz)?;
+
     let mut table = PageTable::new(
         "table-held",
-        "First natural frequencies with pulleys, winches and flexible supports, and at the same equilibrium with the exit \
-         points held, so that the cables neither slip there nor move sideways. Both lists are ascending; the n-th frequency \
-         with held exit points is never lower."
+        "First natural frequencies with pulleys, winches and flexible supports, and at the same equilibrium with the \
+         exit points held, so that the cables neither slip there nor move sideways. Both lists are ascending; the n-th \
+         frequency with held exit points is never lower."
             .to_owned(),
         &["no.", "as given|Hz", "exit points held|Hz", "difference|%"],
     );
+
     for (i, mode) in found.modes.iter().take(MAX_HELD).enumerate() {
         let other = held.get(i);
         table.row(vec![
@@ -217,6 +233,7 @@ pub(crate) fn held_table(
             other.map_or_else(|| NONE.to_owned(), |hz| fixed(100.0 * (hz / mode.frequency_hz - 1.0), 2)),
         ]);
     }
+
     Some(table)
 }
 
@@ -254,25 +271,27 @@ fn bars(name: &str, names: &[String], values: &[f64], colour: &str, unit: &str) 
 }
 
 /// Bar chart of the tensions.
-pub(crate) fn tension_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+pub(crate) fn tension_figure(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
     let of = |end: fn(&funicular::statics::CableState) -> f64| equilibrium.cables.iter().map(end).collect::<Vec<_>>();
     let data = [
         bars("at the platform", &names(robot), &of(|c| c.tension_platform), colour::BLUE, "N"),
         bars("at the anchor", &names(robot), &of(|c| c.tension_anchor), colour::SKY, "N"),
     ];
     let layout = json!({
-        "barmode": "group", "bargap": 0.3, "xaxis": axis("cable", json!({"type": "category", "ticks": ""})), "yaxis": axis("tension [N]", json!({"rangemode": "tozero"})),
+        "barmode": "group", "bargap": 0.3, "xaxis": axis("cable", json!({"type": "category", "ticks": ""})),
+        "yaxis": axis("tension [N]", json!({"rangemode": "tozero"})),
     });
-    Figure::new("figure-tensions", 300, "Tension at both ends of the cables.", &data, layout)
+    PageFigure::new("figure-tensions", 300, "Tension at both ends of the cables.", &data, layout)
 }
 
 /// Minimum of the axis of sag over chord: that of cables without mass has another number than zero at its end.
 const MIN_SHOWN_SAG: f64 = 1e-9;
 
 /// Bar chart of the sag, with the limit of the shallow models.
-pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
+pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
     let ratios: Vec<f64> = sags(robot, equilibrium).iter().map(Sag::ratio).collect();
     let maximum = ratios.iter().copied().filter(|r| r.is_finite()).fold(0.0, f64::max);
+
     // The limit is drawn only if the bars stay visible beside it.
     let near = maximum > 0.2 * SHALLOW_SAG_LIMIT;
     let shapes = if near {
@@ -283,17 +302,21 @@ pub(crate) fn sag_figure(robot: &Robot, equilibrium: &Equilibrium) -> Figure {
     } else {
         json!([])
     };
+
     let top = 1.12 * if near { maximum.max(SHALLOW_SAG_LIMIT) } else { maximum.max(MIN_SHOWN_SAG) };
     let layout = json!({
-        "bargap": 0.45, "showlegend": false, "shapes": shapes, "xaxis": axis("cable", json!({"type": "category", "ticks": ""})),
+        "bargap": 0.45, "showlegend": false, "shapes": shapes,
+        "xaxis": axis("cable", json!({"type": "category", "ticks": ""})),
         "yaxis": axis("sag ratio d/l", json!({"range": [0, top], "exponentformat": "power"})),
     });
+
     let caption = if near {
         "Sag divided by chord; dashed: 1/20, the limit of the models shallow-static and shallow-dynamic."
     } else {
         "Sag divided by chord, far below 1/20, the limit of the models shallow-static and shallow-dynamic."
     };
-    Figure::new("figure-sag", 300, caption, &[bars("d/l", &names(robot), &ratios, colour::BLUE, "")], layout)
+
+    PageFigure::new("figure-sag", 300, caption, &[bars("d/l", &names(robot), &ratios, colour::BLUE, "")], layout)
 }
 
 /// Table of the static stiffness with catenaries, consistently assembled.
@@ -303,16 +326,20 @@ pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Optio
     let motions = ["δx|m", "δy|m", "δz|m", "δθx|rad", "δθy|rad", "δθz|rad"];
     let wrenches = ["fx [N]", "fy [N]", "fz [N]", "mx [N·m]", "my [N·m]", "mz [N·m]"];
     let columns: Vec<&str> = std::iter::once("<").chain(possible.iter().map(|&i| motions[i])).collect();
+
     let units = if robot.platform.motion.can_turn() {
-        " Forces per translation in N/m, forces per rotation and moments per translation in N, moments per rotation in N·m."
+        " Forces per translation in N/m, forces per rotation and moments per translation in N, moments per rotation \
+         in N·m."
     } else {
         ""
     };
+
     let drag = if drag_stiffness(robot, equilibrium).is_some() {
         " The drag of the wind rotates with the cables, so the matrix is not symmetric."
     } else {
         ""
     };
+
     let mut table = PageTable::new(
         "table-stiffness",
         format!(
@@ -321,10 +348,12 @@ pub(crate) fn stiffness_table(robot: &Robot, equilibrium: &Equilibrium) -> Optio
         ),
         &columns,
     );
+
     for &i in &possible {
         let numbers = possible.iter().map(|&j| fixed(stiffness[(i, j)], 2));
         table.row(std::iter::once(wrenches[i].to_owned()).chain(numbers).collect());
     }
+
     Some(table)
 }
 
@@ -334,6 +363,7 @@ pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> PageTable {
     let mut columns =
         vec!["no.", "frequency|Hz", "damping|%", "<kind", "platform energy|%", "<strongest cables|share of the energy"];
     columns.extend(possible.iter().map(|&i| ["δx|m", "δy|m", "δz|m", "θx|rad", "θy|rad", "θz|rad"][i]));
+
     let mut table = PageTable::new(
         "table-modes",
         format!(
@@ -348,9 +378,11 @@ pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> PageTable {
         ),
         &columns,
     );
+
     for (i, mode) in found.modes.iter().enumerate() {
         let rests = mode.shape.iter().all(|s| s.abs() <= 0.0);
         let shape = possible.iter().map(|&i| mode.shape[i]);
+
         let mut cells = vec![
             (i + 1).to_string(),
             fixed(mode.frequency_hz, 4),
@@ -360,6 +392,7 @@ pub(crate) fn modes_table(robot: &Robot, found: &Modes) -> PageTable {
             strongest(robot, mode),
         ];
         cells.extend(shape.map(|s| if rests { "–".to_owned() } else { fixed(s, 3) }));
+
         table.marked_row(class_of(mode.kind), cells);
     }
     table
@@ -391,7 +424,7 @@ pub(crate) struct ComparisonPart {
     /// Advice on the choice of a model, from the core.
     pub(crate) advice: String,
     /// Figure of the differences from the reference model; `None` if the reference has no modes.
-    pub(crate) figure: Option<Figure>,
+    pub(crate) figure: Option<PageFigure>,
     /// Table with one row per model.
     pub(crate) models: PageTable,
     /// Table with one row per mode.
@@ -425,9 +458,11 @@ fn models_table(comparison: &Comparison) -> PageTable {
         ),
         &["<model", "modes", "missed", "first wrong|Hz", "<<natural frequencies|Hz"],
     );
+
     for result in &comparison.models {
         let is_reference = result.model == comparison.reference;
         let modes = result.modes.as_ref().ok();
+
         let list = match &result.modes {
             Ok(found) if found.modes.len() > MAX_LISTED => format!(
                 "{} from {} to {}",
@@ -447,14 +482,17 @@ fn models_table(comparison: &Comparison) -> PageTable {
             // A cell is plain text, so the backticks around code in messages are removed.
             Err(reason) => reason.to_string().replace('`', ""),
         };
+
         let count = modes.map_or_else(|| "–".to_owned(), |m| m.modes.len().to_string());
         let (missed, first) = if is_reference || modes.is_none() {
             ("–".to_owned(), "–".to_owned())
         } else {
             (result.missed.to_string(), result.first_wrong_hz.map_or_else(|| "none".to_owned(), |f| fixed(f, 3)))
         };
+
         table.row(vec![result.model.name().to_owned(), count, missed, first, list]);
     }
+
     table
 }
 
@@ -466,12 +504,14 @@ const MIN_SHARE: f64 = 1e-3;
 fn side_by_side(comparison: &Comparison) -> PageTable {
     let others: Vec<_> =
         comparison.models.iter().filter(|m| m.model != comparison.reference && m.modes.is_ok()).collect();
+
     let mut columns =
         vec![format!("{}|Hz", comparison.reference.name()), "<kind".to_owned(), "platform energy|%".to_owned()];
     for other in &others {
         columns.push(format!("{}|Hz", other.model.name()));
         columns.push("difference|%".to_owned());
     }
+
     let mut table = PageTable::new(
         "table-side-by-side",
         format!(
@@ -483,14 +523,17 @@ fn side_by_side(comparison: &Comparison) -> PageTable {
         ),
         &columns.iter().map(String::as_str).collect::<Vec<_>>(),
     );
+
     let reference = comparison.models.iter().find(|m| m.model == comparison.reference);
     let modes = reference.and_then(|m| m.modes.as_ref().ok()).map_or(&[][..], |m| &m.modes);
+
     for (index, mode) in modes.iter().enumerate() {
         let pairs: Vec<_> = others.iter().map(|m| m.matches.iter().find(|m| m.reference_index == index)).collect();
         let of_cables = mode.kind == Kind::Cable && pairs.iter().all(Option::is_none);
         if of_cables || mode.platform_energy_fraction < MIN_SHARE {
             continue;
         }
+
         let mut cells = vec![
             fixed(mode.frequency_hz, 4),
             mode.kind.name().to_owned(),
@@ -502,6 +545,7 @@ fn side_by_side(comparison: &Comparison) -> PageTable {
                 None => cells.extend(["–".to_owned(), "–".to_owned()]),
             }
         }
+
         table.row(cells);
     }
     table

@@ -25,8 +25,8 @@ pub(super) static TABLE: [Definition; 24] = [
         name: "first-platform-frequency",
         about: "lowest natural frequency of a mode of the platform",
         documentation: "`first_platform_frequency_hz`: lowest natural frequency of a mode with at least \
-                        `--platform-share` (0.5 if not given) of its kinetic energy in the platform, with the requested \
-                        cable model; the modes below it are all found, however many they are",
+                        `--platform-share` (0.5 if not given) of its kinetic energy in the platform, with the \
+                        requested cable model; the modes below it are all found, however many they are",
         takes: ParameterKind::Nothing,
         needs: RequiredModel::Anything,
         frequencies: |_| 0,
@@ -129,8 +129,8 @@ pub(super) static TABLE: [Definition; 24] = [
     Definition {
         name: "drum-tensions",
         about: "tension of every cable at its drum",
-        documentation: "`tension_drum_NAME_n`: tension of every cable at its drum; without pulley and winch that at its \
-                        anchor",
+        documentation: "`tension_drum_NAME_n`: tension of every cable at its drum; without pulley and winch that at \
+                        its anchor",
         takes: ParameterKind::Nothing,
         needs: RequiredModel::Anything,
         frequencies: |_| 0,
@@ -183,8 +183,8 @@ pub(super) static TABLE: [Definition; 24] = [
         name: "payload-max",
         about: "maximum payload with tensions within their limits, and the limits that bind",
         documentation: "`payload_max_kg`: maximum mass in addition to the platform, with its centre at \
-                        `--payload-center-m`, over all tensions within their limits, whatever the rule; `payload_limits`: \
-                        cables at their limits then, as `1 maximum at anchor`",
+                        `--payload-center-m`, over all tensions within their limits, whatever the rule; \
+                        `payload_limits`: cables at their limits then, as `1 maximum at anchor`",
         takes: ParameterKind::Nothing,
         needs: RequiredModel::HeldPose,
         frequencies: |_| 0,
@@ -214,8 +214,8 @@ pub(super) static TABLE: [Definition; 24] = [
         name: "stiffness",
         about: "static stiffness along every coordinate, with the other coordinates free",
         documentation: "`stiffness_x_n_per_m` … `stiffness_rz_n_m_per_rad`: static stiffness along one coordinate \
-                        while the platform is free to move along the others: 1/(K⁻¹)_ii of the 6×6 stiffness K, not its \
-                        entry K_ii; in wind the drag turns with the cables",
+                        while the platform is free to move along the others: 1/(K⁻¹)_ii of the 6×6 stiffness K, not \
+                        its entry K_ii; in wind the drag turns with the cables",
         takes: ParameterKind::Nothing,
         needs: RequiredModel::Elastic,
         frequencies: |_| 0,
@@ -292,11 +292,12 @@ pub(super) static TABLE: [Definition; 24] = [
     Definition {
         name: "sensitivity:RESULT:PATH",
         about: "derivative of a result by a number of the robot file",
-        documentation: "`first_frequency_hz_by_PATH`, `stiffness_min_n_per_m_by_PATH`, `tension_platform_NAME_n_by_PATH` or \
-                        `unstrained_length_NAME_m_by_PATH`: derivative of `first-frequency`, `stiffness-min`, `tensions` or \
-                        `lengths` by a number of the robot file, as in `sensitivity:first-frequency:platform.mass_kg`, in \
-                        the unit of the result over that of the number. The lengths are held if the state gives them and \
-                        with `--hold-lengths-of-pose`; otherwise the pose is held, and the tensions follow their rule",
+        documentation: "`first_frequency_hz_by_PATH`, `stiffness_min_n_per_m_by_PATH`, \
+                        `tension_platform_NAME_n_by_PATH` or `unstrained_length_NAME_m_by_PATH`: derivative of \
+                        `first-frequency`, `stiffness-min`, `tensions` or `lengths` by a number of the robot file, as \
+                        in `sensitivity:first-frequency:platform.mass_kg`, in the unit of the result over that of the \
+                        number. The lengths are held if the state gives them and with `--hold-lengths-of-pose`; \
+                        otherwise the pose is held, and the tensions follow their rule",
         takes: ParameterKind::Sensitivity,
         needs: RequiredModel::Elastic,
         frequencies: |_| 0,

@@ -157,8 +157,8 @@ pub(in crate::validation) struct DrivenCableAt {
     /// Force on the platform end per motion of the anchor, its drum fixed: (3, 3).
     pub(in crate::validation) anchor_re: [[f64; 3]; 3],
     pub(in crate::validation) anchor_im: [[f64; 3]; 3],
-    /// Force on the platform end per motion of anchor and drum: (3, 3). `None` where the source leaves out the inertia of
-    /// the drum side that moves along.
+    /// Force on the platform end per motion of anchor and drum: (3, 3). `None` where the source leaves out the inertia
+    /// of the drum side that moves along.
     #[serde(default)]
     pub(in crate::validation) base_re: Option<[[f64; 3]; 3]>,
     #[serde(default)]

@@ -5,13 +5,13 @@ use anyhow::{Context, Result};
 use serde::Deserialize;
 
 /// Reads measured.json.
-pub(in crate::validation) fn measured() -> Result<Measured> {
+pub(in crate::validation) fn measured() -> Result<MeasuredReference> {
     serde_json::from_str(include_str!("../../../reference/measured.json")).context("measured.json")
 }
 
 /// Content of measured.json.
 #[derive(Deserialize)]
-pub(in crate::validation) struct Measured {
+pub(in crate::validation) struct MeasuredReference {
     pub(in crate::validation) grab: ReferenceTable<MeasuredPose>,
 }
 
