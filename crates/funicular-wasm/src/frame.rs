@@ -308,6 +308,7 @@ fn description(robot: &Robot, text: &str) -> Value {
         "text": text,
         "motion": motion,
         "degrees_of_freedom": robot.platform.motion.count(),
+        "platform_share": modes::PLATFORM_SHARE,
         "check": check::run(robot.clone()),
     })
 }

@@ -318,7 +318,10 @@ mod tests {
 
     #[test]
     fn a_frame_has_the_numbers_of_statics_and_modes() {
-        assert_eq!(robot(&json!({ "tension_rule": "middle" })).0, RESULTS);
+        let (status, _, about) = robot(&json!({ "tension_rule": "middle" }));
+        assert_eq!(status, RESULTS);
+        let about: Value = serde_json::from_str(&about).unwrap();
+        assert_eq!(about["platform_share"], funicular::modes::PLATFORM_SHARE);
         let (status, numbers, text) = at(&[1.0, 2.0, 1.5], 20, 33);
         assert!(status == RESULTS && text.contains("\"tension_rule\":\"middle\""), "{status} {text}");
         assert_eq!(numbers.len(), frame::HEADER + 8 * (frame::CABLE + 3 * 33) + 20 * (frame::MODE + 8));
