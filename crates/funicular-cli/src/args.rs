@@ -21,8 +21,8 @@ pub(crate) use design::DesignArgs;
 pub(crate) use export::{ExportArgs, ExportFormat};
 pub(crate) use gradient::GradientArgs;
 pub(crate) use groups::{
-    ChangeArgs, FigureArgs, LinearisedArgs, LoadArgs, LoadedRobotArgs, ModelArgs, OutputArgs, PointArgs, RangeArgs,
-    RobotArgs, StateArgs, TensionArgs, TermArgs,
+    ChangeArgs, FigureArgs, LinearisedArgs, LoadArgs, LoadedRobotArgs, ModelArgs, OptionalRobotArgs, OutputArgs,
+    PointArgs, RangeArgs, RobotArgs, StateArgs, TensionArgs, TermArgs,
 };
 pub(crate) use identify::IdentifyArgs;
 pub(crate) use import::ImportArgs;
@@ -37,9 +37,9 @@ pub(crate) use vibration::{CableArgs, CompareArgs, FrfArgs, ModesArgs, ReduceArg
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
 ///
-/// All commands except `new`, `schema`, `import`, `merge`, `paper`, `plot` and `validate` read a robot file (TOML). Results go to
-/// stdout, warnings and errors to stderr. Units are SI units, and the unit of every value is in its name. Exit codes: 0
-/// done, 1 no solution, 2 bad input.
+/// All commands except `new`, `schema`, `import`, `merge`, `paper`, `plot`, `validate` and `request` read a robot file (TOML).
+/// Results go to stdout, warnings and errors to stderr. Units are SI units, and the unit of every value is in its name. Exit
+/// codes: 0 done, 1 no solution, 2 bad input, 130 stopped by Ctrl-C or the end of a job.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, propagate_version = true, max_term_width = 110)]
 #[command(after_help = "Example:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20")]
@@ -123,7 +123,7 @@ pub(crate) enum Command {
         funicular compare robots/cogiro.toml --below-hz 15 --platform --tolerance 0.05\n  \
         funicular compare robots/yuan2014-4mm.toml --below-hz 5 -o models.svg")]
     Compare(CompareArgs),
-    /// Derivatives of poses, tensions, frequencies, damping ratios and responses by every number of the robot file
+    /// Derivatives of results with respect to every number of the robot file
     ///
     /// All derivatives come from the solution itself, without perturbing a number; docs/gradients.md explains the tables.
     /// The text shows the ten largest of each result, JSON and CSV all of them.

@@ -21,7 +21,7 @@ pub fn merge(parts: &[PathBuf], to: &Path) -> Result<usize, FilesError> {
     for part in parts {
         guard.reads("the part", part);
     }
-    guard.writes_rows("-o", to, false)?;
+    guard.writes_rows(to, false)?;
 
     // The first part gives the record that all others have to match.
     let mut files = Vec::with_capacity(parts.len());

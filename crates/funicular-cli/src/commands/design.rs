@@ -4,13 +4,20 @@ use super::result_files::ResultFiles;
 use crate::args::DesignArgs;
 use crate::output::Printed;
 use crate::progress::TerminalProgress;
-use crate::robot_file;
+
 use crate::table::{Table, counted, significant};
+use crate::{pose_csv, robot_file};
 use anyhow::{Result, bail};
 use funicular_study::analyses::design::{self, Designed};
-use funicular_study::request::Request;
+use funicular_study::request::{DesignRequest, Request, RobotText};
 use funicular_study::wording::{Words, worded};
 use std::fmt::Write as _;
+
+/// Request of a design. Errors of its poses name the line in the file of poses.
+pub(super) fn request(args: &DesignArgs, robot: RobotText) -> Result<DesignRequest> {
+    let poses = pose_csv::read_if_given(args.poses.as_deref(), &robot)?;
+    Ok(args.request(robot, poses))
+}
 
 /// Runs `design`: prints the result, writes the robot file and the page.
 pub(super) fn run(request: &Request, args: &DesignArgs) -> Result<()> {
@@ -19,7 +26,7 @@ pub(super) fn run(request: &Request, args: &DesignArgs) -> Result<()> {
     if let Some(poses) = &args.poses {
         guard.reads("the poses", poses);
     }
-    let designed = ("--designed", args.designed.as_deref());
+    let designed = ("designed", args.designed.as_deref());
     let files = ResultFiles::open(&args.sink, designed, args.page.as_deref(), &mut guard)?;
 
     let mut watch = TerminalProgress::new();

@@ -25,7 +25,7 @@ pub(super) fn run(request: &Request, args: &IdentifyArgs) -> Result<()> {
         guard.reads("the measurements", file);
     }
 
-    let fitted = ("--fitted", args.fitted.as_deref());
+    let fitted = ("fitted", args.fitted.as_deref());
     let files = ResultFiles::open(&args.sink, fitted, args.page.as_deref(), &mut guard)?;
     let mut watch = TerminalProgress::new();
     let found = identify::run(of, &mut watch)?;

@@ -6,11 +6,12 @@ use crate::interrupt::{STOPPED, stop_at_next_row};
 use crate::output::{Content, Printed, Sink, Target};
 use crate::progress::Progress;
 use crate::table::{NONE, Table, counted, digits_for, significant};
+use crate::{pose_csv, robot_file};
 use anyhow::{Result, bail};
 use funicular_files::endings::Kind;
 use funicular_files::{Begin, Guard, UncertaintyOutcome, UncertaintyRun, threads};
 use funicular_study::analyses::uncertainty::{PoseUncertainty, UncertainResult, Uncertainties, UncertaintyStudy};
-use funicular_study::request::UncertaintyRequest;
+use funicular_study::request::{Request, RobotText, UncertaintyRequest};
 use funicular_study::wording::{Words, worded};
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;
@@ -19,8 +20,20 @@ use std::path::Path;
 /// Number of contributions that the text shows for each result.
 const SHOWN: usize = 3;
 
+/// Request of `uncertainty`. Errors of its poses name the line in the file of poses.
+pub(super) fn request(args: &UncertaintyArgs, robot: RobotText) -> Result<UncertaintyRequest> {
+    let poses = pose_csv::read_if_given(args.poses.as_deref(), &robot)?;
+    Ok(args.request(robot, poses))
+}
+
 /// Runs `uncertainty`: prints the deviations, writes the samples and the page.
-pub(super) fn run(of: &UncertaintyRequest, args: &UncertaintyArgs, guard: &mut Guard) -> Result<()> {
+pub(super) fn run(request: &Request, args: &UncertaintyArgs) -> Result<()> {
+    let Request::Uncertainty(of) = request else { bail!("this is not a request of `uncertainty`") };
+    let guard = &mut robot_file::guard(Some(&args.robot.robot));
+    if let Some(poses) = &args.poses {
+        guard.reads("the poses", poses);
+    }
+
     // -o may name the page.
     let output = args.sink.output_file.as_deref();
     let is_page = args.sink.format.is_none() && output.and_then(Kind::of) == Some(Kind::Html);
@@ -31,15 +44,15 @@ pub(super) fn run(of: &UncertaintyRequest, args: &UncertaintyArgs, guard: &mut G
     let printed =
         OutputArgs { format: args.sink.format, output_file: args.sink.output_file.clone().filter(|_| !is_page) };
     let sink = Sink::open(&printed, &[Kind::Html], guard)?;
-    let html = Content { option: "--page", ..Content::PAGE };
-    let page = page.map(|path| Ok::<_, anyhow::Error>((Target::open(Some(path), html, guard)?, path))).transpose()?;
+    let page =
+        page.map(|path| Ok::<_, anyhow::Error>((Target::open(Some(path), Content::PAGE, guard)?, path))).transpose()?;
     let begin = match (args.resume, args.discard) {
         (true, _) => Begin::Resume,
         (_, true) => Begin::Discard,
         _ => Begin::Anew,
     };
     if let Some(path) = &args.samples_file {
-        guard.writes_rows("--samples-file", path, true)?;
+        guard.writes_rows(path, true)?;
     }
 
     let found = compute(of, args.threads, args.samples_file.as_deref().map(|path| (path, begin)))?;
