@@ -57,58 +57,11 @@ impl Printed for Designed {
             let _ = writeln!(text, "{limit}.");
         }
 
-        let unit = self.unit;
-        let (before, after) = (format!("before [{unit}]"), format!("after [{unit}]"));
-        let mut table = Table::new(&[
-            "pose",
-            "x [m]",
-            "y [m]",
-            "z [m]",
-            "roll [°]",
-            "pitch [°]",
-            "yaw [°]",
-            &before,
-            &after,
-            "share",
-        ]);
-        for (number, row) in (1..).zip(&self.poses) {
-            let mut cells = vec![number.to_string()];
-            cells.extend(row.position_m.iter().chain(&row.roll_pitch_yaw_deg).map(|value| short(*value)));
-            cells.extend([significant(row.before, 5), significant(row.after, 5), format!("{:.3}", row.share)]);
-            table.row(cells);
-        }
-        let _ = write!(text, "\n{table}");
-
+        let _ = write!(text, "\n{}", poses(self));
         if !self.demands.is_empty() {
-            let mut table =
-                Table::new(&["demand", "limit", "before", "after", "unit", "at pose"]).text_columns(&[0, 4]);
-            for row in &self.demands {
-                table.row(vec![
-                    row.name.clone(),
-                    significant(row.limit, 5),
-                    significant(row.before, 5),
-                    significant(row.after, 5),
-                    row.unit.to_owned(),
-                    row.pose.to_string(),
-                ]);
-            }
-            let _ = write!(text, "\n{table}");
+            let _ = write!(text, "\n{}", demands(self));
         }
-
-        let mut table =
-            Table::new(&["value", "unit", "before", "after", "minimum", "maximum", ""]).text_columns(&[0, 1, 6]);
-        for row in &self.values {
-            table.row(vec![
-                row.path.clone(),
-                row.unit.to_owned(),
-                significant(row.start, 6),
-                significant(row.value, 6),
-                significant(row.minimum, 6),
-                significant(row.maximum, 6),
-                row.at_bound.map_or_else(String::new, |bound| format!("at its {bound}")),
-            ]);
-        }
-        let _ = write!(text, "\n{table}");
+        let _ = write!(text, "\n{}", values(self));
         text
     }
 
@@ -127,4 +80,54 @@ impl Printed for Designed {
 /// Number of a pose, without zeros at the end.
 fn short(value: f64) -> String {
     funicular_study::text::short(value, 6)
+}
+
+/// Table of the poses with the goal before and after.
+fn poses(found: &Designed) -> Table {
+    let unit = found.unit;
+    let (before, after) = (format!("before [{unit}]"), format!("after [{unit}]"));
+    let mut table =
+        Table::new(&["pose", "x [m]", "y [m]", "z [m]", "roll [°]", "pitch [°]", "yaw [°]", &before, &after, "share"]);
+
+    for (number, row) in (1..).zip(&found.poses) {
+        let mut cells = vec![number.to_string()];
+        cells.extend(row.position_m.iter().chain(&row.roll_pitch_yaw_deg).map(|value| short(*value)));
+        cells.extend([significant(row.before, 5), significant(row.after, 5), format!("{:.3}", row.share)]);
+        table.row(cells);
+    }
+    table
+}
+
+/// Table of the demands with their limits.
+fn demands(found: &Designed) -> Table {
+    let mut table = Table::new(&["demand", "limit", "before", "after", "unit", "at pose"]).text_columns(&[0, 4]);
+    for row in &found.demands {
+        table.row(vec![
+            row.name.clone(),
+            significant(row.limit, 5),
+            significant(row.before, 5),
+            significant(row.after, 5),
+            row.unit.to_owned(),
+            row.pose.to_string(),
+        ]);
+    }
+    table
+}
+
+/// Table of the chosen values.
+fn values(found: &Designed) -> Table {
+    let mut table =
+        Table::new(&["value", "unit", "before", "after", "minimum", "maximum", ""]).text_columns(&[0, 1, 6]);
+    for row in &found.values {
+        table.row(vec![
+            row.path.clone(),
+            row.unit.to_owned(),
+            significant(row.start, 6),
+            significant(row.value, 6),
+            significant(row.minimum, 6),
+            significant(row.maximum, 6),
+            row.at_bound.map_or_else(String::new, |bound| format!("at its {bound}")),
+        ]);
+    }
+    table
 }
