@@ -1,5 +1,5 @@
-//! Commands: this file makes the request of a command and runs it. The other files, one per command, read the files that
-//! the arguments name, and write the results.
+//! Commands: this file makes the request of a command and runs it. The other files, one per command, read the files
+//! that the arguments name, and write the results.
 
 mod analysis;
 mod cable;

@@ -73,7 +73,8 @@ fn with_new_name(mut usage: clap::Error) -> clap::Error {
     usage
 }
 
-/// Options that an option of an earlier version, or a short form that never existed, may mean, of those that a command has.
+/// Options that an option of an earlier version, or a short form that never existed, may mean, of those that a command
+/// has.
 fn present_options(option: &str, known: &[String]) -> Vec<String> {
     let renamed = suggest::renamed(option);
     let candidates = match option {

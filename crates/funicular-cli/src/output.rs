@@ -243,6 +243,7 @@ impl Sink {
                 }
             }
         }
+
         Ok(bytes)
     }
 }

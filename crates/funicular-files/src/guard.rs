@@ -70,6 +70,7 @@ impl Guard {
         let Some(place) = Place::of(path) else { return Ok(()) };
         let used = GuardedFile { role: role.to_owned(), path: path.to_owned(), place, is_folder };
         let advice = format!("choose another file for {chosen}");
+
         if let Some(source) = self.read.iter().find(|source| used.meets(source)) {
             let shown = source.path.display();
             let same = if source.path == used.path {
@@ -86,6 +87,7 @@ impl Guard {
             let both = format!("refusing to write {role} and {} both to {}", other.role, other.path.display());
             return Err(FilesError::Clash(format!("{both}; {advice}")));
         }
+
         self.written.push(used);
         Ok(())
     }
@@ -186,6 +188,7 @@ mod tests {
             fs::hard_link(at("robot.toml"), at("hard")).unwrap();
             names.extend([at("link"), at("sub/link-of-link"), at("sub/up/robot.toml"), at("hard"), at("sub/up/hard")]);
         }
+
         for input in &names {
             for output in &names {
                 let mut guard = Guard::default();
@@ -198,6 +201,7 @@ mod tests {
                 assert!(guard.writes("the result", output).is_err(), "{input:?} {output:?}");
             }
         }
+
         let mut guard = Guard::default();
         guard.reads("the robot file", &at("robot.toml"));
         guard.writes("the result", &at("sub/robot.toml")).unwrap();

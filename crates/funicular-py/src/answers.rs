@@ -93,8 +93,8 @@ pub(crate) fn answer(py: Python<'_>, request: &str) -> PyResult<String> {
     String::from_utf8(bytes).map_err(|error| errors::input(error.to_string()))
 }
 
-/// Computes text and caveats of a request of `report`, `live`, `paper`, `export`, `new` or `schema`; `call` is the code that
-/// makes a page again.
+/// Computes text and caveats of a request of `report`, `live`, `paper`, `export`, `new` or `schema`; `call` is the code
+/// that makes a page again.
 #[pyfunction]
 pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(String, Vec<String>)> {
     let request = self::request(request)?;
@@ -129,7 +129,8 @@ pub(crate) fn in_words(texts: &[String]) -> Vec<String> {
     texts.iter().map(|text| worded(text, Words::Python)).collect()
 }
 
-/// Returns the widths of columns of journals [mm], and minimum and maximum of a figure's width [mm] and of its texts [pt].
+/// Returns the widths of columns of journals [mm], and minimum and maximum of a figure's width [mm] and of its texts
+/// [pt].
 #[pyfunction]
 pub(crate) fn figure_sizes() -> (Vec<(&'static str, f64)>, (f64, f64), (f64, f64)) {
     (figures::WIDTHS.to_vec(), figures::WIDTH_LIMITS_MM, figures::FONT_SIZE_LIMITS_PT)

@@ -188,6 +188,7 @@ impl Printed for Identified {
             "profile_95_from",
             "profile_95_to",
         ])?;
+
         for row in &self.values {
             out.serialize((
                 (&row.path, row.unit, row.start, row.value),
@@ -276,6 +277,7 @@ fn profiles(found: &Identified) -> String {
     let mut table =
         Table::new(&["value", "unit", "identified", "profile 95 % from", "to", "below", "above", "deviations", ""])
             .text_columns(&[0, 1, 8]);
+
     for (row, profile) in profiled {
         let digits = row.deviation.map_or(6, |deviation| digits_for(row.value, deviation));
         let ends = [profile.from, profile.to];
@@ -305,5 +307,6 @@ fn profiles(found: &Identified) -> String {
             remark.collect::<Vec<_>>().join(", "),
         ]);
     }
+
     format!("\n{table}\n")
 }

@@ -31,7 +31,8 @@ pub(super) fn run(args: &NewArgs) -> Result<()> {
     write(&request(args)?, &mut guard, &args.output_file)
 }
 
-/// Writes a new robot file. An existing file may hold numbers that somebody has written by hand, so it is never replaced.
+/// Writes a new robot file. An existing file may hold numbers that somebody has written by hand, so it is never
+/// replaced.
 pub(super) fn write(request: &NewRequest, guard: &mut Guard, path: &Path) -> Result<()> {
     let content = Content { name: "the robot file", in_words: "a robot file", fitting: &[Kind::Toml] };
     let target = Target::open(Some(path), content, guard)?;

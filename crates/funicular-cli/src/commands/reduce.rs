@@ -165,6 +165,7 @@ impl Printed for ControlStateSpace {
             "platform_energy_fraction",
             "contribution",
         ])?;
+
         for of in &self.states {
             out.serialize((
                 of.first,
@@ -251,8 +252,10 @@ impl ModelFile {
             Some(Kind::Mat) => return Ok(Self::Mat(Target::open(Some(path), VARIABLES, guard)?)),
             _ => {}
         }
+
         let shown = path.display();
         guard.writes_folder(ARRAYS.name, path)?;
+
         if path.extension().is_some() && !path.is_dir() {
             bail!(
                 "--matrices {shown} is neither an .npz or .mat file nor a folder: write model.npz, model.mat, or a \

@@ -16,8 +16,8 @@ pub(super) struct ResultFiles {
 }
 
 impl ResultFiles {
-    /// Opens the files before the work. `-o` may name the robot file or the page. `robot` is the key of the option of the
-    /// robot file and its value.
+    /// Opens the files before the work. `-o` may name the robot file or the page. `robot` is the key of the option of
+    /// the robot file and its value.
     ///
     /// # Errors
     /// A file that cannot be written, that the command reads, or that is named twice.

@@ -93,6 +93,7 @@ fn compute(
         }
     };
     let run = UncertaintyRun { threads: threads::or_all(threads), samples, cancel: &STOPPED };
+
     match run.run(&study, &mut progress)? {
         UncertaintyOutcome::Complete(found) => Ok(*found),
         UncertaintyOutcome::Stopped(sentence) => Err(Interrupted(worded(&sentence, Words::Program)).into()),
@@ -181,7 +182,7 @@ impl Printed for Uncertainties {
     }
 }
 
-/// Table of the results at one pose.
+/// Text about the results at one pose: their table, and doubts.
 fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
     let mut out = String::new();
     if of.poses.len() > 1 {
@@ -198,6 +199,30 @@ fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
         return out;
     }
 
+    let _ = write!(out, "\n{}", results(of, pose));
+
+    // Each doubt once.
+    let mut doubts: Vec<&str> = Vec::new();
+    for doubt in pose.results.iter().filter_map(|result| result.doubt.as_deref()) {
+        if !doubts.contains(&doubt) {
+            doubts.push(doubt);
+        }
+    }
+    if !doubts.is_empty() || pose.failed.is_some() {
+        out.push('\n');
+    }
+    for doubt in doubts {
+        let _ = writeln!(out, "Not linear: {doubt}.");
+    }
+    if let Some(failed) = &pose.failed {
+        let _ =
+            writeln!(out, "{} without results; the first: {}.", counted(failed.count, "sampled robot"), failed.reason);
+    }
+    out
+}
+
+/// Rows of the results, with the largest contributions to each.
+fn results(of: &Uncertainties, pose: &PoseUncertainty) -> Table {
     let has_worst = pose.results.iter().any(|result| result.worst.is_some());
     let mut header = vec!["result", "unit", "value", "deviation", "95 % from", "to", "method"];
     if has_worst {
@@ -206,6 +231,7 @@ fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
     header.push("largest shares");
     let last = header.len() - 1;
     let mut table = Table::new(&header).text_columns(&[0, 1, 6, last]);
+
     for result in &pose.results {
         let digits = result.deviation.map_or(6, |deviation| digits_for(result.value, deviation));
         let number = |value: Option<f64>, digits: usize| {
@@ -227,26 +253,7 @@ fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
         row.push(shares(of, result));
         table.row(row);
     }
-    let _ = write!(out, "\n{table}");
-
-    // Each doubt once.
-    let mut doubts: Vec<&str> = Vec::new();
-    for doubt in pose.results.iter().filter_map(|result| result.doubt.as_deref()) {
-        if !doubts.contains(&doubt) {
-            doubts.push(doubt);
-        }
-    }
-    if !doubts.is_empty() || pose.failed.is_some() {
-        out.push('\n');
-    }
-    for doubt in doubts {
-        let _ = writeln!(out, "Not linear: {doubt}.");
-    }
-    if let Some(failed) = &pose.failed {
-        let _ =
-            writeln!(out, "{} without results; the first: {}.", counted(failed.count, "sampled robot"), failed.reason);
-    }
-    out
+    table
 }
 
 /// Largest contributions to a result: single numbers, or groups where only these are known.

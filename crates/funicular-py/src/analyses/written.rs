@@ -47,7 +47,8 @@ impl PyAnalyses {
     /// path
     ///     Path of the file, which is complete or absent.
     /// hz, input, output, adaptive, input_point_m, output_point_m, cable_model, assembly, in_plane_only, winches
-    ///     Frequencies, signals and models, as in `frf`. Signals are motions of the platform and forces on it, along axes.
+    ///     Frequencies, signals and models, as in `frf`. Signals are motions of the platform and forces on it, along
+    ///     axes.
     ///
     /// Raises
     /// ------
@@ -89,7 +90,8 @@ impl PyAnalyses {
         Self::at(slf, |rest| written::write_frf(py, rest, path, hz, keywords))
     }
 
-    /// Writes all mode shapes below a limit as a Universal File, as the program's `modes -o FILE.uff`; returns the caveats.
+    /// Writes all mode shapes below a limit as a Universal File, as the program's `modes -o FILE.uff`; returns the
+    /// caveats.
     ///
     /// Each mode is a dataset 55 over the origin of the platform and the attachments, in platform axes.
     ///
@@ -141,8 +143,8 @@ impl PyAnalyses {
     /// Makes a page in HTML on which the platform can be dragged, which notebooks show.
     ///
     /// The page contains the program itself, as WebAssembly, and needs no network. In a notebook, with the package
-    /// `anywidget`, the pose and the values that a person changes come back: `state`, `pose`, `values` and `equilibrium()`
-    /// of the result follow the page.
+    /// `anywidget`, the pose and the values that a person changes come back: `state`, `pose`, `values` and
+    /// `equilibrium()` of the result follow the page.
     ///
     /// Parameters
     /// ----------

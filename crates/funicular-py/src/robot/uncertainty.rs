@@ -23,27 +23,27 @@ use std::path::PathBuf;
 impl PyRobot {
     /// Computes the deviations of results from deviations or tolerances of numbers of the robot file.
     ///
-    /// Results are linear in the deviations where no cable may become slack and no frequencies may cross; elsewhere robots
-    /// are sampled, on all processors. docs/uncertainty.md explains the result. Theory, section "Uncertainty".
+    /// Results are linear in the deviations where no cable may become slack and no frequencies may cross; elsewhere
+    /// robots are sampled, on all processors. docs/uncertainty.md explains the result. Theory, section "Uncertainty".
     ///
     /// Parameters
     /// ----------
     /// deviations
-    ///     Standard deviations of normally distributed numbers: a mapping from paths to values in the unit of the number,
-    ///     or to percentages such as "1%"; or a list of texts such as "platform.mass_kg=1%". In a path * stands for any
-    ///     key. Each entry is a group with a share of its own.
+    ///     Standard deviations of normally distributed numbers: a mapping from paths to values in the unit of the
+    ///     number, or to percentages such as "1%"; or a list of texts such as "platform.mass_kg=1%". In a path * stands
+    ///     for any key. Each entry is a group with a share of its own.
     /// tolerances
     ///     Tolerances of numbers that are anywhere within ± their tolerance, in the same form.
     /// of
-    ///     Results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`; the first and the
-    ///     third if not given.
+    ///     Results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`; the first and
+    ///     the third if not given.
     /// hold
     ///     What stays while the numbers deviate: `lengths`, `pose`, or `rule` (the pose and the rule of the tensions).
     /// below_hz
     ///     Upper limit of the frequencies [Hz]; for frequencies and damping.
     /// at_hz, input, output, input_point_m, output_point_m
-    ///     Frequencies [Hz], one or several, signals and points of the response. Results are its magnitudes in decibels of
-    ///     its unit, and its phases in degrees.
+    ///     Frequencies [Hz], one or several, signals and points of the response. Results are its magnitudes in decibels
+    ///     of its unit, and its phases in degrees.
     /// poses
     ///     Several poses, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
     /// method
