@@ -21,8 +21,8 @@ pub(crate) use design::DesignArgs;
 pub(crate) use export::{ExportArgs, ExportFormat};
 pub(crate) use gradient::GradientArgs;
 pub(crate) use groups::{
-    ChangeArgs, FigureArgs, LinearisedArgs, LoadArgs, LoadedRobotArgs, ModelArgs, OutputArgs, PointArgs, RangeArgs,
-    RobotArgs, StateArgs, TensionArgs, TermArgs,
+    ChangeArgs, FigureArgs, LinearisedArgs, LoadArgs, LoadedRobotArgs, ModelArgs, OptionalRobotArgs, OutputArgs,
+    PointArgs, RangeArgs, RobotArgs, StateArgs, TensionArgs, TermArgs,
 };
 pub(crate) use identify::IdentifyArgs;
 pub(crate) use import::ImportArgs;
@@ -37,9 +37,9 @@ pub(crate) use vibration::{CableArgs, CompareArgs, FrfArgs, ModesArgs, ReduceArg
 
 /// Statics and vibration of cable-driven parallel robots whose cables sag.
 ///
-/// All commands except `new`, `schema`, `import`, `merge`, `paper`, `plot` and `validate` read a robot file (TOML). Results go to
-/// stdout, warnings and errors to stderr. Units are SI units, and the unit of every value is in its name. Exit codes: 0
-/// done, 1 no solution, 2 bad input.
+/// All commands except `new`, `schema`, `import`, `merge`, `paper`, `plot`, `validate` and `request` read a robot file
+/// (TOML). Results go to stdout, warnings and errors to stderr. Units are SI units, and the unit of every value is in
+/// its name. Exit codes: 0 done, 1 no solution, 2 bad input, 130 stopped by Ctrl-C or the end of a job.
 #[derive(Debug, Parser)]
 #[command(name = "funicular", version, propagate_version = true, max_term_width = 110)]
 #[command(after_help = "Example:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20")]
@@ -55,8 +55,8 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Write a robot file with starting values and comments
     ///
-    /// Without options: eight wire ropes and a platform of 100 kg. The state of the file is a stable equilibrium, so that
-    /// every command runs on it at once. docs/robot-file.md explains every key.
+    /// Without options: eight wire ropes and a platform of 100 kg. The state of the file is a stable equilibrium, so
+    /// that every command runs on it at once. docs/robot-file.md explains every key.
     #[command(after_help = "Examples:\n  funicular new -o robot.toml\n  \
         funicular new --cables 6 --mass-kg 20 --box-m 0.4,0.3,0.2 --diameter-m 0.003\n  \
         funicular new --motion planar-xz --name \"planar test rig\"\n  \
@@ -64,8 +64,8 @@ pub(crate) enum Command {
     New(NewArgs),
     /// Write the JSON Schema of the robot file, with which editors complete and check it
     ///
-    /// The first line `#:schema ./robot.schema.json` of a robot file names the schema to Even Better TOML in VS Code and
-    /// to other editors with Taplo.
+    /// The first line `#:schema ./robot.schema.json` of a robot file names the schema to Even Better TOML in VS Code
+    /// and to other editors with Taplo.
     #[command(after_help = "Example:\n  funicular schema -o robot.schema.json")]
     Schema(SchemaArgs),
     /// Read and check a robot file, and describe the robot
@@ -74,8 +74,8 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// List every number of a robot file: path, value, unit, range, meaning
     ///
-    /// The paths can be used in `--set` and in `sweep --vary`. One number of a vector is named by its axis or by its index
-    /// from 0: `anchor_m.z` is `anchor_m.2`. A number that the file leaves out is listed with its default.
+    /// The paths can be used in `--set` and in `sweep --vary`. One number of a vector is named by its axis or by its
+    /// index from 0: `anchor_m.z` is `anchor_m.2`. A number that the file leaves out is listed with its default.
     #[command(after_help = "Examples:\n  funicular parameters robots/yuan2014-4mm.toml\n  \
         funicular parameters robots/cogiro.toml --set cables.1.anchor_m.z=5.5 --format csv\n  \
         funicular parameters robots/cogiro.toml --set loads.force_n.2=-50")]
@@ -123,10 +123,10 @@ pub(crate) enum Command {
         funicular compare robots/cogiro.toml --below-hz 15 --platform --tolerance 0.05\n  \
         funicular compare robots/yuan2014-4mm.toml --below-hz 5 -o models.svg")]
     Compare(CompareArgs),
-    /// Derivatives of poses, tensions, frequencies, damping ratios and responses by every number of the robot file
+    /// Derivatives of results with respect to every number of the robot file
     ///
-    /// All derivatives come from the solution itself, without perturbing a number; docs/gradients.md explains the tables.
-    /// The text shows the ten largest of each result, JSON and CSV all of them.
+    /// All derivatives come from the solution itself, without perturbing a number; docs/gradients.md explains the
+    /// tables. The text shows the ten largest of each result, JSON and CSV all of them.
     #[command(after_help = "Examples:\n  funicular gradient robots/yuan2014-4mm.toml --below-hz 2\n  \
         funicular gradient robots/cogiro.toml --pose 1,2,1.5 --of tensions,stiffness-min --by cables.*.anchor_m --hold pose\n  \
         funicular gradient robots/yuan2014-4mm.toml --of frequencies,damping --below-hz 1.5 --per percent -o gradients.csv\n  \
@@ -136,8 +136,8 @@ pub(crate) enum Command {
     /// Deviations of results from deviations or tolerances of numbers of the robot file
     ///
     /// Results are linear in the deviations where no cable may become slack and no frequencies may cross; elsewhere the
-    /// program computes sampled robots, on all cores. Each result has its deviation, the interval that holds 95 % of all
-    /// robots, and the shares of the numbers; docs/uncertainty.md explains the tables.
+    /// program computes sampled robots, on all cores. Each result has its deviation, the interval that holds 95 % of
+    /// all robots, and the shares of the numbers; docs/uncertainty.md explains the tables.
     #[command(
         after_help = "Examples:\n  funicular uncertainty robots/yuan2014-4mm.toml --deviations platform.mass_kg=1%,cables.*.anchor_m=0.002 \\\n    \
         --of pose,tensions,frequencies --below-hz 2\n  \
@@ -166,8 +166,8 @@ pub(crate) enum Command {
     Cable(CableArgs),
     /// State space A, B, C, D for control design, or the second-order model M, C, K
     ///
-    /// The state space has the modes that the inputs and outputs see: as few states as the tolerance allows, or the best
-    /// ones for a given number of states. docs/control.md explains the error and the use in Python and MATLAB.
+    /// The state space has the modes that the inputs and outputs see: as few states as the tolerance allows, or the
+    /// best ones for a given number of states. docs/control.md explains the error and the use in Python and MATLAB.
     #[command(after_help = "Examples:\n  \
         funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --input fz --output az --matrices model.mat\n  \
         funicular reduce robots/cogiro.toml --below-hz 10 --input fz --output z --order 8 --matrices model.npz\n  \
@@ -179,9 +179,9 @@ pub(crate) enum Command {
     Reduce(ReduceArgs),
     /// Values of the robot file that fit measurements best, with their deviations
     ///
-    /// Measurements are frequency responses, natural frequencies with damping ratios, poses, tensions and lengths, in one
-    /// or several states. The result says how sure each value is, and which combinations the measurements do not determine.
-    /// docs/identification.md explains files, priors and the result.
+    /// Measurements are frequency responses, natural frequencies with damping ratios, poses, tensions and lengths, in
+    /// one or several states. The result says how sure each value is, and which combinations the measurements do not
+    /// determine. docs/identification.md explains files, priors and the result.
     #[command(after_help = "Examples:\n  \
         funicular identify docs/quick-start/hall.toml --hold-lengths-of-pose \\\n    \
         --measured docs/identification/hall-modes.csv --fit platform.mass_kg --prior platform.mass_kg=60±10\n  \
@@ -192,8 +192,9 @@ pub(crate) enum Command {
     Identify(IdentifyArgs),
     /// Values of the robot file with which the robot is stiffest, fastest or lightest at several poses
     ///
-    /// The values move within their bounds until the goal at the worst pose, or its weighted mean, improves no further. The
-    /// poses are held, and the tensions follow --tension-rule. docs/design.md explains goals, demands and the result.
+    /// The values move within their bounds until the goal at the worst pose, or its weighted mean, improves no further.
+    /// The poses are held, and the tensions follow --tension-rule. docs/design.md explains goals, demands and the
+    /// result.
     #[command(after_help = "Examples:\n  \
         funicular design robots/cogiro.toml --poses docs/design/cogiro-poses.csv --target-tension-n 350 \\\n    \
         --change 'cables.*.attachment_m=±0.05' -o designed.toml\n  \
@@ -226,8 +227,8 @@ pub(crate) enum Command {
     ///
     /// Grids are shown as slices with contours, the feasible set, histograms and points in space. Trajectories and
     /// sweeps of one value are shown as curves; the curves of natural frequencies follow their modes through crossings
-    /// and veering. docs/sweeps.md explains the figures. With a FILE.svg or FILE.pdf the command writes one figure for a
-    /// paper instead of the page.
+    /// and veering. docs/sweeps.md explains the figures. With a FILE.svg or FILE.pdf the command writes one figure for
+    /// a paper instead of the page.
     #[command(
         after_help = "Examples:\n  funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    \
         --quantity tension-max,stiffness-min -o cogiro.parquet\n  funicular plot cogiro.parquet\n  \

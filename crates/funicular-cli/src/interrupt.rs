@@ -26,8 +26,8 @@ pub(crate) fn stop_at_next_row() -> Result<()> {
     .context("cannot listen for Ctrl-C")
 }
 
-/// Handles Ctrl-C for an analysis while the returned value exists: it stops at the next step, or after a second, because
-/// nothing has to be stored. Otherwise, Ctrl-C ends the program at once.
+/// Handles Ctrl-C for an analysis while the returned value exists: it stops at the next step, or after a second,
+/// because nothing has to be stored. Otherwise, Ctrl-C ends the program at once.
 pub(crate) fn stop_analysis() -> Computes {
     COMPUTES.store(true, Ordering::Relaxed);
     // Without a handler Ctrl-C ends the program at once, which is no error of the analysis.

@@ -12,8 +12,8 @@ mod sweep_run;
 mod table;
 
 use args::Cli;
-use clap::Parser;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{CommandFactory, Parser};
 use funicular::suggest;
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -58,19 +58,39 @@ fn with_new_name(mut usage: clap::Error) -> clap::Error {
         }
 
         ErrorKind::UnknownArgument => {
-            let option = text(ContextKind::InvalidArg).and_then(|option| option.strip_prefix("--"));
-            // `--model` was an option of `reduce` only; elsewhere it may be meant for a cable model or a static model.
-            let of_reduce =
-                usage.get(ContextKind::Usage).is_some_and(|usage| usage.to_string().contains("funicular reduce"));
-            let new = option.and_then(|option| {
-                if option == "model" { of_reduce.then_some("matrices") } else { suggest::renamed(option) }
-            });
-            if let Some(new) = new {
-                usage.insert(ContextKind::SuggestedArg, ContextValue::String(format!("--{new}")));
+            if let Some(option) = text(ContextKind::InvalidArg).and_then(|argument| argument.strip_prefix("--")) {
+                let new = present_options(option, &options_of_command());
+                if !new.is_empty() {
+                    usage.insert(ContextKind::SuggestedArg, ContextValue::Strings(new));
+                }
+                // The tip to write `--` before it takes a mistyped option for the name of a file.
+                usage.remove(ContextKind::Suggested);
             }
         }
 
         _ => {}
     }
     usage
+}
+
+/// Options that an option of an earlier version, or a short form that never existed, may mean, of those that a command
+/// has.
+fn present_options(option: &str, known: &[String]) -> Vec<String> {
+    let renamed = suggest::renamed(option);
+    let candidates = match option {
+        // `reduce` alone had an option `--model`, for its file.
+        "model" if known.iter().any(|name| name == "matrices") => &["matrices"][..],
+        "model" => &["cable-model", "static-model"],
+        _ => renamed.as_slice(),
+    };
+    let is_known = |name: &&&str| known.iter().any(|known| known == **name);
+    candidates.iter().filter(is_known).map(|name| format!("--{name}")).collect()
+}
+
+/// Names of the options of the command that the command line names, without `--`.
+fn options_of_command() -> Vec<String> {
+    let program = Cli::command();
+    let command = std::env::args().skip(1).find_map(|argument| program.find_subcommand(argument));
+    let options = command.into_iter().flat_map(clap::Command::get_arguments);
+    options.filter_map(|option| option.get_long()).map(str::to_owned).collect()
 }

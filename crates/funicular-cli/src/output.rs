@@ -40,8 +40,6 @@ pub(crate) trait Printed: Found {
 pub(crate) struct Content<'a> {
     /// Name of the output in messages: "the result".
     pub(crate) name: &'static str,
-    /// Option that names the file.
-    pub(crate) option: &'static str,
     /// Kind of the file in messages: "a page".
     pub(crate) in_words: &'static str,
     /// File name endings of this kind.
@@ -50,11 +48,10 @@ pub(crate) struct Content<'a> {
 
 impl Content<'static> {
     /// HTML page.
-    pub(crate) const PAGE: Self = Self { name: "the page", option: "-o", in_words: "a page", fitting: &[Kind::Html] };
+    pub(crate) const PAGE: Self = Self { name: "the page", in_words: "a page", fitting: &[Kind::Html] };
 
     /// Figure for a paper.
-    const FIGURE: Self =
-        Self { name: "the figure", option: "-o", in_words: "a figure", fitting: &[Kind::Svg, Kind::Pdf] };
+    const FIGURE: Self = Self { name: "the figure", in_words: "a figure", fitting: &[Kind::Svg, Kind::Pdf] };
 }
 
 /// Format of a figure's file.
@@ -150,7 +147,7 @@ impl Target {
         if target.is_dir() {
             bail!("cannot write to {shown}: it is a directory; add a file name");
         }
-        guard.writes(content.name, content.option, path)?;
+        guard.writes(content.name, path)?;
         endings::check(path, content.in_words, content.fitting)?;
         if is_regular_or_new(&target) {
             if fs::metadata(&target).is_ok_and(|metadata| metadata.permissions().readonly()) {
@@ -195,7 +192,7 @@ impl Sink {
         let path = args.output_file.as_deref();
         if args.format.is_none() && path.and_then(Kind::of) == Some(Kind::Uff) && others.contains(&Kind::Uff) {
             let in_words = "a Universal File";
-            let content = Content { name: "the result", option: "-o", in_words, fitting: &[Kind::Uff] };
+            let content = Content { name: "the result", in_words, fitting: &[Kind::Uff] };
             return Ok(Self { form: Form::Uff, target: Target::open(path, content, guard)? });
         }
         let format = args.format.unwrap_or(match path.and_then(Kind::of) {
@@ -210,7 +207,7 @@ impl Sink {
             (_, Format::Json) => ("JSON", &[Kind::Json, Kind::Text]),
             (_, Format::Csv) => ("CSV", &[Kind::Csv, Kind::Text]),
         };
-        let content = Content { name: "the result", option: "-o", in_words, fitting };
+        let content = Content { name: "the result", in_words, fitting };
         Ok(Self { form: Form::As(format), target: Target::open(path, content, guard)? })
     }
 
@@ -246,6 +243,7 @@ impl Sink {
                 }
             }
         }
+
         Ok(bytes)
     }
 }

@@ -6,18 +6,24 @@ use anyhow::{Context, Result, anyhow, bail};
 use funicular::robot::{PlatformMotion, Pose, Robot};
 use funicular_study::at_rest::refuse_orientation;
 use funicular_study::csv_lines::line_at;
+use funicular_study::request::RobotText;
 use std::fs;
 use std::path::Path;
 
 /// Columns of a file of poses.
 const COLUMNS: [&str; 6] = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"];
 
+/// Reads the poses of a file for the robot of a request; `None` if no file is given.
+pub(crate) fn read_if_given(path: Option<&Path>, robot: &RobotText) -> Result<Option<Vec<[f64; 6]>>> {
+    path.map(|path| read(path, &robot.read()?.robot)).transpose()
+}
+
 /// Reads position [m] and roll, pitch, yaw [degrees] of every line. Other columns are ignored, and a note names them.
 ///
 /// # Errors
 /// A file that cannot be read or has no poses; a pose column that is missing, is there twice or has another unit; a
 /// value that is not a number; or an angle of a point mass.
-pub(crate) fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
+fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
     let shown = path.display();
     let bytes = fs::read(path).with_context(|| format!("cannot read the poses {shown}"))?;
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(&bytes[..]);

@@ -151,7 +151,7 @@ fn refuse_output(job: &Job, guard: &mut Guard, path: &Path) -> Result<()> {
     if job.run.format == Some(Format::Csv) {
         bail!("--format csv is for standard output: leave out -o, or give -o a name that ends in .csv");
     }
-    Ok(guard.writes_rows("-o", path, true)?)
+    Ok(guard.writes_rows(path, true)?)
 }
 
 /// Destination of a summary.

@@ -31,20 +31,20 @@ impl Guard {
         }
     }
 
-    /// Adds a file that is written; `option` is the option that names it.
+    /// Adds a file that is written; `role` is its content in messages, such as "the matrices".
     ///
     /// # Errors
     /// [`FilesError::Clash`]: the file is already read or written, perhaps under another name.
-    pub fn writes(&mut self, role: &str, option: &str, path: &Path) -> Result<(), FilesError> {
-        self.add(role, option, path, false)
+    pub fn writes(&mut self, role: &str, path: &Path) -> Result<(), FilesError> {
+        self.add(role, role, path, false)
     }
 
     /// Adds a folder that is written, with all files in it.
     ///
     /// # Errors
     /// [`FilesError::Clash`]; see [`Guard::writes`].
-    pub fn writes_folder(&mut self, role: &str, option: &str, path: &Path) -> Result<(), FilesError> {
-        self.add(role, option, path, true)
+    pub fn writes_folder(&mut self, role: &str, path: &Path) -> Result<(), FilesError> {
+        self.add(role, role, path, true)
     }
 
     /// Adds a file of rows together with the files beside it until it is complete: the journal (if used) and the new
@@ -52,21 +52,25 @@ impl Guard {
     ///
     /// # Errors
     /// [`FilesError::Clash`]; see [`Guard::writes`].
-    pub fn writes_rows(&mut self, option: &str, path: &Path, has_journal: bool) -> Result<(), FilesError> {
-        self.writes("the rows", option, path)?;
+    pub fn writes_rows(&mut self, path: &Path, has_journal: bool) -> Result<(), FilesError> {
+        const ROWS: &str = "the rows";
+
+        self.writes(ROWS, path)?;
         let path = behind_link(path);
         if has_journal {
             let journal = with_ending(&path, crate::JOURNAL);
-            self.writes(&format!("the journal of the rows, {},", journal.display()), option, &journal)?;
+            self.add(&format!("the journal of the rows, {},", journal.display()), ROWS, &journal, false)?;
         }
         let new = with_ending(&path, crate::NEW);
-        self.writes(&format!("the new file, {},", new.display()), option, &new)
+        self.add(&format!("the new file, {},", new.display()), ROWS, &new, false)
     }
 
-    fn add(&mut self, role: &str, option: &str, path: &Path, is_folder: bool) -> Result<(), FilesError> {
+    /// Adds a file or folder that is written. `chosen` is the content whose file the user can choose.
+    fn add(&mut self, role: &str, chosen: &str, path: &Path, is_folder: bool) -> Result<(), FilesError> {
         let Some(place) = Place::of(path) else { return Ok(()) };
         let used = GuardedFile { role: role.to_owned(), path: path.to_owned(), place, is_folder };
-        let advice = format!("choose another file for {option}");
+        let advice = format!("choose another file for {chosen}");
+
         if let Some(source) = self.read.iter().find(|source| used.meets(source)) {
             let shown = source.path.display();
             let same = if source.path == used.path {
@@ -83,6 +87,7 @@ impl Guard {
             let both = format!("refusing to write {role} and {} both to {}", other.role, other.path.display());
             return Err(FilesError::Clash(format!("{both}; {advice}")));
         }
+
         self.written.push(used);
         Ok(())
     }
@@ -183,22 +188,24 @@ mod tests {
             fs::hard_link(at("robot.toml"), at("hard")).unwrap();
             names.extend([at("link"), at("sub/link-of-link"), at("sub/up/robot.toml"), at("hard"), at("sub/up/hard")]);
         }
+
         for input in &names {
             for output in &names {
                 let mut guard = Guard::default();
                 guard.reads("the robot file", input);
-                let said = guard.writes("the result", "-o", output).unwrap_err().to_string();
+                let said = guard.writes("the result", output).unwrap_err().to_string();
                 assert!(said.starts_with("refusing to write the result over the robot file"), "{said}");
-                assert!(said.ends_with("choose another file for -o"), "{said}");
+                assert!(said.ends_with("choose another file for the result"), "{said}");
                 let mut guard = Guard::default();
-                guard.writes("the matrices", "--matrices", input).unwrap();
-                assert!(guard.writes("the result", "-o", output).is_err(), "{input:?} {output:?}");
+                guard.writes("the matrices", input).unwrap();
+                assert!(guard.writes("the result", output).is_err(), "{input:?} {output:?}");
             }
         }
+
         let mut guard = Guard::default();
         guard.reads("the robot file", &at("robot.toml"));
-        guard.writes("the result", "-o", &at("sub/robot.toml")).unwrap();
-        guard.writes("the matrices", "--matrices", &at("other")).unwrap();
+        guard.writes("the result", &at("sub/robot.toml")).unwrap();
+        guard.writes("the matrices", &at("other")).unwrap();
     }
 
     #[test]
@@ -206,11 +213,11 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
         let mut guard = Guard::default();
-        guard.writes("the result", "-o", &at("new.npz")).unwrap();
-        let said = guard.writes("the matrices", "--matrices", &at("./new.npz")).unwrap_err().to_string();
+        guard.writes("the result", &at("new.npz")).unwrap();
+        let said = guard.writes("the matrices", &at("./new.npz")).unwrap_err().to_string();
         assert!(said.starts_with("refusing to write the matrices and the result both to"), "{said}");
         // The file system decides whether this is the same file.
-        let same = guard.writes("the matrices", "--matrices", &at("NEW.npz")).is_err();
+        let same = guard.writes("the matrices", &at("NEW.npz")).is_err();
         fs::write(at("new.npz"), "").unwrap();
         assert_eq!(same, at("NEW.npz").exists());
     }
@@ -228,22 +235,23 @@ mod tests {
             fs::write(at(beside), "").unwrap();
             let mut guard = Guard::default();
             guard.reads("the poses", &at(beside));
-            let said = guard.writes_rows("-o", &at("w.parquet"), has_journal).unwrap_err().to_string();
+            let said = guard.writes_rows(&at("w.parquet"), has_journal).unwrap_err().to_string();
             assert!(said.contains(&format!("refusing to write {refused}")), "{said}");
+            assert!(said.ends_with("choose another file for the rows"), "{said}");
         }
         let mut guard = Guard::default();
         guard.reads("the part", &at("w.parquet.partial"));
         fs::remove_file(at("w.parquet")).unwrap();
-        guard.writes_rows("-o", &at("w.parquet"), false).unwrap();
+        guard.writes_rows(&at("w.parquet"), false).unwrap();
 
         fs::create_dir(at("model")).unwrap();
         let mut guard = Guard::default();
-        guard.writes("the result", "-o", &at("model/M.csv")).unwrap();
-        assert!(guard.writes_folder("the matrices", "--matrices", &at("model")).is_err());
+        guard.writes("the result", &at("model/M.csv")).unwrap();
+        assert!(guard.writes_folder("the matrices", &at("model")).is_err());
         let mut guard = Guard::default();
-        guard.writes_folder("the matrices", "--matrices", &at("model")).unwrap();
-        assert!(guard.writes("the result", "-o", &at("model/M.csv")).is_err());
-        guard.writes("the result", "-o", &at("model.txt")).unwrap();
+        guard.writes_folder("the matrices", &at("model")).unwrap();
+        assert!(guard.writes("the result", &at("model/M.csv")).is_err());
+        guard.writes("the result", &at("model.txt")).unwrap();
     }
 
     #[cfg(unix)]
@@ -257,10 +265,10 @@ mod tests {
         std::os::unix::fs::symlink(at("sub/real.parquet"), at("w.parquet")).unwrap();
         let mut guard = Guard::default();
         guard.reads("the robot file", &at("sub/real.parquet.partial"));
-        assert!(guard.writes_rows("-o", &at("w.parquet"), true).is_err());
+        assert!(guard.writes_rows(&at("w.parquet"), true).is_err());
         let mut guard = Guard::default();
         guard.reads("the robot file", Path::new("/dev/null"));
-        guard.writes("the result", "-o", Path::new("/dev/null")).unwrap();
-        guard.writes("the matrices", "--matrices", Path::new("/dev/null")).unwrap();
+        guard.writes("the result", Path::new("/dev/null")).unwrap();
+        guard.writes("the matrices", Path::new("/dev/null")).unwrap();
     }
 }

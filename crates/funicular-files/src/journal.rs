@@ -143,10 +143,12 @@ pub(crate) fn inspect(file: &File, record: &Record) -> io::Result<Found> {
     file.seek(SeekFrom::Start(0))?;
     let mut magic = Vec::new();
     file.by_ref().take(MAGIC.len() as u64).read_to_end(&mut magic)?;
+
     if magic != MAGIC {
         // An empty file, or a part of the magic: the run was killed before its first frame.
         return Ok(if MAGIC.starts_with(&magic) { Found::Nothing } else { Found::Foreign });
     }
+
     let Some(head) = read_frame(&mut file)? else { return Ok(Found::Nothing) };
     let Ok(head) = serde_json::from_slice::<Value>(&head) else { return Ok(Found::Foreign) };
     let difference = record
@@ -156,6 +158,7 @@ pub(crate) fn inspect(file: &File, record: &Record) -> io::Result<Found> {
     let mut end = file.stream_position()?;
     let (first, mut next) = (record.range().start, record.range().start);
     let mut done = 0;
+
     while let Some(frame) = read_frame(&mut file)? {
         if same {
             match decode(&frame, record) {
@@ -169,6 +172,7 @@ pub(crate) fn inspect(file: &File, record: &Record) -> io::Result<Found> {
         }
         end = file.stream_position()?;
     }
+
     let rows =
         if same { record.rows_of(record.range()) } else { head["record"]["rows"].as_u64().unwrap_or(0) as usize };
     if same {
@@ -252,6 +256,7 @@ pub(crate) fn decode(mut bytes: &[u8], record: &Record) -> Option<Chunk> {
         return None;
     }
     let mut columns = Vec::with_capacity(record.columns.len());
+
     for column in &record.columns {
         let bits = get(bytes, rows.div_ceil(8))?;
         let bits = (0..rows).map(|i| bits[i / 8] >> (i % 8) & 1 == 1);
@@ -266,6 +271,7 @@ pub(crate) fn decode(mut bytes: &[u8], record: &Record) -> Option<Chunk> {
             })?),
         });
     }
+
     bytes.is_empty().then_some(Chunk { index, columns })
 }
 

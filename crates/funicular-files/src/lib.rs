@@ -5,8 +5,8 @@
 //! be continued. The file itself is written from the journal when all chunks are there, and appears only when it is
 //! complete. Parquet, CSV and VTK files hold the same rows.
 //!
-//! The feature `parquet`, on by default, adds Parquet files. Without it the crate writes CSV and VTK and refuses Parquet
-//! files with a message. The feature `arrow` adds rows in memory in the format of Apache Arrow, `Table`.
+//! The feature `parquet`, on by default, adds Parquet files. Without it the crate writes CSV and VTK and refuses
+//! Parquet files with a message. The feature `arrow` adds rows in memory in the format of Apache Arrow, `Table`.
 
 #[cfg(feature = "arrow")]
 pub mod arrow;

@@ -21,7 +21,7 @@ pub fn merge(parts: &[PathBuf], to: &Path) -> Result<usize, FilesError> {
     for part in parts {
         guard.reads("the part", part);
     }
-    guard.writes_rows("-o", to, false)?;
+    guard.writes_rows(to, false)?;
 
     // The first part gives the record that all others have to match.
     let mut files = Vec::with_capacity(parts.len());
@@ -78,14 +78,17 @@ fn checked(
         let advice = "merge the parts of one command";
         return Err(FilesError::Foreign { path: path.to_owned(), difference, advice });
     }
+
     let Some(part) = file.part else {
         return Err(FilesError::Parts(format!("{shown} is no part: it is a complete sweep, written without ⟪part⟫")));
     };
+
     if !file.complete || file.rows != record.rows_of(part.range(record.chunks())) {
         return Err(FilesError::Parts(format!(
             "{shown} (part {part}) is incomplete: repeat the command that began it with ⟪resume⟫"
         )));
     }
+
     if let Some((other, _)) = before.first().filter(|(other, _)| other.of != part.of) {
         return Err(FilesError::Parts(format!("{shown} is part {part}, but other files are parts of {}", other.of)));
     }

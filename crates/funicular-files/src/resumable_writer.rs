@@ -199,6 +199,7 @@ fn open_journal(partial: &Path, record: Record, begin: Begin) -> Result<Journal,
         Begin::Discard => Found::Nothing,
         Begin::Anew | Begin::Resume => journal::inspect(&file, &record).map_err(unreadable)?,
     };
+
     match found {
         Found::Nothing => Journal::begin(partial, file, record).map_err(|source| {
             // The new journal holds no rows yet.

@@ -29,7 +29,8 @@ pub struct UncertaintyRun<'a> {
 }
 
 impl UncertaintyRun<'_> {
-    /// Computes the deviations of a request. `progress` gets the number of finished items, of all items, and their name.
+    /// Computes the deviations of a request. `progress` gets the number of finished items, of all items, and their
+    /// name.
     ///
     /// # Errors
     /// More samples than the memory is for, or a file that cannot be written or belongs to other work.

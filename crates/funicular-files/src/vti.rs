@@ -76,12 +76,14 @@ pub(crate) fn write(out: impl Write, record: &Record, rows: &dyn Rows) -> io::Re
     out.write_event(Event::Start(BytesStart::new("ImageData").with_attributes(whole)))?;
     out.write_event(Event::Start(BytesStart::new("Piece").with_attributes([("Extent", extent.as_str())])))?;
     out.write_event(Event::Start(BytesStart::new("PointData")))?;
+
     for (i, column) in record.columns.iter().enumerate() {
         // Reasons are sentences with different numbers in each row: an image cannot hold them.
         if column.name != "reason" {
             array(&mut out, record, rows, i, column)?;
         }
     }
+
     for name in ["PointData", "Piece", "ImageData", "VTKFile"] {
         out.write_event(Event::End(BytesEnd::new(name)))?;
     }
@@ -110,6 +112,7 @@ fn array(out: &mut Writer<impl Write>, record: &Record, rows: &dyn Rows, i: usiz
     packed.finish()?;
     drop(packed);
     out.write_event(Event::End(BytesEnd::new("DataArray")))?;
+
     if column.name == "status" {
         let codes = funicular_study::sweep::CODES.iter().enumerate().map(|(i, (code, _))| format!("{i} {code}"));
         let comment = format!(" status: {} ", codes.collect::<Vec<_>>().join(", "));

@@ -6,6 +6,7 @@ use crate::interrupt::{check_signals, interruptible, interruptible_in_steps};
 use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::{SweepFile, merge};
 use funicular_study::analyses::Found;
+use funicular_study::figures;
 use funicular_study::import::{self, SourceFile};
 use funicular_study::measurements::{self, FileOptions};
 use funicular_study::new_robot;
@@ -92,8 +93,8 @@ pub(crate) fn answer(py: Python<'_>, request: &str) -> PyResult<String> {
     String::from_utf8(bytes).map_err(|error| errors::input(error.to_string()))
 }
 
-/// Computes text and caveats of a request of `report`, `live`, `paper`, `export`, `new` or `schema`; `call` is the code that
-/// makes a page again.
+/// Computes text and caveats of a request of `report`, `live`, `paper`, `export`, `new` or `schema`; `call` is the code
+/// that makes a page again.
 #[pyfunction]
 pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(String, Vec<String>)> {
     let request = self::request(request)?;
@@ -126,6 +127,13 @@ pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(
 /// Texts with the names of options as Python writes them.
 pub(crate) fn in_words(texts: &[String]) -> Vec<String> {
     texts.iter().map(|text| worded(text, Words::Python)).collect()
+}
+
+/// Returns the widths of columns of journals [mm], and minimum and maximum of a figure's width [mm] and of its texts
+/// [pt].
+#[pyfunction]
+pub(crate) fn figure_sizes() -> (Vec<(&'static str, f64)>, (f64, f64), (f64, f64)) {
+    (figures::WIDTHS.to_vec(), figures::WIDTH_LIMITS_MM, figures::FONT_SIZE_LIMITS_PT)
 }
 
 /// Reads a file of another program for a request: path, text, and the encoding if it had to be guessed, as JSON.
@@ -182,14 +190,19 @@ pub(crate) fn merge_parts(py: Python<'_>, parts: Vec<PathBuf>, path: PathBuf) ->
 /// Writes a text to a file, which is complete or absent.
 #[pyfunction]
 pub(crate) fn write_file(path: PathBuf, text: &str) -> PyResult<()> {
+    write_bytes(path, text.as_bytes())
+}
+
+/// Writes a file that is complete or absent.
+pub(crate) fn write_bytes(path: PathBuf, bytes: &[u8]) -> PyResult<()> {
     // A symbolic link stays: the file that it points to is replaced.
     let target = path.canonicalize().unwrap_or_else(|_| path.clone());
     let write = || {
         if !is_regular_or_new(&target) {
-            return fs::OpenOptions::new().write(true).open(&target)?.write_all(text.as_bytes());
+            return fs::OpenOptions::new().write(true).open(&target)?.write_all(bytes);
         }
         let mut file = TemporaryFile::beside(&target)?;
-        file.as_file_mut().write_all(text.as_bytes())?;
+        file.as_file_mut().write_all(bytes)?;
         file.persist(&target)
     };
     write().map_err(|error: io::Error| errors::unwritable(format!("cannot write to {}: {error}", path.display())))

@@ -35,36 +35,47 @@ fn check_depth(path: &str, depth: usize) -> PyResult<()> {
     Ok(())
 }
 
+/// Fills a table with the keys of a dictionary.
 fn fill(table: &mut Table, path: &str, of: &Bound<'_, PyDict>, depth: usize) -> PyResult<()> {
     check_depth(path, depth)?;
-    // Values before tables: lines after the head of a table belong to the table.
-    for tables in [false, true] {
-        for (key, value) in of {
-            let key: String =
-                key.extract().map_err(|_| errors::change(format!("a key of the robot is {key}: keys are text")))?;
-            let at = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-            if let Ok(inner) = value.cast::<PyDict>() {
-                if tables {
-                    let mut below = Table::new();
-                    fill(&mut below, &at, inner, depth + 1)?;
-                    table.insert(&key, Item::Table(below));
-                }
-            } else if let Some(rows) = tables_of(&value) {
-                if tables {
-                    let mut list = ArrayOfTables::new();
-                    for row in rows {
-                        let mut below = Table::new();
-                        fill(&mut below, &at, &row, depth + 1)?;
-                        list.push(below);
-                    }
-                    table.insert(&key, Item::ArrayOfTables(list));
-                }
-            } else if !tables {
-                table.insert(&key, Item::Value(value_of(&at, &value, depth)?));
-            }
+    let mut tables = Vec::new();
+    for (key, value) in of {
+        let key: String =
+            key.extract().map_err(|_| errors::change(format!("a key of the robot is {key}: keys are text")))?;
+        let at = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+        if is_table(&value) {
+            tables.push((key, at, value));
+        } else {
+            table.insert(&key, Item::Value(value_of(&at, &value, depth)?));
         }
     }
+
+    // Values before tables: lines after the head of a table belong to the table.
+    for (key, at, value) in tables {
+        table.insert(&key, table_of(&at, &value, depth + 1)?);
+    }
     Ok(())
+}
+
+/// True for a table or a list of tables.
+fn is_table(value: &Bound<'_, PyAny>) -> bool {
+    value.cast::<PyDict>().is_ok() || tables_of(value).is_some()
+}
+
+/// Table of a dictionary, or tables of a list of dictionaries.
+fn table_of(path: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Item> {
+    let filled = |of: &Bound<'_, PyDict>| {
+        let mut table = Table::new();
+        fill(&mut table, path, of, depth)?;
+        Ok(table)
+    };
+    match value.cast::<PyDict>() {
+        Ok(of) => filled(of).map(Item::Table),
+        Err(_) => {
+            let rows = tables_of(value).unwrap_or_default();
+            rows.iter().map(filled).collect::<PyResult<ArrayOfTables>>().map(Item::ArrayOfTables)
+        }
+    }
 }
 
 /// List of tables with at least one table.

@@ -106,15 +106,16 @@ impl PyEquilibrium {
         self.at_rest.equilibrium.cables.iter().map(statics::CableState::tension_drum).collect()
     }
 
-    /// Points at which the cables leave their pulleys in world axes [m], one row per cable; the anchors without pulleys.
+    /// Points at which the cables leave their pulleys in world axes [m], one row per cable; the anchors without
+    /// pulleys.
     #[getter]
     fn exit_m(&self) -> Matrix {
         let cables = &self.at_rest.equilibrium.cables;
         Matrix::of_rows(cables.iter().flat_map(|cable| cable.anchor_w.iter().copied()).collect(), 3)
     }
 
-    /// Displacements of the flexible supports in world axes [m], one row per support in the order of their names; no rows on
-    /// a rigid frame.
+    /// Displacements of the flexible supports in world axes [m], one row per support in the order of their names; no
+    /// rows on a rigid frame.
     #[getter]
     fn support_displacement_m(&self) -> Matrix {
         Matrix::of_points(self.at_rest.equilibrium.support_displacements(&self.at_rest.robot).into_iter())

@@ -7,6 +7,7 @@
 #![allow(clippy::needless_pass_by_value, reason = "PyO3 hands arguments over by value")]
 
 mod analyses;
+mod answered;
 mod answers;
 mod arrays;
 mod batch;
@@ -32,9 +33,11 @@ mod _funicular {
     #[pymodule_export]
     use crate::analyses::PyAnalyses;
     #[pymodule_export]
+    use crate::answered::PyAnswered;
+    #[pymodule_export]
     use crate::answers::{
-        answer, complete_request, imported, measurements_of_file, merge_parts, plot_page, source_file, text_of,
-        write_file,
+        answer, complete_request, figure_sizes, imported, measurements_of_file, merge_parts, plot_page, source_file,
+        text_of, write_file,
     };
     #[pymodule_export]
     use crate::arrays::{complex_numbers, real_numbers};
@@ -47,7 +50,7 @@ mod _funicular {
     #[pymodule_export]
     use crate::robot::{PyRobot, robot_of_source};
     #[pymodule_export]
-    use crate::sweep::{PyPlan, PyTable, PyWork};
+    use crate::sweep::{PyPlan, PyTable, PyWork, axes};
     #[pymodule_export]
     use crate::vibration::peaks;
     #[pymodule_export]

@@ -173,25 +173,31 @@ pub(crate) fn gradient<'py>(
     answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
 }
 
+impl ModesKeywords<'_> {
+    pub(crate) fn request(self, of: &PyEquilibrium) -> PyResult<request::ModesRequest> {
+        let stations = |count: Count| {
+            let max = request::MAX_STATIONS;
+            count.within("stations", 2..=max, &format!("give a whole number from 2 to {max}"))
+        };
+        Ok(request::ModesRequest {
+            robot: of.of.get().source.clone(),
+            below_hz: self.below_hz.value("below_hz")?,
+            input: self.input,
+            output: self.output,
+            points: points(self.input_point_m, self.output_point_m)?,
+            stations: self.stations.map(stations).transpose()?,
+            platform_share: share(self.platform_share)?,
+            damped: self.damped,
+            rigid_cables: self.rigid_cables,
+            state: of.state.clone(),
+            tensions: of.tensions.clone(),
+            model: model(self.cable_model, self.assembly, self.in_plane_only, self.winches)?,
+        })
+    }
+}
+
 pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<'_>) -> PyResult<ModesObject> {
-    let stations = |count: Count| {
-        let max = request::MAX_STATIONS;
-        count.within("stations", 2..=max, &format!("give a whole number from 2 to {max}"))
-    };
-    let request = request::ModesRequest {
-        robot: of.of.get().source.clone(),
-        below_hz: keywords.below_hz.value("below_hz")?,
-        input: keywords.input,
-        output: keywords.output,
-        points: points(keywords.input_point_m, keywords.output_point_m)?,
-        stations: keywords.stations.map(stations).transpose()?,
-        platform_share: share(keywords.platform_share)?,
-        damped: keywords.damped,
-        rigid_cables: keywords.rigid_cables,
-        state: of.state.clone(),
-        tensions: of.tensions.clone(),
-        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
-    };
+    let request = keywords.request(of)?;
 
     // The request of the derivatives of these modes, for `Modes.gradient`.
     let own = request.clone();
@@ -332,6 +338,9 @@ impl<'py> IntoPyObject<'py> for Responses {
     }
 }
 
+/// Minimum height of a peak above the valleys beside it, if none is given [dB]; the default of the requests.
+pub(crate) const PROMINENCE_DB: f64 = 1.0;
+
 /// Keywords for inputs and outputs of responses.
 pub(crate) struct PairKeywords<'a> {
     pub(crate) input: SignalNames,
@@ -345,16 +354,25 @@ pub(crate) struct PairKeywords<'a> {
     pub(crate) winches: &'a str,
 }
 
-pub(crate) fn frf(py: Python<'_>, of: &PyEquilibrium, hz: Numbers, keywords: PairKeywords<'_>) -> PyResult<Responses> {
+impl PairKeywords<'_> {
+    /// Pairs of signals; the points are taken out of the keywords.
+    pub(crate) fn pairs(&mut self) -> PyResult<frf::Pairs<'_>> {
+        let points = points(self.input_point_m.take(), self.output_point_m.take())?;
+        let model = model(self.cable_model, self.assembly, self.in_plane_only, self.winches)?;
+        Ok(frf::Pairs { inputs: self.input.names(), outputs: self.output.names(), points, model })
+    }
+}
+
+pub(crate) fn frf(
+    py: Python<'_>,
+    of: &PyEquilibrium,
+    hz: Numbers,
+    mut keywords: PairKeywords<'_>,
+) -> PyResult<Responses> {
     let (frequencies, _) = hz.frequencies()?;
-    let (input, output, adaptive) = (&keywords.input, &keywords.output, keywords.adaptive);
-    let one = input.is_one() && output.is_one();
-    let pairs = frf::Pairs {
-        inputs: input.names(),
-        outputs: output.names(),
-        points: points(keywords.input_point_m, keywords.output_point_m)?,
-        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
-    };
+    let one = keywords.input.is_one() && keywords.output.is_one();
+    let adaptive = keywords.adaptive;
+    let pairs = keywords.pairs()?;
 
     let found = py.detach(|| {
         let mut watch = CtrlC::new();
@@ -434,7 +452,8 @@ pub(crate) fn peaks(
     prominence_db: Option<Number>,
 ) -> PyResult<(Vector, Vector, Vector)> {
     let (frequencies, _) = hz.frequencies()?;
-    let prominence_db = prominence_db.map_or(Ok(1.0), |prominence| prominence.not_negative("prominence_db"))?;
+    let prominence_db =
+        prominence_db.map_or(Ok(PROMINENCE_DB), |prominence| prominence.not_negative("prominence_db"))?;
     let values = response.row("response")?;
     if values.len() != frequencies.len() {
         return Err(errors::input(format!("{} frequencies for {} values", frequencies.len(), values.len())));

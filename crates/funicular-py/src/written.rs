@@ -1,26 +1,30 @@
 //! Output of an equilibrium for other programs and people: a model for control design, a file, a page.
 
-use crate::answers::{self, in_words};
+use crate::answers::{self, CtrlC, in_words};
 use crate::arrays::{Count, Matrix, Number, Numbers};
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::interrupt::{interruptible, interruptible_in_steps};
 use crate::request::{joined, model, named, points, share};
+use crate::vibration::{ModesKeywords, PROMINENCE_DB, PairKeywords};
 use funicular::math::DMat;
 use funicular::reduced_model::StateSpace;
+use funicular_files::endings::{self, Kind};
 use funicular_files::mat::{self, Value, Variable};
 use funicular_study::analyses;
+use funicular_study::analyses::frf;
 use funicular_study::analyses::reduce::MAX_ORDER;
 use funicular_study::export::{self, MAX_SEGMENTS};
 use funicular_study::names::ModelForm;
 use funicular_study::pages::{self, report};
 use funicular_study::request;
+use funicular_study::uff_writing::{frf_file, modes_file};
 use funicular_study::wording::{Words, worded};
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 use std::convert::Infallible;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 macro_rules! object {
@@ -187,6 +191,51 @@ pub(crate) fn export(
     let exported = exported.map_err(|error| errors::study(&error))?;
     answers::write_file(path, &worded(&exported.text, Words::Python))?;
     Ok(in_words(&exported.warnings))
+}
+
+/// Refuses a name whose ending means another kind of file than a Universal File.
+fn refuse_other_ending(path: &Path) -> PyResult<()> {
+    endings::check(path, "a Universal File", &[Kind::Uff]).map_err(|error| errors::files(&error))
+}
+
+/// Writes frequency responses as a Universal File.
+pub(crate) fn write_frf(
+    py: Python<'_>,
+    of: &PyEquilibrium,
+    path: PathBuf,
+    hz: Numbers,
+    mut keywords: PairKeywords<'_>,
+) -> PyResult<Vec<String>> {
+    refuse_other_ending(&path)?;
+    let (frequencies, _) = hz.frequencies()?;
+    let adaptive = keywords.adaptive;
+    let pairs = keywords.pairs()?;
+
+    let (warnings, bytes) = py.detach(|| {
+        let mut watch = CtrlC::new();
+        let found = frf::about(&of.at_rest, &pairs, frequencies, adaptive, PROMINENCE_DB, &mut watch);
+        let found = found.map_err(|error| watch.or(&error))?;
+        let bytes = frf_file(&found).map_err(|error| errors::study(&error))?;
+        Ok::<_, PyErr>((found.warnings, bytes))
+    })?;
+    answers::write_bytes(path, &bytes)?;
+    Ok(in_words(&warnings))
+}
+
+/// Writes mode shapes as a Universal File.
+pub(crate) fn write_modes(
+    py: Python<'_>,
+    of: &PyEquilibrium,
+    path: PathBuf,
+    keywords: ModesKeywords<'_>,
+) -> PyResult<Vec<String>> {
+    refuse_other_ending(&path)?;
+    let request = keywords.request(of)?;
+    let at_rest = Arc::clone(&of.at_rest);
+    let found = interruptible(py, move || analyses::modes::about(&at_rest, &request))?;
+    let found = found.map_err(|error| errors::study(&error))?;
+    answers::write_bytes(path, &modes_file(&found))?;
+    Ok(in_words(&found.warnings))
 }
 
 /// Keywords of `report`.

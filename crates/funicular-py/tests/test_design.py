@@ -1,5 +1,8 @@
 """Design: the package and the program choose the same values."""
 
+import pickle
+from pathlib import Path
+
 import funicular
 import numpy as np
 import pytest
@@ -8,7 +11,7 @@ from conftest import ROOT, Program
 ROBOT = ROOT / "robots/cogiro.toml"
 
 
-def test_the_package_chooses_what_the_program_chooses(program: Program) -> None:
+def test_the_package_chooses_what_the_program_chooses(program: Program, tmp_path: Path) -> None:
     theirs = program(
         "design", ROBOT, "--pose", "3.5,2.5,1", "--target-tension-n", "350", "--goal", "platform",
         "--change", "cables.*.attachment_m.z=±0.05",
@@ -20,6 +23,12 @@ def test_the_package_chooses_what_the_program_chooses(program: Program) -> None:
     assert found.x.tolist() == [row["value"] for row in theirs["values"]]
     assert np.all((found.bounds[:, 0] <= found.x) & (found.x <= found.bounds[:, 1]))
     assert np.all((found.gains == 0) | np.isin(found.x, found.bounds))
+
+    # The page is made of the result. A copy from a pickle computes it again and makes an equal page.
+    page = found.page(tmp_path / "design.html")
+    assert (tmp_path / "design.html").read_text() == page.html and page._repr_html_().startswith("<iframe")
+    assert "robot.design(" in page.html and f"{found.fun:.5g}" in page.html
+    assert pickle.loads(pickle.dumps(found)).page().html == page.html
 
     # The robot of the result has the result.
     modes = found.robot.equilibrium(pose=[3.5, 2.5, 1], target_tension_n=350).modes(10, cable_model="catenary-static")

@@ -1,5 +1,7 @@
 """Identification: the package and the program find the same values from the same measurements."""
 
+from pathlib import Path
+
 import funicular
 import numpy as np
 import pytest
@@ -8,7 +10,7 @@ from conftest import ROOT, Program
 ROBOT, MODES = ROOT / "docs/quick-start/hall.toml", ROOT / "docs/identification/hall-modes.csv"
 
 
-def test_the_package_finds_what_the_program_finds(program: Program) -> None:
+def test_the_package_finds_what_the_program_finds(program: Program, tmp_path: Path) -> None:
     arguments = ["--hold-lengths-of-pose", "--measured", MODES, "--fit", "platform.mass_kg"]
     theirs = program("identify", ROBOT, *arguments, "--prior", "platform.mass_kg=60±10")
 
@@ -19,6 +21,9 @@ def test_the_package_finds_what_the_program_finds(program: Program) -> None:
     assert found.x[0] == theirs["values"][0]["value"] and found.chi2 == theirs["chi2"]
     assert abs(found.x[0] - 63.86) < 0.05 and 0 < found.deviations[0] < 1
     assert np.allclose(found.covariance, found.deviations[0] ** 2)
+    page = found.page(tmp_path / "fit.html")
+    assert (tmp_path / "fit.html").read_text() == page.html and page._repr_html_().startswith("<iframe")
+    assert "robot.identify(experiments, fit=" in page.html
     assert found.robot.mass_kg == pytest.approx(found.x[0], rel=1e-4)
 
 

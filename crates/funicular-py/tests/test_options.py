@@ -2,6 +2,7 @@
 
 import inspect
 import os
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -51,7 +52,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
 }
 
 # Options without a keyword of their name, with the object that replaces them; entries of one command go first.
-OTHERS: dict[tuple[str | None, str], tuple[str, object]] = {
+OTHERS: dict[tuple[str | None, str], tuple[str, Callable[..., Any]]] = {
     (None, "--set"): ("`robot.with_({path: value})`", Robot.with_),
     (None, "--all"): ("`equilibrium.all_equilibria()`", Equilibrium.all_equilibria),
     (None, "--friction-interval"): ("`equilibrium.friction_interval()`", Equilibrium.friction_interval),
@@ -75,12 +76,14 @@ OTHERS: dict[tuple[str | None, str], tuple[str, object]] = {
     ("identify", "--format"): ("`to_dict()` of the result", funicular.Identified.to_dict),
     ("identify", "--output-file"): ("`json.dumps(result.details)`", funicular.Identified.to_dict),
     ("identify", "--fitted"): ("`result.robot_file`, `result.robot`", funicular.Identified.to_dict),
-    ("identify", "--page"): ("the program's option", funicular.run),
+    ("identify", "--page"): ("`result.page(path)`", funicular.Identified.page),
     ("design", "--format"): ("`to_dict()` of the result", funicular.Designed.to_dict),
     ("design", "--output-file"): ("`json.dumps(result.details)`", funicular.Designed.to_dict),
     ("design", "--designed"): ("`result.robot_file`, `result.robot`", funicular.Designed.to_dict),
-    ("design", "--page"): ("the program's option", funicular.run),
-    ("uncertainty", "--page"): ("the program's option", funicular.run),
+    ("design", "--page"): ("`result.page(path)`", funicular.Designed.page),
+    ("uncertainty", "--page"): ("`result.page(path)`", funicular.Uncertainty.page),
+    ("frf", "--output-file"): ("`equilibrium.write_frf(path, …)` for a Universal File", Equilibrium.write_frf),
+    ("modes", "--output-file"): ("`equilibrium.write_modes(path, …)` for a Universal File", Equilibrium.write_modes),
     (None, "--from-hz"): ("`hz=numpy.linspace(from_hz, to_hz, points)`", np.linspace),
     (None, "--to-hz"): ("`hz=numpy.linspace(from_hz, to_hz, points)`", np.linspace),
     (None, "--points"): ("`hz=numpy.linspace(from_hz, to_hz, points)`", np.linspace),
@@ -164,6 +167,21 @@ def test_nothing_is_named_that_the_program_does_not_have(executable: str) -> Non
     there = {(command, option) for command in commands.commands(executable) for option in commands.options(executable, command)}
     for command, option in OTHERS:
         assert (command, option) in there or (command is None and any(option == name for _, name in there)), (command, option)
+
+
+def test_what_replaces_an_option_takes_what_it_says() -> None:
+    """A keyword of the text is one of the callable, and a call of the text calls it, with the arguments that it has."""
+    for (command, option), (text, called) in OTHERS.items():
+        taken = set(inspect.signature(called).parameters)
+        named = set(re.findall(r"`(\w+)=", text))
+        calls = re.findall(r"(\w+)\(([^)]*)\)", text)
+        assert named <= taken, (command, option)
+        assert called is not funicular.run or command == "request", (command, option)
+        for name, arguments in calls:
+            if name == called.__name__:
+                assert "path" not in arguments or "path" in taken, (command, option)
+        parts = {name for name, _ in calls} - {"dumps", "to_pandas"}
+        assert not parts or called.__name__ in parts, (command, option)
 
 
 def test_the_tables_of_the_document_are_those_of_the_program_and_the_package(executable: str) -> None:

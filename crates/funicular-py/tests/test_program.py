@@ -195,3 +195,21 @@ def test_a_value_by_its_path_is_that_of_set(robot: funicular.Robot, program: Pro
     theirs = program("statics", "robots/yuan2014-4mm.toml", *options, "--set", "platform.mass_kg=20")
     assert theirs["pose"]["position_m"] == changed.equilibrium().pose.position_m.tolist()
     assert (robot.mass_kg, changed.mass_kg) == (10.55, 20)
+
+
+def test_universal_files_are_those_of_the_program(executable: str, tmp_path: Path) -> None:
+    robot = ROBOTS / "yuan2014-4mm.toml"
+    rest = funicular.Robot.from_file(robot).equilibrium()
+    line = ["frf", robot, "--from-hz", 0.1, "--to-hz", 5, "--points", 200, "--input", "fz", "--output", "az"]
+    for name, arguments in (("frf", line), ("modes", ["modes", robot, "--below-hz", 3])):
+        subprocess.run([executable, *map(str, arguments), "-o", tmp_path / f"{name}.uff"], check=True)
+
+    rest.write_frf(tmp_path / "own-frf.uff", np.linspace(0.1, 5, 200), "fz", "az")
+    assert rest.write_modes(tmp_path / "own-modes.uff", 3) == []
+    for name in ("frf", "modes"):
+        assert (tmp_path / f"own-{name}.uff").read_bytes() == (tmp_path / f"{name}.uff").read_bytes(), name
+    with pytest.raises(funicular.InputError, match="is not on the platform"):
+        rest.write_frf(tmp_path / "a.uff", [1, 2], "fz", "tension:1")
+    with pytest.raises(funicular.FileError, match=r"a\.json"):
+        rest.write_modes(tmp_path / "a.json", 3)
+    assert not (tmp_path / "a.uff").exists() and not (tmp_path / "a.json").exists()

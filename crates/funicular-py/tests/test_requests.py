@@ -198,7 +198,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
     theirs, mine = asked(executable, line), ours(line)
     assert mine == theirs
     # JSON keeps every number: a request comes back unchanged.
-    assert funicular._study._complete(json.loads(json.dumps(mine))) == mine
+    assert funicular._study.complete(json.loads(json.dumps(mine))) == mine
 
 
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.

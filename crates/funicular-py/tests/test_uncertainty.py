@@ -40,6 +40,9 @@ def test_samples_are_kept_and_progress_is_reported(tmp_path: Path) -> None:
     found = robot.uncertainty({"platform.mass_kg": "2%"}, progress=lambda done, total: calls.append((done, total)), **keywords)
     assert calls[-1] == (30, 30) and found.is_sampled.all()
     assert (tmp_path / "robots.parquet").exists()
+    page = found.page(tmp_path / "deviations.html")
+    assert (tmp_path / "deviations.html").read_text() == page.html and page._repr_html_().startswith("<iframe")
+    assert "robot.uncertainty(" in page.html
     assert robot.uncertainty({"platform.mass_kg": "2%"}, resume=True, threads=1, **keywords).details == found.details
     with pytest.raises(funicular.InputError, match="need `samples_file`"):
         robot.uncertainty({"platform.mass_kg": "2%"}, resume=True)

@@ -22,7 +22,10 @@ pub use design::{ChangeValue, DesignRequest};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest};
 pub use gradient::{GradientRequest, frequencies};
 pub use grids::{MapRequest, MergeRequest, PlotRequest, SweepRequest};
-pub use identify::{Experiment, FitValue, IdentifyRequest};
+pub use identify::{
+    DEFAULT_DAMPING_NOISE, DEFAULT_FREQUENCY_NOISE, DEFAULT_RESPONSE_NOISE, DEFAULT_STARTS, Experiment, FitValue,
+    IdentifyRequest,
+};
 pub use keys::KEYS;
 pub use pages::{LiveRequest, PaperRequest, ReportRequest, ValidateRequest};
 pub use parts::{

@@ -18,15 +18,19 @@ pub enum Words {
 }
 
 /// Keys whose option on the command line has another name.
-const PROGRAM_NAMES: [(&str, &str); 2] = [("robot", "ROBOT"), ("files", "FILE")];
+const PROGRAM_NAMES: [(&str, &str); 3] = [("robot", "ROBOT"), ("files", "FILE"), ("quantities", "--quantity")];
 
-/// Keys with another form in Python: switches with their value, a method, a shorter keyword.
-const PYTHON_NAMES: [(&str, &str); 5] = [
+/// Keys with another form in Python: switches with their value, a method, another keyword.
+const PYTHON_NAMES: [(&str, &str); 9] = [
     ("adaptive", "adaptive=True"),
     ("resume", "resume=True"),
     ("discard", "discard=True"),
     ("set", "with_"),
     ("output_file", "file"),
+    ("node", "nodes"),
+    ("response", "responses"),
+    ("prior", "fit"),
+    ("quantity", "quantities"),
 ];
 
 /// Text in which the names of options are written for a front end.

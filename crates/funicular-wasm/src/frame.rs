@@ -5,8 +5,8 @@
 //! defaults are those of the commands `statics` and `modes`; only the list of modes ends where enough are found.
 //!
 //! The list begins with [`HEADER`] numbers. Then come, without gaps, [`CABLE`] numbers per cable, three coordinates per
-//! point of the cables, and [`MODE`] numbers per mode, followed by the energy fractions of the cables. docs/web.md lists
-//! the meaning of each number.
+//! point of the cables, and [`MODE`] numbers per mode, followed by the energy fractions of the cables. docs/web.md
+//! lists the meaning of each number.
 
 use anyhow::{Result, anyhow, bail};
 use funicular::cable::Sag;
@@ -58,8 +58,8 @@ pub enum FrameState {
 
 impl FrameState {
     /// State from its kind and its numbers: 0, the state of the request, without numbers; 1, a pose, as position [m],
-    /// position and roll, pitch, yaw [degrees], or position and quaternion w, x, y, z; 2, unstrained lengths [m]; 3, the
-    /// seven numbers of a pose from which the search starts, then unstrained lengths.
+    /// position and roll, pitch, yaw [degrees], or position and quaternion w, x, y, z; 2, unstrained lengths [m]; 3,
+    /// the seven numbers of a pose from which the search starts, then unstrained lengths.
     ///
     /// # Errors
     /// Another kind or count, or a number that is not finite.
@@ -201,12 +201,13 @@ impl Session {
         Ok(AtRest { robot, equilibrium, requested_pose: None, rule: None, held_pose: None })
     }
 
-    /// At least `count` lowest modes, or all if there are fewer. The first limit is the highest frequency of the last frame, because a robot that
-    /// moves a little has nearly the same frequencies.
+    /// At least `count` lowest modes, or all if there are fewer. The first limit is the highest frequency of the last
+    /// frame, because a robot that moves a little has nearly the same frequencies.
     fn modes(&self, at_rest: &AtRest, linearisation: Linearisation, count: usize) -> Result<(Dynamics, Modes)> {
         let AtRest { robot, equilibrium, .. } = at_rest;
         let last = self.last.as_ref().and_then(|last| last.vibration.as_ref());
         let highest = last.and_then(|(_, modes)| modes.modes.get(count - 1)).map(|mode| mode.frequency_hz);
+
         if let Some(limit) = highest.map(|hz| (LIMIT_FACTOR * hz).min(MAX_HZ)) {
             let dynamics = Dynamics::about(robot, equilibrium, linearisation, limit)?;
             let counted = dynamics.modes_below(limit * std::f64::consts::TAU);
@@ -253,8 +254,8 @@ impl Session {
     }
 
     /// Response at the equilibrium of the last frame: three numbers per frequency [Hz], real and imaginary part, then
-    /// three per peak: frequency [Hz], prominence [dB] and magnitude. The text has their counts. Whether peaks are missed
-    /// between the frequencies is not checked, because this takes longer than the response; `frf` does it.
+    /// three per peak: frequency [Hz], prominence [dB] and magnitude. The text has their counts. Whether peaks are
+    /// missed between the frequencies is not checked, because this takes longer than the response; `frf` does it.
     ///
     /// # Errors
     /// A request that contradicts itself or the robot, or an undamped resonance at one of the frequencies.
@@ -308,6 +309,7 @@ fn description(robot: &Robot, text: &str) -> Value {
         "text": text,
         "motion": motion,
         "degrees_of_freedom": robot.platform.motion.count(),
+        "platform_share": modes::PLATFORM_SHARE,
         "check": check::run(robot.clone()),
     })
 }

@@ -129,7 +129,8 @@ pub extern "C" fn funicular_robot() -> u32 {
 }
 
 /// Computes a frame at a state, whose numbers were written: `kind` 0 is the state of the robot, 1 a pose, 2 unstrained
-/// lengths, 3 a pose at which the search begins, then unstrained lengths. The frame has `modes` natural frequencies and `points` points per cable.
+/// lengths, 3 a pose at which the search begins, then unstrained lengths. The frame has `modes` natural frequencies and
+/// `points` points per cable.
 #[expect(unsafe_code, reason = "a name for other languages")]
 #[unsafe(no_mangle)]
 pub extern "C" fn funicular_frame(kind: u32, modes: usize, points: usize) -> u32 {
@@ -318,7 +319,10 @@ mod tests {
 
     #[test]
     fn a_frame_has_the_numbers_of_statics_and_modes() {
-        assert_eq!(robot(&json!({ "tension_rule": "middle" })).0, RESULTS);
+        let (status, _, about) = robot(&json!({ "tension_rule": "middle" }));
+        assert_eq!(status, RESULTS);
+        let about: Value = serde_json::from_str(&about).unwrap();
+        assert_eq!(about["platform_share"], funicular::modes::PLATFORM_SHARE);
         let (status, numbers, text) = at(&[1.0, 2.0, 1.5], 20, 33);
         assert!(status == RESULTS && text.contains("\"tension_rule\":\"middle\""), "{status} {text}");
         assert_eq!(numbers.len(), frame::HEADER + 8 * (frame::CABLE + 3 * 33) + 20 * (frame::MODE + 8));
@@ -372,6 +376,7 @@ mod tests {
     fn frames_that_follow_one_another_equal_frames_alone() {
         let poses: Vec<[f64; 6]> = (0..6).map(|i| [0.3 * f64::from(i), 0.5, 1.5, 0.0, 2.0, 0.0]).collect();
         robot(&json!({}));
+
         for pose in &poses {
             let (_, following, _) = at(pose, 20, 9);
             SESSION.with_borrow_mut(|session| {

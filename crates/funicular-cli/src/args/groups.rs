@@ -22,8 +22,8 @@ pub(crate) struct RobotArgs {
 /// Changes of the robot file.
 #[derive(Debug, Args)]
 pub(crate) struct ChangeArgs {
-    /// Change a value of the robot file, as in platform.mass_kg=20, cables.3.unstrained_length_m=6.7 (cables by name) or
-    /// loads.force_n.2=-50 (one number of a vector, by x, y, z or 0, 1, 2); repeatable
+    /// Change a value of the robot file, as in platform.mass_kg=20, cables.3.unstrained_length_m=6.7 (cables by name)
+    /// or loads.force_n.2=-50 (one number of a vector, by x, y, z or 0, 1, 2); repeatable
     #[arg(long, value_name = "PATH=VALUE", value_parser = funicular_study::set_values::change)]
     pub(crate) set: Vec<Change>,
 }

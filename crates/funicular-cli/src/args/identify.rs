@@ -4,7 +4,9 @@ use super::values::{self, Lengths, PoseNumbers, Tensions};
 use super::{LinearisedArgs, OutputArgs, PointArgs, RobotArgs};
 use clap::Args;
 use funicular_study::measurements::{NodePoint, ResponseName};
-use funicular_study::request::FitValue;
+use funicular_study::request::{
+    DEFAULT_DAMPING_NOISE, DEFAULT_FREQUENCY_NOISE, DEFAULT_RESPONSE_NOISE, DEFAULT_STARTS, FitValue,
+};
 use funicular_study::set_values;
 use funicular_study::signals::{Input, Output};
 use std::path::PathBuf;
@@ -27,7 +29,7 @@ pub(crate) struct IdentifyArgs {
 
     /// Maximum number of starts of the search. The first start has the values of the file, the others are spread by the
     /// priors; the search ends at the first start that fits
-    #[arg(long, value_name = "N", default_value = "10")]
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_STARTS)]
     pub(crate) starts: usize,
 
     /// Fitted values with a profile, by their paths, separated by commas: each value is held at steps and all others are
@@ -94,15 +96,15 @@ pub(crate) struct IdentifyArgs {
 
     /// Standard deviation of responses without deviations, relative to their magnitude; 0.3 % of the median magnitude is
     /// added
-    #[arg(long, value_name = "FRACTION", value_parser = values::positive, default_value = "0.02", help_heading = "Measurements")]
+    #[arg(long, value_name = "FRACTION", value_parser = values::positive, default_value_t = DEFAULT_RESPONSE_NOISE, help_heading = "Measurements")]
     pub(crate) response_noise: f64,
 
     /// Relative standard deviation of natural frequencies without deviations
-    #[arg(long, value_name = "FRACTION", value_parser = values::positive, default_value = "0.01", help_heading = "Measurements")]
+    #[arg(long, value_name = "FRACTION", value_parser = values::positive, default_value_t = DEFAULT_FREQUENCY_NOISE, help_heading = "Measurements")]
     pub(crate) frequency_noise: f64,
 
     /// Relative standard deviation of damping ratios
-    #[arg(long, value_name = "FRACTION", value_parser = values::positive, default_value = "0.1", help_heading = "Measurements")]
+    #[arg(long, value_name = "FRACTION", value_parser = values::positive, default_value_t = DEFAULT_DAMPING_NOISE, help_heading = "Measurements")]
     pub(crate) damping_noise: f64,
 
     #[command(flatten)]

@@ -28,9 +28,10 @@ pub(crate) struct StaticsArgs {
 
     /// Compute the interval in which friction of pulleys leaves pose and tensions
     ///
-    /// The interval is that of every cable having last run towards the platform or towards its drum. With lengths given,
-    /// or with --hold-lengths-of-pose, pose and tensions vary. With a pose given, the tensions at the drums and the lengths
-    /// vary. Friction is given in [pulleys.NAME] by `friction_coefficient`, `efficiency` or `bearing_friction_coefficient`.
+    /// The interval is that of every cable having last run towards the platform or towards its drum. With lengths
+    /// given, or with --hold-lengths-of-pose, pose and tensions vary. With a pose given, the tensions at the drums and
+    /// the lengths vary. Friction is given in [pulleys.NAME] by `friction_coefficient`, `efficiency` or
+    /// `bearing_friction_coefficient`.
     #[arg(long)]
     pub(crate) friction_interval: bool,
     #[command(flatten)]

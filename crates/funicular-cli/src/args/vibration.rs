@@ -40,8 +40,8 @@ pub(crate) struct ModesArgs {
     #[command(flatten)]
     pub(crate) linearised: LinearisedArgs,
 
-    /// Modes with cables that are straight, without mass and rigid in length: how a platform swings on fewer cables than
-    /// it has degrees of freedom; with --static-model ideal
+    /// Modes with cables that are straight, without mass and rigid in length: how a platform swings on fewer cables
+    /// than it has degrees of freedom; with --static-model ideal
     #[arg(long, help_heading = "Model")]
     pub(crate) rigid_cables: bool,
 
@@ -78,8 +78,8 @@ pub(crate) struct FrfArgs {
     #[arg(long)]
     pub(crate) log: bool,
 
-    /// Add frequencies until every peak has its height (to 0.1 %) and straight lines over the logarithm of the magnitude
-    /// are accurate to 1 %
+    /// Add frequencies until every peak has its height (to 0.1 %) and straight lines over the logarithm of the
+    /// magnitude are accurate to 1 %
     #[arg(long)]
     pub(crate) adaptive: bool,
 

@@ -87,6 +87,7 @@ impl Printed for Checked {
             "load_y_n_per_m",
             "load_z_n_per_m",
         ])?;
+
         for c in &self.cables {
             let CheckedLimits { minimum_tension_n, maximum_tension_n } = c.limits;
             let limits = (minimum_tension_n, maximum_tension_n);
@@ -136,6 +137,7 @@ fn drive_table(found: &Checked) -> String {
         vec!["cable", "pulley", "radius [m]", "entry direction", "winch", "to drum [m]", "stiffness [N/m]"];
     header.extend(moves.then_some("at the cable").into_iter().chain(has_friction.then_some("friction")));
     let mut rows = Table::new(&header).text_columns(&[1, 4]);
+
     for cable in &found.cables {
         let (pulley, winch) = (cable.pulley.as_ref(), cable.winch.as_ref());
         let none = || table::NONE.to_owned();
@@ -157,6 +159,7 @@ fn drive_table(found: &Checked) -> String {
         }
         rows.row(row);
     }
+
     format!("\n{rows}{}", length_table(found))
 }
 

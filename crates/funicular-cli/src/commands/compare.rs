@@ -76,6 +76,7 @@ impl Printed for Compared {
             "relative_difference",
             "correlation",
         ])?;
+
         for model in &self.models {
             // Matches are in the order of the modes. A mode with the platform at rest has no match.
             let mut matches = model.matches.iter().peekable();

@@ -4,13 +4,20 @@ use super::result_files::ResultFiles;
 use crate::args::DesignArgs;
 use crate::output::Printed;
 use crate::progress::TerminalProgress;
-use crate::robot_file;
+
 use crate::table::{Table, counted, significant};
+use crate::{pose_csv, robot_file};
 use anyhow::{Result, bail};
 use funicular_study::analyses::design::{self, Designed};
-use funicular_study::request::Request;
+use funicular_study::request::{DesignRequest, Request, RobotText};
 use funicular_study::wording::{Words, worded};
 use std::fmt::Write as _;
+
+/// Request of a design. Errors of its poses name the line in the file of poses.
+pub(super) fn request(args: &DesignArgs, robot: RobotText) -> Result<DesignRequest> {
+    let poses = pose_csv::read_if_given(args.poses.as_deref(), &robot)?;
+    Ok(args.request(robot, poses))
+}
 
 /// Runs `design`: prints the result, writes the robot file and the page.
 pub(super) fn run(request: &Request, args: &DesignArgs) -> Result<()> {
@@ -19,7 +26,7 @@ pub(super) fn run(request: &Request, args: &DesignArgs) -> Result<()> {
     if let Some(poses) = &args.poses {
         guard.reads("the poses", poses);
     }
-    let designed = ("--designed", args.designed.as_deref());
+    let designed = ("designed", args.designed.as_deref());
     let files = ResultFiles::open(&args.sink, designed, args.page.as_deref(), &mut guard)?;
 
     let mut watch = TerminalProgress::new();
@@ -50,50 +57,11 @@ impl Printed for Designed {
             let _ = writeln!(text, "{limit}.");
         }
 
-        let unit = self.unit;
-        let (before, after) = (format!("before [{unit}]"), format!("after [{unit}]"));
-        let mut table = Table::new(&[
-            "pose",
-            "x [m]",
-            "y [m]",
-            "z [m]",
-            "roll [°]",
-            "pitch [°]",
-            "yaw [°]",
-            &before,
-            &after,
-            "share",
-        ]);
-        for (number, row) in (1..).zip(&self.poses) {
-            let mut cells = vec![number.to_string()];
-            cells.extend(row.position_m.iter().chain(&row.roll_pitch_yaw_deg).map(|value| short(*value)));
-            cells.extend([significant(row.before, 5), significant(row.after, 5), format!("{:.3}", row.share)]);
-            table.row(cells);
-        }
-        let _ = write!(text, "\n{table}");
-
+        let _ = write!(text, "\n{}", poses(self));
         if !self.demands.is_empty() {
-            let mut table =
-                Table::new(&["demand", "limit", "before", "after", "unit", "at pose"]).text_columns(&[0, 4]);
-            for row in &self.demands {
-                table.row(vec![
-                    row.name.clone(),
-                    significant(row.limit, 5),
-                    significant(row.before, 5),
-                    significant(row.after, 5),
-                    row.unit.to_owned(),
-                    row.pose.to_string(),
-                ]);
-            }
-            let _ = write!(text, "\n{table}");
+            let _ = write!(text, "\n{}", demands(self));
         }
-
-        let mut table =
-            Table::new(&["value", "unit", "before", "after", "minimum", "maximum", ""]).text_columns(&[0, 1, 6]);
-        for row in &self.values {
-            table.row(row.cells(significant).to_vec());
-        }
-        let _ = write!(text, "\n{table}");
+        let _ = write!(text, "\n{}", values(self));
         text
     }
 
@@ -112,4 +80,46 @@ impl Printed for Designed {
 /// Number of a pose, without zeros at the end.
 fn short(value: f64) -> String {
     funicular_study::text::short(value, 6)
+}
+
+/// Table of the poses with the goal before and after.
+fn poses(found: &Designed) -> Table {
+    let unit = found.unit;
+    let (before, after) = (format!("before [{unit}]"), format!("after [{unit}]"));
+    let mut table =
+        Table::new(&["pose", "x [m]", "y [m]", "z [m]", "roll [°]", "pitch [°]", "yaw [°]", &before, &after, "share"]);
+
+    for (number, row) in (1..).zip(&found.poses) {
+        let mut cells = vec![number.to_string()];
+        cells.extend(row.position_m.iter().chain(&row.roll_pitch_yaw_deg).map(|value| short(*value)));
+        cells.extend([significant(row.before, 5), significant(row.after, 5), format!("{:.3}", row.share)]);
+        table.row(cells);
+    }
+    table
+}
+
+/// Table of the demands with their limits.
+fn demands(found: &Designed) -> Table {
+    let mut table = Table::new(&["demand", "limit", "before", "after", "unit", "at pose"]).text_columns(&[0, 4]);
+    for row in &found.demands {
+        table.row(vec![
+            row.name.clone(),
+            significant(row.limit, 5),
+            significant(row.before, 5),
+            significant(row.after, 5),
+            row.unit.to_owned(),
+            row.pose.to_string(),
+        ]);
+    }
+    table
+}
+
+/// Table of the chosen values.
+fn values(found: &Designed) -> Table {
+    let mut table =
+        Table::new(&["value", "unit", "before", "after", "minimum", "maximum", ""]).text_columns(&[0, 1, 6]);
+    for row in &found.values {
+        table.row(row.cells(significant).to_vec());
+    }
+    table
 }

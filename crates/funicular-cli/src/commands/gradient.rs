@@ -17,6 +17,7 @@ impl Printed for GradientTable {
         };
         let mut out =
             format!("{}: derivatives per {step}\n{}\nHeld: {}.\n", self.robot, self.models.line(), self.held_means);
+
         for result in &self.results {
             let _ = write!(out, "\n{} = {} {}\n", result.name, significant(result.value, 8), result.unit);
             out += &largest(self, result).to_string();
@@ -33,6 +34,7 @@ impl Printed for GradientTable {
             out += "\nModes that share a frequency have a block of derivatives: along a change, the derivatives of their \
                     frequencies are the eigenvalues of the block.\n";
         }
+
         for refused in &self.refused {
             let _ = write!(out, "\n{}: {}\n", refused.name, refused.reason);
         }
@@ -52,6 +54,7 @@ impl Printed for GradientTable {
             "per",
             "derivative",
         ])?;
+
         for result in &self.results {
             for (parameter, derivative) in self.parameters.iter().zip(&result.derivatives) {
                 out.serialize((

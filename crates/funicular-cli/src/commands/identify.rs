@@ -25,7 +25,7 @@ pub(super) fn run(request: &Request, args: &IdentifyArgs) -> Result<()> {
         guard.reads("the measurements", file);
     }
 
-    let fitted = ("--fitted", args.fitted.as_deref());
+    let fitted = ("fitted", args.fitted.as_deref());
     let files = ResultFiles::open(&args.sink, fitted, args.page.as_deref(), &mut guard)?;
     let mut watch = TerminalProgress::new();
     let found = identify::run(of, &mut watch)?;
@@ -138,53 +138,23 @@ fn read_experiments(path: &Path) -> Result<Vec<Experiment>> {
 
 impl Printed for Identified {
     fn text(&self) -> String {
-        let mut table = Table::new(&["value", "unit", "start", "identified", "deviation", "95 % from", "to", ""])
-            .text_columns(&[0, 1, 7]);
-        for row in &self.values {
-            // Two digits of the deviation and as many of the value.
-            let digits = row.deviation.map_or(6, |deviation| digits_for(row.value, deviation));
-            let number = |value: Option<f64>, digits: usize| {
-                value.map_or_else(|| NONE.to_owned(), |value| significant(value, digits))
-            };
-            let mut notes = Vec::new();
-            if let Some(prior) = row.prior.zip(row.prior_deviation) {
-                notes.push(format!("prior {} ± {}", significant(prior.0, 4), significant(prior.1, 2)));
-            }
-            if let Some(bound) = row.at_bound {
-                notes.push(format!("at its {bound}"));
-            }
-            if row.deviation.is_none() {
-                notes.push("not determined".to_owned());
-            }
-            table.row(vec![
-                row.path.clone(),
-                row.unit.to_owned(),
-                significant(row.start, 6),
-                significant(row.value, digits),
-                number(row.deviation, 2),
-                number(row.interval_95.map(|interval| interval[0]), digits),
-                number(row.interval_95.map(|interval| interval[1]), digits),
-                notes.join(", "),
-            ]);
-        }
-
-        let profiles = profiles(self);
-        let tried = self.starts.len();
         let mut text = format!(
-            "{}: {} from {}\n\n{table}\n\nχ² = {} for {} degrees of freedom, χ²/n = {}: {}.\n{} tried.\n",
+            "{}: {} from {}\n\n{}\n\nχ² = {} for {} degrees of freedom, χ²/n = {}: {}.\n{} tried.\n",
             self.robot,
             counted(self.values.len(), "value"),
             counted(self.residuals, "residual"),
+            values(self),
             significant(self.chi2, 4),
             self.degrees_of_freedom,
             significant(self.chi2_per_degree, 3),
             self.verdict,
-            counted(tried, "start"),
+            counted(self.starts.len(), "start"),
         );
-        text += &profiles;
+        text += &profiles(self);
         for strong in &self.strong_correlations {
             let _ = writeln!(text, "{strong}.");
         }
+
         if let (Some(before), Some(after)) = (self.frequency_rms_before, self.frequency_rms) {
             let _ = write!(
                 text,
@@ -195,30 +165,10 @@ impl Printed for Identified {
             );
         }
         if !self.responses.is_empty() {
-            let mut table = Table::new(&["response", "lines", "residual [deviations]"]).text_columns(&[0]);
-            for response in &self.responses {
-                let name = if response.name.is_empty() {
-                    format!("{}/{}", response.output, response.input)
-                } else {
-                    response.name.clone()
-                };
-                table.row(vec![name, response.frequency_hz.len().to_string(), significant(response.residual_rms, 3)]);
-            }
-            let _ = write!(text, "\n{table}\n");
+            let _ = write!(text, "\n{}\n", responses(self));
         }
         if !self.statics.is_empty() {
-            let mut table = Table::new(&["experiment", "quantity", "measured", "fitted", "difference [deviations]"])
-                .text_columns(&[0, 1]);
-            for row in &self.statics {
-                table.row(vec![
-                    row.experiment.clone(),
-                    row.quantity.clone(),
-                    significant(row.measured, 6),
-                    significant(row.fitted, 6),
-                    significant((row.fitted - row.measured) / row.deviation, 3),
-                ]);
-            }
-            let _ = write!(text, "\n{table}\n");
+            let _ = write!(text, "\n{}\n", statics(self));
         }
         text
     }
@@ -238,6 +188,7 @@ impl Printed for Identified {
             "profile_95_from",
             "profile_95_to",
         ])?;
+
         for row in &self.values {
             out.serialize((
                 (&row.path, row.unit, row.start, row.value),
@@ -251,6 +202,72 @@ impl Printed for Identified {
     }
 }
 
+/// Table of the values.
+fn values(found: &Identified) -> Table {
+    let mut table = Table::new(&["value", "unit", "start", "identified", "deviation", "95 % from", "to", ""])
+        .text_columns(&[0, 1, 7]);
+    for row in &found.values {
+        // Two digits of the deviation and as many of the value.
+        let digits = row.deviation.map_or(6, |deviation| digits_for(row.value, deviation));
+        let number = |value: Option<f64>, digits: usize| {
+            value.map_or_else(|| NONE.to_owned(), |value| significant(value, digits))
+        };
+
+        let mut notes = Vec::new();
+        if let Some(prior) = row.prior.zip(row.prior_deviation) {
+            notes.push(format!("prior {} ± {}", significant(prior.0, 4), significant(prior.1, 2)));
+        }
+        if let Some(bound) = row.at_bound {
+            notes.push(format!("at its {bound}"));
+        }
+        if row.deviation.is_none() {
+            notes.push("not determined".to_owned());
+        }
+
+        table.row(vec![
+            row.path.clone(),
+            row.unit.to_owned(),
+            significant(row.start, 6),
+            significant(row.value, digits),
+            number(row.deviation, 2),
+            number(row.interval_95.map(|interval| interval[0]), digits),
+            number(row.interval_95.map(|interval| interval[1]), digits),
+            notes.join(", "),
+        ]);
+    }
+    table
+}
+
+/// Table of the responses with their residuals.
+fn responses(found: &Identified) -> Table {
+    let mut table = Table::new(&["response", "lines", "residual [deviations]"]).text_columns(&[0]);
+    for response in &found.responses {
+        let name = if response.name.is_empty() {
+            format!("{}/{}", response.output, response.input)
+        } else {
+            response.name.clone()
+        };
+        table.row(vec![name, response.frequency_hz.len().to_string(), significant(response.residual_rms, 3)]);
+    }
+    table
+}
+
+/// Table of measured and fitted poses, tensions and lengths.
+fn statics(found: &Identified) -> Table {
+    let mut table =
+        Table::new(&["experiment", "quantity", "measured", "fitted", "difference [deviations]"]).text_columns(&[0, 1]);
+    for row in &found.statics {
+        table.row(vec![
+            row.experiment.clone(),
+            row.quantity.clone(),
+            significant(row.measured, 6),
+            significant(row.fitted, 6),
+            significant((row.fitted - row.measured) / row.deviation, 3),
+        ]);
+    }
+    table
+}
+
 /// Table of the profiles; empty if there are none.
 fn profiles(found: &Identified) -> String {
     let profiled: Vec<_> = found.values.iter().filter_map(|row| Some((row, row.profile.as_ref()?))).collect();
@@ -260,6 +277,7 @@ fn profiles(found: &Identified) -> String {
     let mut table =
         Table::new(&["value", "unit", "identified", "profile 95 % from", "to", "below", "above", "deviations", ""])
             .text_columns(&[0, 1, 8]);
+
     for (row, profile) in profiled {
         let digits = row.deviation.map_or(6, |deviation| digits_for(row.value, deviation));
         let ends = [profile.from, profile.to];
@@ -289,5 +307,6 @@ fn profiles(found: &Identified) -> String {
             remark.collect::<Vec<_>>().join(", "),
         ]);
     }
+
     format!("\n{table}\n")
 }

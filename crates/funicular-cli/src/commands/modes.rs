@@ -97,6 +97,7 @@ fn certificate(found: &Modes) -> String {
         n => format!(" and {} without a frequency", counted(n, "unstable direction")),
     };
     let Modes { count_below, below_hz, .. } = found;
+
     if found.models.cable_model == RIGID && found.certified {
         return format!(
             "Complete: rigid cables leave the platform {count_below} of its motions below {below_hz} Hz, the list has \

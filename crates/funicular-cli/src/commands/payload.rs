@@ -56,6 +56,7 @@ impl Printed for Payload {
             "limit_reached",
             "limit_place",
         ])?;
+
         for (name, bound) in [("minimum", Some(&self.minimum)), ("maximum", self.maximum.as_ref())] {
             for cable in bound.iter().flat_map(|bound| &bound.cables) {
                 let bound = bound.map(|bound| (bound.payload_kg, bound.excluded_from_kg));

@@ -23,6 +23,7 @@ impl Printed for PoseErrors {
             }
             table.row(row);
         }
+
         format!(
             "{}: distance and angle between the poses of static models\n{}\n{table}\n{}\n",
             self.robot,

@@ -1,6 +1,9 @@
 //! `reduce`: text, CSV and the files of the matrices.
 
-use crate::output::{Content, Printed, Target};
+use crate::args::ReduceArgs;
+use crate::output::{Content, Printed, Sink, Target};
+use crate::progress::TerminalProgress;
+use crate::robot_file;
 use crate::table::{Table, counted, decimals};
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::math::DMat;
@@ -10,11 +13,30 @@ use funicular_files::mat::{self, Value, Variable};
 use funicular_files::{Guard, atomic_file};
 use funicular_study::analyses::Found;
 use funicular_study::analyses::control_model::ControlStateSpace;
-use funicular_study::analyses::reduce::{ChannelRow, Reduced, ReducedForm};
+use funicular_study::analyses::reduce::{self, ChannelRow, Reduced, ReducedForm};
 use funicular_study::json;
+use funicular_study::request::Request;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
+
+/// Runs `reduce`: prints the model and writes its matrices to files.
+pub(super) fn run(request: &Request, args: &ReduceArgs) -> Result<()> {
+    let Request::Reduce(of) = request else { bail!("this is not a request of `reduce`") };
+    let robot = of.robot.read()?.robot;
+    let mut guard = robot_file::guard(Some(&args.robot.robot));
+    let sink = Sink::open(&args.sink, &[], &mut guard)?;
+    let file = args.matrices.as_deref().map(|path| ModelFile::open(path, &mut guard)).transpose()?;
+
+    let mut watch = TerminalProgress::new();
+    let mut found = reduce::run(robot, of, &mut watch)?;
+    drop(watch);
+    found.set_matrices_file(args.matrices.as_ref().map(|path| path.display().to_string()));
+    if let Some(file) = file {
+        file.write(&found)?;
+    }
+    sink.write(&found)
+}
 
 impl Printed for ReducedForm {
     fn text(&self) -> String {
@@ -143,6 +165,7 @@ impl Printed for ControlStateSpace {
             "platform_energy_fraction",
             "contribution",
         ])?;
+
         for of in &self.states {
             out.serialize((
                 of.first,
@@ -207,11 +230,9 @@ impl Printed for Reduced {
 }
 
 /// Matrices in a file of NumPy.
-const ARRAYS: Content =
-    Content { name: "the matrices", option: "--matrices", in_words: "arrays of NumPy", fitting: &[Kind::Npz] };
+const ARRAYS: Content = Content { name: "the matrices", in_words: "arrays of NumPy", fitting: &[Kind::Npz] };
 /// Matrices in a file of MATLAB.
-const VARIABLES: Content =
-    Content { name: "the matrices", option: "--matrices", in_words: "variables of MATLAB", fitting: &[Kind::Mat] };
+const VARIABLES: Content = Content { name: "the matrices", in_words: "variables of MATLAB", fitting: &[Kind::Mat] };
 
 /// Destination of the matrices.
 pub(crate) enum ModelFile {
@@ -231,8 +252,10 @@ impl ModelFile {
             Some(Kind::Mat) => return Ok(Self::Mat(Target::open(Some(path), VARIABLES, guard)?)),
             _ => {}
         }
+
         let shown = path.display();
-        guard.writes_folder(ARRAYS.name, ARRAYS.option, path)?;
+        guard.writes_folder(ARRAYS.name, path)?;
+
         if path.extension().is_some() && !path.is_dir() {
             bail!(
                 "--matrices {shown} is neither an .npz or .mat file nor a folder: write model.npz, model.mat, or a \

@@ -1,6 +1,6 @@
 //! `request`: runs a request in JSON. Also prints the request of any command.
 
-use super::{analyse_or_draw, page, uncertainty, write_export, write_import, write_new, write_schema};
+use super::{analysis, export, import, new_robot, page, schema, uncertainty};
 use crate::args::{OutputArgs, RequestArgs};
 use crate::output;
 use crate::sweep_run;
@@ -57,16 +57,16 @@ pub(crate) fn run(args: &RequestArgs) -> Result<()> {
         Request::Report(_) => page::report(&request, Some(&args.file), &place()),
         Request::Live(_) => page::live(&request, Some(&args.file), &place()),
         Request::Paper(_) => page::paper(&place()),
-        Request::New(of) => write_new(of, &mut guard, &place()),
-        Request::Schema(_) => write_schema(&mut guard, &place()),
-        Request::Import(of) => write_import(of, &mut guard, &place()),
+        Request::New(of) => new_robot::write(of, &mut guard, &place()),
+        Request::Schema(_) => schema::write(&mut guard, &place()),
+        Request::Import(of) => import::write(of, &mut guard, &place()),
         Request::Export(of) => {
             let robot = of.robot.read()?.robot;
-            write_export(of, robot, &mut guard, &place())
+            export::write(of, robot, &mut guard, &place())
         }
         Request::Merge(_) | Request::Plot(_) | Request::Reduce(_) => {
             bail!("`funicular {}` writes files: use the command with its options", request.command())
         }
-        _ => analyse_or_draw(&request, &output(), args.figure, args.figure_mode, guard),
+        _ => analysis::print_or_draw(&request, &output(), args.figure, args.figure_mode, guard),
     }
 }

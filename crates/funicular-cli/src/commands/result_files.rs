@@ -16,7 +16,7 @@ pub(super) struct ResultFiles {
 }
 
 impl ResultFiles {
-    /// Opens the files before the work. `-o` may name the robot file or the page. `robot` is the name of the option of
+    /// Opens the files before the work. `-o` may name the robot file or the page. `robot` is the key of the option of
     /// the robot file and its value.
     ///
     /// # Errors
@@ -36,20 +36,20 @@ impl ResultFiles {
             }
             (option, by_ending) => Ok(option.or(by_ending).map(Path::to_owned)),
         };
-        let named = robot.0.trim_start_matches('-');
-        let (to_robot, to_page, elsewhere) =
-            (given(robot.1, to_robot, named)?, given(page, to_page, "page")?, to_robot.is_some() || to_page.is_some());
+        let (to_robot, to_page, elsewhere) = (
+            given(robot.1, to_robot, robot.0)?,
+            given(page, to_page, "page")?,
+            to_robot.is_some() || to_page.is_some(),
+        );
 
         let printed =
             OutputArgs { format: output.format, output_file: output.output_file.clone().filter(|_| !elsewhere) };
         let sink = Sink::open(&printed, &[Kind::Toml, Kind::Html], guard)?;
-        let of_robot =
-            Content { name: "the robot file", option: robot.0, in_words: "a robot file", fitting: &[Kind::Toml] };
-        let of_page = Content { option: "--page", ..Content::PAGE };
+        let of_robot = Content { name: "the robot file", in_words: "a robot file", fitting: &[Kind::Toml] };
         let mut open = |path: Option<PathBuf>, content: Content| {
             path.map(|path| anyhow::Ok((Target::open(Some(&path), content, guard)?, path))).transpose()
         };
-        Ok(Self { sink, robot: open(to_robot, of_robot)?, page: open(to_page, of_page)? })
+        Ok(Self { sink, robot: open(to_robot, of_robot)?, page: open(to_page, Content::PAGE)? })
     }
 
     /// Prints the result, and writes the robot file and the page, which is made only if it is wanted.

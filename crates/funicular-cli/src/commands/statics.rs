@@ -82,6 +82,7 @@ impl Printed for Statics {
         let friction = self.friction_interval.as_ref();
         header.extend(FRICTION_COLUMNS.iter().filter(|_| friction.is_some()));
         out.write_record(header)?;
+
         for (i, c) in self.cables.iter().enumerate() {
             let limits = c.limits.as_ref();
             out.serialize((

@@ -6,11 +6,12 @@ use crate::interrupt::{STOPPED, stop_at_next_row};
 use crate::output::{Content, Printed, Sink, Target};
 use crate::progress::Progress;
 use crate::table::{NONE, Table, counted, digits_for, significant};
+use crate::{pose_csv, robot_file};
 use anyhow::{Result, bail};
 use funicular_files::endings::Kind;
 use funicular_files::{Begin, Guard, UncertaintyOutcome, UncertaintyRun, threads};
 use funicular_study::analyses::uncertainty::{PoseUncertainty, UncertainResult, Uncertainties, UncertaintyStudy};
-use funicular_study::request::UncertaintyRequest;
+use funicular_study::request::{Request, RobotText, UncertaintyRequest};
 use funicular_study::wording::{Words, worded};
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;
@@ -19,8 +20,20 @@ use std::path::Path;
 /// Number of contributions that the text shows for each result.
 const SHOWN: usize = 3;
 
+/// Request of `uncertainty`. Errors of its poses name the line in the file of poses.
+pub(super) fn request(args: &UncertaintyArgs, robot: RobotText) -> Result<UncertaintyRequest> {
+    let poses = pose_csv::read_if_given(args.poses.as_deref(), &robot)?;
+    Ok(args.request(robot, poses))
+}
+
 /// Runs `uncertainty`: prints the deviations, writes the samples and the page.
-pub(super) fn run(of: &UncertaintyRequest, args: &UncertaintyArgs, guard: &mut Guard) -> Result<()> {
+pub(super) fn run(request: &Request, args: &UncertaintyArgs) -> Result<()> {
+    let Request::Uncertainty(of) = request else { bail!("this is not a request of `uncertainty`") };
+    let guard = &mut robot_file::guard(Some(&args.robot.robot));
+    if let Some(poses) = &args.poses {
+        guard.reads("the poses", poses);
+    }
+
     // -o may name the page.
     let output = args.sink.output_file.as_deref();
     let is_page = args.sink.format.is_none() && output.and_then(Kind::of) == Some(Kind::Html);
@@ -31,15 +44,15 @@ pub(super) fn run(of: &UncertaintyRequest, args: &UncertaintyArgs, guard: &mut G
     let printed =
         OutputArgs { format: args.sink.format, output_file: args.sink.output_file.clone().filter(|_| !is_page) };
     let sink = Sink::open(&printed, &[Kind::Html], guard)?;
-    let html = Content { option: "--page", ..Content::PAGE };
-    let page = page.map(|path| Ok::<_, anyhow::Error>((Target::open(Some(path), html, guard)?, path))).transpose()?;
+    let page =
+        page.map(|path| Ok::<_, anyhow::Error>((Target::open(Some(path), Content::PAGE, guard)?, path))).transpose()?;
     let begin = match (args.resume, args.discard) {
         (true, _) => Begin::Resume,
         (_, true) => Begin::Discard,
         _ => Begin::Anew,
     };
     if let Some(path) = &args.samples_file {
-        guard.writes_rows("--samples-file", path, true)?;
+        guard.writes_rows(path, true)?;
     }
 
     let found = compute(of, args.threads, args.samples_file.as_deref().map(|path| (path, begin)))?;
@@ -80,6 +93,7 @@ fn compute(
         }
     };
     let run = UncertaintyRun { threads: threads::or_all(threads), samples, cancel: &STOPPED };
+
     match run.run(&study, &mut progress)? {
         UncertaintyOutcome::Complete(found) => Ok(*found),
         UncertaintyOutcome::Stopped(sentence) => Err(Interrupted(worded(&sentence, Words::Program)).into()),
@@ -168,7 +182,7 @@ impl Printed for Uncertainties {
     }
 }
 
-/// Table of the results at one pose.
+/// Text about the results at one pose: their table, and doubts.
 fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
     let mut out = String::new();
     if of.poses.len() > 1 {
@@ -185,6 +199,30 @@ fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
         return out;
     }
 
+    let _ = write!(out, "\n{}", results(of, pose));
+
+    // Each reason once.
+    let mut reasons: Vec<&str> = Vec::new();
+    for reason in pose.results.iter().filter_map(|result| result.sampling_reason.as_deref()) {
+        if !reasons.contains(&reason) {
+            reasons.push(reason);
+        }
+    }
+    if !reasons.is_empty() || pose.failed.is_some() {
+        out.push('\n');
+    }
+    for reason in reasons {
+        let _ = writeln!(out, "Not linear: {reason}.");
+    }
+    if let Some(failed) = &pose.failed {
+        let _ =
+            writeln!(out, "{} without results; the first: {}.", counted(failed.count, "sampled robot"), failed.reason);
+    }
+    out
+}
+
+/// Rows of the results, with the largest contributions to each.
+fn results(of: &Uncertainties, pose: &PoseUncertainty) -> Table {
     let has_worst = pose.results.iter().any(|result| result.worst.is_some());
     let mut header = vec!["result", "unit", "value", "deviation", "95 % from", "to", "method"];
     if has_worst {
@@ -193,6 +231,7 @@ fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
     header.push("largest shares");
     let last = header.len() - 1;
     let mut table = Table::new(&header).text_columns(&[0, 1, 6, last]);
+
     for result in &pose.results {
         let digits = result.deviation.map_or(6, |deviation| digits_for(result.value, deviation));
         let number = |value: Option<f64>, digits: usize| {
@@ -214,26 +253,7 @@ fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
         row.push(shares(of, result));
         table.row(row);
     }
-    let _ = write!(out, "\n{table}");
-
-    // Each reason once.
-    let mut reasons: Vec<&str> = Vec::new();
-    for reason in pose.results.iter().filter_map(|result| result.sampling_reason.as_deref()) {
-        if !reasons.contains(&reason) {
-            reasons.push(reason);
-        }
-    }
-    if !reasons.is_empty() || pose.failed.is_some() {
-        out.push('\n');
-    }
-    for reason in reasons {
-        let _ = writeln!(out, "Not linear: {reason}.");
-    }
-    if let Some(failed) = &pose.failed {
-        let _ =
-            writeln!(out, "{} without results; the first: {}.", counted(failed.count, "sampled robot"), failed.reason);
-    }
-    out
+    table
 }
 
 /// Largest contributions to a result: single numbers, or groups where only these are known.

@@ -21,6 +21,7 @@ impl Printed for Validated {
             "pass",
             "source",
         ])?;
+
         for section in &self.sections {
             for row in &section.rows {
                 out.serialize((

@@ -203,10 +203,17 @@ fn an_earlier_name_is_answered_with_the_present_name() {
         assert_eq!(output.status.code(), Some(2), "{old}: {message}");
         assert!(message.contains(&format!("did you mean `{new}`?")), "{old}: {message}");
     }
-    // Other commands never had `--model`, and have more than one option that ends so.
-    let output = run(&["statics", "ROBOT", "--model", "spring"]);
-    let message = stderr(&output);
-    assert!(!message.contains("--matrices"), "{message}");
+    // A command is offered only options that it has, and no tip to take the option for a file.
+    for (line, tip) in [
+        ("statics ROBOT --model spring", "a similar argument exists: '--static-model'"),
+        ("modes ROBOT --below-hz 5 --model spring", "some similar arguments exist: '--cable-model', '--static-model'"),
+        ("statics ROBOT --freedoms point-mass", "unexpected argument '--freedoms' found\n\nUsage"),
+        ("new --freedoms planar-xz", "a similar argument exists: '--motion'"),
+    ] {
+        let output = run(&line.split(' ').collect::<Vec<_>>());
+        assert_refused(&output, 2, tip, line);
+        assert!(!stderr(&output).contains("-- --"), "{line}: {}", stderr(&output));
+    }
 
     // Keys of a robot file.
     let with_key = |text: &str| text.replacen("[platform]\n", "[platform]\nfreedoms = \"rigid\"\n", 1);

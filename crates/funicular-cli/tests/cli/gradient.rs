@@ -50,8 +50,8 @@ fn derivatives_are_differences_of_the_program_with_lengths_and_with_the_pose_hel
     assert!((ours - expected).abs() < 1e-4 * expected.abs(), "{ours} {expected}");
 }
 
-/// With the rule held, a tension follows the rule at the changed robot. With the pose alone held it does so only where the
-/// directions of the cables stay.
+/// With the rule held, a tension follows the rule at the changed robot. With the pose alone held it does so only where
+/// the directions of the cables stay.
 #[test]
 fn derivatives_by_the_rule_of_the_tensions_are_differences_of_statics() {
     let cogiro = robot("cogiro.toml");

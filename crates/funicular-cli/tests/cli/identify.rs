@@ -3,8 +3,8 @@
 use super::{json, number, project, robot, run, stderr, succeed};
 use std::fs;
 
-/// A response that the program writes as a Universal File and as a table is found again: the mass, and the same curve from
-/// both files.
+/// A response that the program writes as a Universal File and as a table is found again: the mass, and the same curve
+/// from both files.
 #[test]
 fn a_written_response_gives_the_mass_that_it_has() {
     let folder = tempfile::tempdir().unwrap();

@@ -497,8 +497,8 @@ fn rotating_pulleys_of_caspr_become_pulleys() {
     }
 }
 
-/// WireX's pulleys become pulleys of the robot file. The lengths are those of WireX's own formula, the sum of two arcs of
-/// cosines times the radius and the free length (doInverseKinematicsPulleyEx).
+/// WireX's pulleys become pulleys of the robot file. The lengths are those of WireX's own formula, the sum of two arcs
+/// of cosines times the radius and the free length (doInverseKinematicsPulleyEx).
 #[test]
 fn pulleys_of_wirex_become_pulleys_with_its_lengths() {
     // The frame of one base is turned: its z axis points to y.

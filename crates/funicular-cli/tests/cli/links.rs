@@ -39,7 +39,8 @@ fn headings(text: &str) -> Vec<(usize, &str)> {
         .collect()
 }
 
-/// The anchor of a heading at GitHub: small letters, blanks as hyphens, no other signs than letters, digits, `-` and `_`.
+/// The anchor of a heading at GitHub: small letters, blanks as hyphens, no other signs than letters, digits, `-` and
+/// `_`.
 fn anchor(heading: &str) -> String {
     let small = heading.to_lowercase();
     small
@@ -62,8 +63,8 @@ fn anchors(text: &str) -> HashSet<String> {
     all
 }
 
-/// Targets of `[…](target)` and of `src="target"`, `href="target"`, with the line they stand in; code between backticks is
-/// none.
+/// Targets of `[…](target)` and of `src="target"`, `href="target"`, with the line they stand in; code between backticks
+/// is none.
 fn links(text: &str) -> Vec<(usize, String)> {
     let mut found = Vec::new();
     for (number, line) in prose(text) {

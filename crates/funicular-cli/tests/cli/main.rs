@@ -30,6 +30,7 @@ mod sweeps;
 mod uncertainty;
 mod validate;
 mod wind;
+mod wording;
 
 use assert_cmd::Command;
 use serde_json::Value;

@@ -312,8 +312,8 @@ fn commands_follow_cables_over_pulleys() {
     assert!(stderr(&short).contains("strain of cable"), "{}", stderr(&short));
 }
 
-/// The lengths to the anchors that `check` lists are those that hold the pose of the robot without its pulleys, but for the
-/// radius of the wheels.
+/// The lengths to the anchors that `check` lists are those that hold the pose of the robot without its pulleys, but for
+/// the radius of the wheels.
 fn lengths_to_the_anchors_hold_the_pose_without_pulleys(driven: &str, fixed: &str) {
     let json = |arguments: &[&str], robot: &str| -> Value {
         let output = run_with(&[arguments, &["--format", "json"]].concat(), robot);

@@ -3,15 +3,16 @@
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
+from os import PathLike
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from funicular._errors import InputError
-from funicular._funicular import Robot, answer, complete_request
+from funicular._funicular import Answered, Robot
+from funicular._pages import Page, page_of_result
 from funicular._results import with_arrays
-from funicular._study import _plain
+from funicular._study import complete, plain
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -54,6 +55,8 @@ class Designed:
     """Caveats."""
     details: dict[str, Any]
     """All keys of the program's JSON: `values`, `poses`, `demands`, `limits`, `history`, …"""
+    _answered: Answered
+    """Request and results in the compiled half, for `page`."""
 
     @property
     def limits(self) -> tuple[str, ...]:
@@ -71,6 +74,10 @@ class Designed:
         """Robot with the values."""
         return Robot.from_toml(self.robot_file)
 
+    def page(self, path: str | PathLike[str] | None = None) -> Page:
+        """Makes a page in HTML about the design, which notebooks show, and writes it if a path is given."""
+        return page_of_result(self._answered, path)
+
     def to_dict(self) -> dict[str, Any]:
         """Keys of the program's JSON, with arrays for lists of numbers."""
         found: dict[str, Any] = with_arrays(self.details)
@@ -83,7 +90,8 @@ class Designed:
 
 def designed(request: Mapping[str, Any]) -> Designed:
     """Runs a request of `design`."""
-    found = json.loads(answer(json.dumps(request)))
+    answered = Answered(json.dumps(request))
+    found = json.loads(answered.json())
     rows, poses = found["values"], found["poses"]
 
     def of(key: str, table: list[dict[str, Any]]) -> NDArray[np.float64]:
@@ -108,19 +116,15 @@ def designed(request: Mapping[str, Any]) -> Designed:
         nfev=found["evaluations"],
         warnings=tuple(found["warnings"]),
         details=found,
+        _answered=answered,
     )
 
 
 def design_request(robot: str, change: Any, keywords: Mapping[str, Any]) -> dict[str, Any]:
     """Request of `Robot.design`; `robot` is JSON."""
-    given = {key: _plain(key, value) for key, value in keywords.items() if value is not None}
+    given = {key: plain(key, value) for key, value in keywords.items() if value is not None}
     made = {"command": "design", "robot": json.loads(robot), "change": _change(change), **given}
-    try:
-        text = json.dumps(made, allow_nan=False)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"the design contains a value that JSON cannot hold: {error}") from error
-    full: dict[str, Any] = json.loads(complete_request(text))
-    return full
+    return complete(made)
 
 
 def _change(change: Any) -> list[dict[str, Any]]:
@@ -130,7 +134,7 @@ def _change(change: Any) -> list[dict[str, Any]]:
     found = []
     for path, value in change.items():
         if isinstance(value, Mapping):
-            found.append({"path": path, **{key: _plain(key, of_key) for key, of_key in value.items()}})
+            found.append({"path": path, **{key: plain(key, of_key) for key, of_key in value.items()}})
         elif np.ndim(value) == 0:
             found.append({"path": path, "plus_minus": float(value)})
         else:

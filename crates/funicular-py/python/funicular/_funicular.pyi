@@ -18,7 +18,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Final, SupportsFloat, SupportsIndex, final, Literal, overload
 
-__all__ = ["__version__", "Analyses", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "complete_request", "complex_numbers", "imported", "matlab_file", "measurements_of_file", "merge_parts", "peaks", "plot_page", "real_numbers", "robot_of_source", "source_file", "text_of", "write_file"]
+__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "axes", "complete_request", "complex_numbers", "figure_sizes", "imported", "matlab_file", "measurements_of_file", "merge_parts", "peaks", "plot_page", "real_numbers", "robot_of_source", "source_file", "text_of", "write_file"]
 
 __version__: Final[str]
 
@@ -119,8 +119,8 @@ class Analyses:
         output
             Output signal: displacement `x`, `y`, `z`, rotation `rx`, `ry`, `rz`, with `v` (velocity) or `a`
             (acceleration) before it, or `x:ux,uy,uz`, `v:…`, `a:…` along a direction; a point of a cable, as in
-            `cable:3@0.5:az`; or the motion of a drum or motor, or the tension of a cable at the platform or at its drum, as
-            in `drum:3`, `motor:3`, `tension:3`, `drum-tension:3`. A list names several.
+            `cable:3@0.5:az`; or the motion of a drum or motor, or the tension of a cable at the platform or at its
+            drum, as in `drum:3`, `motor:3`, `tension:3`, `drum-tension:3`. A list names several.
         adaptive
             Add frequencies between those in `hz`, which ascend, until every peak has its height (to 0.1 %) and straight
             lines over the logarithm of the magnitude are accurate to 1 %. At undamped natural frequencies, where the
@@ -132,8 +132,8 @@ class Analyses:
 
         Returns
         -------
-        (n,) for one input and one output; (outputs, inputs, n) if `input` or `output` is a list. With `adaptive` a pair:
-        the chosen frequencies [Hz] (n,), and the responses at them.
+        (n,) for one input and one output; (outputs, inputs, n) if `input` or `output` is a list. With `adaptive` a
+        pair: the chosen frequencies [Hz] (n,), and the responses at them.
 
         Raises
         ------
@@ -149,15 +149,15 @@ class Analyses:
         """
         Computes the interval in which friction of pulleys leaves pose and tensions.
 
-        Every cable may have run last towards the platform or towards its drum. If the lengths are given or held, pose and
-        tensions vary; if the pose is given, the tensions at the drums and the lengths vary.
+        Every cable may have run last towards the platform or towards its drum. If the lengths are given or held, pose
+        and tensions vary; if the pose is given, the tensions at the drums and the lengths vary.
 
         Returns
         -------
         The keys of the program's JSON. `friction_interval` has `held`, which is `lengths` or `pose`; with lengths held
-        `translation_m` (3, 2) and `rotation_deg` (3, 2), the rotation vector, both in world axes; and `cables`, each with
-        `friction_exponent`, `excess_length_m`, `tension_platform_n`, `tension_anchor_n` and `tension_drum_n`. Pairs are
-        minimum and maximum. Theory (71) to (74).
+        `translation_m` (3, 2) and `rotation_deg` (3, 2), the rotation vector, both in world axes; and `cables`, each
+        with `friction_exponent`, `excess_length_m`, `tension_platform_n`, `tension_anchor_n` and `tension_drum_n`.
+        Pairs are minimum and maximum. Theory (71) to (74).
 
         Raises
         ------
@@ -176,16 +176,17 @@ class Analyses:
             Groups of results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`; the
             frequencies if not given.
         by
-            Paths of the numbers, as `Robot.parameters` lists them; `*` stands for any key, as in `cables.*.anchor_m`, and a
-            path to a table or vector for all numbers in it. All numbers if not given.
+            Paths of the numbers, as `Robot.parameters` lists them; `*` stands for any key, as in `cables.*.anchor_m`,
+            and a path to a table or vector for all numbers in it. All numbers if not given.
         hold
             Held while a number changes: the unstrained `lengths`, so that the pose follows, or the `pose`, so that the
-            lengths follow. Of more cables than degrees of freedom the tensions parallel to the chords then change least.
-            `rule`: as `pose`, but the tensions go on to follow the rule that has chosen them (not `stiffest`).
+            lengths follow. Of more cables than degrees of freedom the tensions parallel to the chords then change
+            least. `rule`: as `pose`, but the tensions go on to follow the rule that has chosen them (not `stiffest`).
         per
             Step that the derivatives are for: `unit` of the number, `percent` of its value, or its `tolerance`.
         tolerances
-            Tolerances, as `platform.mass_kg=1%` or `cables.*.anchor_m=0.002`. If not given: 1 mm for positions and lengths,
+            Tolerances, as `platform.mass_kg=1%` or `cables.*.anchor_m=0.002`. If not given: 1 mm for positions and
+            lengths,
             0.1° for angles, 1 % of other values.
         below_hz
             Limit of the frequencies [Hz], for `frequencies` and `damping`.
@@ -196,10 +197,10 @@ class Analyses:
 
         Returns
         -------
-        The keys of the program's JSON. `parameters` lists the numbers, each with `path`, `value`, `unit` and `tolerance`;
-        `results` the results, each with `name`, `unit`, `value` and the array `derivatives` (parameters,). `held_means` says
-        what is held. Modes that share a frequency have a block, `block_entry`. `refused` has the results without a
-        gradient and the reasons. Theory, section 17.
+        The keys of the program's JSON. `parameters` lists the numbers, each with `path`, `value`, `unit` and
+        `tolerance`; `results` the results, each with `name`, `unit`, `value` and the array `derivatives` (parameters,).
+        `held_means` says what is held. Modes that share a frequency have a block, `block_entry`. `refused` has the
+        results without a gradient and the reasons. Theory, section 17.
 
         Raises
         ------
@@ -213,8 +214,8 @@ class Analyses:
         Makes a page in HTML on which the platform can be dragged, which notebooks show.
 
         The page contains the program itself, as WebAssembly, and needs no network. In a notebook, with the package
-        `anywidget`, the pose and the values that a person changes come back: `state`, `pose`, `values` and `equilibrium()`
-        of the result follow the page.
+        `anywidget`, the pose and the values that a person changes come back: `state`, `pose`, `values` and
+        `equilibrium()` of the result follow the page.
 
         Parameters
         ----------
@@ -251,8 +252,8 @@ class Analyses:
             Seek the damped partner of every mode. False is faster; damping ratios are then of first order in the
             damping, and there are no eigenvalues.
         rigid_cables
-            Modes with cables that are straight, without mass and rigid in length, of the motions that they leave free. The
-            equilibrium has the static model `ideal` or `spring`.
+            Modes with cables that are straight, without mass and rigid in length, of the motions that they leave free.
+            The equilibrium has the static model `ideal` or `spring`.
         """
     def receptance(self, /, hz: ArrayLike, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> NDArray[complex128]:
         """
@@ -358,6 +359,72 @@ class Analyses:
         -------
         (6, 6), real at 0 Hz and complex at another frequency; for a row of frequencies (n, 6, 6), complex.
         """
+    def write_frf(self, /, path: str | PathLike[str], hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: bool = False, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> list[str]:
+        """
+        Writes frequency responses as a Universal File, as the program's `frf -o FILE.uff`; returns the caveats.
+
+        Each response is a function of dataset 58, with its points in dataset 15.
+
+        Parameters
+        ----------
+        path
+            Path of the file, which is complete or absent.
+        hz, input, output, adaptive, input_point_m, output_point_m, cable_model, assembly, in_plane_only, winches
+            Frequencies, signals and models, as in `frf`. Signals are motions of the platform and forces on it, along
+            axes.
+
+        Raises
+        ------
+        InputError
+            A Universal File cannot hold one of the signals.
+        FileError
+            The file cannot be written.
+        """
+    def write_modes(self, /, path: str | PathLike[str], below_hz: SupportsFloat | SupportsIndex, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", rigid_cables: bool = False) -> list[str]:
+        """
+        Writes all mode shapes below a limit as a Universal File, as the program's `modes -o FILE.uff`; returns the
+        caveats.
+
+        Each mode is a dataset 55 over the origin of the platform and the attachments, in platform axes.
+
+        Parameters
+        ----------
+        path
+            Path of the file, which is complete or absent.
+        below_hz, cable_model, assembly, in_plane_only, winches, rigid_cables
+            Limit of the frequencies [Hz] and models, as in `modes`.
+
+        Raises
+        ------
+        FileError
+            The file cannot be written.
+        """
+
+@final
+class Answered:
+    """
+    Results of a request, from which their page is made.
+
+    A pickle contains the request. Its results are computed again when a page is wanted.
+    """
+    def __new__(cls, /, request: str) -> Answered:
+        """
+        Takes a request in JSON, whose results are computed when they are wanted.
+        """
+    def __reduce__(self, /) -> tuple[Any, tuple[str]]: ...
+    def json(self, /) -> str:
+        """
+        Returns the keys of the program's JSON.
+        """
+    def page(self, /, call: str) -> str:
+        """
+        Makes the page in HTML; `call` is the code that makes it again.
+        """
+    @property
+    def request(self, /) -> str:
+        """
+        Request, as JSON.
+        """
 
 @final
 class Catenary:
@@ -441,7 +508,8 @@ class Equilibrium(Analyses):
     @property
     def exit_m(self, /) -> NDArray[float64]:
         """
-        Points at which the cables leave their pulleys in world axes [m], one row per cable; the anchors without pulleys.
+        Points at which the cables leave their pulleys in world axes [m], one row per cable; the anchors without
+        pulleys.
         """
     @property
     def force_on_platform_n(self, /) -> NDArray[float64]:
@@ -511,8 +579,8 @@ class Equilibrium(Analyses):
     @property
     def support_displacement_m(self, /) -> NDArray[float64]:
         """
-        Displacements of the flexible supports in world axes [m], one row per support in the order of their names; no rows on
-        a rigid frame.
+        Displacements of the flexible supports in world axes [m], one row per support in the order of their names; no
+        rows on a rigid frame.
         """
     @property
     def tension_anchor_n(self, /) -> NDArray[float64]:
@@ -641,20 +709,21 @@ class Robot(Analyses):
         """
         Chooses values of the robot file with which the robot is best at several poses.
 
-        The poses are held, and the tensions of more cables than degrees of freedom follow `tension_rule`. The values move
-        within their bounds until the goal improves no further.
+        The poses are held, and the tensions of more cables than degrees of freedom follow `tension_rule`. The values
+        move within their bounds until the goal improves no further.
 
         Parameters
         ----------
         change
-            Values to choose: a mapping from paths to the largest change to both sides, or to bounds (minimum, maximum). A
-            vector without a component stands for all its numbers, and * for every name, as in `cables.*.attachment_m`.
+            Values to choose: a mapping from paths to the largest change to both sides, or to bounds (minimum, maximum).
+            A vector without a component stands for all its numbers, and * for every name, as in
+            `cables.*.attachment_m`.
         goal
             `first` natural frequency, first natural frequency of the `platform` on the static stiffness of its cables,
             minimum `stiffness`, `rope-mass` or `rope-length`.
         poses
-            Poses (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees]; the worst one counts. If not given: `pose`, or
-            the pose of the robot file.
+            Poses (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees]; the worst one counts. If not given: `pose`,
+            or the pose of the robot file.
         weights
             Weights (n,) for the mean of the poses instead of the worst one.
         min_frequency_hz, min_stiffness_n_per_m
@@ -668,15 +737,16 @@ class Robot(Analyses):
 
         Returns
         -------
-        Result with `x`, `fun`, `success`, `message`, `nit` as those of `scipy.optimize`, with the values per pose, and with
-        `robot`.
+        Result with `x`, `fun`, `success`, `message`, `nit` as those of `scipy.optimize`, with the values per pose, and
+        with `robot`.
 
         Raises
         ------
         InputError
             A value, a path or a bound is wrong.
         StaticsError
-            A pose has no equilibrium, or no values within the bounds meet all demands; the message says what was reached.
+            A pose has no equilibrium, or no values within the bounds meet all demands; the message says what was
+            reached.
 
         References
         ----------
@@ -791,8 +861,8 @@ class Robot(Analyses):
             numbers, and * for every name, as in `materials.*.mass_kg_per_m`.
         experiments
             One mapping per state of the robot, or a single one: `responses` and `frequencies` as
-            `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m` with
-            their deviations, `cables` with the names of those that were mounted, and the keys of the state.
+            `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m`
+            with their deviations, `cables` with the names of those that were mounted, and the keys of the state.
         starts
             Number of starts of the search; the first one that fits ends it.
         from_hz, to_hz
@@ -802,11 +872,11 @@ class Robot(Analyses):
         rigid_cables
             Natural frequencies with cables that are rigid in length; with the static model `ideal`.
         profile
-            Paths of fitted values whose interval of 95 % is also found by holding the value and fitting the others again;
-            `details["values"]` has it under `profile`. * stands for any key.
+            Paths of fitted values whose interval of 95 % is also found by holding the value and fitting the others
+            again; `details["values"]` has it under `profile`. * stands for any key.
 
-        The other parameters are those of `equilibrium` and of `modes`; those of the state belong to every experiment that
-        does not give them itself.
+        The other parameters are those of `equilibrium` and of `modes`; those of the state belong to every experiment
+        that does not give them itself.
 
         Raises
         ------
@@ -935,8 +1005,8 @@ class Robot(Analyses):
         lengths_m
             Unstrained lengths of all masses [m], one per cable; those of the robot file if not given.
         pose
-            Pose instead of lengths: the lengths are those with which the robot, as it was read and before `with_`, rests
-            there. A robot file with a pose gives it if it is not given here.
+            Pose instead of lengths: the lengths are those with which the robot, as it was read and before `with_`,
+            rests there. A robot file with a pose gives it if it is not given here.
         tension_rule, target_tension_n, min_tension_n, max_tension_n
             Choice of the tensions at this pose, as in `equilibrium`.
         tolerance_mm
@@ -990,27 +1060,27 @@ class Robot(Analyses):
         """
         Computes the deviations of results from deviations or tolerances of numbers of the robot file.
 
-        Results are linear in the deviations where no cable may become slack and no frequencies may cross; elsewhere robots
-        are sampled, on all processors. docs/uncertainty.md explains the result. Theory, section "Uncertainty".
+        Results are linear in the deviations where no cable may become slack and no frequencies may cross; elsewhere
+        robots are sampled, on all processors. docs/uncertainty.md explains the result. Theory, section "Uncertainty".
 
         Parameters
         ----------
         deviations
-            Standard deviations of normally distributed numbers: a mapping from paths to values in the unit of the number,
-            or to percentages such as "1%"; or a list of texts such as "platform.mass_kg=1%". In a path * stands for any
-            key. Each entry is a group with a share of its own.
+            Standard deviations of normally distributed numbers: a mapping from paths to values in the unit of the
+            number, or to percentages such as "1%"; or a list of texts such as "platform.mass_kg=1%". In a path * stands
+            for any key. Each entry is a group with a share of its own.
         tolerances
             Tolerances of numbers that are anywhere within ± their tolerance, in the same form.
         of
-            Results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`; the first and the
-            third if not given.
+            Results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`; the first and
+            the third if not given.
         hold
             What stays while the numbers deviate: `lengths`, `pose`, or `rule` (the pose and the rule of the tensions).
         below_hz
             Upper limit of the frequencies [Hz]; for frequencies and damping.
         at_hz, input, output, input_point_m, output_point_m
-            Frequencies [Hz], one or several, signals and points of the response. Results are its magnitudes in decibels of
-            its unit, and its phases in degrees.
+            Frequencies [Hz], one or several, signals and points of the response. Results are its magnitudes in decibels
+            of its unit, and its phases in degrees.
         poses
             Several poses, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
         method
@@ -1184,6 +1254,11 @@ def answer(request: str) -> str:
     Computes the results of a request; both are JSON. Commands that make files, pages or rows are refused.
     """
 
+def axes(values: Mapping[str, ArrayLike]) -> str:
+    """
+    Axes of a request, as JSON: a tuple is the first value, the last value and their number; anything else is values.
+    """
+
 def complete_request(request: str) -> str:
     """
     Adds the defaults to a request; both are JSON.
@@ -1193,6 +1268,12 @@ def complex_numbers(name: str, values: ArrayLike) -> NDArray[complex128]:
     """
     Makes an array of complex numbers of any shape; `name` stands in errors. For functions of the package that are
     written in Python.
+    """
+
+def figure_sizes() -> tuple[list[tuple[str, float]], tuple[float, float], tuple[float, float]]:
+    """
+    Returns the widths of columns of journals [mm], and minimum and maximum of a figure's width [mm] and of its texts
+    [pt].
     """
 
 def imported(request: str) -> tuple[str, list[str], list[str]]:
@@ -1254,8 +1335,8 @@ def source_file(path: str | PathLike[str]) -> str:
 
 def text_of(request: str, call: str) -> tuple[str, list[str]]:
     """
-    Computes text and caveats of a request of `report`, `live`, `paper`, `export`, `new` or `schema`; `call` is the code that
-    makes a page again.
+    Computes text and caveats of a request of `report`, `live`, `paper`, `export`, `new` or `schema`; `call` is the code
+    that makes a page again.
     """
 
 def write_file(path: str | PathLike[str], text: str) -> None:

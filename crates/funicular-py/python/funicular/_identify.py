@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from funicular._errors import InputError
-from funicular._funicular import Robot, answer, complete_request, measurements_of_file
+from funicular._funicular import Answered, Robot, measurements_of_file
+from funicular._pages import Page, page_of_result
 from funicular._results import with_arrays
-from funicular._study import _plain
+from funicular._study import complete, plain
 
 File = str | PathLike[str]
 
@@ -42,6 +43,8 @@ class Identified:
     """Caveats, among them combinations of values that the measurements do not determine."""
     details: dict[str, Any]
     """All keys of the program's JSON: `values`, `starts`, `frequencies`, `responses`, `statics`, …"""
+    _answered: Answered
+    """Request and results in the compiled half, for `page`."""
 
     @property
     def covariance(self) -> NDArray[np.float64]:
@@ -60,6 +63,10 @@ class Identified:
         """Robot with the values."""
         return Robot.from_toml(self.robot_file)
 
+    def page(self, path: File | None = None) -> Page:
+        """Makes a page in HTML about the fit, which notebooks show, and writes it if a path is given."""
+        return page_of_result(self._answered, path)
+
     def to_dict(self) -> dict[str, Any]:
         """Keys of the program's JSON, with arrays for lists of numbers."""
         found: dict[str, Any] = with_arrays(self.details)
@@ -72,7 +79,8 @@ class Identified:
 
 def identified(request: Mapping[str, Any]) -> Identified:
     """Runs a request of `identify`."""
-    found = json.loads(answer(json.dumps(request)))
+    answered = Answered(json.dumps(request))
+    found = json.loads(answered.json())
     rows = found["values"]
     return Identified(
         names=tuple(row["path"] for row in rows),
@@ -85,12 +93,13 @@ def identified(request: Mapping[str, Any]) -> Identified:
         success=found["converged"],
         warnings=tuple(found["warnings"]),
         details=found,
+        _answered=answered,
     )
 
 
 def identify_request(robot: str, fit: Any, experiments: Any, keywords: Mapping[str, Any]) -> dict[str, Any]:
     """Request of `Robot.identify`; `robot` is JSON. Keywords of the state belong to experiments that do not give them."""
-    given = {key: _plain(key, value) for key, value in keywords.items() if value is not None}
+    given = {key: plain(key, value) for key, value in keywords.items() if value is not None}
     own: tuple[str, ...] = ("starts", "from_hz", "to_hz", "response_noise", "frequency_noise", "damping_noise", "rigid_cables", "profile")
     own += ("tension_rule", "target_tension_n", "min_tension_n", "max_tension_n")
     own += ("cable_model", "assembly", "in_plane_only", "winches")
@@ -104,12 +113,7 @@ def identify_request(robot: str, fit: Any, experiments: Any, keywords: Mapping[s
         "experiments": [{**state, **_experiment(experiment)} for experiment in experiments],
         **{key: value for key, value in given.items() if key in own},
     }
-    try:
-        text = json.dumps(made, allow_nan=False)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"the measurements contain a value that JSON cannot hold: {error}") from error
-    full: dict[str, Any] = json.loads(complete_request(text))
-    return full
+    return complete(made)
 
 
 def _fit(fit: Any) -> list[dict[str, Any]]:
@@ -137,9 +141,9 @@ def _experiment(experiment: Mapping[str, Any]) -> dict[str, Any]:
             return {key: lists(of_key) for key, of_key in value.items() if of_key is not None}
         if isinstance(value, (list, tuple)) and value and isinstance(value[0], Mapping):
             return [lists(item) for item in value]
-        return _plain("", value)
+        return plain("", value)
 
-    return {key: _plain(key, lists(value)) for key, value in experiment.items() if value is not None}
+    return {key: plain(key, lists(value)) for key, value in experiment.items() if value is not None}
 
 
 def read_measurements(

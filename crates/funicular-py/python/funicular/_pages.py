@@ -7,7 +7,7 @@ from os import PathLike
 from pathlib import Path
 
 from funicular._errors import InputError
-from funicular._funicular import write_file
+from funicular._funicular import Answered, write_file
 
 
 @dataclass(frozen=True, repr=False)
@@ -42,6 +42,17 @@ def page(html: str, warnings: list[str], path: str | PathLike[str] | None = None
     if path is not None:
         made.write(path)
     return made
+
+
+def page_of_result(answered: Answered, path: str | PathLike[str] | None) -> Page:
+    """Makes the page of a result of `identify`, `design` or `uncertainty`, and writes it if a path is given."""
+    own = json.loads(answered.request)
+    command = own.pop("command")
+    del own["robot"]
+    # Measurements are too long to be repeated on the page.
+    measured = ["experiments"] if own.pop("experiments", None) else []
+    call = f"robot.{command}({', '.join(filter(None, [*measured, _keywords(own)]))}).page()"
+    return page(answered.page(call), [], path)
 
 
 def report_call(state: str, request: str) -> str:

@@ -16,6 +16,7 @@ from funicular._funicular import (
     Robot,
     SweepPlan,
     answer,
+    axes,
     complete_request,
     imported,
     merge_parts,
@@ -99,35 +100,33 @@ class Exported:
 
 def request(command: str, robot: str | None, keywords: Mapping[str, Any]) -> dict[str, Any]:
     """Makes a request with all its keys; `robot` is JSON."""
-    given = {key: _plain(key, value) for key, value in keywords.items() if value is not None}
+    given = {key: plain(key, value) for key, value in keywords.items() if value is not None}
     given["command"] = command
     if robot is not None:
         given["robot"] = json.loads(robot)
-    return _complete(given)
+    return complete(given)
 
 
-def _complete(given: Mapping[str, Any]) -> dict[str, Any]:
-    full: dict[str, Any] = json.loads(complete_request(_text(given)))
+def complete(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Adds the defaults to a request."""
+    try:
+        text = json.dumps(given, allow_nan=False)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"the request contains a value that JSON cannot hold: {error}") from error
+    full: dict[str, Any] = json.loads(complete_request(text))
     return full
 
 
-def _text(given: Mapping[str, Any]) -> str:
-    try:
-        return json.dumps(given, allow_nan=False)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"the request contains a value that JSON cannot hold: {error}") from error
-
-
-def _plain(key: str, value: Any) -> Any:
+def plain(key: str, value: Any) -> Any:
     """Value of a key in JSON."""
     if isinstance(value, Pose):
         return {"position_m": value.position_m.tolist(), "quaternion_wxyz": value.quaternion_wxyz.tolist()}
     if isinstance(value, (np.ndarray, np.generic)):
         value = value.tolist()
     if key in ("grid", "vary") and isinstance(value, Mapping):
-        return [_axis(name, values) for name, values in value.items()]
+        return json.loads(axes(value))
     if isinstance(value, (list, tuple)):
-        value = [_plain("", item) for item in value]
+        value = [plain("", item) for item in value]
     if key == "pose" and isinstance(value, list) and len(value) == 7:
         return {"position_m": value[:3], "quaternion_wxyz": value[3:]}
     if key == "poses":
@@ -135,14 +134,6 @@ def _plain(key: str, value: Any) -> Any:
     if key == "target_tension_n" and not isinstance(value, list):
         return [value]
     return value
-
-
-def _axis(name: str, values: Any) -> dict[str, Any]:
-    """Values along an axis: a tuple is the first value, the last value and their number; anything else is values."""
-    if isinstance(values, tuple) and len(values) == 3:
-        first, last, count = (_plain("", value) for value in values)
-        return {"axis": name, "from": first, "to": last, "count": count}
-    return {"axis": name, "values": np.atleast_1d(values).tolist()}
 
 
 def run(request: Mapping[str, Any] | str) -> Any:
@@ -160,7 +151,7 @@ def run(request: Mapping[str, Any] | str) -> Any:
     Error
         The request has no result.
     """
-    full = _complete(json.loads(request) if isinstance(request, str) else request)
+    full = complete(json.loads(request) if isinstance(request, str) else request)
     text = json.dumps(full)
     match full["command"]:
         case "map" | "sweep":

@@ -1,12 +1,15 @@
 """Uncertainty: deviations of results from deviations of numbers of the robot file."""
 
-from collections.abc import Mapping
+import json
 from dataclasses import dataclass
+from os import PathLike
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from funicular._funicular import Answered
+from funicular._pages import Page, page_of_result
 from funicular._results import with_arrays
 
 
@@ -40,6 +43,12 @@ class Uncertainty:
     """Caveats about the robot."""
     details: dict[str, Any]
     """All keys of the program's JSON: `inputs`, `groups`, `poses`, …"""
+    _answered: Answered
+    """Request and results in the compiled half, for `page`."""
+
+    def page(self, path: str | PathLike[str] | None = None) -> Page:
+        """Makes a page in HTML about the deviations, which notebooks show, and writes it if a path is given."""
+        return page_of_result(self._answered, path)
 
     def to_dict(self) -> dict[str, Any]:
         """Keys of the program's JSON, with arrays for lists of numbers."""
@@ -57,8 +66,9 @@ class Uncertainty:
         return f"<Uncertainty of {len(self.names)} results{poses} from {len(self.input_names)} numbers, {sampled} sampled>"
 
 
-def uncertainty(found: Mapping[str, Any]) -> Uncertainty:
-    """Arrays from the keys of the program's JSON."""
+def uncertainty(answered: Answered) -> Uncertainty:
+    """Arrays from results of the compiled half."""
+    found = json.loads(answered.json())
     poses = found["poses"]
     units = {result["name"]: result["unit"] for pose in poses for result in pose["results"]}
     names = tuple(units)
@@ -93,5 +103,6 @@ def uncertainty(found: Mapping[str, Any]) -> Uncertainty:
         position_m=position,
         notes=tuple(found["notes"]),
         warnings=tuple(found["warnings"]),
-        details=dict(found),
+        details=found,
+        _answered=answered,
     )

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from funicular._errors import InputError
-from funicular._funicular import Analyses, Equilibrium, complex_numbers, real_numbers
+from funicular._funicular import Analyses, Equilibrium, complex_numbers, figure_sizes, real_numbers
 from funicular._results import Modes
 from funicular._sweeps import Sweep
 
@@ -25,14 +25,9 @@ __all__ = ["WIDTHS_MM", "bode", "frf", "map", "modes", "robot", "save", "shape"]
 
 Backend = Literal["matplotlib", "plotly"]
 
-WIDTHS_MM: Mapping[str, float] = {
-    "ieee-single": 88.9,
-    "ieee-double": 181.0,
-    "elsevier-single": 90.0,
-    "elsevier-double": 190.0,
-    "springer-single": 84.0,
-    "springer-double": 174.0,
-}
+_WIDTHS, _WIDTH_LIMITS_MM, _FONT_SIZE_LIMITS_PT = figure_sizes()
+
+WIDTHS_MM: Mapping[str, float] = dict(_WIDTHS)
 """Widths of the columns of journals [mm], as in the program's `--figure-width-mm`."""
 
 def _settings(size: float) -> Any:
@@ -104,16 +99,18 @@ def _inches(width: float | str) -> float:
         if width not in WIDTHS_MM:
             raise InputError(f'`width` is "{width}": give millimetres or one of {", ".join(WIDTHS_MM)}')
         width = WIDTHS_MM[width]
-    if isinstance(width, bool) or not isinstance(width, (int, float)) or not 40 <= width <= 1000:
-        raise InputError(f"`width` is {width}: give 40 to 1000 mm or one of {', '.join(WIDTHS_MM)}")
+    low, high = _WIDTH_LIMITS_MM
+    if isinstance(width, bool) or not isinstance(width, (int, float)) or not low <= width <= high:
+        raise InputError(f"`width` is {width}: give {low:g} to {high:g} mm or one of {', '.join(WIDTHS_MM)}")
     return width / 25.4
 
 
 @contextmanager
 def _paper(size: float) -> Iterator[Any]:
     """Module pyplot with the settings of a figure for a paper."""
-    if isinstance(size, bool) or not isinstance(size, (int, float)) or not 4 <= size <= 40:
-        raise InputError(f"`font_size_pt` is {size}: give 4 to 40 pt")
+    low, high = _FONT_SIZE_LIMITS_PT
+    if isinstance(size, bool) or not isinstance(size, (int, float)) or not low <= size <= high:
+        raise InputError(f"`font_size_pt` is {size}: give {low:g} to {high:g} pt")
     try:
         import matplotlib
         from matplotlib import pyplot

@@ -15,16 +15,17 @@ impl PyAnalyses {
     ///     Groups of results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`; the
     ///     frequencies if not given.
     /// by
-    ///     Paths of the numbers, as `Robot.parameters` lists them; `*` stands for any key, as in `cables.*.anchor_m`, and a
-    ///     path to a table or vector for all numbers in it. All numbers if not given.
+    ///     Paths of the numbers, as `Robot.parameters` lists them; `*` stands for any key, as in `cables.*.anchor_m`,
+    ///     and a path to a table or vector for all numbers in it. All numbers if not given.
     /// hold
     ///     Held while a number changes: the unstrained `lengths`, so that the pose follows, or the `pose`, so that the
-    ///     lengths follow. Of more cables than degrees of freedom the tensions parallel to the chords then change least.
-    ///     `rule`: as `pose`, but the tensions go on to follow the rule that has chosen them (not `stiffest`).
+    ///     lengths follow. Of more cables than degrees of freedom the tensions parallel to the chords then change
+    ///     least. `rule`: as `pose`, but the tensions go on to follow the rule that has chosen them (not `stiffest`).
     /// per
     ///     Step that the derivatives are for: `unit` of the number, `percent` of its value, or its `tolerance`.
     /// tolerances
-    ///     Tolerances, as `platform.mass_kg=1%` or `cables.*.anchor_m=0.002`. If not given: 1 mm for positions and lengths,
+    ///     Tolerances, as `platform.mass_kg=1%` or `cables.*.anchor_m=0.002`. If not given: 1 mm for positions and
+    ///     lengths,
     ///     0.1° for angles, 1 % of other values.
     /// below_hz
     ///     Limit of the frequencies [Hz], for `frequencies` and `damping`.
@@ -35,10 +36,10 @@ impl PyAnalyses {
     ///
     /// Returns
     /// -------
-    /// The keys of the program's JSON. `parameters` lists the numbers, each with `path`, `value`, `unit` and `tolerance`;
-    /// `results` the results, each with `name`, `unit`, `value` and the array `derivatives` (parameters,). `held_means` says
-    /// what is held. Modes that share a frequency have a block, `block_entry`. `refused` has the results without a
-    /// gradient and the reasons. Theory, section 17.
+    /// The keys of the program's JSON. `parameters` lists the numbers, each with `path`, `value`, `unit` and
+    /// `tolerance`; `results` the results, each with `name`, `unit`, `value` and the array `derivatives` (parameters,).
+    /// `held_means` says what is held. Modes that share a frequency have a block, `block_entry`. `refused` has the
+    /// results without a gradient and the reasons. Theory, section 17.
     ///
     /// Raises
     /// ------

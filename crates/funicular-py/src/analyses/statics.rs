@@ -65,15 +65,15 @@ impl PyAnalyses {
 
     /// Computes the interval in which friction of pulleys leaves pose and tensions.
     ///
-    /// Every cable may have run last towards the platform or towards its drum. If the lengths are given or held, pose and
-    /// tensions vary; if the pose is given, the tensions at the drums and the lengths vary.
+    /// Every cable may have run last towards the platform or towards its drum. If the lengths are given or held, pose
+    /// and tensions vary; if the pose is given, the tensions at the drums and the lengths vary.
     ///
     /// Returns
     /// -------
     /// The keys of the program's JSON. `friction_interval` has `held`, which is `lengths` or `pose`; with lengths held
-    /// `translation_m` (3, 2) and `rotation_deg` (3, 2), the rotation vector, both in world axes; and `cables`, each with
-    /// `friction_exponent`, `excess_length_m`, `tension_platform_n`, `tension_anchor_n` and `tension_drum_n`. Pairs are
-    /// minimum and maximum. Theory (71) to (74).
+    /// `translation_m` (3, 2) and `rotation_deg` (3, 2), the rotation vector, both in world axes; and `cables`, each
+    /// with `friction_exponent`, `excess_length_m`, `tension_platform_n`, `tension_anchor_n` and `tension_drum_n`.
+    /// Pairs are minimum and maximum. Theory (71) to (74).
     ///
     /// Raises
     /// ------

@@ -29,8 +29,8 @@ impl PyAnalyses {
     ///     Seek the damped partner of every mode. False is faster; damping ratios are then of first order in the
     ///     damping, and there are no eigenvalues.
     /// rigid_cables
-    ///     Modes with cables that are straight, without mass and rigid in length, of the motions that they leave free. The
-    ///     equilibrium has the static model `ideal` or `spring`.
+    ///     Modes with cables that are straight, without mass and rigid in length, of the motions that they leave free.
+    ///     The equilibrium has the static model `ideal` or `spring`.
     #[pyo3(signature = (
         below_hz, *, input=None, output=None, input_point_m=None, output_point_m=None, stations=None, cable_model=None,
         assembly="consistent", in_plane_only=false, winches="as-given", platform_share=None, damped=true,
@@ -86,8 +86,8 @@ impl PyAnalyses {
     /// output
     ///     Output signal: displacement `x`, `y`, `z`, rotation `rx`, `ry`, `rz`, with `v` (velocity) or `a`
     ///     (acceleration) before it, or `x:ux,uy,uz`, `v:…`, `a:…` along a direction; a point of a cable, as in
-    ///     `cable:3@0.5:az`; or the motion of a drum or motor, or the tension of a cable at the platform or at its drum, as
-    ///     in `drum:3`, `motor:3`, `tension:3`, `drum-tension:3`. A list names several.
+    ///     `cable:3@0.5:az`; or the motion of a drum or motor, or the tension of a cable at the platform or at its
+    ///     drum, as in `drum:3`, `motor:3`, `tension:3`, `drum-tension:3`. A list names several.
     /// adaptive
     ///     Add frequencies between those in `hz`, which ascend, until every peak has its height (to 0.1 %) and straight
     ///     lines over the logarithm of the magnitude are accurate to 1 %. At undamped natural frequencies, where the
@@ -99,8 +99,8 @@ impl PyAnalyses {
     ///
     /// Returns
     /// -------
-    /// (n,) for one input and one output; (outputs, inputs, n) if `input` or `output` is a list. With `adaptive` a pair:
-    /// the chosen frequencies [Hz] (n,), and the responses at them.
+    /// (n,) for one input and one output; (outputs, inputs, n) if `input` or `output` is a list. With `adaptive` a
+    /// pair: the chosen frequencies [Hz] (n,), and the responses at them.
     ///
     /// Raises
     /// ------

@@ -2,6 +2,7 @@
 
 use super::PyAnalyses;
 use crate::arrays::{Count, Number, Numbers};
+use crate::vibration::{ModesKeywords, PairKeywords, SignalNames};
 use crate::written::{self, PageKeywords};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -37,11 +38,113 @@ impl PyAnalyses {
         Self::at(slf, |rest| written::export(py, rest, to, path, segments, modes_below_hz))
     }
 
+    /// Writes frequency responses as a Universal File, as the program's `frf -o FILE.uff`; returns the caveats.
+    ///
+    /// Each response is a function of dataset 58, with its points in dataset 15.
+    ///
+    /// Parameters
+    /// ----------
+    /// path
+    ///     Path of the file, which is complete or absent.
+    /// hz, input, output, adaptive, input_point_m, output_point_m, cable_model, assembly, in_plane_only, winches
+    ///     Frequencies, signals and models, as in `frf`. Signals are motions of the platform and forces on it, along
+    ///     axes.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     A Universal File cannot hold one of the signals.
+    /// FileError
+    ///     The file cannot be written.
+    #[pyo3(signature = (
+        path, hz, input, output, *, adaptive=false, input_point_m=None, output_point_m=None, cable_model=None,
+        assembly="consistent", in_plane_only=false, winches="as-given"
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn write_frf(
+        slf: &Bound<'_, Self>,
+        py: Python<'_>,
+        path: PathBuf,
+        hz: Numbers,
+        input: SignalNames,
+        output: SignalNames,
+        adaptive: bool,
+        input_point_m: Option<Numbers>,
+        output_point_m: Option<Numbers>,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+        winches: &str,
+    ) -> PyResult<Vec<String>> {
+        let keywords = PairKeywords {
+            input,
+            output,
+            adaptive,
+            input_point_m,
+            output_point_m,
+            cable_model,
+            assembly,
+            in_plane_only,
+            winches,
+        };
+        Self::at(slf, |rest| written::write_frf(py, rest, path, hz, keywords))
+    }
+
+    /// Writes all mode shapes below a limit as a Universal File, as the program's `modes -o FILE.uff`; returns the
+    /// caveats.
+    ///
+    /// Each mode is a dataset 55 over the origin of the platform and the attachments, in platform axes.
+    ///
+    /// Parameters
+    /// ----------
+    /// path
+    ///     Path of the file, which is complete or absent.
+    /// below_hz, cable_model, assembly, in_plane_only, winches, rigid_cables
+    ///     Limit of the frequencies [Hz] and models, as in `modes`.
+    ///
+    /// Raises
+    /// ------
+    /// FileError
+    ///     The file cannot be written.
+    #[pyo3(signature = (
+        path, below_hz, *, cable_model=None, assembly="consistent", in_plane_only=false, winches="as-given",
+        rigid_cables=false
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn write_modes(
+        slf: &Bound<'_, Self>,
+        py: Python<'_>,
+        path: PathBuf,
+        below_hz: Number,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+        winches: &str,
+        rigid_cables: bool,
+    ) -> PyResult<Vec<String>> {
+        let keywords = ModesKeywords {
+            below_hz,
+            input: None,
+            output: None,
+            input_point_m: None,
+            output_point_m: None,
+            stations: None,
+            cable_model,
+            assembly,
+            in_plane_only,
+            winches,
+            platform_share: None,
+            damped: true,
+            rigid_cables,
+        };
+        Self::at(slf, |rest| written::write_modes(py, rest, path, keywords))
+    }
+
     /// Makes a page in HTML on which the platform can be dragged, which notebooks show.
     ///
     /// The page contains the program itself, as WebAssembly, and needs no network. In a notebook, with the package
-    /// `anywidget`, the pose and the values that a person changes come back: `state`, `pose`, `values` and `equilibrium()`
-    /// of the result follow the page.
+    /// `anywidget`, the pose and the values that a person changes come back: `state`, `pose`, `values` and
+    /// `equilibrium()` of the result follow the page.
     ///
     /// Parameters
     /// ----------

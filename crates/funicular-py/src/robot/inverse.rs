@@ -18,8 +18,8 @@ impl PyRobot {
     ///     numbers, and * for every name, as in `materials.*.mass_kg_per_m`.
     /// experiments
     ///     One mapping per state of the robot, or a single one: `responses` and `frequencies` as
-    ///     `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m` with
-    ///     their deviations, `cables` with the names of those that were mounted, and the keys of the state.
+    ///     `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m`
+    ///     with their deviations, `cables` with the names of those that were mounted, and the keys of the state.
     /// starts
     ///     Number of starts of the search; the first one that fits ends it.
     /// from_hz, to_hz
@@ -29,11 +29,11 @@ impl PyRobot {
     /// rigid_cables
     ///     Natural frequencies with cables that are rigid in length; with the static model `ideal`.
     /// profile
-    ///     Paths of fitted values whose interval of 95 % is also found by holding the value and fitting the others again;
-    ///     `details["values"]` has it under `profile`. * stands for any key.
+    ///     Paths of fitted values whose interval of 95 % is also found by holding the value and fitting the others
+    ///     again; `details["values"]` has it under `profile`. * stands for any key.
     ///
-    /// The other parameters are those of `equilibrium` and of `modes`; those of the state belong to every experiment that
-    /// does not give them itself.
+    /// The other parameters are those of `equilibrium` and of `modes`; those of the state belong to every experiment
+    /// that does not give them itself.
     ///
     /// Raises
     /// ------
@@ -117,20 +117,21 @@ impl PyRobot {
 
     /// Chooses values of the robot file with which the robot is best at several poses.
     ///
-    /// The poses are held, and the tensions of more cables than degrees of freedom follow `tension_rule`. The values move
-    /// within their bounds until the goal improves no further.
+    /// The poses are held, and the tensions of more cables than degrees of freedom follow `tension_rule`. The values
+    /// move within their bounds until the goal improves no further.
     ///
     /// Parameters
     /// ----------
     /// change
-    ///     Values to choose: a mapping from paths to the largest change to both sides, or to bounds (minimum, maximum). A
-    ///     vector without a component stands for all its numbers, and * for every name, as in `cables.*.attachment_m`.
+    ///     Values to choose: a mapping from paths to the largest change to both sides, or to bounds (minimum, maximum).
+    ///     A vector without a component stands for all its numbers, and * for every name, as in
+    ///     `cables.*.attachment_m`.
     /// goal
     ///     `first` natural frequency, first natural frequency of the `platform` on the static stiffness of its cables,
     ///     minimum `stiffness`, `rope-mass` or `rope-length`.
     /// poses
-    ///     Poses (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees]; the worst one counts. If not given: `pose`, or
-    ///     the pose of the robot file.
+    ///     Poses (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees]; the worst one counts. If not given: `pose`,
+    ///     or the pose of the robot file.
     /// weights
     ///     Weights (n,) for the mean of the poses instead of the worst one.
     /// min_frequency_hz, min_stiffness_n_per_m
@@ -144,15 +145,16 @@ impl PyRobot {
     ///
     /// Returns
     /// -------
-    /// Result with `x`, `fun`, `success`, `message`, `nit` as those of `scipy.optimize`, with the values per pose, and with
-    /// `robot`.
+    /// Result with `x`, `fun`, `success`, `message`, `nit` as those of `scipy.optimize`, with the values per pose, and
+    /// with `robot`.
     ///
     /// Raises
     /// ------
     /// InputError
     ///     A value, a path or a bound is wrong.
     /// StaticsError
-    ///     A pose has no equilibrium, or no values within the bounds meet all demands; the message says what was reached.
+    ///     A pose has no equilibrium, or no values within the bounds meet all demands; the message says what was
+    ///     reached.
     ///
     /// References
     /// ----------

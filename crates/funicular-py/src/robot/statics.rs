@@ -90,6 +90,7 @@ impl PyRobot {
             wind_m_s,
             cable_load_n_per_m,
         };
+
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
         PyEquilibrium::of(py, slf, state.request()?, tensions.request()?)?.into_object(py)
     }
@@ -147,6 +148,7 @@ impl PyRobot {
             wind_m_s,
             cable_load_n_per_m,
         };
+
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
         batch::equilibria(py, self, states, &state.request()?, &tensions.request()?, threads)
     }
@@ -209,12 +211,14 @@ impl PyRobot {
             wind_m_s,
             cable_load_n_per_m,
         };
+
         let request = requests::PayloadRequest {
             robot: self.source.clone(),
             payload_center_m: payload_center_m.map(|center| center.three("payload_center_m")).transpose()?,
             state: state.request()?,
             tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request()?,
         };
+
         let found = py.detach(|| analyses::payload::run((*self.robot).clone(), &request));
         answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
     }
@@ -229,8 +233,8 @@ impl PyRobot {
     /// lengths_m
     ///     Unstrained lengths of all masses [m], one per cable; those of the robot file if not given.
     /// pose
-    ///     Pose instead of lengths: the lengths are those with which the robot, as it was read and before `with_`, rests
-    ///     there. A robot file with a pose gives it if it is not given here.
+    ///     Pose instead of lengths: the lengths are those with which the robot, as it was read and before `with_`,
+    ///     rests there. A robot file with a pose gives it if it is not given here.
     /// tension_rule, target_tension_n, min_tension_n, max_tension_n
     ///     Choice of the tensions at this pose, as in `equilibrium`.
     /// tolerance_mm

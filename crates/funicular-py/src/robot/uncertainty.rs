@@ -1,7 +1,7 @@
 //! Deviations of results from deviations of numbers of the robot file.
 
 use super::PyRobot;
-use crate::answers;
+use crate::answered::PyAnswered;
 use crate::arrays::{Number, Numbers};
 use crate::errors;
 use crate::interrupt::interruptible_by_flag;
@@ -11,8 +11,9 @@ use crate::sweep::{self, ProgressArgument};
 use crate::threads::Threads;
 use crate::written::UncertaintyObject;
 use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun};
+use funicular_study::Results;
 use funicular_study::analyses::uncertainty::UncertaintyStudy;
-use funicular_study::request::{self, UncertaintyRequest};
+use funicular_study::request::{self, Request, UncertaintyRequest};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -22,27 +23,27 @@ use std::path::PathBuf;
 impl PyRobot {
     /// Computes the deviations of results from deviations or tolerances of numbers of the robot file.
     ///
-    /// Results are linear in the deviations where no cable may become slack and no frequencies may cross; elsewhere robots
-    /// are sampled, on all processors. docs/uncertainty.md explains the result. Theory, section "Uncertainty".
+    /// Results are linear in the deviations where no cable may become slack and no frequencies may cross; elsewhere
+    /// robots are sampled, on all processors. docs/uncertainty.md explains the result. Theory, section "Uncertainty".
     ///
     /// Parameters
     /// ----------
     /// deviations
-    ///     Standard deviations of normally distributed numbers: a mapping from paths to values in the unit of the number,
-    ///     or to percentages such as "1%"; or a list of texts such as "platform.mass_kg=1%". In a path * stands for any
-    ///     key. Each entry is a group with a share of its own.
+    ///     Standard deviations of normally distributed numbers: a mapping from paths to values in the unit of the
+    ///     number, or to percentages such as "1%"; or a list of texts such as "platform.mass_kg=1%". In a path * stands
+    ///     for any key. Each entry is a group with a share of its own.
     /// tolerances
     ///     Tolerances of numbers that are anywhere within ± their tolerance, in the same form.
     /// of
-    ///     Results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`; the first and the
-    ///     third if not given.
+    ///     Results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`; the first and
+    ///     the third if not given.
     /// hold
     ///     What stays while the numbers deviate: `lengths`, `pose`, or `rule` (the pose and the rule of the tensions).
     /// below_hz
     ///     Upper limit of the frequencies [Hz]; for frequencies and damping.
     /// at_hz, input, output, input_point_m, output_point_m
-    ///     Frequencies [Hz], one or several, signals and points of the response. Results are its magnitudes in decibels of
-    ///     its unit, and its phases in degrees.
+    ///     Frequencies [Hz], one or several, signals and points of the response. Results are its magnitudes in decibels
+    ///     of its unit, and its phases in degrees.
     /// poses
     ///     Several poses, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
     /// method
@@ -69,8 +70,9 @@ impl PyRobot {
     ///     The file of the samples cannot be written, or belongs to other work.
     #[pyo3(signature = (
         deviations=None, tolerances=None, of=None, *, hold="lengths", below_hz=None, at_hz=None, input=None,
-        output=None, input_point_m=None, output_point_m=None, poses=None, method="automatic", samples=200, seed=0, pose=None, lengths_m=None, static_model="catenary", cable_model=None,
-        assembly="consistent", in_plane_only=false, winches="as-given", tension_rule=None, target_tension_n=None,
+        output=None, input_point_m=None, output_point_m=None, poses=None, method="automatic", samples=200, seed=0,
+        pose=None, lengths_m=None, static_model="catenary", cable_model=None, assembly="consistent",
+        in_plane_only=false, winches="as-given", tension_rule=None, target_tension_n=None,
         min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None,
         wind_m_s=None, cable_load_n_per_m=None, hold_lengths_of_pose=false, samples_file=None, resume=false,
         discard=false, threads=None, progress=None
@@ -148,44 +150,61 @@ impl PyRobot {
             tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request()?,
             model: model(cable_model, assembly, in_plane_only, winches)?,
         };
-        let begin = match (samples_file.is_some(), resume, discard) {
-            (false, true, _) | (false, _, true) => {
-                return Err(errors::input("`resume` and `discard` need `samples_file`".to_owned()));
-            }
-            (_, true, true) => {
-                return Err(errors::input("give `resume` or `discard`, not both: one keeps the robots".to_owned()));
-            }
-            (_, true, _) => Begin::Resume,
-            (_, _, true) => Begin::Discard,
-            _ => Begin::Anew,
-        };
+        let samples = samples_file.map(|path| (path, begin(resume, discard)));
+        if samples.is_none() && (resume || discard) {
+            return Err(errors::input("`resume` and `discard` need `samples_file`".to_owned()));
+        }
+        if resume && discard {
+            return Err(errors::input("give `resume` or `discard`, not both: one keeps the robots".to_owned()));
+        }
+        computed(py, request, samples, threads, progress)
+    }
+}
 
-        let threads = Threads::of(threads);
-        let outcome = interruptible_by_flag(py, move |cancel| {
-            let study = UncertaintyStudy::new(&request)?;
-            let samples = samples_file.as_deref().map(|path| (path, begin));
-            let mut raised = None;
-            let mut report = |done: usize, total: usize, _: &'static str| {
-                if let (Some(ProgressArgument(function)), None) = (&progress, &raised) {
-                    raised = Python::attach(|py| function.call1(py, (done, total)).err());
-                }
-            };
-            let outcome = UncertaintyRun { threads, samples, cancel }.run(&study, &mut report)?;
-            Ok::<_, anyhow::Error>((outcome, raised))
-        })?;
-        let (outcome, raised) = outcome.map_err(|error| errors::study(&error))?;
-        if let Some(raised) = raised {
-            return Err(raised);
-        }
-        match outcome {
-            UncertaintyOutcome::Complete(found) => {
-                let keys = answers::plain(py, &*found)?;
-                let made = py.import("funicular._uncertainty")?.call_method1("uncertainty", (keys.0,))?;
-                Ok(UncertaintyObject(made.unbind()))
+/// Beginning of the work on a file of samples.
+fn begin(resume: bool, discard: bool) -> Begin {
+    match (resume, discard) {
+        (true, _) => Begin::Resume,
+        (_, true) => Begin::Discard,
+        _ => Begin::Anew,
+    }
+}
+
+/// Computes a request on all threads, with calls of `progress`.
+fn computed(
+    py: Python<'_>,
+    request: UncertaintyRequest,
+    samples: Option<(PathBuf, Begin)>,
+    threads: Option<Threads>,
+    progress: Option<ProgressArgument>,
+) -> PyResult<UncertaintyObject> {
+    let threads = Threads::of(threads);
+    let asked = Request::Uncertainty(request.clone());
+    let outcome = interruptible_by_flag(py, move |cancel| {
+        let study = UncertaintyStudy::new(&request)?;
+        let samples = samples.as_ref().map(|(path, begin)| (path.as_path(), *begin));
+        let mut raised = None;
+        let mut report = |done: usize, total: usize, _: &'static str| {
+            if let (Some(ProgressArgument(function)), None) = (&progress, &raised) {
+                raised = Python::attach(|py| function.call1(py, (done, total)).err());
             }
-            // Only Ctrl-C stops the work, and its exception has been raised before.
-            UncertaintyOutcome::Stopped(reason) => Err(PyKeyboardInterrupt::new_err(reason)),
+        };
+        let outcome = UncertaintyRun { threads, samples, cancel }.run(&study, &mut report)?;
+        Ok::<_, anyhow::Error>((outcome, raised))
+    })?;
+
+    let (outcome, raised) = outcome.map_err(|error| errors::study(&error))?;
+    if let Some(raised) = raised {
+        return Err(raised);
+    }
+    match outcome {
+        UncertaintyOutcome::Complete(found) => {
+            let answered = PyAnswered::new(asked, Results::Uncertainty(*found));
+            let made = py.import("funicular._uncertainty")?.call_method1("uncertainty", (answered,))?;
+            Ok(UncertaintyObject(made.unbind()))
         }
+        // Only Ctrl-C stops the work, and its exception has been raised before.
+        UncertaintyOutcome::Stopped(reason) => Err(PyKeyboardInterrupt::new_err(reason)),
     }
 }
 

@@ -53,6 +53,12 @@ fn axis(name: String, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
     Ok(Axis::List { axis: name, values })
 }
 
+/// Axes of a request, as JSON: a tuple is the first value, the last value and their number; anything else is values.
+#[pyfunction]
+pub(crate) fn axes(values: Axes) -> PyResult<String> {
+    serde_json::to_string(&values.0).map_err(|error| errors::input(error.to_string()))
+}
+
 /// Executor, or a function that makes one.
 pub(crate) struct ExecutorArgument(pub(crate) Py<PyAny>);
 

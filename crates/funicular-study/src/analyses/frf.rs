@@ -153,17 +153,32 @@ pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -
     };
     signals(&robot, &pairs)?;
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
-    let response = response(&at_rest, &pairs, frequencies, request.adaptive, watch)?;
+    about(&at_rest, &pairs, frequencies, request.adaptive, request.prominence_db, watch)
+}
 
-    let responses = (0..response.values.len()).map(|i| response.row(i, &pairs, request.prominence_db)).collect();
+/// Computes responses at the equilibrium of a robot: at the frequencies [Hz], or from them on `adaptive`.
+///
+/// # Errors
+/// As [`run`].
+pub fn about(
+    at_rest: &AtRest,
+    pairs: &Pairs<'_>,
+    frequencies: Vec<f64>,
+    adaptive: bool,
+    prominence_db: f64,
+    watch: &mut dyn Watch,
+) -> Result<Frf> {
+    let response = response(at_rest, pairs, frequencies, adaptive, watch)?;
+
+    let responses = (0..response.values.len()).map(|i| response.row(i, pairs, prominence_db)).collect();
     let Response { linearisation, frequencies_hz, caveat, mut warnings, .. } = response;
     warnings.extend(caveat);
     Ok(Frf {
         robot: at_rest.robot.name.clone(),
-        models: Models::of(&at_rest, linearisation),
+        models: Models::of(at_rest, linearisation),
         responses,
-        adaptive: request.adaptive,
-        prominence_db: request.prominence_db,
+        adaptive,
+        prominence_db,
         frequency_hz: frequencies_hz,
         warnings,
     })

@@ -6,6 +6,18 @@ use crate::measurements::{MeasuredFrequency, MeasuredResponse};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+/// Number of starts of the search if none is given.
+pub const DEFAULT_STARTS: usize = 10;
+
+/// Deviation of responses that have none, relative to their magnitude.
+pub const DEFAULT_RESPONSE_NOISE: f64 = 0.02;
+
+/// Relative deviation of natural frequencies that have none.
+pub const DEFAULT_FREQUENCY_NOISE: f64 = 0.01;
+
+/// Relative deviation of damping ratios.
+pub const DEFAULT_DAMPING_NOISE: f64 = 0.1;
+
 /// Request of `identify`: values of the robot file that fit measurements best.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct IdentifyRequest {
@@ -22,16 +34,16 @@ pub struct IdentifyRequest {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to_hz: Option<f64>,
     /// Number of starts of the search.
-    #[serde(default = "ten")]
+    #[serde(default = "default_starts")]
     pub starts: usize,
     /// Deviation of responses without deviations, relative to their magnitude; 0.3 % of the median magnitude is added.
-    #[serde(default = "two_per_cent")]
+    #[serde(default = "default_response_noise")]
     pub response_noise: f64,
     /// Relative deviation of natural frequencies without deviations.
-    #[serde(default = "one_per_cent")]
+    #[serde(default = "default_frequency_noise")]
     pub frequency_noise: f64,
     /// Relative deviation of damping ratios.
-    #[serde(default = "ten_per_cent")]
+    #[serde(default = "default_damping_noise")]
     pub damping_noise: f64,
     /// Cables that are rigid in length: natural frequencies of the motions that they leave free.
     #[serde(default)]
@@ -156,18 +168,18 @@ fn is_empty(value: &Value) -> bool {
     }
 }
 
-fn ten() -> usize {
-    10
+fn default_starts() -> usize {
+    DEFAULT_STARTS
 }
 
-fn two_per_cent() -> f64 {
-    0.02
+fn default_response_noise() -> f64 {
+    DEFAULT_RESPONSE_NOISE
 }
 
-fn one_per_cent() -> f64 {
-    0.01
+fn default_frequency_noise() -> f64 {
+    DEFAULT_FREQUENCY_NOISE
 }
 
-fn ten_per_cent() -> f64 {
-    0.1
+fn default_damping_noise() -> f64 {
+    DEFAULT_DAMPING_NOISE
 }

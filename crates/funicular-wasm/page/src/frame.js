@@ -9,11 +9,20 @@ const CABLE_KEYS = [
   "minimum", "maximum", "reached", "slack",
 ];
 
+// Relative distance by which a tension is beyond its limit. `reached` of the frame tells less: the tensions of most rules
+// are at a limit, and stay there when the lengths are held, to the accuracy of the search.
+const LIMIT_MARGIN = 1e-6;
+
+/** True if a tension is beyond its limits: reaching one is not enough. */
+const isBeyond = ({ reached, lowest, highest, minimum, maximum }) =>
+  reached !== 0 && (highest > maximum * (1 + LIMIT_MARGIN) || lowest < minimum * (1 - LIMIT_MARGIN));
+
 /** Frame with named values. `numbers` are kept, because the points are parts of them. */
 export function frameOf(numbers) {
   const [cables, points, modes] = numbers;
   const atPoints = HEADER + cables * CABLE;
   const atModes = atPoints + 3 * cables * points;
+  const limited = numbers[18] === 1;
   return {
     position: Array.from(numbers.slice(3, 6)),
     quaternion: Array.from(numbers.slice(6, 10)),
@@ -23,7 +32,7 @@ export function frameOf(numbers) {
     stable: [undefined, false, true][numbers[15] + 1],
     minStiffness: numbers[16],
     distance: numbers[17],
-    limited: numbers[18] === 1,
+    limited,
     belowHz: numbers[20],
     countBelow: numbers[21],
     certified: numbers[22] === 1,
@@ -32,6 +41,7 @@ export function frameOf(numbers) {
     cables: Array.from({ length: cables }, (_, i) => {
       const own = numbers.subarray(HEADER + i * CABLE, HEADER + (i + 1) * CABLE);
       const cable = Object.fromEntries(CABLE_KEYS.map((key, k) => [key, own[k]]));
+      cable.beyond = limited && isBeyond(cable);
       cable.attachment = own.subarray(14, 17);
       cable.anchor = own.subarray(17, 20);
       cable.points = numbers.subarray(atPoints + 3 * points * i, atPoints + 3 * points * (i + 1));

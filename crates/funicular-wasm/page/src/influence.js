@@ -148,7 +148,7 @@ export function listen() {
   };
   ["click", "keydown"].forEach((kind) => $("influence").addEventListener(kind, chosen));
   $("influence-first").addEventListener("click", () => {
-    const first = page.frame?.modes.findIndex((mode) => mode.platformShare >= 0.5);
+    const first = page.frame?.modes.findIndex((mode) => mode.platformShare >= page.about.platform_share);
     chooseMode(Math.max(0, first ?? 0));
   });
   show();

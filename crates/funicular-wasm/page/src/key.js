@@ -14,13 +14,14 @@ function showKey() {
   const highest = frame.cables.reduce((best, cable, i) => (cable.highest > frame.cables[best].highest ? i : best), 0);
   const lowest = frame.cables.reduce((best, cable, i) => (cable.lowest < frame.cables[best].lowest ? i : best), 0);
   const top = frame.cables[highest];
-  const [first, platform] = [frame.modes[0], frame.modes.find((mode) => mode.platformShare >= 0.5)];
+  const ofPlatform = (of) => of?.modes.find((mode) => mode.platformShare >= about.platform_share);
+  const [first, platform] = [frame.modes[0], ofPlatform(frame)];
   const delta = (past) => (past ? ` (before ${short(past, 4)})` : "");
   const facts = [
     ["Highest tension", `${short(top.highest, 4)} N`, `cable ${names[highest]}${frame.limited && Number.isFinite(top.maximum) ? `, ${short((100 * top.highest) / top.maximum, 3)} % of its maximum` : ""}${delta(before && Math.max(...before.frame.cables.map((cable) => cable.highest)))}`],
     ["Lowest tension", `${short(frame.cables[lowest].lowest, 4)} N`, `cable ${names[lowest]}${frame.limited ? `, minimum ${short(frame.cables[lowest].minimum, 3)} N` : ""}${delta(before && Math.min(...before.frame.cables.map((cable) => cable.lowest)))}`],
     ["First resonance", first ? `${short(first.hz, 4)} Hz` : "–", first ? `of the ${KINDS[first.kind]}${delta(before?.frame.modes[0]?.hz)}` : ""],
-    ["First resonance of the platform", platform ? `${short(platform.hz, 4)} Hz` : "–", platform ? `mode ${frame.modes.indexOf(platform) + 1}${delta(before?.frame.modes.find((mode) => mode.platformShare >= 0.5)?.hz)}` : frame.modes.length ? `above the ${frame.modes.length} lowest` : ""],
+    ["First resonance of the platform", platform ? `${short(platform.hz, 4)} Hz` : "–", platform ? `mode ${frame.modes.indexOf(platform) + 1}${delta(ofPlatform(before?.frame)?.hz)}` : frame.modes.length ? `above the ${frame.modes.length} lowest` : ""],
     payloadFact(delta),
     ["Stiffness in the softest direction", frame.stable === undefined ? "rigid" : `${short(frame.minStiffness, 4)} N/m`, `${frame.stable === false ? "unstable" : ""}${delta(before?.frame.minStiffness)}`],
   ];

@@ -26,9 +26,11 @@ function gradientOf() {
 }
 
 function showWords() {
-  const state = { kind: content.hold, pose: content.pose, lengths: content.lengths, set: content.robot.set, rule: mayChoose() ? content.rule : "" };
+  const state = {
+    kind: content.hold, pose: content.pose, lengths: content.lengths, set: content.robot.set, rule: mayChoose() ? content.rule : "", more: content.more,
+  };
   const of = {
-    file: fileName(), state, belowHz: Number((page.frame.belowHz || 20).toPrecision(3)),
+    file: fileName(), state, model: content.model, belowHz: Number((page.frame.belowHz || 20).toPrecision(3)),
     response: { ...(shown.response ?? {}), points: RESPONSE_POINTS },
     gradient: gradientOf(),
   };

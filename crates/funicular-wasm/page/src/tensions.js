@@ -7,12 +7,6 @@ import { numberOf, put, refuse, rowsOf } from "./messages.js";
 import { content, on, page } from "./store.js";
 import { colorOf, COLORS } from "./view.js";
 
-const LIMIT_MARGIN = 1e-6; // relative: a tension at its limit is not beyond it
-
-function isBeyond(cable) {
-  return page.frame.limited && (cable.highest > cable.maximum * (1 + LIMIT_MARGIN) || cable.lowest < cable.minimum * (1 - LIMIT_MARGIN));
-}
-
 function showLegend() {
   const { frame } = page;
   const limits = frame.limited && frame.cables.every((cable) => Number.isFinite(cable.maximum));
@@ -64,7 +58,7 @@ function showTensions() {
       field.value = plain(cable.length, 7);
       field.removeAttribute("aria-invalid");
     }
-    rows[i].classList.toggle("beyond", isBeyond(cable) || cable.slack === 1);
+    rows[i].classList.toggle("beyond", cable.beyond || cable.slack === 1);
   });
 }
 

@@ -288,8 +288,7 @@ export class View {
       line.geometry.setPositions(this.exaggerated(cable));
       const finite = frame.limited && Number.isFinite(cable.maximum);
       const part = finite ? (cable.highest - cable.minimum) / (cable.maximum - cable.minimum) : cable.highest / top;
-      const beyond = frame.limited && (cable.highest > cable.maximum * 1.000001 || cable.lowest < cable.minimum * 0.999999);
-      const color = cable.slack ? new Color(COLORS.slack) : beyond ? new Color(COLORS.beyond) : colorOf(part);
+      const color = cable.slack ? new Color(COLORS.slack) : cable.beyond ? new Color(COLORS.beyond) : colorOf(part);
       line.material.color.copy(color);
       line.material.dashed = Boolean(cable.slack);
       if (cable.slack) {

@@ -3,60 +3,63 @@
 const quoted = (text) => (/^[\w./:,=+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 const joined = (numbers) => numbers.map((value) => String(value)).join(",");
 
-/** Options of a state for the program. */
-function options(state) {
-  const list = [];
-  if (state.kind === "pose") {
-    list.push(`--pose ${joined(state.pose)}`);
-  } else if (state.kind === "lengths") {
-    list.push(`--lengths-m ${joined(state.lengths)}`);
+/** Options of the program for keys of a request. A switch has no value; one that is off is left out. */
+const optionsOf = (keys) => Object.entries(keys).filter(([, value]) => value !== false).map(([key, value]) => {
+  const option = `--${key.replaceAll("_", "-")}`;
+  return value === true ? option : `${option} ${quoted(Array.isArray(value) ? joined(value) : String(value))}`;
+});
+
+/** Value as Python writes it. */
+function literal(value) {
+  if (typeof value === "boolean") {
+    return value ? "True" : "False";
   }
-  state.set.forEach(({ path, value }) => list.push(`--set ${quoted(`${path}=${value}`)}`));
-  if (state.rule) {
-    list.push(`--tension-rule ${state.rule}`);
-  }
-  return list;
+  return Array.isArray(value) ? `[${value.map(literal).join(", ")}]` : JSON.stringify(value);
+}
+
+/** Keywords of Python for keys of a request. A switch that is off is left out. */
+const keywordsOf = (keys) => Object.entries(keys).filter(([, value]) => value !== false).map(([key, value]) => `${key}=${literal(value)}`);
+
+/** Keys of a request for a state: pose or lengths, rule, and everything that the page was made with. */
+function keysOf({ kind, pose, lengths, rule, more }) {
+  const place = { pose: { pose }, lengths: { lengths_m: lengths } }[kind] ?? {};
+  return { ...place, ...(rule ? { tension_rule: rule } : {}), ...more };
 }
 
 /** Commands of the program for statics, modes and response. */
-export function commands({ file, state, belowHz, response, gradient }) {
-  const more = options(state);
-  const command = (name, own) => [`funicular ${name} ${quoted(file)}`, ...more, ...own].join(" \\\n  ");
+export function commands({ file, state, model, belowHz, response, gradient }) {
+  const set = state.set.map(({ path, value }) => `--set ${quoted(`${path}=${Array.isArray(value) ? JSON.stringify(value) : value}`)}`);
+  const rest = [...optionsOf(keysOf(state)), ...set];
+  const command = (name, own) => [`funicular ${name} ${quoted(file)}`, ...rest, ...own].join(" \\\n  ");
+  const models = optionsOf(model);
   return [
     command("statics", []),
-    command("modes", [`--below-hz ${belowHz}`]),
+    command("modes", [...models, `--below-hz ${belowHz}`]),
     command("frf", [
-      `--input ${response.input}`, `--output ${response.output}`, `--from-hz ${response.from}`, `--to-hz ${response.to}`,
+      ...models, `--input ${response.input}`, `--output ${response.output}`, `--from-hz ${response.from}`, `--to-hz ${response.to}`,
       `--points ${response.points}`, ...(response.log ? ["--log"] : []),
     ]),
-    ...(gradient ? [command("gradient", [`--below-hz ${gradient.belowHz}`, `--per ${gradient.per}`, `--hold ${gradient.hold}`])] : []),
+    ...(gradient ? [command("gradient", [...models, `--below-hz ${gradient.belowHz}`, `--per ${gradient.per}`, `--hold ${gradient.hold}`])] : []),
   ].join("\n\n");
 }
 
 /** Script in Python for the same. */
-export function python({ file, state, belowHz, response, gradient }) {
+export function python({ file, state, model, belowHz, response, gradient }) {
   const text = (value) => JSON.stringify(value);
   const set = state.set.length
-    ? `.with_({${state.set.map(({ path, value }) => `${text(path)}: ${value}`).join(", ")}})`
+    ? `.with_({${state.set.map(({ path, value }) => `${text(path)}: ${literal(value)}`).join(", ")}})`
     : "";
-  const own = [];
-  if (state.kind === "pose") {
-    own.push(`pose=[${state.pose.join(", ")}]`);
-  } else if (state.kind === "lengths") {
-    own.push(`lengths_m=[${state.lengths.join(", ")}]`);
-  }
-  if (state.rule) {
-    own.push(`tension_rule=${text(state.rule)}`);
-  }
+  const models = keywordsOf(model);
+  const call = (...own) => [...own, ...models].join(", ");
   const space = response.log ? "geomspace" : "linspace";
   return `import funicular
 import numpy as np
 
 robot = funicular.Robot.from_file(${text(file)})${set}
-rest = robot.equilibrium(${own.join(", ")})
+rest = robot.equilibrium(${keywordsOf(keysOf(state)).join(", ")})
 print(rest.tension_platform_n)
-print(rest.modes(${belowHz}).frequency_hz)
+print(rest.modes(${call(belowHz)}).frequency_hz)
 hz = np.${space}(${response.from}, ${response.to}, ${response.points})
-response = rest.frf(hz, ${text(response.input)}, ${text(response.output)})${gradient ? `
-table = rest.gradient(below_hz=${gradient.belowHz}, per=${text(gradient.per)}, hold=${text(gradient.hold)})` : ""}`;
+response = rest.frf(${call("hz", text(response.input), text(response.output))})${gradient ? `
+table = rest.gradient(${call(`below_hz=${gradient.belowHz}`, `per=${text(gradient.per)}`, `hold=${text(gradient.hold)}`)})` : ""}`;
 }

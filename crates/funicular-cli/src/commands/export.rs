@@ -1,0 +1,40 @@
+//! `export`: the robot at its equilibrium as a file of another program.
+
+use crate::args::ExportArgs;
+use crate::output::{Content, Target};
+use crate::{errors, robot_file};
+use anyhow::{Result, bail};
+use funicular::robot::Robot;
+use funicular_files::Guard;
+use funicular_files::endings::Kind;
+use funicular_study::at_rest;
+use funicular_study::export::{self, ExportFormat};
+use funicular_study::request::{ExportRequest, Request};
+use std::path::Path;
+
+/// Writes the robot at its equilibrium as a file of another program.
+pub(super) fn run(request: &Request, args: &ExportArgs) -> Result<()> {
+    let Request::Export(of) = request else { bail!("this is not a request of `export`") };
+    let robot = of.robot.read()?.robot;
+    write(of, robot, &mut robot_file::guard(Some(&args.robot.robot)), &args.output_file)
+}
+
+/// Writes the file of an exported robot.
+pub(super) fn write(of: &ExportRequest, robot: Robot, guard: &mut Guard, path: &Path) -> Result<()> {
+    let (in_words, fitting): (_, &[Kind]) = match of.to {
+        ExportFormat::Opensees => ("a Python script for OpenSees", &[Kind::Python]),
+        ExportFormat::Moordyn => ("an input file of MoorDyn", &[Kind::Text]),
+        ExportFormat::Vtk => ("curves and polygons of VTK", &[Kind::Vtp]),
+    };
+    let content = Content { name: "the exported robot", in_words, fitting };
+    let target = Target::open(Some(path), content, guard)?;
+    export::refuse(of)?;
+    let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?;
+    let exported = export::run(&at_rest, of)?;
+    target.write(exported.text.as_bytes())?;
+    if target.is_file() {
+        errors::note(&format!("wrote {}", path.display()));
+    }
+    exported.warnings.iter().for_each(|warning| errors::warn(warning));
+    Ok(())
+}

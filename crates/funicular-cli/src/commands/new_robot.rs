@@ -1,0 +1,49 @@
+//! `new`: a robot file with starting values.
+
+use super::import::sources;
+use crate::args::NewArgs;
+use crate::errors;
+use crate::output::{Content, Target};
+use anyhow::{Result, bail};
+use funicular_files::Guard;
+use funicular_files::endings::Kind;
+use funicular_study::new_robot;
+use funicular_study::request::NewRequest;
+use funicular_study::wording::Words;
+use std::path::Path;
+use std::slice;
+
+/// Request of a new robot, with the table that it names.
+pub(super) fn request(args: &NewArgs) -> Result<NewRequest> {
+    let table = match &args.from_csv {
+        Some(path) => sources(slice::from_ref(path))?.pop(),
+        None => None,
+    };
+    Ok(args.request(table))
+}
+
+/// Runs `new`.
+pub(super) fn run(args: &NewArgs) -> Result<()> {
+    let mut guard = Guard::default();
+    if let Some(table) = &args.from_csv {
+        guard.reads("the table of points", table);
+    }
+    write(&request(args)?, &mut guard, &args.output_file)
+}
+
+/// Writes a new robot file. An existing file may hold numbers that somebody has written by hand, so it is never
+/// replaced.
+pub(super) fn write(request: &NewRequest, guard: &mut Guard, path: &Path) -> Result<()> {
+    let content = Content { name: "the robot file", in_words: "a robot file", fitting: &[Kind::Toml] };
+    let target = Target::open(Some(path), content, guard)?;
+    if target.is_file() && path.is_file() {
+        bail!("{} exists and may hold your own numbers: name another file, or remove it", path.display());
+    }
+    let made = new_robot::run(request, Words::Program)?;
+    target.write(made.text.as_bytes())?;
+    if target.is_file() {
+        errors::note(&format!("wrote {}", path.display()));
+    }
+    made.warnings.iter().for_each(|warning| errors::warn(warning));
+    Ok(())
+}

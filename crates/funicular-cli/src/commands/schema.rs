@@ -1,0 +1,20 @@
+//! `schema`: the JSON Schema of the robot file.
+
+use crate::errors;
+use crate::output::{Content, Target};
+use anyhow::Result;
+use funicular_files::Guard;
+use funicular_files::endings::Kind;
+use funicular_study::robot_file::schema;
+use std::path::Path;
+
+/// Writes the JSON Schema of the robot file.
+pub(super) fn write(guard: &mut Guard, path: &Path) -> Result<()> {
+    let content = Content { name: "the schema", in_words: "a JSON Schema", fitting: &[Kind::Json] };
+    let target = Target::open(Some(path), content, guard)?;
+    target.write(schema::text().as_bytes())?;
+    if target.is_file() {
+        errors::note(&format!("wrote {}", path.display()));
+    }
+    Ok(())
+}
