@@ -28,7 +28,7 @@ pub use options::Options;
 pub use plan::Plan;
 pub use points::{AXES, Point, Points, Poses};
 pub use prepared::PreparedSweep;
-pub(crate) use prepared::check_poses;
+pub(crate) use prepared::{check_poses, check_poses_alone};
 pub use quantity::{MAX_FREQUENCIES, Quantity, UnknownQuantity};
 pub use record::{Part, Record, RecordDifference, SCHEMA, axes_of, kind_name};
 pub use robot_values::{RobotValues, ValueAxis};

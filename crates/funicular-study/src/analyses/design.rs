@@ -19,7 +19,7 @@ use crate::text::counted;
 use anyhow::{Result, anyhow, bail};
 use at_poses::RobotAtPoses;
 use band::SidesTried;
-use funicular::math::max_min::{MaxMinEnding, Evaluation, Goal, Settings};
+use funicular::math::max_min::{Goal, MaxMinEnding, Settings};
 use funicular::robot::parameters::Parameters;
 use funicular::robot::{Robot, State};
 use report::DesignReport;
