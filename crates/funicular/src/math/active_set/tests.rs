@@ -162,6 +162,7 @@ proptest! {
         let mut all: Vec<(Vec<f64>, f64)> =
             rows.iter().map(|(slope, down, level)| (vec![*slope, -down], -level)).collect();
         all.extend([(vec![1.0, 0.0], -4.0), (vec![-1.0, 0.0], -4.0)]);
+
         let mut best = f64::NEG_INFINITY;
         for i in 0..all.len() {
             for j in 0..i {
