@@ -67,8 +67,8 @@ pub struct CatenaryDynamic {
     /// Polynomial degree of each element.
     pub degrees: Vec<usize>,
     /// Motions that the end has; `None` for an end that is held. They belong to the inside of the cable, and are
-    /// relative to the carrier of the end: the components of the end in stiffness, mass and participations are the motion
-    /// of this carrier, with wheel and drum.
+    /// relative to the carrier of the end: the components of the end in stiffness, mass and participations are the
+    /// motion of this carrier, with wheel and drum.
     pub end: Option<MovingEnd>,
     /// Motions of the drive at that end.
     pub drive: Option<DriveMotion>,

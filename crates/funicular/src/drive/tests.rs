@@ -54,7 +54,7 @@ fn pulley(radius: f64, entry_direction_w: Vec3) -> Pulley {
     Pulley::new("wheel", radius, entry_direction_w)
 }
 
-/// HangingCase with tilted axes, pulleys up to half a metre, winches from soft to rigid, cables from slack to stretched
+/// Cable with tilted axes, pulleys up to half a metre, winches from soft to rigid, cables from slack to stretched
 /// by 0.1 %.
 fn cases(tilt: f64) -> impl Strategy<Value = HangingCase> {
     let place = (-1.0f64..=1.0, -1.0f64..=1.0, -1.0f64..=0.6).prop_map(|(x, y, z)| Vec3::new(x, y, z));

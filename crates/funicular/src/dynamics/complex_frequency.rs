@@ -11,7 +11,7 @@
 //! The motions z of a drive with losses are unknowns, too: the forces Δ z of its losses act on platform and clamped
 //! modes by T and φ_k, and `z = T x + φ_k q_k − R Δ z` (docs/theory.md, equation (82)).
 
-use super::supports::SupportsAt;
+use super::supports::{Supports, SupportsAt};
 use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
 use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveAt, DriveLosses, Family, NearPole, NearRanges};
 use crate::cable::{DynamicCable, LocalStiffness};
@@ -258,7 +258,7 @@ impl<'d> BorderedParts<'d> {
         let dynamics = self.dynamics;
         let f = dynamics.dof();
         let first_support = f + self.borders.len();
-        let first_drive = first_support + dynamics.supports().map_or(0, |supports| supports.count());
+        let first_drive = first_support + dynamics.supports().map_or(0, Supports::count);
         let n = first_drive + self.drives.iter().map(|drive| drive.loss.len()).sum::<usize>();
 
         // The platform, then each near pole with its row.

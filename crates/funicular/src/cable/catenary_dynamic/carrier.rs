@@ -251,8 +251,8 @@ impl CatenaryDynamicEnd {
         self.coupled().is_none().then(|| -(force(2) * h + force(3) * v))
     }
 
-    /// Motions of the drive at ω [rad/s], the terms that its losses add, the motions by the carrier alone, and the forces
-    /// of the carrier on them [N]. `None` without a drive.
+    /// Motions of the drive at ω [rad/s], the terms that its losses add, the motions by the carrier alone, and the
+    /// forces of the carrier on them [N]. `None` without a drive.
     fn drive_under_carrier(
         &self,
         motion: &CarrierMotion,

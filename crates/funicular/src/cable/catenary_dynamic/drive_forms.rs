@@ -455,8 +455,8 @@ impl CatenaryDynamicEnd {
         Some(direct)
     }
 
-    /// Weights of the clamped modes of each family in the forces of lossy parts and of signals. Modes that replace others
-    /// have to represent these forces beside those on the platform end.
+    /// Weights of the clamped modes of each family in the forces of lossy parts and of signals. Modes that replace
+    /// others have to represent these forces beside those on the platform end.
     pub(super) fn forces_on_modes(&self, signals: &[EndSignal]) -> [Vec<Vec<f64>>; 3] {
         let in_plane = self.in_plane().poles.len();
         let coupled = self.mode_poles().count() - self.coupled().map_or(0, |family| family.poles.len());

@@ -285,7 +285,8 @@ impl CatenaryDynamicEnd {
         self.cable.end.as_ref().and_then(MovingEnd::chain)
     }
 
-    /// Stiffness at ω [rad/s] by the losses that the undamped model of the drive leaves out [N/m]; `None` without losses.
+    /// Stiffness at ω [rad/s] by the losses that the undamped model of the drive leaves out [N/m]; `None` without
+    /// losses.
     pub(crate) fn drive_stiffness(&self, omega: f64) -> Option<LocalStiffness<Complex>> {
         if !self.has_drive_losses() {
             return None;

@@ -18,7 +18,7 @@ fn fault(robot: &Robot, rest: &Equilibrium, first: &First) -> Option<String> {
     fault_beyond(robot, rest, first, &ErrorBounds { energy: |_| 1e-6, stiffest: 0.0 })
 }
 
-/// ErrorBounds of the errors of a first mode.
+/// Maximum errors of a first mode.
 struct ErrorBounds {
     /// Error of the energies as a function of the relative distance to the next frequency.
     energy: fn(f64) -> f64,

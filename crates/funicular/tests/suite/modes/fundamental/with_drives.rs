@@ -39,8 +39,8 @@ fn cogiro(winch: Option<&Winch>, inertia: f64, swivel_inertia: f64) -> Robot {
     robot
 }
 
-/// ErrorBounds of the first mode: energies as the width of the frequency, 5e-10, has them; and rounding of the stiffest
-/// spring, the shortest piece of cable, against which motors at constant torque are soft.
+/// Maximum errors of the first mode: of its energies by the width of the frequency, 5e-10, and by the rounding of the
+/// stiffest spring, the shortest piece of cable, against which motors at constant torque are soft.
 fn bounds(robot: &Robot) -> ErrorBounds {
     let stiffest = robot.cables.iter().map(|cable| {
         let side = cable.anchor.winch.as_ref().map_or(f64::INFINITY, |winch| winch.drum_side_length);
