@@ -399,12 +399,12 @@ fn a_table_stands_for_its_numbers_that_the_file_gives() {
     let table = identified(&with("platform"));
     let expected = [
         "platform.mass_kg",
-        "platform.center_of_mass_m.x",
-        "platform.center_of_mass_m.y",
-        "platform.center_of_mass_m.z",
         "platform.inertia_kg_m2.xx",
         "platform.inertia_kg_m2.yy",
         "platform.inertia_kg_m2.zz",
+        "platform.center_of_mass_m.x",
+        "platform.center_of_mass_m.y",
+        "platform.center_of_mass_m.z",
     ];
     assert_eq!(paths(&table), expected);
     assert_eq!(paths(&identified(&with("cables.2.anchor_m.1"))), ["cables.2.anchor_m.y"]);

@@ -102,7 +102,7 @@ fn text_table_page_and_poses() {
     for says in [
         "deviations of results from 19 numbers that deviate",
         "Groups: platform.mass_kg=1% (1 number), cables.*.anchor_m=0.0002 (18 numbers).",
-        "12 results linear: within the deviations no cable may become slack",
+        "12 results linear: within the deviations no cable becomes slack",
         "platform.mass_kg ",
     ] {
         assert!(text.contains(says), "{says}: {text}");
