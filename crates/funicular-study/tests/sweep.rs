@@ -135,8 +135,7 @@ fn every_column_is_what_the_function_it_stands_for_gives() {
 #[test]
 fn every_robot_of_the_library_has_rows_with_numbers_or_a_reason() {
     let all = "first-frequency,first-kind,tension-max,tension-min,tensions,lengths,tension-margin,stiffness-min,\
-               stiffness,\
-               pose-error,sag-max,model-error,stiffness-error,condition,energy,pose";
+               stiffness,pose-error,sag-max,model-error,stiffness-error,condition,energy,pose";
     let mut seen = 0;
     for (name, text) in funicular_robots::ALL {
         let robot = Robot::from_toml(text).unwrap();

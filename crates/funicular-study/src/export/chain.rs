@@ -194,7 +194,7 @@ mod tests {
     #[test]
     fn a_vertical_cable_is_a_straight_chain() {
         let text = "name = \"v\"\n[platform]\nmass_kg = 2.0\nmotion = \"point-mass\"\n[materials.r]\n\
-             axial_stiffness_n = 1e4\n\
+                    axial_stiffness_n = 1e4\n\
                     mass_kg_per_m = 0.1\n[[cables]]\nname = \"1\"\nmaterial = \"r\"\nanchor_m = [0.0, 0.0, 3.0]\n\
                     [[cables]]\nname = \"2\"\nmaterial = \"r\"\nanchor_m = [1.0, 0.0, 3.0]\n\
                     [[cables]]\nname = \"3\"\nmaterial = \"r\"\nanchor_m = [0.0, 1.0, 3.0]\n";

@@ -375,7 +375,7 @@ mod tests {
                 let (anchor, attachment) = (corner(a, b), corner(0.1 * a, 0.05 * b));
                 format!(
                     "[[cables]]\nname = \"{a} {b}\"\nmaterial = \"r\"\nanchor_m = {anchor}\n\
-                     attachment_m = {attachment}\n\
+                         attachment_m = {attachment}\n\
                          unstrained_length_m = 2.28\n"
                 )
             })
