@@ -132,6 +132,7 @@ pub(crate) fn in_words(texts: &[String]) -> Vec<String> {
 /// Returns the widths of columns of journals [mm], and minimum and maximum of a figure's width [mm] and of its texts
 /// [pt].
 #[pyfunction]
+#[expect(clippy::type_complexity, reason = "a tuple for Python")]
 pub(crate) fn figure_sizes() -> (Vec<(&'static str, f64)>, (f64, f64), (f64, f64)) {
     (figures::WIDTHS.to_vec(), figures::WIDTH_LIMITS_MM, figures::FONT_SIZE_LIMITS_PT)
 }

@@ -69,13 +69,11 @@ fn table_of(path: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Item
         fill(&mut table, path, of, depth)?;
         Ok(table)
     };
-    match value.cast::<PyDict>() {
-        Ok(of) => filled(of).map(Item::Table),
-        Err(_) => {
-            let rows = tables_of(value).unwrap_or_default();
-            rows.iter().map(filled).collect::<PyResult<ArrayOfTables>>().map(Item::ArrayOfTables)
-        }
+    if let Ok(of) = value.cast::<PyDict>() {
+        return filled(of).map(Item::Table);
     }
+    let rows = tables_of(value).unwrap_or_default();
+    rows.iter().map(filled).collect::<PyResult<ArrayOfTables>>().map(Item::ArrayOfTables)
 }
 
 /// List of tables with at least one table.

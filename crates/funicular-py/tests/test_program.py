@@ -197,14 +197,16 @@ def test_a_value_by_its_path_is_that_of_set(robot: funicular.Robot, program: Pro
     assert (robot.mass_kg, changed.mass_kg) == (10.55, 20)
 
 
-def test_universal_files_are_those_of_the_program(executable: str, tmp_path: Path) -> None:
+def test_universal_files_are_those_of_the_program(executable: str, program: Program, tmp_path: Path) -> None:
     robot = ROBOTS / "yuan2014-4mm.toml"
     rest = funicular.Robot.from_file(robot).equilibrium()
     line = ["frf", robot, "--from-hz", 0.1, "--to-hz", 5, "--points", 200, "--input", "fz", "--output", "az"]
     for name, arguments in (("frf", line), ("modes", ["modes", robot, "--below-hz", 3])):
         subprocess.run([executable, *map(str, arguments), "-o", tmp_path / f"{name}.uff"], check=True)
 
-    rest.write_frf(tmp_path / "own-frf.uff", np.linspace(0.1, 5, 200), "fz", "az")
+    frequencies = program(*line)["frequency_hz"]
+    caveats = rest.write_frf(tmp_path / "own-frf.uff", frequencies, "fz", "az")
+    assert len(caveats) == 1 and "are read more than 5 % too low" in caveats[0]
     assert rest.write_modes(tmp_path / "own-modes.uff", 3) == []
     for name in ("frf", "modes"):
         assert (tmp_path / f"own-{name}.uff").read_bytes() == (tmp_path / f"{name}.uff").read_bytes(), name

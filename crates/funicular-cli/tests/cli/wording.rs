@@ -35,7 +35,8 @@ fn every_key_of_a_message_is_an_option_of_the_program() {
 
     let help = succeed(&["--help"]);
     let commands = help.split_once("Commands:\n").unwrap().1.split_once("\n\n").unwrap().0;
-    let names = commands.lines().filter_map(|line| line.strip_prefix("  ")?.split_whitespace().next());
+    let is_new = |line: &&str| line.starts_with("  ") && !line.starts_with("   ");
+    let names = commands.lines().filter(is_new).filter_map(|line| line.split_whitespace().next());
     let helps: Vec<String> = names.filter(|name| *name != "help").map(|name| succeed(&[name, "--help"])).collect();
     assert!(helps.len() > 25);
     let mut options: BTreeSet<&str> = helps.iter().flat_map(|help| options_in(help)).collect();

@@ -48,7 +48,7 @@ def page_of_result(answered: Answered, path: str | PathLike[str] | None) -> Page
     """Makes the page of a result of `identify`, `design` or `uncertainty`, and writes it if a path is given."""
     own = json.loads(answered.request)
     command = own.pop("command")
-    del own["robot"]
+    del own["robot"], own["schema"]
     # Measurements are too long to be repeated on the page.
     measured = ["experiments"] if own.pop("experiments", None) else []
     call = f"robot.{command}({', '.join(filter(None, [*measured, _keywords(own)]))}).page()"
