@@ -81,8 +81,8 @@ fn literals_and_comments(source: &str) -> (Vec<String>, Vec<String>) {
         } else if let Some(character) = rest.strip_prefix("'\\") {
             // Escaped character.
             &character[1..]
-        } else if rest.starts_with("'\"'") {
-            &rest[3..]
+        } else if let Some(after) = rest.strip_prefix("'\"'") {
+            after
         } else {
             // A word is passed as a whole: its last letter may be an r before a quote.
             let word = rest.len() - rest.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_').len();

@@ -9,7 +9,7 @@ use crate::chosen_numbers::at_bound;
 use crate::request::DesignRequest;
 use crate::text::{counted, significant};
 use anyhow::Result;
-use funicular::math::max_min::{MaxMinEnding, Found};
+use funicular::math::max_min::{Found, MaxMinEnding};
 use funicular::math::rotation;
 use funicular::robot::parameters::Parameters;
 use serde::Serialize;
@@ -121,7 +121,9 @@ impl DesignReport<'_> {
     /// Reason for the end of the search, as a sentence.
     pub(super) fn ending(&self) -> String {
         match self.found.ending {
-            MaxMinEnding::Converged => format!("no further step improves the goal by more than {} %", 100.0 * TOLERANCE),
+            MaxMinEnding::Converged => {
+                format!("no further step improves the goal by more than {} %", 100.0 * TOLERANCE)
+            }
             MaxMinEnding::Iterations => {
                 format!("the search has not ended after {}", counted(self.found.iterations, "iteration"))
             }

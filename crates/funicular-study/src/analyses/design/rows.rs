@@ -165,7 +165,12 @@ impl PoseRows<'_> {
 
     /// Rows that are not negative if natural frequencies are beside a band, relative to its ends. Writes the numbers of
     /// frequencies below and within the band, and the frequency deepest in it, into the results of the pose.
-    fn beside_band(&self, band: [f64; 2], below: Option<usize>, values: &mut PoseValues) -> Result<Vec<LinearisedFunction>> {
+    fn beside_band(
+        &self,
+        band: [f64; 2],
+        below: Option<usize>,
+        values: &mut PoseValues,
+    ) -> Result<Vec<LinearisedFunction>> {
         let [first, last] = band;
         let (dynamics, list) = self.modes_beside_band(last, below.unwrap_or(0))?;
         let count = |limit: f64| list.iter().filter(|mode| mode.frequency_hz < limit).count();
