@@ -107,8 +107,8 @@ pub fn path(text: &str) -> Result<ValuePath, String> {
 /// use funicular_study::set_values;
 ///
 /// let change = set_values::assignment("platform.mass_kg=20")?;
-/// assert_eq!(set_values::apply("[platform]\nmass_kg = 1\n", &[change])?, "[platform]\nmass_kg = 20 # set:
-/// platform.mass_kg=20\n");
+/// let changed = set_values::apply("[platform]\nmass_kg = 1\n", &[change])?;
+/// assert_eq!(changed, "[platform]\nmass_kg = 20 # set: platform.mass_kg=20\n");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn assignment(text: &str) -> Result<Assignment, String> {

@@ -87,8 +87,8 @@ pub fn message(error: &anyhow::Error, words: Words) -> String {
 fn remedy(error: &StaticsError) -> Option<&'static str> {
     match error {
         StaticsError::TensionsNotConverged { .. } => Some(", or give ⟪min_tension_n⟫"),
-        StaticsError::NoState => Some(" (⟪lengths_m⟫ or ⟪pose⟫)"),
-        StaticsError::NothingToChoose { .. } => Some(" (⟪tension_rule⟫, ⟪target_tension_n⟫)"),
+        StaticsError::NoState => Some(": give ⟪lengths_m⟫ or ⟪pose⟫, or one of the two in the file"),
+        StaticsError::NothingToChoose { .. } => Some("; leave out ⟪tension_rule⟫ and ⟪target_tension_n⟫"),
         _ => None,
     }
 }

@@ -12,14 +12,14 @@ use thiserror::Error;
 pub enum StaticsError {
     /// Neither lengths nor a pose of the robot are known.
     #[error(
-        "the robot has no state: give unstrained lengths or a pose, or give every cable of the robot file an \
-         `unstrained_length_m`, or the file a [state] with `position_m`"
+        "the robot has no state: its file gives neither an `unstrained_length_m` to every cable nor a [state] with \
+         `position_m`"
     )]
     NoState,
     /// Tension rule for a robot without redundant cables.
     #[error(
         "a tension rule has nothing to choose: {cables} cables for {dof} degrees of freedom have one set of tensions \
-         at a pose; leave out the tension rule and the target tensions"
+         at a pose"
     )]
     NothingToChoose {
         /// Cables of the robot.
