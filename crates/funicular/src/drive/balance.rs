@@ -211,10 +211,8 @@ impl Problem<'_> {
                     done = if is_last { 1.0 } else { done + step };
                     step *= 2.0;
                 }
-                None => step *= 0.5,
-            }
-            if step < MIN_PAID_OUT {
-                return None;
+                None if step > MIN_PAID_OUT => step *= 0.5,
+                None => return None,
             }
         }
         Some(here)
