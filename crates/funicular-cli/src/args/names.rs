@@ -161,7 +161,7 @@ impl From<PerName> for Per {
     }
 }
 
-/// Way to the deviations of results by name; see [`UncertaintyMethod`].
+/// Method for the deviations of results by name; see [`UncertaintyMethod`].
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
 pub(crate) enum UncertaintyMethodName {
     /// Linear where tensions and frequencies allow it, otherwise sampled

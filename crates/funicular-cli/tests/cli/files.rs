@@ -166,7 +166,7 @@ const WRITERS: [&str; 23] = [
     "export ROBOT --to vtk -o OUT",
 ];
 
-/// What is read is never written over, by whatever name it is called, nor by what is beside the result until it is
+/// A file that is read is never written over, by whatever name it is called, nor by what is beside the result until it is
 /// complete.
 #[cfg(unix)]
 #[test]

@@ -79,7 +79,7 @@ fn links(text: &str) -> Vec<(usize, String)> {
     found
 }
 
-/// What is wrong with the links of a document.
+/// Errors in the links of a document.
 fn dead_links(path: &Path, text: &str) -> Vec<String> {
     let mut dead = Vec::new();
     for (line, target) in links(text) {

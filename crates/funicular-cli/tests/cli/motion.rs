@@ -32,7 +32,7 @@ position_m = [0.1, 0, 0.4]
 roll_pitch_yaw_deg = [0, 5, 0]
 "#;
 
-/// The same without its third cable.
+/// Planar robot without its third cable.
 fn two_cables() -> String {
     let (head, rest) = PLATE.split_once("[[cables]]\nname = \"3\"").unwrap();
     head.to_owned() + &rest[rest.find("[state]").unwrap()..]

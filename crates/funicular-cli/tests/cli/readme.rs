@@ -21,7 +21,7 @@ fn printed(line: &str, shown: &str) -> String {
     if expected == 0 { stdout(&output).to_owned() } else { stderr(&output).to_owned() }
 }
 
-/// The same words; numbers may differ by one in the last place, and what is zero but for rounding by anything.
+/// Compares two texts word by word; numbers may differ by one in the last place, and what is zero but for rounding by anything.
 fn same(a: &str, b: &str) -> bool {
     let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
     let number = |word: &str| word.trim_end_matches([',', '%', ')', ';', '.']).trim_start_matches('(').parse::<f64>();

@@ -1,4 +1,4 @@
-//! What every command's output has in common: its keys, formats and warnings.
+//! Keys, formats and warnings that the output of every command has in common.
 
 use super::{close, command, csv, json, number, robot, run, run_with, stderr, stdout, succeed, yuan};
 use serde_json::Value;

@@ -228,7 +228,7 @@ class Modes(_ArrayFields):
         hold
             Held while a number changes: the unstrained `lengths`, so that the pose follows, or the `pose`.
         per
-            Step that the derivatives are for: `unit` of the number, `percent` of its value, or its `tolerance`.
+            Unit of the derivatives: `unit` of the number, `percent` of its value, or its `tolerance`.
         tolerances
             Tolerances, as `platform.mass_kg=1%`.
 

@@ -22,7 +22,7 @@ impl PyAnalyses {
     ///     lengths follow. Of more cables than degrees of freedom the tensions parallel to the chords then change
     ///     least. `rule`: as `pose`, but the tensions go on to follow the rule that has chosen them (not `stiffest`).
     /// per
-    ///     Step that the derivatives are for: `unit` of the number, `percent` of its value, or its `tolerance`.
+    ///     Unit of the derivatives: `unit` of the number, `percent` of its value, or its `tolerance`.
     /// tolerances
     ///     Tolerances, as `platform.mass_kg=1%` or `cables.*.anchor_m=0.002`. If not given: 1 mm for positions and
     ///     lengths,

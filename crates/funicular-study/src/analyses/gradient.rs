@@ -31,7 +31,7 @@ pub struct GradientTable {
     pub held: &'static str,
     /// Sentence that says what is held, and by which rule the rest follows.
     pub held_means: &'static str,
-    /// Step that the derivatives are for: `unit`, `percent` or `tolerance`.
+    /// Unit of the derivatives: `unit`, `percent` or `tolerance`.
     pub per: &'static str,
     /// Numbers of the robot file; one column of `derivatives` each.
     pub parameters: Vec<GradientParameter>,

@@ -11,7 +11,7 @@ pub struct DesignRequest {
     pub robot: RobotText,
     /// Values to choose.
     pub change: Vec<ChangeValue>,
-    /// Number to improve.
+    /// Goal of the design.
     #[serde(default, with = "crate::names")]
     pub goal: DesignGoal,
     /// Poses: position [m] and roll, pitch, yaw [degrees]; default the pose of the state.

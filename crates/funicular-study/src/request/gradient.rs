@@ -19,7 +19,7 @@ pub struct GradientRequest {
     /// Quantity that is held while a number changes.
     #[serde(default, with = "crate::names")]
     pub hold: Hold,
-    /// Step that the derivatives are for.
+    /// Unit of the derivatives.
     #[serde(default, with = "crate::names")]
     pub per: Per,
     /// Tolerances of numbers, as `PATH=VALUE` or `PATH=PERCENT%`; numbers without one have the usual tolerance.

@@ -25,7 +25,7 @@ pub struct UncertaintyRequest {
     /// Quantity that is held while the numbers deviate.
     #[serde(default, with = "crate::names")]
     pub hold: Hold,
-    /// Way to the deviations of the results.
+    /// Method for the deviations of the results.
     #[serde(default, with = "crate::names")]
     pub method: UncertaintyMethod,
     /// Number of sampled robots.

@@ -590,7 +590,7 @@ mod tests {
         assert!((weighted.value - (0.75 * 4.75 + 0.25 * (1.0 - 2.25))).abs() < 1e-8, "{weighted:?}");
     }
 
-    /// Where the functions do not exist, steps get shorter until they do.
+    /// Steps into a region where the functions do not exist get shorter until they do.
     #[test]
     fn points_without_functions_are_not_stepped_on() {
         let mut problem = Of(|x: &[f64]| {

@@ -143,7 +143,7 @@ fn gradients_are_the_differences_with_lengths_held() {
     check(&json!({"frequencies": list}), "catenary-static", 0);
 }
 
-/// What the experiment states itself does not follow the file.
+/// Values that an experiment states do not follow the file.
 #[test]
 fn gradients_are_the_differences_where_an_experiment_has_its_own_state() {
     check(

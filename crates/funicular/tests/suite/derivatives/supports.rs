@@ -27,7 +27,7 @@ impl Random {
     }
 }
 
-/// What lies behind the cables of a robot.
+/// Supports and drives behind the cables of a robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum DriveVariant {
     Nothing,
