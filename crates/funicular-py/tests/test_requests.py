@@ -315,9 +315,11 @@ def test_a_reduced_model_has_the_frequencies_and_responses_of_the_robot(tmp_path
 def test_a_reduced_model_goes_to_scipy_and_control() -> None:
     model = funicular.Robot.example().reduce(2, ["fz"], ["z"])
     scipy = pytest.importorskip("scipy.signal")
-    _, response = scipy.freqresp(model.to_scipy(), [6.0])
-    a, b, c, d = model.state_space()
-    assert np.allclose(response, c @ np.linalg.solve(6j * np.eye(len(a)) - a, b) + d, rtol=1e-6)
+    system = model.to_scipy()
+    assert isinstance(system, scipy.StateSpace)
+    # `scipy.signal.freqresp` takes polynomials in between, which rounding spoils for so many states.
+    for given, expected in zip((system.A, system.B, system.C, system.D), model.state_space(), strict=True):
+        assert np.array_equal(given, expected)
     pytest.importorskip("control")
     assert model.to_control().input_labels == ["fz"]
 
