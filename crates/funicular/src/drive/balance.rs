@@ -44,7 +44,8 @@ const LAST_TURN: f64 = 1e-14;
 const NOT_BALANCED: f64 = 1e-10;
 
 /// Tensions of the taut cable from which a cable is paid out, as multiples of the weight of its chord, in the order in
-/// which they are tried. With the first one it sags by a fortieth of the chord, and Newton's method nearly always finds it.
+/// which they are tried. With the first one it sags by a fortieth of the chord. With it alone, 7 of 300,000 random
+/// cables were not found; with all three, none.
 const TAUT: [f64; 3] = [5.0, 50.0, 500.0];
 
 /// Minimum step of paying out, as a fraction of the whole way, below which no solution is found.

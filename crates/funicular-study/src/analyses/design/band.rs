@@ -64,7 +64,7 @@ pub(crate) fn others(poses: &[BandCounts]) -> (Vec<Sides>, usize) {
     let fewest = concerned().map(|of| of.below).min().unwrap_or(0);
     let most = concerned().map(|of| of.not_above).max().unwrap_or(0);
 
-    // The same number at all poses, as near to it as the frequencies in the band allow.
+    // One count for all poses; a pose whose frequencies in the band do not allow it takes the nearest count.
     let common = |number: usize| -> Sides {
         poses.iter().map(|of| of.in_band().then(|| number.clamp(of.below, of.not_above))).collect()
     };
