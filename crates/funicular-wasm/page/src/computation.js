@@ -29,6 +29,7 @@ export function change(what) {
   }
   if (what.robot || what.frame) {
     details.cancel();
+    page.settled = { statics: null, payload: null };
     emit("outdated");
     dirty.frame = true;
   }
@@ -92,10 +93,12 @@ async function readRobot() {
     const isNew = page.about === null || shown.newRobot;
     page.about = found.about;
     tell(null);
-    shown.newRobot = shown.refused = false;
+    shown.newRobot &&= dirty.robot;
+    shown.refused = false;
     emit("robot", isNew);
   } catch (error) {
-    dirty.frame = false;
+    // A refused robot has no frame, but one that was chosen in the meantime has.
+    dirty.frame = dirty.robot;
     if (!(error instanceof Cancelled)) {
       shown.refused = true;
       emit("robot-refused", error);
@@ -218,10 +221,10 @@ export function rest() {
         try {
           page.settled.payload = JSON.parse((await run("payload")(worker)).text);
         } catch (error) {
-          page.settled.payload = { reason: error.message };
           if (error instanceof Cancelled) {
             throw error;
           }
+          page.settled.payload = { reason: error.message };
         }
         emit("settled");
         const { input, output, from, to, log } = shown.response;

@@ -11,12 +11,16 @@ import { content, emit, on, page, shown } from "./store.js";
 
 let editor = null;
 
+/** Timer of the last change in the editor; another robot ends it, so that the old text does not replace it. */
+let typing = 0;
+
 /**
  * Shows another robot; what belongs to the old one goes.
  * @param {object} more parts of the content besides the text
  * @param {object} display parts of what is shown: `mode`, `modes`, `response`, `exaggeration`, `camera`
  */
 export async function setRobot(name, text, more = {}, display = {}) {
+  clearTimeout(typing);
   const next = { robot: { name, text, set: [] }, hold: "file", pose: null, lengths: null, start: null, rule: "", pinned: [], more: {}, model: {}, ...more };
   Object.assign(content, next);
   Object.assign(shown, { mode: -1, newRobot: true, response: null, ...display });
@@ -128,7 +132,6 @@ async function openEditor() {
   if (editor) {
     return;
   }
-  let typing = 0;
   editor = new Editor($("editor"), (text) => {
     clearTimeout(typing);
     typing = setTimeout(async () => {
@@ -147,7 +150,7 @@ async function openEditor() {
 export function listen() {
   on("robot", showRobot);
   on("robot-refused", showRefusal);
-  on("restored", showLibrary);
+  on("restored", () => { clearTimeout(typing); showLibrary(); });
   $("library").addEventListener("change", () => {
     const name = $("library").value;
     if (name) {

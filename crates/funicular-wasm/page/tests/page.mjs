@@ -614,6 +614,34 @@ test("keys are completed in the editor", async () => {
   await choose("cogiro-winches");
 });
 
+test("a robot that is chosen after a change of the text replaces it", async () => {
+  await choose("cogiro");
+  await page.click("#tab-file");
+  const typed = async () => {
+    await page.locator("#editor .cm-content").click();
+    await page.keyboard.press("Control+End");
+    await page.keyboard.type("\n[wi");
+  };
+
+  // The text that is not read yet is forgotten.
+  await typed();
+  await choose("ipanema2");
+  await page.waitForTimeout(500);
+  assert.match((await page.evaluate(() => window.funicular.content.robot)).name, /^ipanema2/);
+
+  // One that is being read, here behind a long computation, is refused without harm to the next.
+  await page.evaluate(() => {
+    const poses = Array.from({ length: 300 }, (_, i) => [0.001 * i, 0, 1.5, 0, 0, 0]);
+    window.funicular.ask({ command: "map", robot: window.funicular.content.robot, quantities: ["first-frequency"], poses }).catch(() => {});
+  });
+  await typed();
+  await page.waitForFunction(() => !window.funicular.idle);
+  await choose("cogiro");
+  assert.ok(await page.locator("#message").isHidden());
+  assert.equal((await frame()).cables.length, 8);
+  await page.click("#tab-values");
+});
+
 test("a long computation says so and can be cancelled", async () => {
   await choose("cogiro");
   // The worker of frames is kept busy by a map of many poses.
