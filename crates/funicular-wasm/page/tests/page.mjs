@@ -631,11 +631,12 @@ test("a robot that is chosen after a change of the text replaces it", async () =
 
   // One that is being read, here behind a long computation, is refused without harm to the next.
   await page.evaluate(() => {
-    const poses = Array.from({ length: 300 }, (_, i) => [0.001 * i, 0, 1.5, 0, 0, 0]);
+    const poses = Array.from({ length: 1500 }, (_, i) => [0.001 * i, 0, 1.5, 0, 0, 0]);
     window.funicular.ask({ command: "map", robot: window.funicular.content.robot, quantities: ["first-frequency"], poses }).catch(() => {});
   });
   await typed();
-  await page.waitForFunction(() => !window.funicular.idle);
+  await page.waitForFunction(() => window.funicular.content.robot.text.includes("\n[wi"));
+  assert.ok(!await page.evaluate(() => window.funicular.idle), "the long computation has ended before the text was read");
   await choose("cogiro");
   assert.ok(await page.locator("#message").isHidden());
   assert.equal((await frame()).cables.length, 8);
