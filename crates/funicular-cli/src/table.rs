@@ -1,7 +1,9 @@
 //! Aligned text tables.
 
 use comfy_table::{CellAlignment, ContentArrangement, presets};
-pub(crate) use funicular_study::text::{NONE, counted, decimals, decimals_or_none, short, significant, vector};
+pub(crate) use funicular_study::text::{
+    NONE, counted, decimals, decimals_or_none, digits_for, short, significant, vector,
+};
 use std::fmt;
 
 /// Table with a header. Columns from the second on hold numbers and are aligned to the right.
@@ -47,12 +49,6 @@ impl fmt::Display for Table {
         }
         Ok(())
     }
-}
-
-/// Digits of a value that show two digits of its deviation.
-pub(crate) fn digits_for(value: f64, deviation: f64) -> usize {
-    let ratio = value.abs() / deviation;
-    if ratio.is_finite() && ratio > 0.0 { (ratio.log10().floor() as i64 + 2).clamp(2, 10) as usize } else { 6 }
 }
 
 #[cfg(test)]

@@ -35,6 +35,12 @@ pub fn short(value: f64, digits: usize) -> String {
 /// Text of a missing number.
 pub const NONE: &str = "–";
 
+/// Number of digits of a value that shows two digits of its standard deviation; 6 without one.
+pub fn digits_for(value: f64, deviation: Option<f64>) -> usize {
+    let ratio = deviation.map_or(f64::INFINITY, |deviation| value.abs() / deviation);
+    if ratio.is_finite() && ratio > 0.0 { (ratio.log10().floor() as i64 + 2).clamp(2, 10) as usize } else { 6 }
+}
+
 /// Number with `count` decimals, or a dash if there is no number.
 pub fn decimals_or_none(value: Option<f64>, count: usize) -> String {
     value.map_or_else(|| NONE.to_owned(), |value| decimals(value, count))

@@ -102,14 +102,7 @@ fn poses(found: &Designed) -> Table {
 fn demands(found: &Designed) -> Table {
     let mut table = Table::new(&["demand", "limit", "before", "after", "unit", "at pose"]).text_columns(&[0, 4]);
     for row in &found.demands {
-        table.row(vec![
-            row.name.clone(),
-            significant(row.limit, 5),
-            significant(row.before, 5),
-            significant(row.after, 5),
-            row.unit.to_owned(),
-            row.pose.to_string(),
-        ]);
+        table.row(row.cells(significant).to_vec());
     }
     table
 }

@@ -4,7 +4,7 @@ use super::result_files::ResultFiles;
 use crate::args::IdentifyArgs;
 use crate::output::Printed;
 use crate::progress::TerminalProgress;
-use crate::table::{NONE, Table, counted, digits_for, significant};
+use crate::table::{NONE, Table, counted, significant};
 use crate::{errors, robot_file};
 use anyhow::{Context, Result, bail};
 use std::fmt::Write as _;
@@ -207,33 +207,10 @@ fn values(found: &Identified) -> Table {
     let mut table = Table::new(&["value", "unit", "start", "identified", "deviation", "95 % from", "to", ""])
         .text_columns(&[0, 1, 7]);
     for row in &found.values {
-        // Two digits of the deviation and as many of the value.
-        let digits = row.deviation.map_or(6, |deviation| digits_for(row.value, deviation));
-        let number = |value: Option<f64>, digits: usize| {
-            value.map_or_else(|| NONE.to_owned(), |value| significant(value, digits))
-        };
-
-        let mut notes = Vec::new();
-        if let Some(prior) = row.prior.zip(row.prior_deviation) {
-            notes.push(format!("prior {} ± {}", significant(prior.0, 4), significant(prior.1, 2)));
-        }
-        if let Some(bound) = row.at_bound {
-            notes.push(format!("at its {bound}"));
-        }
-        if row.deviation.is_none() {
-            notes.push("not determined".to_owned());
-        }
-
-        table.row(vec![
-            row.path.clone(),
-            row.unit.to_owned(),
-            significant(row.start, 6),
-            significant(row.value, digits),
-            number(row.deviation, 2),
-            number(row.interval_95.map(|interval| interval[0]), digits),
-            number(row.interval_95.map(|interval| interval[1]), digits),
-            notes.join(", "),
-        ]);
+        let prior = row.prior_text(significant);
+        let notes = [if prior.is_empty() { prior } else { format!("prior {prior}") }, row.remark()];
+        let notes: Vec<String> = notes.into_iter().filter(|note| !note.is_empty()).collect();
+        table.row(row.cells(significant).into_iter().chain([notes.join(", ")]).collect());
     }
     table
 }
@@ -262,7 +239,7 @@ fn statics(found: &Identified) -> Table {
             row.quantity.clone(),
             significant(row.measured, 6),
             significant(row.fitted, 6),
-            significant((row.fitted - row.measured) / row.deviation, 3),
+            significant(row.difference(), 3),
         ]);
     }
     table
@@ -279,7 +256,7 @@ fn profiles(found: &Identified) -> String {
             .text_columns(&[0, 1, 8]);
 
     for (row, profile) in profiled {
-        let digits = row.deviation.map_or(6, |deviation| digits_for(row.value, deviation));
+        let digits = row.digits();
         let ends = [profile.from, profile.to];
         let end = |k: usize| ends[k].map_or_else(|| NONE.to_owned(), |end| significant(end, digits));
         let away = |k: usize| ends[k].map_or_else(|| NONE.to_owned(), |end| significant((end - row.value).abs(), 3));

@@ -233,7 +233,7 @@ fn results(of: &Uncertainties, pose: &PoseUncertainty) -> Table {
     let mut table = Table::new(&header).text_columns(&[0, 1, 6, last]);
 
     for result in &pose.results {
-        let digits = result.deviation.map_or(6, |deviation| digits_for(result.value, deviation));
+        let digits = digits_for(result.value, result.deviation);
         let number = |value: Option<f64>, digits: usize| {
             value.map_or_else(|| NONE.to_owned(), |value| significant(value, digits))
         };

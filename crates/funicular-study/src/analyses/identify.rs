@@ -14,7 +14,7 @@ use crate::identification::{
 };
 use crate::parameter_pattern::ParameterPattern;
 use crate::request::{self, Experiment, IdentifyRequest};
-use crate::text::counted;
+use crate::text::{NONE, counted, digits_for};
 use anyhow::{Result, bail};
 use funicular::math::least_squares::{LeastSquaresEnding, Minimum};
 use funicular::robot::parameters::Parameters;
@@ -89,6 +89,42 @@ pub struct ValueRow {
     /// Profile of χ², if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub profile: Option<Profile>,
+}
+
+impl ValueRow {
+    /// Number of digits of the value: those that show two digits of its deviation.
+    pub fn digits(&self) -> usize {
+        digits_for(self.value, self.deviation)
+    }
+
+    /// Cells of a row in a table: path, unit, start, value, deviation, and the ends of the interval. `number` writes a
+    /// number with a count of significant digits.
+    pub fn cells(&self, number: impl Fn(f64, usize) -> String) -> [String; 7] {
+        let known = |value: Option<f64>, digits| value.map_or_else(|| NONE.to_owned(), |value| number(value, digits));
+        let end = |k: usize| self.interval_95.map(|interval| interval[k]);
+        [
+            self.path.clone(),
+            self.unit.to_owned(),
+            number(self.start, 6),
+            number(self.value, self.digits()),
+            known(self.deviation, 2),
+            known(end(0), self.digits()),
+            known(end(1), self.digits()),
+        ]
+    }
+
+    /// Prior knowledge of the value, as `value ± deviation`; empty without it.
+    pub fn prior_text(&self, number: impl Fn(f64, usize) -> String) -> String {
+        let prior = self.prior.zip(self.prior_deviation);
+        prior.map_or_else(String::new, |(value, deviation)| format!("{} ± {}", number(value, 4), number(deviation, 2)))
+    }
+
+    /// Remark: the bound at which the value is, and whether the measurements determine it.
+    pub fn remark(&self) -> String {
+        let bound = self.at_bound.map(|bound| format!("at its {bound}"));
+        let undetermined = self.deviation.is_none().then(|| "not determined".to_owned());
+        bound.into_iter().chain(undetermined).collect::<Vec<_>>().join(", ")
+    }
 }
 
 /// Identifies values of a robot file.

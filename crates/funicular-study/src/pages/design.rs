@@ -108,14 +108,7 @@ fn demands(found: &Designed) -> PageTable {
         &["<demand", "limit", "before", "after", "<unit", "pose"],
     );
     for row in &found.demands {
-        table.row(vec![
-            row.name.clone(),
-            significant(row.limit, 5),
-            significant(row.before, 5),
-            significant(row.after, 5),
-            row.unit.to_owned(),
-            row.pose.to_string(),
-        ]);
+        table.row(row.cells(significant).to_vec());
     }
     table
 }

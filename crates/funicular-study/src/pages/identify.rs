@@ -61,27 +61,8 @@ fn values(found: &Identified) -> PageTable {
     );
 
     for row in &found.values {
-        let number =
-            |value: Option<f64>, digits| value.map_or_else(|| text::NONE.to_owned(), |v| significant(v, digits));
-        let remark = match (row.at_bound, row.deviation) {
-            (Some(bound), _) => format!("at its {bound}"),
-            (None, None) => "not determined".to_owned(),
-            (None, Some(_)) => String::new(),
-        };
-
-        table.row(vec![
-            row.path.clone(),
-            row.unit.to_owned(),
-            significant(row.start, 6),
-            significant(row.value, 6),
-            number(row.deviation, 2),
-            number(row.interval_95.map(|interval| interval[0]), 6),
-            number(row.interval_95.map(|interval| interval[1]), 6),
-            row.prior.zip(row.prior_deviation).map_or_else(String::new, |(value, deviation)| {
-                format!("{} ± {}", significant(value, 4), significant(deviation, 2))
-            }),
-            remark,
-        ]);
+        let notes = [row.prior_text(significant), row.remark()];
+        table.row(row.cells(significant).into_iter().chain(notes).collect());
     }
 
     table
@@ -218,7 +199,7 @@ fn statics(found: &Identified) -> PageTable {
             row.quantity.clone(),
             significant(row.measured, 6),
             significant(row.fitted, 6),
-            fixed((row.fitted - row.measured) / row.deviation, 2),
+            fixed(row.difference(), 2),
         ]);
     }
     table

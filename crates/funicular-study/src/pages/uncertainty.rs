@@ -301,14 +301,15 @@ fn results(found: &Uncertainties) -> PageTable {
                 .map(|of| format!("{} {} %", of.path, text::significant(100.0 * of.share, 2)))
                 .collect();
 
+            let digits = text::digits_for(result.value, result.deviation);
             table.row(vec![
                 (i + 1).to_string(),
                 result.name.clone(),
                 result.unit.to_owned(),
-                significant(result.value, 6),
+                significant(result.value, digits),
                 number(result.deviation, 3),
-                number(result.interval_95.map(|interval| interval[0]), 6),
-                number(result.interval_95.map(|interval| interval[1]), 6),
+                number(result.interval_95.map(|interval| interval[0]), digits),
+                number(result.interval_95.map(|interval| interval[1]), digits),
                 result.method.to_owned(),
                 number(result.worst.and_then(|worst| worst.down), 3),
                 number(result.worst.and_then(|worst| worst.up), 3),

@@ -95,6 +95,21 @@ pub struct DemandRow {
     pub gain_per_unit: f64,
 }
 
+impl DemandRow {
+    /// Cells of a row in a table: demand, limit, value before and after, unit, and number of the pose. `number` writes a
+    /// number with a count of significant digits.
+    pub fn cells(&self, number: impl Fn(f64, usize) -> String) -> [String; 6] {
+        [
+            self.name.clone(),
+            number(self.limit, 5),
+            number(self.before, 5),
+            number(self.after, 5),
+            self.unit.to_owned(),
+            self.pose.to_string(),
+        ]
+    }
+}
+
 /// Search, its request and its robots, from which the parts of the result are made.
 pub(super) struct DesignReport<'a> {
     pub(super) request: &'a DesignRequest,

@@ -57,6 +57,13 @@ pub struct StaticRow {
     pub deviation: f64,
 }
 
+impl StaticRow {
+    /// Difference of the fitted from the measured number in deviations.
+    pub fn difference(&self) -> f64 {
+        (self.fitted - self.measured) / self.deviation
+    }
+}
+
 /// Tables of measured and fitted numbers.
 #[derive(Default)]
 pub(super) struct Tables {
