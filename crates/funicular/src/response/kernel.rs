@@ -300,10 +300,11 @@ pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec
 
     // With registers of 512 bits the compiler makes gathers here, which take half as long again.
     #[cfg(target_arch = "x86_64")]
-    if let Some(simd) = pulp::x86::V3::try_new() {
-        pulp::Simd::vectorize(simd, entries);
-        return values;
+    match pulp::x86::V3::try_new() {
+        Some(simd) => pulp::Simd::vectorize(simd, entries),
+        None => pulp::Simd::vectorize(pulp::Scalar, entries),
     }
+    #[cfg(not(target_arch = "x86_64"))]
     pulp::Arch::new().dispatch(entries);
     values
 }
