@@ -74,7 +74,8 @@ def test_ctrl_c_ends_long_work(long: str) -> None:
         child.send_signal(signal.SIGINT)
         sent = time.perf_counter()
         rest, error = child.stdout.read(), child.stderr.read()
-        assert time.perf_counter() - sent < 5 and "done" not in rest and "KeyboardInterrupt" in error
+        # Not stopped, most of these take 15 s and more; on a busy machine the reading of 30 million numbers alone takes 7.
+        assert time.perf_counter() - sent < 12 and "done" not in rest and "KeyboardInterrupt" in error
 
 
 def test_a_reduction_does_not_go_on_after_ctrl_c() -> None:
