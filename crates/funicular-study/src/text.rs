@@ -35,10 +35,14 @@ pub fn short(value: f64, digits: usize) -> String {
 /// Text of a missing number.
 pub const NONE: &str = "–";
 
-/// Number of digits of a value that shows two digits of its standard deviation; 6 without one.
+/// Number of digits of a value that shows one or two digits of its standard deviation, from 2 to 10; 6 if the deviation is
+/// unknown or one of the two is zero.
 pub fn digits_for(value: f64, deviation: Option<f64>) -> usize {
-    let ratio = deviation.map_or(f64::INFINITY, |deviation| value.abs() / deviation);
-    if ratio.is_finite() && ratio > 0.0 { (ratio.log10().floor() as i64 + 2).clamp(2, 10) as usize } else { 6 }
+    const WITHOUT_DEVIATION: usize = 6;
+    match deviation.map(|deviation| (value / deviation).abs().log10().floor()) {
+        Some(decades) if decades.is_finite() => (decades as i64 + 2).clamp(2, 10) as usize,
+        _ => WITHOUT_DEVIATION,
+    }
 }
 
 /// Number with `count` decimals, or a dash if there is no number.
@@ -77,6 +81,18 @@ mod tests {
         assert_eq!(significant(0.0, 4), "0");
         assert_eq!(short(10.55, 6), "10.55");
         assert_eq!(short(100.0, 6), "100");
+    }
+
+    #[test]
+    fn a_value_has_the_digits_of_its_deviation() {
+        let written = |value: f64, deviation| significant(value, digits_for(value, deviation));
+        assert_eq!(written(63.8634, Some(0.11)), "63.86");
+        assert_eq!(written(-0.012_000_4, Some(6.9e-6)), "-0.012000");
+        assert_eq!(written(2.0, Some(30.0)), "2.0");
+        for deviation in [None, Some(0.0)] {
+            assert_eq!(written(1.25, deviation), "1.25000");
+        }
+        assert_eq!(digits_for(0.0, Some(1.0)), 6);
     }
 
     #[test]

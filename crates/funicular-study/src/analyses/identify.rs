@@ -92,7 +92,7 @@ pub struct ValueRow {
 }
 
 impl ValueRow {
-    /// Number of digits of the value: those that show two digits of its deviation.
+    /// Number of digits of the value, by its deviation.
     pub fn digits(&self) -> usize {
         digits_for(self.value, self.deviation)
     }
