@@ -118,9 +118,7 @@ const page = (function () {
     sources.forEach(function (source) {
       const figure = JSON.parse(source.textContent);
       const place = document.getElementById(source.dataset.plot);
-      Plotly.newPlot(place, figure.data, figure.layout, config);
-      plots.push(place);
-      offerPlot(place);
+      show(place, figure.data, figure.layout);
     });
   }
   const drawn = draw();
@@ -139,13 +137,13 @@ const page = (function () {
     plots.forEach(function (place) { Plotly.relayout(place, { width: null, height: null, autosize: true }); });
     redraw();
   });
-  // Draws or updates a figure of a page's own script. The script has to wait for `drawn` before.
+  // Draws or updates a figure. A page's own script has to wait for `drawn` before.
   function show(place, data, layout) {
     if (!plots.includes(place)) {
       plots.push(place);
       offerPlot(place);
     }
-    return Plotly.react(place, data, layout, config);
+    return layout.scene && !space.turns ? space.standStill(place, data, layout, config) : Plotly.react(place, data, layout, config);
   }
   return { unpack: unpack, excuse: excuse, drawn: drawn, show: show, offer: offer, fine: FINE };
 }());

@@ -200,39 +200,46 @@ const space = (function () {
   // Text of a label of plotly, in which tags are escaped.
   function plain(text) { return text.replace(/&lt;/g, "<").replace(/&gt;/g, ">").replace(/&amp;/g, "&"); }
 
-  // Draws a scene in its present view. It knows the traces of the pages: lines, symbols, texts, and bodies with a list
-  // of their faces.
-  function paint(context, place, width, height) {
-    const layout = place._fullLayout.scene, view = viewOf(layout._scene, width, height), texts = [];
-    const ranges = [layout.xaxis, layout.yaxis, layout.zaxis].map(function (axis) { return axis.range.map(Number); });
-    scales(context, view, ranges.map(function (range) { return Math.min(range[0], range[1]); }), ranges.map(function (range) { return Math.max(range[0], range[1]); }));
-    place.data
+  // Draws the traces of a scene in a view. It knows those of the pages: lines, symbols, texts, and bodies with a list of
+  // their faces.
+  function paint(context, data, view, low, high) {
+    const texts = [];
+    scales(context, view, low, high);
+    data
       .flatMap(function (trace) { return parts(context, trace, view, texts); })
       .sort(function (one, other) { return one.depth - other.depth; })
       .forEach(function (part) { part.draw(); });
     texts.forEach(function (draw) { draw(); });
   }
+  // Draws a scene of plotly as it is turned at this moment.
+  function paintTurned(context, place, width, height) {
+    const layout = place._fullLayout.scene;
+    const ranges = [layout.xaxis, layout.yaxis, layout.zaxis].map(function (axis) { return axis.range.map(Number); });
+    const low = ranges.map(function (range) { return Math.min(range[0], range[1]); }), high = ranges.map(function (range) { return Math.max(range[0], range[1]); });
+    paint(context, place.data, viewOf(layout._scene, width, height), low, high);
+  }
   // Place of a scene inside its figure, in pixels.
   function boundsOf(place) {
-    const full = place._fullLayout, inner = full._size, [x, y] = [full.scene.domain.x, full.scene.domain.y];
+    const full = place._fullLayout, inner = full._size, scene = full.scene || { domain: { x: [0, 1], y: [0, 1] } }, [x, y] = [scene.domain.x, scene.domain.y];
     return { x: inner.l + inner.w * x[0], y: inner.t + inner.h * (1 - y[1]), width: inner.w * (x[1] - x[0]), height: inner.h * (y[1] - y[0]) };
   }
-  // Title, legend and colour bar of a figure, as plotly writes them to SVG. Its traces lie in a plane and have one point
-  // that is not drawn: plotly would draw a scene once more as pixels, which takes seconds without a graphics card.
-  function surroundings(place) {
-    const data = place.data.map(function (trace) {
+  // Title, legend and colour bar of a figure. Its traces lie in a plane and have one point that is not drawn: plotly would
+  // draw a scene once more as pixels, which takes seconds without a graphics card, and needs WebGL.
+  function surroundings(data, layout) {
+    const flat = data.map(function (trace) {
       const point = trace.x.length > 0 ? [null] : [];
       return Object.assign({}, trace, { type: "scatter", x: point, y: point });
     });
-    const layout = Object.assign({}, place.layout, { xaxis: { visible: false }, yaxis: { visible: false } });
-    delete layout.scene;
-    return Plotly.toImage({ data: data, layout: layout }, { format: "svg", width: place.clientWidth, height: place.clientHeight });
+    const plane = Object.assign({}, layout, { xaxis: { visible: false, fixedrange: true }, yaxis: { visible: false, fixedrange: true } });
+    delete plane.scene;
+    return { data: flat, layout: plane };
   }
   // Address of a scene as SVG.
   async function svgOf(place) {
-    const flat = await surroundings(place), bounds = boundsOf(place), record = recorder(bounds.width, bounds.height);
+    const size = { format: "svg", width: place.clientWidth, height: place.clientHeight }, bounds = boundsOf(place), record = recorder(bounds.width, bounds.height);
+    const flat = await Plotly.toImage(place.still || surroundings(place.data, place.layout), size);
     const tree = new DOMParser().parseFromString(decodeURIComponent(flat.slice(flat.indexOf(",") + 1)), "image/svg+xml");
-    paint(record, place, bounds.width, bounds.height);
+    if (place.still) { paintStill(record, place.still, bounds.width, bounds.height); } else { paintTurned(record, place, bounds.width, bounds.height); }
     const drawn = tree.importNode(new DOMParser().parseFromString(record.text(), "image/svg+xml").documentElement, true);
     ["x", "y"].forEach(function (name) { drawn.setAttribute(name, bounds[name]); });
     // Under title, legend and colour bar.
@@ -240,5 +247,60 @@ const space = (function () {
     if (over) { over.before(drawn); } else { tree.documentElement.append(drawn); }
     return address(new XMLSerializer().serializeToString(tree));
   }
-  return { path: path, stroke: stroke, scales: scales, recorder: recorder, address: address, svgOf: svgOf };
+
+  // True if the browser offers WebGL, with which plotly draws scenes that turn. Remote desktops and virtual machines often
+  // do not.
+  const turns = ["webgl2", "webgl"].some(function (kind) { return document.createElement("canvas").getContext(kind) !== null; });
+  // Pixels around a scene that stands still, for the numbers along its edges.
+  const EDGE = 44;
+  // View from the eye that the layout names, with parallel projection, as large as fits.
+  function stillView(layout, low, high, width, height) {
+    const { x, y, z } = layout.camera.eye, level = Math.hypot(x, y), far = Math.hypot(level, z), ratio = layout.aspectratio;
+    const axes = [[-y / level, x / level, 0], [-x * z / (level * far), -y * z / (level * far), level / far], [x / far, y / far, z / far]];
+    const along = function (p, axis) {
+      return ["x", "y", "z"].reduce(function (sum, name, k) { return sum + axis[k] * ratio[name] * ((p[k] - low[k]) / (high[k] - low[k] || 1) - 0.5); }, 0);
+    };
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(function (mask) { return [0, 1, 2].map(function (k) { return (mask >> k) & 1 ? high[k] : low[k]; }); });
+    const reach = [0, 1].map(function (k) { return Math.max(...corners.map(function (p) { return Math.abs(along(p, axes[k])); })) || 1; });
+    const scale = Math.min((0.5 * width - EDGE) / reach[0], (0.5 * height - EDGE) / reach[1]);
+    return {
+      to: function (p) { return [0.5 * width + scale * along(p, axes[0]), 0.5 * height - scale * along(p, axes[1])]; },
+      depth: function (p) { return along(p, axes[2]); }
+    };
+  }
+  // Draws a scene that does not turn.
+  function paintStill(context, still, width, height) {
+    const scene = still.scene;
+    const ranges = ["x", "y", "z"].map(function (name) {
+      const given = scene[name + "axis"].range, all = still.traces.flatMap(function (trace) { return Array.from(trace[name]); });
+      return given || [Math.min(...all), Math.max(...all)];
+    });
+    const end = function (k) { return ranges.map(function (range) { return range[k]; }); };
+    paint(context, still.traces, stillView(scene, end(0), end(1), width, height), end(0), end(1));
+  }
+  // Draws or updates a scene where there is no WebGL, with a line that says why it does not turn.
+  async function standStill(place, data, layout, config) {
+    const first = !place.still;
+    place.still = Object.assign(surroundings(data, layout), { scene: layout.scene, traces: data });
+    await Plotly.react(place, place.still.data, place.still.layout, config);
+    const draw = function () {
+      const bounds = boundsOf(place), record = recorder(bounds.width, bounds.height);
+      paintStill(record, place.still, bounds.width, bounds.height);
+      place.querySelectorAll(".still").forEach(function (old) { old.remove(); });
+      const picture = document.createElement("div");
+      picture.className = "still";
+      picture.innerHTML = record.text();
+      picture.style.cssText = "position: absolute; pointer-events: none; left: " + bounds.x + "px; top: " + bounds.y + "px";
+      // Over plotly's white ground, under title, legend and colour bar.
+      place.querySelector(".main-svg").after(picture);
+    };
+    draw();
+    if (!first) { return; }
+    place.on("plotly_afterplot", draw);
+    const reason = document.createElement("p");
+    reason.className = "without-webgl";
+    reason.textContent = "This view stands still: turning it needs WebGL, which this browser does not offer.";
+    place.after(reason);
+  }
+  return { path: path, stroke: stroke, scales: scales, recorder: recorder, address: address, svgOf: svgOf, turns: turns, standStill: standStill };
 }());

@@ -1,18 +1,23 @@
 //! Font of the figures: widths of texts, and the glyphs that a PDF needs.
 
-use ttf_parser::{Face, GlyphId};
+use skrifa::instance::{LocationRef, Size};
+use skrifa::metrics::Metrics;
+use skrifa::{FontRef, GlyphId, MetadataProvider as _};
 
 /// Noto Sans, under the Apache License 2.0.
 const DATA: &[u8] = ttf_noto_sans::REGULAR;
 
 /// Font of all texts.
 pub(crate) struct Font {
-    face: Face<'static>,
+    font: FontRef<'static>,
+    metrics: Metrics,
 }
 
 impl Font {
     pub(crate) fn new() -> Self {
-        Self { face: Face::parse(DATA, 0).expect("the embedded font is complete") }
+        let font = FontRef::new(DATA).expect("the embedded font is complete");
+        let metrics = font.metrics(Size::unscaled(), LocationRef::default());
+        Self { font, metrics }
     }
 
     /// Bytes of the font file.
@@ -22,13 +27,15 @@ impl Font {
 
     /// Glyph of a letter; a question mark stands for a letter that the font lacks.
     pub(crate) fn glyph(&self, letter: char) -> u16 {
-        let of = |letter| self.face.glyph_index(letter).filter(|glyph| glyph.0 != 0);
-        of(letter).or_else(|| of('?')).map_or(0, |glyph| glyph.0)
+        let of = |letter| self.font.charmap().map(letter).filter(|glyph| *glyph != GlyphId::NOTDEF);
+        let glyph = of(letter).or_else(|| of('?')).unwrap_or_default();
+        u16::try_from(glyph.to_u32()).expect("a TrueType font numbers its glyphs with 16 bits")
     }
 
     /// Advance of a glyph, relative to the size of the font.
     pub(crate) fn advance(&self, glyph: u16) -> f64 {
-        f64::from(self.face.glyph_hor_advance(GlyphId(glyph)).unwrap_or_default()) / self.units()
+        let widths = self.font.glyph_metrics(Size::unscaled(), LocationRef::default());
+        self.relative(widths.advance_width(glyph.into()).unwrap_or_default())
     }
 
     /// Width of a text at size one.
@@ -38,22 +45,23 @@ impl Font {
 
     /// Height of a capital letter, relative to the size of the font.
     pub(crate) fn capital_height(&self) -> f64 {
-        self.face.capital_height().map_or(0.7, |height| f64::from(height) / self.units())
+        self.relative(self.metrics.cap_height.unwrap_or(0.7 * f32::from(self.metrics.units_per_em)))
     }
 
     /// Height above and depth below the base line, relative to the size of the font.
     pub(crate) fn ascent_and_descent(&self) -> (f64, f64) {
-        (f64::from(self.face.ascender()) / self.units(), f64::from(self.face.descender()) / self.units())
+        (self.relative(self.metrics.ascent), self.relative(self.metrics.descent))
     }
 
     /// Box around all glyphs, relative to the size of the font: left, bottom, right, top.
     pub(crate) fn bounding_box(&self) -> [f64; 4] {
-        let of = self.face.global_bounding_box();
-        [of.x_min, of.y_min, of.x_max, of.y_max].map(|edge| f64::from(edge) / self.units())
+        let edges = self.metrics.bounds.unwrap_or_default();
+        [edges.x_min, edges.y_min, edges.x_max, edges.y_max].map(|edge| self.relative(edge))
     }
 
-    fn units(&self) -> f64 {
-        f64::from(self.face.units_per_em())
+    /// Length in units of the font, relative to its size.
+    fn relative(&self, units: f32) -> f64 {
+        f64::from(units) / f64::from(self.metrics.units_per_em)
     }
 }
 

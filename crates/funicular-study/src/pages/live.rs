@@ -31,8 +31,9 @@ pub fn live(request: &LiveRequest) -> Result<String> {
 fn page_with(page: &str, request: &LiveRequest) -> Result<String> {
     if page.is_empty() {
         bail!(
-            "this build does not contain the page: run `scripts/web --no-test` in the sources of funicular, then build \
-             again with FUNICULAR_PAGE=$PWD/target/web/funicular.html; or open that file and load the robot there"
+            "this build does not contain the page: in the sources of funicular, `scripts/install` installs the program \
+             with it, and `scripts/install --python` the Python package; or `scripts/web --no-test` makes \
+             target/web/funicular.html: open it in a browser and load the robot there"
         );
     }
     let LiveRequest { robot, state, tensions, .. } = request;
@@ -122,7 +123,7 @@ mod tests {
     #[test]
     fn what_the_page_cannot_show_is_refused() {
         for (page, more, message) in [
-            ("", json!({}), "this build does not contain the page: run `scripts/web --no-test`"),
+            ("", json!({}), "this build does not contain the page: in the sources of funicular, `scripts/install`"),
             (START, json!({ "mass_kg": -1.0 }), "⟪mass_kg⟫"),
             (START, json!({ "pose": [0.0, 0.0, 1.0], "lengths_m": [1.0] }), "not both"),
         ] {
