@@ -375,7 +375,7 @@ def test_a_live_page_has_the_robot_or_says_how_to_build_with_the_page() -> None:
     try:
         page = funicular.Robot.example().equilibrium(pose=[0, 0, 0.5]).live("live.html", cable_model="spring")
     except funicular.InputError as error:
-        assert "this build does not contain the page: run `scripts/web --no-test`" in str(error)
+        assert "this build does not contain the page: in the sources of funicular, `scripts/install`" in str(error)
     else:
         assert '"cable_model":"spring"' in page.html
         assert Path("live.html").read_text() == page.html

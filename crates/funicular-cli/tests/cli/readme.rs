@@ -40,7 +40,7 @@ fn same(a: &str, b: &str) -> bool {
 
 #[test]
 fn the_documents_show_what_the_program_prints() {
-    assert!(blocks_are_printed("README.md") >= 3, "statics, modes and compare are shown");
+    assert!(blocks_are_printed("docs/commands.md") >= 4, "statics, modes and compare are shown");
     assert!(blocks_are_printed("docs/how-to-choose.md") >= 2);
     assert!(blocks_are_printed("docs/sweeps.md") >= 1);
     assert!(blocks_are_printed("docs/control.md") >= 1);
@@ -161,10 +161,10 @@ fn blocks_are_printed(document: &str) -> usize {
 }
 
 #[test]
-fn the_commands_of_the_readme_and_of_the_program_are_the_same() {
-    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+fn the_commands_of_the_documents_and_of_the_program_are_the_same() {
+    let page = fs::read_to_string(root().join("docs/commands.md")).unwrap();
     let table: Vec<&str> =
-        readme.lines().filter(|line| line.starts_with("| `") && line.contains("`funicular ")).collect();
+        page.lines().filter(|line| line.starts_with("| `") && line.contains("`funicular ")).collect();
     let help = super::succeed(&["--help"]);
     let (_, commands) = help.split_once("Commands:").unwrap();
     let (commands, _) = commands.split_once("Options:").unwrap();
@@ -191,4 +191,24 @@ fn the_commands_of_the_readme_and_of_the_program_are_the_same() {
         let output = command(&arguments).current_dir(root()).output().unwrap();
         assert_eq!(output.status.code(), Some(0), "{row}: {}", stderr(&output));
     }
+}
+
+/// Bytes that README.md may have: a visitor reads it in a minute.
+const MAX_README: usize = 8000;
+
+#[test]
+fn the_readme_is_short_and_its_number_is_that_of_the_program() {
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    assert!(readme.len() <= MAX_README, "README.md has {} bytes", readme.len());
+
+    let cogiro = root().join("robots/cogiro.toml");
+    let compared = super::succeed(&["compare", cogiro.to_str().unwrap(), "--below-hz", "5", "--format", "json"]);
+    let compared: serde_json::Value = serde_json::from_str(&compared).unwrap();
+    let of = |key: &str, model: &str| {
+        let models = compared["models"].as_array().unwrap();
+        models.iter().find(|row| row["cable_model"] == model).unwrap()[key].as_u64().unwrap()
+    };
+    let all = of("count_below", "catenary-dynamic");
+    assert!(readme.contains(&format!("has {all} natural frequencies below 5 Hz")), "{all}");
+    assert_eq!((all - of("missed", "spring"), readme.contains("finds one of them")), (1, true));
 }
