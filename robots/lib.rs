@@ -88,3 +88,8 @@ mod tests {
         assert_eq!(files, listed);
     }
 }
+
+/// Example of README.md, which is tested like those of the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("README.md")]
+struct Readme;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes the licences of the crates that are linked into a package of the workspace, as their authors require with
-every copy. Fails if a crate has a licence that is not in ACCEPTED.
+every copy. Fails if a crate has a licence that deny.toml does not allow.
 
 Usage: scripts/third_party.py PACKAGE TARGET OUTPUT [NAME=LICENCE-FILE …]
 
@@ -10,6 +10,7 @@ import json
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -18,17 +19,12 @@ Crate = dict[str, Any]
 
 ROOT = Path(__file__).resolve().parent.parent
 
-# Licences that allow distribution in binary form under MIT or Apache-2.0. Of several that a crate offers, the first is
-# used. The word marks the crate's file with the text.
+# Licences that deny.toml allows. Of several that a crate offers, the first of this list is used. The word marks the crate's
+# file with the text.
+WORDS = {"BSD-2-Clause": "BSD", "BSD-3-Clause": "BSD", "Apache-2.0": "APACHE", "Unicode-3.0": "UNICODE"}
 ACCEPTED = {
-    "MIT": "MIT",
-    "0BSD": "0BSD",
-    "BSD-2-Clause": "BSD",
-    "BSD-3-Clause": "BSD",
-    "Zlib": "ZLIB",
-    "ISC": "ISC",
-    "Apache-2.0": "APACHE",
-    "Unicode-3.0": "UNICODE",
+    name: WORDS.get(name, name.upper())
+    for name in tomllib.loads((ROOT / "deny.toml").read_text())["licenses"]["allow"]
 }
 TEXTS = re.compile(r"LICEN[CS]E|COPYING", re.IGNORECASE)
 # Apache-2.0 requires the notices; COPYRIGHT says which licence holds for which part.
@@ -42,8 +38,8 @@ def fail(text: str) -> NoReturn:
     sys.exit(1)
 
 
-def chosen(expression: str, crate: str) -> set[str]:
-    """Licences that hold for a crate: the first accepted one of every `OR`, all of every `AND`."""
+def chosen(expression: str) -> set[str] | None:
+    """Licences that hold for a crate: the first accepted one of every `OR`, all of every `AND`. None if none is accepted."""
     tokens = re.findall(r"[()]|[^\s()]+", expression.replace("/", " OR ").replace(" WITH ", "+"))
 
     def alternatives() -> set[str] | None:
@@ -71,9 +67,7 @@ def chosen(expression: str, crate: str) -> set[str]:
         return {token} if token in ACCEPTED else None
 
     licences = alternatives()
-    if licences is None or tokens:
-        fail(f"{crate} has the licence {expression!r}: check whether it may be distributed, then add it to ACCEPTED")
-    return licences
+    return None if tokens else licences
 
 
 def linked(metadata: dict[str, Any], package: str) -> list[Crate]:
@@ -106,7 +100,10 @@ def texts(crate: Crate) -> list[str]:
     plain = [path for path in licensed if not OTHER_WORDS.search(path.name.upper())]
 
     found = [path.read_text() for path in files if NOTICES.fullmatch(path.name)]
-    for licence in sorted(chosen(crate["license"] or "", name)):
+    licences = chosen(crate["license"] or "none")
+    if licences is None:
+        fail(f"{name} has the licence {crate['license']!r}: check whether it may be distributed, then add it to deny.toml")
+    for licence in sorted(licences):
         named = [path for path in licensed if ACCEPTED[licence] in path.name.upper()]
         found += [path.read_text() for path in named or plain] or [standard(licence, crate, name)]
     # A script that the crate brings along names its authors at its beginning.

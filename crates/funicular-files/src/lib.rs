@@ -275,3 +275,8 @@ fn with_ending(path: &Path, ending: &str) -> PathBuf {
 }
 
 pub use csv::CsvRows;
+
+/// Example of README.md, which is tested like those of the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

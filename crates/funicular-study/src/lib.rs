@@ -66,3 +66,8 @@ pub use error::{Error, ErrorKind, NoSolution};
 pub use request::Request;
 pub use run::{Results, run, run_on};
 pub use watch::{Silent, Watch};
+
+/// Example of README.md, which is tested like those of the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
