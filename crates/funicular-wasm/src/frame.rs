@@ -151,8 +151,8 @@ impl Session {
         };
         let file = request.robot.read()?;
         let robot = at_rest::with_limits(&at_rest::with_state(file.robot.clone(), &request.state)?, &request.tensions)?;
-        let text = description(&robot, &file.text).to_string();
-        Ok((Self { request, robot: file.robot, last: None, known_hz: Vec::new() }, Answer { numbers: Vec::new(), text }))
+        let answer = Answer { numbers: Vec::new(), text: description(&robot, &file.text).to_string() };
+        Ok((Self { request, robot: file.robot, last: None, known_hz: Vec::new() }, answer))
     }
 
     /// Solves the robot at a state, whose error is passed on.

@@ -26,9 +26,9 @@ export const isIdle = () => running === null && (page.frame !== null || shown.br
 /** Notes what has changed and computes it; resolves when everything so far is shown. */
 export function change(what) {
   Object.assign(dirty, what);
-  if (stopped) {
+  if (stopped || shown.refused) {
     stopped = false;
-    dirty.robot = true;
+    dirty.robot = true; // the worker has none
   }
   if (dirty.robot || what.frame) {
     cancelLong();

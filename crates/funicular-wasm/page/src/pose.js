@@ -47,11 +47,14 @@ function poseOfFile() {
  * null if there is none.
  */
 export function presentPose() {
+  if (!page.about) {
+    return null;
+  }
   if (content.hold === "pose") {
     return [...content.pose];
   }
   const from = page.frame ?? page.last ?? poseOfFile();
-  return from && page.about ? rounded(from.position, from.quaternion) : null;
+  return from && rounded(from.position, from.quaternion);
 }
 
 /** Holds the platform at a pose. */
@@ -143,13 +146,24 @@ function showFrame() {
   $("state").textContent = parts.join(" ");
 }
 
+/** Pose that is asked for, although there is no equilibrium: of the request or of the file. */
+function requestedPose() {
+  if (!page.about || shown.refused) {
+    return null;
+  }
+  if (content.hold === "pose") {
+    return { position: content.pose.slice(0, 3), quaternion: quaternionOf(content.pose.slice(3)) };
+  }
+  return content.hold === "file" ? poseOfFile() : null;
+}
+
 /** Empties what shows the state: the pose of the request stays, if there is one. */
 function showNone() {
   const { view, about } = page;
   put($("state"), about || shown.refused ? `There are no results: ${page.reason}.` : "");
-  const pose = about && !shown.refused ? (content.hold === "pose" ? { position: content.pose.slice(0, 3), quaternion: quaternionOf(content.pose.slice(3)) } : content.hold === "file" ? poseOfFile() : null) : null;
+  const pose = requestedPose();
   view.setBroken(pose);
-  showPose(content.hold === "pose" ? content.pose : pose && [...pose.position, ...about.check.pose.roll_pitch_yaw_deg]);
+  showPose(content.hold === "pose" ? content.pose : pose && [...pose.position, ...anglesOf(pose.quaternion)]);
   view.canvas.setAttribute("aria-label", pose ? `Robot at a pose without results: ${page.reason}. Arrow keys move the platform.` : `View without a robot at rest: ${page.reason}`);
   if (about) {
     showHold();
