@@ -23,7 +23,7 @@ mod stored;
 
 pub use columns::{Chunk, Column, ColumnKind, Values};
 pub use error::{MAX_POINTS, SweepError};
-pub use frequency::{PointModes, lowest_modes};
+pub use frequency::{PointModes, lowest_modes, no_platform_mode};
 pub use options::Options;
 pub use plan::Plan;
 pub use points::{AXES, Point, Points, Poses};

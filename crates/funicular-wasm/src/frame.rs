@@ -3,6 +3,8 @@
 //! A [`Session`] keeps a robot. [`Session::frame`] solves its statics and vibration at a state and writes pose,
 //! tensions, curves of the cables and lowest natural frequencies into one list of numbers. The analyses and their
 //! defaults are those of the commands `statics` and `modes`; only the list of modes ends where enough are found.
+//! [`Session::platform`] continues the list up to the first mode of the platform. What is refused leaves nothing behind:
+//! after a refused state there is no frame, so that no mode or response of another state is taken for one of it.
 //!
 //! The list begins with [`HEADER`] numbers. Then come, without gaps, [`CABLE`] numbers per cable, three coordinates per
 //! point of the cables, and [`MODE`] numbers per mode, followed by the energy fractions of the cables. docs/web.md
@@ -13,15 +15,16 @@ use funicular::cable::Sag;
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Vec3, rotation};
-use funicular::modes::{self, Kind, LowestError, Modes};
+use funicular::modes::{self, Kind, LowestError, Mode, Modes};
 use funicular::response;
 use funicular::robot::{self, PlatformMotion, Robot, State, TensionLimits};
 use funicular::statics::{self, CableState, Limit, Stability, TensionRange};
 use funicular_study::analyses::{check, frf};
 use funicular_study::at_rest::{self, AtRest};
 use funicular_study::request::{self, FrfRequest, MAX_HZ, Pose, StiffnessRequest};
+use funicular_study::sweep::no_platform_mode;
 use funicular_study::wording::Words;
-use funicular_study::{Request, Silent};
+use funicular_study::{NoSolution, Request, Silent};
 use serde_json::{Value, json};
 
 /// Number of numbers before the cables.
@@ -43,6 +46,9 @@ pub const MAX_POINTS: usize = 1000;
 /// frame frequencies change by some per cent: at 1.0 every second list has too few modes and is computed twice, and at
 /// 1.5 it has half as many modes too many.
 const LIMIT_FACTOR: f64 = 1.08;
+
+/// Message for what needs a frame.
+const NO_FRAME: &str = "there is no frame, or the last one was refused: compute one first";
 
 /// State at which a frame is computed.
 #[derive(Debug, Clone, PartialEq)]
@@ -113,7 +119,10 @@ impl FrameSize {
 pub struct Session {
     request: StiffnessRequest,
     robot: Robot,
+    /// None before the first frame and after a refused one.
     last: Option<Frame>,
+    /// Natural frequencies of the last list [Hz], also after a refused frame: they only say where the next list may end.
+    known_hz: Vec<f64>,
 }
 
 /// Last frame, for the shapes of its modes and for responses.
@@ -142,15 +151,17 @@ impl Session {
         };
         let file = request.robot.read()?;
         let robot = at_rest::with_limits(&at_rest::with_state(file.robot.clone(), &request.state)?, &request.tensions)?;
-        let text = description(&robot, &file.text).to_string();
-        Ok((Self { request, robot: file.robot, last: None }, Answer { numbers: Vec::new(), text }))
+        let answer = Answer { numbers: Vec::new(), text: description(&robot, &file.text).to_string() };
+        Ok((Self { request, robot: file.robot, last: None, known_hz: Vec::new() }, answer))
     }
 
-    /// Solves the robot at a state.
+    /// Solves the robot at a state, whose error is passed on.
     ///
     /// # Errors
-    /// A state that the robot cannot have, or a robot without such an equilibrium. The last frame is kept.
-    pub fn frame(&mut self, state: FrameState, size: FrameSize) -> Result<Answer> {
+    /// A state that the robot cannot have, or a robot without such an equilibrium. There is no frame then.
+    pub fn frame(&mut self, state: Result<FrameState>, size: FrameSize) -> Result<Answer> {
+        self.last = None;
+        let state = state?;
         size.check()?;
         let at_rest = self.at_rest(state)?;
 
@@ -170,7 +181,32 @@ impl Session {
             "static_model": at_rest.equilibrium.model.name(),
             "cable_model": linearisation.cable_model.name(),
         });
+        if let Some((_, modes)) = &vibration {
+            self.known_hz = modes.modes.iter().map(|mode| mode.frequency_hz).collect();
+        }
         self.last = Some(Frame { at_rest, vibration });
+        Ok(Answer { numbers, text: text.to_string() })
+    }
+
+    /// Continues the list of modes of the last frame up to the first mode of the platform, however many modes of the
+    /// cables lie below it: the numbers of all these modes, as in a frame. They are the list of the frame then.
+    ///
+    /// # Errors
+    /// No frame, or no such mode within the limits of the search.
+    pub fn platform(&mut self) -> Result<Answer> {
+        let Some(Frame { at_rest, vibration }) = &mut self.last else { bail!(NO_FRAME) };
+        let share = modes::PLATFORM_SHARE;
+        let first = |found: &Option<(Dynamics, Modes)>| found.as_ref().and_then(|(_, list)| list.first_platform(share));
+        if first(vibration).is_none() {
+            let AtRest { robot, equilibrium, .. } = &*at_rest;
+            let linearisation = at_rest::linearisation(&self.request.model, equilibrium.model);
+            let found = modes::lowest_with_platform(robot, equilibrium, linearisation, share, MAX_HZ);
+            *vibration = Some(found.map_err(|error| NoSolution(no_platform_mode(&error, share)))?);
+        }
+
+        let (Some(index), Some((_, list))) = (first(vibration), &*vibration) else { bail!("the search has no mode") };
+        let numbers = list.modes[..=index].iter().flat_map(mode_numbers).collect();
+        let text = json!({ "index": index, "below_hz": list.below_hz, "certified": list.certified });
         Ok(Answer { numbers, text: text.to_string() })
     }
 
@@ -205,10 +241,8 @@ impl Session {
     /// frame, because a robot that moves a little has nearly the same frequencies.
     fn modes(&self, at_rest: &AtRest, linearisation: Linearisation, count: usize) -> Result<(Dynamics, Modes)> {
         let AtRest { robot, equilibrium, .. } = at_rest;
-        let last = self.last.as_ref().and_then(|last| last.vibration.as_ref());
-        let highest = last.and_then(|(_, modes)| modes.modes.get(count - 1)).map(|mode| mode.frequency_hz);
 
-        if let Some(limit) = highest.map(|hz| (LIMIT_FACTOR * hz).min(MAX_HZ)) {
+        if let Some(limit) = self.known_hz.get(count - 1).map(|hz| (LIMIT_FACTOR * hz).min(MAX_HZ)) {
             let dynamics = Dynamics::about(robot, equilibrium, linearisation, limit)?;
             let counted = dynamics.modes_below(limit * std::f64::consts::TAU);
             if (count..=2 * count).contains(&counted) {
@@ -235,7 +269,8 @@ impl Session {
     /// No such mode, or a cable model without motion along the cables.
     pub fn mode(&self, index: usize, points: usize) -> Result<Answer> {
         FrameSize { modes: 0, points }.check()?;
-        let Some(Frame { at_rest, vibration: Some((dynamics, found)) }) = &self.last else {
+        let Some(Frame { at_rest, vibration }) = &self.last else { bail!(NO_FRAME) };
+        let Some((dynamics, found)) = vibration else {
             bail!("the last frame has no modes: compute a frame with modes first")
         };
         let Some(mode) = found.modes.get(index) else {
@@ -260,7 +295,7 @@ impl Session {
     /// # Errors
     /// A request that contradicts itself or the robot, or an undamped resonance at one of the frequencies.
     pub fn response(&self, request: &FrfRequest) -> Result<Answer> {
-        let Some(Frame { at_rest, .. }) = &self.last else { bail!("there is no frame: compute one first") };
+        let Some(Frame { at_rest, .. }) = &self.last else { bail!(NO_FRAME) };
         let adaptive = request.adaptive;
         let frequencies = if adaptive { request.range.starts()? } else { request.range.frequencies()? };
         let (inputs, outputs) = (request.input.names(), request.output.names());
@@ -363,18 +398,22 @@ fn numbers(at_rest: &AtRest, modes: Option<&Modes>, size: FrameSize) -> Vec<f64>
     }
 
     // Modes.
-    for mode in modes.iter().flat_map(|modes| &modes.modes).take(shown) {
-        let kind = match mode.kind {
-            Kind::Platform => 0.0,
-            Kind::Cable => 1.0,
-            Kind::Drive => 2.0,
-            Kind::Mixed => 3.0,
-        };
-        numbers.extend([mode.frequency_hz, mode.multiplicity as f64, mode.damping_ratio, kind]);
-        // `+ 0.0` makes a negative zero positive.
-        numbers.extend([mode.platform_energy_fraction, mode.modal_mass].into_iter().chain(mode.shape.map(|x| x + 0.0)));
-        numbers.extend(&mode.cable_energy_fractions);
-    }
+    numbers.extend(modes.iter().flat_map(|modes| &modes.modes).take(shown).flat_map(mode_numbers));
+    numbers
+}
+
+/// Numbers of one mode.
+fn mode_numbers(mode: &Mode) -> Vec<f64> {
+    let kind = match mode.kind {
+        Kind::Platform => 0.0,
+        Kind::Cable => 1.0,
+        Kind::Drive => 2.0,
+        Kind::Mixed => 3.0,
+    };
+    let mut numbers = vec![mode.frequency_hz, mode.multiplicity as f64, mode.damping_ratio, kind];
+    // `+ 0.0` makes a negative zero positive.
+    numbers.extend([mode.platform_energy_fraction, mode.modal_mass].into_iter().chain(mode.shape.map(|x| x + 0.0)));
+    numbers.extend(&mode.cable_energy_fractions);
     numbers
 }
 

@@ -45,7 +45,7 @@ thread_local! {
     /// Numbers of a state before a call of [`funicular_frame`], and of an answer after it.
     static NUMBERS: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
 
-    /// Robot of the frames.
+    /// Robot of the frames; none after a refused one.
     static SESSION: RefCell<Option<Session>> = const { RefCell::new(None) };
 }
 
@@ -74,6 +74,7 @@ pub extern "C" fn funicular_input(length: usize) -> *mut u8 {
 pub extern "C" fn funicular_answer() -> u32 {
     let (status, text) = answer(TEXT.take());
     TEXT.set(text);
+    NUMBERS.set(Vec::new());
     status
 }
 
@@ -116,12 +117,13 @@ pub extern "C" fn funicular_numbers_length() -> usize {
 }
 
 /// Reads the robot of the frames from the written text: a request with the keys of `stiffness`. The answer's text
-/// describes the robot. If the robot file is refused, the previous robot is kept, and the text is JSON with the
+/// describes the robot. If it is refused, there is no robot until the next one is read, and the text is JSON with the
 /// `message` and the places of the `issues`.
 #[expect(unsafe_code, reason = "a name for other languages")]
 #[unsafe(no_mangle)]
 pub extern "C" fn funicular_robot() -> u32 {
     let request = TEXT.take();
+    SESSION.set(None);
     keep(text_of(request).and_then(|text| Session::new(frame::request_of(&text)?)).map(|(session, answer)| {
         SESSION.set(Some(session));
         answer
@@ -130,12 +132,20 @@ pub extern "C" fn funicular_robot() -> u32 {
 
 /// Computes a frame at a state, whose numbers were written: `kind` 0 is the state of the robot, 1 a pose, 2 unstrained
 /// lengths, 3 a pose at which the search begins, then unstrained lengths. The frame has `modes` natural frequencies and
-/// `points` points per cable.
+/// `points` points per cable. If it is refused, there is no frame until the next one is computed.
 #[expect(unsafe_code, reason = "a name for other languages")]
 #[unsafe(no_mangle)]
 pub extern "C" fn funicular_frame(kind: u32, modes: usize, points: usize) -> u32 {
     let numbers = NUMBERS.take();
-    with_session(|session| session.frame(FrameState::of_numbers(kind, &numbers)?, FrameSize { modes, points }))
+    with_session(|session| session.frame(FrameState::of_numbers(kind, &numbers), FrameSize { modes, points }))
+}
+
+/// Continues the list of modes of the last frame up to the first mode of the platform. The numbers are those of all
+/// these modes, as at the end of a frame; the text has the `index` of the last one.
+#[expect(unsafe_code, reason = "a name for other languages")]
+#[unsafe(no_mangle)]
+pub extern "C" fn funicular_platform() -> u32 {
+    with_session(Session::platform)
 }
 
 /// Computes the displacements of `points` points per cable in mode `index` of the last frame.
@@ -163,7 +173,7 @@ fn with_session(work: impl FnOnce(&mut Session) -> Result<Answer>) -> u32 {
     let mut session = SESSION.take();
     let answer = match &mut session {
         Some(session) => work(session),
-        None => Err(anyhow::anyhow!("there is no robot: call funicular_robot first")),
+        None => Err(anyhow::anyhow!("there is no robot, or the last one was refused: give one with `robot` first")),
     };
     SESSION.set(session);
     keep(answer)
@@ -384,7 +394,7 @@ mod tests {
                 let (alone, _) = Session::new(Request::from_value(request).unwrap()).unwrap();
                 let mut alone = alone;
                 let kept = session.take();
-                let state = FrameState::of_numbers(1, pose).unwrap();
+                let state = FrameState::of_numbers(1, pose);
                 let numbers = alone.frame(state, FrameSize { modes: 20, points: 9 }).unwrap().numbers;
                 // The limit of the list differs, and with it the number of clamped modes that a cable keeps: 1e-9 is
                 // the accuracy of that reduction in the list of modes.
@@ -424,7 +434,7 @@ mod tests {
     }
 
     #[test]
-    fn held_lengths_lead_back_to_the_pose_and_a_bad_state_keeps_the_frame() {
+    fn held_lengths_lead_back_to_the_pose_and_a_bad_state_leaves_no_frame() {
         robot(&json!({}));
         let (_, numbers, _) = at(&[1.0, 2.0, 1.5], 0, 0);
         let lengths: Vec<f64> = (0..8).map(|i| numbers[frame::HEADER + i * frame::CABLE]).collect();
@@ -439,18 +449,82 @@ mod tests {
             assert!((back[k] - numbers[k]).abs() < 1e-9);
         }
 
-        for (status, message, found) in [
-            (BAD_INPUT, "7 unstrained lengths", by_lengths(&[&numbers[3..10], &lengths[1..]].concat())),
-            (BAD_INPUT, "give finite numbers", at(&[1.0, f64::NAN, 1.5], 0, 0)),
-            (BAD_INPUT, "kind 1 of a state does not go with 4 numbers", at(&[1.0, 0.0, 1.5, 0.0], 0, 0)),
-            (BAD_INPUT, "501 modes", at(&[1.0, 2.0, 1.5], 501, 0)),
-            (NO_SOLUTION, "no tensions hold this pose", at(&[50.0, 0.0, 1.0], 0, 0)),
-        ] {
+        let refused: [(u32, &str, &dyn Fn() -> (u32, Vec<f64>, String)); 5] = [
+            (BAD_INPUT, "7 unstrained lengths", &|| by_lengths(&[&numbers[3..10], &lengths[1..]].concat())),
+            (BAD_INPUT, "give finite numbers", &|| at(&[1.0, f64::NAN, 1.5], 0, 0)),
+            (BAD_INPUT, "kind 1 of a state does not go with 4 numbers", &|| at(&[1.0, 0.0, 1.5, 0.0], 0, 0)),
+            (BAD_INPUT, "501 modes", &|| at(&[1.0, 2.0, 1.5], 501, 0)),
+            (NO_SOLUTION, "no tensions hold this pose", &|| at(&[50.0, 0.0, 1.0], 0, 0)),
+        ];
+        for (status, message, call) in refused {
+            assert_eq!(at(&[1.0, 2.0, 1.5], 3, 0).0, RESULTS);
+            let found = call();
             assert!(found.0 == status && found.2.contains(message) && found.1.is_empty(), "{} {}", found.0, found.2);
+            nothing_answers("there is no frame, or the last one was refused");
         }
-        assert_eq!(called("", || funicular_mode(0, 9)).0, BAD_INPUT);
+        assert_eq!(at(&[1.0, 2.0, 1.5], 0, 0).0, RESULTS);
+        assert!(called("", || funicular_mode(0, 9)).2.contains("the last frame has no modes"));
         assert_eq!(at(&[1.0, 2.0, 1.5], 3, 0).0, RESULTS);
         assert!(called("", || funicular_mode(99, 9)).2.contains("there is no mode 99: the last frame has"));
+    }
+
+    /// Asserts that what follows from a frame is refused with a message, and leaves no numbers.
+    fn nothing_answers(message: &str) {
+        let range = json!({
+            "command": "frf", "robot": { "text": "" }, "from_hz": 1.0, "to_hz": 30.0, "points": 4, "input": "fz",
+            "output": "az",
+        });
+        for (status, numbers, text) in [
+            called("", || funicular_mode(0, 9)),
+            called("", || funicular_platform()),
+            called(&range.to_string(), || funicular_response()),
+        ] {
+            assert!(status == BAD_INPUT && numbers.is_empty() && text.contains(message), "{status} {text}");
+        }
+    }
+
+    #[test]
+    fn after_a_refused_robot_nothing_answers_for_the_one_before() {
+        let half = &ROBOT[..ROBOT.len() / 2];
+        for bad in [json!({ "robot": { "text": half } }), json!({ "poze": 1 }), json!({ "command": "statics" })] {
+            assert_eq!((robot(&json!({})).0, at(&[1.0, 2.0, 1.5], 3, 0).0), (RESULTS, RESULTS));
+            assert_eq!(robot(&bad).0, BAD_INPUT);
+            let (status, numbers, text) = at(&[1.0, 2.0, 1.5], 3, 0);
+            assert!(status == BAD_INPUT && numbers.is_empty() && text.contains("there is no robot"), "{status} {text}");
+            nothing_answers("there is no robot");
+        }
+        // An answer in JSON has no numbers; those of the frame before are not left.
+        robot(&json!({}));
+        NUMBERS.set(vec![1.0]);
+        assert_eq!(called("{}", || funicular_answer()).1.len(), 0);
+    }
+
+    #[test]
+    fn the_first_mode_of_the_platform_is_found_above_the_listed_ones() {
+        // In a hall with long cables 26 modes of the cables come first.
+        let common = json!({ "robot": { "text": include_str!("../tests/hall.toml") } });
+        let about: Value = serde_json::from_str(&robot(&common).2).unwrap();
+        let cables = about["check"]["cables"].as_array().unwrap().len();
+        let call = || called("", || funicular_platform());
+        NUMBERS.set(Vec::new());
+        let (_, frame, _) = called("", || funicular_frame(0, 20, 0));
+        let listed = &frame[frame::HEADER + cables * frame::CABLE..];
+        let share = |numbers: &[f64], i: usize| numbers[i * (frame::MODE + cables) + 4];
+        assert!((0..20).all(|i| share(listed, i) < funicular::modes::PLATFORM_SHARE));
+
+        let (status, numbers, text) = call();
+        let told: Value = serde_json::from_str(&text).unwrap();
+        assert_eq!((status, &told["index"], &told["certified"]), (RESULTS, &json!(26), &json!(true)), "{text}");
+        assert_eq!(numbers.len(), 27 * (frame::MODE + cables));
+        // The program's `modes` says 7.0849 Hz.
+        let hz = numbers[26 * (frame::MODE + cables)];
+        assert!((hz - 7.0849).abs() < 5e-5 && share(&numbers, 26) >= funicular::modes::PLATFORM_SHARE, "{hz}");
+        for (a, b) in numbers.chunks(frame::MODE + cables).zip(listed.chunks(frame::MODE + cables)) {
+            assert!((a[0] / b[0] - 1.0).abs() < 1e-9, "{} {}", a[0], b[0]);
+        }
+        // It moves like the listed ones, and a second call has it at once.
+        assert_eq!(called("", || funicular_mode(26, 9)).0, RESULTS);
+        assert_eq!(call().1, numbers);
     }
 
     #[test]

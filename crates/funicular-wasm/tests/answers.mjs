@@ -183,6 +183,38 @@ test("errors are those of the program, with the same status", () => {
   assert.throws(() => funicular.answer({ command: "validate" }), { status: 2, message: /this build leaves out/ });
 });
 
+test("what is refused leaves nothing of the state or robot before", async () => {
+  const own = await load(bytes);
+  const followers = [() => own.mode(0, 9), () => own.platform(), () => own.response({ input: "fz", output: "az", ...range })];
+  const refused = (work, status, message) => assert.throws(work, (error) => error instanceof RequestError && error.status === status && message.test(error.message));
+  const ready = () => {
+    own.robot({ robot: { text: robots.cogiro } });
+    assert.equal(own.frame(1, at.pose, 5, 9).numbers[2], 5);
+    followers.forEach((work) => work());
+  };
+  for (const [state, status] of [[[99, 2, 1.5], 1], [[1, NaN, 1.5], 2], [[1, 2], 2]]) {
+    ready();
+    refused(() => own.frame(1, state, 5, 9), status, /./);
+    followers.forEach((work) => refused(work, 2, /^there is no frame, or the last one was refused/));
+  }
+  for (const text of [robots.cogiro.slice(0, 700), ""]) {
+    ready();
+    refused(() => own.robot({ robot: { text } }), 2, /./);
+    [() => own.frame(1, at.pose, 5, 9), ...followers].forEach((work) => refused(work, 2, /^there is no robot, or the last one was refused/));
+  }
+});
+
+test("the search for the first mode of the platform gives the program's", () => {
+  const text = readFileSync(new URL("hall.toml", import.meta.url), "utf8");
+  const { check } = funicular.robot({ robot: { text } });
+  funicular.frame(0, [], 20, 0);
+  const { numbers, about } = funicular.platform();
+  const { modes, first_platform_mode: first } = JSON.parse(native({ command: "modes", robot: { text }, below_hz: about.below_hz, damped: false }).stdout);
+  const each = numbers.length / (about.index + 1);
+  assert.deepEqual([about.index, each, first.index], [26, 12 + check.cables.length, 26]);
+  modes.slice(0, 27).forEach((mode, i) => compare(numbers[i * each], mode.frequency_hz, `frequency ${i + 1}`));
+});
+
 test("the module needs nothing from outside", () => {
   assert.deepEqual(WebAssembly.Module.imports(new WebAssembly.Module(bytes)), []);
 });

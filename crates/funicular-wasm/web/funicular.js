@@ -66,7 +66,8 @@ export class Funicular {
   /**
    * Reads the robot of the frames and returns its description.
    * @param {object} request keys of `stiffness`: robot, state, loads, tensions, linearisation
-   * @throws RequestError with `issues`, the places of errors in the robot file
+   * @throws RequestError with `issues`, the places of errors in the robot file; there is no robot then, and `frame`,
+   *   `platform`, `mode` and `response` are refused until one is read
    */
   robot(request) {
     return this.#numbers(JSON.stringify({ ...request, command: "stiffness" }), [], (of) => of.funicular_robot()).about;
@@ -80,9 +81,19 @@ export class Funicular {
    * @param {number} modes number of frequencies
    * @param {number} points number of points per cable
    * @returns {{numbers: Float64Array, about: object}} layout: docs/web.md
+   * @throws RequestError; there is no frame then, and `platform`, `mode` and `response` are refused until there is one
    */
   frame(kind, state, modes, points) {
     return this.#numbers("", state, (of) => of.funicular_frame(kind, modes, points));
+  }
+
+  /**
+   * Continues the list of modes of the last frame up to the first mode of the platform, with most of its kinetic energy
+   * there. `numbers`: those of all these modes, as at the end of a frame; `about.index`: place of the last one, from 0.
+   * @throws RequestError with `status` 1 if there is no such mode
+   */
+  platform() {
+    return this.#numbers("", [], (of) => of.funicular_platform());
   }
 
   /** Displacements (x, y, z) of points on all cables in a mode of the last frame. */

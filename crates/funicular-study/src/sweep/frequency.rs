@@ -83,7 +83,7 @@ pub(super) fn first_platform(
 }
 
 /// Reason for which no mode of the platform was found. Nobody has chosen the limit that a search reaches by itself.
-fn no_platform_mode(error: &PlatformModeError, share: f64) -> String {
+pub fn no_platform_mode(error: &PlatformModeError, share: f64) -> String {
     let PlatformModeError::TooMany(TooMany { count, below_hz, max }) = error else { return error.to_string() };
     format!(
         "no mode of the platform was found: of the natural frequencies below {} Hz, none has at least {} % of its \

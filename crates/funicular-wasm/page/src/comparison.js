@@ -16,6 +16,7 @@ async function compare() {
     return;
   }
   if (!page.frame) {
+    $("compare").replaceChildren(element("p", { class: "soft" }, `There is nothing to compare: ${page.reason}.`));
     return;
   }
   comparing = true;
@@ -50,6 +51,12 @@ function show(found) {
 }
 
 export function listen() {
-  on("forget", () => { job.cancel(); $("compare").replaceChildren(); });
+  on("empty", () => { job.cancel(); $("compare").replaceChildren(); });
+  on("outdated", () => {
+    job.cancel();
+    if ($("compare").childElementCount > 0) {
+      $("compare").replaceChildren(element("p", { class: "soft" }, "The state has changed: compare again."));
+    }
+  });
   $("compare-run").addEventListener("click", compare);
 }

@@ -2,7 +2,7 @@
 // changed for a while, the long computations follow in a worker of their own.
 
 import { Cancelled, Engine, Job } from "./engine.js";
-import { frameOf } from "./frame.js";
+import { frameOf, modesOf } from "./frame.js";
 import { busy, tell } from "./messages.js";
 import { content, emit, on, page, shown } from "./store.js";
 
@@ -11,30 +11,58 @@ export const RESPONSE_POINTS = 1000;
 const SLOW_MS = 30; // a response that takes longer waits until the platform rests
 const REST_MS = 250; // without a change: the long computations begin
 const MAX_TIMES = 1000;
+const MAX_FRAME_MODES = 500; // of a frame: the limit of the core
+const MAX_FOLLOWED = 60; // so many modes are listed while the platform is dragged, if its own first one is among them
 
 const details = new Job();
+const search = new Job();
 const dirty = { robot: false, frame: false, mode: false, response: false };
 let stopped = false; // a person has cancelled a frame
 let running = null; // the computation that is at work
 
-/** True if every change so far has its frame. */
-export const isIdle = () => running === null && page.frame !== null && page.pending === 0;
+/** True if every change so far has its frame, or the reason why it has none. */
+export const isIdle = () => running === null && (page.frame !== null || shown.broken || shown.refused) && page.pending === 0;
 
 /** Notes what has changed and computes it; resolves when everything so far is shown. */
 export function change(what) {
   Object.assign(dirty, what);
-  if (stopped) {
+  if (stopped || shown.refused) {
     stopped = false;
-    dirty.robot = true;
+    dirty.robot = true; // the worker has none
   }
-  if (what.robot || what.frame) {
-    details.cancel();
+  if (dirty.robot || what.frame) {
+    cancelLong();
     page.settled = { statics: null, payload: null };
     emit("outdated");
     dirty.frame = true;
   }
   running ??= compute().finally(() => { running = null; });
   return running;
+}
+
+function cancelLong() {
+  details.cancel();
+  search.cancel();
+}
+
+/**
+ * Empties what depended on the state: it has no results. No figure of another state is left on the page.
+ * @param {string} reason why there are none
+ */
+export function empty(reason) {
+  cancelLong();
+  Object.assign(page, { frame: null, answered: null, settled: { statics: null, payload: null }, reason });
+  emit("empty");
+}
+
+/** Forgets the robot, because another one comes; `display`: what is shown of that. */
+export function forget(display = {}) {
+  page.robots += 1;
+  Object.assign(shown, { mode: -1, newRobot: true, response: null, refused: false, broken: false, ...display });
+  Object.assign(page, { about: null, last: null, before: null, parameters: [] });
+  tell(null);
+  emit("forget");
+  empty("the robot is being read");
 }
 
 /** Computes until nothing has changed; of several changes of one kind the last one counts. */
@@ -88,8 +116,13 @@ export const mayChoose = () =>
   (page.about ? page.about.check.cables.length > page.about.degrees_of_freedom : true);
 
 async function readRobot() {
+  const { robots } = page;
+  const done = busy("Reading the robot file", stop);
   try {
     const found = await page.engine.call("robot", { request: requestOf() });
+    if (robots !== page.robots) {
+      return; // another one was chosen meanwhile
+    }
     const isNew = page.about === null || shown.newRobot;
     page.about = found.about;
     tell(null);
@@ -99,10 +132,17 @@ async function readRobot() {
   } catch (error) {
     // A refused robot has no frame, but one that was chosen in the meantime has.
     dirty.frame = dirty.robot;
-    if (!(error instanceof Cancelled)) {
+    if (robots === page.robots && (stopped || !(error instanceof Cancelled))) {
       shown.refused = true;
-      emit("robot-refused", error);
+      empty(stopped ? "the reading of the robot file was cancelled" : content.robot.set.length ? "a value of the robot is refused" : "the robot file has an error");
+      if (stopped) {
+        tell("Cancelled: the robot file was not read.", true);
+      } else {
+        emit("robot-refused", error);
+      }
     }
+  } finally {
+    done();
   }
 }
 
@@ -116,19 +156,34 @@ function stateOf() {
   return { kind: 0, state: [] };
 }
 
-/** Ends a frame that takes too long. The next change begins with a new worker, which reads the robot again. */
-function cancelFrame() {
+/** Ends what the worker of frames does for too long. The next change begins with a new worker, which reads the robot again. */
+export function stop() {
   page.engine.end();
   page.engine = new Engine();
   stopped = true;
 }
 
+/** Number of modes of the next frame: those of the table, the one in motion, and the first of the platform if it is near. */
+function wantedModes() {
+  const first = page.last?.first?.index ?? -1;
+  return Math.min(MAX_FRAME_MODES, Math.max(shown.modes, shown.mode + 1, first < MAX_FOLLOWED ? first + 2 : 0));
+}
+
 async function computeFrame() {
   const begin = performance.now();
-  const done = busy("Computing the equilibrium and its natural frequencies", cancelFrame);
+  const { robots } = page;
+  const done = busy("Computing the equilibrium and its natural frequencies", stop);
   try {
-    const found = await page.engine.call("frame", { ...stateOf(), modes: shown.modes, points: POINTS });
-    page.frame = { ...frameOf(found.numbers), about: found.about };
+    const found = await page.engine.call("frame", { ...stateOf(), modes: wantedModes(), points: POINTS });
+    if (robots !== page.robots) {
+      return; // another robot was chosen meanwhile
+    }
+    const frame = { ...frameOf(found.numbers), about: found.about };
+    const index = frame.modes.findIndex(isOfPlatform);
+    // `first`: the first mode of the platform, as its index or as the reason why there is none; null until it is searched.
+    const first = index >= 0 ? { index } : frame.modes.length === 0 ? { reason: found.about.no_modes ?? "there are no natural frequencies" } : null;
+    Object.assign(frame, { first, listed: Math.min(shown.modes, frame.modes.length), inWorker: frame.modes.length });
+    Object.assign(page, { frame, last: frame, reason: "" });
     tell(null);
     shown.broken = false;
     emit("frame");
@@ -137,23 +192,95 @@ async function computeFrame() {
     dirty.response = true;
     dirty.mode = shown.mode >= 0;
   } catch (error) {
-    if (!(error instanceof Cancelled)) {
+    if (robots === page.robots && (stopped || !(error instanceof Cancelled))) {
       shown.broken = true;
-      emit("frame-refused", error);
-    } else if (stopped) {
-      tell("Cancelled: the results are those of the last state.", true);
+      empty(stopped ? "the computation was cancelled" : error.status === 1 ? "there is no equilibrium at this state" : "this state is refused");
+      emit("frame-refused", stopped ? new Error("Cancelled: there are no results for this state. The next change computes again.") : error);
     }
   } finally {
     done();
   }
 }
 
+/** True for a mode with most of its kinetic energy in the platform. */
+const isOfPlatform = (mode) => mode.platformShare >= page.about.platform_share;
+
+let searched = { frame: null, done: null };
+
+/**
+ * Searches the first mode of the platform above the list of a frame, in a worker of its own; resolves when `first` of the
+ * frame says where it is, or why there is none, or when the state has changed.
+ */
+export function findFirst(frame) {
+  if (frame.first) {
+    return Promise.resolve();
+  }
+  if (searched.frame !== frame) {
+    searched = { frame, done: searchFirst(frame) };
+  }
+  return searched.done;
+}
+
+async function searchFirst(frame) {
+  const cancelled = () => {
+    search.cancel();
+    told({ reason: "the search was cancelled" });
+  };
+  const told = (first) => {
+    if (page.frame === frame) {
+      frame.first = first;
+      emit("platform");
+    }
+  };
+  const done = busy("Searching the first resonance of the platform", cancelled);
+  const [request, state] = [requestOf(), stateOf()];
+  try {
+    const { numbers, about } = await search.run(1, async ([worker]) => {
+      await worker.call("robot", { request });
+      await worker.call("frame", { ...state, modes: 0, points: 0 });
+      return worker.call("platform");
+    });
+    frame.modes = [...frame.modes, ...modesOf(numbers, frame.cables.length).slice(frame.modes.length)];
+    told({ index: about.index });
+    if (page.frame === frame && shown.mode >= frame.inWorker) {
+      change({ mode: true });
+    }
+  } catch (error) {
+    if (!(error instanceof Cancelled)) {
+      told({ reason: error.message });
+    }
+  } finally {
+    done();
+  }
+}
+
+/** Makes the worker of frames list as many modes of the present frame. */
+export async function listModes(count) {
+  const { frame } = page;
+  if (count > MAX_FRAME_MODES) {
+    throw new Error(`the motion of the cables is known for the ${MAX_FRAME_MODES} lowest modes only: the view shows that of the platform`);
+  }
+  if (count > frame.inWorker) {
+    const { numbers } = await page.engine.call("frame", { ...stateOf(), modes: count, points: 0 });
+    const more = frameOf(numbers).modes;
+    frame.inWorker = more.length;
+    frame.modes = [...frame.modes, ...more.slice(frame.modes.length)];
+  }
+}
+
 /** Displacements of the cables in a mode of the present frame. */
-export const modeOf = async (index) => (await page.engine.call("mode", { index, points: POINTS })).numbers;
+export async function modeOf(index) {
+  await listModes(index + 1);
+  return (await page.engine.call("mode", { index, points: POINTS })).numbers;
+}
 
 async function computeMode() {
   const { frame, view } = page;
-  if (shown.mode < 0 || !frame || shown.mode >= frame.modes.length) {
+  if (!frame) {
+    return;
+  }
+  if (shown.mode < 0 || shown.mode >= frame.modes.length) {
+    view.setMode(null); // a mode of an earlier state, which may come again with the next search
     return;
   }
   const { shape, hz } = frame.modes[shown.mode];
@@ -164,19 +291,23 @@ async function computeMode() {
     }
     return null;
   });
-  if (shown.mode >= 0) {
+  if (shown.mode >= 0 && page.frame === frame) {
     view.setMode({ cables, shape, hz });
   }
 }
 
 async function computeResponse() {
+  const { frame } = page;
   const { input, output, from, to, log } = shown.response ?? {};
-  if (!page.frame || !input || shown.broken) {
+  if (!frame || !input) {
     return;
   }
   const request = { input, output, from_hz: from, to_hz: to, points: RESPONSE_POINTS, log };
   try {
     const found = await page.engine.call("response", { request });
+    if (page.frame !== frame) {
+      return;
+    }
     const { frequencies, peaks } = found.about;
     const [curve, rest] = [found.numbers.subarray(0, 3 * frequencies), found.numbers.subarray(3 * frequencies)];
     page.answered = {
@@ -190,7 +321,7 @@ async function computeResponse() {
     emit("response");
   } catch (error) {
     page.answered = null;
-    if (!(error instanceof Cancelled)) {
+    if (!(error instanceof Cancelled) && page.frame === frame) {
       emit("response-refused", error);
     }
   }
@@ -203,10 +334,11 @@ export function rest() {
   clearTimeout(waitingForRest);
   waitingForRest = setTimeout(async () => {
     const { frame, view } = page;
-    if (!frame || shown.broken || shown.refused || view.dragging) {
+    if (!frame || view.dragging) {
       return;
     }
     emit("rest");
+    const first = findFirst(frame);
     const state = statics();
     const run = (command, more = {}) => (found) => found.call("answer", { request: { command, ...state, ...more } });
     const done = busy("Computing the payload and every peak of the response", () => {
@@ -242,11 +374,12 @@ export function rest() {
       });
     } catch (error) {
       if (!(error instanceof Cancelled)) {
-        page.settled = { statics: null, payload: null, reason: error.message };
+        page.settled = { statics: null, payload: { reason: error.message }, reason: error.message };
         emit("settled");
       }
     }
     done();
+    await first;
     emit("rested");
   }, REST_MS);
 }

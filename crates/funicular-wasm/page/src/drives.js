@@ -89,6 +89,11 @@ export class Drives {
     return own;
   }
 
+  /** Hides the wheels, whose swivel angles follow from the equilibrium. */
+  setUnknown() {
+    this.cables.filter(({ wheel }) => wheel).forEach(({ wheel, arc }) => { wheel.visible = arc.visible = false; });
+  }
+
   /** Turns the wheels to the exit points of a frame. */
   setFrame(frame) {
     this.cables.forEach((own, i) => {
@@ -96,6 +101,7 @@ export class Drives {
       if (!own.wheel) {
         return;
       }
+      own.wheel.visible = own.arc.visible = true;
       // Entry point A, direction d of travel and exit point E lie in the plane of the wheel, on its side towards E.
       const { direction, radius } = own;
       const out = new Vector3(...frame.cables[i].anchor).sub(own.place);

@@ -47,20 +47,25 @@ export function frameOf(numbers) {
       cable.points = numbers.subarray(atPoints + 3 * points * i, atPoints + 3 * points * (i + 1));
       return cable;
     }),
-    modes: Array.from({ length: modes }, (_, i) => {
-      const own = numbers.subarray(atModes + i * (MODE + cables), atModes + (i + 1) * (MODE + cables));
-      return {
-        hz: own[0],
-        multiplicity: own[1],
-        damping: own[2],
-        kind: KINDS[own[3]],
-        platformShare: own[4],
-        mass: own[5],
-        shape: Array.from(own.subarray(6, 12)),
-        cableShares: Array.from(own.subarray(MODE)),
-      };
-    }),
+    modes: modesOf(numbers.subarray(atModes, atModes + modes * (MODE + cables)), cables),
   };
+}
+
+/** Modes of their numbers, for a robot with this number of cables. */
+export function modesOf(numbers, cables) {
+  return Array.from({ length: numbers.length / (MODE + cables) }, (_, i) => {
+    const own = numbers.subarray(i * (MODE + cables), (i + 1) * (MODE + cables));
+    return {
+      hz: own[0],
+      multiplicity: own[1],
+      damping: own[2],
+      kind: KINDS[own[3]],
+      platformShare: own[4],
+      mass: own[5],
+      shape: Array.from(own.subarray(6, 12)),
+      cableShares: Array.from(own.subarray(MODE)),
+    };
+  });
 }
 
 /** Rotation matrix, by rows, of a unit quaternion w, x, y, z. */

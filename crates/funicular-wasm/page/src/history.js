@@ -1,6 +1,6 @@
 // Undo and redo: steps of the content of the page.
 
-import { change } from "./computation.js";
+import { change, forget } from "./computation.js";
 import { $ } from "./format.js";
 import { content, emit } from "./store.js";
 
@@ -31,6 +31,9 @@ function step(from, to) {
   to.push(history.present);
   history.present = from.pop();
   Object.assign(content, JSON.parse(history.present));
+  if (old.name !== content.robot.name) {
+    forget();
+  }
   show();
   emit("committed");
   emit("restored", old.text !== content.robot.text);

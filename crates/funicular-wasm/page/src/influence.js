@@ -5,7 +5,7 @@ import { holdsLengths, statics } from "./computation.js";
 import { Cancelled, Job } from "./engine.js";
 import { bars } from "./figures.js";
 import { $, element, short } from "./format.js";
-import { busy } from "./messages.js";
+import { age, busy } from "./messages.js";
 import { chooseMode } from "./modes.js";
 import { pin } from "./sliders.js";
 import { content, on, page, shown } from "./store.js";
@@ -24,7 +24,8 @@ async function compute() {
   const { frame } = page;
   const mode = frame?.modes[shown.mode];
   const place = $("influence");
-  if (!mode || shown.broken) {
+  age("influence", false);
+  if (!mode) {
     found = null;
     show();
     return;
@@ -73,7 +74,9 @@ function show() {
   const place = $("influence");
   place.dataset.mode = found?.index ?? "";
   if (!found) {
-    place.replaceChildren(element("p", { class: "soft" }, "Choose a natural frequency in the table above."));
+    const { frame } = page;
+    const none = frame?.first?.reason ? ` There is no first one of the platform: ${frame.first.reason}` : "";
+    place.replaceChildren(element("p", { class: "soft" }, frame ? `Choose a natural frequency in the table above.${none}` : "–"));
     return;
   }
   const { result, reason } = found.reason ? found : derivatives();
@@ -122,6 +125,23 @@ function followHold() {
   $("influence-hold").value = holdsLengths() ? "lengths" : byRule ? "rule" : "pose";
 }
 
+/** The button for the first mode of the platform is disabled without one, and says why. */
+function showFirst() {
+  const { frame, reason } = page;
+  const first = frame?.first;
+  const button = $("influence-first");
+  button.disabled = first?.index === undefined;
+  button.title = !frame ? reason : first?.reason ?? (first ? "" : "The first mode of the platform is searched when the platform rests.");
+}
+
+function drop() {
+  job.cancel();
+  found = null;
+  age("influence", false);
+  show();
+  showFirst();
+}
+
 /** Listens to the choice of a mode and to the end of changes. */
 export function listen() {
   on("rest", compute);
@@ -133,8 +153,16 @@ export function listen() {
     }
     show();
   });
-  on("outdated", () => job.cancel());
-  on("forget", () => { job.cancel(); found = null; followed = ""; show(); });
+  on("outdated", () => { job.cancel(); age("influence", found !== null); });
+  on("empty", drop);
+  on("forget", () => { followed = ""; });
+  on("frame", showFirst);
+  on("platform", () => {
+    showFirst();
+    if (!found) {
+      compute();
+    }
+  });
   ["influence-hold", "influence-per"].forEach((id) => $(id).addEventListener("change", compute));
   $("influence-form").addEventListener("submit", (event) => event.preventDefault());
   const chosen = (event) => {
@@ -148,8 +176,10 @@ export function listen() {
   };
   ["click", "keydown"].forEach((kind) => $("influence").addEventListener(kind, chosen));
   $("influence-first").addEventListener("click", () => {
-    const first = page.frame?.modes.findIndex((mode) => mode.platformShare >= page.about.platform_share);
-    chooseMode(Math.max(0, first ?? 0));
+    const index = page.frame?.first?.index;
+    if (index !== undefined) {
+      chooseMode(index);
+    }
   });
   show();
 }

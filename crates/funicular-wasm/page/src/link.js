@@ -3,10 +3,9 @@
 import { mayChoose } from "./computation.js";
 import { element, $ } from "./format.js";
 import { tell } from "./messages.js";
-import { showPlay } from "./modes.js";
 import { setRobot, showLibrary } from "./robot.js";
 import { copy } from "./saving.js";
-import { packed, unpacked } from "./share.js";
+import { checked, LinkError, packed, unpacked } from "./share.js";
 import { content, page, shown } from "./store.js";
 
 /** Everything that a link holds. A robot of the library is named, not copied. */
@@ -19,14 +18,15 @@ function linkState() {
 /** Everything for a page around this one: a link, with the text of the robot, and the tension rule only where it counts. */
 export const told = () => JSON.parse(JSON.stringify({ ...linkState(), robot: content.robot, rule: mayChoose() ? content.rule : "" }));
 
-/** Restores the state of a link. */
+/**
+ * Restores the state of a link.
+ * @throws LinkError if it is none; the page is unchanged then
+ */
 export async function restore(state) {
-  if (state?.version !== 1 || typeof state.robot !== "object") {
-    throw new Error("the link has no robot of this page");
-  }
+  checked(state);
   const text = state.robot.text ?? ROBOTS[state.robot.name];
   if (text === undefined) {
-    throw new Error(`the library of this page has no robot “${state.robot.name}”`);
+    throw new LinkError(`The robot “${state.robot.name}” of this link is not in the library of this page: it is of another version.`);
   }
   const { hold, pose, lengths, pinned, response, more, model } = state;
   // Lengths without a pose from which the search starts are solved once as the program solves them.
@@ -41,11 +41,16 @@ export async function restore(state) {
   $("count").value = display.modes;
   $("rule").value = rule;
   await setRobot(state.robot.name, text, { robot: { name: state.robot.name, text, set: state.robot.set ?? [] }, hold: hold ?? "file", pose: pose ?? null, lengths: lengths ?? null, start, rule, pinned: pinned ?? [], more: more ?? {}, model: model ?? {} }, display);
-  showPlay();
+}
+
+/** Link in the address; empty if there is none. The name of a place on the page is none. */
+export function linkOfAddress() {
+  const fragment = location.hash.slice(1);
+  return $(fragment) ? "" : fragment;
 }
 
 /** Restores the state of the address. */
-export const restoreAddress = async () => restore(await unpacked(location.hash.slice(1)));
+export const restoreAddress = async () => restore(await unpacked(linkOfAddress()));
 
 /** Listens to the button and to links that are opened in this page. */
 export function listen() {
@@ -55,11 +60,14 @@ export function listen() {
     await copy(location.href, $("share"));
   });
   addEventListener("hashchange", async () => {
+    if (linkOfAddress() === "") {
+      return;
+    }
     try {
       await restoreAddress();
       showLibrary();
-    } catch {
-      tell("this link cannot be read: it is not complete, or of another version of this page");
+    } catch (error) {
+      tell(`${error.message} The robot on the page is still the one before, ${page.about?.name ?? content.robot.name}.`);
     }
   });
 }

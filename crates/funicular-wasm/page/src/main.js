@@ -26,6 +26,10 @@ const FIRST_ROBOT = "cogiro";
 
 /** Keeps the present state as “before”, or forgets it. */
 function remember() {
+  if (!page.before && !page.frame) {
+    tell(`There is nothing to remember: ${page.reason}.`, true);
+    return;
+  }
   page.before = page.before ? null : { frame: page.frame, response: page.answered, payload: page.settled.payload };
   $("remember").setAttribute("aria-pressed", String(page.before !== null));
   page.view.remember(page.before?.frame ?? null);
@@ -35,7 +39,7 @@ function remember() {
 function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
   page.view?.recolor();
-  if (page.frame && !shown.broken) {
+  if (page.frame) {
     page.view.setFrame(page.frame);
   }
 }
@@ -50,8 +54,7 @@ function makeView() {
   try {
     page.view = new View($("view"), pose.handles);
   } catch (error) {
-    tell(`This browser shows no 3D graphics (WebGL): ${error.message}`);
-    throw error;
+    throw new Error(`this browser shows no 3D graphics (WebGL): ${error.message}`);
   }
 }
 
@@ -59,22 +62,28 @@ function makeWorkspace() {
   const workspace = new Workspace({
     request: () => ({ ...statics(), robot: content.robot }),
     state: () => page,
+    here: pose.presentPose,
     go: (to) => { pose.setPose(to); history.commit(); },
-    rounded: pose.rounded,
+    rounded: pose.roundedLength,
     tell,
     cores: CORES,
   });
   on("outdated", () => workspace.outdated());
   on("frame", () => workspace.moved());
+  on("empty", () => workspace.moved());
   on("forget", () => workspace.forget());
   on("remember", () => workspace.remember(page.before !== null));
 }
 
-/** The robot of the address, of a page that was made with one, or the first of the library. */
+/**
+ * The robot of the address, of a page that was made with one, or the first of the library. After a link that cannot be
+ * read, the robot is named as the one that stands in for it.
+ */
 async function firstRobot() {
-  const given = JSON.parse($("start").textContent);
+  let wrong = null;
   try {
-    if (location.hash.length > 1) {
+    const given = JSON.parse($("start").textContent);
+    if (link.linkOfAddress()) {
       await link.restoreAddress();
     } else if (given) {
       await link.restore(given);
@@ -82,10 +91,13 @@ async function firstRobot() {
       await robot.setRobot(FIRST_ROBOT, ROBOTS[FIRST_ROBOT]);
     }
   } catch (error) {
+    wrong = error;
     await robot.setRobot(FIRST_ROBOT, ROBOTS[FIRST_ROBOT]);
-    setTimeout(() => tell(`This link cannot be read: ${error.message}`), 500);
   }
   robot.showLibrary();
+  if (wrong) {
+    tell(`${wrong.message} This is not its robot, but the first one of the library, ${page.about.name}.`);
+  }
 }
 
 async function start() {
@@ -105,6 +117,7 @@ async function start() {
       performance.mark("frame");
     }
   });
+  ["frame", "empty"].forEach((event) => on(event, () => { if (event === "frame" || shown.refused || shown.broken) { $("loading")?.remove(); } }));
   on("rested", () => { $("state").dataset.settled = String(Number($("state").dataset.settled ?? 0) + 1); });
   $("remember").addEventListener("click", remember);
   $("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
@@ -134,4 +147,7 @@ window.funicular = {
   crash: () => page.engine.call("crash"),
 };
 
-start().catch((error) => tell(`The page cannot start: ${error.message}`));
+start().catch((error) => {
+  $("loading")?.remove();
+  tell(`The page cannot start: ${error.message}`);
+});

@@ -4,12 +4,19 @@ import { $, element } from "./format.js";
 
 const PATIENCE_MS = 300; // what is shorter needs no word
 
-/** Shows a message, or nothing. A note is not an error. */
+let error = null; // the message that is shown, if it is an error
+let refused = null; // the field that it is about
+
+/** Shows a message, or nothing. A note is not an error: it does not replace one, but follows it. */
 export function tell(text, note = false) {
   const place = $("message");
-  place.hidden = text === null;
-  place.classList.toggle("note", note);
-  place.textContent = text ?? "";
+  const shown = note && error !== null ? `${error}\n${text}` : text;
+  if (!note) {
+    [error, refused] = [text, null];
+  }
+  place.hidden = shown === null;
+  place.classList.toggle("note", error === null);
+  place.textContent = shown ?? "";
 }
 
 /**
@@ -36,8 +43,8 @@ export function busy(text, cancel) {
 }
 
 /** Text of an error; after a mistake in the core it says that the page has started again. */
-export function textOf(error) {
-  return error.broken ? `${error.message}\nThe page has started again with the last robot.` : error.message;
+export function textOf(fault) {
+  return fault.broken ? `${fault.message}\nThe page has started again with the last robot.` : fault.message;
 }
 
 /** Puts a text in a place, which is not touched if it has it already. */
@@ -57,7 +64,19 @@ export function numberOf(text) {
 export function refuse(field, text) {
   field.setAttribute("aria-invalid", "true");
   tell(text);
+  refused = field;
 }
+
+/** Takes the mark of a field away, with its message. */
+export function accept(field) {
+  field.removeAttribute("aria-invalid");
+  if (refused === field) {
+    tell(null);
+  }
+}
+
+/** Marks a part of the page as that of an earlier state, until it is computed anew. */
+export const age = (place, old) => $(place).classList.toggle("stale", old);
 
 /** Rows of a table, made once and then only filled, because a frame has no time to make them. */
 export function rowsOf(table, count, make) {

@@ -2,7 +2,7 @@
 
 import { change } from "./computation.js";
 import { $, element, short } from "./format.js";
-import { numberOf, put, refuse, rowsOf } from "./messages.js";
+import { accept, numberOf, put, refuse, rowsOf } from "./messages.js";
 import { emit, on, page, shown } from "./store.js";
 
 const MAX_MODES = 200;
@@ -10,19 +10,33 @@ const MAX_MODES = 200;
 /** Words for the kinds of modes. */
 export const KINDS = { platform: "platform", cable: "cables", drive: "drives and supports", mixed: "platform and cables" };
 
-function rowOf(i) {
-  const row = element("tr", { class: "pick" }, element("td", {}, element("button", { "aria-label": `Show mode ${i + 1}` }, String(i + 1))), element("td"), element("td"), element("td", { class: "left" }),
+/** Modes of the table: the lowest ones, and the first of the platform above them. */
+function listedModes({ listed, first }) {
+  const lowest = Array.from({ length: listed }, (_, i) => i);
+  return first?.index >= listed ? [...lowest, first.index] : lowest;
+}
+
+function rowOf() {
+  const row = element("tr", { class: "pick" }, element("td", {}, element("button")), element("td"), element("td"), element("td", { class: "left" }),
     element("td", { class: "left" }, element("span", { class: "share", title: "fraction of the kinetic energy in the platform" }, element("i"))), element("td", { class: "before", hidden: true }));
-  row.addEventListener("click", () => chooseMode(shown.mode === i ? -1 : i));
+  row.addEventListener("click", () => chooseMode(shown.mode === row.mode ? -1 : row.mode));
   return row;
 }
 
 function showModes() {
   const { before, frame } = page;
-  const rows = rowsOf("modes", frame.modes.length, rowOf);
+  const listed = frame ? listedModes(frame) : [];
+  const rows = rowsOf("modes", listed.length, rowOf);
   document.querySelectorAll("#modes .before").forEach((cell) => { cell.hidden = before === null; });
-  frame.modes.forEach((mode, i) => {
-    const { cells } = rows[i];
+  listed.forEach((i, at) => {
+    const mode = frame.modes[i];
+    const { cells } = rows[at];
+    if (rows[at].mode !== i) {
+      rows[at].mode = i;
+      put(cells[0].firstChild, String(i + 1));
+      cells[0].firstChild.setAttribute("aria-label", `Show mode ${i + 1}`);
+      rows[at].classList.toggle("apart", i > at);
+    }
     put(cells[1], short(mode.hz, 5));
     put(cells[2], short(100 * mode.damping, 3));
     put(cells[3], KINDS[mode.kind]);
@@ -30,17 +44,17 @@ function showModes() {
     const past = before?.frame.modes[i];
     put(cells[5], past ? `${mode.hz >= past.hz ? "+" : "−"}${short(Math.abs(100 * (mode.hz / past.hz - 1)), 3)}` : "");
     if (i === shown.mode) {
-      rows[i].setAttribute("aria-current", "true");
+      rows[at].setAttribute("aria-current", "true");
     } else {
-      rows[i].removeAttribute("aria-current");
+      rows[at].removeAttribute("aria-current");
     }
   });
+  showPlay();
 }
 
 /** Shows a mode in motion; −1 ends it. */
 export function chooseMode(index) {
   shown.mode = index;
-  showPlay();
   showModes();
   if (index < 0) {
     page.view.setMode(null);
@@ -50,16 +64,19 @@ export function chooseMode(index) {
   emit("mode");
 }
 
-/** Shows the buttons of the motion if a mode is chosen. */
-export function showPlay() {
-  $("play").hidden = shown.mode < 0;
-  $("amplitude-label").hidden = shown.mode < 0;
+/** Shows the buttons of the motion if a mode of this state is chosen. */
+function showPlay() {
+  const none = !page.frame?.modes[shown.mode];
+  $("play").hidden = none;
+  $("amplitude-label").hidden = none;
 }
 
 /** Listens to the buttons of the motion and the number of modes. */
 export function listen() {
   const { view } = page;
   on("frame", showModes);
+  on("platform", showModes);
+  on("empty", showModes);
   on("remember", showModes);
   $("play").addEventListener("click", () => {
     if (view.mode) {
@@ -75,7 +92,7 @@ export function listen() {
       refuse($("count"), `the number of frequencies has to be a whole number from 1 to ${MAX_MODES}`);
       return;
     }
-    $("count").removeAttribute("aria-invalid");
+    accept($("count"));
     shown.modes = value;
     change({ frame: true });
   });

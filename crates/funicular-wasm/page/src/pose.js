@@ -4,19 +4,23 @@ import { change, holdsLengths, mayChoose } from "./computation.js";
 import { $, short } from "./format.js";
 import { anglesOf, quaternionOf } from "./frame.js";
 import { commit } from "./history.js";
-import { numberOf, refuse, tell, textOf } from "./messages.js";
+import { accept, numberOf, put, refuse, tell, textOf } from "./messages.js";
 import { content, emit, on, page, shown } from "./store.js";
 
 /** Step of a position that a person can choose with a handle [m]. */
 const rounding = () => 10 ** Math.floor(Math.log10(page.view.size * 2e-4));
 
-/** Pose with few digits: those that a person can choose with the handle. */
-export function rounded(position, quaternion) {
+/** Coordinate with few digits: those that a person can choose with the handle [m]. */
+export function roundedLength(value) {
   const step = rounding();
-  const decimals = Math.max(0, Math.round(-Math.log10(step)));
+  return Number((Math.round(value / step) * step).toFixed(Math.max(0, Math.round(-Math.log10(step)))));
+}
+
+/** Pose with few digits. */
+export function rounded(position, quaternion) {
   const { name } = page.about.motion;
   const angles = name === "point-mass" ? [0, 0, 0] : anglesOf(quaternion);
-  return [...position.map((value) => Number((Math.round(value / step) * step).toFixed(decimals))), ...angles.map((value) => Number(value.toFixed(2)) + 0)];
+  return [...position.map(roundedLength), ...angles.map((value) => Number(value.toFixed(2)) + 0)];
 }
 
 /** Pose within the plane of a planar platform. */
@@ -32,8 +36,26 @@ export function allowed(pose) {
   return [...position.map((value, k) => value - off * normal[k]), ...angles];
 }
 
-/** Pose from which the next one is made: the requested one, or that of the equilibrium with few digits. */
-const presentPose = () => (content.hold === "pose" ? [...content.pose] : rounded(page.frame.position, page.frame.quaternion));
+/** Pose that the robot file gives, if it does. */
+function poseOfFile() {
+  const pose = page.about?.check.pose;
+  return pose ? { position: pose.position_m, quaternion: pose.quaternion_wxyz } : null;
+}
+
+/**
+ * Pose from which the next one is made: the requested one, or with few digits that of the last equilibrium or of the file;
+ * null if there is none.
+ */
+export function presentPose() {
+  if (!page.about) {
+    return null;
+  }
+  if (content.hold === "pose") {
+    return [...content.pose];
+  }
+  const from = page.frame ?? page.last ?? poseOfFile();
+  return from && rounded(from.position, from.quaternion);
+}
 
 /** Holds the platform at a pose. */
 export function setPose(pose) {
@@ -50,14 +72,15 @@ function showHold() {
   const present = content.hold === "file" ? (holdsLengths() ? "lengths" : "pose") : content.hold;
   document.querySelectorAll("[data-hold]").forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.hold === present)));
   $("rule").disabled = !mayChoose();
-  page.view.canDrag = true;
 }
 
 function hold(kind) {
   const { frame } = page;
-  if (!frame || shown.broken) {
+  if (kind === "lengths" && !frame) {
+    tell(`The cable lengths cannot be held: ${page.reason}.`, true);
     return;
   }
+  const pose = presentPose();
   if (kind === "lengths") {
     content.hold = "lengths";
     content.lengths = frame.cables.map((cable) => cable.length);
@@ -65,17 +88,23 @@ function hold(kind) {
     content.pose = null;
     showHold();
     change({ robot: true });
-  } else {
+  } else if (frame) {
     setPose(rounded(frame.position, frame.quaternion));
+  } else if (pose) {
+    setPose(pose);
+  } else {
+    tell(`There is no pose to hold: ${page.reason}.`, true);
+    return;
   }
   commit();
 }
 
+/** Shows a pose in the fields; null empties them. */
 function showPose(pose) {
   document.querySelectorAll("#pose [data-pose]").forEach((field) => {
     if (document.activeElement !== field || !field.dirty) {
       const k = Number(field.dataset.pose);
-      field.value = String(Number(pose[k].toFixed(k < 3 ? 5 : 3)) + 0);
+      field.value = pose ? String(Number(pose[k].toFixed(k < 3 ? 5 : 3)) + 0) : "";
       field.removeAttribute("aria-invalid");
     }
   });
@@ -95,7 +124,6 @@ function showRobot() {
 
 function showFrame() {
   const { frame, view } = page;
-  document.body.classList.remove("broken");
   showHold();
   view.setFrame(frame, view.dragging);
   const under = Number.isFinite(frame.distance) && frame.distance > 0;
@@ -118,14 +146,32 @@ function showFrame() {
   $("state").textContent = parts.join(" ");
 }
 
+/** Pose that is asked for, although there is no equilibrium: of the request or of the file. */
+function requestedPose() {
+  if (!page.about || shown.refused) {
+    return null;
+  }
+  if (content.hold === "pose") {
+    return { position: content.pose.slice(0, 3), quaternion: quaternionOf(content.pose.slice(3)) };
+  }
+  return content.hold === "file" ? poseOfFile() : null;
+}
+
+/** Empties what shows the state: the pose of the request stays, if there is one. */
+function showNone() {
+  const { view, about } = page;
+  put($("state"), about || shown.refused ? `There are no results: ${page.reason}.` : "");
+  const pose = requestedPose();
+  view.setBroken(pose);
+  showPose(content.hold === "pose" ? content.pose : pose && [...pose.position, ...anglesOf(pose.quaternion)]);
+  view.canvas.setAttribute("aria-label", pose ? `Robot at a pose without results: ${page.reason}. Arrow keys move the platform.` : `View without a robot at rest: ${page.reason}`);
+  if (about) {
+    showHold();
+  }
+}
+
 function frameRefused(error) {
   tell(error.status === 1 ? `No equilibrium here: ${error.message}` : textOf(error));
-  if (content.hold === "pose") {
-    page.view.setBroken(content.pose.slice(0, 3), quaternionOf(content.pose.slice(3)));
-    showPose(content.pose);
-  }
-  $("state").textContent = "No equilibrium: the results are those of the last state that had one.";
-  document.body.classList.add("broken");
 }
 
 let dragged = null;
@@ -141,7 +187,7 @@ export const handles = {
       commit();
       dragged = null;
     }
-    if (page.frame && !shown.broken) {
+    if (page.frame) {
       page.view.setFrame(page.frame);
     }
     emit("drag-end");
@@ -153,11 +199,11 @@ let keys = 0;
 
 function onKey(event) {
   const axis = { ArrowRight: [0, 1], ArrowLeft: [0, -1], ArrowUp: [1, 1], ArrowDown: [1, -1], PageUp: [2, 1], PageDown: [2, -1] }[event.key];
-  if (!axis || !page.frame) {
+  const pose = axis && presentPose();
+  if (!pose) {
     return;
   }
   event.preventDefault();
-  const pose = presentPose();
   const step = rounding() * (event.shiftKey ? 100 : 10);
   pose[axis[0]] = Number((pose[axis[0]] + axis[1] * step).toPrecision(10));
   setPose(pose);
@@ -170,6 +216,7 @@ export function listen() {
   const { view } = page;
   on("robot", showRobot);
   on("frame", showFrame);
+  on("empty", showNone);
   on("frame-refused", frameRefused);
   document.querySelectorAll("[data-handle]").forEach((button) => button.addEventListener("click", () => {
     document.querySelectorAll("[data-handle]").forEach((other) => other.setAttribute("aria-pressed", String(other === button)));
@@ -180,7 +227,7 @@ export function listen() {
     const value = numberOf($("exaggeration").value);
     if (value !== null && value >= 0 && value <= 1000) {
       shown.exaggeration = view.exaggeration = value;
-      if (page.frame && !shown.broken) {
+      if (page.frame) {
         view.setFrame(page.frame);
       }
     }
@@ -194,8 +241,12 @@ export function listen() {
         refuse(field, `“${field.value}” is not a number`);
         return;
       }
-      field.removeAttribute("aria-invalid");
       const pose = presentPose();
+      if (!pose) {
+        refuse(field, `The pose cannot be changed: ${page.reason}.`);
+        return;
+      }
+      accept(field);
       pose[Number(field.dataset.pose)] = value;
       setPose(pose);
       commit();

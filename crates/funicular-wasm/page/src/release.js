@@ -1,11 +1,11 @@
 // A payload is released: the linear modes play the free response from the static displacement under the payload.
 
-import { modeOf, statics } from "./computation.js";
+import { findFirst, listModes, modeOf, statics } from "./computation.js";
 import { Cancelled, Job } from "./engine.js";
 import { history } from "./figures.js";
 import { $, element, plain, short } from "./format.js";
 import { decay, startOf, summed, wrenchOf } from "./free_response.js";
-import { numberOf, refuse, tell } from "./messages.js";
+import { accept, numberOf, refuse, tell as say } from "./messages.js";
 import { on, page, shown } from "./store.js";
 
 const MAX_MODES = 60; // that are drawn, the largest first: more need more time per frame than they show
@@ -14,7 +14,8 @@ const REST_FRACTION = 0.02; // of the first displacement: the record may end
 const SLOW_HZ = 1; // on the screen, the slowest large mode has at most this frequency
 const LARGE = 0.1; // of the largest coordinate: a mode that decides the time scale
 const SAMPLES = 1500;
-const LINEAR_LIMIT = 0.1; // relative difference of the static displacement, above which the page warns
+const LINEAR_LIMIT = 0.1; // relative difference of the static displacement, above which more modes are taken, or the page warns
+const MAX_TAKEN = 320; // modes that are taken until they reach the static displacement; a frame has at most 500
 const job = new Job();
 let last = null; // last free response, also for “before”
 
@@ -31,20 +32,33 @@ async function release() {
     refuse($("release-mass"), `“${$("release-mass").value}” is not a payload: give a positive mass in kilograms`);
     return;
   }
-  $("release-mass").removeAttribute("aria-invalid");
+  accept($("release-mass"));
+  const tell = (text) => $("release").replaceChildren(element("p", { class: "soft" }, text));
   if (!frame || frame.modes.length === 0 || frame.stable === false) {
-    $("release").replaceChildren(element("p", { class: "soft" }, "A release needs a stable equilibrium with natural frequencies."));
+    tell(frame ? "A release needs a stable equilibrium with natural frequencies." : `There is nothing to release from: ${page.reason}.`);
     return;
+  }
+
+  // Without the modes of the platform the sum lacks most of the motion.
+  tell("Searching the modes that move the platform …");
+  await findFirst(frame);
+  if (frame !== page.frame) {
+    return; // the robot has moved meanwhile
   }
   const point = statics().load_point_m ?? check.load?.point_m ?? [0, 0, 0];
   const wrench = wrenchOf(payload, check.gravity_m_s2, frame.quaternion, point);
-  const starts = startOf(frame.modes, wrench);
+  const { complete, reason } = await staticDisplacement(frame, payload, point);
+  const { off, starts, linear } = await enoughModes(frame, wrench, complete);
+  if (frame !== page.frame) {
+    return;
+  }
   const size = (i) => Math.abs(starts[i]) * Math.hypot(...frame.modes[i].shape.slice(0, 3));
   const order = frame.modes.map((_, i) => i).sort((a, b) => size(b) - size(a)).slice(0, MAX_MODES);
   if (!(size(order[0]) > 0)) {
-    $("release").replaceChildren(element("p", { class: "soft" }, "No listed mode moves under this payload: without gravity it does nothing, else list more natural frequencies."));
+    tell("No mode moves the platform under this payload: without gravity it does nothing.");
     return;
   }
+  const note = noteOf({ complete, reason, linear, off, count: frame.modes.length });
 
   // The slowest of the large modes gives the time scale.
   const large = order.filter((i) => size(i) >= LARGE * size(order[0])).map((i) => frame.modes[i]);
@@ -57,7 +71,7 @@ async function release() {
   const along = modes.map(({ shape }, k) => own[k] * (shape[0] * up[0] + shape[1] * up[1] + shape[2] * up[2]));
   const at = (t) => along.reduce((sum, value, k) => sum + value * decay(modes[k], t), 0);
   const times = Float64Array.from({ length: SAMPLES }, (_, i) => (seconds * i) / (SAMPLES - 1));
-  last = { payload, seconds, times, values: times.map(at), slowdown: Math.max(1, slowest.hz / SLOW_HZ), start: summed(modes.map(({ shape }) => shape), own), note: null };
+  last = { payload, seconds, times, values: times.map(at), slowdown: Math.max(1, slowest.hz / SLOW_HZ), start: summed(modes.map(({ shape }) => shape), own), note };
 
   // Curves of the cables; a cable model that describes ends only has none, and straight lines follow the platform.
   let cables = null;
@@ -70,7 +84,7 @@ async function release() {
     cables = null;
   }
   if (frame !== page.frame) {
-    return; // the robot has moved meanwhile
+    return;
   }
   shown.released = true;
   page.view.setRelease({
@@ -84,11 +98,10 @@ async function release() {
   page.view.mode.clock = moveClock;
   $("release-stop").hidden = false;
   show();
-  compareStatics(frame, payload, point);
 }
 
-/** Compares the first displacement with the static difference of the complete, not linear model. */
-async function compareStatics(frame, payload, point) {
+/** Static displacement under a payload [m] by the complete, not linear model at the present lengths, or why there is none. */
+async function staticDisplacement(frame, payload, point) {
   const { pose: _, lengths_m: __, tension_rule: ___, ...rest } = statics();
   const { check } = page.about;
   const held = rest.force_n ?? check.load?.force_n ?? [0, 0, 0];
@@ -96,17 +109,46 @@ async function compareStatics(frame, payload, point) {
   const request = { command: "statics", ...rest, lengths_m: frame.cables.map((cable) => cable.length), force_n: force, load_point_m: point };
   try {
     const text = await job.run(1, async ([worker]) => (await worker.call("answer", { request })).text);
-    const found = JSON.parse(text).pose.position_m.map((value, k) => value - frame.position[k]);
-    const [size, linear] = [Math.hypot(...found), Math.hypot(...last.start.subarray(0, 3))];
-    const off = Math.hypot(...found.map((value, k) => value - last.start[k])) / Math.max(size, 1e-12);
-    last.note = `The complete static model moves the platform by ${short(1000 * size, 4)} mm under this payload, the listed modes by ${short(1000 * linear, 4)} mm.${off > LINEAR_LIMIT ? ` They differ by ${short(100 * off, 2)} %: the payload is too large for small motions, or more natural frequencies have to be listed.` : ""}`;
+    return { complete: JSON.parse(text).pose.position_m.map((value, k) => value - frame.position[k]) };
   } catch (error) {
     if (error instanceof Cancelled) {
-      return;
+      throw error;
     }
-    last.note = `The complete static model has no equilibrium with this payload at these lengths: ${error.message}`;
+    return { complete: null, reason: error.message };
   }
-  show();
+}
+
+/**
+ * Takes more modes until their static displacement is that of the complete model, or until more of them change nothing:
+ * then the payload is too large for small motions.
+ */
+async function enoughModes(frame, wrench, complete) {
+  const displacement = () => {
+    const starts = startOf(frame.modes, wrench);
+    const linear = Array.from(summed(frame.modes.map(({ shape }) => shape), starts).subarray(0, 3));
+    const size = complete ? Math.max(Math.hypot(...complete), 1e-12) : 1;
+    return { starts, linear, off: complete ? Math.hypot(...complete.map((value, k) => value - linear[k])) / size : 0 };
+  };
+  let found = displacement();
+  for (let count = 2 * frame.modes.length; found.off > LINEAR_LIMIT && count <= MAX_TAKEN; count *= 2) {
+    const before = frame.modes.length;
+    await listModes(count);
+    if (frame !== page.frame || frame.modes.length === before) {
+      break; // the robot has moved meanwhile, or has no more modes
+    }
+    found = displacement();
+  }
+  return found;
+}
+
+/** What is told about the first displacement. */
+function noteOf({ complete, reason, linear, off, count }) {
+  if (!complete) {
+    return `The complete static model has no equilibrium with this payload at these lengths: ${reason}`;
+  }
+  const millimetres = (list) => `${short(1000 * Math.hypot(...list), 4)} mm`;
+  const apart = off > LINEAR_LIMIT ? ` They differ by ${short(100 * off, 2)} %: the payload is too large for small motions, or the platform has important modes above these.` : "";
+  return `The complete static model moves the platform by ${millimetres(complete)} under this payload, the listed modes by ${millimetres(linear)} (${count} modes).${apart}`;
 }
 
 function show() {
@@ -143,15 +185,19 @@ function stop() {
     shown.released = false;
     page.view.setRelease(null);
     $("release-stop").hidden = true;
-    $("release").replaceChildren();
   }
+  $("release").replaceChildren();
 }
 
 /** Listens to the buttons, and ends the motion when the state changes. */
 export function listen() {
   on("robot", (isNew) => { if (isNew) { $("release-mass").value = plain(firstPayload()); } });
-  on("outdated", () => { job.cancel(); stop(); });
-  on("forget", () => { last = null; });
+  ["outdated", "empty"].forEach((event) => on(event, () => {
+    job.cancel();
+    stop();
+    last = null;
+  }));
+  on("forget", () => { $("release-mass").value = ""; });
   on("mode", () => { if (shown.mode >= 0) { stop(); } });
   on("remember", () => {
     if (page.before) {
@@ -161,7 +207,7 @@ export function listen() {
   });
   $("release-form").addEventListener("submit", (event) => {
     event.preventDefault();
-    release().catch((error) => { if (!(error instanceof Cancelled)) { tell(error.message); } });
+    release().catch((error) => { if (!(error instanceof Cancelled)) { say(error.message); } });
   });
   $("release-stop").addEventListener("click", stop);
   new ResizeObserver(show).observe($("release"));

@@ -3,7 +3,7 @@
 import { change } from "./computation.js";
 import { response as figure } from "./figures.js";
 import { $, element } from "./format.js";
-import { numberOf, put, refuse, tell } from "./messages.js";
+import { accept, age, numberOf, put, refuse } from "./messages.js";
 import { on, page, shown } from "./store.js";
 
 /** Signals of a robot, and a range that shows its first resonances. */
@@ -50,8 +50,7 @@ function setRange(key, field) {
     refuse(field, "the range of the response needs two frequencies, the first below the second, and above zero if it is logarithmic");
     return;
   }
-  [$("from"), $("to")].forEach((other) => other.removeAttribute("aria-invalid"));
-  tell(null);
+  [$("from"), $("to")].forEach(accept);
   shown.response = next;
   change({ response: true });
 }
@@ -63,6 +62,7 @@ function showResponse() {
   if (!answered) {
     return;
   }
+  age("bode", false);
   const { numbers, peaks } = answered.exact ?? answered;
   const curves = [{ numbers, kind: "now" }];
   if (before?.response?.signals === answered.signals && before.response.range === answered.range) {
@@ -77,22 +77,30 @@ function showResponse() {
   put($("caveat"), answered.caveat ?? "");
 }
 
+/** Shows a text instead of the curve. */
+function showNone(text) {
+  age("bode", false);
+  put($("caveat"), "");
+  $("bode").replaceChildren(element("p", { class: "soft" }, text));
+}
+
 /** Listens to the choice of signals and range. */
 export function listen() {
   on("robot", (isNew) => { if (isNew) { signals(); } });
-  on("frame", chooseRange);
+  on("frame", () => { chooseRange(); age("bode", true); });
+  on("empty", () => showNone("–"));
   on("response", showResponse);
   on("remember", showResponse);
-  on("response-refused", (error) => {
-    put($("caveat"), "");
-    $("bode").replaceChildren(element("p", { class: "soft" }, error.message));
-  });
+  on("response-refused", (error) => showNone(error.message));
   ["input", "output"].forEach((id) => $(id).addEventListener("change", () => {
     shown.response = { ...shown.response, [id]: $(id).value };
     change({ response: true });
   }));
   ["from", "to"].forEach((id) => $(id).addEventListener("change", () => setRange(id, $(id))));
   $("log").addEventListener("change", () => {
+    if (!shown.response?.to) {
+      return; // without a range, which the first response chooses
+    }
     shown.response = { ...shown.response, log: $("log").checked, from: shown.response.from || Number((shown.response.to / 200).toPrecision(2)) };
     showSignals();
     change({ response: true });

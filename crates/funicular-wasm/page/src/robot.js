@@ -1,13 +1,16 @@
 // The robot: choice from the library, files, and the editor of its text.
 
-import { change } from "./computation.js";
+import { change, forget, stop } from "./computation.js";
 import { Editor } from "./editor.js";
+import { Cancelled } from "./engine.js";
 import { $, element } from "./format.js";
 import { commit } from "./history.js";
-import { tell, textOf } from "./messages.js";
+import { busy, tell, textOf } from "./messages.js";
 import { allowed } from "./pose.js";
 import { pinFirst, readParameters } from "./sliders.js";
 import { content, emit, on, page, shown } from "./store.js";
+
+const MAX_BYTES = 5e6; // of all files that are opened at once: more would take seconds, and no robot has it
 
 let editor = null;
 
@@ -23,12 +26,7 @@ export async function setRobot(name, text, more = {}, display = {}) {
   clearTimeout(typing);
   const next = { robot: { name, text, set: [] }, hold: "file", pose: null, lengths: null, start: null, rule: "", pinned: [], more: {}, model: {}, ...more };
   Object.assign(content, next);
-  Object.assign(shown, { mode: -1, newRobot: true, response: null, ...display });
-  page.view.setMode(null);
-  page.frame = null;
-  page.parameters = [];
-  $("sliders").replaceChildren();
-  emit("forget");
+  forget(display);
 
   // The robot is shown first; the panel of its values follows.
   page.pending += 1;
@@ -41,6 +39,17 @@ export async function setRobot(name, text, more = {}, display = {}) {
   commit();
 }
 
+/** Takes the names and texts of the robot away. A robot that is refused is known by its file. */
+function forgetRobot() {
+  const { name } = content.robot;
+  $("name").textContent = ROBOTS[name] ? "" : name;
+  $("source").textContent = "";
+  document.title = name ? `${name} – funicular` : "funicular";
+  page.view.clear();
+  page.view.remember(null);
+  $("remember").setAttribute("aria-pressed", "false");
+}
+
 function showRobot(isNew) {
   const { about, frame, view } = page;
   const { check } = about;
@@ -51,11 +60,6 @@ function showRobot(isNew) {
   showText(about.text);
   $("issues").replaceChildren();
   view.setRobot(about, frame && !isNew ? frame : null, !isNew);
-  if (isNew) {
-    page.before = null;
-    view.remember(null);
-    $("remember").setAttribute("aria-pressed", "false");
-  }
   if (check.state === "none" && content.hold === "file") {
     // A robot file without a state: the middle between the anchors is a place to start from.
     const pose = [...view.center.toArray().map((value) => Number(value.toPrecision(3))), 0, 0, 0];
@@ -70,7 +74,8 @@ function showRobot(isNew) {
 
 function showRefusal(error) {
   const { issues } = error;
-  tell(issues.length ? `The robot file has ${issues.length === 1 ? "an error" : `${issues.length} errors`}: line ${issues[0].line}: ${issues[0].message}` : textOf(error));
+  const count = issues.length === 1 ? "an error" : `${issues.length} errors`;
+  tell(issues.length === 0 ? textOf(error) : content.robot.set.length ? `A value of the robot is refused: ${issues[0].message}` : `The robot file has ${count}: line ${issues[0].line}: ${issues[0].message}`);
   shown.issues = issues;
   showText(content.robot.set.length === 0 ? content.robot.text : null);
   $("issues").replaceChildren(...issues.map((issue) => element("li", {},
@@ -78,13 +83,52 @@ function showRefusal(error) {
     `: ${issue.message}${issue.help ? ` (${issue.help})` : ""}`)));
 }
 
-/** Timer of the note on the last import; the next files end it, so that it does not hide what is told about them. */
-let importNote = 0;
+/** Number of times that files were opened; of several the last one counts. */
+let openings = 0;
+
+/** Why files are not read; null if they are. Robot files have some kilobytes, the largest of other programs some hundred. */
+function tooLarge(list) {
+  const size = list.reduce((sum, file) => sum + file.size, 0);
+  const [named, has] = list.length === 1 ? [list[0].name, "has"] : [`These ${list.length} files`, "have"];
+  return size > MAX_BYTES ? `${named} ${has} ${(size / 1e6).toFixed(1)} MB, which is more than the ${MAX_BYTES / 1e6} MB that a robot may have: choose the file of the robot. The robot on the page is the one before.` : null;
+}
 
 async function openFiles(list) {
-  clearTimeout(importNote);
-  const files = await Promise.all([...list].map(async (file) => ({ path: file.name, text: await file.text() })));
-  if (files.length === 0) {
+  openings += 1;
+  const own = openings;
+  const chosen = [...list];
+  const refusal = tooLarge(chosen);
+  if (refusal || chosen.length === 0) {
+    if (refusal) {
+      tell(refusal);
+    }
+    return;
+  }
+  const done = busy(`Reading ${chosen.map(({ name }) => name).join(", ")}`, stop);
+  try {
+    await read(await Promise.all(chosen.map(async (file) => ({ path: file.name, text: await file.text() }))), () => own === openings);
+  } catch (error) {
+    const names = chosen.map(({ name }) => name).join(", ");
+    if (own !== openings) {
+      return;
+    }
+    if (error instanceof Cancelled) {
+      tell(`Cancelled: ${names} was not read. The robot on the page is the one before.`, true);
+    } else {
+      tell(`${error.message.startsWith(names) ? "" : `${names}: `}${importAdvice(error.message)}`);
+    }
+  } finally {
+    done();
+  }
+}
+
+/** Message of an import, with the way for values that the files lack: the page has no fields for them. */
+const importAdvice = (message) => (/`(mass_kg_per_m|youngs_modulus_pa|diameter_m|lengths_m|pose)`/.test(message)
+  ? `${message}\nThis page has no fields for these values: run \`funicular import\` with them as options, such as \`--mass-kg-per-m\`, and open the file that it writes.` : message);
+
+/** Shows the robot of files. `isLast()`: no others were opened meanwhile. */
+async function read(files, isLast) {
+  if (!isLast()) {
     return;
   }
   if (files.length === 1 && /\.toml$/i.test(files[0].path)) {
@@ -92,17 +136,16 @@ async function openFiles(list) {
     showLibrary();
     return;
   }
-  try {
-    const { text } = await page.engine.call("answer", { request: { command: "import", files } });
-    const found = JSON.parse(text);
-    await setRobot(`${files[0].path.replace(/\.[^.]*$/, "")}.toml`, found.text);
-    showLibrary();
-    const told = [...found.assumed.map((line) => `assumed: ${line}`), ...found.lost.map((line) => `left out: ${line}`)];
-    if (told.length) {
-      importNote = setTimeout(() => tell(`Imported.\n${told.join("\n")}`, true), 400);
-    }
-  } catch (error) {
-    tell(`${files.map((file) => file.path).join(", ")}: ${error.message}`);
+  const { text } = await page.engine.call("answer", { request: { command: "import", files } });
+  if (!isLast()) {
+    return;
+  }
+  const found = JSON.parse(text);
+  await setRobot(`${files[0].path.replace(/\.[^.]*$/, "")}.toml`, found.text);
+  showLibrary();
+  const told = [...found.assumed.map((line) => `assumed: ${line}`), ...found.lost.map((line) => `left out: ${line}`)];
+  if (told.length && isLast()) {
+    tell(`Imported.\n${told.join("\n")}`, true);
   }
 }
 
@@ -148,6 +191,7 @@ async function openEditor() {
 
 /** Listens to the library, files and the tabs of the panel. */
 export function listen() {
+  on("forget", forgetRobot);
   on("robot", showRobot);
   on("robot-refused", showRefusal);
   on("restored", () => { clearTimeout(typing); showLibrary(); });

@@ -4,7 +4,7 @@ import { mayChoose, RESPONSE_POINTS, statics } from "./computation.js";
 import { $, save } from "./format.js";
 import { drawing } from "./drawing.js";
 import { Cancelled, Job } from "./engine.js";
-import { busy, put, tell } from "./messages.js";
+import { age, busy, put, tell } from "./messages.js";
 import { content, on, page, shown } from "./store.js";
 import { commands, python } from "./words.js";
 
@@ -25,7 +25,13 @@ function gradientOf() {
   return mode ? { belowHz: Number((1.0001 * mode.hz).toPrecision(7)), per: $("influence-per").value, hold: $("influence-hold").value } : null;
 }
 
+/** Empties the commands: the words would compute nothing. */
+function showNone() {
+  [$("commands"), $("python")].forEach((place) => { age(place.id, false); put(place, `There are no results: ${page.reason}.`); });
+}
+
 function showWords() {
+  ["commands", "python"].forEach((id) => age(id, false));
   const state = {
     kind: content.hold, pose: content.pose, lengths: content.lengths, set: content.robot.set, rule: mayChoose() ? content.rule : "", more: content.more,
   };
@@ -42,14 +48,19 @@ async function saveAs(kind) {
   const name = fileName().replace(/\.toml$/, "");
   document.querySelector(".menu").open = false;
   if (kind === "toml") {
-    save(`${name}.toml`, page.about.text, "application/toml");
+    saveRobot(`${name}.toml`);
+  } else if (!page.frame && kind !== "map") {
+    tell(`There is nothing to save: ${page.reason}.`, true);
   } else if (kind === "png") {
     save(`${name}.png`, await page.view.png(), "image/png");
   } else if (kind === "svg") {
     save(`${name}.svg`, drawing(page.view), "image/svg+xml");
   } else if (FIGURES[kind]) {
-    const figure = $(FIGURES[kind][0]).querySelector("svg");
-    if (figure) {
+    const place = $(FIGURES[kind][0]);
+    const figure = place.querySelector("svg");
+    if (figure && place.classList.contains("stale")) {
+      tell("This figure is of an earlier state: compute it again before you save it.", true);
+    } else if (figure) {
       save(`${name}-${kind}.svg`, styled(figure.outerHTML), "image/svg+xml");
     } else {
       tell(FIGURES[kind][1], true);
@@ -61,6 +72,19 @@ async function saveAs(kind) {
     } else {
       save(`${name}.csv`, csv(own), "text/csv");
     }
+  }
+}
+
+/** Saves the robot file; one with an error as it was typed. */
+function saveRobot(name) {
+  const { set, text } = content.robot;
+  if (shown.refused && set.length > 0) {
+    tell(`There is no robot file to save: ${page.reason}. Correct the value, or press “Reset all values”.`, true);
+    return;
+  }
+  save(name, shown.refused ? text : page.about.text, "application/toml");
+  if (shown.refused) {
+    tell("The robot file was saved with its error.", true);
   }
 }
 
@@ -126,6 +150,8 @@ export async function copy(text, button) {
 /** Listens to the menu of files and the buttons that copy. */
 export function listen() {
   on("rest", showWords);
+  on("empty", showNone);
+  on("outdated", () => ["commands", "python"].forEach((id) => age(id, true)));
   on("mode", () => { if (page.frame) { showWords(); } });
   document.querySelectorAll("[data-save]").forEach((button) => button.addEventListener("click", () => saveAs(button.dataset.save).catch((error) => {
     if (!(error instanceof Cancelled)) {

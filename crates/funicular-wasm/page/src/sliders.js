@@ -3,7 +3,7 @@
 import { change } from "./computation.js";
 import { $, element, plain } from "./format.js";
 import { commit } from "./history.js";
-import { numberOf, refuse } from "./messages.js";
+import { accept, numberOf, refuse } from "./messages.js";
 import { content, on, page } from "./store.js";
 
 /** Reads the numbers of the robot file. */
@@ -14,7 +14,7 @@ export async function readParameters() {
     const { text } = await page.engine.call("answer", { request: { command: "parameters", robot } });
     page.parameters = JSON.parse(text).parameters;
   } catch {
-    return; // the reader of the robot tells the error
+    page.parameters = []; // the reader of the robot tells the error
   } finally {
     page.pending -= 1;
   }
@@ -55,7 +55,8 @@ function rangeOf({ value, minimum, maximum, unit, path }) {
 }
 
 export function showSliders() {
-  $("sliders").replaceChildren(...content.pinned.map(sliderOf));
+  const none = page.parameters.length === 0 && content.pinned.length > 0;
+  $("sliders").replaceChildren(...(none ? [element("p", { class: "soft" }, "The values come back when the robot file can be read.")] : content.pinned.map(sliderOf)));
 }
 
 function sliderOf(path) {
@@ -78,7 +79,7 @@ function sliderOf(path) {
   range.addEventListener("input", () => {
     const next = Number(Number(range.value).toPrecision(5));
     number.value = plain(next);
-    number.removeAttribute("aria-invalid");
+    accept(number);
     set(next, false);
   });
   range.addEventListener("change", commit);
@@ -88,7 +89,7 @@ function sliderOf(path) {
       refuse(number, `${path}: “${number.value}” is not a number`);
       return;
     }
-    number.removeAttribute("aria-invalid");
+    accept(number);
     range.value = next;
     set(next, true);
   });
@@ -124,6 +125,7 @@ export function pin(path) {
 
 /** Listens to the fields that add and reset values. */
 export function listen() {
+  on("forget", () => { $("sliders").replaceChildren(); $("paths").replaceChildren(); });
   on("restored", (isOther) => (isOther ? readParameters() : showSliders()));
   const add = $("path");
   const added = () => {

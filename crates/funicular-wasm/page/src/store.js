@@ -21,12 +21,15 @@ export const shown = { mode: -1, modes: 20, response: null, exaggeration: 1, iss
 export const page = {
   engine: null,
   view: null,
-  about: null, // description of the robot by the reader
+  about: null, // description of the robot by the reader; null if another robot was refused
   parameters: [], // numbers of the robot file without the changes of sliders
-  frame: null, // last frame
+  frame: null, // results for the state; null while there are none
+  reason: "", // why there are none
+  last: null, // last frame of this robot, also after a refused state: where a person moves the platform from
+  robots: 0, // number of robots so far: an answer for an earlier one is dropped
   before: null, // remembered frame, with its response
-  answered: null, // last response
-  settled: { statics: null, payload: null }, // results of the long computations
+  answered: null, // response of the frame
+  settled: { statics: null, payload: null }, // results of the long computations for the frame
   pending: 0, // readings of parameters without an answer
   times: [], // milliseconds from a request of a frame to its display
 };

@@ -3,8 +3,8 @@
 import { change } from "./computation.js";
 import { $, element, plain, short } from "./format.js";
 import { commit } from "./history.js";
-import { numberOf, put, refuse, rowsOf } from "./messages.js";
-import { content, on, page } from "./store.js";
+import { accept, numberOf, put, refuse, rowsOf } from "./messages.js";
+import { content, on, page, shown } from "./store.js";
 import { colorOf, COLORS } from "./view.js";
 
 function showLegend() {
@@ -29,6 +29,32 @@ function rowOf(i) {
   length.addEventListener("change", () => setLength(i, length));
   return element("tr", {}, element("td", { class: "left name" }), element("td"), element("td", { class: "left" },
     element("span", { class: "track", role: "img" }, element("i"), element("b", { class: "past" }))), element("td"), element("td"), element("td", { class: "lengths" }, length, element("span")));
+}
+
+/** Empties the rows: a robot that can be read keeps the names of its cables, and held lengths stay to be corrected. */
+function showNone() {
+  const cables = shown.refused ? [] : page.about?.check.cables ?? [];
+  const free = content.hold === "lengths";
+  const rows = rowsOf("tensions", cables.length, rowOf);
+  cables.forEach(({ name }, i) => {
+    const { cells } = rows[i];
+    put(cells[0], name);
+    [1, 3, 4].forEach((k) => put(cells[k], "–"));
+    const track = cells[2].firstChild;
+    track.firstChild.style.cssText = "width:0";
+    track.lastChild.style.cssText = "display:none";
+    track.setAttribute("aria-label", "no tension");
+    track.title = "";
+    const [field, text] = cells[5].children;
+    field.hidden = !free;
+    put(text, free ? "" : "–");
+    if (free && document.activeElement !== field) {
+      field.value = plain(content.lengths[i], 7);
+    }
+    rows[i].classList.remove("beyond");
+  });
+  delete $("legend").dataset.key;
+  $("legend").replaceChildren();
 }
 
 function showTensions() {
@@ -63,14 +89,14 @@ function showTensions() {
 }
 
 function setLength(i, field) {
-  const { about, frame } = page;
+  const { about, last } = page;
   const value = numberOf(field.value);
   if (value === null || value <= 0) {
     refuse(field, `cable “${about.check.cables[i].name}”: “${field.value}” is not a length; give a positive number of metres`);
     return;
   }
-  field.removeAttribute("aria-invalid");
-  content.start = [...frame.position, ...frame.quaternion];
+  accept(field);
+  content.start = last ? [...last.position, ...last.quaternion] : content.start;
   content.lengths = content.lengths.map((length, k) => (k === i ? value : length));
   change({ frame: true });
   commit();
@@ -78,6 +104,7 @@ function setLength(i, field) {
 
 export function listen() {
   on("frame", showTensions);
+  on("empty", showNone);
   on("remember", showTensions);
   on("frame", showLegend);
 }

@@ -58,7 +58,7 @@ export class View {
     this.mode = null;
     this.lines = [];
     this.before = null;
-    this.canDrag = true;
+    this.canDrag = false; // until there is a pose
     this.pixels = [1, 1];
 
     const { canvas, context, software } = drawing();
@@ -141,6 +141,7 @@ export class View {
   /** Puts the names of the cables beside them, at a third of their length from the anchor. */
   placeLabels() {
     const [width, height] = this.pixels;
+    this.labels.hidden = !this.frame;
     this.frame?.cables.forEach(({ attachment, anchor }, i) => {
       const point = new Vector3(...[0, 1, 2].map((k) => anchor[k] + 0.3 * (attachment[k] - anchor[k]))).project(this.camera);
       const label = this.labels.children[i];
@@ -149,6 +150,16 @@ export class View {
         label.style.transform = `translate(${((point.x + 1) * width) / 2 + 4}px, ${((1 - point.y) * height) / 2 - 8}px)`;
       }
     });
+  }
+
+  /** Takes the robot away. */
+  clear() {
+    [this.platform, this.fixed, this.cables, this.remembered].forEach((group) => group.clear());
+    Object.assign(this, { lines: [], frame: null, mode: null, names: [], attachments: [] });
+    this.labels.replaceChildren();
+    this.#allowDrag(false);
+    this.canvas.setAttribute("aria-label", "View without a robot");
+    this.draw();
   }
 
   /** Shows another robot. `about` is the description of the reader. */
@@ -165,6 +176,7 @@ export class View {
 
     // Box around the robot: anchors and platform.
     const anchors = cables.map((cable) => new Vector3(...cable.anchor_m));
+    this.anchors = anchors;
     const box = [...anchors, new Vector3(...(frame?.position ?? about.check.pose?.position_m ?? [0, 0, 0]))];
     const low = new Vector3(...["x", "y", "z"].map((axis) => Math.min(...box.map((point) => point[axis]))));
     const high = new Vector3(...["x", "y", "z"].map((axis) => Math.max(...box.map((point) => point[axis]))));
@@ -186,7 +198,7 @@ export class View {
     }
     const { clientWidth: width, clientHeight: height } = this.place;
     this.lines.forEach((line) => line.material.resolution.set(width, height));
-    this.setHandles(this.controls.mode);
+    this.setHandles(this.handles ?? this.controls.mode);
     if (!keepView) {
       this.look("oblique");
     }
@@ -254,6 +266,7 @@ export class View {
 
   /** Chooses the handles: `translate`, `rotate`, or none. */
   setHandles(kind) {
+    this.handles = kind;
     const { name, normal } = this.motion ?? { name: "rigid" };
     const rigid = name === "rigid";
     const can = this.canDrag && kind !== "none" && (kind === "translate" || name !== "point-mass");
@@ -269,9 +282,18 @@ export class View {
     this.draw();
   }
 
+  #allowDrag(can) {
+    if (this.canDrag !== can) {
+      this.canDrag = can;
+      this.setHandles(this.handles ?? this.controls.mode);
+    }
+  }
+
   /** Shows a frame. `held`: the handle keeps its place, because a person holds it. */
   setFrame(frame, held) {
     this.frame = frame;
+    this.platform.visible = this.cables.visible = true;
+    this.#allowDrag(true);
     this.platform.position.set(...frame.position);
     const [w, x, y, z] = frame.quaternion;
     this.platform.quaternion.set(x, y, z, w);
@@ -298,20 +320,34 @@ export class View {
     this.draw();
   }
 
-  /** Shows a pose without equilibrium: the cables as grey straight lines. */
-  setBroken(position, quaternion) {
-    const r = rotation(quaternion);
-    this.platform.position.set(...position);
-    const [w, x, y, z] = quaternion;
-    this.platform.quaternion.set(x, y, z, w);
-    this.platformMaterial.opacity = 0.3;
-    this.lines.forEach((line, i) => {
-      const own = this.attachments[i].toArray();
-      const at = r.map((row, k) => position[k] + row.reduce((sum, value, j) => sum + value * own[j], 0));
-      const anchor = this.frame?.cables[i].anchor ?? at;
-      line.geometry.setPositions([...at, ...anchor]);
-      line.material.color.set(COLORS.slack);
-    });
+  /**
+   * Shows that there is no equilibrium: at a pose a pale platform with cables as grey straight lines, otherwise neither.
+   * @param {?object} pose `position`, `quaternion`; null if it is not known
+   */
+  setBroken(pose) {
+    this.frame = this.mode = null;
+    this.platform.visible = this.cables.visible = pose !== null;
+    this.drives?.setUnknown();
+    this.#allowDrag(pose !== null);
+    if (pose) {
+      const { position, quaternion } = pose;
+      const r = rotation(quaternion);
+      const [w, x, y, z] = quaternion;
+      [this.platform, ...(this.dragging ? [] : [this.handle])].forEach((body) => {
+        body.position.set(...position);
+        body.quaternion.set(x, y, z, w);
+      });
+      this.lines.forEach((line, i) => {
+        const own = this.attachments[i].toArray();
+        const at = r.map((row, k) => position[k] + row.reduce((sum, value, j) => sum + value * own[j], 0));
+        line.geometry.setPositions([...at, ...this.anchors[i].toArray()]);
+        line.material.color.set(COLORS.slack);
+        line.material.dashed = false;
+      });
+      if (this.lines.length) {
+        this.platformMaterial.opacity = 0.3;
+      }
+    }
     this.draw();
   }
 

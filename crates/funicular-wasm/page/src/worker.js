@@ -7,6 +7,7 @@ let robot = null; // request of the robot that the frames have, to read it again
 
 const calls = {
   robot: ({ request }) => {
+    robot = null;
     const about = funicular.robot(request);
     robot = request;
     return { about };
@@ -16,6 +17,7 @@ const calls = {
     const found = funicular.frame(kind, state, modes, points);
     return { ...found, milliseconds: performance.now() - begin };
   },
+  platform: () => funicular.platform(),
   mode: ({ index, points }) => ({ numbers: funicular.mode(index, points) }),
   response: ({ request }) => {
     const begin = performance.now();
@@ -69,10 +71,14 @@ async function answer({ data }) {
     const broken = error instanceof BrokenError;
     postMessage({ id: data.id, error: { message: error.message, status: error.status, issues: error.issues, broken } });
     if (broken) {
-      // A mistake in the core: the page lives on with a new instance and the last robot.
+      // A mistake in the core: the page lives on with a new instance and the last robot, unless it is the mistake.
       await funicular.renew();
-      if (robot) {
-        funicular.robot(robot);
+      try {
+        if (robot) {
+          funicular.robot(robot);
+        }
+      } catch {
+        robot = null;
       }
     }
   }

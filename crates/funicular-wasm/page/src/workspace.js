@@ -3,6 +3,7 @@
 import { Cancelled, Job } from "./engine.js";
 import { slice } from "./figures.js";
 import { $, element, short } from "./format.js";
+import { age, put } from "./messages.js";
 
 /** Numbers of intervals along the longer axis, one level after the other: each has the points of the one before. */
 const LEVELS = [8, 16, 32, 64];
@@ -40,19 +41,36 @@ export class Workspace {
     }
   }
 
-  /** The platform has moved: so does its cross in the figure. */
+  /**
+   * The platform has moved: so does its cross in the figure. The figure is of an earlier state if anything else has changed
+   * than the position in its plane.
+   */
   moved() {
     const cross = $("map").querySelector(".here");
-    if (cross && this.cross) {
-      const { frame } = this.#page.state();
-      cross.setAttribute("d", this.cross(this.#result.indices.map((k) => frame.position[k])));
+    if (!cross || !this.cross) {
+      return;
     }
+    const here = this.#page.here();
+    const at = this.#page.state().frame?.position ?? here;
+    cross.setAttribute("d", at ? this.cross(this.#result.indices.map((k) => at[k])) : "");
+    const old = !here || this.#keyOf(here, this.#result.indices) !== this.#result.key;
+    if ($("map").classList.contains("stale") !== old) {
+      age("map", old);
+      put(this.note, old ? "This slice is of an earlier state: compute it again." : this.told);
+    }
+  }
+
+  /** Everything that a slice depends on, as a text: the request without the position in its plane. */
+  #keyOf(here, indices) {
+    const { pose: _, lengths_m: __, ...rest } = this.#page.request();
+    return JSON.stringify([rest, here.map((value, k) => (indices.includes(k) ? null : value))]);
   }
 
   /** Another robot. */
   forget() {
     this.#job.cancel();
-    this.#result = this.#before = null;
+    this.#result = this.#before = this.cross = null;
+    age("map", false);
     $("map").replaceChildren();
   }
 
@@ -63,15 +81,16 @@ export class Workspace {
   }
 
   async run() {
-    const { about, frame, view } = this.#page.state();
-    if (!frame) {
+    const { about, reason, view } = this.#page.state();
+    const here = about && this.#page.here();
+    if (!here) {
+      this.#page.tell(`There is no pose through which the slice goes: ${reason}.`, true);
       return;
     }
     const plane = $("plane").value;
     const [quantity, column, label] = QUANTITIES.find(([name]) => name === $("quantity").value);
     const axes = [...plane].map((axis) => "xyz".indexOf(axis));
     const [low, high] = view.box.map((point) => point.toArray());
-    const here = this.#page.rounded(frame.position, frame.quaternion);
     const ranges = axes.map((k) => {
       // A planar robot or a robot with all anchors in one plane: at least a part of its size.
       const flat = high[k] - low[k] < 0.05 * view.size;
@@ -88,7 +107,7 @@ export class Workspace {
     const [nu, nv] = counts(LEVELS.at(-1));
     const known = new Map();
     const request = this.#page.request();
-    const told = { axes: [plane[0], plane[1]], indices: axes, ranges, label, here, cells: [], unit: "" };
+    const told = { axes: [plane[0], plane[1]], indices: axes, ranges, label, here, key: this.#keyOf(here, axes), cells: [], unit: "" };
     this.#result = told;
     this.#show(true);
     try {
@@ -161,15 +180,19 @@ export class Workspace {
     if (!told || told.cells.length === 0) {
       return;
     }
-    const { frame } = this.#page.state();
-    const here = told.indices.map((k) => frame.position[k]);
+    const place = this.#page.state().frame?.position ?? told.here;
+    const here = told.indices.map((k) => place[k]);
     const width = Math.max(260, $("map").clientWidth);
     const { svg, at, cross } = slice({ ...told, here, width });
     Object.assign(this, { at, cross });
     const past = this.#before && this.#before !== told ? slice({ ...this.#before, here: null, label: `${this.#before.label}, before`, width }).svg : "";
     $("map").innerHTML = svg + past;
     const off = "xyz".split("").map((axis, k) => (told.indices.includes(k) ? null : `${axis} = ${short(told.here[k], 4)} m`)).find(Boolean);
-    $("map").append(element("p", { class: "soft" }, `At ${off}, with the orientation of the platform. Grey: no equilibrium within the tension limits. A click moves the platform there.`));
+    this.told = `At ${off}, with the orientation of the platform. Grey: no equilibrium within the tension limits. A click moves the platform there.`;
+    this.note = element("p", { class: "soft" }, this.told);
+    $("map").append(this.note);
+    age("map", false);
+    this.moved();
   }
 
   #go(event) {
@@ -180,14 +203,13 @@ export class Workspace {
     const box = svg.getBoundingClientRect();
     const scale = svg.viewBox.baseVal.width / box.width;
     const [u, v] = this.at((event.clientX - box.left) * scale, (event.clientY - box.top) * scale);
-    const { frame } = this.#page.state();
-    const position = [...frame.position];
+    const pose = this.#page.here();
     const [i, j] = this.#result.indices;
     const [[u0, u1], [v0, v1]] = this.#result.ranges;
-    if (u < u0 || u > u1 || v < v0 || v > v1) {
+    if (!pose || u < u0 || u > u1 || v < v0 || v > v1) {
       return;
     }
-    [position[i], position[j]] = [u, v];
-    this.#page.go(this.#page.rounded(position, frame.quaternion));
+    [pose[i], pose[j]] = [u, v].map(this.#page.rounded);
+    this.#page.go(pose);
   }
 }

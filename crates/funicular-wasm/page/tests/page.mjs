@@ -191,11 +191,13 @@ test("a wrong value is refused at its place, and the state stays", async () => {
   assert.equal(await page.locator("#message").isVisible(), false);
   assert.equal((await frame()).position[2], 1.2);
 
-  // A pose without equilibrium: one message, and the page lives on.
+  // A pose without equilibrium: one message, no figure of the state before, and the page lives on.
   await page.fill("[data-pose='0']", "50");
   await page.keyboard.press("Enter");
   await page.waitForFunction(() => !document.getElementById("message").hidden);
   assert.match(await text("#message"), /^No equilibrium here: no tensions hold this pose/);
+  await nothingShown();
+  assert.match(await text("#state"), /There are no results: there is no equilibrium at this state/);
   await framed(() => page.click("#undo"));
   assert.equal(await page.locator("#message").isVisible(), false);
 
@@ -203,8 +205,234 @@ test("a wrong value is refused at its place, and the state stays", async () => {
   await page.fill("[data-number='platform.mass_kg']", "-3");
   await page.keyboard.press("Enter");
   await page.waitForFunction(() => !document.getElementById("message").hidden);
-  assert.match(await text("#message"), /`mass_kg` is -3/);
+  assert.match(await text("#message"), /^A value of the robot is refused: `mass_kg` is -3/);
+  await nothingShown();
   await framed(() => page.click("#undo"));
+  assert.match(await text("#key"), /N\b/);
+});
+
+/** Asserts that no part of the page has a result. */
+async function nothingShown(of = page) {
+  await of.waitForFunction(() => window.funicular.idle && window.funicular.frame === null);
+  await of.waitForTimeout(400); // longer than until the long computations begin
+  const found = await of.evaluate(() => {
+    const text = (id) => document.getElementById(id).innerText.trim();
+    const key = [...document.querySelectorAll("#key dd")].map((one) => one.innerText.trim());
+    const cells = [...document.querySelectorAll("#tensions tbody tr")].flatMap((row) => [...row.cells].slice(1).map((cell) => cell.innerText.trim()));
+    return {
+      key: key.filter((one) => one !== "–"), cells: cells.filter((one) => !["", "–"].includes(one)), modes: text("modes").split("\n").length > 2 ? document.querySelectorAll("#modes tbody tr").length : 0,
+      figures: document.querySelectorAll("#bode svg, #release svg, #influence .bars, #compare table").length, warnings: text("warnings"), influence: text("influence"),
+      legend: text("legend"), commands: document.getElementById("commands").textContent, python: document.getElementById("python").textContent,
+      moving: window.funicular.view.mode !== null, drawn: window.funicular.view.frame !== null, response: window.funicular.response,
+      play: document.getElementById("play").offsetParent !== null, first: document.getElementById("influence-first").disabled,
+      names: [...document.querySelectorAll("#view .names span")].filter((one) => one.offsetParent !== null).length,
+    };
+  });
+  const { commands, python, ...rest } = found;
+  assert.deepEqual(rest, {
+    key: [], cells: [], modes: 0, figures: 0, warnings: "–", influence: "–", legend: "", moving: false, drawn: false, response: null, play: false, first: true, names: 0,
+  });
+  [commands, python].forEach((one) => assert.match(one, /^There are no results: /));
+}
+
+const OWN = readFileSync(new URL("../../tests/hall.toml", import.meta.url), "utf8");
+
+/** Opens a file that the reader or the statics refuses. */
+async function openRefused(name, content) {
+  const file = join(folder, name);
+  writeFileSync(file, content);
+  await page.setInputFiles("#files", file);
+  await page.waitForFunction(() => window.funicular.idle && window.funicular.frame === null);
+}
+
+test("a robot that is refused, or has no equilibrium, leaves nothing of the robot before", async () => {
+  const cases = {
+    "no-equilibrium.toml": [OWN.replace("0.5, 3.0]", "0.5, 9.5]"), /^No equilibrium here/, "Hall crane, 6 cables, 20 m"],
+    "negative.toml": [OWN.replace("mass_kg = 250", "mass_kg = -250"), /^The robot file has an error: line 3: /, "negative.toml"],
+    "cut.toml": [OWN.slice(0, 300), /^The robot file has/, "cut.toml"],
+    "empty.toml": ["", /^The robot file has/, "empty.toml"],
+  };
+  for (const [name, [content, words, title]] of Object.entries(cases)) {
+    await choose("cogiro");
+    // Everything that the page can show of a state.
+    await page.click("#modes tbody tr:nth-child(17) button");
+    await page.click("#compare-run");
+    await page.waitForSelector("#compare tbody tr");
+    await page.waitForSelector("#influence .bars");
+    await page.waitForFunction(() => /limited by cable/.test(document.getElementById("key").textContent));
+    await page.click("#remember");
+    await openRefused(name, content);
+    await nothingShown();
+    assert.match(await text("#message"), words, name);
+    assert.equal(await text("#name"), title);
+    assert.ok((await page.title()).startsWith(title), await page.title());
+    assert.equal(await page.getAttribute("#remember", "aria-pressed"), "false");
+    assert.ok(!(await page.locator("#space canvas").getAttribute("aria-label")).includes("8 cables"));
+
+    // What is pressed now says that there is nothing.
+    for (const kind of ["csv", "json", "png", "svg", "response", "release"]) {
+      await page.click(".menu summary");
+      await page.click(`[data-save=${kind}]`);
+      assert.match(await text("#message"), /There is nothing to save: /, kind);
+    }
+    await page.click("#remember");
+    await page.click("#compare-run");
+    await page.click("#slice-run");
+    await page.fill("#release-mass", "5");
+    await page.click("#release-form button");
+    await page.click("[data-hold=lengths]");
+    assert.match(await text("#message"), /The cable lengths cannot be held/);
+    assert.equal(await page.getAttribute("#remember", "aria-pressed"), "false");
+    if (name !== "no-equilibrium.toml") {
+      assert.equal(await page.evaluate(() => document.querySelectorAll("#tensions tbody tr, #map svg").length), 0);
+    } else {
+      await page.waitForFunction(() => document.getElementById("slice-run").textContent === "Compute");
+      assert.equal(await page.locator("#tensions tbody tr").count(), 6);
+      await page.screenshot({ path: join(pictures, "no-equilibrium.png") });
+      // The platform can be moved to where there is one.
+      await framed(async () => { await page.fill("[data-pose='2']", "3"); await page.keyboard.press("Enter"); });
+      assert.equal((await frame()).cables.length, 6);
+    }
+  }
+  // Undo goes back through the refused ones.
+  await framed(() => page.click("#undo"));
+  assert.equal(await text("#name"), "CoGiRo");
+});
+
+test("outside of the workspace nothing is shown, and everything comes back inside", async () => {
+  await choose("cogiro");
+  await page.click("#modes tbody tr:nth-child(17) button");
+  await page.waitForFunction(() => window.funicular.view.mode);
+  const shown = await text("#key");
+  await page.fill("[data-pose='0']", "30");
+  await page.keyboard.press("Enter");
+  await nothingShown();
+  await page.screenshot({ path: join(pictures, "outside.png") });
+  await framed(() => page.click("#undo"));
+  await page.waitForFunction((before) => document.getElementById("key").innerText === before, shown);
+  await page.waitForFunction(() => window.funicular.view.mode && document.querySelector("#influence .bars") && document.querySelector("#bode svg"));
+  await page.click("#modes tbody tr:nth-child(17) button");
+
+  // A file that is typed by half, while it has an error.
+  await page.click("#tab-file");
+  await page.locator("#editor .cm-content").click();
+  await page.keyboard.press("Control+End");
+  await page.keyboard.type("\nmass = 3");
+  await page.waitForFunction(() => document.querySelector("#issues li"));
+  await nothingShown();
+  await page.click(".menu summary");
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click("[data-save=toml]")]);
+  const path = join(pictures, "half.toml");
+  await download.saveAs(path);
+  assert.match(readFileSync(path, "utf8"), /\nmass = 3$/, "the file is saved as it was typed");
+  await page.locator("#editor .cm-content").click();
+  await page.keyboard.press("Control+End");
+  await framed(async () => { for (let i = 0; i < 9; i += 1) { await page.keyboard.press("Backspace"); } });
+  await page.click("#tab-values");
+  assert.equal(await text("#key").then((found) => found.split("\n")[1]), shown.split("\n")[1]);
+});
+
+test("a comparison and a slice of an earlier state are not taken for those of the present one", async () => {
+  await choose("cogiro");
+  await page.click("#compare-run");
+  await page.waitForSelector("#compare tbody tr");
+  await page.click("#slice-run");
+  await page.waitForFunction(() => document.getElementById("slice-run").textContent === "Compute" && document.querySelectorAll("#map svg rect").length > 1000);
+  // In the plane of the slice it stays; its cross moves.
+  await framed(async () => { await page.fill("[data-pose='0']", "1"); await page.keyboard.press("Enter"); });
+  assert.match(await text("#compare"), /The state has changed: compare again/);
+  assert.ok(!(await page.getAttribute("#map", "class") ?? "").includes("stale"));
+  await framed(async () => { await page.fill("[data-number='platform.mass_kg']", "150"); await page.keyboard.press("Enter"); });
+  assert.match(await page.getAttribute("#map", "class"), /stale/);
+  assert.match(await text("#map"), /of an earlier state: compute it again/);
+  await page.click(".menu summary");
+  await page.click("[data-save=map]");
+  assert.match(await text("#message"), /of an earlier state/);
+  await framed(() => page.click("#undo"));
+  assert.doesNotMatch(await text("#map"), /of an earlier state/);
+});
+
+test("the first mode of the platform is found above the listed ones", async () => {
+  const file = join(folder, "hall-crane.toml");
+  writeFileSync(file, OWN);
+  await framed(() => page.setInputFiles("#files", file));
+  await page.waitForFunction(() => /7\.085 Hz\s*mode 27/.test(document.getElementById("key").innerText));
+  assert.equal(await page.locator("#modes tbody tr").count(), 21);
+  assert.match(await text("#modes tbody tr:last-child"), /^27\s+7\.0849/);
+  await page.click("#influence-first");
+  await page.waitForSelector("#influence .bars");
+  assert.match(await text("#influence"), /Change of 7\.0849 Hz/);
+  assert.equal(await page.evaluate(() => document.getElementById("influence").dataset.mode), "26");
+  await page.waitForFunction(() => window.funicular.view.mode);
+  await page.screenshot({ path: join(pictures, "platform.png") });
+
+  // While the platform moves, the list reaches it, and no search is needed.
+  await framed(async () => { await page.fill("[data-pose='0']", "0.9"); await page.keyboard.press("Enter"); });
+  const near27 = await frame();
+  assert.ok(near27.first.index > 20 && near27.modes.length > near27.first.index, JSON.stringify(near27.first));
+
+  // The release has the modes of the platform.
+  await page.fill("#release-mass", "100");
+  await page.click("#release-form button");
+  await page.waitForFunction(() => /The complete static model moves/.test(document.getElementById("release").textContent));
+  const [complete, linear] = /by ([\d.]+) mm under this payload, the listed modes by ([\d.]+) mm/.exec(await text("#release p")).slice(1).map(Number);
+  near(linear, complete, 0.1, "displacement under 100 kg");
+});
+
+// One gram in ropes of one kilogram per metre: up to 1000 Hz the ropes vibrate, and the platform goes with them.
+const SPECK = `
+name = "Speck on heavy ropes"
+[platform]
+motion = "point-mass"
+mass_kg = 0.001
+[materials.rope]
+axial_stiffness_n = 2e6
+mass_kg_per_m = 1.0
+minimum_tension_n = 1000
+maximum_tension_n = 9000
+[state]
+position_m = [0.0, 0.1, 1.0]
+` + [[2, 2, 3], [-2, 2, 3], [-2, -2, 3], [2, -2, 3], [0, 0, -2]].map((anchor, i) => `[[cables]]
+name = "${i + 1}"
+material = "rope"
+anchor_m = [${anchor.map((value) => value.toFixed(1)).join(", ")}]
+`).join("");
+
+test("a robot without a mode of the platform says so, and its button is disabled", async () => {
+  const file = join(folder, "speck.toml");
+  writeFileSync(file, SPECK);
+  await framed(() => page.setInputFiles("#files", file));
+  // Until the search ends, the figure is marked, and the button waits.
+  assert.match(await text("#key"), /First resonance of the platform\s*…\s*above the 20 lowest; searching/);
+  assert.ok(await page.isDisabled("#influence-first"));
+  await page.waitForFunction(() => /no mode below 1000 Hz has at least 50 %/.test(document.getElementById("key").innerText));
+  assert.match(await text("#key"), /First resonance of the platform\s*–\s*no mode/);
+  assert.ok(await page.isDisabled("#influence-first"));
+  assert.match(await page.getAttribute("#influence-first", "title"), /no mode below 1000 Hz/);
+  assert.match(await text("#influence"), /There is no first one of the platform: no mode below 1000 Hz/);
+
+  // A search that is given up is told.
+  await framed(async () => { await page.fill("[data-pose='0']", "0.1"); await page.keyboard.press("Enter"); });
+  await page.click("#busy p:has-text('Searching the first resonance') button");
+  assert.match(await text("#key"), /the search was cancelled/);
+});
+
+test("a file that is too large is refused at once, and a message is not hidden by a note", async () => {
+  await choose("cogiro");
+  for (const name of ["large.toml", "large.xml"]) {
+    await page.evaluate((of) => {
+      const files = new DataTransfer();
+      files.items.add(new File([new Uint8Array(60e6)], of));
+      document.dispatchEvent(new DragEvent("drop", { bubbles: true, dataTransfer: files }));
+    }, name);
+    assert.match(await text("#message"), new RegExp(`^${name} has 60.0 MB, which is more than the 5 MB`));
+  }
+  assert.equal((await frame()).cables.length, 8);
+  const bad = join(folder, "picture.png");
+  writeFileSync(bad, Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]));
+  await page.setInputFiles("#files", bad);
+  await page.waitForFunction(() => /picture\.png/.test(document.getElementById("message").textContent));
+  assert.equal((await text("#message")).split("picture.png").length, 2, await text("#message"));
 });
 
 test("sliders change values, and undo brings them back", async () => {
@@ -333,7 +561,18 @@ test("a link has the robot and the state", async () => {
   await other.close();
   const broken = await opened(`${link.slice(0, -30)}`);
   await broken.waitForFunction(() => !document.getElementById("message").hidden);
-  assert.match(await text("#message", broken), /cannot be read/);
+  assert.match(await text("#message", broken), /This link is damaged.* This is not its robot, but the first one of the library, CoGiRo/);
+  // Another link in the same window, without a part, and one that is none: the robot stays, and the page says so.
+  for (const [hash, words] of [[link.split("#")[1].slice(5), /damaged.*The robot on the page is still the one before, CoGiRo/], ["robot=cogiro", /“#robot=cogiro” at the end of the address is no link of this page.*still the one before/]]) {
+    await broken.evaluate((to) => { document.getElementById("message").textContent = ""; location.hash = to; }, hash);
+    await broken.waitForFunction(() => document.getElementById("message").textContent !== "");
+    const told = await text("#message", broken);
+    assert.ok(words.test(told) && !/atob|fetch|JSON|undefined/i.test(told), told);
+  }
+  // The link to the results at the beginning of the page is a place, and not a robot.
+  await broken.evaluate(() => { document.getElementById("message").textContent = ""; location.hash = "results"; });
+  await broken.waitForTimeout(300);
+  assert.equal(await broken.locator("#message").textContent(), "");
   await broken.close();
 });
 
@@ -664,12 +903,11 @@ test("a long computation says so and can be cancelled", async () => {
     const poses = Array.from({ length: 4000 }, (_, i) => [0.001 * i - 2, 0, 1.5, 0, 0, 0]);
     window.funicular.ask({ command: "map", robot: window.funicular.content.robot, quantities: ["first-frequency"], poses }).catch(() => {});
   });
-  const start = await frame();
   await page.fill("[data-pose='2']", "1.3");
   await page.keyboard.press("Enter");
   await page.click("#busy button");
   await page.waitForFunction(() => /^Cancelled/.test(document.getElementById("message").textContent));
-  assert.deepEqual((await frame()).position, start.position);
+  await nothingShown();
   await framed(async () => { await page.fill("[data-pose='2']", "1.4"); await page.keyboard.press("Enter"); });
   assert.equal((await frame()).position[2], 1.4);
   assert.equal(await page.locator("#message").isVisible(), false);
@@ -750,7 +988,6 @@ test("a mistake in the core is told, and the page lives on", async () => {
   assert.equal((await frame()).cables.length, 8);
 
   // The same instead of a frame: the page shows what happened and how to report it, and the next change is computed.
-  const start = await frame();
   await page.evaluate(() => {
     const { engine } = window.funicular;
     const own = engine.call;
@@ -766,7 +1003,7 @@ test("a mistake in the core is told, and the page lives on", async () => {
   await page.keyboard.press("Enter");
   await page.waitForFunction(() => /started again/.test(document.getElementById("message").textContent));
   assert.match(await text("#message"), /mistake in funicular[\s\S]*please report it with the request[\s\S]*The page has started again with the last robot/);
-  assert.deepEqual((await frame()).position, start.position);
+  await nothingShown();
   await framed(async () => { await page.fill("[data-pose='0']", "0.2"); await page.keyboard.press("Enter"); });
   assert.equal((await frame()).position[0], 0.2);
   assert.equal(await page.locator("#message").isVisible(), false);
