@@ -30,9 +30,12 @@ export async function setRobot(name, text, more = {}, display = {}) {
 
   // The robot is shown first; the panel of its values follows.
   page.pending += 1;
-  await change({ robot: true });
-  await readParameters();
-  page.pending -= 1;
+  try {
+    await change({ robot: true });
+    await readParameters();
+  } finally {
+    page.pending -= 1;
+  }
   if (content.pinned.length === 0) {
     pinFirst();
   }
