@@ -119,12 +119,18 @@ async function readRobot() {
   const { robots } = page;
   const done = busy("Reading the robot file", stop);
   try {
-    const found = await page.engine.call("robot", { request: requestOf() });
+    const request = requestOf();
+    const found = await page.engine.call("robot", { request });
     if (robots !== page.robots) {
       return; // another one was chosen meanwhile
     }
     const isNew = page.about === null || shown.newRobot;
     page.about = found.about;
+    if ("tension_rule" in requestOf() !== "tension_rule" in request) {
+      Object.assign(shown, { newRobot: isNew });
+      dirty.robot = true; // only its description tells whether a rule counts
+      return;
+    }
     tell(null);
     shown.newRobot &&= dirty.robot;
     shown.refused = false;

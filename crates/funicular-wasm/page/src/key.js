@@ -7,6 +7,17 @@ import { on, page } from "./store.js";
 
 const NAMES = ["Highest tension", "Lowest tension", "First resonance", "First resonance of the platform", "Maximum payload", "Stiffness in the softest direction"];
 
+/** Tells a screen reader the results when the platform rests. */
+function speak() {
+  const { frame } = page;
+  if (frame) {
+    const [x, y, z] = frame.position.map((value) => short(value, 3));
+    const first = frame.modes[frame.first?.index];
+    const highest = Math.max(...frame.cables.map((cable) => cable.highest));
+    put($("spoken"), `Platform at x ${x}, y ${y}, z ${z} metres. Highest tension ${short(highest, 3)} newtons.${first ? ` First resonance of the platform ${short(first.hz, 3)} hertz.` : ""}`);
+  }
+}
+
 /** First resonance of the platform; dots while it is searched above the list. */
 function platformFact(frame, delta) {
   const { before } = page;
@@ -80,6 +91,8 @@ export function listen() {
   on("remember", showKey);
   on("empty", () => { showKey(); showWarnings(); });
   on("outdated", () => age("warnings", true));
+  on("rested", speak);
+  on("empty", () => put($("spoken"), ""));
   on("settled", showWarnings);
   on("settled", showKey);
 }

@@ -78,6 +78,11 @@ export function listen() {
   on("platform", showModes);
   on("empty", showModes);
   on("remember", showModes);
+  addEventListener("keydown", ({ key, defaultPrevented }) => {
+    if (key === "Escape" && !defaultPrevented && shown.mode >= 0) {
+      chooseMode(-1);
+    }
+  });
   $("play").addEventListener("click", () => {
     if (view.mode) {
       view.mode.playing = !view.mode.playing;

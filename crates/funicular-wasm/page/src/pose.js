@@ -39,7 +39,7 @@ export function allowed(pose) {
 /** Pose that the robot file gives, if it does. */
 function poseOfFile() {
   const pose = page.about?.check.pose;
-  return pose ? { position: pose.position_m, quaternion: pose.quaternion_wxyz } : null;
+  return pose ? { position: pose.position_m, quaternion: quaternionOf(pose.roll_pitch_yaw_deg) } : null;
 }
 
 /**

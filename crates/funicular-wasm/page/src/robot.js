@@ -30,9 +30,12 @@ export async function setRobot(name, text, more = {}, display = {}) {
 
   // The robot is shown first; the panel of its values follows.
   page.pending += 1;
-  await change({ robot: true });
-  await readParameters();
-  page.pending -= 1;
+  try {
+    await change({ robot: true });
+    await readParameters();
+  } finally {
+    page.pending -= 1;
+  }
   if (content.pinned.length === 0) {
     pinFirst();
   }
@@ -41,10 +44,13 @@ export async function setRobot(name, text, more = {}, display = {}) {
 
 /** Takes the names and texts of the robot away. A robot that is refused is known by its file. */
 function forgetRobot() {
-  const { name } = content.robot;
-  $("name").textContent = ROBOTS[name] ? "" : name;
+  const { name, text } = content.robot;
+  $("name").textContent = name;
   $("source").textContent = "";
   document.title = name ? `${name} – funicular` : "funicular";
+  shown.issues = [];
+  $("issues").replaceChildren();
+  showText(text);
   page.view.clear();
   page.view.remember(null);
   $("remember").setAttribute("aria-pressed", "false");
@@ -115,7 +121,7 @@ async function openFiles(list) {
     if (error instanceof Cancelled) {
       tell(`Cancelled: ${names} was not read. The robot on the page is the one before.`, true);
     } else {
-      tell(`${error.message.startsWith(names) ? "" : `${names}: `}${importAdvice(error.message)}`);
+      tell(`${error.message.startsWith(names) ? "" : `${names}: `}${importAdvice(error.message)}\nThe robot on the page is the one before.`);
     }
   } finally {
     done();

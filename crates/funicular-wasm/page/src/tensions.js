@@ -59,6 +59,9 @@ function showNone() {
 
 function showTensions() {
   const { about, before, frame, view } = page;
+  if (!frame) {
+    return;
+  }
   const rows = rowsOf("tensions", frame.cables.length, rowOf);
   const free = content.hold === "lengths";
   const top = Math.max(...frame.cables.map((cable) => (frame.limited && Number.isFinite(cable.maximum) ? cable.maximum : 1.1 * cable.highest)));

@@ -66,7 +66,7 @@ export class View {
     this.renderer = new WebGLRenderer({ canvas, context, alpha: true });
     this.canvas = canvas;
     this.canvas.tabIndex = 0;
-    this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute("role", "application"); // it takes the arrow keys
     this.labels = document.createElement("div");
     this.labels.className = "names";
     this.labels.setAttribute("aria-hidden", "true");
