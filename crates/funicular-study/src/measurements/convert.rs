@@ -1,8 +1,13 @@
 //! Functions of a Universal File as measured responses of the robot: signals, points and SI units.
 
-use super::MeasuredResponse;
+use super::unit_label::{self, Dimension, FORCE as NEWTON, LENGTH as METRE, MOMENT, NO_DIMENSION};
 use super::uff::{Function, NodeDirection, UffAxis, UffFile};
-use anyhow::{Result, bail};
+use super::{MeasuredResponse, ResponseName};
+use crate::signals::{Input, Output, Place};
+use crate::text::{counted, short};
+use anyhow::{Result, anyhow, bail};
+use funicular::math::Vec3;
+use funicular::response::Quantity;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -28,21 +33,26 @@ const FREQUENCY: i64 = 18;
 /// Magnitudes of the numbers of a response; binary data that are read in a wrong byte order are soon outside.
 const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
 
+/// Relative difference of two factors to SI units that are not the same unit: rounded factors of a file have it.
+const SAME_UNIT: f64 = 1e-3;
+
 /// Type of function of a frequency response.
 pub(crate) const RESPONSE: i64 = 4;
 
-/// Frequency responses of a file, with points by `nodes`, or else by the nodes of the file. Their SI units follow from
-/// dataset 164. The second list names what was left out.
+/// Frequency responses of a file, with points by `nodes`, or else by the nodes of the file. `names` gives the signals of
+/// functions that do not tell them. SI units follow from the labels of the units and from dataset 164. The second list
+/// names what was left out, converted or replaced.
 ///
 /// # Errors
-/// A node without a place, a response without a direction, a quantity that is no motion per force, or units that
-/// contradict each other; the message names the line of the dataset.
+/// A unit that is not known or contradicts dataset 164, damaged numbers, or a file without a single function that can be
+/// used; the message names the line of the dataset.
 pub fn responses_of_uff(
     path: &str,
     file: &UffFile,
     nodes: &[NodePoint],
+    names: &[ResponseName],
 ) -> Result<(Vec<MeasuredResponse>, Vec<String>)> {
-    let (mut responses, mut notes) = (Vec::new(), Vec::new());
+    let mut notes = Vec::new();
 
     for (i, known) in nodes.iter().enumerate() {
         if nodes[..i].iter().any(|other| other.node == known.node) {
@@ -56,32 +66,177 @@ pub fn responses_of_uff(
         }
     }
 
-    let mut others: BTreeMap<i64, usize> = BTreeMap::new();
-
-    for function in &file.functions {
-        if function.kind == RESPONSE && matches!(function.abscissa.kind, FREQUENCY | UNKNOWN | GENERAL) {
-            let of = UffResponse { path, file, function, nodes };
-            responses.push(of.converted()?);
+    let given = given_signals(path, file, names, &mut notes)?;
+    let mut found = FoundResponses::default();
+    for (i, function) in file.functions.iter().enumerate() {
+        let signals = given.get(&i);
+        let is_frequency = matches!(function.abscissa.kind, FREQUENCY | UNKNOWN | GENERAL);
+        if signals.is_some() || (function.kind == RESPONSE && is_frequency) {
+            let of = UffResponse { path, file, function, nodes, signals };
+            match of.converted(&mut found.conversions) {
+                Ok(response) => found.responses.push(response),
+                Err(Refusal::Unfit(reason)) => found.unfit.entry(reason).or_default().push(function.line + 1),
+                Err(Refusal::Wrong(error)) => return Err(error),
+            }
         } else {
-            *others.entry(function.kind).or_default() += 1;
+            *found.others.entry(function.kind).or_default() += 1;
         }
     }
 
-    for (kind, count) in others {
-        notes.push(format!(
-            "{path}: {} of type {kind} left out; frequency responses have type {RESPONSE}",
-            crate::text::counted(count, "function")
-        ));
-    }
-    for (kind, count) in &file.skipped {
-        notes.push(format!("{path}: {} {kind} left out", crate::text::counted(*count, "dataset")));
-    }
+    found.checked(path, file, notes)
+}
 
-    if responses.is_empty() {
-        bail!("{path} has no frequency response: no dataset 58 has a function of type {RESPONSE}");
-    }
+/// Responses of a file, and what a note says about the others.
+#[derive(Default)]
+struct FoundResponses {
+    responses: Vec<MeasuredResponse>,
+    /// Sentences on conversions, with the number of functions.
+    conversions: BTreeMap<String, usize>,
+    /// Reasons to leave functions out, with their lines.
+    unfit: BTreeMap<String, Vec<usize>>,
+    /// Numbers of functions of other types.
+    others: BTreeMap<i64, usize>,
+}
 
-    Ok((responses, notes))
+impl FoundResponses {
+    /// Responses and notes; or the first reason why there are none.
+    fn checked(self, path: &str, file: &UffFile, notes: Vec<String>) -> Result<(Vec<MeasuredResponse>, Vec<String>)> {
+        let mut notes = notes;
+        if self.responses.is_empty() {
+            let first = self.unfit.iter().min_by_key(|(_, lines)| lines.first());
+            let Some((reason, lines)) = first else {
+                bail!("{path} has no frequency response: no dataset 58 has a function of type {RESPONSE}");
+            };
+            bail!("{}: the function in line {} {reason}", path, lines.first().copied().unwrap_or_default());
+        }
+
+        for (sentence, count) in self.conversions {
+            notes.push(format!("{path}: {}: {sentence}", counted(count, "function")));
+        }
+        for (reason, lines) in self.unfit {
+            let others = match lines.len() {
+                0 | 1 => String::new(),
+                2 => ", as is another one".to_owned(),
+                count => format!(", as are {} others", count - 1),
+            };
+            notes.push(format!(
+                "{path}: the function in line {} is left out{others}: it {reason}",
+                lines.first().copied().unwrap_or_default()
+            ));
+        }
+        for (kind, count) in self.others {
+            notes.push(format!(
+                "{path}: {} of type {kind} left out; frequency responses have type {RESPONSE}",
+                counted(count, "function")
+            ));
+        }
+        for (kind, count) in &file.skipped {
+            notes.push(format!("{path}: {} {kind} left out", counted(*count, "dataset")));
+        }
+        Ok((self.responses, notes))
+    }
+}
+
+/// Signals that the user has given for a function.
+struct GivenSignals {
+    output: Output,
+    input: Input,
+}
+
+/// Signals by the index of their function. A name that belongs to no function is told in a note.
+fn given_signals(
+    path: &str,
+    file: &UffFile,
+    names: &[ResponseName],
+    notes: &mut Vec<String>,
+) -> Result<BTreeMap<usize, GivenSignals>> {
+    let mut given = BTreeMap::new();
+    for named in names {
+        let output = Output::parse(&named.output)
+            .map_err(|error| anyhow!("⟪response⟫ {}: {}: {error}", named.name, named.output))?;
+        let input =
+            Input::parse(&named.input).map_err(|error| anyhow!("⟪response⟫ {}: {}: {error}", named.name, named.input))?;
+        let signals = GivenSignals { output, input };
+        let functions = file.functions.iter().enumerate();
+        let matching: Vec<usize> =
+            functions.filter(|(_, function)| signals.belong_to(&named.name, function)).map(|(i, _)| i).collect();
+        match matching[..] {
+            [] => notes.push(format!("{path}: no function is called {}, whose signals are not used", named.name)),
+            [only] => {
+                if given.insert(only, signals).is_some() {
+                    bail!(
+                        "⟪response⟫ {}: {path}: the function in line {} has two names; give its signals once",
+                        named.name,
+                        file.functions[only].line + 1
+                    );
+                }
+            }
+            [first, second, ..] => {
+                let [first, second] = [first, second].map(|i| file.functions[i].line + 1);
+                bail!(
+                    "⟪response⟫ {}: {path}: {} functions have this name, the first in lines {first} and {second}: name \
+                     one by its line, as in line {first}=az/fz",
+                    named.name,
+                    matching.len()
+                )
+            }
+        }
+    }
+    Ok(given)
+}
+
+impl GivenSignals {
+    /// True if a name means a function: its line, its first line of text, or these signals at its nodes, as in `az at
+    /// node 1`. In the last case, what the function tells must not contradict the signals.
+    fn belong_to(&self, name: &str, function: &Function) -> bool {
+        if name == format!("line {}", function.line + 1) {
+            return true;
+        }
+        if !unit_label::is_blank(&function.texts[0]) && name == function.texts[0] {
+            return true;
+        }
+
+        let response = format!("{} at node {}", self.output.name, function.response.node);
+        let whole = format!("{response} / {} at node {}", self.input.name, function.reference.node);
+        let may_be = |end: &NodeDirection, place: &Place| end.direction == 0 || sign_along(end, place).is_some();
+        (name == response || name == whole)
+            && quantity_of(function.numerator.kind).is_none_or(|quantity| quantity == Some(self.output.quantity))
+            && may_be(&function.response, &self.output.place)
+            && may_be(&function.reference, &self.input.place)
+    }
+}
+
+/// Quantity of a specific data type; `None` if the type does not tell it, and `Some(None)` if it is no motion.
+fn quantity_of(kind: i64) -> Option<Option<Quantity>> {
+    match kind {
+        UNKNOWN | GENERAL => None,
+        DISPLACEMENT => Some(Some(Quantity::Displacement)),
+        VELOCITY => Some(Some(Quantity::Velocity)),
+        ACCELERATION => Some(Some(Quantity::Acceleration)),
+        _ => Some(None),
+    }
+}
+
+/// Sign of the file's direction if it is along the axis of a signal of the platform.
+fn sign_along(end: &NodeDirection, place: &Place) -> Option<f64> {
+    let Place::Platform { turns, direction_w } = place else { return None };
+    let axis = [Vec3::x(), Vec3::y(), Vec3::z()].iter().position(|axis| axis == direction_w)? as i64;
+    let number = axis + if *turns { 4 } else { 1 };
+    (end.direction.abs() == number).then(|| if end.direction < 0 { -1.0 } else { 1.0 })
+}
+
+/// Reason why a function is no response.
+enum Refusal {
+    /// The function is something else, or tells too little: the others may be used. The text follows `the function`.
+    Unfit(String),
+    /// The file has to change.
+    Wrong(anyhow::Error),
+}
+
+impl From<anyhow::Error> for Refusal {
+    fn from(error: anyhow::Error) -> Self {
+        Self::Wrong(error)
+    }
 }
 
 /// Response in a file.
@@ -90,6 +245,14 @@ struct UffResponse<'a> {
     file: &'a UffFile,
     function: &'a Function,
     nodes: &'a [NodePoint],
+    signals: Option<&'a GivenSignals>,
+}
+
+/// Names of output and input, and the sign of their directions.
+struct Signals {
+    output: Output,
+    input: Input,
+    sign: f64,
 }
 
 impl UffResponse<'_> {
@@ -98,56 +261,124 @@ impl UffResponse<'_> {
         format!("{}: the function in line {}", self.path, self.function.line + 1)
     }
 
-    fn converted(&self) -> Result<MeasuredResponse> {
-        let Function { numerator, denominator, response, reference, .. } = self.function;
-        if !self.function.is_complex {
-            bail!("{} has real ordinates: a response needs its phase, so export it with complex numbers", self.place());
-        }
-        let prefix = match numerator.kind {
-            DISPLACEMENT => "",
-            VELOCITY => "v",
-            ACCELERATION => "a",
-            other => bail!(
-                "{} has ordinates of data type {other}: a response needs displacement ({DISPLACEMENT}), velocity \
-                 ({VELOCITY}) or acceleration ({ACCELERATION})",
-                self.place()
-            ),
-        };
-        if !matches!(denominator.kind, FORCE | UNKNOWN | GENERAL) {
-            bail!("{} is a response per data type {}: it must be force ({FORCE})", self.place(), denominator.kind);
-        }
-        let (out_axis, out_turns, out_sign) = self.direction(response, "response")?;
-        let (in_axis, in_turns, in_sign) = self.direction(reference, "reference")?;
-        let input = format!("{}{in_axis}", if in_turns { "m" } else { "f" });
-        let output = format!("{prefix}{}{out_axis}", if out_turns { "r" } else { "" });
+    /// End of a message: how to give the signals of this function.
+    fn give_signals(&self) -> String {
+        let line = self.function.line + 1;
+        format!("give its signals, as in ⟪response⟫ \"line {line}=az/fz\" (output/input), or write it as CSV")
+    }
 
-        let factor = out_sign * in_sign * self.to_si(numerator, denominator, out_turns, in_turns)?;
-        let Function { abscissae, values, .. } = self.function;
+    fn converted(&self, conversions: &mut BTreeMap<String, usize>) -> Result<MeasuredResponse, Refusal> {
+        let Function { response, reference, abscissae, values, .. } = self.function;
+        if !self.function.is_complex {
+            return Err(Refusal::Unfit(
+                "has real ordinates: a response needs its phase, so export it with complex numbers".to_owned(),
+            ));
+        }
+        let mut notes = Vec::new();
+        let Signals { output, input, sign } = match self.signals {
+            Some(given) => self.with_given(given, &mut notes),
+            None => self.told(&mut notes)?,
+        };
+        let [input_point_m, output_point_m] = [(reference, &input.place), (response, &output.place)]
+            .map(|(end, place)| matches!(place, Place::Platform { turns: false, .. }).then(|| self.point(end.node)));
+        let (input_point_m, output_point_m) = (input_point_m.transpose()?, output_point_m.transpose()?);
+
+        let factor = sign * self.to_si(&output, &input, &mut notes)?;
+        let hertz = self.hertz(&mut notes)?;
         let parts = values.iter().flat_map(|value| [value.re, value.im]).chain(abscissae.iter().copied());
         if let Some(number) = parts.into_iter().find(|number| *number != 0.0 && !MAGNITUDES.contains(&number.abs())) {
-            bail!(
+            return Err(Refusal::Wrong(anyhow!(
                 "{} has the number {number:e}, which nobody measures: in binary data (dataset 58b) the byte order of \
                  the file is wrong, or the data are damaged",
                 self.place()
-            );
+            )));
         }
-        let [input_point_m, output_point_m] =
-            [(reference, in_turns), (response, out_turns)].map(|(end, turns)| (!turns).then(|| self.point(end.node)));
+
+        for note in notes {
+            *conversions.entry(note).or_default() += 1;
+        }
         Ok(MeasuredResponse {
-            name: format!("{output} at node {} / {input} at node {}", response.node, reference.node),
-            input,
-            input_point_m: input_point_m.transpose()?,
-            output,
-            output_point_m: output_point_m.transpose()?,
-            frequency_hz: abscissae.clone(),
+            name: format!("{} at node {} / {} at node {}", output.name, response.node, input.name, reference.node),
+            input: input.name,
+            input_point_m,
+            output: output.name,
+            output_point_m,
+            frequency_hz: abscissae.iter().map(|abscissa| abscissa * hertz).collect(),
             real: values.iter().map(|value| value.re * factor).collect(),
             imag: values.iter().map(|value| value.im * factor).collect(),
             std: None,
         })
     }
 
+    /// Signals that the user has given, with the signs of the file along the same axes.
+    fn with_given(&self, given: &GivenSignals, notes: &mut Vec<String>) -> Signals {
+        let Function { response, reference, .. } = self.function;
+        let mut sign = 1.0;
+        for (end, place, name) in
+            [(response, &given.output.place, &given.output.name), (reference, &given.input.place, &given.input.name)]
+        {
+            match sign_along(end, place) {
+                Some(of_end) => sign *= of_end,
+                None if end.direction != 0 => {
+                    notes.push(format!("⟪response⟫ {name} replaces the direction {} of the file", end.direction));
+                }
+                None => {}
+            }
+        }
+        Signals { output: given.output.clone(), input: given.input.clone(), sign }
+    }
+
+    /// Signals by the types and directions of the file; where the type of the ordinates tells nothing, by the label of
+    /// their unit.
+    fn told(&self, notes: &mut Vec<String>) -> Result<Signals, Refusal> {
+        let Function { numerator, denominator, response, reference, .. } = self.function;
+        if quantity_of(numerator.kind) == Some(None) {
+            return Err(Refusal::Unfit(format!(
+                "has ordinates of data type {}: a response needs displacement ({DISPLACEMENT}), velocity ({VELOCITY}) \
+                 or acceleration ({ACCELERATION})",
+                numerator.kind
+            )));
+        }
+        if !matches!(denominator.kind, FORCE | UNKNOWN | GENERAL) {
+            return Err(Refusal::Unfit(format!(
+                "is a response per data type {}: it must be force ({FORCE})",
+                denominator.kind
+            )));
+        }
+        let (out_axis, out_turns, out_sign) = self.direction(response, "response")?;
+        let (in_axis, in_turns, in_sign) = self.direction(reference, "reference")?;
+        let input = format!("{}{in_axis}", if in_turns { "m" } else { "f" });
+        let input = Input::parse(&input).map_err(anyhow::Error::from)?;
+
+        let named = |prefix: &str| {
+            let name = format!("{prefix}{}{out_axis}", if out_turns { "r" } else { "" });
+            Output::parse(&name).map_err(anyhow::Error::from)
+        };
+        let all = [named("")?, named("v")?, named("a")?];
+        let output = if let Some(quantity) = quantity_of(numerator.kind) {
+            all.into_iter().find(|output| Some(output.quantity) == quantity)
+        } else {
+            let mut fitting = all.into_iter().filter(|output| size_of_ordinates(numerator, output, &input).is_some());
+            let only = fitting.next().filter(|_| fitting.next().is_none());
+            if let Some(output) = &only {
+                notes.push(format!("taken as {} by the unit `{}` of the ordinates", output.name, numerator.unit));
+            }
+            only
+        };
+        let Some(output) = output else {
+            return Err(Refusal::Unfit(format!(
+                "has ordinates of data type {} and the unit `{}`, which do not tell whether they are displacement, \
+                 velocity or acceleration: {}",
+                numerator.kind,
+                numerator.unit,
+                self.give_signals()
+            )));
+        };
+        Ok(Signals { output, input, sign: out_sign * in_sign })
+    }
+
     /// Axis, true for a rotation or moment, and sign of a direction.
-    fn direction(&self, end: &NodeDirection, what: &str) -> Result<(char, bool, f64)> {
+    fn direction(&self, end: &NodeDirection, what: &str) -> Result<(char, bool, f64), Refusal> {
         let sign = if end.direction < 0 { -1.0 } else { 1.0 };
         let (axis, turns) = match end.direction.abs() {
             1 => ('x', false),
@@ -156,50 +387,164 @@ impl UffResponse<'_> {
             4 => ('x', true),
             5 => ('y', true),
             6 => ('z', true),
-            _ => bail!(
-                "{} has no direction of its {what}: it is {}, it must be 1 to 6 or -1 to -6",
-                self.place(),
-                end.direction
-            ),
+            _ => {
+                return Err(Refusal::Unfit(format!(
+                    "has no direction of its {what}: it is {}, it must be 1 to 6 or -1 to -6; {}",
+                    end.direction,
+                    self.give_signals()
+                )));
+            }
         };
         Ok((axis, turns, sign))
     }
 
     /// Point of the platform at a node [m].
-    fn point(&self, node: i64) -> Result<[f64; 3]> {
+    fn point(&self, node: i64) -> Result<[f64; 3], Refusal> {
         if let Some(known) = self.nodes.iter().find(|known| known.node == node) {
             return Ok(known.point_m);
         }
         match self.file.nodes.get(&node) {
             Some(place) => Ok(place.map(|number| number / self.file.units.length)),
-            None => bail!(
-                "{} is at node {node}, whose place on the platform is unknown: give ⟪node⟫ {node}=x,y,z in the \
-                 platform frame [m]",
-                self.place()
-            ),
+            None => Err(Refusal::Unfit(format!(
+                "is at node {node}, whose place on the platform is unknown: give ⟪node⟫ {node}=x,y,z in the platform \
+                 frame [m]"
+            ))),
         }
     }
 
     /// Factor to SI units, in which displacements are metres or radians, and loads newtons or newton metres.
-    fn to_si(&self, numerator: &UffAxis, denominator: &UffAxis, out_turns: bool, in_turns: bool) -> Result<f64> {
-        let units = self.file.units;
-        for axis in [numerator, denominator] {
-            let label = axis.unit.to_lowercase();
-            // Labels of units that are no SI units; without factors nobody would notice.
-            let first = label.split(['/', ' ', '*', '(']).next().unwrap_or_default();
-            if matches!(first, "g" | "gn" | "mm" | "cm" | "in" | "inch" | "ft" | "lbf" | "lb" | "kn" | "kgf")
-                && !units.converts()
-            {
-                bail!(
-                    "{} has the unit `{}`, but the file gives no factor to SI units (dataset 164): export it \
-                     in SI units",
-                    self.place(),
-                    axis.unit
-                );
-            }
+    fn to_si(&self, output: &Output, input: &Input, notes: &mut Vec<String>) -> Result<f64> {
+        let Function { numerator, denominator, .. } = self.function;
+        let (of_output, of_input) = (dimension_of_output(output), dimension_of_input(input));
+        let wrong = |axis: &UffAxis, what: &str| {
+            anyhow!(
+                "{} has the unit `{}` of its {what}, which is no known unit of {}: correct the label, or export the \
+                 file in SI units",
+                self.place(),
+                axis.unit,
+                if what == "ordinates" { &output.name } else { &input.name }
+            )
+        };
+
+        let load = if unit_label::is_blank(&denominator.unit) {
+            self.by_dataset(of_input)
+        } else {
+            let size = unit_label::size(&denominator.unit, of_input).ok_or_else(|| wrong(denominator, "denominator"))?;
+            self.agreed(denominator, size, of_input)?
+        };
+        if unit_label::is_blank(&numerator.unit) {
+            return Ok(self.by_dataset(of_output) / noted(notes, &denominator.unit, load));
         }
-        let length = if out_turns { 1.0 } else { units.length };
-        let load = units.force * if in_turns { units.length } else { 1.0 };
-        Ok(load / length)
+        if let Some(size) = unit_label::size(&numerator.unit, of_output) {
+            let size = self.agreed(numerator, size, of_output)?;
+            return Ok(noted(notes, &numerator.unit, size) / noted(notes, &denominator.unit, load));
+        }
+        let of_ratio = ratio(of_output, of_input);
+        let size = unit_label::size(&numerator.unit, of_ratio).ok_or_else(|| wrong(numerator, "ordinates"))?;
+        let size = self.agreed(numerator, size, of_ratio)?;
+        let is_repeated = unit_label::is_blank(&denominator.unit)
+            || unit_label::is_part_of(&denominator.unit, &numerator.unit);
+        if !is_repeated {
+            bail!(
+                "{} has the unit `{}` of its ordinates and the unit `{}` of its denominator, which contradict each \
+                 other: correct one of the labels",
+                self.place(),
+                numerator.unit,
+                denominator.unit
+            );
+        }
+        Ok(noted(notes, &numerator.unit, size))
     }
+
+    /// Size of the unit that dataset 164 gives a quantity; 1 without such a dataset.
+    fn by_dataset(&self, [length, mass, _]: Dimension) -> f64 {
+        let units = self.file.units;
+        // A force has a length and a mass.
+        units.length.powi(mass - length) * units.force.powi(-mass)
+    }
+
+    /// Size of a label's unit, which dataset 164 must not contradict unless it says that the file is in SI units: then
+    /// the label, which stands at the numbers, counts.
+    fn agreed(&self, axis: &UffAxis, size: f64, dimension: Dimension) -> Result<f64> {
+        let by_dataset = self.by_dataset(dimension);
+        if self.file.units.converts() && (size / by_dataset - 1.0).abs() > SAME_UNIT {
+            bail!(
+                "{} has the unit `{}`, which is {} in SI units, but by the factors of the file (dataset 164) it is \
+                 {}: correct one of them, or remove dataset 164",
+                self.place(),
+                axis.unit,
+                short(size, 7),
+                short(by_dataset, 7)
+            );
+        }
+        Ok(size)
+    }
+
+    /// Factor of the abscissae to hertz.
+    fn hertz(&self, notes: &mut Vec<String>) -> Result<f64, Refusal> {
+        let UffAxis { kind, unit, .. } = &self.function.abscissa;
+        if unit_label::is_blank(unit) {
+            return Ok(1.0);
+        }
+        match unit_label::hertz(unit) {
+            Some(size) => {
+                if (size - 1.0).abs() > f64::EPSILON {
+                    notes.push(format!("the unit `{unit}` of the abscissae is converted: it is {} Hz", short(size, 7)));
+                }
+                Ok(size)
+            }
+            None if *kind != FREQUENCY && self.signals.is_none() => {
+                Err(Refusal::Unfit(format!("has abscissae in the unit `{unit}`, which is no known unit of frequency")))
+            }
+            None => Err(Refusal::Wrong(anyhow!(
+                "{} has abscissae in the unit `{unit}`, which is no known unit of frequency: correct the label, or export \
+                 the file with Hz",
+                self.place()
+            ))),
+        }
+    }
+}
+
+/// Dimension of an output: that of its unit, with a second less for each derivative.
+fn dimension_of_output(output: &Output) -> Dimension {
+    let [length, mass, time] = dimension_of(output.unit());
+    let derivatives = match output.quantity {
+        Quantity::Displacement => 0,
+        Quantity::Velocity => 1,
+        Quantity::Acceleration => 2,
+    };
+    [length, mass, time - derivatives]
+}
+
+fn dimension_of_input(input: &Input) -> Dimension {
+    dimension_of(input.unit())
+}
+
+/// Dimension of a unit in which signals are given.
+fn dimension_of(unit: &str) -> Dimension {
+    match unit {
+        "N" => NEWTON,
+        "N m" => MOMENT,
+        "m" => METRE,
+        _ => NO_DIMENSION,
+    }
+}
+
+fn ratio(of_output: Dimension, of_input: Dimension) -> Dimension {
+    [0, 1, 2].map(|i| of_output[i] - of_input[i])
+}
+
+/// Size of the unit of ordinates, as that of the output or of the whole response.
+fn size_of_ordinates(numerator: &UffAxis, output: &Output, input: &Input) -> Option<f64> {
+    let of_output = dimension_of_output(output);
+    let whole = ratio(of_output, dimension_of_input(input));
+    [of_output, whole].into_iter().find_map(|dimension| unit_label::size(&numerator.unit, dimension))
+}
+
+/// Size of a unit, with a note if it is no SI unit.
+fn noted(notes: &mut Vec<String>, label: &str, size: f64) -> f64 {
+    if (size - 1.0).abs() > f64::EPSILON && !unit_label::is_blank(label) {
+        notes.push(format!("the unit `{label}` is converted: it is {} in SI units", short(size, 7)));
+    }
+    size
 }

@@ -10,7 +10,7 @@ use crate::values::number;
 use anyhow::{Result, anyhow, bail};
 use serde::Deserialize;
 
-/// Signals of a response of a table.
+/// Signals of a response of a table, or of a function of a Universal File.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ResponseName {
