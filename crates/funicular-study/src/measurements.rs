@@ -5,6 +5,7 @@
 
 mod convert;
 mod csv;
+mod given_signals;
 pub mod uff;
 mod uff_numbers;
 mod unit_label;

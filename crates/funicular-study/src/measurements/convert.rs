@@ -1,12 +1,15 @@
 //! Functions of a Universal File as measured responses of the robot: signals, points and SI units.
 
-use super::unit_label::{self, Dimension, FORCE as NEWTON, LENGTH as METRE, MOMENT, NO_DIMENSION};
+use super::given_signals::{
+    ACCELERATION, DISPLACEMENT, FORCE, FREQUENCY, GENERAL, GivenSignals, UNKNOWN, VELOCITY, given_signals, quantity_of,
+    sign_along,
+};
 use super::uff::{Function, NodeDirection, UffAxis, UffFile};
+use super::unit_label::{self, Dimension, FORCE as NEWTON, LENGTH as METRE, MOMENT, NO_DIMENSION};
 use super::{MeasuredResponse, ResponseName};
 use crate::signals::{Input, Output, Place};
 use crate::text::{counted, short};
 use anyhow::{Result, anyhow, bail};
-use funicular::math::Vec3;
 use funicular::response::Quantity;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -20,15 +23,6 @@ pub struct NodePoint {
     /// Point, platform frame [m].
     pub point_m: [f64; 3],
 }
-
-/// Specific data types of dataset 58.
-const DISPLACEMENT: i64 = 8;
-const VELOCITY: i64 = 11;
-const ACCELERATION: i64 = 12;
-const FORCE: i64 = 13;
-const UNKNOWN: i64 = 0;
-const GENERAL: i64 = 1;
-const FREQUENCY: i64 = 18;
 
 /// Magnitudes of the numbers of a response; binary data that are read in a wrong byte order are soon outside.
 const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
@@ -135,94 +129,6 @@ impl FoundResponses {
         }
         Ok((self.responses, notes))
     }
-}
-
-/// Signals that the user has given for a function.
-struct GivenSignals {
-    output: Output,
-    input: Input,
-}
-
-/// Signals by the index of their function. A name that belongs to no function is told in a note.
-fn given_signals(
-    path: &str,
-    file: &UffFile,
-    names: &[ResponseName],
-    notes: &mut Vec<String>,
-) -> Result<BTreeMap<usize, GivenSignals>> {
-    let mut given = BTreeMap::new();
-    for named in names {
-        let output = Output::parse(&named.output)
-            .map_err(|error| anyhow!("⟪response⟫ {}: {}: {error}", named.name, named.output))?;
-        let input =
-            Input::parse(&named.input).map_err(|error| anyhow!("⟪response⟫ {}: {}: {error}", named.name, named.input))?;
-        let signals = GivenSignals { output, input };
-        let functions = file.functions.iter().enumerate();
-        let matching: Vec<usize> =
-            functions.filter(|(_, function)| signals.belong_to(&named.name, function)).map(|(i, _)| i).collect();
-        match matching[..] {
-            [] => notes.push(format!("{path}: no function is called {}, whose signals are not used", named.name)),
-            [only] => {
-                if given.insert(only, signals).is_some() {
-                    bail!(
-                        "⟪response⟫ {}: {path}: the function in line {} has two names; give its signals once",
-                        named.name,
-                        file.functions[only].line + 1
-                    );
-                }
-            }
-            [first, second, ..] => {
-                let [first, second] = [first, second].map(|i| file.functions[i].line + 1);
-                bail!(
-                    "⟪response⟫ {}: {path}: {} functions have this name, the first in lines {first} and {second}: name \
-                     one by its line, as in line {first}=az/fz",
-                    named.name,
-                    matching.len()
-                )
-            }
-        }
-    }
-    Ok(given)
-}
-
-impl GivenSignals {
-    /// True if a name means a function: its line, its first line of text, or these signals at its nodes, as in `az at
-    /// node 1`. In the last case, what the function tells must not contradict the signals.
-    fn belong_to(&self, name: &str, function: &Function) -> bool {
-        if name == format!("line {}", function.line + 1) {
-            return true;
-        }
-        if !unit_label::is_blank(&function.texts[0]) && name == function.texts[0] {
-            return true;
-        }
-
-        let response = format!("{} at node {}", self.output.name, function.response.node);
-        let whole = format!("{response} / {} at node {}", self.input.name, function.reference.node);
-        let may_be = |end: &NodeDirection, place: &Place| end.direction == 0 || sign_along(end, place).is_some();
-        (name == response || name == whole)
-            && quantity_of(function.numerator.kind).is_none_or(|quantity| quantity == Some(self.output.quantity))
-            && may_be(&function.response, &self.output.place)
-            && may_be(&function.reference, &self.input.place)
-    }
-}
-
-/// Quantity of a specific data type; `None` if the type does not tell it, and `Some(None)` if it is no motion.
-fn quantity_of(kind: i64) -> Option<Option<Quantity>> {
-    match kind {
-        UNKNOWN | GENERAL => None,
-        DISPLACEMENT => Some(Some(Quantity::Displacement)),
-        VELOCITY => Some(Some(Quantity::Velocity)),
-        ACCELERATION => Some(Some(Quantity::Acceleration)),
-        _ => Some(None),
-    }
-}
-
-/// Sign of the file's direction if it is along the axis of a signal of the platform.
-fn sign_along(end: &NodeDirection, place: &Place) -> Option<f64> {
-    let Place::Platform { turns, direction_w } = place else { return None };
-    let axis = [Vec3::x(), Vec3::y(), Vec3::z()].iter().position(|axis| axis == direction_w)? as i64;
-    let number = axis + if *turns { 4 } else { 1 };
-    (end.direction.abs() == number).then(|| if end.direction < 0 { -1.0 } else { 1.0 })
 }
 
 /// Reason why a function is no response.
@@ -358,10 +264,15 @@ impl UffResponse<'_> {
         let output = if let Some(quantity) = quantity_of(numerator.kind) {
             all.into_iter().find(|output| Some(output.quantity) == quantity)
         } else {
-            let mut fitting = all.into_iter().filter(|output| size_of_ordinates(numerator, output, &input).is_some());
+            let fits = |output: &Output| {
+                size_of(unit_of(numerator, |label| size_of(label, output, &input).is_some()), output, &input).is_some()
+            };
+            let mut fitting = all.into_iter().filter(fits);
             let only = fitting.next().filter(|_| fitting.next().is_none());
             if let Some(output) = &only {
-                notes.push(format!("taken as {} by the unit `{}` of the ordinates", output.name, numerator.unit));
+                let fits = |label: &str| size_of(label, output, &input).is_some();
+                let unit = unit_of(numerator, fits);
+                notes.push(format!("taken as {} by the unit `{unit}` of the ordinates", output.name));
             }
             only
         };
@@ -426,34 +337,34 @@ impl UffResponse<'_> {
             )
         };
 
-        let load = if unit_label::is_blank(&denominator.unit) {
+        let of_ratio = ratio(of_output, of_input);
+        let is_of_load = |label: &str| unit_label::size(label, of_input).is_some();
+        let is_of_ordinates = |label: &str| size_of(label, output, input).is_some();
+        let (above, below) = (unit_of(numerator, is_of_ordinates), unit_of(denominator, is_of_load));
+
+        let load = if unit_label::is_blank(below) {
             self.by_dataset(of_input)
         } else {
-            let size = unit_label::size(&denominator.unit, of_input).ok_or_else(|| wrong(denominator, "denominator"))?;
-            self.agreed(denominator, size, of_input)?
+            let size = unit_label::size(below, of_input).ok_or_else(|| wrong(denominator, "denominator"))?;
+            self.agreed(below, size, of_input)?
         };
-        if unit_label::is_blank(&numerator.unit) {
-            return Ok(self.by_dataset(of_output) / noted(notes, &denominator.unit, load));
+        if unit_label::is_blank(above) {
+            return Ok(self.by_dataset(of_output) / noted(notes, below, load));
         }
-        if let Some(size) = unit_label::size(&numerator.unit, of_output) {
-            let size = self.agreed(numerator, size, of_output)?;
-            return Ok(noted(notes, &numerator.unit, size) / noted(notes, &denominator.unit, load));
+        if let Some(size) = unit_label::size(above, of_output) {
+            let size = self.agreed(above, size, of_output)?;
+            return Ok(noted(notes, above, size) / noted(notes, below, load));
         }
-        let of_ratio = ratio(of_output, of_input);
-        let size = unit_label::size(&numerator.unit, of_ratio).ok_or_else(|| wrong(numerator, "ordinates"))?;
-        let size = self.agreed(numerator, size, of_ratio)?;
-        let is_repeated = unit_label::is_blank(&denominator.unit)
-            || unit_label::is_part_of(&denominator.unit, &numerator.unit);
-        if !is_repeated {
+        let size = unit_label::size(above, of_ratio).ok_or_else(|| wrong(numerator, "ordinates"))?;
+        let size = self.agreed(above, size, of_ratio)?;
+        if !unit_label::is_blank(below) && !unit_label::is_part_of(below, above) {
             bail!(
-                "{} has the unit `{}` of its ordinates and the unit `{}` of its denominator, which contradict each \
-                 other: correct one of the labels",
-                self.place(),
-                numerator.unit,
-                denominator.unit
+                "{} has the unit `{above}` of its ordinates and the unit `{below}` of its denominator, which contradict \
+                 each other: correct one of the labels",
+                self.place()
             );
         }
-        Ok(noted(notes, &numerator.unit, size))
+        Ok(noted(notes, above, size))
     }
 
     /// Size of the unit that dataset 164 gives a quantity; 1 without such a dataset.
@@ -465,14 +376,13 @@ impl UffResponse<'_> {
 
     /// Size of a label's unit, which dataset 164 must not contradict unless it says that the file is in SI units: then
     /// the label, which stands at the numbers, counts.
-    fn agreed(&self, axis: &UffAxis, size: f64, dimension: Dimension) -> Result<f64> {
+    fn agreed(&self, label: &str, size: f64, dimension: Dimension) -> Result<f64> {
         let by_dataset = self.by_dataset(dimension);
         if self.file.units.converts() && (size / by_dataset - 1.0).abs() > SAME_UNIT {
             bail!(
-                "{} has the unit `{}`, which is {} in SI units, but by the factors of the file (dataset 164) it is \
+                "{} has the unit `{label}`, which is {} in SI units, but by the factors of the file (dataset 164) it is \
                  {}: correct one of them, or remove dataset 164",
                 self.place(),
-                axis.unit,
                 short(size, 7),
                 short(by_dataset, 7)
             );
@@ -482,7 +392,8 @@ impl UffResponse<'_> {
 
     /// Factor of the abscissae to hertz.
     fn hertz(&self, notes: &mut Vec<String>) -> Result<f64, Refusal> {
-        let UffAxis { kind, unit, .. } = &self.function.abscissa;
+        let kind = self.function.abscissa.kind;
+        let unit = unit_of(&self.function.abscissa, |label| unit_label::hertz(label).is_some());
         if unit_label::is_blank(unit) {
             return Ok(1.0);
         }
@@ -493,7 +404,7 @@ impl UffResponse<'_> {
                 }
                 Ok(size)
             }
-            None if *kind != FREQUENCY && self.signals.is_none() => {
+            None if kind != FREQUENCY && self.signals.is_none() => {
                 Err(Refusal::Unfit(format!("has abscissae in the unit `{unit}`, which is no known unit of frequency")))
             }
             None => Err(Refusal::Wrong(anyhow!(
@@ -503,6 +414,19 @@ impl UffResponse<'_> {
             ))),
         }
     }
+}
+
+/// Label of an axis's unit; where its field says nothing, the unit that stands in the label of the axis, as in
+/// `Acceleration (g's)`.
+fn unit_of(axis: &UffAxis, fits: impl Fn(&str) -> bool) -> &str {
+    let UffAxis { label, unit, .. } = axis;
+    if !unit_label::is_blank(unit) {
+        return unit;
+    }
+    let bracketed = label.find(['(', '[']).and_then(|at| label.get(at..));
+    // A single letter is a name of an axis.
+    let whole = Some(label.as_str()).filter(|label| label.len() > 1);
+    bracketed.into_iter().chain(whole).find(|label| fits(label)).unwrap_or(unit)
 }
 
 /// Dimension of an output: that of its unit, with a second less for each derivative.
@@ -534,11 +458,11 @@ fn ratio(of_output: Dimension, of_input: Dimension) -> Dimension {
     [0, 1, 2].map(|i| of_output[i] - of_input[i])
 }
 
-/// Size of the unit of ordinates, as that of the output or of the whole response.
-fn size_of_ordinates(numerator: &UffAxis, output: &Output, input: &Input) -> Option<f64> {
+/// Size of a label's unit, as that of the output or of the whole response.
+fn size_of(label: &str, output: &Output, input: &Input) -> Option<f64> {
     let of_output = dimension_of_output(output);
     let whole = ratio(of_output, dimension_of_input(input));
-    [of_output, whole].into_iter().find_map(|dimension| unit_label::size(&numerator.unit, dimension))
+    [of_output, whole].into_iter().find_map(|dimension| unit_label::size(label, dimension))
 }
 
 /// Size of a unit, with a note if it is no SI unit.

@@ -499,7 +499,23 @@ mod tests {
 
     #[test]
     fn other_labels_are_not_known() {
-        for label in ["V", "mV/g", "Pa", "dB", "kg", "m/s^2 rms", "EU", "%", "m/s^2/", "(m/s^2", "m^^2", "m/s 2", "mn", "-2m", "*"] {
+        for label in [
+            "V",
+            "mV/g",
+            "Pa",
+            "dB",
+            "kg",
+            "m/s^2 rms",
+            "EU",
+            "%",
+            "m/s^2/",
+            "(m/s^2",
+            "m^^2",
+            "m/s 2",
+            "mn",
+            "-2m",
+            "*",
+        ] {
             for dimension in [ACCELERATION, LENGTH, FORCE, PER_FORCE] {
                 assert_eq!(size(label, dimension), None, "{label}");
             }

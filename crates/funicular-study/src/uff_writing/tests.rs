@@ -270,7 +270,8 @@ fn responses_have_signs_points_and_si_units() {
 
     // A label that the factors contradict.
     let other = String::from_utf8_lossy(with_units.as_bytes()).replace("mm/s^2", "cm/s^2");
-    let error = responses_of_uff("a.uff", &UffFile::read("a.uff", other.as_bytes()).unwrap(), &[node], &[]).unwrap_err();
+    let error =
+        responses_of_uff("a.uff", &UffFile::read("a.uff", other.as_bytes()).unwrap(), &[node], &[]).unwrap_err();
     assert!(error.to_string().contains("but by the factors of the file (dataset 164) it is 0.001"), "{error}");
 }
 
