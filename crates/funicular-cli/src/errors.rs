@@ -1,7 +1,7 @@
 //! Output of a run without a result: one message on stderr, and the exit code.
 
 use funicular_study::robot_file::Refused;
-use funicular_study::wording::{Words, message, worded};
+use funicular_study::wording::{Words, message, told};
 use funicular_study::{Error, ErrorKind};
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
@@ -36,12 +36,12 @@ pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
 
 /// Prints a warning that the user should know before trusting a result.
 pub(crate) fn warn(warning: &str) {
-    to_stderr(&format!("{} {}", styled("warning:", "33"), worded(warning, Words::Program)));
+    to_stderr(&format!("{} {}", styled("warning:", "33"), told(warning, Words::Program)));
 }
 
 /// Prints a note about completed work.
 pub(crate) fn note(note: &str) {
-    to_stderr(note);
+    to_stderr(&told(note, Words::Program));
 }
 
 /// True if stderr is a terminal and the user has not refused colours (no-color.org).
@@ -54,7 +54,7 @@ fn styled(text: &str, colour: &str) -> String {
 }
 
 /// Prints a line to stderr. Errors of stderr are ignored, because they cannot be reported.
-fn to_stderr(message: &str) {
+pub(crate) fn to_stderr(message: &str) {
     let _ = writeln!(io::stderr().lock(), "{message}");
 }
 

@@ -30,11 +30,21 @@ fn main() -> ExitCode {
 
 /// Prints help or the version to standard output, and an error of the command line to stderr.
 fn report_usage(usage: &clap::Error) -> ExitCode {
+    let code = ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2));
+    if usage.use_stderr() {
+        // With colours only where they are the only hidden characters.
+        let plain = usage.render().to_string();
+        let shown = suggest::shown(&plain);
+        if shown != plain {
+            errors::to_stderr(shown.trim_end());
+            return code;
+        }
+    }
     let printed = usage.print().and_then(|()| io::stdout().flush());
     match printed {
         // A closed pipe is not an error: the reader of the help has stopped. A message on a closed stderr is lost.
         Err(error) if !usage.use_stderr() => errors::report(&output::of_stdout(error)),
-        _ => ExitCode::from(u8::try_from(usage.exit_code()).unwrap_or(2)),
+        _ => code,
     }
 }
 

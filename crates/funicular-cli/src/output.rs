@@ -2,12 +2,13 @@
 
 use crate::args::{FigureArgs, Format, OutputArgs};
 use anyhow::{Context, Result, anyhow, bail};
+use funicular::suggest::visible;
 use funicular_files::Guard;
 use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::endings::{self, Kind};
 use funicular_study::analyses::Found;
 use funicular_study::figures::{Figure, Size};
-use funicular_study::wording::{Words, worded};
+use funicular_study::wording::{Words, told};
 use funicular_study::{NoSolution, json};
 use std::fs;
 use std::io::{self, Write};
@@ -230,7 +231,7 @@ impl Sink {
                 // Only finite numbers are printed: this check is the same for all formats.
                 as_json(&mut Vec::new(), results)?;
                 if format == Format::Text {
-                    bytes = results.text().into_bytes();
+                    bytes = visible(&results.text()).into_bytes();
                     if self.target.is_file() {
                         for warning in in_words(results) {
                             writeln!(bytes, "\nwarning: {warning}")?;
@@ -254,7 +255,7 @@ fn as_json<R: Printed>(out: &mut Vec<u8>, results: &R) -> Result<(), NoSolution>
 
 /// Warnings with the options of the program.
 fn in_words<R: Printed>(results: &R) -> Vec<String> {
-    results.warnings().iter().map(|warning| worded(warning, Words::Program)).collect()
+    results.warnings().iter().map(|warning| told(warning, Words::Program)).collect()
 }
 
 fn to_stdout(bytes: &[u8]) -> Result<()> {

@@ -13,7 +13,7 @@ use funicular_study::new_robot;
 use funicular_study::pages;
 use funicular_study::request::Request;
 use funicular_study::robot_file::schema;
-use funicular_study::wording::{Words, worded};
+use funicular_study::wording::{Words, told, worded};
 use funicular_study::{Watch, at_rest, export, json, run};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -126,7 +126,7 @@ pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(
 
 /// Texts with the names of options as Python writes them.
 pub(crate) fn in_words(texts: &[String]) -> Vec<String> {
-    texts.iter().map(|text| worded(text, Words::Python)).collect()
+    texts.iter().map(|text| told(text, Words::Python)).collect()
 }
 
 /// Returns the widths of columns of journals [mm], and minimum and maximum of a figure's width [mm] and of its texts
@@ -147,15 +147,16 @@ pub(crate) fn source_file(path: PathBuf) -> PyResult<String> {
     serde_json::to_string(&file).map_err(|error| errors::input(error.to_string()))
 }
 
-/// Reads a file of measurements as an experiment in JSON.
+/// Reads a file of measurements as an experiment in JSON. What is left out or converted is a `MeasurementWarning`.
 #[pyfunction]
-pub(crate) fn measurements_of_file(path: PathBuf, options: &str) -> PyResult<String> {
+pub(crate) fn measurements_of_file(py: Python<'_>, path: PathBuf, options: &str) -> PyResult<String> {
     let options: FileOptions =
         serde_json::from_str(options).map_err(|error| errors::input(format!("the options cannot be read: {error}")))?;
     let name = path.display().to_string();
     let bytes =
         fs::read(&path).map_err(|error| io::Error::new(error.kind(), format!("cannot read {name}: {error}")))?;
     let experiment = measurements::read(&name, &bytes, &options).map_err(|error| errors::study(&error))?;
+    experiment.notes.iter().try_for_each(|note| errors::warn(py, "MeasurementWarning", note, 2))?;
     serde_json::to_string(&experiment).map_err(|error| errors::input(error.to_string()))
 }
 

@@ -13,7 +13,7 @@ use funicular::statics::{self, Solution, StaticModel, TensionRule};
 use funicular_study::at_rest;
 use funicular_study::request::{State as SharedState, Tensions};
 use funicular_study::values;
-use funicular_study::wording::{Words, worded};
+use funicular_study::wording::{Words, told};
 use pyo3::inspect::PyStaticExpr;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -75,7 +75,7 @@ impl States {
     fn state(&self, robot: &Robot, row: usize) -> Result<State, String> {
         let row = &self.flat[row * self.columns..(row + 1) * self.columns];
         if self.poses {
-            let text = |error: anyhow::Error| worded(&format!("{error:#}"), Words::Python);
+            let text = |error: anyhow::Error| told(&format!("{error:#}"), Words::Python);
             let pose = pose::of_row(row)?.to_robot().map_err(text)?;
             at_rest::check_pose(robot, &pose).map_err(text)?;
             return Ok(State::Pose(pose));

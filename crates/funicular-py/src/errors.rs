@@ -8,7 +8,7 @@ use funicular::statics::StaticsError;
 use funicular_files::FilesError;
 use funicular_study::robot_file::Refused;
 use funicular_study::set_values::EditError;
-use funicular_study::wording::{Words, message, worded};
+use funicular_study::wording::{Words, message, told};
 use funicular_study::{Error, NoSolution};
 use pyo3::prelude::*;
 use std::ffi::CString;
@@ -73,7 +73,7 @@ fn robot_file(refused: &Refused) -> PyErr {
 
 /// Exception for a file of a sweep that cannot be read or written.
 pub(crate) fn files(error: &FilesError) -> PyErr {
-    python::FileError::new_err(worded(&error.to_string(), Words::Python))
+    python::FileError::new_err(told(&error.to_string(), Words::Python))
 }
 
 /// Exception for a file that cannot be written.
@@ -89,10 +89,16 @@ pub(crate) fn response(error: &ResponseError) -> PyErr {
     python::ResponseError::new_err(error.to_string())
 }
 
+/// Returns a message in which text of the user can neither act on a terminal nor fill it. All exceptions have such ones.
+#[pyfunction]
+pub(crate) fn shown(message: &str) -> String {
+    funicular::suggest::shown(message)
+}
+
 /// Shows a warning of the class `class` at a line of the user: that of the Python function that called Rust for
 /// `level` 1, that of its caller for 2.
 pub(crate) fn warn(py: Python<'_>, class: &str, text: &str, level: i32) -> PyResult<()> {
     let class = py.import("funicular._errors")?.getattr(class)?;
-    let text = CString::new(worded(text, Words::Python)).map_err(|error| input(error.to_string()))?;
+    let text = CString::new(told(text, Words::Python)).map_err(|error| input(error.to_string()))?;
     PyErr::warn(py, &class, &text, level)
 }

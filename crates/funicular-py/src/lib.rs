@@ -46,6 +46,8 @@ mod _funicular {
     #[pymodule_export]
     use crate::equilibrium::PyEquilibrium;
     #[pymodule_export]
+    use crate::errors::shown;
+    #[pymodule_export]
     use crate::pose::PyPose;
     #[pymodule_export]
     use crate::robot::{PyRobot, robot_of_source};

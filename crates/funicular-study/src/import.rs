@@ -13,7 +13,7 @@ pub(crate) mod xml;
 pub use crate::request::{MAX_BYTES, SourceFile};
 
 use crate::request;
-use crate::wording::{Words, worded};
+use crate::wording::{Words, told, worded};
 use anyhow::{Result, bail};
 use draft::Draft;
 use xml::Xml;
@@ -37,7 +37,7 @@ pub fn run(request: &request::ImportRequest, words: Words) -> Result<Imported> {
     let mut draft = read(&request.files, &ReadOptions { cable_set: request.cable_set.as_deref() })?;
     draft.complete(&request.ropes, &request.platform)?;
     let text = worded(&draft.to_toml()?, words);
-    let in_words = |texts: &[String]| texts.iter().map(|text| worded(text, words)).collect();
+    let in_words = |texts: &[String]| texts.iter().map(|text| told(text, words)).collect();
     Ok(Imported { text, assumed: in_words(&draft.assumed), lost: in_words(&draft.lost) })
 }
 

@@ -2,7 +2,7 @@
 
 use crate::analyses::Found;
 use crate::error::{Error, NoSolution};
-use crate::wording::{Words, worded};
+use crate::wording::{Words, told};
 use serde::Serialize;
 use serde_json::ser::{CharEscape, Formatter};
 use std::io::{self, Write};
@@ -24,7 +24,7 @@ struct Envelope<'a, R> {
 /// # Errors
 /// [`NoSolution`]: a result that is not finite.
 pub fn of_results<R: Found>(results: &R, words: Words) -> Result<Vec<u8>, Error> {
-    let warnings: Vec<String> = results.warnings().iter().map(|text| worded(text, words)).collect();
+    let warnings: Vec<String> = results.warnings().iter().map(|text| told(text, words)).collect();
     let mut bytes = Vec::new();
     write(&mut bytes, R::COMMAND, results.robot(), results, &warnings).map_err(anyhow::Error::from)?;
     Ok(bytes)

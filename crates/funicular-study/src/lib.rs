@@ -48,6 +48,7 @@ pub mod new_robot;
 #[cfg(feature = "pages")]
 pub mod pages;
 mod parameter_pattern;
+mod refused;
 pub mod request;
 pub mod robot_file;
 mod run;

@@ -5,8 +5,10 @@
 
 mod convert;
 mod csv;
+mod given_signals;
 pub mod uff;
 mod uff_numbers;
+mod unit_label;
 
 pub(crate) use convert::RESPONSE;
 pub use convert::{NodePoint, responses_of_uff};
@@ -45,7 +47,7 @@ pub struct FileOptions {
     /// Points of the platform at nodes of a Universal File.
     #[serde(default)]
     pub nodes: Vec<NodePoint>,
-    /// Signals of the responses of a table.
+    /// Signals of the responses of a table, or of functions of a Universal File.
     #[serde(default)]
     pub responses: Vec<ResponseName>,
     /// Point where the force acts in all responses of a table, platform frame [m].
@@ -85,11 +87,17 @@ pub struct Measured {
 /// # Ok::<(), anyhow::Error>(())
 /// ```
 pub fn read(path: &str, bytes: &[u8], options: &FileOptions) -> Result<Measured> {
+    for (i, given) in options.responses.iter().enumerate() {
+        if options.responses[..i].iter().any(|other| other.name == given.name) {
+            bail!("⟪response⟫ {}: the response is there twice; give its signals once", given.name);
+        }
+    }
+
     let ending = path.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
     match ending.as_deref() {
         Some("uff" | "unv") => {
             let file = uff::UffFile::read(path, bytes)?;
-            let (responses, notes) = responses_of_uff(path, &file, &options.nodes)?;
+            let (responses, notes) = responses_of_uff(path, &file, &options.nodes, &options.responses)?;
             Ok(Measured { responses, notes, ..Measured::default() })
         }
         Some("csv") => {

@@ -3,12 +3,12 @@
 pub mod page;
 pub mod schema;
 
+pub use crate::refused::Refused;
+
 use crate::request::{Change, RobotText};
 use crate::set_values::{self, Assignment};
 use anyhow::{Result, anyhow, bail};
 use funicular::robot::Robot;
-use funicular::robot::spec::SpecError;
-use thiserror::Error;
 
 /// Name and text of the robot that is built into every front end.
 pub const EMBEDDED: (&str, &str) = ("robots/yuan2014-4mm.toml", funicular_robots::YUAN2014_4MM);
@@ -25,18 +25,6 @@ pub struct RobotFile {
     pub name: String,
     /// Text with its changes.
     pub text: String,
-}
-
-/// Robot file that the reader refuses, with all errors and the text to which they refer.
-#[derive(Debug, Error)]
-#[error("{}", .error.render(name, text, false).trim_end())]
-pub struct Refused {
-    /// Origin of the text.
-    pub name: String,
-    /// Text with its changes.
-    pub text: String,
-    /// Errors that the reader found.
-    pub error: SpecError,
 }
 
 /// Text of a robot file from its bytes.

@@ -1,5 +1,7 @@
 //! Rounded numbers and counted nouns for messages, tables and pages.
 
+use funicular::suggest::is_hidden;
+
 /// Number with `count` decimals, without a minus before zero.
 pub fn decimals(value: f64, count: usize) -> String {
     let text = format!("{value:.count$}");
@@ -60,11 +62,11 @@ pub fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
-/// Text of a file made fit for names and comments: one line, no control characters, limited length.
+/// Text of a file made fit for names and comments: one line, no hidden characters, limited length.
 pub(crate) fn clean(text: &str) -> String {
     const MAX_LENGTH: usize = 200;
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    line.chars().filter(|c| !c.is_control() && !matches!(c, '\u{2028}' | '\u{2029}')).take(MAX_LENGTH).collect()
+    line.chars().filter(|c| !is_hidden(*c)).take(MAX_LENGTH).collect()
 }
 
 #[cfg(test)]

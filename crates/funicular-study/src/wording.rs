@@ -3,7 +3,10 @@
 //! A message names an option by its key between ⟪ and ⟫: `give ⟪min_tension_n⟫ below ⟪max_tension_n⟫`. The program
 //! shows `--min-tension-n`, Python and JSON show `min_tension_n`.
 
+use crate::refused::Refused;
+use funicular::robot::spec::SpecError;
 use funicular::statics::StaticsError;
+use funicular::suggest::shown;
 use std::fmt;
 
 /// Ways in which front ends write the name of an option.
@@ -55,6 +58,12 @@ pub fn worded(text: &str, words: Words) -> String {
     out + rest
 }
 
+/// Message, warning or note for a front end: names of options as the front end writes them, and text of the user that can
+/// neither act on a terminal nor fill it. Every message leaves the program through this function.
+pub fn told(text: &str, words: Words) -> String {
+    shown(&worded(text, words))
+}
+
 /// Warnings that explain an error: values of the robot that are likely slips. [`message`] writes them below the error.
 #[derive(Debug)]
 pub(crate) struct Warned {
@@ -75,12 +84,21 @@ pub fn message(error: &anyhow::Error, words: Words) -> String {
     let warned = error.downcast_ref::<Warned>();
 
     // The warnings are the outermost part of the error.
-    let causes: Vec<String> = error.chain().skip(usize::from(warned.is_some())).map(ToString::to_string).collect();
+    let causes: Vec<String> = error.chain().skip(usize::from(warned.is_some())).map(in_one_line).collect();
     let mut text = causes.join(": ") + remedy;
     for warning in warned.iter().flat_map(|warned| &warned.warnings) {
         text = text + "\nwarning: " + warning;
     }
-    worded(&text, words)
+    told(&text, words)
+}
+
+/// Text of an error. Ends of lines in it are the user's, except in the list of a refused robot file.
+fn in_one_line(error: &(dyn std::error::Error + 'static)) -> String {
+    let text = error.to_string();
+    if error.is::<Refused>() || error.is::<SpecError>() {
+        return text;
+    }
+    text.trim_end().replace('\n', "\\n").replace('\t', "\\t")
 }
 
 /// Hint to an option that helps against an error of the core, which does not know the options.

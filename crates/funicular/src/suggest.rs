@@ -1,4 +1,5 @@
-//! "Did you mean": the known name nearest to a mistyped one. All messages share one measure and one limit.
+//! Words of the user in messages: the known name nearest to a mistyped one ("did you mean", with one measure and one
+//! limit for all messages), and text of any length and content made fit for a terminal.
 
 /// Minimum similarity (Jaro-Winkler, 0 to 1) at which a known name is suggested: `mas` has 0.87 with `mass_kg`, which
 /// is meant; `mass_kg_per_m` has 0.66 with `name`, which is not.
@@ -63,6 +64,67 @@ pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
         .map(|(_, name)| name)
 }
 
+/// Maximum number of characters of a word in a message, and how many of its beginning and its end remain of a longer
+/// one. Names of files have up to 255 characters.
+const WORD: (usize, usize) = (300, 130);
+
+/// Maximum number of characters of a line of a message, and how many of its beginning and its end remain of a longer
+/// one. Lists that messages make themselves stay below 1000.
+const LINE: (usize, usize) = (2000, 900);
+
+/// True for control characters, and for characters that turn or hide text in a terminal.
+pub fn is_hidden(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}')
+        || matches!(c, '\u{feff}' | '\u{e0000}'..='\u{e007f}')
+}
+
+/// Text with [hidden](is_hidden) characters as their codes, except ends of lines and tabs.
+pub fn visible(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_hidden(c) && !matches!(c, '\n' | '\t') {
+            out.extend(c.escape_default());
+        } else {
+            out.push(c);
+        }
+    }
+    out
+}
+
+/// Message of one or more lines in which text of the user is harmless: [`visible`], with long words and long lines cut in
+/// the middle. A message that was shown stays as it is.
+///
+/// # Example
+/// ```
+/// use funicular::suggest::shown;
+///
+/// assert_eq!(shown("`1\u{1b}[31m` is not a number"), "`1\\u{1b}[31m` is not a number");
+/// assert!(shown(&"x".repeat(1_000_000)).len() < 300);
+/// ```
+pub fn shown(message: &str) -> String {
+    let line = |line: &str| {
+        let words: Vec<String> = line.split(' ').map(|word| cut(word, WORD)).collect();
+        cut(&words.join(" "), LINE)
+    };
+    visible(message).split('\n').map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// Text without its middle if it has more than `maximum` characters; `kept` remain at either end.
+fn cut(text: &str, (maximum, kept): (usize, usize)) -> String {
+    // A text has at most as many characters as bytes.
+    if text.len() <= maximum {
+        return text.to_owned();
+    }
+    let count = text.chars().count();
+    if count <= maximum {
+        return text.to_owned();
+    }
+    let head: String = text.chars().take(kept).collect();
+    let tail: String = text.chars().skip(count - kept).collect();
+    format!("{head}…[{} characters]…{tail}", count - 2 * kept)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -95,5 +157,21 @@ mod tests {
             assert_eq!(nearest(word, keys), expected, "{word}");
         }
         assert!(strsim::jaro_winkler("mass_kg_per_m", "name") < MIN_SIMILARITY);
+    }
+
+    #[test]
+    fn a_message_shows_what_would_be_hidden_and_has_a_limited_length() {
+        let bad = "a\u{1b}]0;b\u{7}\u{202e}c\u{2066}\u{61c}\r\u{9b}\u{0}\u{feff}\u{e0041}";
+        let good = shown(bad);
+        assert!(!good.chars().any(is_hidden), "{good:?}");
+        assert!(good.starts_with("a\\u{1b}]0;b\\u{7}\\u{202e}c"), "{good}");
+        assert_eq!(shown("µ ± 1 °, 漢字 é, two\nlines\tand tabs"), "µ ± 1 °, 漢字 é, two\nlines\tand tabs");
+        for long in ["é".repeat(100_000), "word ".repeat(100_000), "\u{202e}".repeat(100_000), "w ".repeat(2500)] {
+            let cut = shown(&long);
+            assert!(cut.chars().count() <= LINE.0 && cut.contains(" characters]…"), "{cut}");
+            assert_eq!(shown(&cut), cut);
+        }
+        let just = "x".repeat(WORD.0);
+        assert_eq!(shown(&just), just);
     }
 }

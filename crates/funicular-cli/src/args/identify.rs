@@ -47,7 +47,8 @@ pub(crate) struct IdentifyArgs {
     #[arg(long, value_name = "NODE=X,Y,Z", value_parser = node, help_heading = "Measurements")]
     pub(crate) node: Vec<NodePoint>,
 
-    /// Signals of a response of a CSV file, with its name in the header, as in a1=az/fz for a1_re and a1_im (repeatable)
+    /// Signals of a response of a CSV file, with its name in the header, as in a1=az/fz for a1_re and a1_im, or of a
+    /// function of a Universal File that does not tell them, as in "line 7=az/fz" or "az at node 1=az/fz" (repeatable)
     #[arg(long, value_name = "NAME=OUTPUT/INPUT", value_parser = response, help_heading = "Measurements")]
     pub(crate) response: Vec<ResponseName>,
 

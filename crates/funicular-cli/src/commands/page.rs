@@ -65,7 +65,7 @@ pub(crate) fn plot(args: &PlotArgs) -> Result<()> {
         };
         let made = pages::plot::figure(&file, &args.file.display().to_string(), &choice)?;
         sink.write(&made.figure)?;
-        made.notes.iter().for_each(|note| errors::note(&worded(note, Words::Program)));
+        made.notes.iter().for_each(|note| errors::note(note));
         return Ok(());
     }
     refuse_without_figure(args.quantity.is_some(), "quantity")?;

@@ -1,5 +1,7 @@
 //! `identify`, and Universal Files that `frf` and `modes` write.
 
+mod universal_files;
+
 use super::{json, number, project, robot, run, stderr, succeed};
 use std::fs;
 

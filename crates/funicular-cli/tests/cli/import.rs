@@ -196,6 +196,121 @@ fn lengths_of_a_moordyn_file_lead_back_to_their_pose() {
     );
 }
 
+/// A weight of 8 kg on two ropes, in the layout of MoorDyn 1.
+const VERSION_1: &str = "\
+--------------------- MoorDyn Input File ------------------------------------
+hanging weight
+----------------------- LINE TYPES ------------------------------------------
+1        NTypes    - number of LineTypes
+Name     Diam      MassDen       EA         BA/-zeta     Can    Cat    Cdn    Cdt
+(-)      (m)       (kg/m)        (N)        (N-s/-)      (-)    (-)    (-)    (-)
+main     0.004     0.05          1.0E6      0            1.0    0.0    1.6    0.1
+---------------------- CONNECTION PROPERTIES --------------------------------
+3        NConnects - number of connections including anchors and fairleads
+Node     Type      X        Y         Z        M        V        FX       FY      FZ     CdA   CA
+(-)      (-)       (m)      (m)       (m)      (kg)     (m^3)    (kN)     (kN)    (kN)   (m^2)  (-)
+1        Fixed    3.0      0.0       4.0      0        0        0        0       0      0      0
+2        Fixed   -3.0      0.0       4.0      0        0        0        0       0      0      0
+3        Connect  0.0      0.0       2.0      8.0      0        0        0       0      0      0
+---------------------- LINE PROPERTIES --------------------------------------
+2        NLines    - number of line objects
+Line     LineType  UnstrLen  NumSegs   NodeAnch  NodeFair  Flags/Outputs
+(-)      (-)       (m)       (-)       (-)       (-)       (-)
+1        main      3.60      20        1         3         -
+2        main      3.60      20        2         3         -
+---------------------- SOLVER OPTIONS ---------------------------------------
+0        WtrDnsty
+--------------------- need this line ------------------
+";
+
+#[test]
+fn both_layouts_of_moordyn_describe_one_robot() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("weight.txt");
+    let of = |text: &str| {
+        fs::write(&path, text).unwrap();
+        imported(&[path.to_str().unwrap()])
+    };
+    let robot = of(VERSION_1);
+    let without_counts = VERSION_1.lines().filter(|line| !line.contains("    - ") && !line.contains("NConnects"));
+    assert_eq!(of(&without_counts.collect::<Vec<_>>().join("\n")), robot);
+    let version_2 = VERSION_1
+        .replace("Can    Cat    Cdn    Cdt", "EI Cd Ca CdAx CaAx")
+        .replace("1.0    0.0    1.6    0.1", "0 0 0 0 0")
+        .replace("UnstrLen  NumSegs   NodeAnch  NodeFair", "AttachA AttachB UnstrLen NumSegs")
+        .replace("3.60      20        1         3", "1 3 3.60 20")
+        .replace("3.60      20        2         3", "2 3 3.60 20");
+    assert_eq!(of(&version_2), robot);
+
+    // Straight ropes would end 1.98997 m below; 8 kg strain them by 0.3 mm, and their weight of 1.8 N bends them.
+    let found = json("statics", &robot, &[]);
+    let position = numbers(&found["pose"]["position_m"]);
+    assert_close(&position, &[0.0, 0.0, 4.0 - (3.6_f64.powi(2) - 9.0).sqrt()], 1e-3, "position");
+    assert_eq!(json("check", &robot, &[])["platform"]["mass_kg"], 8.0);
+}
+
+#[test]
+fn coupled_points_are_the_platform_if_there_is_no_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("coupled.txt");
+    let text = "--- LINE TYPES ---\nTypeName Diam Mass/m EA\n(-)\nrope 0.004 0.05 1e6\n\
+        --- POINTS ---\nID Type X Y Z Mass\n(-)\n1 Fixed 5 0 4 0\n2 Fixed -2.5 4.3 4 0\n3 Fixed -2.5 -4.3 4 0\n\
+        4 Coupled 0.5 0 1 0\n5 Vessel -0.25 0.43 1 0\n6 Fairlead -0.25 -0.43 1 0\n\
+        --- LINES ---\nID LineType AttachA AttachB UnstrLen\n(-)\n1 rope 1 4 5.4\n2 rope 2 5 5.4\n3 rope 3 6 5.4\n\
+        --- OPTIONS ---\n0 rho\n";
+    let import_of = |text: &str, more: &[&str]| {
+        fs::write(&path, text).unwrap();
+        import(&[&[path.to_str().unwrap()], more].concat())
+    };
+    let output = import_of(text, &["--mass-kg", "10", "--inertia-kg-m2", "1,1,1"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    for says in
+        ["assumed: the platform is the 3 coupled points", "assumed: the centre of mass is the centre of the coupled"]
+    {
+        assert!(stderr(&output).contains(says), "{}", stderr(&output));
+    }
+    let robot = stdout(&output);
+    for says in ["attachment_m = [0.5, 0.0, 0.0]", "center_of_mass_m = [0.0, 0.0, 0.0]", "unstrained_length_m = 5.4"] {
+        assert!(robot.contains(says), "{robot}");
+    }
+    // Three ropes with their lengths hold the platform where these are 5.4 m long: 0.5 m nearer than the anchors.
+    let position = numbers(&json("statics", robot, &[])["pose"]["position_m"]);
+    assert_close(&position, &[0.0, 0.0, 4.0 - (5.4_f64.powi(2) - 4.5_f64.powi(2)).sqrt()], 0.05, "position");
+
+    // Mass and inertia are missing, and named.
+    let message = stderr(&import_of(text, &[])).to_owned();
+    assert!(message.contains("--mass-kg KG") && message.contains("--inertia-kg-m2"), "{message}");
+    // A single coupled point is a point mass.
+    let single = text
+        .replace("5 Vessel -0.25 0.43 1 0\n6 Fairlead -0.25 -0.43 1 0\n", "")
+        .replace(" 5 5.4", " 4 5.4")
+        .replace(" 6 5.4", " 4 5.4");
+    let output = import_of(&single, &["--mass-kg", "10"]);
+    assert!(stdout(&output).contains("motion = \"point-mass\""), "{}", stderr(&output));
+    // Without coupled points there is none.
+    let message = stderr(&import_of(
+        &text.replace("Coupled", "Fixed").replace("Vessel", "Fixed").replace("Fairlead", "Fixed"),
+        &[],
+    ))
+    .to_owned();
+    assert!(message.contains("no body, no free point and no coupled point"), "{message}");
+}
+
+#[test]
+fn a_declaration_that_the_bytes_contradict_does_not_count() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("tripod.wcrfx");
+    let text = example_text("tripod.wcrfx");
+    let declared = text.replace("encoding=\"utf-8\"", "encoding=\"utf-16\"");
+    let declared = if declared == text {
+        format!("<?xml version=\"1.0\" encoding=\"utf-16\"?>\n{}", text.trim_start())
+    } else {
+        declared
+    };
+    fs::write(&path, &declared).unwrap();
+    assert_eq!(imported(&[path.to_str().unwrap()]), imported(&[&example("tripod.wcrfx")]));
+}
+
 #[test]
 fn missing_values_of_a_source_are_requested_in_one_message() {
     let [bodies, cables] = caspr();

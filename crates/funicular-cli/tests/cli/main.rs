@@ -13,6 +13,7 @@ mod gradient;
 mod identify;
 mod import;
 mod links;
+mod messages;
 mod modes;
 mod motion;
 mod new_robot;

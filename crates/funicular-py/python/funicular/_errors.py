@@ -2,11 +2,17 @@
 
 from typing import NamedTuple
 
+from funicular._funicular import shown
+
 
 class Error(Exception):
     """Base of all exceptions of funicular."""
 
     __module__ = "funicular"
+
+    def __init__(self, message: str = "") -> None:
+        # Arguments are part of messages: they can be long, and hold what acts on a terminal.
+        super().__init__(shown(message))
 
 
 class InputError(Error, ValueError):
@@ -70,6 +76,12 @@ class ResponseWarning(UserWarning):
 
 class RobotWarning(UserWarning):
     """The robot of a map or sweep has a value that no usual robot has, which is likely a slip."""
+
+    __module__ = "funicular"
+
+
+class MeasurementWarning(UserWarning):
+    """A file of measurements has functions that were left out, or units that were converted."""
 
     __module__ = "funicular"
 

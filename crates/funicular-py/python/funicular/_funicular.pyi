@@ -18,7 +18,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Final, SupportsFloat, SupportsIndex, final, Literal, overload
 
-__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "axes", "complete_request", "complex_numbers", "figure_sizes", "imported", "matlab_file", "measurements_of_file", "merge_parts", "peaks", "plot_page", "real_numbers", "robot_of_source", "source_file", "text_of", "write_file"]
+__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "axes", "complete_request", "complex_numbers", "figure_sizes", "imported", "matlab_file", "measurements_of_file", "merge_parts", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "text_of", "write_file"]
 
 __version__: Final[str]
 
@@ -1288,7 +1288,7 @@ def matlab_file(matrices: SupportsGetItem[int, tuple[str, SupportsIndex, Support
 
 def measurements_of_file(path: str | PathLike[str], options: str) -> str:
     """
-    Reads a file of measurements as an experiment in JSON.
+    Reads a file of measurements as an experiment in JSON. What is left out or converted is a `MeasurementWarning`.
     """
 
 def merge_parts(parts: SupportsGetItem[int, str | PathLike[str]], path: str | PathLike[str]) -> int:
@@ -1326,6 +1326,11 @@ def real_numbers(name: str, values: ArrayLike) -> NDArray[float64]:
 def robot_of_source(source: str) -> Robot:
     """
     Robot of the text and the changes that a pickle contains, as JSON.
+    """
+
+def shown(message: str) -> str:
+    """
+    Returns a message in which text of the user can neither act on a terminal nor fill it. All exceptions have such ones.
     """
 
 def source_file(path: str | PathLike[str]) -> str:

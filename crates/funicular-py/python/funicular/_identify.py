@@ -163,7 +163,8 @@ def read_measurements(
     nodes
         Points of the platform at nodes of a Universal File, platform frame [m]; the nodes of the file if not given.
     responses
-        Signals of the responses of a table by their names in the header, as in `{"a1": "az/fz"}`.
+        Signals of the responses of a table by their names in the header, as in `{"a1": "az/fz"}`; for a Universal File those
+        of functions that do not tell them, by line or place, as in `{"line 7": "az/fz"}` or `{"az at node 1": "az/fz"}`.
     input_point_m, output_point_m
         Points where force and sensor of the responses of a table are, platform frame [m].
 
@@ -175,6 +176,11 @@ def read_measurements(
     ------
     InputError
         The file cannot be read; the message names its line.
+
+    Warns
+    -----
+    MeasurementWarning
+        Functions of a Universal File were left out, or units were converted.
     """
     def point(value: ArrayLike | None) -> list[float] | None:
         return None if value is None else np.asarray(value, float).tolist()

@@ -1,16 +1,16 @@
-//! Import of MoorDyn input files (version 2) with one body, or one free point, held by lines.
+//! Import of MoorDyn input files (versions 1 and 2) with one body, one free point, or coupled points, held by lines.
 //!
 //! # References
 //!
 //! moordyn.readthedocs.io, "Input files", version 2.7. A run of MoorDyn 2.7.2 confirmed that angles are degrees about
-//! moving axes, x first.
+//! moving axes, x first. The layout of version 1 is that of "The V1 Input File" there.
 
 mod objects;
 mod sections;
 
 use super::draft::{Draft, DraftCable, DraftMotion, DraftPlatform, DraftRope, DraftState};
 use crate::request::SourceFile;
-use crate::text::clean;
+use crate::text::{clean, counted};
 use anyhow::{Result, bail};
 use funicular::math::{Mat3, Vec3};
 use objects::{Holder, MoorDynLine, MoorDynModel, MoorDynPoint};
@@ -34,8 +34,8 @@ pub(crate) fn read(file: &SourceFile) -> Result<Draft> {
     for line in &model.lines {
         let [a, b] = [model.point(file, line, 0)?, model.point(file, line, 1)?];
         match (holds(on_platform, a), holds(on_platform, b)) {
-            (true, false) => cables.push(cable(file, &model, line, b, a)?),
-            (false, true) => cables.push(cable(file, &model, line, a, b)?),
+            (true, false) => cables.push(cable(file, &model, line, on_platform, b, a)?),
+            (false, true) => cables.push(cable(file, &model, line, on_platform, a, b)?),
             (false, false) if a.holder == Holder::Fixed && b.holder == Holder::Fixed => {
                 lost.push(format!("line {}, which does not hold the platform", line.id));
             }
@@ -62,8 +62,28 @@ pub(crate) fn read(file: &SourceFile) -> Result<Draft> {
     if cables.is_empty() {
         bail!("{}: no line holds the platform", file.path);
     }
-    let is_point = platform.motion == DraftMotion::PointMass;
-    let frame = if is_point { "the free point" } else { "the body's reference point" };
+    let frame = match on_platform {
+        PlatformObject::Body(_) => "the body's reference point".to_owned(),
+        PlatformObject::Point(_) => "the free point".to_owned(),
+        PlatformObject::Coupled(center) => {
+            let [x, y, z] = [center.x, center.y, center.z];
+            let what = if platform.motion == DraftMotion::PointMass { "point" } else { "points' centre" };
+            format!("the coupled {what}, ({x}, {y}, {z}) m in the source")
+        }
+    };
+    if let PlatformObject::Coupled(_) = on_platform {
+        let coupled = || model.points.iter().filter(|point| point.holder == Holder::Coupled);
+        let count = counted(coupled().count(), "coupled point");
+        model.assumed.push(format!("the platform is the {count}, and is free; in the source another program moves it"));
+        if platform.motion == DraftMotion::Rigid {
+            model.assumed.push(
+                "the centre of mass is the centre of the coupled points, unless ⟪center_of_mass_m⟫ is given".to_owned(),
+            );
+        }
+        if coupled().any(|point| point.mass > 0.0) {
+            lost.push("the masses of coupled points: the mass of the platform has to contain them".to_owned());
+        }
+    }
     Ok(Draft {
         name: file.stem(),
         source: format!("MoorDyn model, {}", file.name()),
@@ -82,12 +102,15 @@ pub(crate) fn read(file: &SourceFile) -> Result<Draft> {
 enum PlatformObject {
     Body(usize),
     Point(usize),
+    /// All coupled points; with their centre, the origin of the platform frame.
+    Coupled(Vec3),
 }
 
 fn holds(on: PlatformObject, point: &MoorDynPoint) -> bool {
     match on {
         PlatformObject::Body(id) => point.holder == Holder::Body(id),
         PlatformObject::Point(id) => point.id == id,
+        PlatformObject::Coupled(_) => point.holder == Holder::Coupled,
     }
 }
 
@@ -137,7 +160,7 @@ fn platform(file: &SourceFile, model: &MoorDynModel) -> Result<(DraftPlatform, P
             };
             Ok((platform, PlatformObject::Point(point.id)))
         }
-        [] => bail!("{}: there is no body and no free point: the file has no platform", file.path),
+        [] => coupled_platform(file, model),
         [_, second, ..] => {
             bail!(second.row.error(
                 file,
@@ -147,10 +170,30 @@ fn platform(file: &SourceFile, model: &MoorDynModel) -> Result<(DraftPlatform, P
     }
 }
 
+/// Platform of the coupled points, which another program moves as one. Their places are those at its start.
+fn coupled_platform(file: &SourceFile, model: &MoorDynModel) -> Result<(DraftPlatform, PlatformObject)> {
+    let points: Vec<&MoorDynPoint> = model.points.iter().filter(|point| point.holder == Holder::Coupled).collect();
+    let [first, ..] = points[..] else {
+        bail!("{}: there is no body, no free point and no coupled point: the file has no platform", file.path);
+    };
+    let center = points.iter().map(|point| point.position).sum::<Vec3>() / points.len() as f64;
+    let is_point = points.iter().all(|point| point.position == first.position);
+    let platform = DraftPlatform {
+        // Coupled points have at most the masses of fittings.
+        mass: None,
+        inertia_p: None,
+        center_of_mass_p: (!is_point).then(Vec3::zeros),
+        motion: if is_point { DraftMotion::PointMass } else { DraftMotion::Rigid },
+        place: first.row.place(file),
+    };
+    Ok((platform, PlatformObject::Coupled(if is_point { first.position } else { center })))
+}
+
 fn cable(
     file: &SourceFile,
     model: &MoorDynModel,
     line: &MoorDynLine,
+    on_platform: PlatformObject,
     anchor: &MoorDynPoint,
     attachment: &MoorDynPoint,
 ) -> Result<DraftCable> {
@@ -174,7 +217,11 @@ fn cable(
     Ok(DraftCable {
         name: line.id.to_string(),
         anchor_w: anchor.position,
-        attachment_p: if matches!(attachment.holder, Holder::Body(_)) { attachment.position } else { Vec3::zeros() },
+        attachment_p: match on_platform {
+            PlatformObject::Body(_) => attachment.position,
+            PlatformObject::Point(_) => Vec3::zeros(),
+            PlatformObject::Coupled(center) => attachment.position - center,
+        },
         rope: DraftRope {
             name: kind.name.clone(),
             mass_per_length: Some(kind.mass_per_length),

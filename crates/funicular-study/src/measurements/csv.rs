@@ -6,11 +6,12 @@
 
 use super::{MeasuredFrequency, MeasuredResponse, check_size};
 use crate::csv_lines::line_at;
+use crate::text::clean;
 use crate::values::number;
 use anyhow::{Result, anyhow, bail};
 use serde::Deserialize;
 
-/// Signals of a response of a table.
+/// Signals of a response of a table, or of a function of a Universal File.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ResponseName {
@@ -142,7 +143,7 @@ fn rows(
             bail!("{path}, line {}: the frequency is missing", line());
         }
 
-        rows.labels.push(label.and_then(|at| record.get(at)).filter(|text| !text.is_empty()).map(str::to_owned));
+        rows.labels.push(label.and_then(|at| record.get(at)).filter(|text| !text.is_empty()).map(clean));
         rows.lines.push(line());
         rows.values.push(row);
     }
@@ -221,7 +222,7 @@ impl Table<'_> {
             let (real, imag) = self.real_and_imaginary(stem)?;
             let [.., std] = self.places(stem);
             responses.push(MeasuredResponse {
-                name: stem.to_owned(),
+                name: clean(stem),
                 input: name.input.clone(),
                 input_point_m,
                 output: name.output.clone(),

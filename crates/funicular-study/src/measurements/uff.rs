@@ -77,7 +77,7 @@ pub struct UffAxis {
 /// Function of dataset 58 or 58b.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Function {
-    /// Line of its dataset, from 1, for messages.
+    /// Line of its dataset's type, from 1; messages and names of functions have the next line.
     pub line: usize,
     /// Five lines of text.
     pub texts: [String; 5],
@@ -424,13 +424,10 @@ fn binary_numbers(lines: &mut Lines<'_>, form: &OrdinateForm, head: &Line<'_>) -
     if texts != 11 {
         bail!("line {}: {texts} lines before the binary data (dataset 58b), it must be 11", head.number);
     }
-    let size = usize::try_from(head.whole(31, 43)?)
+    let declared = usize::try_from(head.whole(31, 43)?)
         .map_err(|_| anyhow!("line {}: a negative number of bytes (dataset 58b)", head.number))?;
-    let body = lines.take(size)?;
-    lines.skip_line_end();
 
-    // Uneven abscissae of double ordinates are single numbers by the format, and double ones by some programs: the
-    // number of bytes decides.
+    // Uneven abscissae of double ordinates are single numbers by the format, and double ones by some programs.
     let ordinates = form.per_point() - usize::from(!form.is_even);
     let wide = if form.is_double { 8 } else { 4 };
     let abscissa_sizes: &[usize] = match (form.is_even, form.is_double) {
@@ -438,15 +435,25 @@ fn binary_numbers(lines: &mut Lines<'_>, form: &OrdinateForm, head: &Line<'_>) -
         (false, false) => &[4],
         (false, true) => &[8, 4],
     };
-    let fits = |abscissa: &&usize| form.points.checked_mul(ordinates * wide + **abscissa) == Some(size);
-    let abscissa = abscissa_sizes.iter().find(fits).ok_or_else(|| {
-        anyhow!(
-            "line {}: {size} bytes of binary data do not hold {} points of {} numbers of {wide} bytes (dataset 58b)",
+    let size_with = |abscissa: usize| form.points.checked_mul(ordinates * wide + abscissa);
+    // The size follows from the number of points and their form. The number of bytes in the file only says how wide the
+    // abscissae are, because some programs count other bytes; where it does not fit, the closing line decides.
+    let fits = |abscissa: &&usize| size_with(**abscissa) == Some(declared);
+    let closes = |abscissa: &&usize| size_with(**abscissa).is_some_and(|size| lines.closes_after(size));
+    let Some(abscissa) = abscissa_sizes.iter().find(fits).or_else(|| abscissa_sizes.iter().find(closes)) else {
+        // A body that is cut off is told first.
+        lines.take(declared)?;
+        bail!(
+            "line {}: {declared} bytes of binary data do not hold {} points of {} numbers of {wide} bytes, and no line \
+             `    -1` stands behind such points (dataset 58b)",
             head.number,
             form.points,
             form.per_point()
         )
-    })?;
+    };
+    let size = size_with(*abscissa).unwrap_or_default();
+    let body = lines.take(size)?;
+    lines.skip_line_end();
 
     let little = order == 1;
     let mut numbers = Vec::with_capacity(size / 4);

@@ -1,6 +1,7 @@
 //! Lines and numbers of a Universal File: fields by columns, as Fortran writes and reads them.
 
 use anyhow::{Result, anyhow, bail};
+use std::borrow::Cow;
 
 /// Position in the bytes of a file.
 #[derive(Debug, Clone)]
@@ -53,6 +54,14 @@ impl<'a> Lines<'a> {
         Ok(&rest[..count])
     }
 
+    /// True if a dataset's closing line stands behind so many bytes.
+    pub(super) fn closes_after(&self, count: usize) -> bool {
+        let Some(rest) = self.at.checked_add(count).and_then(|end| self.bytes.get(end..)) else { return false };
+        let mut behind = Self { bytes: rest, at: 0, number: 0 };
+        behind.skip_line_end();
+        behind.next().is_some_and(is_delimiter)
+    }
+
     /// Skips the end of a line that follows a binary body, if there is one.
     pub(super) fn skip_line_end(&mut self) {
         let rest = self.bytes.get(self.at..).unwrap_or_default();
@@ -74,10 +83,13 @@ pub(super) struct Line<'a> {
 }
 
 impl Line<'_> {
-    /// Text of the columns, without blanks around it.
+    /// Text of the columns, without blanks around it. Bytes that are not UTF-8 are windows-1252, in which western
+    /// European Windows programs write `µ` and `°`.
     pub(super) fn text(&self, from: usize, to: usize) -> String {
-        let to = to.min(self.bytes.len());
-        String::from_utf8_lossy(self.bytes.get(from..to).unwrap_or_default()).trim().to_owned()
+        let bytes = self.bytes.get(from..to.min(self.bytes.len())).unwrap_or_default();
+        let text = std::str::from_utf8(bytes)
+            .map_or_else(|_| encoding_rs::WINDOWS_1252.decode_without_bom_handling(bytes).0, Cow::Borrowed);
+        text.trim().to_owned()
     }
 
     /// Whole number in the columns; blank is 0.

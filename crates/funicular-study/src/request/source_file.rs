@@ -2,7 +2,7 @@
 
 use crate::text::clean;
 use anyhow::{Context, Result, bail};
-use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
+use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -23,9 +23,9 @@ pub struct SourceFile {
 }
 
 impl SourceFile {
-    /// Decodes a file. The encoding is given by a byte-order mark, otherwise by the XML declaration. Without either it
-    /// is UTF-8 if the bytes are valid UTF-8, and windows-1252 otherwise, which western European Windows programs
-    /// write.
+    /// Decodes a file. The encoding is given by a byte-order mark, otherwise by the XML declaration, unless its bytes
+    /// cannot be what it says. Without either it is UTF-8 if the bytes are valid UTF-8, and windows-1252 otherwise,
+    /// which western European Windows programs write.
     ///
     /// # Errors
     /// A file that is too large, or that is no text in its encoding.
@@ -34,18 +34,17 @@ impl SourceFile {
             bail!("{path} is larger than {} MiB, the limit for the file of one robot", MAX_BYTES >> 20);
         }
 
-        let declared = declared_encoding(bytes);
-        let (encoding, guessed) = match Encoding::for_bom(bytes) {
-            Some((encoding, _)) => (encoding, None),
-            None => match declared {
-                Some(label) => (
-                    Encoding::for_label(label.as_bytes())
-                        .with_context(|| format!("{path}: its encoding `{label}` is unknown; save it as UTF-8"))?,
-                    None,
-                ),
-                None if std::str::from_utf8(bytes).is_ok() => (UTF_8, None),
-                None => (WINDOWS_1252, Some(WINDOWS_1252.name().to_owned())),
-            },
+        let by_bytes = Encoding::for_bom(bytes).map(|(encoding, _)| encoding).or_else(|| unmarked_utf16(bytes));
+        let (encoding, guessed) = match (by_bytes, declared_encoding(bytes)) {
+            (Some(encoding), _) => (encoding, None),
+            (None, Some(label)) => {
+                let declared = Encoding::for_label(label.as_bytes())
+                    .with_context(|| format!("{path}: its encoding `{label}` is unknown; save it as UTF-8"))?;
+                // A declaration that was read byte by byte is not in UTF-16, whatever it says: programs that write a
+                // text of UTF-16 to a file in another encoding leave it so.
+                if declared == UTF_16LE || declared == UTF_16BE { of_bytes(bytes) } else { (declared, None) }
+            }
+            (None, None) => of_bytes(bytes),
         };
 
         let (text, _, broken) = encoding.decode(bytes);
@@ -74,9 +73,26 @@ impl SourceFile {
 
     /// Note on a guessed encoding, if there was one.
     pub(crate) fn caveat(&self) -> Option<String> {
-        self.guessed_encoding
-            .as_ref()
-            .map(|name| format!("{} is not UTF-8 and declares no encoding; it was read as {name}", self.name()))
+        self.guessed_encoding.as_ref().map(|name| {
+            format!("{} is not UTF-8 and declares no encoding that fits; it was read as {name}", self.name())
+        })
+    }
+}
+
+/// UTF-16 without a byte-order mark, by the first letter of an XML file.
+fn unmarked_utf16(bytes: &[u8]) -> Option<&'static Encoding> {
+    match bytes {
+        [b'<', 0, ..] => Some(UTF_16LE),
+        [0, b'<', ..] => Some(UTF_16BE),
+        _ => None,
+    }
+}
+
+/// Encoding that fits the bytes of a file that does not declare one, with its name if it is a guess.
+fn of_bytes(bytes: &[u8]) -> (&'static Encoding, Option<String>) {
+    match std::str::from_utf8(bytes) {
+        Ok(_) => (UTF_8, None),
+        Err(_) => (WINDOWS_1252, Some(WINDOWS_1252.name().to_owned())),
     }
 }
 
@@ -107,6 +123,15 @@ mod tests {
         assert_eq!(guessed.text, "<a n='ä'/>");
         assert!(guessed.caveat().unwrap().contains("windows-1252"));
         assert!(decoded("<a n='ä'/>".as_bytes()).caveat().is_none());
+        // Programs on Windows declare the encoding of their strings, and write another.
+        for label in ["utf-16", "UTF-16LE", "utf-16be", "unicode"] {
+            let text = format!("<?xml version='1.0' encoding='{label}'?><a n='ä'/>");
+            assert_eq!(decoded(text.as_bytes()).text, text);
+            let unmarked: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
+            assert_eq!(decoded(&unmarked).text, text);
+        }
+        let latin = decoded(b"<?xml encoding='utf-16'?><a n='\xE4'/>");
+        assert!(latin.caveat().is_some() && latin.text.ends_with("<a n='ä'/>"));
     }
 
     #[test]

@@ -207,7 +207,7 @@ fn damaged_files_are_errors_and_never_panics() {
 
             if let Ok(file) = UffFile::read("a.uff", &bytes) {
                 let nodes = [3, 7].map(|node| NodePoint { node, point_m: [0.0; 3] });
-                let _ = responses_of_uff("a.uff", &file, &nodes);
+                let _ = responses_of_uff("a.uff", &file, &nodes, &[]);
             }
         }
     }
@@ -240,7 +240,7 @@ fn responses_have_signs_points_and_si_units() {
     let form = Written { ordinates: 6, is_even: true, binary: None, wide_abscissae: false };
     let text = String::from_utf8(form.file()).unwrap();
     let file = UffFile::read("a.uff", text.as_bytes()).unwrap();
-    let error = responses_of_uff("a.uff", &file, &[]).unwrap_err().to_string();
+    let error = responses_of_uff("a.uff", &file, &[], &[]).unwrap_err().to_string();
     assert_eq!(
         error,
         "a.uff: the function in line 8 is at node 3, whose place on the platform is unknown: give ⟪node⟫ 3=x,y,z in \
@@ -250,6 +250,7 @@ fn responses_have_signs_points_and_si_units() {
     // Node 7 in dataset 15 in millimetres, node 3 by the option; millimetres and kilonewtons.
     let with_units = text
         .replace("m/s^2", "mm/s^2")
+        .replace(" N   ", " kN  ")
         .replacen(
             "    -1\n   151",
             "    -1\n   164\n         9USER                          2\n 1.0D+03 1.0D-03\n    -1\n    -1\n    15\n         7         0\
@@ -259,7 +260,7 @@ fn responses_have_signs_points_and_si_units() {
         .replace(" 1.0D+03 1.0D-03", &format!("{:>25}{:>25}{:>25}", "1.0D+03", "1.0D-03", "1.0D+00"));
     let file = UffFile::read("a.uff", with_units.as_bytes()).unwrap();
     let node = NodePoint { node: 3, point_m: [0.3, 0.0, 0.0] };
-    let (responses, notes) = responses_of_uff("a.uff", &file, &[node]).unwrap();
+    let (responses, notes) = responses_of_uff("a.uff", &file, &[node], &[]).unwrap();
     assert!(notes.is_empty());
     let [one] = &responses[..] else { panic!("one response") };
     assert_eq!((one.input.as_str(), one.output.as_str()), ("fz", "ay"));
@@ -267,13 +268,11 @@ fn responses_have_signs_points_and_si_units() {
     // 1.5 mm/s² per kN, along −y.
     assert!((one.real[0] + 1.5e-6).abs() < 1e-20 && (one.imag[0] - 0.25e-6).abs() < 1e-20);
 
-    // Without factors nobody knows what a millimetre is.
-    let error = responses_of_uff(
-        "a.uff",
-        &UffFile::read("a.uff", text.replace("m/s^2", "mm/s^2").as_bytes()).unwrap(),
-        &[node, NodePoint { node: 7, point_m: [0.0; 3] }],
-    );
-    assert!(error.unwrap_err().to_string().contains("gives no factor to SI units (dataset 164)"));
+    // A label that the factors contradict.
+    let other = String::from_utf8_lossy(with_units.as_bytes()).replace("mm/s^2", "cm/s^2");
+    let error =
+        responses_of_uff("a.uff", &UffFile::read("a.uff", other.as_bytes()).unwrap(), &[node], &[]).unwrap_err();
+    assert!(error.to_string().contains("but by the factors of the file (dataset 164) it is 0.001"), "{error}");
 }
 
 /// Results of a request on the robot of the paper.
@@ -295,7 +294,7 @@ fn written_responses_are_read_with_their_digits() {
         };
 
         let file = UffFile::read("a.uff", &frf_file(&found).unwrap()).unwrap();
-        let (responses, _) = responses_of_uff("a.uff", &file, &[]).unwrap();
+        let (responses, _) = responses_of_uff("a.uff", &file, &[], &[]).unwrap();
         assert_eq!(responses.len(), 6);
 
         for (read, pair) in responses.iter().zip(&found.responses) {

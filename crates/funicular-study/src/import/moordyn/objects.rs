@@ -68,6 +68,8 @@ pub(super) struct MoorDynLine<'a> {
     /// Name of its line type, exactly as in the file.
     pub(super) kind: &'a str,
     pub(super) unstrained_length: f64,
+    /// Columns of the points at its ends.
+    ends: [usize; 2],
     pub(super) row: SourceRow<'a>,
 }
 
@@ -130,18 +132,20 @@ impl<'a> MoorDynModel<'a> {
 
     /// Point at an end of a line.
     pub(super) fn point(&self, file: &SourceFile, line: &MoorDynLine, end: usize) -> Result<&MoorDynPoint<'a>> {
-        let word = line.row.word(file, 2 + end, "attachment")?;
+        let column = line.ends[end];
+        let word = line.row.word(file, column, "attachment")?;
         let letters: String = word.chars().take_while(char::is_ascii_alphabetic).collect();
         if matches!(letters.to_uppercase().as_str(), "R" | "ROD") {
             bail!(line.row.error(file, format!("line {} ends at rod `{}`; rods are not read", line.id, clean(word))));
         }
-        let Ok(id) = line.row.id(file, 2 + end, "attachment") else {
+        let Ok(id) = line.row.id(file, column, "attachment") else {
             bail!(line.row.error(
                 file,
                 format!(
                     "column {} is `{}`, which is no number of a point; the columns have to be those of MoorDyn version \
-                     2: ID, LineType, AttachA, AttachB, UnstrLen",
-                    3 + end,
+                     2 (ID, LineType, AttachA, AttachB, UnstrLen) or 1 (Line, LineType, UnstrLen, NumSegs, NodeAnch, \
+                     NodeFair), with a row of these names",
+                    column + 1,
                     clean(word)
                 )
             ));
@@ -182,7 +186,10 @@ impl<'a> MoorDynModel<'a> {
         if row.words.get(4).is_some_and(|word| text::number(word) != Ok(0.0)) {
             losses.damping.push(format!("the damping BA/-zeta of `{name}`"));
         }
-        if row.words.get(5).is_some_and(|word| text::number(word) != Ok(0.0)) {
+        // Version 1 has no bending stiffness: its sixth column is a coefficient of water.
+        let bending = row.columns_of(&["ei"]).next().or_else(|| row.columns_of(&["can"]).next().is_none().then_some(5));
+        let bends = |column: usize| row.words.get(column).is_some_and(|word| text::number(word) != Ok(0.0));
+        if bending.is_some_and(bends) {
             losses.bending.push(format!("`{name}`"));
         }
 
@@ -307,11 +314,15 @@ fn point<'a>(file: &SourceFile, row: SourceRow<'a>, losses: &mut MoorDynLosses) 
 fn line<'a>(file: &SourceFile, row: SourceRow<'a>) -> Result<MoorDynLine<'a>> {
     let id = row.id(file, 0, "ID")?;
     let kind = row.word(file, 1, "LineType")?;
-    // Version 1 has the length in the third column, and the points after the segments: its rows fail here or at the
-    // points.
-    let unstrained_length = row.number(file, 4, "UnstrLen")?;
+    // Version 1 has the length in the third column, and the points after the segments. The names of the columns tell.
+    let column = row.columns_of(&["unstr"]).next().unwrap_or(4);
+    let named: Vec<usize> = row.columns_of(&["attach", "node", "end"]).take(2).collect();
+    let ends = if let [a, b] = named[..] { [a, b] } else { [2, 3] };
+    let unstrained_length = row.number(file, column, "UnstrLen")?;
     if unstrained_length <= 0.0 {
-        bail!(row.error(file, format!("column 5 (UnstrLen) is {unstrained_length} m, it must be positive")));
+        bail!(
+            row.error(file, format!("column {} (UnstrLen) is {unstrained_length} m, it must be positive", column + 1))
+        );
     }
-    Ok(MoorDynLine { id, kind, unstrained_length, row })
+    Ok(MoorDynLine { id, kind, unstrained_length, ends, row })
 }

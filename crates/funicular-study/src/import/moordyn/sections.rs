@@ -4,6 +4,7 @@ use super::SourceFile;
 use crate::import::text;
 use crate::text::clean;
 use anyhow::{Result, bail};
+use std::rc::Rc;
 
 /// SectionKind of a section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,6 +39,8 @@ pub(super) struct SourceRow<'a> {
     /// Line number in the file, from 1.
     pub(super) line: usize,
     pub(super) words: Vec<&'a str>,
+    /// Names of the columns; none in the list of options.
+    names: Rc<[&'a str]>,
 }
 
 /// Rows of a file, each with the kind of its section.
@@ -45,24 +48,37 @@ pub(super) fn rows(text: &str) -> Vec<(SectionKind, SourceRow<'_>)> {
     let mut rows = Vec::new();
     let mut kind = None;
     let mut to_skip = 0;
+    let mut names: Rc<[&str]> = Rc::default();
 
     for (i, line) in text.lines().enumerate() {
         if let Some(header) = header(line) {
             kind = Some(header);
             // Two rows with names and units of the columns follow; the list of options has none.
             to_skip = if header == SectionKind::Options { 0 } else { 2 };
+            names = Rc::default();
             continue;
         }
 
         let Some(kind) = kind else { continue };
-        if to_skip > 0 {
-            to_skip -= 1;
+        if to_skip == 2 {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            // In the layout of version 1, the number of rows stands before the names: `2 NLines - number of lines`.
+            let is_count =
+                matches!(words[..], [count, name, ..] if count.parse::<usize>().is_ok() && name.starts_with('N'));
+            if !is_count {
+                names = words.into();
+                to_skip = 1;
+            }
+            continue;
+        }
+        if to_skip == 1 {
+            to_skip = 0;
             continue;
         }
 
         let words: Vec<&str> = without_comment(line).split_whitespace().collect();
         if !words.is_empty() {
-            rows.push((kind, SourceRow { line: i + 1, words }));
+            rows.push((kind, SourceRow { line: i + 1, words, names: names.clone() }));
         }
     }
     rows
@@ -89,6 +105,15 @@ fn without_comment(line: &str) -> &str {
 }
 
 impl<'a> SourceRow<'a> {
+    /// Columns whose names begin with one of these words, in any case.
+    pub(super) fn columns_of(&self, begins: &'static [&'static str]) -> impl Iterator<Item = usize> + '_ {
+        let is_one = |name: &str| {
+            let name = name.to_lowercase();
+            begins.iter().any(|word| name.starts_with(word))
+        };
+        self.names.iter().enumerate().filter(move |(_, name)| is_one(name)).map(|(column, _)| column)
+    }
+
     /// Word in a column of the row.
     pub(super) fn word(&self, file: &SourceFile, column: usize, name: &str) -> Result<&'a str> {
         match self.words.get(column) {

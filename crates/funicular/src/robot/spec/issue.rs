@@ -1,5 +1,6 @@
 //! Issues of a robot file: problem, place and remedy.
 
+use crate::suggest::shown;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use std::fmt;
 use std::ops::Range;
@@ -47,18 +48,18 @@ pub struct Issue {
 impl Issue {
     /// Issue whose line and column [`SpecError::new`] fills in.
     pub(super) fn new(span: Range<usize>, message: impl Into<String>) -> Self {
-        Self { span, line: 1, column: 1, message: message.into(), help: None, context: None }
+        Self { span, line: 1, column: 1, message: shown(&message.into()), help: None, context: None }
     }
 
     /// Adds the remedy.
     pub(super) fn help(&mut self, help: impl Into<String>) -> &mut Self {
-        self.help = Some(help.into());
+        self.help = Some(shown(&help.into()));
         self
     }
 
     /// Adds a second place.
     pub(super) fn context(&mut self, span: Range<usize>, label: impl Into<String>) -> &mut Self {
-        self.context = Some((span, label.into()));
+        self.context = Some((span, shown(&label.into())));
         self
     }
 }
@@ -82,7 +83,7 @@ impl SpecError {
 
     /// Issues with the lines of the file they point at, several lines per issue; at most 20 issues.
     ///
-    /// `text` is the text that was read. `file_name` is shown unchanged; `color` adds ANSI colours.
+    /// `text` is the text that was read. `color` adds ANSI colours.
     ///
     /// # Example
     ///
@@ -97,16 +98,17 @@ impl SpecError {
     /// ```
     pub fn render(&self, file_name: &str, text: &str, color: bool) -> String {
         let renderer = if color { Renderer::styled() } else { Renderer::plain() };
+        let file_name = shown(file_name);
         let (shown_text, mark) = without_mark(text);
         let place = |span: &Range<usize>| {
             let start = boundary(shown_text, span.start.saturating_sub(mark));
             start..boundary(shown_text, span.end.saturating_sub(mark)).max(start)
         };
 
-        let mut shown: Vec<String> = Vec::new();
+        let mut rendered: Vec<String> = Vec::new();
         for issue in self.issues.iter().take(SHOWN) {
             let mut snippet = Snippet::source(shown_text)
-                .path(file_name)
+                .path(file_name.as_str())
                 .annotation(AnnotationKind::Primary.span(place(&issue.span)));
             if let Some((span, label)) = &issue.context {
                 snippet = snippet.annotation(AnnotationKind::Context.span(place(span)).label(label.as_str()));
@@ -115,13 +117,13 @@ impl SpecError {
             if let Some(help) = &issue.help {
                 group = group.element(Level::HELP.message(help.as_str()));
             }
-            shown.push(renderer.render(&[group]));
+            rendered.push(renderer.render(&[group]));
         }
 
         if let Some(more) = self.issues.len().checked_sub(SHOWN).filter(|more| *more > 0) {
-            shown.push(format!("and {more} more"));
+            rendered.push(format!("and {more} more"));
         }
-        shown.join("\n\n")
+        rendered.join("\n\n")
     }
 }
 

@@ -3,7 +3,7 @@
 use super::key::{Absent, Key, KeyValue, Numeric};
 use super::range::{MAX_MAGNITUDE, MIN_POSITIVE, Range as Limits};
 use super::{Issue, TABLES};
-use crate::suggest::nearest;
+use crate::suggest::{is_hidden, nearest};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
@@ -286,7 +286,7 @@ impl<'t> Reader<'t> {
     /// Text that may have several lines.
     pub(super) fn prose(&mut self, key: &str, value: &Value) -> Option<String> {
         let text = self.text(key, value)?;
-        let bad = text.chars().find(|&c| breaks_tables(c) && !matches!(c, '\n' | '\r' | '\t'));
+        let bad = text.chars().find(|&c| is_hidden(c) && !matches!(c, '\n' | '\r' | '\t'));
         self.without(bad, key, value.span())?;
         Some(text)
     }
@@ -304,7 +304,7 @@ impl<'t> Reader<'t> {
             self.issue(span, format!("`{key}` is empty"));
             return None;
         }
-        self.without(name.chars().find(|&c| breaks_tables(c)), key, span)
+        self.without(name.chars().find(|&c| is_hidden(c)), key, span)
     }
 
     /// Reports a character that is not allowed.
@@ -425,12 +425,6 @@ fn inside(label: &str) -> String {
 /// True if all three numbers are zero, of either sign.
 pub(super) fn is_zero(vector: &[f64; 3]) -> bool {
     vector.iter().all(|number| *number == 0.0)
-}
-
-/// True for control characters, and for characters that turn or hide text in a terminal.
-fn breaks_tables(c: char) -> bool {
-    c.is_control()
-        || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
 }
 
 /// User's text for a message: escaped, and shortened if it is long.
