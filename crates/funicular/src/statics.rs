@@ -11,6 +11,7 @@
 //! | lengths from a pose, redundantly constrained (more cables than degrees of freedom) | [`distribute_tensions`] by a [`TensionRule`] |
 //! | minimum and maximum payload that cables within their limits hold at a pose | [`payload_bound`] |
 //! | nearest pose that fewer cables can hold (under-constrained) | [`nearest_equilibrium`] |
+//! | motions that no cable opposes, as with all cables at one point of the platform | [`free_motions`] |
 //! | stiffness of an equilibrium | [`tangent_stiffness`], in wind [`tangent_with_drag`] |
 //! | derivatives of an equilibrium with respect to a number of the robot | [`derivatives`] |
 //! | intervals of pose and tensions that friction of pulleys permits | [`friction_interval`] |
@@ -29,6 +30,7 @@ mod obstacle; // direction in which no cable can pull, whatever the limits
 mod collect; // equilibrium from the cables that hang at a pose
 mod energy; // potential energy, minimised by forward statics
 mod exit_points; // exit points of cables over pulleys, which follow from the tensions
+mod free_motion; // motions that no cable opposes, because the directions of the cables are dependent
 mod initial_pose; // start pose from the lengths
 mod loaded_cable; // cable with its load, before its length is known
 mod residual; // residual of the balance at a pose, and its rounding
@@ -56,6 +58,7 @@ pub use equilibria::{Candidate, Candidates, all_equilibria, another_stable_equil
 pub use equilibrium::{CableState, Equilibrium, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT, Stability};
 pub use error::StaticsError;
 pub use forward::forward;
+pub use free_motion::{FreeMotion, free_motions};
 pub use friction::{
     CableFriction, FrictionError, FrictionInterval, Held, Interval, MotionInterval, friction_exponents,
     friction_interval,

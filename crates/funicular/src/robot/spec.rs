@@ -295,6 +295,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let cables = cables?.into_iter().map(|entry| Some((entry.cable?, entry.support))).collect::<Option<Vec<_>>>()?;
     let (state, written_angles_deg) = state_and_angles?;
     let (cables, supports) = on_supports(cables, supports?);
+    refuse_huge_wheels(reader, table, &cables, &state);
     Some(Robot {
         name: name?,
         source: source?,
@@ -318,6 +319,39 @@ fn on_supports(cables: Vec<(Cable, Option<String>)>, named: read::Named<Support>
         cable
     };
     (cables.into_iter().map(with_support).collect(), supports)
+}
+
+/// Refuses wheels of pulleys that are larger than the robot: the largest distance between two anchors, from an anchor to
+/// the platform, or along a cable.
+fn refuse_huge_wheels(reader: &mut Reader, root: &DeTable, cables: &[Cable], state: &State) {
+    let anchors_w: Vec<Vec3> = cables.iter().map(|cable| cable.anchor.point_w).collect();
+    let platform_w = if let State::Pose(pose) = state { pose.position_w } else { Vec3::zeros() };
+    let lengths: &[f64] = if let State::Lengths(lengths) = state { lengths } else { &[] };
+    let between = anchors_w.iter().flat_map(|one| anchors_w.iter().map(move |other| (other - one).norm()));
+    let from_platform = anchors_w.iter().map(|anchor_w| (anchor_w - platform_w).norm());
+    let size = between.chain(from_platform).chain(lengths.iter().copied()).fold(0.0, f64::max);
+
+    let mut named: Vec<&str> = Vec::new();
+    for pulley in cables.iter().filter_map(|cable| cable.anchor.pulley.as_ref()) {
+        let is_huge = size > 0.0 && pulley.radius > size;
+        if !is_huge || named.contains(&pulley.name.as_str()) {
+            continue;
+        }
+        named.push(&pulley.name);
+        let tables = root.get("pulleys").and_then(|pulleys| pulleys.get_ref().as_table());
+        let own = tables.and_then(|pulleys| pulleys.get(pulley.name.as_str())?.get_ref().as_table());
+        let span = own.and_then(|pulley| pulley.get("radius_m")).map_or(0..0, |value| value.span());
+        reader
+            .issue(
+                span,
+                format!(
+                    "`radius_m` of the wheel of [pulleys.{}] is {} m, larger than the robot: the largest distance of \
+                     its anchors from each other and from its platform is {size:.4} m",
+                    pulley.name, pulley.radius
+                ),
+            )
+            .help("give the radius in metres; wheels of a few centimetres are usual");
+    }
 }
 
 /// Reads `[loads]`: force, moment and point.

@@ -1,10 +1,11 @@
 //! Reasons why an equilibrium cannot be given, and their messages.
 
 use super::equilibrium::RESIDUAL_LIMIT;
-use super::limits::LimitViolation;
+use super::limits::{Limit, LimitViolation};
 use super::loaded_cable::MAX_LENGTH_RATIO;
+use super::model::StaticModel;
 use super::obstacle::Obstacle;
-use crate::robot::OutOfPlane;
+use crate::robot::{OutOfPlane, Pose, Robot};
 use thiserror::Error;
 
 /// Reason why an equilibrium cannot be given.
@@ -96,9 +97,15 @@ pub enum StaticsError {
         /// Radius of the wheel [m].
         radius: f64,
     },
-    /// The pose is singular: the cables do not span the degrees of freedom.
-    #[error("the cables do not hold the platform at this pose: their directions are dependent (singular pose)")]
-    Singular,
+    /// The pose is singular: the cables do not span the degrees of freedom, and do not balance the load either.
+    #[error(
+        "the cables do not hold the platform at this pose: their directions are dependent (singular pose){}",
+        because(obstacle.as_deref())
+    )]
+    Singular {
+        /// Direction in which no cable pulls, if the load acts there.
+        obstacle: Option<Box<Obstacle>>,
+    },
     /// A straight cable would need negative tension.
     #[error(
         "no equilibrium with cables in tension: cable \"{cable}\" would need {tension:.4} N at this pose{}; choose \
@@ -263,6 +270,49 @@ pub enum StaticsError {
         /// Position reached [m].
         z: f64,
     },
+    /// Every pose near the requested one needs tensions beyond their limits.
+    #[error(
+        "no nearest pose with tensions within their limits was found: at the last one, at position ({x:.4}, {y:.4}, \
+         {z:.4}) m, cable \"{cable}\" has {tension:.4} N, and its {} is {value} N; request another pose, or widen the \
+         limits (`minimum_tension_n`, `maximum_tension_n`)",
+        limit.name()
+    )]
+    NearestBeyondLimits {
+        /// Name of the cable.
+        cable: String,
+        /// Limit that is violated.
+        limit: Limit,
+        /// Tension [N].
+        tension: f64,
+        /// Value of the limit [N].
+        value: f64,
+        /// Position reached [m].
+        x: f64,
+        /// Position reached [m].
+        y: f64,
+        /// Position reached [m].
+        z: f64,
+    },
+    /// Only the weight of a long loop of cable would hold the platform near the requested pose.
+    #[error(
+        "no nearest pose was found with cables up to {MAX_LENGTH_RATIO} times as long as their chords: at the last one, \
+         at position ({x:.4}, {y:.4}, {z:.4}) m, cable \"{cable}\" hangs as a loop of {length:.3} m over a chord of \
+         {chord:.3} m; request another pose, or give the cable a `minimum_tension_n`"
+    )]
+    NearestByLoop {
+        /// Name of the cable.
+        cable: String,
+        /// Unstrained length of the free span [m].
+        length: f64,
+        /// Chord [m].
+        chord: f64,
+        /// Position reached [m].
+        x: f64,
+        /// Position reached [m].
+        y: f64,
+        /// Position reached [m].
+        z: f64,
+    },
     /// The tensions of a redundantly constrained robot did not converge.
     #[error(
         "no tensions found in {iterations} iterations at position ({x:.4}, {y:.4}, {z:.4}) m: {}, the scaled residual \
@@ -331,6 +381,11 @@ pub enum StaticsError {
 }
 
 impl StaticsError {
+    /// Singular pose of a robot, with the direction in which no cable pulls.
+    pub(super) fn singular(robot: &Robot, pose: &Pose, model: StaticModel) -> Self {
+        Self::Singular { obstacle: Obstacle::at(robot, pose, model).map(Box::new) }
+    }
+
     /// Short name that does not change between versions, for columns of tables.
     pub fn code(&self) -> &'static str {
         match self {
@@ -342,9 +397,9 @@ impl StaticsError {
             Self::OutOfPlane(_) => "out-of-plane",
             Self::CoincidingEnds { .. } => "coinciding-ends",
             Self::InsidePulley { .. } => "inside-pulley",
-            Self::Singular => "singular",
+            Self::Singular { .. } => "singular",
             Self::NegativeTension { .. } | Self::NotFound { .. } | Self::LengthsPush { .. } => "negative-tension",
-            Self::BeyondLimits(_) => "tension-limits",
+            Self::BeyondLimits(_) | Self::NearestBeyondLimits { .. } => "tension-limits",
             Self::NotFoundWithinLimits { .. } => "not-found",
             Self::LimitsExclude { .. } => "limits-exclude",
             Self::NoPayload => "no-payload",
@@ -355,7 +410,7 @@ impl StaticsError {
             Self::StiffestNeedsElastic => "nothing-to-stiffen",
             Self::TooManyToStiffen { .. } => "too-many-to-stiffen",
             Self::NeedsElasticCables => "one-ideal",
-            Self::NotNearest { .. } => "not-nearest",
+            Self::NotNearest { .. } | Self::NearestByLoop { .. } => "not-nearest",
             Self::NotConverged { .. } | Self::LostInRounding { .. } | Self::TensionsNotConverged { .. } => {
                 "not-converged"
             }
@@ -366,7 +421,9 @@ impl StaticsError {
     /// the cause of the error.
     pub fn obstacle(&self) -> Option<&Obstacle> {
         match self {
-            Self::NegativeTension { obstacle, .. } | Self::NotFound { obstacle, .. } => obstacle.as_deref(),
+            Self::NegativeTension { obstacle, .. } | Self::NotFound { obstacle, .. } | Self::Singular { obstacle } => {
+                obstacle.as_deref()
+            }
             Self::BeyondLimits(miss) | Self::NotFoundWithinLimits { miss, .. } => miss.obstacle.as_deref(),
             _ => None,
         }
@@ -376,7 +433,7 @@ impl StaticsError {
     pub fn is_no_solution(&self) -> bool {
         matches!(
             self,
-            Self::Singular
+            Self::Singular { .. }
                 | Self::NegativeTension { .. }
                 | Self::NotFound { .. }
                 | Self::LengthsPush { .. }
@@ -384,6 +441,8 @@ impl StaticsError {
                 | Self::NotFoundWithinLimits { .. }
                 | Self::NoPayload
                 | Self::NotNearest { .. }
+                | Self::NearestBeyondLimits { .. }
+                | Self::NearestByLoop { .. }
                 | Self::NotConverged { .. }
                 | Self::LostInRounding { .. }
                 | Self::TensionsNotConverged { .. }

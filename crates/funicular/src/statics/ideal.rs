@@ -52,7 +52,7 @@ pub(super) fn forward(robot: &Robot, lengths: &[f64], start: Pose) -> Result<Equ
             (Some(cable), Some(length)) => cable.straight_length(&pose) - length,
             _ => 0.0,
         });
-        let step = rows.lu().solve(&gaps).ok_or(StaticsError::Singular)?;
+        let step = rows.lu().solve(&gaps).ok_or_else(|| StaticsError::singular(robot, &pose, StaticModel::Ideal))?;
         let step = coordinates.expand(&step);
 
         // Halve the step until the gap falls.
@@ -182,19 +182,29 @@ pub(super) fn straight_tensions(robot: &Robot, pose: &Pose, load: &Vec6) -> Resu
     let coordinates = Coordinates::of(robot);
     let right = -coordinates.reduce(load);
     let columns = unit_wrenches(robot, pose, &coordinates);
-    let inverse = inverse6(&columns).ok_or(StaticsError::Singular)?;
+    let singular = || StaticsError::singular(robot, pose, StaticModel::Ideal);
+    if is_singular(&columns) {
+        return Err(singular());
+    }
+    let tensions = columns.lu().solve(&right).ok_or_else(singular)?;
+    Ok(tensions.iter().copied().take(robot.cables.len()).collect())
+}
 
+/// True if the unit wrenches of as many straight cables as degrees of freedom are dependent.
+fn is_singular(columns: &Mat6) -> bool {
+    let Some(inverse) = inverse6(columns) else { return true };
     // Frobenius norms bound the condition number from above and cost a tenth of the singular values.
     let bound = columns.norm() * inverse.norm();
-    if bound.is_nan() || bound > MAX_BOUND {
-        let singular = columns.svd(false, false).singular_values;
-        if singular.min() < SINGULAR * singular.max() {
-            return Err(StaticsError::Singular);
-        }
+    if bound <= MAX_BOUND {
+        return false;
     }
+    let singular = columns.svd(false, false).singular_values;
+    singular.min() < SINGULAR * singular.max()
+}
 
-    let tensions = columns.lu().solve(&right).ok_or(StaticsError::Singular)?;
-    Ok(tensions.iter().copied().take(robot.cables.len()).collect())
+/// True if as many straight cables as degrees of freedom have independent directions at a pose.
+pub(super) fn is_determinate(robot: &Robot, pose: &Pose) -> bool {
+    !is_singular(&unit_wrenches(robot, pose, &Coordinates::of(robot)))
 }
 
 /// Equilibrium of ideal cables.

@@ -51,7 +51,7 @@ fn at_exit_points(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equi
         load += wrench_of(&(cable.load.vector_w() * (0.5 * chord)), &lever_w);
     }
     let tensions = match straight_tensions(robot, pose, &load) {
-        Err(StaticsError::Singular) if model == StaticModel::Catenary => {
+        Err(StaticsError::Singular { .. }) if model == StaticModel::Catenary => {
             return without_straight_solution(robot, pose, &loaded);
         }
         tensions => tensions?,
@@ -269,7 +269,7 @@ fn without_straight_solution(
     let accept = |found: &CableSearch| found.residual <= RESIDUAL_LIMIT && found.max_tension() <= limit;
     match starts::search(robot, pose, loaded, accept) {
         Some(searched) if accept(&searched.best) => Ok(searched.best.collected(robot, pose)),
-        _ => Err(StaticsError::Singular),
+        _ => Err(StaticsError::singular(robot, pose, StaticModel::Catenary)),
     }
 }
 

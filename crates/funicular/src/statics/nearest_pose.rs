@@ -4,7 +4,10 @@
 //! satisfies `K dx = B dL`, B being the derivative of the wrench with respect to the lengths. Each iteration takes the
 //! step that comes nearest to the requested pose; then forward statics brings the platform back to the surface, to a
 //! stable equilibrium of the new lengths. The curvature of the surface is learnt from the steps (Broyden, Fletcher,
-//! Goldfarb, Shanno); the first step assumes a flat surface.
+//! Goldfarb, Shanno); the first step assumes a flat surface. Limits of tensions and lengths are linearised at each step
+//! (sequential quadratic programming); a merit of distance and violation decides whether the step is taken.
+
+mod bounds;
 
 use super::collect::with_stability;
 use super::drag::tangent_with_drag;
@@ -13,6 +16,7 @@ use super::error::StaticsError;
 use super::forward::forward;
 use super::ideal;
 use super::limits::TensionRange;
+use bounds::{Bound, Quadratic, excess};
 use super::loaded_cable::LoadedCable;
 use super::model::StaticModel;
 use super::supports;
@@ -69,6 +73,13 @@ const PARALLEL: f64 = 1e-9;
 /// chords long. With less, the guess is all sag; well above it, light platforms are lifted by their cables.
 const MIN_GUESS: f64 = 0.25;
 
+/// Weight of the largest violation in the merit over the sum of the multipliers: above 1, so that each step within the limits is a gain.
+const PENALTY: f64 = 2.0;
+
+/// Curvature of a change of the tensions alone, beside 1 for motions: such changes are made only where limits demand
+/// it.
+const TENSION_ALONE: f64 = 1e-3;
+
 /// Minimum cosine between a step and the change of slope along it at which the surface's curvature is updated. Below,
 /// the quotient is rounding, or the curvature has the other sign.
 const MIN_CURVATURE: f64 = 1e-3;
@@ -93,11 +104,13 @@ fn gap(robot: &Robot, from: &Pose, to: &Pose) -> Vec6 {
 }
 
 /// Nearest pose that the cables can hold with some lengths, for robots with fewer cables than degrees of freedom. It is
-/// nearest by [`pose_distance`], among the poses around the one reached from the first guess of lengths.
+/// nearest by [`pose_distance`], among the poses around the one reached from the first guess of lengths. The tensions
+/// keep the limits of the robot file; a cable with weight is at most 1.25 times as long as its chord if the platform
+/// can be held so, and at most twice as long.
 ///
 /// # Errors
 /// [`StaticsError`]: more ideal cables than degrees of freedom, a pose out of a planar platform's plane,
-/// coinciding ends, or no convergence.
+/// coinciding ends, no pose within the limits, or no convergence.
 ///
 /// # Example
 /// ```
@@ -153,7 +166,7 @@ pub fn nearest_equilibrium(
     let mut search = SurfaceSearch::new(robot, requested, model)?;
     let size = search.size;
     for _ in 0..MAX_STEPS {
-        if search.could_move() <= MAX_APPROACH * size {
+        if search.could_move() <= MAX_APPROACH * size && search.violation() <= MAX_APPROACH {
             break;
         }
         if !search.step() && !search.shorten() {
@@ -172,10 +185,11 @@ pub fn nearest_equilibrium(
     // Only ropes of zero length come near a pose on the line between their anchors.
     let torn = |(cable, state): (&Cable, &CableState)| state.tension_platform > cable.material.axial_stiffness;
     if robot.cables.iter().zip(&here.cables).any(torn) {
-        return Err(StaticsError::Singular);
+        return Err(StaticsError::Singular { obstacle: None });
     }
 
     here.iterations = iterations;
+    bounds::check(robot, &here)?;
     Ok(NearestEquilibrium { equilibrium: here, distance: missing.norm() })
 }
 
@@ -191,6 +205,10 @@ struct SurfaceSearch<'a> {
     here: Equilibrium,
     lengths: Vec<f64>,
     surface: Surface,
+    /// Limits about there.
+    bounds: Vec<Bound>,
+    /// Weight of the violation of limits in the merit [m²].
+    penalty: f64,
     /// Scaled motion from there to the requested pose.
     missing: Vec6,
     /// Curvature of the surface, learnt from the steps.
@@ -208,6 +226,7 @@ impl<'a> SurfaceSearch<'a> {
         let here = forward(robot, &lengths, model, Some(requested))?;
         let size = coordinates.ell() + lengths.iter().copied().fold(0.0, f64::max);
         let surface = Surface::at(robot, &here);
+        let bounds = bounds::about(robot, &here, &surface.directions, &surface.lengths);
         let missing = gap(robot, &here.pose, requested);
         let iterations = here.iterations;
         let (bend, damping) = (Mat6::identity(), 0.0);
@@ -221,6 +240,8 @@ impl<'a> SurfaceSearch<'a> {
             here,
             lengths,
             surface,
+            bounds,
+            penalty: 0.0,
             missing,
             bend,
             damping,
@@ -228,15 +249,25 @@ impl<'a> SurfaceSearch<'a> {
         })
     }
 
-    /// Part of the missing motion that the surface allows; zero at the nearest pose [m].
+    /// Part of the missing motion that the surface and the limits allow; zero at the nearest pose [m].
     fn could_move(&self) -> f64 {
-        self.surface.along(&self.missing).norm()
+        could_move(&self.surface, &self.bounds, &self.missing)
+    }
+
+    /// Violation of the limits, relative to them.
+    fn violation(&self) -> f64 {
+        excess(&self.bounds)
     }
 
     /// Steps along the surface and back to it. True if the step is a gain and was taken.
     fn step(&mut self) -> bool {
-        let could = self.surface.along(&self.missing);
-        let (motion, by_length) = self.surface.step(&self.missing, &self.bend, self.damping);
+        let could = self.could_move();
+        let Some(StepOnSurface { motion, by_length, pressure }) =
+            self.surface.step(&self.missing, &self.bend, self.damping, &self.bounds)
+        else {
+            return false;
+        };
+        self.penalty = self.penalty.max(PENALTY * pressure.iter().sum::<f64>());
         let lengths = self.lengths.iter().zip(&by_length).map(|(l, d)| (l + d).max(MIN_SHORTENED * l));
         let lengths: Vec<f64> = lengths.collect();
         let start = self.coordinates.moved(&self.here.pose, &motion);
@@ -245,19 +276,29 @@ impl<'a> SurfaceSearch<'a> {
         self.iterations += next.iterations;
         let missing = gap(self.robot, &next.pose, self.requested);
         let surface = Surface::at(self.robot, &next);
-        let next_could = surface.along(&missing);
+        let bounds = bounds::about(self.robot, &next, &surface.directions, &surface.lengths);
+        let next_could = could_move(&surface, &bounds, &missing);
 
         // Near the end the distance drowns in rounding; then the direction decides.
-        let nearer = missing.norm() < self.missing.norm();
-        let straighter =
-            could.norm() < NEARLY_SQUARE * self.missing.norm() && next_could.norm() < MAX_APPROACH_RATIO * could.norm();
+        let merit = |missing: &Vec6, bounds: &[Bound]| 0.5 * missing.norm_squared() + self.penalty * excess(bounds);
+        let nearer = merit(&missing, &bounds) < merit(&self.missing, &self.bounds);
+        let straighter = could < NEARLY_SQUARE * self.missing.norm()
+            && next_could < MAX_APPROACH_RATIO * could
+            && excess(&bounds) <= excess(&self.bounds).max(NEARLY_SQUARE);
         if !nearer && !straighter {
             return false;
         }
 
+        // Slope of the merit's smooth part, with the pressure of the limits.
+        let slope = |surface: &Surface, missing: &Vec6, bounds: &[Bound]| {
+            let pressed = bounds.iter().zip(&pressure).map(|(bound, pressure)| surface.motion(&bound.slope) * *pressure);
+            surface.along(missing) + pressed.sum::<Vec6>()
+        };
         let moved = gap(self.robot, &self.here.pose, &next.pose);
-        update(&mut self.bend, &surface.along(&moved), &(could - next_could));
+        let turned = slope(&self.surface, &self.missing, &self.bounds) - slope(&surface, &missing, &bounds);
+        update(&mut self.bend, &surface.along(&moved), &turned);
         (self.here, self.lengths, self.missing, self.surface) = (next, lengths, missing, surface);
+        self.bounds = bounds;
         self.damping = if self.damping < NO_DAMPING { 0.0 } else { self.damping * (1.0 / DAMPING_FACTOR) };
         true
     }
@@ -301,7 +342,8 @@ fn first_lengths(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Vec<f
         let chord = chord_w.norm();
         // Limit the slackness, so that the length is not all sag.
         let least = TensionRange::of(robot, i, chord_w).minimum.max(MIN_GUESS * cable.load.size * chord);
-        cable.length_with_tension(pose, balanced[i].max(least))
+        let most = robot.cables[i].limits().maximum.unwrap_or(f64::INFINITY);
+        cable.length_with_tension(pose, balanced[i].max(least).min(most))
     });
     Ok(lengths.collect())
 }
@@ -316,9 +358,26 @@ fn update(bend: &mut Mat6, moved: &Vec6, slope: &Vec6) {
     }
 }
 
+/// Part of the missing motion that surface and limits allow [m].
+fn could_move(surface: &Surface, bounds: &[Bound], missing: &Vec6) -> f64 {
+    // Limits that no step reaches leave the free approach.
+    let step = surface.step(missing, &Mat6::identity(), 0.0, bounds);
+    step.map_or_else(|| surface.along(missing).norm(), |step| step.motion.norm())
+}
+
+/// Step along the surface.
+struct StepOnSurface {
+    /// Motion, reduced.
+    motion: Vec6,
+    /// Change of the lengths [m].
+    by_length: Vec<f64>,
+    /// Multiplier of each limit, per unit of its relative violation [m²].
+    pressure: Vec<f64>,
+}
+
 /// Directions in which an equilibrium can move by changes of the lengths.
 struct Surface {
-    /// Orthonormal motions.
+    /// Orthonormal motions; zero for changes of the tensions alone, which come last.
     directions: Vec<Vec6>,
     /// Changes of the lengths for each direction [m/m].
     lengths: Vec<Vec<f64>>,
@@ -349,12 +408,21 @@ impl Surface {
         let motions = DMat::from_fn(6, free.len(), |i, k| if i < n { rows[(free[k], i)] } else { 0.0 });
         let svd = motions.svd(true, true);
         let (u, v_t) = (svd.u.expect("requested above"), svd.v_t.expect("requested above"));
-        let kept: Vec<usize> = (0..svd.singular_values.len()).filter(|&k| svd.singular_values[k] > ALONG).collect();
-        let lengths = kept.iter().map(|&k| {
+        let (kept, still): (Vec<usize>, Vec<usize>) =
+            (0..svd.singular_values.len()).partition(|&k| svd.singular_values[k] > ALONG);
+        let changes = |k: usize, size: f64| -> Vec<f64> {
             let of = |i: usize| free.iter().enumerate().map(|(j, &row)| v_t[(k, j)] * rows[(row, n + i)]).sum::<f64>();
-            (0..m).map(|i| of(i) / svd.singular_values[k]).collect()
-        });
-        Self { lengths: lengths.collect(), directions: kept.iter().map(|&k| Vec6::from_fn(|i, _| u[(i, k)])).collect() }
+            (0..m).map(|i| of(i) / size).collect()
+        };
+        let moving = kept.iter().map(|&k| changes(k, svd.singular_values[k]));
+        let lengths = moving.chain(still.iter().map(|&k| changes(k, 1.0))).collect();
+        let motions = kept.iter().map(|&k| Vec6::from_fn(|i, _| u[(i, k)]));
+        Self { lengths, directions: motions.chain(still.iter().map(|_| Vec6::zeros())).collect() }
+    }
+
+    /// Motion with these components along the directions.
+    fn motion(&self, components: &[f64]) -> Vec6 {
+        self.directions.iter().zip(components).map(|(direction, part)| direction * *part).sum()
     }
 
     /// Projection of a motion on the surface.
@@ -362,20 +430,19 @@ impl Surface {
         self.directions.iter().map(|direction| direction * direction.dot(motion)).sum()
     }
 
-    /// Motion along the surface that comes nearest to a given motion for this curvature and damping, and its change of
-    /// the lengths.
-    fn step(&self, motion: &Vec6, bend: &Mat6, damping: f64) -> (Vec6, Vec<f64>) {
-        let r = self.directions.len();
-        let u = &self.directions;
-        let matrix = DMat::from_fn(r, r, |i, j| u[i].dot(&(bend * u[j])) + if i == j { damping } else { 0.0 });
-        let right = DMat::from_fn(r, 1, |i, _| u[i].dot(motion));
-        let parts = matrix.cholesky().map_or_else(|| right.clone(), |factor| factor.solve(&right));
+    /// Step along the surface that comes nearest to a given motion for this curvature and damping, within the limits;
+    /// `None` if there is none.
+    fn step(&self, motion: &Vec6, bend: &Mat6, damping: f64, bounds: &[Bound]) -> Option<StepOnSurface> {
+        let (r, u) = (self.directions.len(), &self.directions);
+        let own = |i: usize| if u[i] == Vec6::zeros() { TENSION_ALONE } else { damping };
+        let matrix = DMat::from_fn(r, r, |i, j| u[i].dot(&(bend * u[j])) + if i == j { own(i) } else { 0.0 });
+        let right: Vec<f64> = u.iter().map(|direction| direction.dot(motion)).collect();
+        let (parts, pressure) = Quadratic { matrix, right }.within(bounds, 1.0 / (1.0 + damping))?;
+
         let mut by_length = vec![0.0; self.lengths.first().map_or(0, Vec::len)];
-        let mut moved = Vec6::zeros();
-        for ((part, direction), lengths) in parts.iter().zip(u).zip(&self.lengths) {
-            moved += direction * *part;
+        for (part, lengths) in parts.iter().zip(&self.lengths) {
             by_length.iter_mut().zip(lengths).for_each(|(sum, length)| *sum += part * length);
         }
-        (moved, by_length)
+        Some(StepOnSurface { motion: self.motion(&parts), by_length, pressure })
     }
 }

@@ -200,8 +200,8 @@ impl fmt::Display for Obstacle {
     }
 }
 
-/// Unit vector for a message.
-fn direction(vector: &Vec3) -> String {
+/// Vector with three decimals for a message.
+pub(super) fn direction(vector: &Vec3) -> String {
     // Adding zero turns -0.000 into 0.000.
     let part = |value: f64| (1e3 * value).round() / 1e3 + 0.0;
     format!("({:.3}, {:.3}, {:.3})", part(vector.x), part(vector.y), part(vector.z))

@@ -3,9 +3,11 @@
 use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
 use super::forward::forward;
+use super::free_motion::has_choice;
+use super::ideal;
 use super::inverse::determinate;
 use super::model::StaticModel;
-use super::nearest_pose::nearest_equilibrium;
+use super::nearest_pose::{NearestEquilibrium, nearest_equilibrium};
 use super::tension::{TensionRule, distribute_tensions};
 use crate::robot::{Pose, Robot, State};
 use std::cmp::Ordering;
@@ -43,10 +45,11 @@ pub struct Solution {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn solve(robot: &Robot, model: StaticModel, rule: Option<TensionRule>) -> Result<Solution, StaticsError> {
+    let found = solve_at(robot, &robot.state, model, rule.as_ref().unwrap_or(&TensionRule::default()))?;
     if rule.is_some() {
-        refuse_rule_without_choice(robot)?;
+        refuse_idle_rule(robot, &found)?;
     }
-    solve_at(robot, &robot.state, model, &rule.unwrap_or_default())
+    Ok(found)
 }
 
 /// Equilibrium of a robot at a state, which need not be its own. For unstrained lengths: the pose ([`forward`]). For a
@@ -78,18 +81,28 @@ pub fn solve_at(
     match state {
         State::Unknown => Err(StaticsError::NoState),
         State::Lengths(lengths) => Ok(found(forward(robot, lengths, model, None)?)),
-        State::Pose(pose) => match cables_to_degrees_of_freedom(robot) {
-            Ordering::Less => {
-                let nearest = nearest_equilibrium(robot, pose, model)?;
-                Ok(Solution { requested_pose: Some((*pose, nearest.distance)), ..found(nearest.equilibrium) })
-            }
-            Ordering::Equal => Ok(found(determinate(robot, pose, model)?)),
-            Ordering::Greater => {
+        State::Pose(pose) => match Constraint::of(robot, pose, model) {
+            Constraint::Under => nearest(robot, pose, model, rule),
+            Constraint::Full => Ok(found(determinate(robot, pose, model)?)),
+            Constraint::Redundant => {
                 let equilibrium = distribute_tensions(robot, pose, model, rule)?;
                 Ok(Solution { rule: Some(rule.clone()), ..found(equilibrium) })
             }
         },
     }
+}
+
+/// Equilibrium at the nearest pose that fewer cables than degrees of freedom can hold. If their tensions there are a
+/// matter of choice, the rule chooses them.
+fn nearest(robot: &Robot, pose: &Pose, model: StaticModel, rule: &TensionRule) -> Result<Solution, StaticsError> {
+    let NearestEquilibrium { equilibrium, distance } = nearest_equilibrium(robot, pose, model)?;
+    let found = Solution { equilibrium, requested_pose: Some((*pose, distance)), rule: None, held_pose: None };
+    let reached = found.equilibrium.pose;
+    if !has_choice(robot, &reached, model) {
+        return Ok(found);
+    }
+    let equilibrium = distribute_tensions(robot, &reached, model, rule)?;
+    Ok(Solution { equilibrium, rule: Some(rule.clone()), ..found })
 }
 
 /// Equilibrium of a robot at held unstrained lengths by [`solve_held_at`]: those with which `holder` rests at its own
@@ -103,10 +116,12 @@ pub fn solve_held(
     model: StaticModel,
     rule: Option<TensionRule>,
 ) -> Result<Solution, StaticsError> {
+    let default = TensionRule::default();
+    let found = solve_held_at(holder, robot, &holder.state, model, rule.as_ref().unwrap_or(&default))?;
     if rule.is_some() {
-        refuse_rule_without_choice(holder)?;
+        refuse_idle_rule(holder, &found)?;
     }
-    solve_held_at(holder, robot, &holder.state, model, &rule.unwrap_or_default())
+    Ok(found)
 }
 
 /// Equilibrium of a robot at held unstrained lengths: those with which `holder`, a robot with the same cables and, for
@@ -164,23 +179,42 @@ pub fn solve_held_at(
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
-    match cables_to_degrees_of_freedom(robot) {
-        Ordering::Equal => determinate(robot, pose, model),
+    match Constraint::of(robot, pose, model) {
+        Constraint::Full => determinate(robot, pose, model),
         // Refuses fewer cables than degrees of freedom.
-        Ordering::Less | Ordering::Greater => distribute_tensions(robot, pose, model, &TensionRule::default()),
+        Constraint::Under | Constraint::Redundant => {
+            distribute_tensions(robot, pose, model, &TensionRule::default())
+        }
     }
 }
 
-/// Comparison of the number of cables with the number of degrees of freedom.
-fn cables_to_degrees_of_freedom(robot: &Robot) -> Ordering {
-    robot.cables.len().cmp(&robot.platform.motion.count())
+/// Ways in which cables constrain the platform at a pose.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Constraint {
+    /// Fewer cables than degrees of freedom: they hold only some poses.
+    Under,
+    /// As many cables as degrees of freedom: one set of tensions.
+    Full,
+    /// More cables than independent directions, which balance the load: the tensions are a matter of choice.
+    Redundant,
 }
 
-/// Refuses a tension rule where the tensions follow from the state alone.
-fn refuse_rule_without_choice(robot: &Robot) -> Result<(), StaticsError> {
-    let choice = cables_to_degrees_of_freedom(robot) == Ordering::Greater;
+impl Constraint {
+    fn of(robot: &Robot, pose: &Pose, model: StaticModel) -> Self {
+        match robot.cables.len().cmp(&robot.platform.motion.count()) {
+            Ordering::Greater => Self::Redundant,
+            Ordering::Equal if ideal::is_determinate(robot, pose) => Self::Full,
+            _ if has_choice(robot, pose, model) => Self::Redundant,
+            Ordering::Equal => Self::Full,
+            Ordering::Less => Self::Under,
+        }
+    }
+}
+
+/// Refuses a given tension rule that has had nothing to choose, because the state alone determines the tensions.
+fn refuse_idle_rule(robot: &Robot, found: &Solution) -> Result<(), StaticsError> {
     match &robot.state {
-        State::Pose(_) if !choice => {
+        State::Pose(_) if found.rule.is_none() => {
             let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
             Err(StaticsError::NothingToChoose { cables, dof })
         }

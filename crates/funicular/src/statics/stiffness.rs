@@ -2,7 +2,7 @@
 
 use super::equilibrium::{Equilibrium, Stability};
 use super::supports;
-use crate::math::{Mat3, Mat6, Vec3, symmetric};
+use crate::math::{Mat3, Mat6, Vec3, Vec6, symmetric};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms};
 use crate::robot::{Pose, Robot};
 
@@ -66,11 +66,22 @@ impl Stability {
     }
 }
 
+/// Orthonormal motions, reduced, along which a reduced stiffness is zero but for rounding.
+pub(super) fn indifferent_motions(stiffness: &Mat6, dof: usize) -> Vec<Vec6> {
+    let (values, vectors) = symmetric::eigen(stiffness, dof);
+    let zero = rounding(&values);
+    values.iter().zip(vectors).filter(|(value, _)| value.abs() <= zero).map(|(_, vector)| vector).collect()
+}
+
+/// Size below which an eigenvalue is rounding in the sum of the cables' stiffnesses; observed: 1e-16 of the largest.
+fn rounding(values: &[f64]) -> f64 {
+    1e-12 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()))
+}
+
 pub(super) fn stability(robot: &Robot, stiffness: &Mat6) -> Stability {
     let coordinates = Coordinates::of(robot);
     let values = symmetric::eigenvalues(&coordinates.reduce_symmetric(stiffness), coordinates.count());
-    // Rounding in the sum of the cables' stiffnesses; observed: 1e-16 of the largest.
-    let zero = 1e-12 * values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let zero = rounding(&values);
     let directions = values.iter().filter(|v| **v <= zero).count();
     match directions {
         0 => Stability::Stable { min_stiffness: values[0] },

@@ -20,6 +20,7 @@ use super::collect::without_stability;
 use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
 use super::exit_points;
+use super::free_motion::has_choice;
 use super::ideal;
 use super::limits::TensionRange;
 use super::model::StaticModel;
@@ -170,7 +171,7 @@ fn cables_at(
     rule: &TensionRule,
 ) -> Result<Vec<CableAtPose>, StaticsError> {
     let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
-    if cables < dof {
+    if cables < dof && !has_choice(robot, pose, model) {
         return Err(StaticsError::InverseCableCount { cables, dof });
     }
 

@@ -1,15 +1,24 @@
 //! All tensions that satisfy the linear balance: one solution, and the directions in which it may change.
 
 use crate::math::Vec6;
+use crate::statics::free_motion::SpannedWrenches;
 
 /// Condition number of the balance beyond which the cables do not span the degrees of freedom.
 const SINGULAR: f64 = 1e10;
 
+/// Maximum share of the load along the motions that the cables leave free at which the load counts as balanced there.
+/// Rounding leaves 1e-16 times the number of operations; the search for tensions ends at a residual of 1e-12.
+const BALANCED_ALONG_FREE: f64 = 1e-12;
+
 /// Solutions σ of `Cᵀ σ = b`, C with a row per cable and a column per degree of freedom: `σ = particular + N z`, N
-/// orthonormal.
+/// orthonormal. If the rows of `Cᵀ` are dependent and b is in their range, the balance is that in the wrenches which the
+/// cables span.
 pub(super) struct Solutions {
     cables: usize,
+    /// Number of independent equations.
     dof: usize,
+    /// Orthonormal wrenches that the cables span, one per equation; `None` if they span all degrees of freedom.
+    spanned: Option<Vec<Vec6>>,
     /// Orthogonal matrix, by columns: the first ones span the rows of the balance; the others, if present, are N.
     basis: Vec<f64>,
     /// Upper triangle R of `C = basis R`, by columns.
@@ -20,10 +29,35 @@ pub(super) struct Solutions {
 
 impl Solutions {
     /// Solutions from the wrench per unit tension of every cable (its first `dof` components), each divided by its
-    /// scale, and the wrench b in `right`. `None` at a singular pose. The `directions` N take memory in proportion to
-    /// the square of the number of cables.
+    /// scale, and the wrench b in `right`. `None` at a singular pose whose load the cables cannot balance. The
+    /// `directions` N take memory in proportion to the square of the number of cables.
     pub(super) fn of(columns: &[Vec6], scales: &[f64], right: &Vec6, dof: usize, directions: bool) -> Option<Self> {
+        Self::independent(columns, scales, right, dof, directions)
+            .or_else(|| Self::dependent(columns, scales, right, dof, directions))
+    }
+
+    /// Solutions of the balance in the wrenches that the cables span; `None` if they span all, or if the load has
+    /// another part.
+    fn dependent(columns: &[Vec6], scales: &[f64], right: &Vec6, dof: usize, directions: bool) -> Option<Self> {
+        let SpannedWrenches { spanned, free } = SpannedWrenches::of(columns, dof);
+        let unbalanced = free.iter().map(|free| free.dot(right).abs()).fold(0.0, f64::max);
+        let is_balanced = unbalanced <= BALANCED_ALONG_FREE * right.norm();
+        if spanned.is_empty() || free.is_empty() || !is_balanced {
+            return None;
+        }
+
+        let along = |wrench: &Vec6| Vec6::from_fn(|k, _| spanned.get(k).map_or(0.0, |of| of.dot(wrench)));
+        let columns: Vec<Vec6> = columns.iter().map(along).collect();
+        let all = Self::independent(&columns, scales, &along(right), spanned.len(), directions)?;
+        Some(Self { spanned: Some(spanned), ..all })
+    }
+
+    /// Solutions of a balance whose equations are independent; `None` if they are not.
+    fn independent(columns: &[Vec6], scales: &[f64], right: &Vec6, dof: usize, directions: bool) -> Option<Self> {
         let cables = columns.len();
+        if cables < dof {
+            return None;
+        }
 
         // Columns of the transposed balance.
         let mut reflectors = vec![0.0; cables * dof];
@@ -74,10 +108,10 @@ impl Solutions {
         for (y, column) in y.iter().zip(basis.chunks_exact(cables)).take(dof) {
             particular.iter_mut().zip(column).for_each(|(p, q)| *p += y * q);
         }
-        Some(Self { cables, dof, basis, triangle, particular })
+        Some(Self { cables, dof, spanned: None, basis, triangle, particular })
     }
 
-    /// Number of equations.
+    /// Number of independent equations.
     pub(super) fn dof(&self) -> usize {
         self.dof
     }
@@ -149,7 +183,10 @@ impl Solutions {
             let others: f64 = (k + 1..self.dof).map(|j| self.triangle[j][k] * y[j]).sum();
             y[k] = (along - others) / self.triangle[k][k];
         }
-        y
+        match &self.spanned {
+            Some(spanned) => spanned.iter().zip(&y).map(|(wrench, y)| wrench * *y).sum(),
+            None => y,
+        }
     }
 }
 
@@ -209,16 +246,30 @@ mod tests {
     }
 
     #[test]
-    fn dependent_columns_are_singular() {
+    fn dependent_columns_are_solved_if_the_load_is_in_their_range_and_singular_otherwise() {
         let mut columns = some_columns();
         for column in &mut columns {
             column[4] = 2.0 * column[1] - column[0];
         }
-        assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 6, true).is_none());
-        assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 4, true).is_some());
-        for column in &mut columns {
-            column[2] = 0.0;
+        let mut right = Vec6::new(1.0, -2.0, 0.3, 4.0, 0.0, -1.0);
+        assert!(Solutions::of(&columns, &[1.0; 8], &right, 6, true).is_none());
+        assert!(Solutions::of(&columns, &[1.0; 8], &right, 4, true).is_some_and(|all| all.dof() == 4));
+
+        right[4] = 2.0 * right[1] - right[0];
+        let scales: Vec<f64> = (0..8).map(|i| 1.0 + 0.1 * f64::from(i)).collect();
+        let all = Solutions::of(&columns, &scales, &right, 6, true).unwrap();
+        assert_eq!((all.dof(), all.redundancy()), (5, 3));
+        let sigma = all.at(&[0.3, -0.2, 0.7]);
+        for j in 0..6 {
+            let sum: f64 = (0..8).map(|i| columns[i][j] / scales[i] * sigma[i]).sum();
+            assert!((sum - right[j]).abs() < 1e-13, "{sum} {}", right[j]);
         }
-        assert!(Solutions::of(&columns, &[1.0; 8], &Vec6::zeros(), 3, true).is_none());
+        // The multipliers give back a gradient that is a combination of the columns, by a wrench that they span.
+        let gradient = |i: usize| (0..6).map(|j| columns[i][j] / scales[i] * (1.0 + j as f64)).sum::<f64>();
+        let y = all.multipliers(gradient);
+        for i in 0..8 {
+            let back: f64 = (0..6).map(|j| columns[i][j] / scales[i] * y[j]).sum();
+            assert!((back - gradient(i)).abs() < 1e-11, "{back} {}", gradient(i));
+        }
     }
 }

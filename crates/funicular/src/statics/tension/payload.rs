@@ -253,7 +253,7 @@ impl PayloadSearch<'_> {
         columns.push(self.unit);
         let in_null_space = count + 1 < MIN_DIRECTIONS_IN_CABLE_SPACE + dof;
         let solutions = Solutions::of(&columns, &vec![1.0; count + 1], &linear.right, dof, in_null_space)
-            .ok_or(StaticsError::Singular)?;
+            .ok_or_else(|| self.search.singular())?;
 
         // The limits; a cable without a maximum is bounded by its axial stiffness, at which its length is doubled.
         let mut feasible = FeasibleSet::new(&solutions, true);

@@ -185,14 +185,19 @@ impl<'a> TensionSearch<'a> {
 
     pub(super) fn solutions(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
         let dof = self.robot.platform.motion.count();
-        Solutions::of(&linear.columns, scales, &linear.right, dof, true).ok_or(StaticsError::Singular)
+        Solutions::of(&linear.columns, scales, &linear.right, dof, true).ok_or_else(|| self.singular())
     }
 
     /// Solutions for [`FeasibleSet`], which needs no directions if they are many.
     fn solutions_for_feasible_set(&self, linear: &Linear, scales: &[f64]) -> Result<Solutions, StaticsError> {
         let dof = self.robot.platform.motion.count();
         let in_null_space = self.cables.len() < MIN_DIRECTIONS_IN_CABLE_SPACE + dof;
-        Solutions::of(&linear.columns, scales, &linear.right, dof, in_null_space).ok_or(StaticsError::Singular)
+        Solutions::of(&linear.columns, scales, &linear.right, dof, in_null_space).ok_or_else(|| self.singular())
+    }
+
+    /// Error of a pose at which the cables have dependent directions and do not balance the load.
+    pub(super) fn singular(&self) -> StaticsError {
+        StaticsError::singular(self.robot, self.pose, self.model)
     }
 
     /// Violation of inequalities that counts as rounding.
