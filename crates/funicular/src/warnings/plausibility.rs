@@ -154,7 +154,9 @@ pub fn of_robot(robot: &Robot) -> Vec<Implausible> {
     found
 }
 
-/// Remarks about values that are usual for one kind of rope and a slip for another.
+/// Remarks about values that are usual for one kind of robot and a slip for another.
 pub fn notes(robot: &Robot) -> Vec<String> {
-    rope::distinct(robot).iter().filter_map(|rope| rope::note(rope)).collect()
+    let of_ropes = rope::distinct(robot).into_iter().filter_map(rope::note);
+    let of_damping = super::of_damping(robot).map(|warning| warning.to_string());
+    of_ropes.chain(of_damping).collect()
 }

@@ -505,7 +505,7 @@ fn drives_are_compared_with_the_cable_and_the_platform() {
 fn slips_at_flexible_supports_are_named() {
     let post = |number: usize| format!("[supports.{number}]\nstiffness_n_per_m = 200000.0\nmass_kg = 40.0\n\n");
     let mut hall = changed(&hall(), &[("[state]", &((1..5).map(post).collect::<String>() + "[state]"))]);
-    for cable in 1..=8 {
+    for cable in 1..=8_usize {
         let name = format!("name = \"{cable}\"\n");
         hall = changed(&hall, &[(&name, &format!("{name}support = \"{}\"\n", cable.div_ceil(2)))]);
     }
@@ -691,7 +691,8 @@ fn no_robot_of_the_library_is_implausible() {
         // The source of these robots has cables without mass.
         if name.starts_with("grab-") {
             let notes = plausibility::notes(&robot);
-            assert!(notes.len() == 1 && notes[0].starts_with("rope \"rope\": it has no mass"), "{name}: {notes:?}");
+            assert!(notes.len() == 2 && notes[0].starts_with("rope \"rope\": it has no mass"), "{name}: {notes:?}");
+            assert!(notes[1].starts_with("nothing in the robot file damps vibration"), "{name}: {notes:?}");
             continue;
         }
         assert_eq!(said(&robot), "", "{name}");
@@ -703,6 +704,22 @@ fn no_robot_of_the_library_is_implausible() {
         let without = Robot { state: State::Unknown, ..robot };
         assert_eq!(warnings::of_robot(&without), [], "{name}");
     }
+}
+
+#[test]
+fn a_file_without_any_damping_has_a_note() {
+    let notes = |text: &str| plausibility::notes(&Robot::from_toml(text).unwrap());
+    let none = changed(&hall(), &[("damping_ratio = 0.003", "damping_ratio = 0.0")]);
+    let found = notes(&none);
+    assert!(found.len() == 1 && found[0].contains("nothing in the robot file damps vibration"), "{found:?}");
+    // Any damping is enough: of the platform, a support or a winch.
+    let platform = "drag_area_m2 = 0.5\nrotational_damping_n_m_s = [1.0, 1.0, 1.0]";
+    assert!(notes(&changed(&none, &[("drag_area_m2 = 0.5", platform)])).is_empty());
+    let support = "[supports.1]\nstiffness_n_per_m = 2e5\ndamping_ratio = 0.01\n[state]";
+    let on_support = ("name = \"1\"\n", "name = \"1\"\nsupport = \"1\"\n");
+    assert!(notes(&changed(&none, &[("[state]", support), on_support])).is_empty());
+    let servo = changed(&hall_with_drives(), &[("damping_ratio = 0.003\n", "damping_ratio = 0.0\n")]);
+    assert!(notes(&servo).is_empty());
 }
 
 #[test]
