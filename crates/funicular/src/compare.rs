@@ -452,6 +452,8 @@ impl Advisor<'_> {
              the cables{first}, and a constant cable stiffness misses {lost} of them"
         );
 
+        let all = if total == 1 { "the one mode".to_owned() } else { format!("all {total} modes") };
+
         match simplest {
             _ if truth.modes.is_empty() => {
                 format!("Use `{simplest}`: no natural frequency lies below {below_hz} Hz with any model")
@@ -465,12 +467,12 @@ impl Advisor<'_> {
             }
             CableModel::ShallowDynamic => {
                 format!(
-                    "Use `shallow-dynamic`: it has all {total} modes below {below_hz} Hz within {percent} % of those \
-                     by `{reference}`; {constant}"
+                    "Use `shallow-dynamic`: it has {all} below {below_hz} Hz within {percent} % of those by \
+                     `{reference}`; {constant}"
                 )
             }
             _ => format!(
-                "Use `{simplest}`: it has all {total} modes below {below_hz} Hz within {percent} % of those by \
+                "Use `{simplest}`: it has {all} below {below_hz} Hz within {percent} % of those by \
                  `{reference}`; {string}"
             ),
         }

@@ -64,9 +64,17 @@ pub mod statics;
 pub mod suggest;
 pub mod warnings;
 
-/// Number with its noun in the singular or plural: "1 cable", "2 cables".
-pub(crate) fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+/// Number with its noun in the singular or plural: "1 cable", "2 cables", "2 frequencies", "2 masses".
+#[doc(hidden)]
+pub fn counted(count: usize, noun: &str) -> String {
+    if count == 1 {
+        return format!("{count} {noun}");
+    }
+    match noun.strip_suffix('y') {
+        Some(stem) if !stem.ends_with(['a', 'e', 'o', 'u']) => format!("{count} {stem}ies"),
+        _ if noun.ends_with('s') || noun.ends_with('x') => format!("{count} {noun}es"),
+        _ => format!("{count} {noun}s"),
+    }
 }
 
 /// Example of README.md, which is tested like those of the documentation.

@@ -267,6 +267,22 @@ impl Pose {
 }
 
 impl Robot {
+    /// True if a number of the robot damps vibration: a rope that has mass, the platform, a winch or a support. Without
+    /// any, all damping ratios are zero, and responses have no bound at resonances.
+    pub fn is_damped(&self) -> bool {
+        let of_rope = |rope: &Material| {
+            let (Damping::Ratio(number) | Damping::Viscous(number)) = rope.damping;
+            number > 0.0 && rope.mass_per_length > 0.0
+        };
+        let of_winch = |winch: &Winch| winch.damping > 0.0 || winch.servo().is_some_and(|servo| servo.speed_gain > 0.0);
+        let of_cable = |cable: &Cable| of_rope(&cable.material) || cable.anchor.winch.as_ref().is_some_and(of_winch);
+        let platform = [self.platform.translational_damping_p, self.platform.rotational_damping_p];
+
+        self.cables.iter().any(of_cable)
+            || platform.iter().any(|damping| damping.norm() > 0.0)
+            || self.supports.iter().any(|support| support.damping_ratio > 0.0)
+    }
+
     /// Unit vector against gravity; z without gravity.
     pub fn up_w(&self) -> Vec3 {
         let g = self.gravity_w.norm();

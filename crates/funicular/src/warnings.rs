@@ -87,6 +87,8 @@ pub enum Warning {
         /// Distance from the requested pose, translation and rotation together [m], [`crate::statics::pose_distance`].
         distance: f64,
     },
+    /// No number of the robot file damps vibration.
+    NoDamping,
     /// Cables sag deeper than a shallow-sag model allows.
     DeepSag {
         /// Cables that sag too deep, in the order of the file.
@@ -213,6 +215,11 @@ impl fmt::Display for Warning {
                 crate::counted(*cables, "cable"),
                 1e3 * translation
             ),
+            Self::NoDamping => f.write_str(
+                "nothing in the robot file damps vibration: damping ratios are zero, and responses have no bound at \
+                 their resonances; give the ropes a `damping_ratio` (wire rope has about 0.003), or the platform \
+                 `translational_damping_n_s_m`",
+            ),
             Self::DeepSag { cables, model } => f.write_str(&too_deep(cables, *model)),
             Self::DragTurns { effect } => write!(
                 f,
@@ -332,6 +339,11 @@ pub fn of_pose(robot: &Robot, equilibrium: &Equilibrium, requested: &Pose, dista
 /// ([`plausibility::of_robot`]).
 pub fn of_robot(robot: &Robot) -> Vec<Warning> {
     plausibility::of_robot(robot).into_iter().map(Warning::Implausible).collect()
+}
+
+/// Warning about a robot file without any damping, for results of vibration.
+pub fn of_damping(robot: &Robot) -> Option<Warning> {
+    (!robot.is_damped()).then_some(Warning::NoDamping)
 }
 
 /// Warnings about values of an equilibrium that no usual robot has ([`plausibility::of_equilibrium`]).

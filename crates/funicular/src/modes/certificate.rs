@@ -108,15 +108,21 @@ impl DampedModes {
                 let frequencies: Vec<String> =
                     self.others.iter().map(|mode| format!("{:.4} Hz", mode.ringing_hz())).collect();
                 Some(format!(
-                    "damping lowers a frequency from above the limit to below it, at {}: raise the limit to list the mode",
-                    frequencies.join(", ")
+                    "damping lowers {} from above the limit to below it, at {}: raise the limit to list {}",
+                    if frequencies.len() == 1 { "a frequency" } else { "frequencies" },
+                    frequencies.join(", "),
+                    if frequencies.len() == 1 { "the mode" } else { "the modes" },
                 ))
             }
             0 => None,
+            1 => Some(
+                "one mode is so strongly damped that it does not ring: its damping ratio is 1 and its frequency one of \
+                 two decay rates"
+                    .to_owned(),
+            ),
             n => Some(format!(
-                "{} so strongly damped that they do not ring: their damping ratio is 1 and their frequency one of two \
-                 decay rates",
-                if n == 1 { "one mode is".to_owned() } else { format!("{n} modes are") }
+                "{n} modes are so strongly damped that they do not ring: their damping ratios are 1 and their \
+                 frequencies one of two decay rates each"
             )),
         }
     }

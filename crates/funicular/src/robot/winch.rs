@@ -11,6 +11,11 @@ use std::f64::consts::TAU;
 pub struct Winch {
     /// Name in the robot file.
     pub name: String,
+    /// Radius of the drum [m]; `None` if no number of the file refers to the drum's axis. It shows slips of units; all
+    /// other numbers refer to the cable already.
+    pub drum_radius: Option<f64>,
+    /// Turns of the motor per turn of the drum; `motor_mass` includes it already.
+    pub gear_ratio: f64,
     /// Length of the cable from the drum to the entry point [m], guide wheels included.
     pub drum_side_length: f64,
     /// Vibration of the cable between drum and exit point.
@@ -119,6 +124,8 @@ impl Winch {
     pub fn rigid(name: &str, drum_side_length: f64) -> Self {
         Self {
             name: name.to_owned(),
+            drum_radius: None,
+            gear_ratio: 1.0,
             drum_side_length,
             drum_side: DrumSide::Massless,
             guide_wheels: Vec::new(),

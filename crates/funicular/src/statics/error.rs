@@ -36,7 +36,8 @@ pub enum StaticsError {
     RuleOfLengths,
     /// The number of lengths differs from the number of cables.
     #[error(
-        "{given} unstrained lengths given for {cables} cables: give one length per cable, in the order of the file"
+        "{} given for {}: give one length per cable, in the order of the file",
+        crate::counted(*given, "unstrained length"), crate::counted(*cables, "cable")
     )]
     LengthCount {
         /// Lengths given.
@@ -215,8 +216,8 @@ pub enum StaticsError {
     },
     /// The number of target tensions is neither one nor the number of cables.
     #[error(
-        "{given} target tensions given for {cables} cables: give one for all cables, or one per cable in the order of \
-         the file"
+        "{} given for {}: give one for all cables, or one per cable in the order of the file",
+        crate::counted(*given, "target tension"), crate::counted(*cables, "cable")
     )]
     TargetCount {
         /// Tensions given.

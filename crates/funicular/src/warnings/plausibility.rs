@@ -74,21 +74,46 @@ fn outside(
     value: f64,
     unit: &'static str,
     usual: [f64; 2],
-    slip: impl FnOnce(f64) -> String,
+    slip: impl FnOnce(Outlier) -> String,
 ) -> Option<Implausible> {
     let is_usual = value.is_nan() || (usual[0]..=usual[1]).contains(&value);
-    (!is_usual).then(|| Implausible::OutOfRange { what: what.into(), value, unit, usual, slip: slip(value) })
+    let slip = || slip(Outlier { value, usual });
+    (!is_usual).then(|| Implausible::OutOfRange { what: what.into(), value, unit, usual, slip: slip() })
 }
 
-/// Slips that bring a value into a range, each a factor on the value with a text; all texts if none does.
-fn likely(value: f64, range: [f64; 2], slips: &[(f64, &str)]) -> String {
-    let fits = |factor: f64| (range[0]..=range[1]).contains(&(value * factor));
-    let mut texts: Vec<&str> = slips.iter().filter(|(factor, _)| fits(*factor)).map(|(_, text)| *text).collect();
-    if texts.is_empty() {
-        texts = slips.iter().map(|(_, text)| *text).collect();
+/// Value outside its usual range.
+#[derive(Debug, Clone, Copy)]
+struct Outlier {
+    value: f64,
+    usual: [f64; 2],
+}
+
+impl Outlier {
+    fn is_too_large(self) -> bool {
+        self.value > self.usual[1]
     }
-    texts.dedup();
-    format!("{}?", texts.join(", or "))
+}
+
+/// Hint for a value that no slip of the table explains.
+const SOME_SLIP: &str = "a slip of its unit or of the decimal point?";
+
+/// Likely slips, each a factor that undoes it with a text: those that bring the value into the likely range, else into
+/// the usual one, else all that made the value too large or, for a small value, too small.
+fn likely(of: Outlier, range: [f64; 2], slips: &[(f64, &str)]) -> String {
+    let those = |wanted: &dyn Fn(f64) -> bool| -> Vec<&str> {
+        let mut texts: Vec<&str> = slips.iter().filter(|(undo, _)| wanted(*undo)).map(|(_, text)| *text).collect();
+        texts.dedup();
+        texts
+    };
+    let fits = |[low, high]: [f64; 2], undo: f64| (low..=high).contains(&(of.value * undo));
+    let undoes = |undo: f64| if of.is_too_large() { undo < 1.0 } else { undo > 1.0 };
+    let texts = [
+        those(&|undo| undoes(undo) && fits(range, undo)),
+        those(&|undo| undoes(undo) && fits(of.usual, undo)),
+        those(&undoes),
+    ];
+    let texts = texts.into_iter().find(|texts| !texts.is_empty());
+    texts.map_or_else(|| SOME_SLIP.to_owned(), |texts| format!("{}?", texts.join(", or ")))
 }
 
 /// Values of a robot that no usual robot has. It needs no equilibrium.
@@ -122,14 +147,16 @@ pub fn of_robot(robot: &Robot) -> Vec<Implausible> {
         found.extend(platform::check(robot));
     }
     found.extend(loads::check(robot, ropes_fit && geometry_fits));
-    found.extend(drives::check(robot));
+    found.extend(drives::check(robot, geometry_fits));
     if geometry_fits {
         found.extend(supports::check(robot));
     }
     found
 }
 
-/// Remarks about values that are usual for one kind of rope and a slip for another.
+/// Remarks about values that are usual for one kind of robot and a slip for another.
 pub fn notes(robot: &Robot) -> Vec<String> {
-    rope::distinct(robot).iter().filter_map(|rope| rope::note(rope)).collect()
+    let of_ropes = rope::distinct(robot).into_iter().filter_map(rope::note);
+    let of_damping = super::of_damping(robot).map(|warning| warning.to_string());
+    of_ropes.chain(of_damping).collect()
 }

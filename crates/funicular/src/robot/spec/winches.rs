@@ -187,6 +187,8 @@ pub(super) fn read(reader: &mut Reader, name: &str, section: &Section) -> Option
 
     Some(Winch {
         name: name.to_owned(),
+        drum_radius: radius,
+        gear_ratio: ratio?,
         drum_side_length: drum_side_length?,
         drum_side: if drum_side? == "rod" { DrumSide::Rod } else { DrumSide::Massless },
         // Tables of their own refer to the winch.

@@ -155,13 +155,11 @@ fn attachments(robot: &Robot, size: &Size) -> Option<Implausible> {
     }
 
     let what = "size of the attachments over that of the anchors";
-    outside(what, ratio, "", usual::ATTACHMENTS_OVER_ANCHORS, |ratio| {
+    outside(what, ratio, "", usual::ATTACHMENTS_OVER_ANCHORS, |value| {
         let [low, high] = usual::ATTACHMENTS_OVER_ANCHORS;
-        if ratio < low {
-            "anchors in mm or cm given as m?".to_owned()
-        } else {
+        if value.is_too_large() {
             likely(
-                ratio,
+                value,
                 [5.0 * low, 0.5 * high],
                 &[
                     (1e-3, "attachments in mm given as m"),
@@ -169,6 +167,8 @@ fn attachments(robot: &Robot, size: &Size) -> Option<Implausible> {
                     (ratio.powi(-2), "`anchor_m` and `attachment_m` swapped"),
                 ],
             )
+        } else {
+            "anchors in mm or cm given as m?".to_owned()
         }
     })
 }
@@ -313,7 +313,7 @@ pub(super) fn full_turns(robot: &Robot) -> Option<Implausible> {
     }
 
     ["roll", "pitch", "yaw"].into_iter().zip(written).find_map(|(name, degrees)| {
-        outside(format!("{name} of the pose"), degrees, "degrees", usual::ANGLE, |degrees| {
+        outside(format!("{name} of the pose"), degrees, "degrees", usual::ANGLE, |_| {
             let left = degrees - 360.0 * (degrees / 360.0).round();
             format!(
                 "an angle in degrees multiplied by 57.3 (180/π) as if it were in radians, or an angle in another unit? \

@@ -98,7 +98,7 @@ fn damping(robot: &Robot) -> Vec<Implausible> {
         let [low, high] = usual::PLATFORM_DAMPING;
         let rate = *rates.iter().find(|rate| !(low..=high).contains(*rate))?;
         outside(format!("`{key}` over {of} of the platform"), rate, "1/s", [low, high], |rate| {
-            let slip = if rate < low { "a damping ratio" } else { "a stiffness, or a value in other units," };
+            let slip = if rate.is_too_large() { "a stiffness, or a value in other units," } else { "a damping ratio" };
             format!("{slip} given as damping? A damping ratio ζ at f Hz is 4π ζ f")
         })
     };

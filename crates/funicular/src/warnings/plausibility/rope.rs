@@ -41,12 +41,13 @@ fn section(robot: &Robot, rope: &Material) -> Option<Implausible> {
     };
 
     let diameter = (4.0 * section.area() / PI).sqrt();
-    let by_diameter = outside(named(rope, quantity), diameter, "m", usual::DIAMETER, |_| match section {
-        RopeSection::Diameter(value) => {
+    let by_diameter = outside(named(rope, quantity), diameter, "m", usual::DIAMETER, |value| match section {
+        RopeSection::Diameter(_) => {
             likely(value, [5e-4, 0.06], &[(1e-3, "diameter in mm given as m"), (1e-2, "diameter in cm given as m")])
         }
-        RopeSection::Area(value) => {
-            likely(value, [2e-7, 3e-3], &[(1e-6, "area in mm² given as m²"), (1e-4, "area in cm² given as m²")])
+        // An area by the diameter of its circle.
+        RopeSection::Area(_) => {
+            likely(value, [5e-4, 0.06], &[(1e-3, "area in mm² given as m²"), (1e-2, "area in cm² given as m²")])
         }
     });
     if by_diameter.is_some() || rope.mass_per_length == 0.0 {
@@ -195,8 +196,9 @@ fn drag_coefficient(rope: &Material) -> Option<Implausible> {
     if coefficient == 0.0 {
         return None;
     }
-    outside(named(rope, "drag coefficient"), coefficient, "", usual::DRAG_COEFFICIENT, |_| {
-        "coefficient times diameter, or a coefficient in per cent? A round rope has 1.0 to 1.2".to_owned()
+    outside(named(rope, "drag coefficient"), coefficient, "", usual::DRAG_COEFFICIENT, |value| {
+        let slip = if value.is_too_large() { "a coefficient in per cent" } else { "coefficient times diameter" };
+        format!("{slip}? A round rope has 1.0 to 1.2")
     })
 }
 
@@ -206,7 +208,7 @@ fn drag_diameter(rope: &Material) -> Option<Implausible> {
         rope.dimensions.drag_diameter?,
         "m",
         usual::DRAG_DIAMETER,
-        |d| likely(d, [5e-4, 0.1], &[(1e-3, "diameter in mm given as m"), (1e-2, "diameter in cm given as m")]),
+        |value| likely(value, [5e-4, 0.1], &[(1e-3, "diameter in mm given as m"), (1e-2, "diameter in cm given as m")]),
     )
 }
 

@@ -3,7 +3,7 @@
 use funicular::robot::{Pose, Robot, State};
 use funicular::statics::{self, StaticModel};
 use funicular::warnings;
-use funicular::warnings::plausibility;
+use funicular::warnings::plausibility::{self, Implausible};
 
 /// Robot of a hall, 20 m x 12 m x 8 m: a platform of 1 m x 0.8 m x 0.5 m and 60 kg on eight wire ropes of 6 mm.
 const HALL: &str = r#"
@@ -416,31 +416,47 @@ fn slips_of_single_values_are_named() {
     }
 }
 
-/// At a pose that straight cables cannot hold, cables of 17 times the distance of their ends balance the platform.
-#[test]
-fn slips_at_pulleys_and_winches_are_named() {
+/// Hall with a pulley and a winch of every cable.
+fn hall_with_drives() -> String {
     let drives = "[pulleys.wheel]\nradius_m = 0.05\nentry_direction = [0.0, 0.0, 1.0]\ninertia_kg_m2 = 0.0004\n\
-                  swivel_inertia_kg_m2 = 0.001\n[winches.drum]\ndrum_side_length_m = 5.0\ndrum_radius_m = 0.0675\n\
-                  stiffness_n_per_m = 200000.0\ndrum_inertia_kg_m2 = 0.27\ncontrol = \"position\"\nbandwidth_hz = 5.0\n\
-                  control_damping_ratio = 0.7\ndelay_s = 0.002\n\n[state]";
-    let hall = changed(
+                  swivel_inertia_kg_m2 = 0.001\nefficiency = 0.97\n[winches.drum]\ndrum_side_length_m = 5.0\n\
+                  drum_radius_m = 0.0675\nstiffness_n_per_m = 200000.0\ndrum_inertia_kg_m2 = 0.02\n\
+                  motor_inertia_kg_m2 = 0.0012\ngear_ratio = 5.0\ndamping_n_m_s_per_rad = 0.8\n\
+                  control = \"position\"\nbandwidth_hz = 5.0\ncontrol_damping_ratio = 0.7\ndelay_s = 0.002\n\n[state]";
+    changed(
         &hall(),
         &[
             ("[state]", drives),
             ("material = \"rope\"\n", "material = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\n"),
         ],
-    );
+    )
+}
+
+#[test]
+fn slips_at_pulleys_and_winches_are_named() {
+    let hall = hall_with_drives();
     assert_eq!(said(&Robot::from_toml(&hall).unwrap()), "");
 
     let mut misses = Vec::new();
     for (key, factor, expected) in [
         ("radius_m", 1e2, "radius in cm given as m"),
+        ("radius_m", 1e3, "radius in mm given as m"),
+        ("inertia_kg_m2", 1e3, "inertia in g m² given as kg m²"),
         ("inertia_kg_m2", 1e4, "inertia in kg cm² given as kg m²"),
         ("swivel_inertia_kg_m2", 1e4, "inertia in kg cm² given as kg m²"),
         ("drum_side_length_m", 1e3, "length in mm given as m"),
-        ("drum_radius_m", 1e3, "radius of the drum in mm given as m"),
+        ("drum_side_length_m", 1e2, "length in cm given as m"),
+        ("drum_radius_m", 1e3, "radius in mm given as m"),
+        ("drum_radius_m", 1e2, "radius in cm given as m"),
         ("drum_inertia_kg_m2", 1e4, "inertia in kg cm² given as kg m²"),
-        ("stiffness_n_per_m", 1e-3, "stiffness in kN/m given as N/m"),
+        ("drum_inertia_kg_m2", 1e3, "inertia in g m² given as kg m²"),
+        ("motor_inertia_kg_m2", 1e4, "inertia in kg cm² given as kg m²"),
+        ("motor_inertia_kg_m2", 1e3, "inertia in g m² given as kg m²"),
+        ("motor_inertia_kg_m2", 1e6, "inertia in kg mm² given as kg m²"),
+        ("gear_ratio", 0.04, "turns of the drum per turn of the motor?"),
+        ("stiffness_n_per_m", 1e-3, "stiffness in kN/m or N/mm given as N/m"),
+        ("damping_n_m_s_per_rad", 1e3, "damping in N mm s given as N m s"),
+        ("efficiency", 0.03 / 0.97, "the loss given as efficiency"),
         ("bandwidth_hz", 1e3, "bandwidth of its control"),
         ("control_damping_ratio", 1e2, "damping ratio in per cent given as a fraction"),
         ("delay_s", 1e3, "delay in ms given as s"),
@@ -450,13 +466,49 @@ fn slips_at_pulleys_and_winches_are_named() {
     assert!(misses.is_empty(), "{}", misses.join("\n"));
 }
 
+/// Pulleys, drums and gears of any usual size against the unit in which they may be given: a small motor with a small
+/// platform, a large one with a large platform, and slips between.
+#[test]
+fn drives_are_compared_with_the_cable_and_the_platform() {
+    let hall = hall_with_drives();
+    let with =
+        |changes: &[(&str, f64)]| changes.iter().fold(hall.clone(), |text, (key, factor)| scaled(&text, key, *factor));
+    let mut misses = Vec::new();
+    for (slip, changes, expected) in [
+        // 71,000 kg at the cable: 12 kg cm² given as 12 kg m².
+        ("motor in kg cm²", vec![("motor_inertia_kg_m2", 1e4)], "inertia of the motor is 12 kg m²"),
+        ("motor of 0.5 kg cm²", vec![("motor_inertia_kg_m2", 0.5 / 0.0012)], "over the mass of the platform is"),
+        ("pulley of 20 mm in cm", vec![("radius_m", 0.4e2), ("inertia_kg_m2", 0.01)], "radius over the diameter"),
+        ("drum of 75 mm in cm", vec![("drum_radius_m", 7.5 / 0.0675)], "radius of the drum is 7.5 m"),
+        ("drum of 20 mm in cm", vec![("drum_radius_m", 2.0 / 0.0675)], "radius of the drum over the diameter"),
+        ("stiff winch in N/mm", vec![("stiffness_n_per_m", 5e-3)], "stretch"),
+    ] {
+        check(slip, &with(&changes), &[expected], &mut misses);
+    }
+    assert!(misses.is_empty(), "{}", misses.join("\n"));
+
+    // Drives that are right: small and geared, large and direct, soft, rigid.
+    for (what, changes) in [
+        ("worm gear", vec![("motor_inertia_kg_m2", 0.01), ("gear_ratio", 20.0)]),
+        ("direct drive", vec![("motor_inertia_kg_m2", 50.0), ("gear_ratio", 0.2)]),
+        ("small wheels", vec![("radius_m", 0.3), ("inertia_kg_m2", 0.01), ("swivel_inertia_kg_m2", 0.1)]),
+        ("large wheels", vec![("radius_m", 6.0), ("inertia_kg_m2", 500.0), ("swivel_inertia_kg_m2", 1e3)]),
+        ("soft winch", vec![("stiffness_n_per_m", 0.1)]),
+        ("stiff winch", vec![("stiffness_n_per_m", 1e3)]),
+        ("drum on the other side of the hall", vec![("drum_side_length_m", 6.0)]),
+    ] {
+        assert_eq!(said(&Robot::from_toml(&with(&changes)).unwrap()), "", "{what}");
+    }
+}
+
 #[test]
 fn slips_at_flexible_supports_are_named() {
-    let support = "[supports.post]\nstiffness_n_per_m = 200000.0\nmass_kg = 40.0\n\n[state]";
-    let hall = changed(
-        &hall(),
-        &[("[state]", support), ("material = \"rope\"\n", "material = \"rope\"\nsupport = \"post\"\n")],
-    );
+    let post = |number: usize| format!("[supports.{number}]\nstiffness_n_per_m = 200000.0\nmass_kg = 40.0\n\n");
+    let mut hall = changed(&hall(), &[("[state]", &((1..5).map(post).collect::<String>() + "[state]"))]);
+    for cable in 1..=8_usize {
+        let name = format!("name = \"{cable}\"\n");
+        hall = changed(&hall, &[(&name, &format!("{name}support = \"{}\"\n", cable.div_ceil(2)))]);
+    }
     assert_eq!(said(&Robot::from_toml(&hall).unwrap()), "");
 
     let mut misses = Vec::new();
@@ -471,6 +523,18 @@ fn slips_at_flexible_supports_are_named() {
     }
     let heavy = hall.replace("mass_kg = 40.0", "mass_kg = 40000.0");
     check("mass", &heavy, &["mass in g given as kg"], &mut misses);
+    let per_cent = hall.replace("mass_kg = 40.0", "mass_kg = 40.0\ndamping_ratio = 0.5");
+    check("damping", &per_cent, &["damping ratio is 0.5", "per cent given as a fraction"], &mut misses);
+    let one = (2..5).fold(hall.clone(), |text, post| text.replace(&format!("support = \"{post}\""), "support = \"1\""));
+    check(
+        "one table",
+        &one,
+        &["support \"1\": distance of its anchors, 23.32 m", "several posts in one table?"],
+        &mut misses,
+    );
+    // Stiff posts yield little to the weight, but less than the cables.
+    let stiff = scaled(&scaled(&hall, stiffness, 20.0), stiffness, 1e-3);
+    check("stiff posts", &stiff, &["over the axial stiffness of its stiffest cable", "stiffness in N/mm"], &mut misses);
     assert!(misses.is_empty(), "{}", misses.join("\n"));
 
     // At an equilibrium, a support that moves far is named.
@@ -479,15 +543,57 @@ fn slips_at_flexible_supports_are_named() {
     let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
     let said: Vec<String> = plausibility::of_equilibrium(&robot, &rest).iter().map(ToString::to_string).collect();
     let moved = rest.support_displacements(&robot)[0].norm();
-    assert!(
-        moved > 1.0 && said.concat().contains("displacement of support \"post\" at equilibrium"),
-        "{moved} {said:?}"
-    );
+    assert!(moved > 1.0 && said.concat().contains("displacement of support \" at equilibrium"), "{moved} {said:?}");
     let robot = Robot::from_toml(&hall).unwrap();
     let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
     assert!(plausibility::of_equilibrium(&robot, &rest).is_empty());
 }
 
+/// A hint names no slip that would have made the value larger where it is too small, or smaller where it is too large.
+#[test]
+fn hints_name_slips_of_the_right_direction_alone() {
+    let lines = |ea: &str| {
+        format!(
+            "[platform]\nmass_kg = 2.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = {ea}\n\
+             mass_kg_per_m = 0.14\n[[cables]]\nname = \"1\"\nmaterial = \"rope\"\nanchor_m = [-2.0, 0.0, 2.0]\n\
+             unstrained_length_m = 2.4\n[[cables]]\nname = \"2\"\nmaterial = \"rope\"\nanchor_m = [2.0, 0.0, 2.0]\n\
+             unstrained_length_m = 2.4\n"
+        )
+    };
+    let hint = |text: &str| {
+        let found = plausibility::of_robot(&Robot::from_toml(text).unwrap());
+        let [Implausible::OutOfRange { slip, .. }] = &found[..] else { panic!("{found:?}") };
+        slip.clone()
+    };
+
+    // 7.1e8 and 5.0e9 m²/s² are above the usual range, 1.4e5 is below.
+    let too_stiff = "axial stiffness in mN given as N, or mass in t/m given as kg/m?";
+    assert!(hint(&lines("1e8")).starts_with(too_stiff), "{}", hint(&lines("1e8")));
+    assert!(hint(&lines("7e8")).starts_with(too_stiff), "{}", hint(&lines("7e8")));
+    assert!(hint(&lines("1e11")).starts_with("Young's modulus given as axial stiffness, without the area?"));
+    assert!(hint(&lines("2e4")).starts_with("mass in kg per 100 m given as kg/m, or axial stiffness in kN"));
+
+    // Values on either side of ranges with two ends.
+    let (hall, drives) = (hall(), hall_with_drives());
+    for (key, text, small, large) in [
+        ("drag_coefficient", &hall, "coefficient times diameter?", "a coefficient in per cent?"),
+        ("damping_ratio", &hall, "a fraction divided by 100 once more?", "per cent given as a fraction?"),
+        ("air_density_kg_m3", &hall, "g/cm³ given as kg/m³?", "g/m³ given as kg/m³?"),
+        ("drag_diameter_m", &hall, "a slip of its unit or of the decimal point?", "diameter in"),
+        ("breaking_load_n", &hall, "breaking load in kN", "breaking load in mN"),
+        ("gear_ratio", &drives, "turns of the drum", "a slip of its unit"),
+        ("bandwidth_hz", &drives, "gain in kN m given as N m?", "gain in N mm given as N m"),
+    ] {
+        // Tension limits are out of the way of the breaking load.
+        let text = text.replace("maximum_tension_n = 2000.0", "").replace("minimum_tension_n = 50.0", "");
+        for (factor, expected) in [(1e-3, small), (1e3, large)] {
+            let said = said(&Robot::from_toml(&scaled(&text, key, factor)).unwrap());
+            assert!(said.contains(&format!(": {expected}")), "{key} times {factor}: {said}");
+        }
+    }
+}
+
+/// At a pose that straight cables cannot hold, cables of 17 times the distance of their ends balance the platform.
 #[test]
 fn cables_that_balance_only_far_below_their_ends_are_named() {
     let text = r#"
@@ -585,7 +691,8 @@ fn no_robot_of_the_library_is_implausible() {
         // The source of these robots has cables without mass.
         if name.starts_with("grab-") {
             let notes = plausibility::notes(&robot);
-            assert!(notes.len() == 1 && notes[0].starts_with("rope \"rope\": it has no mass"), "{name}: {notes:?}");
+            assert!(notes.len() == 2 && notes[0].starts_with("rope \"rope\": it has no mass"), "{name}: {notes:?}");
+            assert!(notes[1].starts_with("nothing in the robot file damps vibration"), "{name}: {notes:?}");
             continue;
         }
         assert_eq!(said(&robot), "", "{name}");
@@ -597,6 +704,22 @@ fn no_robot_of_the_library_is_implausible() {
         let without = Robot { state: State::Unknown, ..robot };
         assert_eq!(warnings::of_robot(&without), [], "{name}");
     }
+}
+
+#[test]
+fn a_file_without_any_damping_has_a_note() {
+    let notes = |text: &str| plausibility::notes(&Robot::from_toml(text).unwrap());
+    let none = changed(&hall(), &[("damping_ratio = 0.003", "damping_ratio = 0.0")]);
+    let found = notes(&none);
+    assert!(found.len() == 1 && found[0].contains("nothing in the robot file damps vibration"), "{found:?}");
+    // Any damping is enough: of the platform, a support or a winch.
+    let platform = "drag_area_m2 = 0.5\nrotational_damping_n_m_s = [1.0, 1.0, 1.0]";
+    assert!(notes(&changed(&none, &[("drag_area_m2 = 0.5", platform)])).is_empty());
+    let support = "[supports.1]\nstiffness_n_per_m = 2e5\ndamping_ratio = 0.01\n[state]";
+    let on_support = ("name = \"1\"\n", "name = \"1\"\nsupport = \"1\"\n");
+    assert!(notes(&changed(&none, &[("[state]", support), on_support])).is_empty());
+    let servo = changed(&hall_with_drives(), &[("damping_ratio = 0.003\n", "damping_ratio = 0.0\n")]);
+    assert!(notes(&servo).is_empty());
 }
 
 #[test]

@@ -14,6 +14,8 @@ const COGIRO: &str = funicular_robots::COGIRO_WINCHES;
 
 const RIGID: Winch = Winch {
     name: String::new(),
+    drum_radius: None,
+    gear_ratio: 1.0,
     drum_side_length: 5.0,
     drum_side: DrumSide::Massless,
     guide_wheels: Vec::new(),
