@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from funicular import _show
-from funicular._errors import InputError
+from funicular._errors import InputError, needs
 from funicular._funicular import answer, matlab_file
 
 
@@ -349,7 +349,7 @@ def _to_scipy(matrices: _Matrices) -> Any:
     try:
         from scipy import signal
     except ImportError as error:
-        raise ImportError("this model needs SciPy: pip install 'funicular[scipy]'") from error
+        raise needs("this model", "scipy") from error
     return signal.StateSpace(*matrices)
 
 
@@ -357,7 +357,7 @@ def _to_control(matrices: _Matrices, inputs: tuple[str, ...], outputs: tuple[str
     try:
         import control
     except ImportError as error:
-        raise ImportError("this model needs python-control: pip install 'funicular[control]'") from error
+        raise needs("this model", "control") from error
     return control.StateSpace(*matrices, inputs=list(inputs), outputs=list(outputs))
 
 
@@ -368,14 +368,14 @@ def _save(
     outputs: tuple[str, ...],
     found: dict[str, Any],
 ) -> None:
-    """Writes matrices in the format of the ending."""
+    """Writes matrices, names of inputs and outputs, and the description in the format of the ending."""
     ending = Path(path).suffix.lower()
+    texts = {"inputs": list(inputs), "outputs": list(outputs), "description": [json.dumps(found)]}
     if ending == ".npz":
-        np.savez(path, **matrices)  # type: ignore[arg-type]
+        np.savez(path, **matrices, **{name: np.array(column) for name, column in texts.items()})  # type: ignore[arg-type]
     elif ending == ".mat":
         columns = [(name, len(matrix), matrix.T.ravel().tolist()) for name, matrix in matrices.items()]
-        texts = [("inputs", list(inputs)), ("outputs", list(outputs)), ("description", [json.dumps(found)])]
-        Path(path).write_bytes(matlab_file(columns, texts))
+        Path(path).write_bytes(matlab_file(columns, list(texts.items())))
     else:
         raise InputError(f"`path` is {path}: it must end in .npz or .mat")
 

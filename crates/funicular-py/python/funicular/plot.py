@@ -16,7 +16,7 @@ from typing import Any, Literal, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from funicular._errors import InputError
+from funicular._errors import InputError, needs
 from funicular._funicular import Analyses, Equilibrium, complex_numbers, figure_sizes, real_numbers
 from funicular._results import Modes
 from funicular._sweeps import Sweep
@@ -66,13 +66,20 @@ _COLOURS = {"platform": "#1f77b4", "mixed": "#ff7f0e", "cable": "#2ca02c", "driv
 _ENERGY = "platform's fraction of the energy"
 
 
+def _matplotlib() -> tuple[Any, Any]:
+    """The library and its pyplot."""
+    try:
+        import matplotlib
+        from matplotlib import pyplot
+    except ImportError as error:
+        raise needs("this figure", "matplotlib") from error
+    return matplotlib, pyplot
+
+
 def _axes(ax: Any, **keywords: Any) -> Any:
     if ax is not None:
         return ax
-    try:
-        from matplotlib import pyplot
-    except ImportError as error:
-        raise ImportError("this figure needs matplotlib: pip install 'funicular[matplotlib]'") from error
+    _, pyplot = _matplotlib()
     return pyplot.figure(layout="constrained").add_subplot(**keywords)
 
 
@@ -80,7 +87,7 @@ def _figures() -> Any:
     try:
         from plotly import graph_objects
     except ImportError as error:
-        raise ImportError("this figure needs plotly: pip install 'funicular[plotly]'") from error
+        raise needs("this figure", "plotly") from error
     return graph_objects
 
 
@@ -106,18 +113,27 @@ def _inches(width: float | str) -> float:
 
 
 @contextmanager
-def _paper(size: float) -> Iterator[Any]:
-    """Module pyplot with the settings of a figure for a paper."""
+def _paper(size: float, inches: tuple[float, float], layout: str | None = "constrained") -> Iterator[Any]:
+    """New figure of pyplot [in], and the settings of a figure for a paper while it is drawn.
+
+    In notebooks the figure is taken out of pyplot afterwards: the value of a cell shows it, and pyplot would show it a
+    second time.
+    """
     low, high = _FONT_SIZE_LIMITS_PT
     if isinstance(size, bool) or not isinstance(size, (int, float)) or not low <= size <= high:
         raise InputError(f"`font_size_pt` is {size}: give {low:g} to {high:g} pt")
+    matplotlib, pyplot = _matplotlib()
+    # Outside of the settings: the first figure chooses the backend of the session and makes notebooks interactive, and
+    # the end of the settings would undo that.
+    figure = pyplot.figure(figsize=inches, layout=layout)
     try:
-        import matplotlib
-        from matplotlib import pyplot
-    except ImportError as error:
-        raise ImportError("this figure needs matplotlib: pip install 'funicular[matplotlib]'") from error
-    with matplotlib.rc_context(_settings(size)):
-        yield pyplot
+        with matplotlib.rc_context(_settings(size)):
+            yield figure
+    except BaseException:
+        pyplot.close(figure)
+        raise
+    if "inline" in matplotlib.get_backend().lower():
+        pyplot.close(figure)
 
 
 def save(figure: Any, path: str | PathLike[str]) -> None:
@@ -214,15 +230,9 @@ def bode(
     """
     frequencies, curves, names, labels = _responses(hz, response, input, output, labels, keywords)
     inches = _inches(width)
-    with _paper(font_size_pt) as pyplot:
+    with _paper(font_size_pt, (inches, min(0.85 * inches, 4.0))) as figure:
         ratios = [2.0, 1.0] if modes is None else [2.0, 1.0, 0.2]
-        figure, axes = pyplot.subplots(
-            *(len(ratios), 1),
-            sharex=True,
-            figsize=(inches, min(0.85 * inches, 4.0)),
-            layout="constrained",
-            gridspec_kw={"height_ratios": ratios},
-        )
+        axes = figure.subplots(len(ratios), 1, sharex=True, gridspec_kw={"height_ratios": ratios})
         for name, curve, (colour, dashes) in zip(names, curves, _CURVES * (len(curves) // len(_CURVES) + 1)):
             axes[0].semilogy(frequencies, abs(curve), color=colour, linestyle=dashes, label=name)
             phase = np.degrees(np.angle(curve))
@@ -325,16 +335,15 @@ def map(
     lengths = all(_unit(of, name) == "m" for name in (h, v))
     ratio = (y[-1] - y[0]) / (x[-1] - x[0])
     equal = lengths and 0.25 < ratio < 4
-    with _paper(font_size_pt) as pyplot:
-        from matplotlib import collections, patches
+    with _paper(font_size_pt, (inches, min((0.72 * ratio if equal else 0.6) * inches + 0.5, 7.0))) as figure:
+        from matplotlib import collections, colormaps, patches
         from matplotlib.colors import LinearSegmentedColormap, LogNorm
 
-        figure = pyplot.figure(figsize=(inches, min((0.72 * ratio if equal else 0.6) * inches + 0.5, 7.0)), layout="constrained")
         ax = figure.add_subplot(aspect="equal" if equal else "auto")
         norm = LogNorm() if log else None
         masked = np.ma.masked_invalid(shown)
         # The lightness falls evenly; the darkest part is left out so that contours stay visible.
-        shades = pyplot.get_cmap("plasma_r")(np.linspace(0.08, 0.75, 256))
+        shades = colormaps["plasma_r"](np.linspace(0.08, 0.75, 256))
         colours = LinearSegmentedColormap.from_list("light", shades)
         drawn = ax.pcolormesh(x, y, masked, shading="nearest", cmap=colours, norm=norm, rasterized=shown.size > 20_000)
         if np.ptp(masked.compressed()) > 0 and min(shown.shape) > 1:
@@ -492,8 +501,7 @@ def shape(
         turn = np.linalg.norm(motion[3:])
         amplitude = min(0.06 * diagonal / largest, 0.3 / turn if turn > 0 else np.inf) if largest > 0 else 0.0
     inches = _inches(width)
-    with _paper(font_size_pt) as pyplot:
-        figure = pyplot.figure(figsize=(inches, 0.72 * inches))
+    with _paper(font_size_pt, (inches, 0.72 * inches), layout=None) as figure:
         ax = figure.add_axes((0.02, 0.0, 0.9, 0.9), projection="3d", computed_zorder=False)
         for k, (cable, displacement) in enumerate(zip(rest, moved, strict=True)):
             ax.plot(*cable.T, color="#8a8a8a", linewidth=0.5, linestyle=(0, (4, 2)), label="equilibrium" if k == 0 else None)
