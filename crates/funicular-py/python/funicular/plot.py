@@ -7,6 +7,7 @@ can distinguish, and dashes that stay distinct in grey. `save` writes them with 
 imported before it is used.
 """
 
+import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from os import PathLike
@@ -17,7 +18,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from funicular._errors import InputError, needs
-from funicular._funicular import Analyses, Equilibrium, complex_numbers, figure_sizes, real_numbers
+from funicular._funicular import (
+    Analyses,
+    Equilibrium,
+    Robot,
+    complex_numbers,
+    figure_sizes,
+    real_numbers,
+    robot_of_source,
+)
+from funicular._hints import hinted
+from funicular._reading import read
+from funicular._rebuild import equilibrium
 from funicular._results import Modes
 from funicular._sweeps import Sweep
 
@@ -136,6 +148,7 @@ def _paper(size: float, inches: tuple[float, float], layout: str | None = "const
         pyplot.close(figure)
 
 
+@hinted
 def save(figure: Any, path: str | PathLike[str]) -> None:
     """Writes a figure of matplotlib as .svg, .pdf or .png, for a paper.
 
@@ -183,6 +196,7 @@ def _responses(
     return frequencies, curves, names, labels
 
 
+@hinted
 def bode(
     hz: ArrayLike,
     response: ArrayLike | Sequence[ArrayLike] | Analyses,
@@ -228,7 +242,11 @@ def bode(
     -------
     The Figure of matplotlib; its axes are magnitude, phase and, with `modes`, the natural frequencies.
     """
+    if modes is not None and isinstance(response, Analyses):
+        _check_same(response, modes)
     frequencies, curves, names, labels = _responses(hz, response, input, output, labels, keywords)
+    if len(frequencies) < 2 or not np.isfinite(frequencies).all() or not (np.diff(frequencies) > 0).all() or frequencies[0] < 0:
+        raise InputError("`hz` has to ascend from zero or more, with at least two frequencies")
     inches = _inches(width)
     with _paper(font_size_pt, (inches, min(0.85 * inches, 4.0))) as figure:
         ratios = [2.0, 1.0] if modes is None else [2.0, 1.0, 0.2]
@@ -262,6 +280,30 @@ def bode(
         return figure
 
 
+def _check_same(of: Analyses, modes: Modes) -> None:
+    """Refuses modes of another robot or of another equilibrium, which would be drawn as if they belonged together."""
+    rest = of.equilibrium() if isinstance(of, Robot) else of
+    assert isinstance(rest, Equilibrium)
+    if modes._request is None:
+        same = modes.robot == rest.robot.name and modes.cable_names == tuple(rest.robot.cable_names)
+    else:
+        request = json.loads(modes._request)
+        state = {key: request[key] for key in _OF_STATE if key in request}
+        same = rest == equilibrium(robot_of_source(json.dumps(request["robot"])), json.dumps(state))
+    if not same:
+        raise InputError(
+            f"`modes` are those of another equilibrium than `{rest!r}`, or of another robot: give those that its method "
+            "`modes` returns"
+        )
+
+
+# Keys of a request that give the equilibrium.
+_OF_STATE = (
+    *("lengths_m", "pose", "hold_lengths_of_pose", "mass_kg", "static_model", "force_n", "moment_n_m", "load_point_m"),
+    *("wind_m_s", "cable_load_n_per_m", "tension_rule", "target_tension_n", "min_tension_n", "max_tension_n"),
+)
+
+
 def _legend_above(figure: Any, handles: list[Any], texts: list[str], sizes: float) -> None:
     """Puts a legend above all axes, in as many columns as fit the width."""
     if not texts:
@@ -272,6 +314,7 @@ def _legend_above(figure: Any, handles: list[Any], texts: list[str], sizes: floa
     figure.legend(handles, texts, loc="outside upper left", ncols=columns, borderaxespad=0.2, columnspacing=1.2)
 
 
+@hinted
 def map(
     of: Sweep,
     column: str,
@@ -398,9 +441,10 @@ def _nearest(name: str, values: NDArray[np.float64], at: Mapping[str, float] | N
     """Index of the value of an axis at which a slice lies."""
     if at is None or name not in at:
         return (len(values) - 1) // 2
-    k = int(np.argmin(abs(values - at[name])))
-    if abs(values[k] - at[name]) > 1e-6 * np.ptp(values):
-        raise InputError(f"`at` gives {name} = {at[name]}: the nearest value of these rows is {values[k]:g}")
+    wanted = read("", "minimum", at[name], name=f'at["{name}"]')
+    k = int(np.argmin(abs(values - wanted)))
+    if abs(values[k] - wanted) > 1e-6 * np.ptp(values):
+        raise InputError(f"`at` gives {name} = {wanted}: the nearest value of these rows is {values[k]:g}")
     return k
 
 
@@ -455,6 +499,7 @@ def _joined(names: Sequence[str], points: NDArray[np.float64]) -> list[str]:
     return labels
 
 
+@hinted
 def shape(
     of: Equilibrium,
     modes: Modes,
@@ -488,8 +533,11 @@ def shape(
     """
     if modes.cable_shapes is None or modes.cable_axes is None or modes.station_position_m is None:
         raise InputError("these modes have no motion of the cables: compute them with `stations=65`")
-    if not -len(modes) <= mode < len(modes):
+    row = read("", "order", mode, name="mode")
+    if row >= len(modes):
         raise InputError(f"`mode` is {mode}: there are {len(modes)} modes, from 0")
+    mode = row
+    _check_same(of, modes)
     rest = modes.station_position_m
     moved = np.einsum("csk,ckw->csw", modes.cable_shapes[mode], modes.cable_axes)
     origin, motion = of.pose.position_m, modes.shape[mode]
@@ -533,6 +581,7 @@ def shape(
         return figure
 
 
+@hinted
 def robot(of: Equilibrium, *, points: int = 33, backend: Backend = "matplotlib", ax: Any = None) -> Any:
     """Draws an equilibrium in space: hanging cables, anchors, and attachments joined to the origin of the platform [m].
 
@@ -565,6 +614,7 @@ def robot(of: Equilibrium, *, points: int = 33, backend: Backend = "matplotlib",
     return figure
 
 
+@hinted
 def frf(
     hz: ArrayLike,
     response: ArrayLike | Sequence[ArrayLike] | Analyses,
@@ -606,6 +656,7 @@ def frf(
     return figure
 
 
+@hinted
 def modes(of: Modes, *, backend: Backend = "matplotlib", ax: Any = None) -> Any:
     """Draws the natural frequencies, coloured by kind, over the platform's fraction of the kinetic energy."""
     if _check(backend, ax):
