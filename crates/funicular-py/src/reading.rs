@@ -6,6 +6,7 @@ use crate::labels::Names;
 use crate::pose::{PoseLike, PyPose};
 use crate::sweep;
 use crate::texts::Texts;
+use funicular_study::request::Pose;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple};
 use serde_json::{Map, Value as Json, json};
@@ -103,7 +104,7 @@ fn of_kind(kind: Kind, name: &str, value: &Bound<'_, PyAny>, cables: &[String]) 
         }
         Kind::Count => {
             let Ok::<Count, Infallible>(count) = value.extract();
-            json!(count.within(name, 0..=usize::MAX, "give a whole number, zero or more")?)
+            json!(count.within(name, 0..=usize::MAX, "it must be zero or more")?)
         }
         Kind::Flag => json!(flag(name, value)?),
         Kind::Text => match value.cast::<PyString>() {
@@ -126,8 +127,13 @@ fn of_kind(kind: Kind, name: &str, value: &Bound<'_, PyAny>, cables: &[String]) 
         Kind::OneOrPerCable => json!(checked(name, &numbers().one_or_per_cable(name, cables)?)?),
         Kind::Pose => {
             let PoseLike(pose) = PoseLike::read(name, value)?;
-            // The check is that of the request, which cannot say where a number is that JSON cannot hold.
-            pose.to_robot().map_err(|error| errors::study(&error))?;
+            match &pose {
+                Pose::Angles(numbers) => drop(checked(name, numbers)?),
+                Pose::Quaternion(position, quaternion) => {
+                    checked(name, position)?;
+                    checked(name, quaternion)?;
+                }
+            }
             serde_json::to_value(pose).map_err(|error| errors::input(error.to_string()))?
         }
         Kind::Poses => {
@@ -227,7 +233,7 @@ fn any(name: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Json> {
         return Ok(arrays::finite(name, number.value())?.into());
     }
     if let Ok(pose) = value.cast::<PyPose>() {
-        let pose = funicular_study::request::Pose::from(&pose.get().0);
+        let pose = Pose::from(&pose.get().0);
         return serde_json::to_value(pose).map_err(|error| errors::input(error.to_string()));
     }
     if let Ok(mapping) = value.cast::<PyMapping>() {

@@ -35,7 +35,7 @@ from funicular._funicular import Analyses, Catenary, Equilibrium, Pose, Robot, _
 from funicular._identify import Identified, read_measurements
 from funicular._live import Live
 from funicular._pages import Page
-from funicular._results import Equilibria, ModeGradients, Modes, ReducedModel, StateSpaceModel
+from funicular._results import Equilibria, ModeGradients, Modes, ReducedModel, Results, StateSpaceModel
 from funicular._study import Exported, Imported, NewRobot, import_robot, merge, new_robot, paper, run, schema, validate
 from funicular._sweeps import Sweep
 from funicular._uncertainty import Uncertainty
@@ -64,6 +64,7 @@ __all__ = [
     "ReducedModel",
     "ResponseError",
     "ResponseWarning",
+    "Results",
     "Robot",
     "RobotFileError",
     "RobotWarning",

@@ -25,7 +25,8 @@ def hinted(function: Callable[P, R]) -> Callable[P, R]:
             return function(*arguments, **keywords)
         except TypeError as error:
             # An error from inside has further places.
-            better = _better(function, arguments, keywords, str(error)) if error.__traceback__.tb_next is None else None  # type: ignore[union-attr]
+            inside = error.__traceback__ is not None and error.__traceback__.tb_next is not None
+            better = None if inside else _better(function, arguments, keywords, error)
             if better is None:
                 raise
         raise better
@@ -33,17 +34,18 @@ def hinted(function: Callable[P, R]) -> Callable[P, R]:
     return call
 
 
-def _better(function: Callable[..., Any], arguments: Any, keywords: Any, said: str) -> Exception | None:
+def _better(function: Callable[..., Any], arguments: Any, keywords: Any, error: TypeError) -> Exception | None:
+    said, notes = str(error), " ".join(getattr(error, "__notes__", ()))
     signature = inspect.signature(function)
     if unknown := re.search(r"got an unexpected keyword argument '(.+)'$", said):
         known = [name for name in signature.parameters if name not in ("self", "keywords")]
         return TypeError(said + suggested(unknown[1], known))
-    if named := re.match(r"argument '(\w+)': (.*)", said, re.DOTALL):
+    if named := re.search(r"while processing '(\w+)'", notes):
         value = signature.bind_partial(*arguments, **keywords).arguments.get(named[1])
         shown = repr(value)
         is_short = len(shown) <= 60 and shown.isprintable()
-        kinds = [words for kind, words in _WANTED.items() if re.search(rf"\b{kind}\b['`]?$", named[2])]
-        wanted = f"give {kinds[0]}" if kinds else named[2]
+        kinds = [words for kind, words in _WANTED.items() if re.search(rf"\b{kind}\b['`]?$", said)]
+        wanted = f"give {kinds[0]}" if kinds else said
         return InputError(f"`{named[1]}` is {f'{shown}, ' if is_short else ''}of type {type(value).__name__}: {wanted}")
     return None
 

@@ -17,7 +17,7 @@ def read(command: str, key: str, value: Any, *, cables: Sequence[str] = (), name
 
 def keywords(command: str, given: Mapping[str, Any], cables: Sequence[str]) -> dict[str, Any]:
     """Keys of a request; None counts as not given."""
-    return {key: _READERS.get(key, read)(command, key, value, cables=cables) for key, value in given.items() if value is not None}
+    return {key: _READERS.get(key, read)(command, key, value, cables=cables) for key, value in given.items() if value is not None or key in _READERS}
 
 
 def experiments(given: Any, state: Mapping[str, Any], cables: Sequence[str]) -> list[dict[str, Any]]:

@@ -31,6 +31,28 @@ def with_arrays(found: Any) -> Any:
     return found
 
 
+class Results(dict[str, Any]):
+    """Results with the keys of the program's JSON, as a dictionary that notebooks show as tables."""
+
+    __module__ = "funicular"
+
+    def __repr__(self) -> str:
+        command = self.get("command", "results")
+        return f"<Results of {command}: {', '.join(key for key in self if key not in ('schema', 'command'))}>"
+
+    def _repr_html_(self) -> str:
+        return _show.html(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Returns a plain dictionary."""
+        return dict(self)
+
+
+def results(found: dict[str, Any]) -> Results:
+    """Results with arrays in place of lists of numbers."""
+    return Results(with_arrays(found))
+
+
 def _are_numbers(values: list[Any]) -> bool:
     """True for numbers, and for rows of numbers of one length."""
     if all(isinstance(value, list) for value in values):
