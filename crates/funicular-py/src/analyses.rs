@@ -13,5 +13,5 @@ use pyo3::prelude::*;
 /// Analyses of a robot at an equilibrium: the methods that `Equilibrium` and `Robot` share.
 ///
 /// Those of `Robot` analyse the equilibrium in the state of the robot file, which every call computes again.
-#[pyclass(frozen, subclass, name = "Analyses", module = "funicular")]
+#[pyclass(frozen, subclass, weakref, name = "Analyses", module = "funicular")]
 pub(crate) struct PyAnalyses;

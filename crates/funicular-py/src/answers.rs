@@ -69,7 +69,7 @@ pub(crate) fn plain<'py, R: Found>(py: Python<'py>, results: &R) -> PyResult<Tex
 /// Results with the keys of the program's JSON, in which lists of numbers are arrays.
 pub(crate) fn with_arrays<'py, R: Found>(py: Python<'py>, results: &R) -> PyResult<TextKeyed<'py>> {
     let plain = plain(py, results)?;
-    Ok(TextKeyed(py.import("funicular._results")?.call_method1("with_arrays", (plain.0,))?.cast_into()?))
+    Ok(TextKeyed(py.import("funicular._results")?.call_method1("results", (plain.0,))?.cast_into()?))
 }
 
 fn request(text: &str) -> PyResult<Request> {

@@ -1,6 +1,7 @@
 //! NumPy arrays as arguments and results, with the types that the `.pyi` names. A returned array owns its numbers.
 
 use crate::errors;
+use crate::labels::{LabelledNumbers, Names, short};
 use funicular::math::Vec3;
 use funicular_study::values;
 use numpy::ndarray::{Array, ArrayD, Dimension, Ix1, Ix2, Ix3, IxDyn};
@@ -145,7 +146,7 @@ impl<'py> FromPyObject<'_, 'py> for TextKeyed<'py> {
 }
 
 /// Elements of array arguments.
-trait ReadableElement: ElementName + Copy {
+pub(crate) trait ReadableElement: ElementName + Copy {
     /// True if an imaginary part is allowed.
     const COMPLEX: bool;
     /// Remedy in messages.
@@ -171,7 +172,7 @@ const MAX_SHOWN: usize = 60;
 /// Reason why an argument contains no usable numbers. The reader of an argument does not know its name;
 /// [`Unusable::named`] adds it.
 #[derive(Debug)]
-enum Unusable {
+pub(crate) enum Unusable {
     /// Place in the argument, such as `[3][2]`, and the error there.
     Refused { place: String, reason: String },
     /// Exception of Python that does not concern the argument, such as Ctrl-C.
@@ -185,12 +186,12 @@ impl From<PyErr> for Unusable {
 }
 
 impl Unusable {
-    fn here(reason: String) -> Self {
+    pub(crate) fn here(reason: String) -> Self {
         Self::Refused { place: String::new(), reason }
     }
 
     /// Error for a value, with its text and its type.
-    fn value(object: &Bound<'_, PyAny>, wanted: &str) -> Self {
+    pub(crate) fn value(object: &Bound<'_, PyAny>, wanted: &str) -> Self {
         let kind = match object.get_type().name() {
             Ok(name) => name.to_string(),
             Err(error) => return Self::Raised(error),
@@ -207,7 +208,7 @@ impl Unusable {
     }
 
     /// Puts a place before the place of the error.
-    fn at(self, outer: &str) -> Self {
+    pub(crate) fn at(self, outer: &str) -> Self {
         match self {
             Self::Refused { place, reason } => Self::Refused { place: format!("{outer}{place}"), reason },
             raised @ Self::Raised(_) => raised,
@@ -222,13 +223,13 @@ impl Unusable {
         }
     }
 
-    fn named(self, what: &str) -> PyErr {
+    pub(crate) fn named(self, what: &str) -> PyErr {
         self.named_as(what, errors::input)
     }
 
     fn named_as(self, what: &str, error: fn(String) -> PyErr) -> PyErr {
         match self {
-            Self::Refused { place, reason } => error(format!("`{what}{place}` {reason}")),
+            Self::Refused { place, reason } => error(format!("`{}{place}` {reason}", short(what))),
             Self::Raised(raised) => raised,
         }
     }
@@ -241,7 +242,7 @@ fn shown(object: &Bound<'_, PyAny>) -> Option<String> {
 }
 
 /// True if the type of an object has a method.
-fn has_method(object: &Bound<'_, PyAny>, name: &str) -> PyResult<bool> {
+pub(crate) fn has_method(object: &Bound<'_, PyAny>, name: &str) -> PyResult<bool> {
     object.get_type().hasattr(name)
 }
 
@@ -338,7 +339,7 @@ fn place(index: &[Bound<'_, PyAny>]) -> String {
 }
 
 /// Reads an argument as an array. The decision which values are numbers is made here alone.
-fn read<T: ReadableElement>(object: &Bound<'_, PyAny>) -> Result<ArrayD<T>, Unusable> {
+pub(crate) fn read<T: ReadableElement>(object: &Bound<'_, PyAny>) -> Result<ArrayD<T>, Unusable> {
     let py = object.py();
     let is_plain = object.get_type().is(py.get_type::<PyUntypedArray>());
     if !(is_plain && object.cast::<PyArrayDyn<T>>().is_ok()) {
@@ -441,6 +442,11 @@ impl Number {
         self.0.map_err(|error| error.named(what))
     }
 
+    /// The number if it is finite, by the rule for requests.
+    pub(crate) fn finite(self, what: &str) -> PyResult<f64> {
+        finite(what, self.value(what)?)
+    }
+
     /// The number if it is positive, by the rule for requests.
     pub(crate) fn positive(self, what: &str) -> PyResult<f64> {
         values::positive(self.value(what)?).map_err(|reason| errors::input(format!("`{what}`: {reason}")))
@@ -492,6 +498,61 @@ impl Count {
     }
 }
 
+impl Count {
+    /// The number if it has 32 bits.
+    pub(crate) fn within_u32(self, what: &str) -> PyResult<u32> {
+        let rule = "give a whole number from 0 to 4294967295";
+        let number = self.within(what, 0..=u32::MAX as usize, rule)?;
+        u32::try_from(number).map_err(|error| errors::input(format!("`{what}`: {error}")))
+    }
+}
+
+/// First value, last value and number of values, in a tuple, list or array.
+pub(crate) struct FirstLastCount(Result<[Py<PyAny>; 3], Unusable>);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for FirstLastCount {
+    type Error = Infallible;
+
+    const INPUT_TYPE: PyStaticExpr = <(Number, Number, Count) as FromPyObject<'a, 'py>>::INPUT_TYPE;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> Result<Self, Infallible> {
+        const WANTED: &str = "give the first value, the last value and their number, as in (10, 90, 9)";
+        let three = |object: &Bound<'py, PyAny>| {
+            if object.is_instance_of::<PyString>() || object.is_instance_of::<PyDict>() {
+                return Err(Unusable::value(object, WANTED));
+            }
+            let Ok(items) = object.try_iter() else { return Err(Unusable::value(object, WANTED)) };
+            let items: Vec<Py<PyAny>> = items.take(4).map(|item| item.map(Bound::unbind)).collect::<PyResult<_>>()?;
+            let count = object.len().unwrap_or(items.len());
+            <[Py<PyAny>; 3]>::try_from(items).map_err(|_| Unusable::here(format!("has {count} numbers: {WANTED}")))
+        };
+        Ok(Self(three(&object)))
+    }
+}
+
+impl FirstLastCount {
+    /// The three numbers, of which the third is at least 2 and at most `max`.
+    pub(crate) fn masses(self, what: &str, max: usize) -> PyResult<(f64, f64, usize)> {
+        let [first, last, count] = self.0.map_err(|error| error.named(what))?;
+        Python::attach(|py| {
+            let number = |object: &Py<PyAny>, place: usize| {
+                let Ok(number) = object.bind(py).extract::<Number>();
+                number.value(&format!("{what}[{place}]"))
+            };
+            let (first, last) = (number(&first, 0)?, number(&last, 1)?);
+            // An array has one type for all three.
+            let whole = number(&count, 2).ok().filter(|value| value.fract() == 0.0 && (2.0..1e15).contains(value));
+            let Ok(given) = count.bind(py).extract::<Count>();
+            let given = match (whole, has_method(count.bind(py), "dtype")?) {
+                (Some(whole), true) => Count(Ok(Integer { text: whole.to_string(), value: Some(whole as usize) })),
+                _ => given,
+            };
+            let rule = format!("the third is the number of masses, from 2 to {max}");
+            Ok((first, last, given.within(&format!("{what}[2]"), 2..=max, &rule)?))
+        })
+    }
+}
+
 /// Numbers of an array with one dimension.
 fn one_row<T: Copy>(array: ArrayD<T>, what: &str) -> PyResult<Vec<T>> {
     if array.ndim() != 1 {
@@ -502,7 +563,12 @@ fn one_row<T: Copy>(array: ArrayD<T>, what: &str) -> PyResult<Vec<T>> {
 
 /// Real numbers from Python in an array of any shape. An error is raised when they are read with the name of their
 /// argument.
-pub(crate) struct Numbers(Result<ArrayD<f64>, Unusable>);
+pub(crate) struct Numbers(Held);
+
+enum Held {
+    Read(Result<ArrayD<f64>, Unusable>),
+    Labelled(LabelledNumbers),
+}
 
 impl<'a, 'py> FromPyObject<'a, 'py> for Numbers {
     type Error = Infallible;
@@ -510,18 +576,52 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Numbers {
     const INPUT_TYPE: PyStaticExpr = ARRAY_LIKE;
 
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> Result<Self, Infallible> {
-        Ok(Self(read(&object)))
+        let is_plain = object.get_type().is(object.py().get_type::<PyUntypedArray>())
+            || object.is_instance_of::<PyList>()
+            || object.is_instance_of::<PyTuple>();
+        let labelled = if is_plain { Ok(None) } else { LabelledNumbers::of(&object) };
+        Ok(Self(match labelled {
+            Ok(Some(labelled)) => Held::Labelled(labelled),
+            Ok(None) => Held::Read(read(&object)),
+            Err(error) => Held::Read(Err(error.into())),
+        }))
     }
 }
 
 impl Numbers {
     fn array(self, what: &str) -> PyResult<ArrayD<f64>> {
-        self.0.map_err(|error| error.named(what))
+        match self.0 {
+            Held::Read(array) => array,
+            Held::Labelled(labelled) => labelled.array(),
+        }
+        .map_err(|error| error.named(what))
     }
 
-    /// Numbers of one row.
+    /// Numbers of one row, in which places have no meaning of their own.
     pub(crate) fn row(self, what: &str) -> PyResult<Vec<f64>> {
         one_row(self.array(what)?, what)
+    }
+
+    /// Numbers of one row, each of which has a name: labels of a series count.
+    pub(crate) fn named_row(self, what: &str, names: &Names) -> PyResult<Vec<f64>> {
+        if let Held::Labelled(labelled) = &self.0
+            && !labelled.is_table()
+            && let Some(numbers) = labelled.by_name(names).map_err(|error| error.named(what))?
+        {
+            return Ok(numbers.concat());
+        }
+        self.row(what)
+    }
+
+    /// Row of a pose: position, then angles or a quaternion if they are there.
+    pub(crate) fn pose(self, what: &str) -> PyResult<Vec<f64>> {
+        if let Held::Labelled(labelled) = &self.0
+            && !labelled.is_table()
+            && let Some(numbers) = labelled.of_pose().map_err(|error| error.named(what))?
+        {
+            return Ok(numbers.concat());
+        }
+        self.row(what)
     }
 
     /// One number or one row of numbers; the flag is true for one number.
@@ -533,9 +633,17 @@ impl Numbers {
         Ok((one_row(array, what)?, false))
     }
 
-    /// Three numbers.
+    /// One number for all cables, or one per cable in the order of `cables`.
+    pub(crate) fn one_or_per_cable(self, what: &str, cables: &[String]) -> PyResult<Vec<f64>> {
+        match self.0 {
+            Held::Labelled(_) => self.named_row(what, &Names::of_cables(cables, what)),
+            Held::Read(_) => Ok(self.one_or_row(what)?.0),
+        }
+    }
+
+    /// Three numbers x, y, z.
     pub(crate) fn three(self, what: &str) -> PyResult<[f64; 3]> {
-        let row = self.row(what)?;
+        let row = self.named_row(what, &Names::of_vector(what))?;
         let [x, y, z] = row[..] else {
             return Err(errors::input(format!("`{what}` has {} numbers where x, y, z are needed", row.len())));
         };
@@ -543,7 +651,7 @@ impl Numbers {
     }
 
     /// Rows of numbers in sequence, and the length of a row.
-    pub(crate) fn rows(self, what: &str) -> PyResult<(Vec<f64>, usize)> {
+    fn rows(self, what: &str) -> PyResult<(Vec<f64>, usize)> {
         let array = self.array(what)?;
         let [_, columns] = *array.shape() else {
             return Err(errors::input(format!(
@@ -552,6 +660,37 @@ impl Numbers {
             )));
         };
         Ok((array.iter().copied().collect(), columns))
+    }
+
+    /// Rows of poses in sequence, and the length of a row: position, then angles or a quaternion if they are there.
+    pub(crate) fn poses(self, what: &str) -> PyResult<(Vec<f64>, usize)> {
+        if let Held::Labelled(labelled) = &self.0
+            && labelled.is_table()
+            && let Some(columns) = labelled.of_pose().map_err(|error| error.named(what))?
+        {
+            return Ok(transposed(&columns));
+        }
+        self.rows(what)
+    }
+
+    /// Rows with one number per cable in sequence.
+    pub(crate) fn rows_per_cable(self, what: &str, cables: &[String]) -> PyResult<Vec<f64>> {
+        if let Held::Labelled(labelled) = &self.0
+            && labelled.is_table()
+            && let Some(columns) =
+                labelled.by_name(&Names::of_cables(cables, what)).map_err(|error| error.named(what))?
+        {
+            return Ok(transposed(&columns).0);
+        }
+        let (flat, columns) = self.rows(what)?;
+        if columns != cables.len() {
+            return Err(errors::input(format!(
+                "`{what}` has rows of {columns} numbers, and the robot has {} cables: give one number per cable, in the \
+                 order of the file",
+                cables.len()
+            )));
+        }
+        Ok(flat)
     }
 
     /// Frequencies of the argument `hz`: one or a row; the flag is true for one.
@@ -581,6 +720,18 @@ pub(crate) fn real_numbers(name: &str, values: Numbers) -> PyResult<OwnedArray<f
 #[pyfunction]
 pub(crate) fn complex_numbers(name: &str, values: ComplexNumbers) -> PyResult<OwnedArray<Complex64, IxDyn>> {
     values.array(name).map(OwnedArray)
+}
+
+/// Rows in sequence of columns of equal length, and the length of a row.
+fn transposed(columns: &[Vec<f64>]) -> (Vec<f64>, usize) {
+    let count = columns.first().map_or(0, Vec::len);
+    let rows = (0..count).flat_map(|row| columns.iter().map(move |column| column[row]));
+    (rows.collect(), columns.len())
+}
+
+/// The value if it is finite, by the rule for requests.
+pub(crate) fn finite(what: &str, value: f64) -> PyResult<f64> {
+    values::finite(value).map_err(|reason| errors::input(format!("`{what}`: {reason}")))
 }
 
 /// The value if it is finite and not negative, by the rule for requests.

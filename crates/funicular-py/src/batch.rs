@@ -47,10 +47,10 @@ pub(crate) struct States {
 }
 
 impl States {
-    pub(crate) fn read(poses: Option<Numbers>, lengths_m: Option<Numbers>) -> PyResult<Self> {
+    pub(crate) fn read(poses: Option<Numbers>, lengths_m: Option<Numbers>, cables: &[String]) -> PyResult<Self> {
         match (poses, lengths_m) {
             (Some(poses), None) => {
-                let (flat, columns) = poses.rows("poses")?;
+                let (flat, columns) = poses.poses("poses")?;
                 if ![3, 6, 7].contains(&columns) {
                     return Err(errors::input(format!(
                         "`poses` has rows of {columns} numbers: give x, y, z, these and roll, pitch, yaw in degrees, or \
@@ -60,8 +60,8 @@ impl States {
                 Ok(Self { poses: true, flat, columns })
             }
             (None, Some(lengths)) => {
-                let (flat, columns) = lengths.rows("lengths_m")?;
-                Ok(Self { poses: false, flat, columns })
+                let flat = lengths.rows_per_cable("lengths_m", cables)?;
+                Ok(Self { poses: false, flat, columns: cables.len() })
             }
             _ => Err(errors::input("give `poses` or `lengths_m`, one of them".to_owned())),
         }
@@ -76,7 +76,7 @@ impl States {
         let row = &self.flat[row * self.columns..(row + 1) * self.columns];
         if self.poses {
             let text = |error: anyhow::Error| told(&format!("{error:#}"), Words::Python);
-            let pose = pose::of_row(row)?.to_robot().map_err(text)?;
+            let pose = pose::of_row("pose", row)?.to_robot().map_err(text)?;
             at_rest::check_pose(robot, &pose).map_err(text)?;
             return Ok(State::Pose(pose));
         }

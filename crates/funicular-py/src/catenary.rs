@@ -20,7 +20,7 @@ type CatenaryArguments = (f64, f64, f64, f64, f64);
 ///     Weight per unstrained length [N/m]; a cable without weight is straight.
 /// axial_stiffness_n
 ///     Axial stiffness EA [N].
-#[pyclass(frozen, name = "Catenary", module = "funicular")]
+#[pyclass(frozen, weakref, name = "Catenary", module = "funicular")]
 pub(crate) struct Catenary(catenary::Catenary);
 
 #[pymethods]
@@ -35,12 +35,21 @@ impl Catenary {
         axial_stiffness_n: Number,
     ) -> PyResult<Self> {
         let rope = Rope {
-            unstrained_length: unstrained_length_m.value("unstrained_length_m")?,
-            weight_per_length: weight_n_per_m.value("weight_n_per_m")?,
-            axial_stiffness: axial_stiffness_n.value("axial_stiffness_n")?,
+            unstrained_length: unstrained_length_m.positive("unstrained_length_m")?,
+            weight_per_length: weight_n_per_m.not_negative("weight_n_per_m")?,
+            axial_stiffness: axial_stiffness_n.positive("axial_stiffness_n")?,
         };
-        let (span_m, rise_m) = (span_m.value("span_m")?, rise_m.value("rise_m")?);
-        catenary::Catenary::between(span_m, rise_m, rope).map(Self).map_err(|error| errors::input(error.to_string()))
+        let (span_m, rise_m) = (span_m.finite("span_m")?, rise_m.finite("rise_m")?);
+        let catenary = catenary::Catenary::between(span_m, rise_m, rope);
+        let catenary = catenary.map_err(|error| errors::input(error.to_string()))?;
+        let ends = [catenary.horizontal_force(), catenary.tension_at_start(), catenary.tension_at_end()];
+        let tangent = catenary.tangent();
+        if !ends.iter().chain(tangent.as_flattened()).all(|number| number.is_finite()) {
+            return Err(errors::input(
+                "the cable has no finite tension or stiffness: its numbers are too far apart; check their units".to_owned(),
+            ));
+        }
+        Ok(Self(catenary))
     }
 
     /// Horizontal force at both ends [N].

@@ -12,7 +12,8 @@ use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, Value};
 /// Changes of a robot file from a dictionary: values by their paths.
 pub(crate) fn changes(of: &Bound<'_, PyDict>) -> PyResult<Vec<Change>> {
     let change = |(path, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
-        let path: String = path.extract()?;
+        let path: String =
+            path.extract().map_err(|_| errors::change(format!("a path of the changes is {path}: paths are text")))?;
         let value = json_of(&path, &value, 0)?;
         Ok(Change { path, value })
     };

@@ -220,8 +220,16 @@ impl PyEquilibrium {
     }
 
     /// Returns a dictionary with the keys of the program's JSON.
-    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
-        let found = py.detach(|| analyses::statics::about(&self.at_rest, Extras::default()));
+    ///
+    /// Parameters
+    /// ----------
+    /// another_stable_equilibrium
+    ///     Search for another stable equilibrium of the same lengths, too, as the program does. The search takes about a
+    ///     hundred times as long as the equilibrium; the key of this name is absent if there is none.
+    #[pyo3(signature = (*, another_stable_equilibrium=false))]
+    fn to_dict<'py>(&self, py: Python<'py>, another_stable_equilibrium: bool) -> PyResult<TextKeyed<'py>> {
+        let extras = Extras { alone: !another_stable_equilibrium, ..Extras::default() };
+        let found = py.detach(|| analyses::statics::about(&self.at_rest, extras));
         answers::plain(py, &found.map_err(|error| errors::study(&error))?)
     }
 

@@ -81,10 +81,6 @@ pub(crate) fn unwritable(text: String) -> PyErr {
     python::FileError::new_err(text)
 }
 
-pub(crate) fn dynamics(error: &DynamicsError) -> PyErr {
-    python::DynamicsError::new_err(error.to_string())
-}
-
 pub(crate) fn response(error: &ResponseError) -> PyErr {
     python::ResponseError::new_err(error.to_string())
 }
@@ -96,7 +92,7 @@ pub(crate) fn shown(message: &str) -> String {
 }
 
 /// Shows a warning of the class `class` at a line of the user: that of the Python function that called Rust for
-/// `level` 1, that of its caller for 2.
+/// `level` 1, that of its caller for 2. Methods are called by a function of `_hints.py`.
 pub(crate) fn warn(py: Python<'_>, class: &str, text: &str, level: i32) -> PyResult<()> {
     let class = py.import("funicular._errors")?.getattr(class)?;
     let text = CString::new(told(text, Words::Python)).map_err(|error| input(error.to_string()))?;

@@ -16,11 +16,14 @@ mod dict_to_toml;
 mod equilibrium;
 mod errors;
 mod interrupt;
+mod labels;
 mod pose;
+mod reading;
 mod request;
 mod robot;
 mod robot_text;
 mod sweep;
+mod texts;
 mod threads;
 mod vibration;
 mod written;
@@ -50,9 +53,11 @@ mod _funicular {
     #[pymodule_export]
     use crate::pose::PyPose;
     #[pymodule_export]
+    use crate::reading::{argument, interval, suggested};
+    #[pymodule_export]
     use crate::robot::{PyRobot, robot_of_source};
     #[pymodule_export]
-    use crate::sweep::{PyPlan, PyTable, PyWork, axes};
+    use crate::sweep::{PyPlan, PyTable, PyWork};
     #[pymodule_export]
     use crate::vibration::peaks;
     #[pymodule_export]

@@ -2,6 +2,7 @@
 
 use crate::arrays::{ARRAY_LIKE, Matrix, Numbers, PickleParts, Vector};
 use crate::errors;
+use crate::labels::Names;
 use funicular::math::{Rotation, rotation};
 use funicular::robot::Pose;
 use funicular_study::request;
@@ -18,8 +19,8 @@ use pyo3::type_object::PyTypeCheck;
 /// roll_pitch_yaw_deg
 ///     Roll, pitch, yaw [degrees], R = Rz(yaw) Ry(pitch) Rx(roll); zero if not given.
 /// quaternion_wxyz
-///     Quaternion w, x, y, z instead of angles; it is normalised.
-#[pyclass(frozen, name = "Pose", module = "funicular")]
+///     Unit quaternion w, x, y, z instead of angles.
+#[pyclass(frozen, weakref, name = "Pose", module = "funicular")]
 pub(crate) struct PyPose(pub(crate) Pose);
 
 #[pymethods]
@@ -36,9 +37,9 @@ impl PyPose {
             (Some(_), Some(_)) => {
                 return Err(errors::input("give angles or a quaternion, not both".to_owned()));
             }
-            (Some(angles), None) => row.extend(angles.three("roll_pitch_yaw_deg")?),
+            (Some(angles), None) => row.extend(angles_of(angles)?),
             (None, Some(quaternion)) => {
-                let quaternion = quaternion.row("quaternion_wxyz")?;
+                let quaternion = quaternion.named_row("quaternion_wxyz", &Names::of_quaternion())?;
                 if quaternion.len() != 4 {
                     return Err(errors::input(format!("a quaternion has 4 numbers, not {}", quaternion.len())));
                 }
@@ -47,7 +48,7 @@ impl PyPose {
             (None, None) => {}
         }
 
-        let pose = of_row(&row).map_err(errors::input)?.to_robot().map_err(|error| errors::study(&error))?;
+        let pose = of_row("pose", &row).map_err(errors::input)?.to_robot().map_err(|error| errors::study(&error))?;
         Ok(Self(Pose { rot_wp: signed(pose.rot_wp), ..pose }))
     }
 
@@ -131,18 +132,30 @@ impl PyPose {
     }
 }
 
+/// Roll, pitch, yaw [degrees].
+fn angles_of(angles: Numbers) -> PyResult<Vec<f64>> {
+    let row = angles.named_row("roll_pitch_yaw_deg", &Names::of_angles())?;
+    if row.len() != 3 {
+        return Err(errors::input(format!(
+            "`roll_pitch_yaw_deg` has {} numbers where roll, pitch, yaw are needed",
+            row.len()
+        )));
+    }
+    Ok(row)
+}
+
 fn signed(rotation: Rotation) -> Rotation {
     if rotation.quaternion().w < 0.0 { Rotation::new_unchecked(-rotation.into_inner()) } else { rotation }
 }
 
 /// Pose from x, y, z, from x, y, z, roll, pitch, yaw [degrees], or from x, y, z and a quaternion w, x, y, z.
-pub(crate) fn of_row(row: &[f64]) -> Result<request::Pose, String> {
+pub(crate) fn of_row(what: &str, row: &[f64]) -> Result<request::Pose, String> {
     match *row {
         [x, y, z] => Ok(request::Pose::Angles([x, y, z, 0.0, 0.0, 0.0])),
         [x, y, z, roll, pitch, yaw] => Ok(request::Pose::Angles([x, y, z, roll, pitch, yaw])),
         [x, y, z, w, i, j, k] => Ok(request::Pose::Quaternion([x, y, z], [w, i, j, k])),
         _ => Err(format!(
-            "`pose` has {} numbers: give x, y, z, these and roll, pitch, yaw in degrees, or these and a quaternion w, x, \
+            "`{what}` has {} numbers: give x, y, z, these and roll, pitch, yaw in degrees, or these and a quaternion w, x, \
              y, z",
             row.len()
         )),
@@ -162,10 +175,17 @@ impl<'a, 'py> FromPyObject<'a, 'py> for PoseLike {
     };
 
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        Self::read("pose", &object)
+    }
+}
+
+impl PoseLike {
+    /// Pose of an argument with this name.
+    pub(crate) fn read(what: &str, object: &Bound<'_, PyAny>) -> PyResult<Self> {
         if let Ok(pose) = object.cast::<PyPose>() {
             return Ok(Self((&pose.get().0).into()));
         }
-        let row = object.extract::<Numbers>()?.row("pose")?;
-        of_row(&row).map(Self).map_err(errors::input)
+        let row = object.extract::<Numbers>()?.pose(what)?;
+        of_row(what, &row).map(Self).map_err(errors::input)
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::arrays::{Number, Numbers};
 use crate::errors;
+use crate::labels::Names;
 use crate::pose::PoseLike;
 use funicular::modes::PLATFORM_SHARE;
 use funicular_study::names::Named;
@@ -22,6 +23,12 @@ fn three(value: Option<Numbers>, keyword: &str) -> PyResult<Option<[f64; 3]>> {
     value.map(|numbers| numbers.three(keyword)).transpose()
 }
 
+/// Unstrained lengths of a robot with these cables.
+pub(crate) fn lengths(lengths_m: Option<Numbers>, cables: &[String]) -> PyResult<Option<Vec<f64>>> {
+    let names = || Names::of_cables(cables, "lengths_m");
+    lengths_m.map(|lengths| lengths.named_row("lengths_m", &names())).transpose()
+}
+
 /// Keywords for state and loads.
 pub(crate) struct StateKeywords<'a> {
     pub(crate) pose: Option<PoseLike>,
@@ -37,9 +44,10 @@ pub(crate) struct StateKeywords<'a> {
 }
 
 impl StateKeywords<'_> {
-    pub(crate) fn request(self) -> PyResult<State> {
+    /// State of a robot with these cables.
+    pub(crate) fn request(self, cables: &[String]) -> PyResult<State> {
         Ok(State {
-            lengths_m: self.lengths_m.map(|lengths| lengths.row("lengths_m")).transpose()?,
+            lengths_m: lengths(self.lengths_m, cables)?,
             pose: self.pose.map(|pose| pose.0),
             hold_lengths_of_pose: self.hold_lengths_of_pose,
             mass_kg: number(self.mass_kg, "mass_kg")?,
@@ -64,11 +72,12 @@ pub(crate) struct TensionKeywords<'a> {
 }
 
 impl TensionKeywords<'_> {
-    pub(crate) fn request(self) -> PyResult<Tensions> {
-        let target = self.target_tension_n.map(|target| target.one_or_row("target_tension_n")).transpose()?;
+    /// Rule and limits for a robot with these cables.
+    pub(crate) fn request(self, cables: &[String]) -> PyResult<Tensions> {
+        let target = self.target_tension_n.map(|target| target.one_or_per_cable("target_tension_n", cables)).transpose()?;
         Ok(Tensions {
             tension_rule: self.tension_rule.map(|name| named("tension_rule", name)).transpose()?,
-            target_tension_n: target.map(|(target, _)| target),
+            target_tension_n: target,
             min_tension_n: number(self.min_tension_n, "min_tension_n")?,
             max_tension_n: number(self.max_tension_n, "max_tension_n")?,
         })

@@ -39,6 +39,11 @@ impl PyRobot {
         Py::new(py, PyClassInitializer::from(PyAnalyses).add_subclass(robot))
     }
 
+    /// Names of the cables, in the order of the file.
+    pub(crate) fn names(&self) -> Vec<String> {
+        self.robot.cables.iter().map(|cable| cable.name.clone()).collect()
+    }
+
     fn of_text(py: Python<'_>, name: &str, text: String) -> PyResult<Py<Self>> {
         Self::read(py, RobotText { name: name.to_owned(), text, set: Vec::new() })
     }
@@ -200,7 +205,7 @@ impl PyRobot {
     ) -> PyResult<TextKeyed<'py>> {
         let robot = robot_text::to_json(&self.source)?;
         let keywords = keywords.map_or_else(|| PyDict::new(py), |TextKeyed(keywords)| keywords);
-        let made = py.import("funicular._study")?.call_method1("request", (command, robot, keywords))?;
+        let made = py.import("funicular._study")?.call_method1("request", (command, robot, self.names(), keywords))?;
         Ok(TextKeyed(made.cast_into()?))
     }
 

@@ -38,6 +38,9 @@ pub(crate) fn changed(
         all.update(changes.as_mapping())?;
     }
     if let Some(mass) = mass_kg {
+        if all.contains("platform.mass_kg")? {
+            return Err(errors::input("`mass_kg` is `platform.mass_kg` of the changes: give one of them".to_owned()));
+        }
         all.set_item("platform.mass_kg", mass.positive("mass_kg")?)?;
     }
 

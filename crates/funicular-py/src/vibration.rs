@@ -4,8 +4,10 @@ use crate::answers::{self, CtrlC};
 use crate::arrays::{ComplexNumbers, Count, Matrix, Number, Numbers, OwnedArray, Tensor, TextKeyed, Vector};
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
-use crate::interrupt::interruptible;
+use crate::interrupt::{interruptible, interruptible_in_steps};
+use crate::reading::sizes;
 use crate::request::{model, named, points, share, terms};
+use crate::texts::{Texts, not_empty};
 use funicular::compare::TOLERANCE;
 use funicular::gradient::Hold;
 use funicular::math::CMat6;
@@ -18,6 +20,7 @@ use numpy::Complex64;
 use numpy::ndarray::{ArrayD, IxDyn};
 use pyo3::inspect::{PyStaticExpr, PyStaticOperator};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use std::convert::Infallible;
 use std::sync::Arc;
 
@@ -75,9 +78,13 @@ pub(crate) fn stiffness(
 ) -> PyResult<Stiffness> {
     let (frequencies, one) = at_hz.map_or(Ok((vec![0.0], true)), |hz| hz.frequencies_of("at_hz"))?;
     let model = model(cable_model, assembly, in_plane_only, winches)?;
-    let matrices = py.detach(|| analyses::stiffness::matrices(&of.at_rest, model, &frequencies));
-    let all = flat(&matrices.map_err(|error| errors::dynamics(&error))?);
-    Ok(match (one, frequencies[..] == [0.0]) {
+    let is_static = frequencies[..] == [0.0];
+    let at_rest = Arc::clone(&of.at_rest);
+    let matrices = interruptible_in_steps(py, move |watch| {
+        analyses::stiffness::matrices(&at_rest, model, &frequencies, watch).map(|matrices| flat(&matrices))
+    })?;
+    let all = matrices.map_err(|error| errors::study(&error))?;
+    Ok(match (one, is_static) {
         (true, true) => Stiffness::Static(Matrix::of_rows(all.iter().map(|z| z.re).collect(), 6)),
         (true, false) => Stiffness::One(Matrix::of_rows(all, 6)),
         (false, _) => Stiffness::Many(Tensor::of_rows(all, 6, 6)),
@@ -130,11 +137,11 @@ pub(crate) struct CompareKeywords<'a> {
 
 /// Keywords of `gradient`.
 pub(crate) struct GradientKeywords<'a> {
-    pub(crate) of: Option<Vec<String>>,
-    pub(crate) by: Option<Vec<String>>,
+    pub(crate) of: Option<Texts>,
+    pub(crate) by: Option<Texts>,
     pub(crate) hold: &'a str,
     pub(crate) per: &'a str,
-    pub(crate) tolerances: Option<Vec<String>>,
+    pub(crate) tolerances: Option<Bound<'a, PyAny>>,
     pub(crate) below_hz: Option<Number>,
     pub(crate) at_hz: Option<Number>,
     pub(crate) input: Option<String>,
@@ -154,11 +161,11 @@ pub(crate) fn gradient<'py>(
 ) -> PyResult<TextKeyed<'py>> {
     let request = request::GradientRequest {
         robot: of.of.get().source.clone(),
-        of: keywords.of.unwrap_or_else(request::frequencies),
-        by: keywords.by.unwrap_or_default(),
+        of: not_empty(keywords.of, "of")?.unwrap_or_else(request::frequencies),
+        by: not_empty(keywords.by, "by")?.unwrap_or_default(),
         hold: named("hold", keywords.hold)?,
         per: named("per", keywords.per)?,
-        tolerances: keywords.tolerances.unwrap_or_default(),
+        tolerances: keywords.tolerances.map_or_else(|| Ok(Vec::new()), |given| sizes("tolerances", &given))?,
         below_hz: keywords.below_hz.map(|hz| hz.value("below_hz")).transpose()?,
         at_hz: keywords.at_hz.map(|hz| hz.not_negative("at_hz")).transpose()?,
         input: keywords.input,
@@ -255,61 +262,39 @@ pub(crate) fn cable<'py>(
     in_plane_only: bool,
     winches: &str,
 ) -> PyResult<TextKeyed<'py>> {
-    let (frequency_hz, one) = hz.frequencies()?;
-    if one || frequency_hz.is_empty() {
-        return Err(errors::input("`hz` is no row of frequencies: give a list with at least one frequency".to_owned()));
+    let (frequency_hz, _) = hz.frequencies()?;
+    if frequency_hz.is_empty() {
+        return Err(errors::input("`hz` is an empty list: give at least one frequency".to_owned()));
     }
     let cable_model = cable_model.map(|name| named("cable_model", name)).transpose()?;
     let winches = named("winches", winches)?;
-    let found = py.detach(|| {
-        let requested = cable::RequestedCable { name, frequency_hz, cable_model, in_plane_only, winches };
-        cable::about(&of.at_rest, requested)
-    });
-    answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
+    let (at_rest, name) = (Arc::clone(&of.at_rest), name.to_owned());
+    let found = interruptible_in_steps(py, move |watch| {
+        let requested = cable::RequestedCable { name: &name, frequency_hz, cable_model, in_plane_only, winches };
+        cable::about(&at_rest, requested, watch)
+    })?;
+    let mut found = found.map_err(|error| errors::study(&error))?;
+
+    // Text of JSON takes several times longer than the computation of such long lists.
+    let cable::Local { k_a, k_b, k_c, k_o } = std::mem::take(&mut found.local);
+    let cable::World { real, imag } = std::mem::take(&mut found.world);
+    let frequency_hz: Vector = std::mem::take(&mut found.frequency_hz).into_iter().collect();
+    let results = answers::with_arrays(py, &found)?;
+    let local = PyDict::new(py);
+    for (key, values) in [("k_a", k_a), ("k_b", k_b), ("k_c", k_c), ("k_o", k_o)] {
+        let values: Vector<Complex64> = complex(values.real, values.imag).collect();
+        local.set_item(key, values)?;
+    }
+    let flat = |matrices: Vec<[[f64; 3]; 3]>| matrices.into_flattened().into_flattened();
+    results.0.set_item("frequency_hz", frequency_hz)?;
+    results.0.set_item("local", local)?;
+    results.0.set_item("world", Tensor::of_rows(complex(flat(real), flat(imag)).collect(), 3, 3))?;
+    Ok(results)
 }
 
-/// Argument for one signal, or for a list of several.
-pub(crate) enum SignalNames {
-    One([String; 1]),
-    Several(Vec<String>),
-}
-
-impl<'py> FromPyObject<'_, 'py> for SignalNames {
-    type Error = PyErr;
-
-    const INPUT_TYPE: PyStaticExpr = PyStaticExpr::BinOp {
-        left: &PyStaticExpr::Name { id: "str" },
-        op: PyStaticOperator::BitOr,
-        right: &PyStaticExpr::Subscript {
-            value: &PyStaticExpr::Attribute { value: &PyStaticExpr::Name { id: "collections.abc" }, attr: "Sequence" },
-            slice: &PyStaticExpr::Name { id: "str" },
-        },
-    };
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if let Ok(name) = object.extract::<String>() {
-            return Ok(Self::One([name]));
-        }
-        object.extract().map(Self::Several).map_err(|_| {
-            let kind = object.get_type().name().map_or_else(|_| "object".to_owned(), |name| name.to_string());
-            errors::input(format!(
-                "a signal is of type {kind}: give its name as text, as in \"fz\", or a list of names"
-            ))
-        })
-    }
-}
-
-impl SignalNames {
-    fn names(&self) -> &[String] {
-        match self {
-            Self::One(name) => name,
-            Self::Several(names) => names,
-        }
-    }
-
-    fn is_one(&self) -> bool {
-        matches!(self, Self::One(_))
-    }
+/// Complex numbers of their parts.
+fn complex(real: Vec<f64>, imag: Vec<f64>) -> impl Iterator<Item = Complex64> {
+    real.into_iter().zip(imag).map(|(re, im)| Complex64::new(re, im))
 }
 
 /// Responses of all pairs of output and input, with their frequencies if these were chosen.
@@ -343,8 +328,8 @@ pub(crate) const PROMINENCE_DB: f64 = 1.0;
 
 /// Keywords for inputs and outputs of responses.
 pub(crate) struct PairKeywords<'a> {
-    pub(crate) input: SignalNames,
-    pub(crate) output: SignalNames,
+    pub(crate) input: Texts,
+    pub(crate) output: Texts,
     pub(crate) adaptive: bool,
     pub(crate) input_point_m: Option<Numbers>,
     pub(crate) output_point_m: Option<Numbers>,
@@ -354,12 +339,29 @@ pub(crate) struct PairKeywords<'a> {
     pub(crate) winches: &'a str,
 }
 
+/// Signals and models of responses.
+pub(crate) struct Pairs {
+    inputs: Vec<String>,
+    outputs: Vec<String>,
+    /// True for one input and one output, none of them in a list.
+    one: bool,
+    points: request::ResponsePoints,
+    model: request::Model,
+}
+
 impl PairKeywords<'_> {
-    /// Pairs of signals; the points are taken out of the keywords.
-    pub(crate) fn pairs(&mut self) -> PyResult<frf::Pairs<'_>> {
-        let points = points(self.input_point_m.take(), self.output_point_m.take())?;
+    pub(crate) fn pairs(self) -> PyResult<Pairs> {
+        let (inputs, one_input) = self.input.one_or_several("input")?;
+        let (outputs, one_output) = self.output.one_or_several("output")?;
+        let points = points(self.input_point_m, self.output_point_m)?;
         let model = model(self.cable_model, self.assembly, self.in_plane_only, self.winches)?;
-        Ok(frf::Pairs { inputs: self.input.names(), outputs: self.output.names(), points, model })
+        Ok(Pairs { inputs, outputs, one: one_input && one_output, points, model })
+    }
+}
+
+impl Pairs {
+    pub(crate) fn of_study(&self) -> frf::Pairs<'_> {
+        frf::Pairs { inputs: &self.inputs, outputs: &self.outputs, points: self.points, model: self.model }
     }
 }
 
@@ -367,24 +369,23 @@ pub(crate) fn frf(
     py: Python<'_>,
     of: &PyEquilibrium,
     hz: Numbers,
-    mut keywords: PairKeywords<'_>,
+    keywords: PairKeywords<'_>,
 ) -> PyResult<Responses> {
     let (frequencies, _) = hz.frequencies()?;
-    let one = keywords.input.is_one() && keywords.output.is_one();
     let adaptive = keywords.adaptive;
     let pairs = keywords.pairs()?;
 
     let found = py.detach(|| {
         let mut watch = CtrlC::new();
-        frf::response(&of.at_rest, &pairs, frequencies, adaptive, &mut watch).map_err(|error| watch.or(&error))
+        frf::response(&of.at_rest, &pairs.of_study(), frequencies, adaptive, &mut watch).map_err(|error| watch.or(&error))
     })?;
     if let Some(caveat) = &found.caveat {
-        errors::warn(py, "ResponseWarning", caveat, 1)?;
+        errors::warn(py, "ResponseWarning", caveat, 2)?;
     }
 
     let frf::Response { frequencies_hz, mut values, .. } = found;
     let shape = [pairs.outputs.len(), pairs.inputs.len(), frequencies_hz.len()];
-    let values = if one {
+    let values = if pairs.one {
         ArrayD::from_shape_vec(IxDyn(&shape[2..]), values.swap_remove(0)).expect("one row")
     } else {
         ArrayD::from_shape_vec(IxDyn(&shape), values.concat()).expect("a row per pair")

@@ -6,6 +6,7 @@ use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::interrupt::{interruptible, interruptible_in_steps};
 use crate::request::{joined, model, named, points, share};
+use crate::texts::{Texts, not_empty};
 use crate::vibration::{ModesKeywords, PROMINENCE_DB, PairKeywords};
 use funicular::math::DMat;
 use funicular::reduced_model::StateSpace;
@@ -58,8 +59,8 @@ object!(UncertaintyObject, "funicular._uncertainty", "Uncertainty");
 /// Keywords of `reduce` and `state_space`.
 pub(crate) struct ReduceKeywords<'a> {
     pub(crate) below_hz: Number,
-    pub(crate) input: Option<Vec<String>>,
-    pub(crate) output: Option<Vec<String>>,
+    pub(crate) input: Option<Texts>,
+    pub(crate) output: Option<Texts>,
     pub(crate) input_point_m: Option<Numbers>,
     pub(crate) output_point_m: Option<Numbers>,
     /// Number of states, of a state space only.
@@ -78,8 +79,8 @@ impl ReduceKeywords<'_> {
         Ok(request::ReduceRequest {
             robot: of.of.get().source.clone(),
             below_hz: self.below_hz.value("below_hz")?,
-            input: self.input.unwrap_or_default(),
-            output: self.output.unwrap_or_default(),
+            input: not_empty(self.input, "input")?.unwrap_or_default(),
+            output: not_empty(self.output, "output")?.unwrap_or_default(),
             points: points(self.input_point_m, self.output_point_m)?,
             form,
             order: self.order.map(|order| order.within("order", 2..=MAX_ORDER, &rule)).transpose()?,
@@ -204,7 +205,7 @@ pub(crate) fn write_frf(
     of: &PyEquilibrium,
     path: PathBuf,
     hz: Numbers,
-    mut keywords: PairKeywords<'_>,
+    keywords: PairKeywords<'_>,
 ) -> PyResult<Vec<String>> {
     refuse_other_ending(&path)?;
     let (frequencies, _) = hz.frequencies()?;
@@ -213,7 +214,7 @@ pub(crate) fn write_frf(
 
     let (warnings, bytes) = py.detach(|| {
         let mut watch = CtrlC::new();
-        let found = frf::about(&of.at_rest, &pairs, frequencies, adaptive, PROMINENCE_DB, &mut watch);
+        let found = frf::about(&of.at_rest, &pairs.of_study(), frequencies, adaptive, PROMINENCE_DB, &mut watch);
         let found = found.map_err(|error| watch.or(&error))?;
         let bytes = frf_file(&found).map_err(|error| errors::study(&error))?;
         Ok::<_, PyErr>((found.warnings, bytes))

@@ -9,6 +9,7 @@ mod files;
 mod gradient;
 mod grids;
 mod identify;
+mod json_text;
 mod keys;
 mod pages;
 mod parts;
@@ -186,10 +187,10 @@ impl Request {
     /// suggested.
     ///
     /// # Errors
-    /// Text that is not JSON, another schema, an unknown command or key, or a value of the wrong type.
+    /// Text that is not JSON, a key that is there twice, another schema, an unknown command or key, or a value of the
+    /// wrong type.
     pub fn from_json(text: &str) -> Result<Self, Error> {
-        let value: Value =
-            serde_json::from_str(text).map_err(|error| anyhow!("the request is not valid JSON: {error}"))?;
+        let value = json_text::value(text.as_bytes()).map_err(|error| anyhow!("the request is not valid JSON: {error}"))?;
         Self::from_value(value)
     }
 

@@ -202,7 +202,7 @@ impl Printed for Reduced {
             None => NOT_WRITTEN.to_owned(),
             Some(path) => format!(
                 "{path}: M, C, K, B, L of M x'' + C x' + K x = B f, y = L x; ss_A, ss_B, ss_C, ss_D of its state \
-                 space; description.json"
+                 space; the description"
             ),
         };
 
@@ -290,7 +290,7 @@ impl ModelFile {
             }
         };
         match self {
-            Self::Npz(target) => target.write(&npz(matrices, &description)?),
+            Self::Npz(target) => target.write(&npz(matrices, reduced, &description)?),
             Self::Mat(target) => target.write(&mat(matrices, reduced, &description)?),
             Self::Folder(path) => {
                 folder(path, matrices, &description).with_context(|| format!("cannot write to {}", path.display()))
@@ -335,58 +335,73 @@ fn second_order<'a>(model: &'a SecondOrder, space: Option<&'a StateSpace>) -> Ve
     matrices
 }
 
-fn texts(channels: &[ChannelRow]) -> Value<'_> {
-    Value::Texts(channels.iter().map(|of| of.name.as_str()).collect())
-}
-
-/// Writes a file of MATLAB, with the names of inputs and outputs and the description beside the matrices.
-fn mat(matrices: &[(&str, &DMat)], reduced: &ReducedForm, description: &[u8]) -> Result<Vec<u8>> {
+/// Columns of texts that stand beside the matrices: names of inputs and outputs, and the description.
+fn texts<'a>(reduced: &'a ReducedForm, description: &'a str) -> [(&'static str, Vec<&'a str>); 3] {
     let (inputs, outputs) = match reduced {
         ReducedForm::StateSpace(found) => (&found.inputs, &found.outputs),
         ReducedForm::SecondOrder(found) => (&found.inputs, &found.outputs),
     };
-    let description = String::from_utf8_lossy(description);
+    let names = |channels: &'a [ChannelRow]| channels.iter().map(|of| of.name.as_str()).collect();
+    [("inputs", names(inputs)), ("outputs", names(outputs)), ("description", vec![description])]
+}
 
+/// Writes a file of MATLAB, with the names of inputs and outputs and the description beside the matrices.
+fn mat(matrices: &[(&str, &DMat)], reduced: &ReducedForm, description: &[u8]) -> Result<Vec<u8>> {
+    let description = String::from_utf8_lossy(description);
     let mut variables: Vec<Variable> = matrices
         .iter()
         .map(|(name, matrix)| Variable { name, value: Value::Matrix(matrix.nrows(), matrix.as_slice()) })
         .collect();
-    variables.push(Variable { name: "inputs", value: texts(inputs) });
-    variables.push(Variable { name: "outputs", value: texts(outputs) });
-    variables.push(Variable { name: "description", value: Value::Texts(vec![&description]) });
+    let texts = texts(reduced, &description).into_iter();
+    variables.extend(texts.map(|(name, column)| Variable { name, value: Value::Texts(column) }));
     mat::bytes(&variables).ok_or_else(|| anyhow!("the matrices are too large for a file of MATLAB: write an .npz file"))
 }
 
-/// Writes a NumPy archive, with the description as text beside the arrays.
-fn npz(matrices: &[(&str, &DMat)], description: &[u8]) -> Result<Vec<u8>> {
+/// Writes a NumPy archive, with the names of inputs and outputs and the description beside the matrices. Every member is
+/// an array, because NumPy gives the bytes of any other member.
+fn npz(matrices: &[(&str, &DMat)], reduced: &ReducedForm, description: &[u8]) -> Result<Vec<u8>> {
+    let description = String::from_utf8_lossy(description);
+    let matrices = matrices.iter().map(|(name, matrix)| (*name, npy_of_matrix(matrix)));
+    let texts = texts(reduced, &description).into_iter().map(|(name, column)| (name, npy_of_texts(&column)));
+
     let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
     // The time stamp is fixed to the earliest one of the format, so that equal models give equal files.
     let options = SimpleFileOptions::default().last_modified_time(zip::DateTime::default());
-    for (name, matrix) in matrices {
+    for (name, bytes) in matrices.chain(texts) {
         archive.start_file(format!("{name}.npy"), options)?;
-        archive.write_all(&npy(matrix))?;
+        archive.write_all(&bytes)?;
     }
-    archive.start_file("description.json", options)?;
-    archive.write_all(description)?;
     Ok(archive.finish()?.into_inner())
 }
 
-/// Matrix in NumPy's file format 1.0: little-endian numbers, column by column (numpy.lib.format).
-fn npy(matrix: &DMat) -> Vec<u8> {
+/// Matrix in NumPy's file format: little-endian numbers, column by column, as nalgebra stores them.
+fn npy_of_matrix(matrix: &DMat) -> Vec<u8> {
+    let shape = format!("({}, {})", matrix.nrows(), matrix.ncols());
+    npy("<f8", &shape, matrix.iter().flat_map(|value| value.to_le_bytes()))
+}
+
+/// Texts in NumPy's file format: characters of four bytes, each text filled up with zeros to the longest.
+fn npy_of_texts(texts: &[&str]) -> Vec<u8> {
+    // A type without characters is none that NumPy reads back.
+    let width = texts.iter().map(|text| text.chars().count()).max().unwrap_or(0).max(1);
+    let characters = texts.iter().flat_map(|text| text.chars().chain(std::iter::repeat('\0')).take(width));
+    npy(&format!("<U{width}"), &format!("({},)", texts.len()), characters.flat_map(|c| u32::from(c).to_le_bytes()))
+}
+
+/// Array in NumPy's file format 1.0 (numpy.lib.format).
+fn npy(kind: &str, shape: &str, content: impl Iterator<Item = u8>) -> Vec<u8> {
     // The array begins at a multiple of this number of bytes. The header ends with a new line before it.
     const ALIGNMENT: usize = 64;
     const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
 
-    let mut header =
-        format!("{{'descr': '<f8', 'fortran_order': True, 'shape': ({}, {}), }}", matrix.nrows(), matrix.ncols());
+    let mut header = format!("{{'descr': '{kind}', 'fortran_order': True, 'shape': {shape}, }}");
     let before = MAGIC.len() + 2 + header.len() + 1;
     header.push_str(&" ".repeat(before.next_multiple_of(ALIGNMENT) - before));
     header.push('\n');
 
-    let length = u16::try_from(header.len()).expect("two numbers are far shorter than 64 KiB");
+    let length = u16::try_from(header.len()).expect("a few numbers are far shorter than 64 KiB");
     let mut bytes = [MAGIC, &length.to_le_bytes(), header.as_bytes()].concat();
-    // nalgebra also stores its matrices column by column.
-    bytes.extend(matrix.iter().flat_map(|value| value.to_le_bytes()));
+    bytes.extend(content);
     bytes
 }
 

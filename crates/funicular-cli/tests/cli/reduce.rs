@@ -64,6 +64,19 @@ fn a_state_space_is_written_for_numpy_matlab_and_as_a_folder() {
     assert!(folder.path().join("folder/description.json").exists());
 }
 
+/// Texts of a member of a NumPy archive: characters of four bytes, of one width, behind the header.
+fn member_texts(archive: &mut zip::ZipArchive<std::fs::File>, name: &str) -> Vec<String> {
+    let mut bytes = Vec::new();
+    std::io::copy(&mut archive.by_name(&format!("{name}.npy")).unwrap(), &mut bytes).unwrap();
+    let start = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    let header = String::from_utf8_lossy(&bytes[10..start]).into_owned();
+    let width: usize = header.split("<U").nth(1).unwrap().split('\'').next().unwrap().parse().unwrap();
+    assert_eq!(start % 64, 0, "{header}");
+    let character = |bytes: &[u8]| char::from_u32(u32::from_le_bytes(bytes.try_into().unwrap())).unwrap();
+    let text = |bytes: &[u8]| bytes.chunks(4).map(character).filter(|c| *c != '\0').collect();
+    bytes[start..].chunks(4 * width).map(text).collect()
+}
+
 #[cfg(unix)]
 #[test]
 fn ctrl_c_stops_it_with_the_exit_code_of_maps_and_leaves_no_file() {
@@ -140,7 +153,12 @@ fn a_reduced_model_is_read_by_others_as_it_was_made() {
             }
         }
     }
-    assert!(archive.by_name("description.json").is_ok());
+    // NumPy reads arrays alone, so that names and description are arrays of texts.
+    assert_eq!(member_texts(&mut archive, "inputs"), ["fz"]);
+    assert_eq!(member_texts(&mut archive, "outputs").len(), 2);
+    let description: serde_json::Value = serde_json::from_str(&member_texts(&mut archive, "description")[0]).unwrap();
+    assert_eq!(description["order"], n);
+    assert!(archive.file_names().all(|name| name.ends_with(".npy")));
     // Existing files are never overwritten.
     let refused = run(&with(&arguments, &csv));
     assert_eq!(refused.status.code(), Some(2));

@@ -14,6 +14,7 @@ array([1.0207, 1.1876, 1.2231, 1.2662, 1.3571, 1.8184, 1.8413, 1.8794])
 """
 
 from funicular import _earlier_names as _earlier_names
+from funicular import _hints as _hints
 from funicular import _html as _html
 from funicular import _tables as _tables
 from funicular._design import Designed
@@ -35,7 +36,7 @@ from funicular._funicular import Analyses, Catenary, Equilibrium, Pose, Robot, _
 from funicular._identify import Identified, read_measurements
 from funicular._live import Live
 from funicular._pages import Page
-from funicular._results import Equilibria, ModeGradients, Modes, ReducedModel, StateSpaceModel
+from funicular._results import Equilibria, ModeGradients, Modes, ReducedModel, Results, StateSpaceModel
 from funicular._study import Exported, Imported, NewRobot, import_robot, merge, new_robot, paper, run, schema, validate
 from funicular._sweeps import Sweep
 from funicular._uncertainty import Uncertainty
@@ -65,6 +66,7 @@ __all__ = [
     "ReducedModel",
     "ResponseError",
     "ResponseWarning",
+    "Results",
     "Robot",
     "RobotFileError",
     "RobotWarning",

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import PathLike
 from typing import Any
 
@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 
 from funicular._funicular import Answered, Robot
 from funicular._pages import Page, page_of_result
-from funicular._results import with_arrays
-from funicular._study import complete, plain
+from funicular._results import ArrayFields, with_arrays
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Designed:
+class Designed(ArrayFields):
     """Values chosen by `Robot.design`, in the manner of `scipy.optimize`."""
 
     names: tuple[str, ...]
@@ -55,7 +54,7 @@ class Designed:
     """Caveats."""
     details: dict[str, Any]
     """All keys of the program's JSON: `values`, `poses`, `demands`, `limits`, `history`, …"""
-    _answered: Answered
+    _answered: Answered = field(compare=False)
     """Request and results in the compiled half, for `page`."""
 
     @property
@@ -118,26 +117,3 @@ def designed(request: Mapping[str, Any]) -> Designed:
         details=found,
         _answered=answered,
     )
-
-
-def design_request(robot: str, change: Any, keywords: Mapping[str, Any]) -> dict[str, Any]:
-    """Request of `Robot.design`; `robot` is JSON."""
-    given = {key: plain(key, value) for key, value in keywords.items() if value is not None}
-    made = {"command": "design", "robot": json.loads(robot), "change": _change(change), **given}
-    return complete(made)
-
-
-def _change(change: Any) -> list[dict[str, Any]]:
-    """Values to choose: a mapping from paths to a reach (one number) or to bounds (minimum, maximum)."""
-    if not isinstance(change, Mapping):
-        return [dict(value) for value in change]
-    found = []
-    for path, value in change.items():
-        if isinstance(value, Mapping):
-            found.append({"path": path, **{key: plain(key, of_key) for key, of_key in value.items()}})
-        elif np.ndim(value) == 0:
-            found.append({"path": path, "plus_minus": float(value)})
-        else:
-            low, high = value
-            found.append({"path": path, "minimum": float(low), "maximum": float(high)})
-    return found

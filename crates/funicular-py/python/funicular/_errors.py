@@ -96,3 +96,8 @@ class FileError(Error):
     """A file cannot be written, or a file of a sweep cannot be read or belongs to another sweep."""
 
     __module__ = "funicular"
+
+
+def needs(what: str, package: str) -> ImportError:
+    """Error for an optional package that is not installed."""
+    return ImportError(f"{what} needs the package {package}: pip install {package}")

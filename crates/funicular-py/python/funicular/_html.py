@@ -1,11 +1,13 @@
 """HTML that notebooks show for robots and results."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from html import escape
+
+import numpy as np
 
 from funicular import _show
 from funicular._funicular import Equilibrium, Robot
-from funicular._results import Equilibria, Modes
+from funicular._results import Equilibria, Modes, Results
 from funicular._sweeps import Sweep
 
 # Maximum number of rows of a table in a notebook.
@@ -103,3 +105,45 @@ def _sweep(of: Sweep) -> str:
     rows = [[shown(column[i]) for column in of.columns.values()] for i in range(min(len(of), _MAX_ROWS))]
     feasible = f"{int(of.feasible.sum())} of {len(of)} rows are feasible"
     return f"<p>{feasible}</p>{_table(heads, rows)}{_more(len(of))}"
+
+
+@_show.html.register
+def _results(of: Results) -> str:
+    command, warnings = of.get("command", ""), of.get("warnings", [])
+    own = {key: value for key, value in of.items() if key not in ("schema", "command", "warnings")}
+    return f"<p><b>{escape(str(command))}</b></p>{_mapping(own)}{_notes(warnings)}"
+
+
+def _mapping(of: Mapping[str, object]) -> str:
+    """Table of the keys with one value each, then a table for every list of rows."""
+    rows, below = [], []
+    for key, value in of.items():
+        if isinstance(value, list) and value and all(isinstance(row, Mapping) for row in value):
+            below.append(f"<p>{escape(key)}</p>{_rows(value)}")
+        elif isinstance(value, Mapping) and any(isinstance(part, (Mapping, list)) for part in value.values()):
+            below.append(f"<p>{escape(key)}</p>{_mapping(value)}")
+        elif isinstance(value, Mapping):
+            rows += [(f"{key}.{name}", _shown(part)) for name, part in value.items()]
+        else:
+            rows.append((key, _shown(value)))
+    return (_table(("key", "value"), rows) if rows else "") + "".join(below)
+
+
+def _rows(rows: list[Mapping[str, object]]) -> str:
+    """Table of rows with the same keys, as far as they have them."""
+    heads = list(dict.fromkeys(key for row in rows for key in row))
+    cells = [[_shown(row[key]) if key in row else "" for key in heads] for row in rows[:_MAX_ROWS]]
+    return _table(heads, cells) + _more(len(rows))
+
+
+def _shown(value: object) -> str:
+    """Short text of a value: long arrays and lists are named by their size."""
+    if isinstance(value, np.ndarray):
+        return np.array2string(value, precision=5, threshold=12) if value.size <= 12 else f"array {value.shape}"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, Mapping):
+        return ", ".join(f"{key} {_shown(part)}" for key, part in value.items())
+    if isinstance(value, list):
+        return ", ".join(map(_shown, value)) if len(value) <= 12 else f"{len(value)} values"
+    return str(value)

@@ -1,8 +1,8 @@
 """Identification: values of a robot file that fit measurements best."""
 
 import json
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -12,15 +12,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from funicular._errors import InputError
 from funicular._funicular import Answered, Robot, measurements_of_file
+from funicular._hints import hinted
 from funicular._pages import Page, page_of_result
-from funicular._results import with_arrays
-from funicular._study import complete, plain
+from funicular._reading import experiments, keywords, read
+from funicular._results import ArrayFields, with_arrays
+from funicular._study import complete
 
 File = str | PathLike[str]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Identified:
+class Identified(ArrayFields):
     """Values that fit measurements best, in the manner of `scipy.optimize`."""
 
     names: tuple[str, ...]
@@ -43,7 +45,7 @@ class Identified:
     """Caveats, among them combinations of values that the measurements do not determine."""
     details: dict[str, Any]
     """All keys of the program's JSON: `values`, `starts`, `frequencies`, `responses`, `statics`, …"""
-    _answered: Answered
+    _answered: Answered = field(compare=False)
     """Request and results in the compiled half, for `page`."""
 
     @property
@@ -97,55 +99,22 @@ def identified(request: Mapping[str, Any]) -> Identified:
     )
 
 
-def identify_request(robot: str, fit: Any, experiments: Any, keywords: Mapping[str, Any]) -> dict[str, Any]:
+# Keywords that belong to the state of an experiment.
+_STATE = (
+    *("pose", "lengths_m", "hold_lengths_of_pose", "static_model", "mass_kg"),
+    *("force_n", "moment_n_m", "load_point_m", "wind_m_s", "cable_load_n_per_m"),
+)
+
+
+def identify_request(robot: str, cables: Sequence[str], measured: Any, given: Mapping[str, Any]) -> dict[str, Any]:
     """Request of `Robot.identify`; `robot` is JSON. Keywords of the state belong to experiments that do not give them."""
-    given = {key: plain(key, value) for key, value in keywords.items() if value is not None}
-    own: tuple[str, ...] = ("starts", "from_hz", "to_hz", "response_noise", "frequency_noise", "damping_noise", "rigid_cables", "profile")
-    own += ("tension_rule", "target_tension_n", "min_tension_n", "max_tension_n")
-    own += ("cable_model", "assembly", "in_plane_only", "winches")
-    state = {key: value for key, value in given.items() if key not in own}
-    if isinstance(experiments, Mapping):
-        experiments = [experiments]
-    made = {
-        "command": "identify",
-        "robot": json.loads(robot),
-        "fit": _fit(fit),
-        "experiments": [{**state, **_experiment(experiment)} for experiment in experiments],
-        **{key: value for key, value in given.items() if key in own},
-    }
+    own = keywords("identify", given, cables)
+    state = {key: own.pop(key) for key in _STATE if key in own}
+    made = {"command": "identify", "robot": json.loads(robot), "experiments": experiments(measured, state, cables), **own}
     return complete(made)
 
 
-def _fit(fit: Any) -> list[dict[str, Any]]:
-    """Values to identify: paths, or a mapping from paths to bounds (minimum, maximum) or to keys of a value."""
-    if isinstance(fit, str):
-        fit = [fit]
-    if not isinstance(fit, Mapping):
-        return [dict(value) if isinstance(value, Mapping) else {"path": value} for value in fit]
-    found = []
-    for path, value in fit.items():
-        if value is None:
-            found.append({"path": path})
-        elif isinstance(value, Mapping):
-            found.append({"path": path, **value})
-        else:
-            low, high = value
-            found.append({"path": path, "minimum": low, "maximum": high})
-    return [{key: value for key, value in entry.items() if value is not None} for entry in found]
-
-
-def _experiment(experiment: Mapping[str, Any]) -> dict[str, Any]:
-    """Experiment with lists in place of arrays."""
-    def lists(value: Any) -> Any:
-        if isinstance(value, Mapping):
-            return {key: lists(of_key) for key, of_key in value.items() if of_key is not None}
-        if isinstance(value, (list, tuple)) and value and isinstance(value[0], Mapping):
-            return [lists(item) for item in value]
-        return plain("", value)
-
-    return {key: plain(key, lists(value)) for key, value in experiment.items() if value is not None}
-
-
+@hinted
 def read_measurements(
     path: File,
     *,
@@ -182,8 +151,8 @@ def read_measurements(
     MeasurementWarning
         Functions of a Universal File were left out, or units were converted.
     """
-    def point(value: ArrayLike | None) -> list[float] | None:
-        return None if value is None else np.asarray(value, float).tolist()
+    def point(name: str, value: ArrayLike | None) -> list[float] | None:
+        return None if value is None else read("", "point_m", value, name=name)
 
     names = []
     for name, signals in (responses or {}).items():
@@ -192,10 +161,10 @@ def read_measurements(
             raise InputError(f"`responses`: {name}={signals} is not OUTPUT/INPUT, as in az/fz")
         names.append({"name": name, "input": signal.strip(), "output": output.strip()})
     options = {
-        "nodes": [{"node": int(node), "point_m": point(place)} for node, place in (nodes or {}).items()],
+        "nodes": [{"node": int(node), "point_m": point(f"nodes[{node}].point_m", place)} for node, place in (nodes or {}).items()],
         "responses": names,
-        "input_point_m": point(input_point_m),
-        "output_point_m": point(output_point_m),
+        "input_point_m": point("input_point_m", input_point_m),
+        "output_point_m": point("output_point_m", output_point_m),
     }
     found: dict[str, Any] = json.loads(measurements_of_file(Path(path), json.dumps(options)))
     return found

@@ -6,7 +6,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from funicular._errors import InputError
+from funicular._errors import InputError, needs
 from funicular._funicular import Equilibrium, Robot
 from funicular._pages import Page
 
@@ -78,7 +78,7 @@ class Live(Page):
                 import anywidget
                 import traitlets
             except ImportError as error:
-                raise InputError(f"a widget needs `pip install funicular[live]`: {error}") from error
+                raise InputError(f"{needs('a widget', 'anywidget')}; here: {error}") from error
 
             class LiveWidget(anywidget.AnyWidget):
                 _esm = Path(__file__).with_name("_live.js").read_text(encoding="utf-8")

@@ -3,7 +3,7 @@
 import copy
 import dataclasses
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from funicular import _show
-from funicular._errors import InputError
+from funicular._errors import InputError, needs
 from funicular._funicular import answer, matlab_file
+from funicular._reading import read
 
 
 def with_arrays(found: Any) -> Any:
@@ -30,6 +31,28 @@ def with_arrays(found: Any) -> Any:
     return found
 
 
+class Results(dict[str, Any]):
+    """Results with the keys of the program's JSON, as a dictionary that notebooks show as tables."""
+
+    __module__ = "funicular"
+
+    def __repr__(self) -> str:
+        command = self.get("command", "results")
+        return f"<Results of {command}: {', '.join(key for key in self if key not in ('schema', 'command'))}>"
+
+    def _repr_html_(self) -> str:
+        return _show.html(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Returns a plain dictionary."""
+        return dict(self)
+
+
+def results(found: dict[str, Any]) -> Results:
+    """Results with arrays in place of lists of numbers."""
+    return Results(with_arrays(found))
+
+
 def _are_numbers(values: list[Any]) -> bool:
     """True for numbers, and for rows of numbers of one length."""
     if all(isinstance(value, list) for value in values):
@@ -37,8 +60,17 @@ def _are_numbers(values: list[Any]) -> bool:
     return all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
 
 
-class _ArrayFields:
-    """Base of dataclasses with arrays: two results are equal if all elements of their arrays are equal."""
+class ArrayFields:
+    """Base of dataclasses with arrays, which are read only: equal results have arrays with equal elements."""
+
+    def __post_init__(self) -> None:
+        for value in vars(self).values():
+            _lock(value)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        # Copies and pickles come here; a pickle of an array does not say that it was read only.
+        vars(self).update(state)
+        ArrayFields.__post_init__(self)
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -46,9 +78,19 @@ class _ArrayFields:
         return all(
             _same(getattr(self, field.name), getattr(other, field.name))
             for field in dataclasses.fields(self)  # type: ignore[arg-type]
+            if field.compare
         )
 
     __hash__ = None  # type: ignore[assignment]
+
+
+def _lock(value: Any) -> None:
+    """Makes arrays read only, also those in tuples."""
+    if isinstance(value, np.ndarray):
+        value.flags.writeable = False
+    elif isinstance(value, tuple):
+        for item in value:
+            _lock(item)
 
 
 def _same(a: Any, b: Any) -> bool:
@@ -58,7 +100,7 @@ def _same(a: Any, b: Any) -> bool:
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class ModeGradients(_ArrayFields):
+class ModeGradients(ArrayFields):
     """Derivatives of natural modes by numbers of the robot file, made by `Modes.gradient`."""
 
     paths: tuple[str, ...]
@@ -129,7 +171,7 @@ def _mode_gradients(found: dict[str, Any], count: int) -> ModeGradients:
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Modes(_ArrayFields):
+class Modes(ArrayFields):
     """Natural modes below a limit; arrays have one row per mode, ascending in frequency."""
 
     frequency_hz: NDArray[np.float64]
@@ -212,11 +254,11 @@ class Modes(_ArrayFields):
 
     def gradient(
         self,
-        by: Sequence[str] | None = None,
+        by: str | Sequence[str] | None = None,
         *,
         hold: str = "lengths",
         per: str = "unit",
-        tolerances: Sequence[str] | None = None,
+        tolerances: Mapping[str, object] | Sequence[str] | None = None,
     ) -> ModeGradients:
         """Derivatives of the frequencies and of the damping ratios by numbers of the robot file.
 
@@ -230,7 +272,7 @@ class Modes(_ArrayFields):
         per
             Unit of the derivatives: `unit` of the number, `percent` of its value, or its `tolerance`.
         tolerances
-            Tolerances, as `platform.mass_kg=1%`.
+            Tolerances: a mapping from paths to values or percentages, or texts such as `platform.mass_kg=1%`.
 
         Raises
         ------
@@ -243,7 +285,8 @@ class Modes(_ArrayFields):
             raise InputError("these modes have no gradients: their cables are rigid, or they were not made by `modes`")
         request = json.loads(self._request)
         request["of"] = ["frequencies"] if self.damped_certified is None else ["frequencies", "damping"]
-        request |= {"by": list(by or []), "hold": hold, "per": per, "tolerances": list(tolerances or [])}
+        given = {"by": by, "hold": hold, "per": per, "tolerances": tolerances}
+        request |= {key: read("gradient", key, value) for key, value in given.items() if value is not None}
         return _mode_gradients(json.loads(answer(json.dumps(request))), len(self))
 
     def __len__(self) -> int:
@@ -349,7 +392,7 @@ def _to_scipy(matrices: _Matrices) -> Any:
     try:
         from scipy import signal
     except ImportError as error:
-        raise ImportError("this model needs SciPy: pip install 'funicular[scipy]'") from error
+        raise needs("this model", "scipy") from error
     return signal.StateSpace(*matrices)
 
 
@@ -357,7 +400,7 @@ def _to_control(matrices: _Matrices, inputs: tuple[str, ...], outputs: tuple[str
     try:
         import control
     except ImportError as error:
-        raise ImportError("this model needs python-control: pip install 'funicular[control]'") from error
+        raise needs("this model", "control") from error
     return control.StateSpace(*matrices, inputs=list(inputs), outputs=list(outputs))
 
 
@@ -368,20 +411,20 @@ def _save(
     outputs: tuple[str, ...],
     found: dict[str, Any],
 ) -> None:
-    """Writes matrices in the format of the ending."""
+    """Writes matrices, names of inputs and outputs, and the description in the format of the ending."""
     ending = Path(path).suffix.lower()
+    texts = {"inputs": list(inputs), "outputs": list(outputs), "description": [json.dumps(found)]}
     if ending == ".npz":
-        np.savez(path, **matrices)  # type: ignore[arg-type]
+        np.savez(path, **matrices, **{name: np.array(column) for name, column in texts.items()})  # type: ignore[arg-type]
     elif ending == ".mat":
         columns = [(name, len(matrix), matrix.T.ravel().tolist()) for name, matrix in matrices.items()]
-        texts = [("inputs", list(inputs)), ("outputs", list(outputs)), ("description", [json.dumps(found)])]
-        Path(path).write_bytes(matlab_file(columns, texts))
+        Path(path).write_bytes(matlab_file(columns, list(texts.items())))
     else:
         raise InputError(f"`path` is {path}: it must end in .npz or .mat")
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class StateSpaceModel(_ArrayFields):
+class StateSpaceModel(ArrayFields):
     """State space x' = A x + B u, y = C x + D u of the modes that inputs and outputs see.
 
     Made by `Equilibrium.state_space`. Rows of `states`, and the arrays with one entry per mode, ascend in frequency."""
@@ -480,7 +523,7 @@ def state_space(found: dict[str, Any], matrices: dict[str, NDArray[np.float64]])
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class ReducedModel(_ArrayFields):
+class ReducedModel(ArrayFields):
     """Second-order model M x'' + C x' + K x = B f, y = L x, and its state space; made by `Equilibrium.reduce`.
 
     Signals of drives may act by their rates: M x'' + C x' + K x = B f + B₁ f' + B₂ f'' and
@@ -587,7 +630,7 @@ def reduced(found: dict[str, Any], matrices: dict[str, Any]) -> ReducedModel:
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Equilibria(_ArrayFields):
+class Equilibria(ArrayFields):
     """Equilibria of many states; arrays have one row per state, NaN where there is no equilibrium."""
 
     status: NDArray[np.str_]

@@ -7,7 +7,6 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from funicular._errors import InputError
@@ -16,7 +15,6 @@ from funicular._funicular import (
     Robot,
     SweepPlan,
     answer,
-    axes,
     complete_request,
     imported,
     merge_parts,
@@ -25,7 +23,9 @@ from funicular._funicular import (
     write_file,
 )
 from funicular._live import live
+from funicular._hints import hinted
 from funicular._pages import Page, page
+from funicular._reading import keywords, read
 from funicular._sweeps import Sweep
 
 File = str | PathLike[str]
@@ -98,42 +98,19 @@ class Exported:
         return f"<Exported: {len(self.text)} characters>"
 
 
-def request(command: str, robot: str | None, keywords: Mapping[str, Any]) -> dict[str, Any]:
-    """Makes a request with all its keys; `robot` is JSON."""
-    given = {key: plain(key, value) for key, value in keywords.items() if value is not None}
-    given["command"] = command
+def request(command: str, robot: str | None, cables: Sequence[str], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Makes a request with all its keys; `robot` is JSON, `cables` are the names of its cables."""
+    made = {**keywords(command, given, cables), "command": command}
     if robot is not None:
-        given["robot"] = json.loads(robot)
-    return complete(given)
+        made["robot"] = json.loads(robot)
+    return complete(made)
 
 
-def complete(given: Mapping[str, Any]) -> dict[str, Any]:
-    """Adds the defaults to a request."""
-    try:
-        text = json.dumps(given, allow_nan=False)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"the request contains a value that JSON cannot hold: {error}") from error
+def complete(given: Mapping[str, Any] | str) -> dict[str, Any]:
+    """Adds the defaults to a request, which is a dictionary or JSON."""
+    text = given if isinstance(given, str) else json.dumps(read("", "request", given))
     full: dict[str, Any] = json.loads(complete_request(text))
     return full
-
-
-def plain(key: str, value: Any) -> Any:
-    """Value of a key in JSON."""
-    if isinstance(value, Pose):
-        return {"position_m": value.position_m.tolist(), "quaternion_wxyz": value.quaternion_wxyz.tolist()}
-    if isinstance(value, (np.ndarray, np.generic)):
-        value = value.tolist()
-    if key in ("grid", "vary") and isinstance(value, Mapping):
-        return json.loads(axes(value))
-    if isinstance(value, (list, tuple)):
-        value = [plain("", item) for item in value]
-    if key == "pose" and isinstance(value, list) and len(value) == 7:
-        return {"position_m": value[:3], "quaternion_wxyz": value[3:]}
-    if key == "poses":
-        return [[*row, 0.0, 0.0, 0.0] if len(row) == 3 else row for row in value]
-    if key == "target_tension_n" and not isinstance(value, list):
-        return [value]
-    return value
 
 
 def run(request: Mapping[str, Any] | str) -> Any:
@@ -151,7 +128,7 @@ def run(request: Mapping[str, Any] | str) -> Any:
     Error
         The request has no result.
     """
-    full = complete(json.loads(request) if isinstance(request, str) else request)
+    full = complete(request)
     text = json.dumps(full)
     match full["command"]:
         case "map" | "sweep":
@@ -183,6 +160,7 @@ def run(request: Mapping[str, Any] | str) -> Any:
             return json.loads(answer(text))
 
 
+@hinted
 def new_robot(
     *,
     cables: int | None = None,
@@ -225,7 +203,7 @@ def new_robot(
     InputError
         A value is out of its range, or the table cannot be read; the message says where and why.
     """
-    keywords = {
+    given = {
         "cables": cables,
         "motion": motion,
         "from_csv": None if from_csv is None else json.loads(source_file(Path(from_csv))),
@@ -239,7 +217,7 @@ def new_robot(
         "axial_stiffness_n": axial_stiffness_n,
         "mass_kg_per_m": mass_kg_per_m,
     }
-    made = run(request("new", None, keywords))
+    made = run(request("new", None, (), given))
     assert isinstance(made, NewRobot)
     return made
 
@@ -250,6 +228,7 @@ def schema() -> dict[str, Any]:
     return made
 
 
+@hinted
 def import_robot(
     files: File | Sequence[File],
     *,
@@ -286,7 +265,7 @@ def import_robot(
         A file cannot be read as a robot; the message says where and why.
     """
     listed = [files] if isinstance(files, (str, PathLike)) else files
-    keywords = {
+    given = {
         "files": [json.loads(source_file(Path(path))) for path in listed],
         "cable_set": cable_set,
         "mass_kg_per_m": mass_kg_per_m,
@@ -298,7 +277,7 @@ def import_robot(
         "center_of_mass_m": center_of_mass_m,
         "pose": pose,
     }
-    made = run(request("import", None, keywords))
+    made = run(request("import", None, (), given))
     assert isinstance(made, Imported)
     return made
 

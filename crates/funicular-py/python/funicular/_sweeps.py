@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from funicular import _show
-from funicular._errors import InputError
+from funicular._errors import InputError, needs
 from funicular._funicular import Robot, SweepTable, plot_page
 from funicular._pages import Page, page
 
@@ -158,7 +158,7 @@ class Sweep:
         try:
             import pyarrow
         except ImportError as error:
-            raise ImportError("Arrow tables need pyarrow: pip install 'funicular[arrow]'") from error
+            raise needs("an Arrow table", "pyarrow") from error
         return pyarrow.table(self)
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:

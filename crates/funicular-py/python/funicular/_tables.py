@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from funicular import _show
+from funicular._errors import needs
 from funicular._funicular import Equilibrium
 from funicular._results import Equilibria, Modes
 from funicular._sweeps import Sweep
@@ -16,7 +17,7 @@ def _pandas() -> Any:
     try:
         import pandas
     except ImportError as error:
-        raise ImportError("tables need pandas: pip install 'funicular[pandas]'") from error
+        raise needs("a table", "pandas") from error
     return pandas
 
 

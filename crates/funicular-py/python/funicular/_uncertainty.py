@@ -1,7 +1,7 @@
 """Uncertainty: deviations of results from deviations of numbers of the robot file."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from os import PathLike
 from typing import Any
 
@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from funicular._funicular import Answered
 from funicular._pages import Page, page_of_result
-from funicular._results import with_arrays
+from funicular._results import ArrayFields, with_arrays
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Uncertainty:
+class Uncertainty(ArrayFields):
     """Results with their deviations. Arrays have one entry per result; with several poses one row per pose."""
 
     names: tuple[str, ...]
@@ -43,7 +43,7 @@ class Uncertainty:
     """Caveats about the robot."""
     details: dict[str, Any]
     """All keys of the program's JSON: `inputs`, `groups`, `poses`, …"""
-    _answered: Answered
+    _answered: Answered = field(compare=False)
     """Request and results in the compiled half, for `page`."""
 
     def page(self, path: str | PathLike[str] | None = None) -> Page:

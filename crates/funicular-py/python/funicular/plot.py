@@ -7,6 +7,7 @@ can distinguish, and dashes that stay distinct in grey. `save` writes them with 
 imported before it is used.
 """
 
+import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from os import PathLike
@@ -16,8 +17,19 @@ from typing import Any, Literal, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from funicular._errors import InputError
-from funicular._funicular import Analyses, Equilibrium, complex_numbers, figure_sizes, real_numbers
+from funicular._errors import InputError, needs
+from funicular._funicular import (
+    Analyses,
+    Equilibrium,
+    Robot,
+    complex_numbers,
+    figure_sizes,
+    real_numbers,
+    robot_of_source,
+)
+from funicular._hints import hinted
+from funicular._reading import read
+from funicular._rebuild import equilibrium
 from funicular._results import Modes
 from funicular._sweeps import Sweep
 
@@ -66,13 +78,20 @@ _COLOURS = {"platform": "#1f77b4", "mixed": "#ff7f0e", "cable": "#2ca02c", "driv
 _ENERGY = "platform's fraction of the energy"
 
 
+def _matplotlib() -> tuple[Any, Any]:
+    """The library and its pyplot."""
+    try:
+        import matplotlib
+        from matplotlib import pyplot
+    except ImportError as error:
+        raise needs("this figure", "matplotlib") from error
+    return matplotlib, pyplot
+
+
 def _axes(ax: Any, **keywords: Any) -> Any:
     if ax is not None:
         return ax
-    try:
-        from matplotlib import pyplot
-    except ImportError as error:
-        raise ImportError("this figure needs matplotlib: pip install 'funicular[matplotlib]'") from error
+    _, pyplot = _matplotlib()
     return pyplot.figure(layout="constrained").add_subplot(**keywords)
 
 
@@ -80,7 +99,7 @@ def _figures() -> Any:
     try:
         from plotly import graph_objects
     except ImportError as error:
-        raise ImportError("this figure needs plotly: pip install 'funicular[plotly]'") from error
+        raise needs("this figure", "plotly") from error
     return graph_objects
 
 
@@ -106,20 +125,30 @@ def _inches(width: float | str) -> float:
 
 
 @contextmanager
-def _paper(size: float) -> Iterator[Any]:
-    """Module pyplot with the settings of a figure for a paper."""
+def _paper(size: float, inches: tuple[float, float], layout: str | None = "constrained") -> Iterator[Any]:
+    """New figure of pyplot [in], and the settings of a figure for a paper while it is drawn.
+
+    In notebooks the figure is taken out of pyplot afterwards: the value of a cell shows it, and pyplot would show it a
+    second time.
+    """
     low, high = _FONT_SIZE_LIMITS_PT
     if isinstance(size, bool) or not isinstance(size, (int, float)) or not low <= size <= high:
         raise InputError(f"`font_size_pt` is {size}: give {low:g} to {high:g} pt")
+    matplotlib, pyplot = _matplotlib()
+    # Outside of the settings: the first figure chooses the backend of the session and makes notebooks interactive, and
+    # the end of the settings would undo that.
+    figure = pyplot.figure(figsize=inches, layout=layout)
     try:
-        import matplotlib
-        from matplotlib import pyplot
-    except ImportError as error:
-        raise ImportError("this figure needs matplotlib: pip install 'funicular[matplotlib]'") from error
-    with matplotlib.rc_context(_settings(size)):
-        yield pyplot
+        with matplotlib.rc_context(_settings(size)):
+            yield figure
+    except BaseException:
+        pyplot.close(figure)
+        raise
+    if "inline" in matplotlib.get_backend().lower():
+        pyplot.close(figure)
 
 
+@hinted
 def save(figure: Any, path: str | PathLike[str]) -> None:
     """Writes a figure of matplotlib as .svg, .pdf or .png, for a paper.
 
@@ -167,6 +196,7 @@ def _responses(
     return frequencies, curves, names, labels
 
 
+@hinted
 def bode(
     hz: ArrayLike,
     response: ArrayLike | Sequence[ArrayLike] | Analyses,
@@ -212,17 +242,15 @@ def bode(
     -------
     The Figure of matplotlib; its axes are magnitude, phase and, with `modes`, the natural frequencies.
     """
+    if modes is not None and isinstance(response, Analyses):
+        _check_same(response, modes)
     frequencies, curves, names, labels = _responses(hz, response, input, output, labels, keywords)
+    if len(frequencies) < 2 or not np.isfinite(frequencies).all() or not (np.diff(frequencies) > 0).all() or frequencies[0] < 0:
+        raise InputError("`hz` has to ascend from zero or more, with at least two frequencies")
     inches = _inches(width)
-    with _paper(font_size_pt) as pyplot:
+    with _paper(font_size_pt, (inches, min(0.85 * inches, 4.0))) as figure:
         ratios = [2.0, 1.0] if modes is None else [2.0, 1.0, 0.2]
-        figure, axes = pyplot.subplots(
-            *(len(ratios), 1),
-            sharex=True,
-            figsize=(inches, min(0.85 * inches, 4.0)),
-            layout="constrained",
-            gridspec_kw={"height_ratios": ratios},
-        )
+        axes = figure.subplots(len(ratios), 1, sharex=True, gridspec_kw={"height_ratios": ratios})
         for name, curve, (colour, dashes) in zip(names, curves, _CURVES * (len(curves) // len(_CURVES) + 1)):
             axes[0].semilogy(frequencies, abs(curve), color=colour, linestyle=dashes, label=name)
             phase = np.degrees(np.angle(curve))
@@ -252,6 +280,30 @@ def bode(
         return figure
 
 
+def _check_same(of: Analyses, modes: Modes) -> None:
+    """Refuses modes of another robot or of another equilibrium, which would be drawn as if they belonged together."""
+    rest = of.equilibrium() if isinstance(of, Robot) else of
+    assert isinstance(rest, Equilibrium)
+    if modes._request is None:
+        same = modes.robot == rest.robot.name and modes.cable_names == tuple(rest.robot.cable_names)
+    else:
+        request = json.loads(modes._request)
+        state = {key: request[key] for key in _OF_STATE if key in request}
+        same = rest == equilibrium(robot_of_source(json.dumps(request["robot"])), json.dumps(state))
+    if not same:
+        raise InputError(
+            f"`modes` are those of another equilibrium than `{rest!r}`, or of another robot: give those that its method "
+            "`modes` returns"
+        )
+
+
+# Keys of a request that give the equilibrium.
+_OF_STATE = (
+    *("lengths_m", "pose", "hold_lengths_of_pose", "mass_kg", "static_model", "force_n", "moment_n_m", "load_point_m"),
+    *("wind_m_s", "cable_load_n_per_m", "tension_rule", "target_tension_n", "min_tension_n", "max_tension_n"),
+)
+
+
 def _legend_above(figure: Any, handles: list[Any], texts: list[str], sizes: float) -> None:
     """Puts a legend above all axes, in as many columns as fit the width."""
     if not texts:
@@ -262,6 +314,7 @@ def _legend_above(figure: Any, handles: list[Any], texts: list[str], sizes: floa
     figure.legend(handles, texts, loc="outside upper left", ncols=columns, borderaxespad=0.2, columnspacing=1.2)
 
 
+@hinted
 def map(
     of: Sweep,
     column: str,
@@ -325,16 +378,15 @@ def map(
     lengths = all(_unit(of, name) == "m" for name in (h, v))
     ratio = (y[-1] - y[0]) / (x[-1] - x[0])
     equal = lengths and 0.25 < ratio < 4
-    with _paper(font_size_pt) as pyplot:
-        from matplotlib import collections, patches
+    with _paper(font_size_pt, (inches, min((0.72 * ratio if equal else 0.6) * inches + 0.5, 7.0))) as figure:
+        from matplotlib import collections, colormaps, patches
         from matplotlib.colors import LinearSegmentedColormap, LogNorm
 
-        figure = pyplot.figure(figsize=(inches, min((0.72 * ratio if equal else 0.6) * inches + 0.5, 7.0)), layout="constrained")
         ax = figure.add_subplot(aspect="equal" if equal else "auto")
         norm = LogNorm() if log else None
         masked = np.ma.masked_invalid(shown)
         # The lightness falls evenly; the darkest part is left out so that contours stay visible.
-        shades = pyplot.get_cmap("plasma_r")(np.linspace(0.08, 0.75, 256))
+        shades = colormaps["plasma_r"](np.linspace(0.08, 0.75, 256))
         colours = LinearSegmentedColormap.from_list("light", shades)
         drawn = ax.pcolormesh(x, y, masked, shading="nearest", cmap=colours, norm=norm, rasterized=shown.size > 20_000)
         if np.ptp(masked.compressed()) > 0 and min(shown.shape) > 1:
@@ -389,9 +441,10 @@ def _nearest(name: str, values: NDArray[np.float64], at: Mapping[str, float] | N
     """Index of the value of an axis at which a slice lies."""
     if at is None or name not in at:
         return (len(values) - 1) // 2
-    k = int(np.argmin(abs(values - at[name])))
-    if abs(values[k] - at[name]) > 1e-6 * np.ptp(values):
-        raise InputError(f"`at` gives {name} = {at[name]}: the nearest value of these rows is {values[k]:g}")
+    wanted = read("", "minimum", at[name], name=f'at["{name}"]')
+    k = int(np.argmin(abs(values - wanted)))
+    if abs(values[k] - wanted) > 1e-6 * np.ptp(values):
+        raise InputError(f"`at` gives {name} = {wanted}: the nearest value of these rows is {values[k]:g}")
     return k
 
 
@@ -446,6 +499,7 @@ def _joined(names: Sequence[str], points: NDArray[np.float64]) -> list[str]:
     return labels
 
 
+@hinted
 def shape(
     of: Equilibrium,
     modes: Modes,
@@ -479,8 +533,11 @@ def shape(
     """
     if modes.cable_shapes is None or modes.cable_axes is None or modes.station_position_m is None:
         raise InputError("these modes have no motion of the cables: compute them with `stations=65`")
-    if not -len(modes) <= mode < len(modes):
+    row = read("", "order", mode, name="mode")
+    if row >= len(modes):
         raise InputError(f"`mode` is {mode}: there are {len(modes)} modes, from 0")
+    mode = row
+    _check_same(of, modes)
     rest = modes.station_position_m
     moved = np.einsum("csk,ckw->csw", modes.cable_shapes[mode], modes.cable_axes)
     origin, motion = of.pose.position_m, modes.shape[mode]
@@ -492,8 +549,7 @@ def shape(
         turn = np.linalg.norm(motion[3:])
         amplitude = min(0.06 * diagonal / largest, 0.3 / turn if turn > 0 else np.inf) if largest > 0 else 0.0
     inches = _inches(width)
-    with _paper(font_size_pt) as pyplot:
-        figure = pyplot.figure(figsize=(inches, 0.72 * inches))
+    with _paper(font_size_pt, (inches, 0.72 * inches), layout=None) as figure:
         ax = figure.add_axes((0.02, 0.0, 0.9, 0.9), projection="3d", computed_zorder=False)
         for k, (cable, displacement) in enumerate(zip(rest, moved, strict=True)):
             ax.plot(*cable.T, color="#8a8a8a", linewidth=0.5, linestyle=(0, (4, 2)), label="equilibrium" if k == 0 else None)
@@ -525,6 +581,7 @@ def shape(
         return figure
 
 
+@hinted
 def robot(of: Equilibrium, *, points: int = 33, backend: Backend = "matplotlib", ax: Any = None) -> Any:
     """Draws an equilibrium in space: hanging cables, anchors, and attachments joined to the origin of the platform [m].
 
@@ -557,6 +614,7 @@ def robot(of: Equilibrium, *, points: int = 33, backend: Backend = "matplotlib",
     return figure
 
 
+@hinted
 def frf(
     hz: ArrayLike,
     response: ArrayLike | Sequence[ArrayLike] | Analyses,
@@ -598,6 +656,7 @@ def frf(
     return figure
 
 
+@hinted
 def modes(of: Modes, *, backend: Backend = "matplotlib", ax: Any = None) -> Any:
     """Draws the natural frequencies, coloured by kind, over the platform's fraction of the kinetic energy."""
     if _check(backend, ax):

@@ -2,6 +2,7 @@
 
 use super::PyAnalyses;
 use crate::arrays::{Number, Numbers, TextKeyed};
+use crate::texts::Texts;
 use crate::vibration::{self, GradientKeywords};
 use pyo3::prelude::*;
 
@@ -24,9 +25,8 @@ impl PyAnalyses {
     /// per
     ///     Unit of the derivatives: `unit` of the number, `percent` of its value, or its `tolerance`.
     /// tolerances
-    ///     Tolerances, as `platform.mass_kg=1%` or `cables.*.anchor_m=0.002`. If not given: 1 mm for positions and
-    ///     lengths,
-    ///     0.1° for angles, 1 % of other values.
+    ///     Tolerances: a mapping from paths to values or percentages, or texts such as `platform.mass_kg=1%` or
+    ///     `cables.*.anchor_m=0.002`. If not given: 1 mm for positions and lengths, 0.1° for angles, 1 % of other values.
     /// below_hz
     ///     Limit of the frequencies [Hz], for `frequencies` and `damping`.
     /// at_hz, input, output, input_point_m, output_point_m
@@ -56,11 +56,11 @@ impl PyAnalyses {
     fn gradient<'py>(
         slf: &Bound<'py, Self>,
         py: Python<'py>,
-        of: Option<Vec<String>>,
-        by: Option<Vec<String>>,
+        of: Option<Texts>,
+        by: Option<Texts>,
         hold: &str,
         per: &str,
-        tolerances: Option<Vec<String>>,
+        tolerances: Option<Bound<'py, PyAny>>,
         below_hz: Option<Number>,
         at_hz: Option<Number>,
         input: Option<String>,

@@ -2,6 +2,7 @@
 
 use super::PyAnalyses;
 use crate::arrays::{Count, Number, Numbers};
+use crate::texts::Texts;
 use crate::written::{self, ReduceKeywords};
 use pyo3::prelude::*;
 
@@ -12,7 +13,7 @@ impl PyAnalyses {
     /// Parameters
     /// ----------
     /// input, output
-    ///     Lists of signals, as in `frf`; if not given, all forces and moments on the platform, and all its
+    ///     Signals, as in `frf`, one or a list; if not given, all forces and moments on the platform, and all its
     ///     displacements and rotations.
     /// below_hz
     ///     Highest frequency for which the model is made [Hz].
@@ -41,8 +42,8 @@ impl PyAnalyses {
     fn state_space(
         slf: &Bound<'_, Self>,
         py: Python<'_>,
-        input: Option<Vec<String>>,
-        output: Option<Vec<String>>,
+        input: Option<Texts>,
+        output: Option<Texts>,
         below_hz: Number,
         order: Option<Count>,
         tolerance: Option<Number>,
@@ -80,7 +81,7 @@ impl PyAnalyses {
     /// below_hz
     ///     Highest frequency for which the model is made [Hz].
     /// input, output
-    ///     Lists of signals, as in `frf`; if not given, all forces and moments on the platform, and all its
+    ///     Signals, as in `frf`, one or a list; if not given, all forces and moments on the platform, and all its
     ///     displacements and rotations.
     /// input_point_m, output_point_m
     ///     Points of the platform, as in `frf`.
@@ -100,8 +101,8 @@ impl PyAnalyses {
         slf: &Bound<'_, Self>,
         py: Python<'_>,
         below_hz: Number,
-        input: Option<Vec<String>>,
-        output: Option<Vec<String>>,
+        input: Option<Texts>,
+        output: Option<Texts>,
         input_point_m: Option<Numbers>,
         output_point_m: Option<Numbers>,
         tolerance: Option<Number>,

@@ -2,7 +2,8 @@
 
 use super::PyAnalyses;
 use crate::arrays::{Count, Number, Numbers, Tensor, TextKeyed};
-use crate::vibration::{self, CompareKeywords, ModesKeywords, ModesObject, PairKeywords, Responses, SignalNames};
+use crate::texts::Texts;
+use crate::vibration::{self, CompareKeywords, ModesKeywords, ModesObject, PairKeywords, Responses};
 use numpy::Complex64;
 use pyo3::prelude::*;
 
@@ -120,8 +121,8 @@ impl PyAnalyses {
         slf: &Bound<'_, Self>,
         py: Python<'_>,
         hz: Numbers,
-        input: SignalNames,
-        output: SignalNames,
+        input: Texts,
+        output: Texts,
         adaptive: bool,
         input_point_m: Option<Numbers>,
         output_point_m: Option<Numbers>,

@@ -2,7 +2,8 @@
 
 use super::PyAnalyses;
 use crate::arrays::{Count, Number, Numbers};
-use crate::vibration::{ModesKeywords, PairKeywords, SignalNames};
+use crate::texts::Texts;
+use crate::vibration::{ModesKeywords, PairKeywords};
 use crate::written::{self, PageKeywords};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -66,8 +67,8 @@ impl PyAnalyses {
         py: Python<'_>,
         path: PathBuf,
         hz: Numbers,
-        input: SignalNames,
-        output: SignalNames,
+        input: Texts,
+        output: Texts,
         adaptive: bool,
         input_point_m: Option<Numbers>,
         output_point_m: Option<Numbers>,

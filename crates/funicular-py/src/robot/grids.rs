@@ -5,6 +5,7 @@ use crate::arrays::{Count, Number, Numbers};
 use crate::pose::PoseLike;
 use crate::request::{StateKeywords, TensionKeywords, model};
 use crate::sweep::{self, Axes, ExecutorArgument, ProgressArgument, PyPlan, RunKeywords, SweepObject};
+use crate::texts::Texts;
 use crate::threads::Threads;
 use funicular_study::request::{MapRequest, Request, SweepRequest};
 use pyo3::prelude::*;
@@ -81,7 +82,7 @@ impl PyRobot {
         &self,
         py: Python<'_>,
         grid: Option<Axes>,
-        quantities: Option<Vec<String>>,
+        quantities: Option<Texts>,
         poses: Option<Numbers>,
         pose: Option<PoseLike>,
         lengths_m: Option<Numbers>,
@@ -127,8 +128,9 @@ impl PyRobot {
         };
 
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
+        let cables = &self.names();
         let model = model(cable_model, assembly, in_plane_only, winches)?;
-        let point = sweep::each_point(quantities, up_to_hz, platform_share, payload_center_m, state, tensions, model)?;
+        let point = sweep::each_point(quantities, up_to_hz, platform_share, payload_center_m, state.request(cables)?, tensions.request(cables)?, model)?;
         let grid = grid.map_or_else(Vec::new, |Axes(axes)| axes);
         let poses = poses.map(sweep::poses).transpose()?;
         let request = Request::Map(MapRequest { robot: self.source.clone(), grid, poses, point });
@@ -160,7 +162,7 @@ impl PyRobot {
         &self,
         py: Python<'_>,
         vary: Axes,
-        quantities: Option<Vec<String>>,
+        quantities: Option<Texts>,
         pose: Option<PoseLike>,
         lengths_m: Option<Numbers>,
         static_model: &str,
@@ -205,8 +207,9 @@ impl PyRobot {
         };
 
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
+        let cables = &self.names();
         let model = model(cable_model, assembly, in_plane_only, winches)?;
-        let point = sweep::each_point(quantities, up_to_hz, platform_share, payload_center_m, state, tensions, model)?;
+        let point = sweep::each_point(quantities, up_to_hz, platform_share, payload_center_m, state.request(cables)?, tensions.request(cables)?, model)?;
         let request = Request::Sweep(SweepRequest { robot: self.source.clone(), vary: vary.0, point });
 
         let plan = PyPlan::of(py, request, part)?;

@@ -21,11 +21,11 @@ impl PyRobot {
     ///     `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m`
     ///     with their deviations, `cables` with the names of those that were mounted, and the keys of the state.
     /// starts
-    ///     Number of starts of the search; the first one that fits ends it.
+    ///     Number of starts of the search, 10 if not given; the first one that fits ends it.
     /// from_hz, to_hz
     ///     Range of the responses that counts [Hz].
     /// response_noise, frequency_noise, damping_noise
-    ///     Relative deviations of measurements that have none.
+    ///     Relative deviations of measurements that have none; 0.02, 0.01 and 0.1 if not given.
     /// rigid_cables
     ///     Natural frequencies with cables that are rigid in length; with the static model `ideal`.
     /// profile
@@ -42,8 +42,8 @@ impl PyRobot {
     /// StaticsError
     ///     The robot has no equilibrium at any start.
     #[pyo3(signature = (
-        fit, experiments, *, starts=10, from_hz=None, to_hz=None, response_noise=0.02, frequency_noise=0.01,
-        damping_noise=0.1, rigid_cables=false, profile=None, pose=None, lengths_m=None, static_model="catenary",
+        fit, experiments, *, starts=None, from_hz=None, to_hz=None, response_noise=None, frequency_noise=None,
+        damping_noise=None, rigid_cables=false, profile=None, pose=None, lengths_m=None, static_model="catenary",
         hold_lengths_of_pose=false, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None, wind_m_s=None,
         cable_load_n_per_m=None, tension_rule=None, target_tension_n=None, min_tension_n=None, max_tension_n=None,
         cable_model=None, assembly="consistent", in_plane_only=false, winches="as-given"
@@ -54,19 +54,19 @@ impl PyRobot {
         py: Python<'py>,
         fit: Bound<'py, PyAny>,
         experiments: Bound<'py, PyAny>,
-        starts: usize,
-        from_hz: Option<f64>,
-        to_hz: Option<f64>,
-        response_noise: f64,
-        frequency_noise: f64,
-        damping_noise: f64,
+        starts: Option<Bound<'py, PyAny>>,
+        from_hz: Option<Bound<'py, PyAny>>,
+        to_hz: Option<Bound<'py, PyAny>>,
+        response_noise: Option<Bound<'py, PyAny>>,
+        frequency_noise: Option<Bound<'py, PyAny>>,
+        damping_noise: Option<Bound<'py, PyAny>>,
         rigid_cables: bool,
-        profile: Option<Vec<String>>,
+        profile: Option<Bound<'py, PyAny>>,
         pose: Option<Bound<'py, PyAny>>,
         lengths_m: Option<Bound<'py, PyAny>>,
         static_model: &str,
         hold_lengths_of_pose: bool,
-        mass_kg: Option<f64>,
+        mass_kg: Option<Bound<'py, PyAny>>,
         force_n: Option<Bound<'py, PyAny>>,
         moment_n_m: Option<Bound<'py, PyAny>>,
         load_point_m: Option<Bound<'py, PyAny>>,
@@ -74,8 +74,8 @@ impl PyRobot {
         cable_load_n_per_m: Option<Bound<'py, PyAny>>,
         tension_rule: Option<&str>,
         target_tension_n: Option<Bound<'py, PyAny>>,
-        min_tension_n: Option<f64>,
-        max_tension_n: Option<f64>,
+        min_tension_n: Option<Bound<'py, PyAny>>,
+        max_tension_n: Option<Bound<'py, PyAny>>,
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
@@ -110,8 +110,9 @@ impl PyRobot {
         keywords.set_item("winches", winches)?;
 
         let robot = robot_text::to_json(&self.source)?;
+        keywords.set_item("fit", fit)?;
         let module = py.import("funicular._identify")?;
-        let request = module.call_method1("identify_request", (robot, fit, experiments, keywords))?;
+        let request = module.call_method1("identify_request", (robot, self.names(), experiments, keywords))?;
         Ok(IdentifiedObject(module.call_method1("identified", (request,))?.unbind()))
     }
 
@@ -139,7 +140,7 @@ impl PyRobot {
     /// avoid_hz
     ///     Band (first, last) without natural frequencies at every pose [Hz].
     /// max_iterations
-    ///     Maximum number of iterations.
+    ///     Maximum number of iterations; 50 if not given.
     ///
     /// The other parameters are those of `equilibrium` and of `modes`.
     ///
@@ -161,7 +162,7 @@ impl PyRobot {
     /// docs/theory.md, equations (60r) to (60t) and (95a) to (95c).
     #[pyo3(signature = (
         change, *, goal="first", poses=None, weights=None, min_frequency_hz=None, min_stiffness_n_per_m=None, avoid_hz=None,
-        max_iterations=50, pose=None, static_model="catenary", mass_kg=None, force_n=None, moment_n_m=None,
+        max_iterations=None, pose=None, static_model="catenary", mass_kg=None, force_n=None, moment_n_m=None,
         load_point_m=None, wind_m_s=None, cable_load_n_per_m=None, tension_rule=None, target_tension_n=None,
         min_tension_n=None, max_tension_n=None, cable_model=None, assembly="consistent", in_plane_only=false,
         winches="as-given"
@@ -174,13 +175,13 @@ impl PyRobot {
         goal: &str,
         poses: Option<Bound<'py, PyAny>>,
         weights: Option<Bound<'py, PyAny>>,
-        min_frequency_hz: Option<f64>,
-        min_stiffness_n_per_m: Option<f64>,
+        min_frequency_hz: Option<Bound<'py, PyAny>>,
+        min_stiffness_n_per_m: Option<Bound<'py, PyAny>>,
         avoid_hz: Option<Bound<'py, PyAny>>,
-        max_iterations: usize,
+        max_iterations: Option<Bound<'py, PyAny>>,
         pose: Option<Bound<'py, PyAny>>,
         static_model: &str,
-        mass_kg: Option<f64>,
+        mass_kg: Option<Bound<'py, PyAny>>,
         force_n: Option<Bound<'py, PyAny>>,
         moment_n_m: Option<Bound<'py, PyAny>>,
         load_point_m: Option<Bound<'py, PyAny>>,
@@ -188,8 +189,8 @@ impl PyRobot {
         cable_load_n_per_m: Option<Bound<'py, PyAny>>,
         tension_rule: Option<&str>,
         target_tension_n: Option<Bound<'py, PyAny>>,
-        min_tension_n: Option<f64>,
-        max_tension_n: Option<f64>,
+        min_tension_n: Option<Bound<'py, PyAny>>,
+        max_tension_n: Option<Bound<'py, PyAny>>,
         cable_model: Option<&str>,
         assembly: &str,
         in_plane_only: bool,
@@ -220,9 +221,10 @@ impl PyRobot {
         keywords.set_item("in_plane_only", in_plane_only)?;
         keywords.set_item("winches", winches)?;
 
+        keywords.set_item("change", change)?;
         let robot = robot_text::to_json(&self.source)?;
-        let module = py.import("funicular._design")?;
-        let request = module.call_method1("design_request", (robot, change, keywords))?;
-        Ok(DesignedObject(module.call_method1("designed", (request,))?.unbind()))
+        let request =
+            py.import("funicular._study")?.call_method1("request", ("design", robot, self.names(), keywords))?;
+        Ok(DesignedObject(py.import("funicular._design")?.call_method1("designed", (request,))?.unbind()))
     }
 }

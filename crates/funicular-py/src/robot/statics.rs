@@ -2,12 +2,12 @@
 
 use super::PyRobot;
 use crate::answers::{self, CtrlC};
-use crate::arrays::{Count, Number, Numbers, TextKeyed};
+use crate::arrays::{FirstLastCount, Number, Numbers, TextKeyed};
 use crate::batch;
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::pose::PoseLike;
-use crate::request::{StateKeywords, TensionKeywords};
+use crate::request::{StateKeywords, TensionKeywords, lengths};
 use crate::threads::Threads;
 use funicular_study::analyses;
 use funicular_study::request as requests;
@@ -92,7 +92,8 @@ impl PyRobot {
         };
 
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
-        PyEquilibrium::of(py, slf, state.request()?, tensions.request()?)?.into_object(py)
+        let cables = slf.get().names();
+        PyEquilibrium::of(py, slf, state.request(&cables)?, tensions.request(&cables)?)?.into_object(py)
     }
 
     /// Computes the equilibria of many states in parallel, without Python's lock.
@@ -135,7 +136,8 @@ impl PyRobot {
         hold_lengths_of_pose: bool,
         threads: Option<Threads>,
     ) -> PyResult<batch::Equilibria> {
-        let states = batch::States::read(poses, lengths_m)?;
+        let cables = self.names();
+        let states = batch::States::read(poses, lengths_m, &cables)?;
         let state = StateKeywords {
             pose: None,
             lengths_m: None,
@@ -150,7 +152,7 @@ impl PyRobot {
         };
 
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
-        batch::equilibria(py, self, states, &state.request()?, &tensions.request()?, threads)
+        batch::equilibria(py, self, states, &state.request(&cables)?, &tensions.request(&cables)?, threads)
     }
 
     /// Computes the minimum and the maximum payload at a pose, with the cables whose tension limits bind.
@@ -212,11 +214,12 @@ impl PyRobot {
             cable_load_n_per_m,
         };
 
+        let cables = self.names();
         let request = requests::PayloadRequest {
             robot: self.source.clone(),
             payload_center_m: payload_center_m.map(|center| center.three("payload_center_m")).transpose()?,
-            state: state.request()?,
-            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request()?,
+            state: state.request(&cables)?,
+            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request(&cables)?,
         };
 
         let found = py.detach(|| analyses::payload::run((*self.robot).clone(), &request));
@@ -252,7 +255,7 @@ impl PyRobot {
     fn pose_error<'py>(
         &self,
         py: Python<'py>,
-        mass_kg: (Number, Number, Count),
+        mass_kg: FirstLastCount,
         lengths_m: Option<Numbers>,
         pose: Option<PoseLike>,
         tension_rule: Option<&str>,
@@ -261,15 +264,13 @@ impl PyRobot {
         max_tension_n: Option<Number>,
         tolerance_mm: Option<Number>,
     ) -> PyResult<TextKeyed<'py>> {
-        let (from, to, count) = mass_kg;
-        let max = analyses::pose_error::MAX_MASSES;
-        let rule = format!("the third is the number of masses, from 2 to {max}");
+        let cables = self.names();
         let request = requests::PoseErrorRequest {
             robot: self.source.clone(),
-            mass_kg: (from.value("mass_kg[0]")?, to.value("mass_kg[1]")?, count.within("mass_kg[2]", 2..=max, &rule)?),
-            lengths_m: lengths_m.map(|lengths| lengths.row("lengths_m")).transpose()?,
+            mass_kg: mass_kg.masses("mass_kg", analyses::pose_error::MAX_MASSES)?,
+            lengths_m: lengths(lengths_m, &cables)?,
             pose: pose.map(|pose| pose.0),
-            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request()?,
+            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request(&cables)?,
             tolerance_mm: tolerance_mm.map(|tolerance| tolerance.value("tolerance_mm")).transpose()?,
         };
 

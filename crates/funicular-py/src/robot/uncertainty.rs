@@ -2,22 +2,25 @@
 
 use super::PyRobot;
 use crate::answered::PyAnswered;
-use crate::arrays::{Number, Numbers};
+use crate::arrays::{Count, Number, Numbers};
 use crate::errors;
 use crate::interrupt::interruptible_by_flag;
 use crate::pose::PoseLike;
 use crate::request::{StateKeywords, TensionKeywords, model, named, points};
 use crate::sweep::{self, ProgressArgument};
+use crate::reading::sizes;
+use crate::texts::{Texts, not_empty};
 use crate::threads::Threads;
 use crate::written::UncertaintyObject;
 use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun};
 use funicular_study::Results;
-use funicular_study::analyses::uncertainty::UncertaintyStudy;
-use funicular_study::request::{self, Request, UncertaintyRequest};
+use funicular_study::analyses::uncertainty::{SAMPLES, UncertaintyStudy};
+use funicular_study::request::{self, DEFAULT_SAMPLES, Request, UncertaintyRequest};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 use std::path::PathBuf;
+
+const SAMPLES_RULE: &str = "give a whole number from 10 to 1000000";
 
 #[pymethods]
 impl PyRobot {
@@ -49,7 +52,7 @@ impl PyRobot {
     /// method
     ///     `automatic`, `linear` or `sampled`.
     /// samples, seed
-    ///     Number of sampled robots per pose, and a number that chooses another sample.
+    ///     Number of sampled robots per pose, 200 if not given, and a number that chooses another sample; 0 if not given.
     /// samples_file, resume, discard
     ///     File of the sampled robots, .parquet or .csv: FILE.partial holds them until all are there, and `resume`
     ///     continues with them.
@@ -70,7 +73,7 @@ impl PyRobot {
     ///     The file of the samples cannot be written, or belongs to other work.
     #[pyo3(signature = (
         deviations=None, tolerances=None, of=None, *, hold="lengths", below_hz=None, at_hz=None, input=None,
-        output=None, input_point_m=None, output_point_m=None, poses=None, method="automatic", samples=200, seed=0,
+        output=None, input_point_m=None, output_point_m=None, poses=None, method="automatic", samples=None, seed=None,
         pose=None, lengths_m=None, static_model="catenary", cable_model=None, assembly="consistent",
         in_plane_only=false, winches="as-given", tension_rule=None, target_tension_n=None,
         min_tension_n=None, max_tension_n=None, mass_kg=None, force_n=None, moment_n_m=None, load_point_m=None,
@@ -83,7 +86,7 @@ impl PyRobot {
         py: Python<'_>,
         deviations: Option<Bound<'_, PyAny>>,
         tolerances: Option<Bound<'_, PyAny>>,
-        of: Option<Vec<String>>,
+        of: Option<Texts>,
         hold: &str,
         below_hz: Option<Number>,
         at_hz: Option<Numbers>,
@@ -93,8 +96,8 @@ impl PyRobot {
         output_point_m: Option<Numbers>,
         poses: Option<Numbers>,
         method: &str,
-        samples: usize,
-        seed: u32,
+        samples: Option<Count>,
+        seed: Option<Count>,
         pose: Option<PoseLike>,
         lengths_m: Option<Numbers>,
         static_model: &str,
@@ -131,23 +134,24 @@ impl PyRobot {
             wind_m_s,
             cable_load_n_per_m,
         };
+        let cables = self.names();
         let request = UncertaintyRequest {
             robot: self.source.clone(),
-            of: of.unwrap_or_else(request::pose_and_tensions),
-            deviations: sizes("deviations", deviations)?,
-            tolerances: sizes("tolerances", tolerances)?,
+            of: not_empty(of, "of")?.unwrap_or_else(request::pose_and_tensions),
+            deviations: deviations.map_or_else(|| Ok(Vec::new()), |given| sizes("deviations", &given))?,
+            tolerances: tolerances.map_or_else(|| Ok(Vec::new()), |given| sizes("tolerances", &given))?,
             hold: named("hold", hold)?,
             method: named("method", method)?,
-            samples,
-            seed,
+            samples: samples.map_or(Ok(DEFAULT_SAMPLES), |samples| samples.within("samples", SAMPLES, SAMPLES_RULE))?,
+            seed: seed.map_or(Ok(0), |seed| seed.within_u32("seed"))?,
             below_hz: below_hz.map(|hz| hz.value("below_hz")).transpose()?,
             at_hz: at_hz.map(|hz| hz.frequencies_of("at_hz")).transpose()?.map(|(hz, _)| hz),
             input,
             output,
             points: points(input_point_m, output_point_m)?,
             poses: poses.map(sweep::poses).transpose()?,
-            state: state.request()?,
-            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request()?,
+            state: state.request(&cables)?,
+            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request(&cables)?,
             model: model(cable_model, assembly, in_plane_only, winches)?,
         };
         let samples = samples_file.map(|path| (path, begin(resume, discard)));
@@ -206,22 +210,4 @@ fn computed(
         // Only Ctrl-C stops the work, and its exception has been raised before.
         UncertaintyOutcome::Stopped(reason) => Err(PyKeyboardInterrupt::new_err(reason)),
     }
-}
-
-/// Texts `PATH=VALUE` of a mapping or of a list of texts.
-fn sizes(keyword: &str, given: Option<Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
-    let Some(given) = given else { return Ok(Vec::new()) };
-    if let Ok(mapping) = given.cast::<PyDict>() {
-        return mapping
-            .iter()
-            .map(|(path, size)| Ok(format!("{}={}", path.extract::<String>()?, size.str()?.to_cow()?)))
-            .collect();
-    }
-    let wrong = || {
-        errors::input(format!(
-            "`{keyword}` is no mapping from paths to numbers: give one, as in {{\"platform.mass_kg\": \"1%\"}}, or a list of \
-             texts, as in [\"platform.mass_kg=1%\"]"
-        ))
-    };
-    given.extract::<Vec<String>>().map_err(|_| wrong())
 }

@@ -2,8 +2,9 @@
 
 use crate::arrays::{ARRAY_LIKE, Count, Number, Numbers};
 use crate::errors;
-use crate::request::{StateKeywords, TensionKeywords, share};
-use funicular_study::request::{Axis, EachPoint, Model};
+use crate::request::share;
+use crate::texts::{Texts, not_empty};
+use funicular_study::request::{Axis, EachPoint, Model, State, Tensions};
 use funicular_study::sweep::MAX_HZ;
 use pyo3::inspect::{PyStaticExpr, PyStaticOperator};
 use pyo3::prelude::*;
@@ -26,11 +27,21 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Axes {
     };
 
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        let axes = object.cast::<PyMapping>()?.items()?;
+        let Ok(axes) = object.cast::<PyMapping>() else {
+            let kind = object.get_type().name()?.to_string();
+            return Err(errors::input(format!(
+                "the axes are of type {kind}: give a mapping from their names to values, as in {{\"x\": (-4, 4, 81), \
+                 \"z\": [0.5, 1]}}"
+            )));
+        };
+        let axes = axes.items()?;
         let axes: PyResult<_> = axes
             .iter()
             .map(|axis| {
-                let (name, values): (String, Bound<'_, PyAny>) = axis.extract()?;
+                let (name, values): (Bound<'_, PyAny>, Bound<'_, PyAny>) = axis.extract()?;
+                let Ok(name) = name.extract::<String>() else {
+                    return Err(errors::input(format!("the name of an axis is {name}: names are text")));
+                };
                 self::axis(name, &values)
             })
             .collect();
@@ -51,12 +62,6 @@ fn axis(name: String, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
     }
     let (values, _) = values.extract::<Numbers>()?.one_or_row(&name)?;
     Ok(Axis::List { axis: name, values })
-}
-
-/// Axes of a request, as JSON: a tuple is the first value, the last value and their number; anything else is values.
-#[pyfunction]
-pub(crate) fn axes(values: Axes) -> PyResult<String> {
-    serde_json::to_string(&values.0).map_err(|error| errors::input(error.to_string()))
 }
 
 /// Executor, or a function that makes one.
@@ -125,7 +130,7 @@ fn six(what: &str, row: &[f64]) -> PyResult<[f64; 6]> {
 
 /// Poses from an array with one row per pose.
 pub(crate) fn poses(numbers: Numbers) -> PyResult<Vec<[f64; 6]>> {
-    let (flat, columns) = numbers.rows("poses")?;
+    let (flat, columns) = numbers.poses("poses")?;
     if columns == 0 {
         return six("poses", &[]).map(|_| Vec::new());
     }
@@ -134,21 +139,21 @@ pub(crate) fn poses(numbers: Numbers) -> PyResult<Vec<[f64; 6]>> {
 
 /// Request for the points of a map or sweep, from the keywords of Python.
 pub(crate) fn each_point(
-    quantities: Option<Vec<String>>,
+    quantities: Option<Texts>,
     up_to_hz: Option<Number>,
     platform_share: Option<Number>,
     payload_center_m: Option<Numbers>,
-    state: StateKeywords<'_>,
-    tensions: TensionKeywords<'_>,
+    state: State,
+    tensions: Tensions,
     model: Model,
 ) -> PyResult<EachPoint> {
     Ok(EachPoint {
-        quantities: quantities.unwrap_or_else(EachPoint::default_quantities),
+        quantities: not_empty(quantities, "quantities")?.unwrap_or_else(EachPoint::default_quantities),
         up_to_hz: up_to_hz.map_or(Ok(MAX_HZ), |up_to_hz| up_to_hz.value("up_to_hz"))?,
         platform_share: share(platform_share)?,
         payload_center_m: payload_center_m.map(|center| center.three("payload_center_m")).transpose()?,
-        state: state.request()?,
-        tensions: tensions.request()?,
+        state,
+        tensions,
         model,
     })
 }

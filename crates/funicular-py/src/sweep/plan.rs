@@ -88,8 +88,16 @@ impl PyPlan {
 
     /// Begins to collect rows in memory or in a file; None if the file has all rows. Warns of values of the robot that
     /// no usual robot has.
-    #[pyo3(signature = (file=None, resume=false, discard=false))]
-    fn begin(&self, py: Python<'_>, file: Option<PathBuf>, resume: bool, discard: bool) -> PyResult<Option<PyWork>> {
+    /// `level` is the number of functions between the user and this call.
+    #[pyo3(signature = (file=None, resume=false, discard=false, level=2))]
+    fn begin(
+        &self,
+        py: Python<'_>,
+        file: Option<PathBuf>,
+        resume: bool,
+        discard: bool,
+        level: i32,
+    ) -> PyResult<Option<PyWork>> {
         let begin = match (resume, discard) {
             (true, true) => return Err(errors::input("give `resume` or `discard`, not both".to_owned())),
             (true, false) => Begin::Resume,
@@ -105,8 +113,8 @@ impl PyPlan {
             return Err(errors::input("`part` goes with `file`: parts are joined as files".to_owned()));
         }
 
-        // Before any work, so that a slip can be corrected at once. Python's `run` lies between the user and this call.
-        data.warn(py, 2)?;
+        // Before any work, so that a slip can be corrected at once.
+        data.warn(py, level)?;
 
         let Some(path) = file else { return Ok(Some(PyWork::in_memory(data))) };
         let opened =

@@ -3,9 +3,10 @@
 use super::found;
 use super::shared::{Axes, Origin, SagNumbers};
 use crate::at_rest::{self, AtRest};
-use crate::error::NoSolution;
+use crate::error::{Cancelled, NoSolution};
 use crate::names::suggestion;
 use crate::request;
+use crate::watch::Watch;
 use anyhow::{Result, bail};
 use funicular::cable::{CableModel, EndStiffness, LocalAxes, LocalStiffness, Sag};
 use funicular::dynamics::DynamicsError;
@@ -14,6 +15,9 @@ use funicular::robot::{Robot, WinchMode};
 use funicular::warnings;
 use serde::Serialize;
 use std::f64::consts::TAU;
+
+/// Number of frequencies between two looks at the watch: some milliseconds.
+pub(crate) const STEP: usize = 256;
 
 /// Maximum number of clamped frequencies in one list.
 const MAX_CLAMPED: usize = 10_000;
@@ -46,7 +50,7 @@ pub struct CableResult {
 }
 
 /// Stiffness along the chord, coupling, normal in plane and out of plane [N/m].
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub struct Local {
     pub k_a: ComplexValues,
     pub k_b: ComplexValues,
@@ -55,14 +59,14 @@ pub struct Local {
 }
 
 /// Complex numbers over frequency.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub struct ComplexValues {
     pub real: Vec<f64>,
     pub imag: Vec<f64>,
 }
 
 /// 3×3 stiffness in world axes at each frequency [N/m].
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub struct World {
     pub real: Vec<[[f64; 3]; 3]>,
     pub imag: Vec<[[f64; 3]; 3]>,
@@ -72,7 +76,7 @@ pub struct World {
 ///
 /// # Errors
 /// A name that no cable has, a robot without such an equilibrium, or an undamped resonance at one of the frequencies.
-pub fn run(robot: Robot, request: &request::CableRequest) -> Result<CableResult> {
+pub fn run(robot: Robot, request: &request::CableRequest, watch: &mut dyn Watch) -> Result<CableResult> {
     let frequency_hz = request.range.frequencies()?;
     place(&robot, &request.name)?;
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
@@ -83,7 +87,7 @@ pub fn run(robot: Robot, request: &request::CableRequest) -> Result<CableResult>
         in_plane_only: request.in_plane_only,
         winches: request.winches,
     };
-    about(&at_rest, requested)
+    about(&at_rest, requested, watch)
 }
 
 /// Requested cable of a robot at equilibrium.
@@ -114,7 +118,7 @@ fn place(robot: &Robot, name: &str) -> Result<usize> {
 ///
 /// # Errors
 /// The errors of [`run`].
-pub fn about(at_rest: &AtRest, requested: RequestedCable<'_>) -> Result<CableResult> {
+pub fn about(at_rest: &AtRest, requested: RequestedCable<'_>, watch: &mut dyn Watch) -> Result<CableResult> {
     let RequestedCable { name, frequency_hz, cable_model, in_plane_only, winches } = requested;
     let i = place(&at_rest.robot, name)?;
     let (from_hz, to_hz) =
@@ -127,7 +131,7 @@ pub fn about(at_rest: &AtRest, requested: RequestedCable<'_>) -> Result<CableRes
     let sag = Sag::of(robot, i, state);
     let of_cable = warnings::of_cable(robot, &at_rest.equilibrium, i, model, to_hz);
     let axes = LocalAxes::of_cable(robot, i, state);
-    let values = curve(&stiffness, &axes, &frequency_hz)?;
+    let values = curve(&stiffness, &axes, &frequency_hz, watch)?;
     let part = |of: fn(&LocalStiffness<Complex>) -> Complex| ComplexValues {
         real: values.iter().map(|k| of(k).re + 0.0).collect(),
         imag: values.iter().map(|k| of(k).im + 0.0).collect(),
@@ -161,10 +165,22 @@ pub fn about(at_rest: &AtRest, requested: RequestedCable<'_>) -> Result<CableRes
 }
 
 /// Stiffness in the axes of the chord at each frequency [Hz].
-fn curve(stiffness: &EndStiffness, axes: &LocalAxes, frequency_hz: &[f64]) -> Result<Vec<LocalStiffness<Complex>>> {
+fn curve(
+    stiffness: &EndStiffness,
+    axes: &LocalAxes,
+    frequency_hz: &[f64],
+    watch: &mut dyn Watch,
+) -> Result<Vec<LocalStiffness<Complex>>> {
     frequency_hz
         .iter()
-        .map(|&f| {
+        .enumerate()
+        .map(|(place, &f)| {
+            if place % STEP == 0 {
+                watch.progress(place, frequency_hz.len(), "frequencies");
+                if watch.is_cancelled() {
+                    return Err(Cancelled.into());
+                }
+            }
             let k = match stiffness {
                 EndStiffness::Constant(world) => in_axes(world, axes),
                 EndStiffness::Dynamic(form) => turned(&form.damped(f * TAU), form.axes(), axes),

@@ -3,10 +3,10 @@
 mod columns;
 mod rows;
 
-pub(crate) use columns::{GradientColumns, Tolerance, value_at};
+pub(crate) use columns::{GradientColumns, Tolerance, refuse_replaced, value_at};
 
 use super::found;
-use super::result_groups::{missing_option, result_groups};
+use super::result_groups::{missing_option, refuse_unused, result_groups};
 use super::shared::Models;
 use crate::at_rest::{self, AtRest};
 use crate::error::NoSolution;
@@ -96,6 +96,8 @@ pub fn run(robot: Robot, request: &GradientRequest) -> Result<GradientTable> {
 /// Groups of results of a request, checked.
 fn groups(request: &GradientRequest) -> Result<Vec<&'static str>> {
     let groups = result_groups(&request.of, request.below_hz)?;
+    let signals = [request.input.as_deref(), request.output.as_deref()];
+    refuse_unused(&groups, request.below_hz, request.at_hz.is_some(), signals, &request.points)?;
     if groups.contains(&"response") {
         for (option, is_given) in [
             ("at_hz", request.at_hz.is_some()),

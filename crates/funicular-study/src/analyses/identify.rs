@@ -242,6 +242,9 @@ fn profiled(parameters: &Parameters, unknowns: &[Unknown], paths: &[String]) -> 
 /// Request with the frequencies of responses that count.
 fn within_range(request: &IdentifyRequest) -> Result<IdentifyRequest> {
     let mut request = request.clone();
+    for (key, hz) in [("from_hz", request.from_hz), ("to_hz", request.to_hz)] {
+        hz.map_or(Ok(()), |hz| crate::request::check_not_negative(key, hz))?;
+    }
     let (from, to) = (request.from_hz.unwrap_or(0.0), request.to_hz.unwrap_or(f64::INFINITY));
     if from >= to {
         bail!("⟪from_hz⟫ {from} Hz is not below ⟪to_hz⟫ {to} Hz");

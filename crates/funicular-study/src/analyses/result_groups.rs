@@ -32,6 +32,39 @@ pub(crate) fn result_groups(names: &[String], below_hz: Option<f64>) -> Result<V
     Ok(groups)
 }
 
+/// Refuses options that none of the groups uses, because they are likely meant for a group that is not named.
+///
+/// # Errors
+/// A limit of the frequencies or an option of a response without such results.
+pub(crate) fn refuse_unused(
+    groups: &[&str],
+    below_hz: Option<f64>,
+    has_at_hz: bool,
+    [input, output]: [Option<&str>; 2],
+    points: &request::ResponsePoints,
+) -> Result<()> {
+    let of_modes = groups.iter().any(|group| ["frequencies", "damping"].contains(group));
+    let of_response = groups.contains(&"response");
+    for (option, is_given, is_used, wanted) in [
+        ("below_hz", below_hz.is_some(), of_modes, "`frequencies` or `damping`"),
+        ("at_hz", has_at_hz, of_response, "`response`"),
+        ("input", input.is_some(), of_response, "`response`"),
+        ("output", output.is_some(), of_response, "`response`"),
+        ("input_point_m", points.input_point_m.is_some(), of_response, "`response`"),
+        ("output_point_m", points.output_point_m.is_some(), of_response, "`response`"),
+    ] {
+        if is_given && !is_used {
+            bail!("⟪{option}⟫ has no effect on {}: add {wanted} to ⟪of⟫, or leave it out", listed_alone(groups));
+        }
+    }
+    Ok(())
+}
+
+/// Names of groups for the middle of a sentence.
+fn listed_alone(groups: &[&str]) -> String {
+    groups.iter().map(|group| format!("`{group}`")).collect::<Vec<_>>().join(", ")
+}
+
 /// Error of a group of results without an option that it needs.
 pub(crate) fn missing_option(group: &str, option: &str) -> anyhow::Error {
     anyhow!("`{group}` needs ⟪{option}⟫")

@@ -294,7 +294,7 @@ impl SupportRow {
 /// A request that contradicts itself or the robot, or a robot without such an equilibrium.
 pub fn run(robot: Robot, request: &request::StaticsRequest) -> Result<Statics> {
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
-    about(&at_rest, Extras { all: request.all, friction_interval: request.friction_interval })
+    about(&at_rest, Extras { all: request.all, friction_interval: request.friction_interval, ..Extras::default() })
 }
 
 /// Results of `statics` beyond the equilibrium.
@@ -304,6 +304,8 @@ pub struct Extras {
     pub all: bool,
     /// Interval in which friction of pulleys leaves pose and tensions.
     pub friction_interval: bool,
+    /// No search for another stable equilibrium, which takes far longer than the equilibrium.
+    pub alone: bool,
 }
 
 /// Rows of the cables of a robot at equilibrium, one per cable.
@@ -356,7 +358,7 @@ pub fn about(at_rest: &AtRest, extras: Extras) -> Result<Statics> {
         equilibria = Some(found.found.iter().map(EquilibriumRow::of).collect());
         let (index_sum, expected_index_sum) = (found.index_sum, found.expected_index_sum);
         search = Some(Search { starts: found.starts, index_sum, expected_index_sum });
-    } else {
+    } else if !extras.alone {
         another_stable_equilibrium = OtherStable::of(robot, equilibrium);
     }
 

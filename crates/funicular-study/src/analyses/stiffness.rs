@@ -1,9 +1,12 @@
 //! `stiffness`: 6×6 stiffness at one frequency.
 
+use super::cable::STEP;
 use super::found;
 use super::shared::Models;
 use crate::at_rest::{self, AtRest};
+use crate::error::Cancelled;
 use crate::request::{self, Model};
+use crate::watch::Watch;
 use anyhow::Result;
 use funicular::cable::CableModel;
 use funicular::dynamics::{Assembly, Dynamics, DynamicsError, Linearisation};
@@ -34,11 +37,11 @@ pub struct Stiffness {
 ///
 /// # Errors
 /// A robot without such an equilibrium, or a cable model that has no stiffness there.
-pub fn run(robot: Robot, request: &request::StiffnessRequest) -> Result<Stiffness> {
+pub fn run(robot: Robot, request: &request::StiffnessRequest, watch: &mut dyn Watch) -> Result<Stiffness> {
     crate::request::check_not_negative("at_hz", request.at_hz)?;
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     let linearisation = linearisation_at(&at_rest, request.model, request.at_hz);
-    let matrix = matrices(&at_rest, request.model, &[request.at_hz])?[0];
+    let matrix = matrices(&at_rest, request.model, &[request.at_hz], watch)?[0];
 
     // Drag that turns with the cables makes the matrix unsymmetric. The cable models of vibration are not used then.
     let turns = drag_turns(&at_rest, request.model, request.at_hz);
@@ -80,16 +83,22 @@ fn drag_turns(at_rest: &AtRest, model: Model, hz: f64) -> bool {
 /// Computes the stiffness of a robot at equilibrium at every frequency [Hz], none of them negative.
 ///
 /// # Errors
-/// [`DynamicsError`]: a cable model that has no stiffness there.
-pub fn matrices(at_rest: &AtRest, model: Model, frequencies: &[f64]) -> Result<Vec<CMat6>, DynamicsError> {
+/// [`DynamicsError`]: a cable model that has no stiffness there. [`Cancelled`]: work that was stopped.
+pub fn matrices(at_rest: &AtRest, model: Model, frequencies: &[f64], watch: &mut dyn Watch) -> Result<Vec<CMat6>> {
     let highest_hz = frequencies.iter().copied().fold(0.0, f64::max);
     let still = if frequencies.contains(&0.0) { Some(Form::at(at_rest, model, 0.0)?) } else { None };
     let moving = if highest_hz > 0.0 { Some(Form::at(at_rest, model, highest_hz)?) } else { None };
-    let at = |hz: &f64| {
+    let at = |(place, hz): (usize, &f64)| {
+        if place % STEP == 0 {
+            watch.progress(place, frequencies.len(), "frequencies");
+            if watch.is_cancelled() {
+                return Err(Cancelled.into());
+            }
+        }
         let form = if *hz == 0.0 { &still } else { &moving };
-        form.as_ref().map_or_else(CMat6::zeros, |form| form.matrix(*hz))
+        Ok(form.as_ref().map_or_else(CMat6::zeros, |form| form.matrix(*hz)))
     };
-    Ok(frequencies.iter().map(at).collect())
+    frequencies.iter().enumerate().map(at).collect()
 }
 
 /// Linearisation with all terms of the static tangent.

@@ -26,7 +26,7 @@ pub use output::{
 pub(crate) use statistics::Statistics;
 
 use super::found;
-use super::result_groups::result_groups;
+use super::result_groups::{refuse_unused, result_groups};
 use super::shared::Models;
 use crate::at_rest::{self, AtRest};
 use crate::error::{Cancelled, NoSolution};
@@ -48,7 +48,7 @@ use serde_json::{Value, json};
 const LARGEST: usize = 5;
 
 /// Allowed sample sizes.
-const SAMPLES: std::ops::RangeInclusive<usize> = 10..=1_000_000;
+pub const SAMPLES: std::ops::RangeInclusive<usize> = 10..=1_000_000;
 
 found!(Uncertainties, "uncertainty");
 
@@ -408,6 +408,8 @@ fn largest_shares(inputs: &Inputs, shares: &[f64]) -> Vec<ShareOfInput> {
 /// Groups of results of a request, after a check of them and of the sample size.
 fn groups(request: &UncertaintyRequest) -> Result<Vec<&'static str>> {
     let groups = result_groups(&request.of, request.below_hz)?;
+    let signals = [request.input.as_deref(), request.output.as_deref()];
+    refuse_unused(&groups, request.below_hz, request.at_hz.is_some(), signals, &request.points)?;
     if !SAMPLES.contains(&request.samples) {
         bail!(
             "⟪samples⟫: {} robots are not possible: give a whole number from {} to {}",

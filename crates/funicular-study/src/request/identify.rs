@@ -1,5 +1,6 @@
 //! Request of `identify`: measurements in one or several states, and the values to find.
 
+use super::json_text;
 use super::keys::KEYS;
 use super::parts::{Model, Pose, RobotText, State, Tensions};
 use crate::measurements::{MeasuredFrequency, MeasuredResponse};
@@ -63,10 +64,9 @@ impl IdentifyRequest {
     /// Reads a list of experiments from JSON, with the checks of a request.
     ///
     /// # Errors
-    /// Bytes that are not JSON, no list, an unknown key, or a value of the wrong type.
+    /// Bytes that are not JSON, a key that is there twice, no list, an unknown key, or a value of the wrong type.
     pub fn experiments_from_json(bytes: &[u8]) -> anyhow::Result<Vec<Experiment>> {
-        let given: Value =
-            serde_json::from_slice(bytes).map_err(|error| anyhow::anyhow!("it is not valid JSON: {error}"))?;
+        let given = json_text::value(bytes).map_err(|error| anyhow::anyhow!("it is not valid JSON: {error}"))?;
         let experiments: Vec<Experiment> = serde_json::from_value(given.clone())
             .map_err(|error| anyhow::anyhow!("it is not a list of experiments: {error}"))?;
         let understood = serde_json::to_value(&experiments)?;

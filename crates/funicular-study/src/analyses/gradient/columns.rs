@@ -30,15 +30,19 @@ impl GradientColumns {
     ///
     /// # Errors
     /// A path that no number has, or numbers that all lack derivatives.
-    pub(crate) fn of(at_rest: &AtRest, text: &str, by: &[String], tolerances: &[String]) -> Result<Self> {
+    pub(crate) fn of(at_rest: &AtRest, text: &str, by: &[String], given: &[String]) -> Result<Self> {
         let all = Parameters::from_toml(text).map_err(|error| anyhow!("{error}"))?;
         let patterns = by.iter().map(|text| ParameterPattern::parse("by", text, &all)).collect::<Result<Vec<_>>>()?;
         let tolerances =
-            tolerances.iter().map(|text| Tolerance::parse("tolerances", text, &all)).collect::<Result<Vec<_>>>()?;
+            given.iter().map(|text| Tolerance::parse("tolerances", text, &all)).collect::<Result<Vec<_>>>()?;
         let is_met = |pattern: &&ParameterPattern| all.list().iter().any(|parameter| pattern.matches(parameter));
         if let Some(unmet) = patterns.iter().chain(tolerances.iter().map(|of| &of.pattern)).find(|of| !is_met(of)) {
             return Err(unmet.missing(&all));
         }
+
+        let texts = given.iter().map(String::as_str);
+        let entries: Vec<_> = texts.zip(&tolerances).map(|(text, given)| ("tolerances", text, given)).collect();
+        refuse_replaced(&entries, all.list())?;
 
         let mut columns = Self::default();
         for (index, parameter) in all.list().iter().enumerate() {
@@ -111,6 +115,31 @@ impl Tolerance {
     pub(crate) fn missing(&self, parameters: &Parameters) -> anyhow::Error {
         self.pattern.missing(parameters)
     }
+}
+
+/// Refuses an entry whose numbers are all named by later ones, which alone would count; `entries` have their key and
+/// their text.
+///
+/// # Errors
+/// An entry without effect, which is likely a slip. A general entry before a special one has an effect.
+pub(crate) fn refuse_replaced(entries: &[(&str, &str, &Tolerance)], numbers: &[Parameter]) -> Result<()> {
+    for (i, (key, text, entry)) in entries.iter().enumerate() {
+        let mut replacing = None;
+        let mut own = numbers.iter().filter(|number| entry.matches(number)).peekable();
+        let is_replaced = own.peek().is_some()
+            && own.all(|number| {
+                let later = entries[i + 1..].iter().find(|(_, _, later)| later.matches(number));
+                replacing = replacing.or(later);
+                later.is_some()
+            });
+        if let (true, Some((other_key, other, _))) = (is_replaced, replacing) {
+            bail!(
+                "⟪{key}⟫ {text} has no effect, because ⟪{other_key}⟫ {other} names its numbers again: keep one of them, or \
+                 give the general one first"
+            );
+        }
+    }
+    Ok(())
 }
 
 /// Tolerance of a number that no option gives, in the unit of the number.

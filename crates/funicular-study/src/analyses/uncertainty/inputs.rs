@@ -1,7 +1,7 @@
 //! Numbers of the robot file that deviate, with their distributions.
 
 use super::normal::normal_quantile;
-use crate::analyses::gradient::{Tolerance, value_at};
+use crate::analyses::gradient::{Tolerance, refuse_replaced, value_at};
 use crate::at_rest::AtRest;
 use crate::request::{Load, UncertaintyRequest};
 use crate::set_values::{self, Assignment};
@@ -94,6 +94,13 @@ pub(crate) struct DeviationGroup {
     is_normal: bool,
 }
 
+impl DeviationGroup {
+    /// Key of the request that gives the deviation.
+    fn key(&self) -> &'static str {
+        if self.is_normal { "deviations" } else { "tolerances" }
+    }
+}
+
 /// All numbers that deviate.
 pub(crate) struct Inputs {
     /// Numbers, in the order of the file.
@@ -114,6 +121,8 @@ impl Inputs {
         let original = Parameters::from_toml(&text).map_err(|error| anyhow!("{error}"))?;
         let groups = groups(request, &original)?;
         let candidates = candidates(&original, &at_rest.robot);
+        let entries: Vec<_> = groups.iter().map(|of| (of.key(), of.name.as_str(), &of.amount)).collect();
+        refuse_replaced(&entries, &candidates)?;
 
         // The last option that matches a number gives its deviation.
         let mut chosen: Vec<(Parameter, usize)> = Vec::new();
@@ -266,7 +275,7 @@ fn refuse_unmet(groups: &[DeviationGroup], met: &[Met], hold: Hold, original: &P
             return Err(group.amount.missing(original));
         }
         if !met.fitting {
-            let key = if group.is_normal { "deviations" } else { "tolerances" };
+            let key = group.key();
             let (held, other, follows) = match hold {
                 Hold::Lengths => ("lengths", "pose", "pose follows"),
                 _ => ("pose", "lengths", "lengths follow"),

@@ -1,0 +1,15 @@
+"""Words of arguments as types, for type checkers and completion; a test compares them with those of the program."""
+
+from typing import Literal
+
+StaticModel = Literal["ideal", "spring", "catenary"]
+TensionRule = Literal["lowest", "closest", "middle", "stiffest"]
+CableModel = Literal["catenary-dynamic", "shallow-dynamic", "shallow-static", "catenary-static", "spring"]
+Assembly = Literal["consistent", "without-geometric-stiffness"]
+Winches = Literal["as-given", "clamped", "torque", "stuck"]
+Hold = Literal["lengths", "pose", "rule"]
+Per = Literal["unit", "percent", "tolerance"]
+Method = Literal["automatic", "linear", "sampled"]
+Goal = Literal["first", "platform", "stiffness", "rope-mass", "rope-length"]
+ExportFormat = Literal["opensees", "moordyn", "vtk"]
+Result = Literal["pose", "lengths", "tensions", "stiffness-min", "frequencies", "damping", "response"]
