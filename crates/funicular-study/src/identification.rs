@@ -2,9 +2,12 @@
 //!
 //! docs/theory.md, section 18a, has the equations.
 
+mod assignment;
 mod chi2;
 mod derivatives;
+mod draws;
 mod experiment;
+mod lists;
 mod model;
 mod observations;
 mod precision;
@@ -14,6 +17,7 @@ mod resolution;
 mod search;
 mod unknowns;
 
+pub(crate) use assignment::Assigning;
 pub(crate) use model::IdentifiedModel;
 pub(crate) use observations::{Observation, Subject};
 pub(crate) use precision::judge;

@@ -45,6 +45,7 @@ pub mod json;
 pub mod measurements;
 pub mod names;
 pub mod new_robot;
+mod normal;
 #[cfg(feature = "pages")]
 pub mod pages;
 mod parameter_pattern;

@@ -150,6 +150,7 @@ impl Printed for Identified {
             self.verdict,
             counted(self.starts.len(), "start"),
         );
+        text += &assignment(self);
         text += &profiles(self);
         for strong in &self.strong_correlations {
             let _ = writeln!(text, "{strong}.");
@@ -187,19 +188,63 @@ impl Printed for Identified {
             "at_bound",
             "profile_95_from",
             "profile_95_to",
+            "second_best",
+            "is_assignment_determined",
+            "modes",
+            "second_best_modes",
+            "chi2_per_degree",
+            "second_best_chi2_per_degree",
+            "random_chi2_per_degree",
         ])?;
 
-        for row in &self.values {
+        let assignment = self.assignment.as_ref();
+        let second = assignment.and_then(|assignment| assignment.second_best.as_ref());
+        let listed = |numbers: &mut dyn Iterator<Item = usize>| {
+            numbers.map(|number| number.to_string()).collect::<Vec<_>>().join(" ")
+        };
+        let modes = listed(&mut self.frequencies.iter().map(|row| row.number));
+        let second_modes = second.map(|second| listed(&mut second.numbers.iter().copied()));
+        for (k, row) in self.values.iter().enumerate() {
             out.serialize((
                 (&row.path, row.unit, row.start, row.value),
                 row.deviation,
                 (row.interval_95.map(|interval| interval[0]), row.interval_95.map(|interval| interval[1])),
                 (row.prior, row.prior_deviation, row.at_bound),
                 row.profile.as_ref().map_or([None; 2], |profile| [profile.from, profile.to]),
+                (second.map(|second| second.values[k]), assignment.map(|assignment| assignment.determined)),
+                (&modes, &second_modes, self.chi2_per_degree),
+                (
+                    second.map(|second| second.chi2_per_degree),
+                    assignment.and_then(|assignment| assignment.random_chi2_per_degree),
+                ),
             ))?;
         }
         Ok(())
     }
+}
+
+/// Modes of the measured frequencies, the second best ones, and fits to random frequencies; empty if every frequency has
+/// a number.
+fn assignment(found: &Identified) -> String {
+    let Some(assignment) = &found.assignment else { return String::new() };
+    let mut text = assignment.random_text().map_or_else(String::new, |sentence| format!("{sentence}\n"));
+    let mut columns = vec!["measured [Hz]", "mode", "fitted [Hz]"];
+    if assignment.second_best.is_some() {
+        columns.extend(["second best: mode", "fitted [Hz]"]);
+    }
+    let mut table = Table::new(&columns);
+    for (k, row) in found.frequencies.iter().enumerate() {
+        let mut cells = vec![significant(row.measured_hz, 5), row.number.to_string(), significant(row.fitted_hz, 5)];
+        if let Some(second) = &assignment.second_best {
+            cells.extend([second.numbers[k].to_string(), significant(second.frequency_hz[k], 5)]);
+        }
+        table.row(cells);
+    }
+    let _ = write!(text, "\n{table}\n");
+    if let Some(second) = &assignment.second_best {
+        let _ = writeln!(text, "{}.", second.sentence(&found.values));
+    }
+    text
 }
 
 /// Table of the values.

@@ -55,6 +55,22 @@ class Identified(ArrayFields):
         return matrix
 
     @property
+    def determined(self) -> bool:
+        """False if measured frequencies without a number may belong to other modes; `deviations` are then NaN."""
+        assignment = self.assignment
+        return True if assignment is None else bool(assignment["determined"])
+
+    @property
+    def assignment(self) -> dict[str, Any] | None:
+        """Search over the modes of frequencies without a number: `determined`, `doubts`, `random_chi2_per_degree`, `second_best`, …
+
+        The modes themselves are in `details["frequencies"]`, those of the second best fit in `second_best["numbers"]` with
+        its `values`. None if every frequency has a number, or if responses were measured as well.
+        """
+        found: dict[str, Any] | None = self.details.get("assignment")
+        return found
+
+    @property
     def robot_file(self) -> str:
         """Text of the robot file with the values."""
         text: str = self.details["robot_file"]

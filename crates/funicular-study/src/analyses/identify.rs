@@ -10,11 +10,12 @@ use super::found;
 use crate::Watch;
 use crate::chosen_numbers::at_bound;
 use crate::identification::{
-    IdentifiedModel, LIMIT as NORMAL_95, StartRow, Unknown, judge, profiles, search, unknowns, unresolved_peaks,
+    Assigning, IdentifiedModel, LIMIT as NORMAL_95, StartRow, Unknown, judge, profiles, search, unknowns,
+    unresolved_peaks,
 };
 use crate::parameter_pattern::ParameterPattern;
 use crate::request::{self, Experiment, IdentifyRequest};
-use crate::text::{NONE, counted, digits_for};
+use crate::text::{NONE, counted, digits_for, significant};
 use anyhow::{Result, bail};
 use funicular::math::least_squares::{LeastSquaresEnding, Minimum};
 use funicular::robot::parameters::Parameters;
@@ -44,7 +45,7 @@ pub struct Identified {
     /// Combinations of values that the measurements do not determine.
     pub weak_combinations: Vec<String>,
     pub strong_correlations: Vec<String>,
-    /// True if the last search has ended at a minimum.
+    /// True if the last search has ended at a minimum, and the starts have not ended apart.
     pub converged: bool,
     pub starts: Vec<StartRow>,
     pub evaluations: usize,
@@ -56,6 +57,9 @@ pub struct Identified {
     /// Root mean square before the fit, with the same modes as partners.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency_rms_before: Option<f64>,
+    /// Assignment of frequencies without a number, unless responses were measured as well.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub assignment: Option<Assignment>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub responses: Vec<FittedResponse>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -64,6 +68,89 @@ pub struct Identified {
     pub robot_file: String,
     #[serde(skip)]
     pub warnings: Vec<String>,
+}
+
+/// Assignment of measured frequencies without a number to modes; the numbers are in `frequencies`.
+#[derive(Serialize)]
+pub struct Assignment {
+    /// False if other assignments are possible; deviations and intervals are then absent.
+    pub determined: bool,
+    /// Reasons why it is not determined.
+    pub doubts: Vec<String>,
+    /// Number of frequencies without a number.
+    pub frequencies: usize,
+    /// Number of these with several modes within two deviations.
+    pub crowded: usize,
+    /// Number of lists of random frequencies that were fitted in their place.
+    pub random_lists: usize,
+    /// Number of these lists that fit at least as well.
+    pub random_as_good: usize,
+    /// Median of χ² per degree of freedom of these lists.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub random_chi2_per_degree: Option<f64>,
+    /// Best fit with other modes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub second_best: Option<SecondBest>,
+}
+
+/// Best fit with other modes and other values.
+#[derive(Serialize)]
+pub struct SecondBest {
+    /// Values in the order of the identified ones.
+    pub values: Vec<f64>,
+    pub chi2: f64,
+    pub chi2_per_degree: f64,
+    /// Numbers of the modes in the ascending list, in the order of `frequencies` of the results.
+    pub numbers: Vec<usize>,
+    /// Natural frequencies of these modes [Hz].
+    pub frequency_hz: Vec<f64>,
+}
+
+impl Assignment {
+    fn of(found: &Assigning, model: &IdentifiedModel<'_>, doubts: Vec<String>) -> Self {
+        let second_best = found.other.as_ref().map(|other| SecondBest {
+            values: model.values(&other.x),
+            chi2: other.chi2,
+            chi2_per_degree: other.chi2 / other.degrees.max(1) as f64,
+            numbers: other.assigned.iter().flatten().map(|index| index + 1).collect(),
+            frequency_hz: other.frequency_hz.clone(),
+        });
+        Self {
+            determined: doubts.is_empty(),
+            doubts,
+            frequencies: found.open,
+            crowded: found.crowded,
+            random_lists: found.random.len(),
+            random_as_good: found.as_good(),
+            random_chi2_per_degree: found.random_chi2_per_degree(),
+            second_best,
+        }
+    }
+
+    /// Sentence on fits to random frequencies.
+    pub fn random_text(&self) -> Option<String> {
+        Some(format!(
+            "Random frequencies in place of the {} without a number fit with χ²/n = {} (median of {} lists), and {} of \
+             these lists fit at least as well.",
+            self.frequencies,
+            significant(self.random_chi2_per_degree?, 3),
+            self.random_lists,
+            self.random_as_good
+        ))
+    }
+}
+
+impl SecondBest {
+    /// Sentence on χ² and values.
+    pub fn sentence(&self, rows: &[ValueRow]) -> String {
+        let value = |(row, value): (&ValueRow, &f64)| format!("{} = {}", row.path, significant(*value, 5));
+        format!(
+            "Second best modes: χ² = {}, χ²/n = {}, {}",
+            significant(self.chi2, 4),
+            significant(self.chi2_per_degree, 3),
+            rows.iter().zip(&self.values).map(value).collect::<Vec<_>>().join(", ")
+        )
+    }
 }
 
 /// Identified value.
@@ -151,9 +238,26 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
     let best = &searched.best;
 
     // How well the measurements determine the values.
-    let judged = judge(&model, best, is_noise_given(request));
+    let mut judged = judge(&model, best, is_noise_given(request));
+    let mut profiled = profiled;
+    let mut doubts = Vec::new();
+    if let Some(assigning) = &searched.assigning {
+        doubts = assigning.doubts(&model, best, &judged, is_noise_given(request));
+        if !doubts.is_empty() {
+            // Intervals hold for this assignment alone.
+            judged.deviations.fill(None);
+            profiled.clear();
+        }
+    }
+    if let Some(apart) = &searched.apart {
+        judged.verdict.clone_from(apart);
+        judged.deviations.fill(None);
+        profiled.clear();
+    }
     let mut rows = value_rows(&model, &best.x, &judged.deviations);
     let mut warnings = warnings(&model, request, best, &rows)?;
+    warnings.extend(searched.apart.clone());
+    warnings.extend(searched.assigning.as_ref().and_then(|assigning| assigning.warning(&doubts)));
     warnings.extend(judged.weak.iter().cloned());
     if !profiled.is_empty() {
         let progress = |done: usize, total: usize| watch.borrow_mut().progress(done, total, "fits of profiles");
@@ -179,12 +283,13 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
         singular_values: judged.singular_values,
         weak_combinations: judged.weak,
         strong_correlations: judged.strong,
-        converged: best.ending == LeastSquaresEnding::Converged,
+        converged: best.ending == LeastSquaresEnding::Converged && searched.apart.is_none(),
         starts: searched.starts,
         evaluations: model.evaluations,
         frequency_rms: tables.frequency_rms(|row| row.fitted_hz),
         frequency_rms_before: tables.frequency_rms(|row| row.before_hz),
         frequencies: tables.frequencies,
+        assignment: searched.assigning.as_ref().map(|found| Assignment::of(found, &model, doubts)),
         responses: tables.responses,
         statics: tables.statics,
         robot_file: model.text(&best.x)?,

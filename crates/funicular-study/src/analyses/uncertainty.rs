@@ -10,7 +10,6 @@
 mod distribution;
 mod inputs;
 mod linear;
-mod normal;
 mod output;
 mod response_linearity;
 mod responses;

@@ -2,10 +2,13 @@
 
 use super::experiment::{Prepared, Solved};
 use super::observations::{Stage, Subject};
+use crate::at_rest::AtRest;
 use anyhow::{Result, bail};
 use funicular::gradient::{Gradients, Hold, VibrationGradients};
 use funicular::math::{Complex, Mat3, Vec3, skew};
+use funicular::modes::Mode;
 use funicular::robot::{Pose, Robot, RobotChange, State};
+use std::ops::Range;
 
 /// Angle [rad] below which the series of (93g) is used: the next term is θ⁴/30240.
 const SMALL_ANGLE: f64 = 1e-2;
@@ -60,18 +63,13 @@ impl Prepared<'_> {
         changes: &[RobotChange],
     ) -> Result<Vec<Vec<Complex>>> {
         let Solved { at_rest, modes, assigned, of_responses, .. } = solved;
-        let (robot, rest) = (&at_rest.robot, &at_rest.equilibrium);
-        let hold = self.hold(robot);
-        // The rules of tension distribution and the nearest pose have other derivatives than a held pose.
-        if hold == Hold::Pose && (at_rest.requested_pose.is_some() || at_rest.rule.is_some()) {
-            bail!("the pose or the tensions follow from a rule");
-        }
+        let robot = &at_rest.robot;
         let has_damping = self.observations.iter().any(|of| matches!(of.subject, Subject::Damping(_)));
         if has_damping && stage != Stage::Statics {
             // The damping ratio to first order depends on the motion of the mode, which is not differentiated.
             bail!("a damping ratio to first order has no gradient");
         }
-        let gradients = Gradients::new(robot, rest, hold)?;
+        let gradients = self.gradients(at_rest)?;
         let mut columns = vec![vec![Complex::default(); solved.values.len()]; changes.len()];
 
         self.add_statics(&gradients, changes, &mut columns)?;
@@ -92,6 +90,39 @@ impl Prepared<'_> {
             self.add_responses(&gradients.vibration(dynamics)?, robot, changes, &mut columns)?;
         }
         Ok(columns)
+    }
+
+    /// Derivatives of the logarithms of the frequencies in a range of the list of modes: one list per mode, along the
+    /// changes of the robot of this experiment.
+    ///
+    /// # Errors
+    /// Frequencies that have no gradient, as in [`Self::derivatives`].
+    pub(super) fn list_derivatives(
+        &self,
+        solved: &Solved,
+        range: Range<usize>,
+        changes: &[RobotChange],
+    ) -> Result<Vec<Vec<f64>>> {
+        let Some(dynamics) = &solved.modes.1 else { bail!("modes of rigid cables have no gradient") };
+        let gradients = self.gradients(&solved.at_rest)?;
+        let vibration = gradients.vibration(dynamics)?;
+        let of_mode = |mode: &Mode| {
+            let gradient = vibration.frequency(mode)?;
+            Ok(changes.iter().map(|change| gradient.dot(change) / mode.frequency_hz).collect())
+        };
+        solved.modes.0[range].iter().map(of_mode).collect()
+    }
+
+    /// Gradients of the robot at rest.
+    ///
+    /// # Errors
+    /// A rule of tension distribution or the nearest pose, which have other derivatives than a held pose.
+    fn gradients<'s>(&self, at_rest: &'s AtRest) -> Result<Gradients<'s>> {
+        let hold = self.hold(&at_rest.robot);
+        if hold == Hold::Pose && (at_rest.requested_pose.is_some() || at_rest.rule.is_some()) {
+            bail!("the pose or the tensions follow from a rule");
+        }
+        Ok(Gradients::new(&at_rest.robot, &at_rest.equilibrium, hold)?)
     }
 
     /// Writes the derivatives of pose, tensions and lengths.

@@ -1,6 +1,6 @@
 //! Predictions of the measurements of one experiment.
 
-use super::observations::{Observation, Stage, Subject};
+use super::observations::{Observation, ROBUST, Stage, Subject};
 use super::reading::observations;
 use crate::at_rest::{self, AtRest};
 use crate::measurements::MeasuredFrequency;
@@ -19,10 +19,6 @@ const BEYOND: f64 = 1.3;
 
 /// Maximum number of times that this limit is doubled until the list has all numbered modes.
 const MAX_DOUBLINGS: usize = 8;
-
-/// Distance of a mode from a measured frequency, in standard deviations, beyond which all modes are equally bad
-/// partners.
-const FAR: f64 = 1000.0;
 
 /// Response of an experiment with its signals.
 pub(super) struct ResponseOf {
@@ -217,8 +213,8 @@ impl<'a> Prepared<'a> {
         Ok((enough(Vec::new(), needed)?, None))
     }
 
-    /// Mode of each measured frequency: the numbered one, otherwise the one of the pairs whose distances have the
-    /// smallest sum.
+    /// Mode of each measured frequency: the numbered one, otherwise the one of the pairs with the smallest χ², in which
+    /// a distant pair has less weight.
     fn assigned(&self, list: &[Mode]) -> Result<Vec<usize>> {
         let measured = &self.given.frequencies;
         let mut assigned: Vec<Option<usize>> =
@@ -238,9 +234,8 @@ impl<'a> Prepared<'a> {
         let similarity: Vec<Vec<f64>> = open
             .iter()
             .map(|&k| {
-                let distance =
-                    |i: &usize| (list[*i].frequency_hz / measured[k].frequency_hz).ln().abs() / deviations[k];
-                free.iter().map(|i| 1.0 - distance(i).min(FAR) / FAR).collect()
+                let residual = |i: &usize| (list[*i].frequency_hz / measured[k].frequency_hz - 1.0) / deviations[k];
+                free.iter().map(|i| 1.0 / (1.0 + (residual(i) / ROBUST).powi(2))).collect()
             })
             .collect();
         for (row, column) in best_pairs(&similarity, free.len()) {

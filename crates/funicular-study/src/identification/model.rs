@@ -10,8 +10,9 @@ use anyhow::{Result, bail};
 use funicular::dynamics::Linearisation;
 use funicular::math::least_squares::LeastSquaresProblem;
 use funicular::math::{Complex, DMat};
-use funicular::robot::Robot;
 use funicular::robot::parameters::Parameters;
+use funicular::robot::{Robot, RobotChange};
+use std::ops::Range;
 
 /// Step of the central differences, relative to the spread of a value: their error grows with its square, the rounding
 /// of the equilibrium with its inverse.
@@ -34,7 +35,7 @@ pub(crate) struct IdentifiedModel<'a> {
     pub(crate) parameters: &'a Parameters,
     pub(crate) unknowns: &'a [Unknown],
     request: &'a IdentifyRequest,
-    experiments: Vec<Prepared<'a>>,
+    pub(super) experiments: Vec<Prepared<'a>>,
     /// All observations.
     pub(crate) observations: Vec<Observation>,
     /// Residuals in use.
@@ -149,7 +150,7 @@ impl<'a> IdentifiedModel<'a> {
     }
 
     /// Experiments solved at coordinates.
-    fn solve(&mut self, x: &[f64], assigned: Option<&Assigned>) -> Result<Vec<Solved>> {
+    pub(super) fn solve(&mut self, x: &[f64], assigned: Option<&Assigned>) -> Result<Vec<Solved>> {
         let robot = self.robot(x)?;
         (0..self.experiments.len()).map(|i| self.solve_one(i, robot.clone(), assigned.map(|all| &all[i][..]))).collect()
     }
@@ -237,10 +238,8 @@ impl<'a> IdentifiedModel<'a> {
 
     /// Derivatives of the predictions by all coordinates, one list per coordinate: from gradients, or by differences
     /// for an experiment or a value without them.
-    fn derivatives(&mut self, x: &[f64], here: &[Solved]) -> Option<Vec<Vec<Complex>>> {
-        let text = self.text(x);
-        let text = self.try_or_keep(text)?;
-        let parameters = self.try_or_keep(Parameters::from_toml(&text).map_err(anyhow::Error::from))?;
+    pub(super) fn derivatives(&mut self, x: &[f64], here: &[Solved]) -> Option<Vec<Vec<Complex>>> {
+        let parameters = self.parameters_at(x)?;
         let values = self.values(x);
         let mut columns: Vec<Vec<Complex>> = x.iter().map(|_| Vec::with_capacity(self.observations.len())).collect();
 
@@ -271,6 +270,63 @@ impl<'a> IdentifiedModel<'a> {
             }
         }
         Some(columns)
+    }
+
+    /// Numbers of the robot file with values at coordinates.
+    fn parameters_at(&mut self, x: &[f64]) -> Option<Parameters> {
+        let text = self.text(x);
+        let text = self.try_or_keep(text)?;
+        self.try_or_keep(Parameters::from_toml(&text).map_err(anyhow::Error::from))
+    }
+
+    /// Derivatives of the logarithms of frequencies by all coordinates, for a range of the list of modes of each
+    /// experiment: per experiment one list per mode. They follow from gradients, or from differences of the ascending
+    /// list over `steps`. The list may end earlier than the range.
+    pub(super) fn list_rates(
+        &mut self,
+        x: &[f64],
+        here: &[Solved],
+        ranges: &[Range<usize>],
+        steps: &[f64],
+    ) -> Option<Vec<Vec<Vec<f64>>>> {
+        let parameters = self.parameters_at(x)?;
+        let values = self.values(x);
+        let changes: Option<Vec<RobotChange>> =
+            self.unknowns.iter().map(|unknown| parameters.change(unknown.index)).collect();
+        let mut found = Vec::with_capacity(here.len());
+        for (number, (solved, range)) in here.iter().zip(ranges).enumerate() {
+            let experiment = &self.experiments[number];
+            let along = |change: &RobotChange| experiment.change(change.clone(), parameters.robot());
+            let changes: Option<Vec<RobotChange>> = changes.as_ref().map(|changes| changes.iter().map(along).collect());
+            let by_gradients =
+                changes.and_then(|changes| experiment.list_derivatives(solved, range.clone(), &changes).ok());
+            if let Some(mut rates) = by_gradients {
+                let units = || self.unknowns.iter().zip(&values).map(|(unknown, value)| unknown.rate(*value));
+                rates.iter_mut().for_each(|rates| rates.iter_mut().zip(units()).for_each(|(rate, unit)| *rate *= unit));
+                found.push(rates);
+                continue;
+            }
+
+            let mut rates = vec![Vec::with_capacity(x.len()); range.len()];
+            for (k, step) in steps.iter().enumerate() {
+                let (_, high) = self.unknowns[k].coordinate_bounds();
+                let step = if x[k] + step <= high { *step } else { -*step };
+                let mut moved = x.to_vec();
+                moved[k] += step;
+                let robot = self.robot(&moved);
+                let robot = self.try_or_keep(robot)?;
+                let solved_there = self.solve_one(number, robot, Some(&solved.assigned));
+                let there = self.try_or_keep(solved_there)?;
+                let pairs = solved.modes.0[range.clone()].iter().zip(there.modes.0.get(range.start..)?);
+                let length = pairs.len();
+                for ((here, there), rates) in pairs.zip(&mut rates) {
+                    rates.push((there.frequency_hz / here.frequency_hz).ln() / step);
+                }
+                rates.truncate(length);
+            }
+            found.push(rates);
+        }
+        Some(found)
     }
 
     /// Derivatives of the predictions of an experiment by a coordinate, by central differences over a step; one-sided

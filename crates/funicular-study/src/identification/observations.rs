@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 const MIN_LOG_DEVIATION: f64 = 0.02;
 
 /// Distance of an unlabelled frequency from its mode, in standard deviations, beyond which its residual loses weight.
-const ROBUST: f64 = 5.0;
+pub(super) const ROBUST: f64 = 5.0;
 
 /// Distance of a value of a response from its prediction, in standard deviations of the noise, beyond which it loses
 /// weight in the last stage. Gaussian noise exceeds it once in e⁹ ≈ 8,000 values.

@@ -22,6 +22,8 @@ struct IdentifyPage<'a> {
     chi2: String,
     responses: Vec<PageFigure>,
     frequencies: Option<(PageFigure, PageTable)>,
+    /// Sentences on fits with other modes and to random frequencies.
+    assignment: Vec<String>,
     statics: Option<PageTable>,
     profiles: Vec<PageFigure>,
     correlations: PageFigure,
@@ -45,6 +47,10 @@ pub fn page(found: &Identified, command_line: String) -> anyhow::Result<String> 
         ),
         responses: found.responses.iter().enumerate().map(|(i, response)| curves(i, response)).collect(),
         frequencies: (!found.frequencies.is_empty()).then(|| (differences(found), frequencies(found))),
+        assignment: found.assignment.as_ref().map_or_else(Vec::new, |assignment| {
+            let second = assignment.second_best.as_ref().map(|second| second.sentence(&found.values) + ".");
+            assignment.random_text().into_iter().chain(second).collect()
+        }),
         statics: (!found.statics.is_empty()).then(|| statics(found)),
         profiles: found.values.iter().enumerate().filter_map(|(i, row)| profile(i, row)).collect(),
         correlations: correlations(found),
@@ -155,25 +161,30 @@ fn differences(found: &Identified) -> PageFigure {
 }
 
 fn frequencies(found: &Identified) -> PageTable {
+    let second = found.assignment.as_ref().and_then(|assignment| assignment.second_best.as_ref());
+    let mut columns = vec![
+        "<experiment",
+        "number",
+        "measured|Hz",
+        "before|Hz",
+        "fitted|Hz",
+        "difference|%",
+        "damping measured",
+        "damping fitted",
+    ];
+    if second.is_some() {
+        columns.extend(["second best number", "second best|Hz"]);
+    }
     let mut table = PageTable::new(
         "table-frequencies",
         "Natural frequencies. The number is that of the mode in the ascending list.",
-        &[
-            "<experiment",
-            "number",
-            "measured|Hz",
-            "before|Hz",
-            "fitted|Hz",
-            "difference|%",
-            "damping measured",
-            "damping fitted",
-        ],
+        &columns,
     );
 
-    for row in &found.frequencies {
+    for (k, row) in found.frequencies.iter().enumerate() {
         let damping = |value: Option<f64>| value.map_or_else(|| text::NONE.to_owned(), |value| significant(value, 3));
 
-        table.row(vec![
+        let mut cells = vec![
             row.experiment.clone(),
             row.number.to_string(),
             fixed(row.measured_hz, 4),
@@ -182,7 +193,11 @@ fn frequencies(found: &Identified) -> PageTable {
             fixed(100.0 * (row.fitted_hz / row.measured_hz - 1.0), 2),
             damping(row.measured_damping_ratio),
             damping(row.fitted_damping_ratio),
-        ]);
+        ];
+        if let Some(second) = second {
+            cells.extend([second.numbers[k].to_string(), fixed(second.frequency_hz[k], 4)]);
+        }
+        table.row(cells);
     }
     table
 }

@@ -14,8 +14,8 @@ use serde_json::json;
 /// Deviations within which ten values lie: the largest of ten is beyond 3 once in 37 repetitions.
 const DEVIATIONS: f64 = 3.0;
 
-/// Difference of χ²/n from 1: three deviations √(2/n) for 1256 degrees of freedom are 0.12.
-const CHI2: f64 = 0.12;
+/// Difference of χ²/n from 1: three deviations √(2/n) for 1736 degrees of freedom are 0.102.
+const CHI2: f64 = 0.102;
 
 /// Distance of the centre of mass [m] from that of the makers, and relative difference of the moments of inertia: the
 /// makers' own sets of records, with two, three and four cables, differ by up to 2.7 mm in height, and by 0.5 to 5 % in xx.

@@ -1,6 +1,6 @@
 //! Samples and sums of independent distributions: Latin hypercubes, intervals that hold 95 %.
 
-use super::normal::normal_quantile;
+use crate::normal::normal_quantile;
 
 /// Next number of a pseudorandom sequence (SplitMix64).
 ///

@@ -1,8 +1,8 @@
 //! Numbers of the robot file that deviate, with their distributions.
 
-use super::normal::normal_quantile;
 use crate::analyses::gradient::{Tolerance, refuse_replaced, value_at};
 use crate::at_rest::AtRest;
+use crate::normal::normal_quantile;
 use crate::request::{Load, UncertaintyRequest};
 use crate::set_values::{self, Assignment};
 use anyhow::{Result, anyhow, bail};

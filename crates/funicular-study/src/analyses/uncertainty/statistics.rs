@@ -89,7 +89,7 @@ mod tests {
     fn total_shares_are_those_of_a_function_with_an_interaction() {
         // y = x₁ + x₁x₂ with independent standard normal x: variance 2, total shares 1 and ½.
         let points = super::super::distribution::latin_hypercube(20_000, 3, 5);
-        let z = |p: f64| super::super::normal::normal_quantile(p);
+        let z = |p: f64| crate::normal::normal_quantile(p);
         let y = |a: f64, b: f64| z(a) + z(a) * z(b);
         let first = total_share(points.iter().map(|p| (y(p[0], p[1]) - y(p[2], p[1]), 0.0)), 0.0, 2.0).unwrap();
         let second = total_share(points.iter().map(|p| (y(p[0], p[1]) - y(p[0], p[2]), 0.0)), 0.0, 2.0).unwrap();

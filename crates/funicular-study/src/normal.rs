@@ -73,7 +73,7 @@ const FAR_DENOMINATOR: [f64; 7] = [
 ///
 /// # References
 /// M. J. Wichura, Algorithm AS 241, Applied Statistics 37(3), 1988.
-pub(super) fn normal_quantile(p: f64) -> f64 {
+pub(crate) fn normal_quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
         return q * ratio(&CENTRE_NUMERATOR, &CENTRE_DENOMINATOR, 0.180_625 - q * q);
