@@ -15,7 +15,7 @@ use funicular::cable::Sag;
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Vec3, rotation};
-use funicular::modes::{self, Kind, LowestError, Mode, Modes};
+use funicular::modes::{self, Kind, LowestError, Mode, Modes, PlatformModeError};
 use funicular::response;
 use funicular::robot::{self, PlatformMotion, Robot, State, TensionLimits};
 use funicular::statics::{self, CableState, Limit, Stability, TensionRange};
@@ -201,7 +201,7 @@ impl Session {
             let AtRest { robot, equilibrium, .. } = &*at_rest;
             let linearisation = at_rest::linearisation(&self.request.model, equilibrium.model);
             let found = modes::lowest_with_platform(robot, equilibrium, linearisation, share, MAX_HZ);
-            *vibration = Some(found.map_err(|error| NoSolution(no_platform_mode(&error, share)))?);
+            *vibration = Some(found.map_err(|error| NoSolution(without_platform(&error, share)))?);
         }
 
         let (Some(index), Some((_, list))) = (first(vibration), &*vibration) else { bail!("the search has no mode") };
@@ -322,6 +322,17 @@ impl Session {
             "caveat": found.caveat,
         });
         Ok(Answer { numbers, text: text.to_string() })
+    }
+}
+
+/// Reason for which no mode of the platform was found.
+fn without_platform(error: &PlatformModeError, share: f64) -> String {
+    match error {
+        // The search has gone as far as the cables can be resolved.
+        PlatformModeError::Dynamics(limit) => {
+            format!("no mode of the platform was found. The search ends here: {limit}")
+        }
+        _ => no_platform_mode(error, share),
     }
 }
 
