@@ -3,8 +3,8 @@
 //! A [`Session`] keeps a robot. [`Session::frame`] solves its statics and vibration at a state and writes pose,
 //! tensions, curves of the cables and lowest natural frequencies into one list of numbers. The analyses and their
 //! defaults are those of the commands `statics` and `modes`; only the list of modes ends where enough are found.
-//! [`Session::platform`] continues the list up to the first mode of the platform. What is refused leaves nothing behind:
-//! after a refused state there is no frame, so that no mode or response of another state is taken for one of it.
+//! [`Session::platform`] continues the list up to the first mode of the platform. After a refused state there is no
+//! frame, so that no mode or response of another state is taken for one of it.
 //!
 //! The list begins with [`HEADER`] numbers. Then come, without gaps, [`CABLE`] numbers per cable, three coordinates per
 //! point of the cables, and [`MODE`] numbers per mode, followed by the energy fractions of the cables. docs/web.md
@@ -121,7 +121,7 @@ pub struct Session {
     robot: Robot,
     /// None before the first frame and after a refused one.
     last: Option<Frame>,
-    /// Natural frequencies of the last list [Hz], also after a refused frame: they only say where the next list may end.
+    /// Natural frequencies of the last list [Hz], also after a refused frame: they say where the next list may end.
     known_hz: Vec<f64>,
 }
 
