@@ -3,8 +3,8 @@
 //! A [`Session`] keeps a robot. [`Session::frame`] solves its statics and vibration at a state and writes pose,
 //! tensions, curves of the cables and lowest natural frequencies into one list of numbers. The analyses and their
 //! defaults are those of the commands `statics` and `modes`; only the list of modes ends where enough are found.
-//! [`Session::platform`] continues the list up to the first mode of the platform. What is refused leaves nothing behind:
-//! after a refused state there is no frame, so that no mode or response of another state is taken for one of it.
+//! [`Session::platform`] continues the list up to the first mode of the platform. After a refused state there is no
+//! frame, so that no mode or response of another state is taken for one of it.
 //!
 //! The list begins with [`HEADER`] numbers. Then come, without gaps, [`CABLE`] numbers per cable, three coordinates per
 //! point of the cables, and [`MODE`] numbers per mode, followed by the energy fractions of the cables. docs/web.md
@@ -15,7 +15,7 @@ use funicular::cable::Sag;
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Vec3, rotation};
-use funicular::modes::{self, Kind, LowestError, Mode, Modes};
+use funicular::modes::{self, Kind, LowestError, Mode, Modes, PlatformModeError};
 use funicular::response;
 use funicular::robot::{self, PlatformMotion, Robot, State, TensionLimits};
 use funicular::statics::{self, CableState, Limit, Stability, TensionRange};
@@ -121,7 +121,7 @@ pub struct Session {
     robot: Robot,
     /// None before the first frame and after a refused one.
     last: Option<Frame>,
-    /// Natural frequencies of the last list [Hz], also after a refused frame: they only say where the next list may end.
+    /// Natural frequencies of the last list [Hz], also after a refused frame: they say where the next list may end.
     known_hz: Vec<f64>,
 }
 
@@ -201,7 +201,7 @@ impl Session {
             let AtRest { robot, equilibrium, .. } = &*at_rest;
             let linearisation = at_rest::linearisation(&self.request.model, equilibrium.model);
             let found = modes::lowest_with_platform(robot, equilibrium, linearisation, share, MAX_HZ);
-            *vibration = Some(found.map_err(|error| NoSolution(no_platform_mode(&error, share)))?);
+            *vibration = Some(found.map_err(|error| NoSolution(without_platform(&error, share)))?);
         }
 
         let (Some(index), Some((_, list))) = (first(vibration), &*vibration) else { bail!("the search has no mode") };
@@ -322,6 +322,17 @@ impl Session {
             "caveat": found.caveat,
         });
         Ok(Answer { numbers, text: text.to_string() })
+    }
+}
+
+/// Reason for which no mode of the platform was found.
+fn without_platform(error: &PlatformModeError, share: f64) -> String {
+    match error {
+        // The search has gone as far as the cables can be resolved.
+        PlatformModeError::Dynamics(limit) => {
+            format!("no mode of the platform was found. The search ends here: {limit}")
+        }
+        _ => no_platform_mode(error, share),
     }
 }
 

@@ -309,20 +309,23 @@ mod tests {
         assert_eq!((status, text.starts_with(b"the request is not valid UTF-8 at byte 2;")), (BAD_INPUT, true));
     }
 
-    /// Calls an exported function after writing a text; returns the status, the numbers and the text.
-    fn called(text: &str, call: impl FnOnce() -> u32) -> (u32, Vec<f64>, String) {
+    /// Status, numbers and text of a call.
+    type Called = (u32, Vec<f64>, String);
+
+    /// Calls an exported function after writing a text.
+    fn called(text: &str, call: impl FnOnce() -> u32) -> Called {
         TEXT.set(text.as_bytes().to_vec());
         let status = call();
         (status, NUMBERS.take(), String::from_utf8(TEXT.take()).unwrap())
     }
 
-    fn robot(more: &Value) -> (u32, Vec<f64>, String) {
+    fn robot(more: &Value) -> Called {
         let mut request = json!({ "command": "stiffness", "robot": { "text": ROBOT } });
         request.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
         called(&request.to_string(), || funicular_robot())
     }
 
-    fn at(pose: &[f64], modes: usize, points: usize) -> (u32, Vec<f64>, String) {
+    fn at(pose: &[f64], modes: usize, points: usize) -> Called {
         NUMBERS.set(pose.to_vec());
         called("", || funicular_frame(1, modes, points))
     }
@@ -449,7 +452,7 @@ mod tests {
             assert!((back[k] - numbers[k]).abs() < 1e-9);
         }
 
-        let refused: [(u32, &str, &dyn Fn() -> (u32, Vec<f64>, String)); 5] = [
+        let refused: [(u32, &str, &dyn Fn() -> Called); 5] = [
             (BAD_INPUT, "7 unstrained lengths", &|| by_lengths(&[&numbers[3..10], &lengths[1..]].concat())),
             (BAD_INPUT, "give finite numbers", &|| at(&[1.0, f64::NAN, 1.5], 0, 0)),
             (BAD_INPUT, "kind 1 of a state does not go with 4 numbers", &|| at(&[1.0, 0.0, 1.5, 0.0], 0, 0)),

@@ -140,7 +140,8 @@ async function readRobot() {
     dirty.frame = dirty.robot;
     if (robots === page.robots && (stopped || !(error instanceof Cancelled))) {
       shown.refused = true;
-      empty(stopped ? "the reading of the robot file was cancelled" : content.robot.set.length ? "a value of the robot is refused" : "the robot file has an error");
+      const refusal = content.robot.set.length ? "a value of the robot is refused" : "the robot file has an error";
+      empty(stopped ? "the reading of the robot file was cancelled" : error.status ? refusal : "the program for the computation does not run");
       if (stopped) {
         tell("Cancelled: the robot file was not read.", true);
       } else {
@@ -200,7 +201,7 @@ async function computeFrame() {
   } catch (error) {
     if (robots === page.robots && (stopped || !(error instanceof Cancelled))) {
       shown.broken = true;
-      empty(stopped ? "the computation was cancelled" : error.status === 1 ? "there is no equilibrium at this state" : "this state is refused");
+      empty(stopped ? "the computation was cancelled" : error.status === 1 ? "there is no equilibrium at this state" : error.status ? "this state is refused" : "the computation has failed");
       emit("frame-refused", stopped ? new Error("Cancelled: there are no results for this state. The next change computes again.") : error);
     }
   } finally {

@@ -11,7 +11,7 @@ const NAMES = ["Highest tension", "Lowest tension", "First resonance", "First re
 function speak() {
   const { frame } = page;
   if (frame) {
-    const [x, y, z] = frame.position.map((value) => short(value, 3));
+    const [x, y, z] = frame.position.map((value) => short(Number(value.toFixed(3)), 4));
     const first = frame.modes[frame.first?.index];
     const highest = Math.max(...frame.cables.map((cable) => cable.highest));
     put($("spoken"), `Platform at x ${x}, y ${y}, z ${z} metres. Highest tension ${short(highest, 3)} newtons.${first ? ` First resonance of the platform ${short(first.hz, 3)} hertz.` : ""}`);
@@ -89,10 +89,9 @@ export function listen() {
   on("frame", showKey);
   on("platform", showKey);
   on("remember", showKey);
-  on("empty", () => { showKey(); showWarnings(); });
-  on("outdated", () => age("warnings", true));
+  on("empty", () => { showKey(); showWarnings(); put($("spoken"), ""); });
+  on("outdated", () => { age("warnings", true); put($("spoken"), ""); });
   on("rested", speak);
-  on("empty", () => put($("spoken"), ""));
   on("settled", showWarnings);
   on("settled", showKey);
 }

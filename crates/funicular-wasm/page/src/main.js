@@ -9,7 +9,7 @@ import * as history from "./history.js";
 import * as influence from "./influence.js";
 import * as key from "./key.js";
 import * as link from "./link.js";
-import { tell } from "./messages.js";
+import { age, tell } from "./messages.js";
 import * as modes from "./modes.js";
 import * as pose from "./pose.js";
 import * as release from "./release.js";
@@ -17,6 +17,7 @@ import * as response from "./response.js";
 import * as robot from "./robot.js";
 import * as saving from "./saving.js";
 import * as sliders from "./sliders.js";
+import { LinkError } from "./share.js";
 import { content, emit, on, page, shown } from "./store.js";
 import * as tensions from "./tensions.js";
 import { View } from "./view.js";
@@ -91,6 +92,9 @@ async function firstRobot() {
       await robot.setRobot(FIRST_ROBOT, ROBOTS[FIRST_ROBOT]);
     }
   } catch (error) {
+    if (!(error instanceof LinkError)) {
+      throw error;
+    }
     wrong = error;
     await robot.setRobot(FIRST_ROBOT, ROBOTS[FIRST_ROBOT]);
   }
@@ -118,6 +122,10 @@ async function start() {
     }
   });
   ["frame", "empty"].forEach((event) => on(event, () => { if (event === "frame" || shown.refused || shown.broken) { $("loading")?.remove(); } }));
+  // While a frame takes long, the figures are those of the state before.
+  const ofFrame = (old) => ["key", "tensions", "modes"].forEach((id) => age(id, old));
+  on("outdated", () => { ofFrame(true); age("bode", true); });
+  ["frame", "empty"].forEach((event) => on(event, () => ofFrame(false)));
   on("rested", () => { $("state").dataset.settled = String(Number($("state").dataset.settled ?? 0) + 1); });
   $("remember").addEventListener("click", remember);
   $("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));

@@ -87,7 +87,7 @@ function showNone(text) {
 /** Listens to the choice of signals and range. */
 export function listen() {
   on("robot", (isNew) => { if (isNew) { signals(); } });
-  on("frame", () => { chooseRange(); age("bode", true); });
+  on("frame", chooseRange);
   on("empty", () => showNone("–"));
   on("response", showResponse);
   on("remember", showResponse);
