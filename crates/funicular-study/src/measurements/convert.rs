@@ -30,6 +30,12 @@ const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
 /// Relative difference of two factors to SI units that are not the same unit: rounded factors of a file have it.
 const SAME_UNIT: f64 = 1e-3;
 
+/// Stands for the line of a function in a reason to leave it out.
+const LINE: &str = "<line>";
+
+/// End of a message: how to give the signals of a function.
+const GIVE_SIGNALS: &str = "give its signals, as in ⟪response⟫ \"<line>=az/fz\" (output/input), or write it as CSV";
+
 /// Type of function of a frequency response.
 pub(crate) const RESPONSE: i64 = 4;
 
@@ -101,7 +107,8 @@ impl FoundResponses {
             let Some((reason, lines)) = first else {
                 bail!("{path} has no frequency response: no dataset 58 has a function of type {RESPONSE}");
             };
-            bail!("{}: the function in line {} {reason}", path, lines.first().copied().unwrap_or_default());
+            let line = format!("line {}", lines.first().copied().unwrap_or_default());
+            bail!("{path}: the function in {line} {}", reason.replace(LINE, &line));
         }
 
         for (sentence, count) in self.conversions {
@@ -113,10 +120,9 @@ impl FoundResponses {
                 2 => ", as is another one".to_owned(),
                 count => format!(", as are {} others", count - 1),
             };
-            notes.push(format!(
-                "{path}: the function in line {} is left out{others}: it {reason}",
-                lines.first().copied().unwrap_or_default()
-            ));
+            let line = format!("line {}", lines.first().copied().unwrap_or_default());
+            let reason = reason.replace(LINE, &line);
+            notes.push(format!("{path}: the function in {line} is left out{others}: it {reason}"));
         }
         for (kind, count) in self.others {
             notes.push(format!(
@@ -165,12 +171,6 @@ impl UffResponse<'_> {
     /// Beginning of a message about this function.
     fn place(&self) -> String {
         format!("{}: the function in line {}", self.path, self.function.line + 1)
-    }
-
-    /// End of a message: how to give the signals of this function.
-    fn give_signals(&self) -> String {
-        let line = self.function.line + 1;
-        format!("give its signals, as in ⟪response⟫ \"line {line}=az/fz\" (output/input), or write it as CSV")
     }
 
     fn converted(&self, conversions: &mut BTreeMap<String, usize>) -> Result<MeasuredResponse, Refusal> {
@@ -280,9 +280,7 @@ impl UffResponse<'_> {
             return Err(Refusal::Unfit(format!(
                 "has ordinates of data type {} and the unit `{}`, which do not tell whether they are displacement, \
                  velocity or acceleration: {}",
-                numerator.kind,
-                numerator.unit,
-                self.give_signals()
+                numerator.kind, numerator.unit, GIVE_SIGNALS
             )));
         };
         Ok(Signals { output, input, sign: out_sign * in_sign })
@@ -301,8 +299,7 @@ impl UffResponse<'_> {
             _ => {
                 return Err(Refusal::Unfit(format!(
                     "has no direction of its {what}: it is {}, it must be 1 to 6 or -1 to -6; {}",
-                    end.direction,
-                    self.give_signals()
+                    end.direction, GIVE_SIGNALS
                 )));
             }
         };
