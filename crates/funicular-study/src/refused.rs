@@ -17,8 +17,8 @@ pub struct Refused {
 }
 
 impl Refused {
-    /// Error of a text. The text is kept to be shown, so that what hides or turns text in a terminal is replaced by signs
-    /// of the same number of bytes: the places of the errors count bytes.
+    /// Error of a text. The text is kept to be shown, so that what hides or turns text in a terminal is replaced by
+    /// signs of the same number of bytes: the places of the errors count bytes.
     pub(crate) fn new(name: String, text: &str, error: SpecError) -> Self {
         let mut shown = String::with_capacity(text.len());
         for c in text.chars() {

@@ -39,13 +39,13 @@ const GIVE_SIGNALS: &str = "give its signals, as in ⟪response⟫ \"<line>=az/f
 /// Type of function of a frequency response.
 pub(crate) const RESPONSE: i64 = 4;
 
-/// Frequency responses of a file, with points by `nodes`, or else by the nodes of the file. `names` gives the signals of
-/// functions that do not tell them. SI units follow from the labels of the units and from dataset 164. The second list
-/// names what was left out, converted or replaced.
+/// Frequency responses of a file, with points by `nodes`, or else by the nodes of the file. `names` gives the signals
+/// of functions that do not tell them. SI units follow from the labels of the units and from dataset 164. The second
+/// list names what was left out, converted or replaced.
 ///
 /// # Errors
-/// A unit that is not known or contradicts dataset 164, damaged numbers, or a file without a single function that can be
-/// used; the message names the line of the dataset.
+/// A unit that is not known or contradicts dataset 164, damaged numbers, or a file without a single function that can
+/// be used; the message names the line of the dataset.
 pub fn responses_of_uff(
     path: &str,
     file: &UffFile,
@@ -356,8 +356,8 @@ impl UffResponse<'_> {
         let size = self.agreed(above, size, of_ratio)?;
         if !unit_label::is_blank(below) && !unit_label::is_part_of(below, above) {
             bail!(
-                "{} has the unit `{above}` of its ordinates and the unit `{below}` of its denominator, which contradict \
-                 each other: correct one of the labels",
+                "{} has the unit `{above}` of its ordinates and the unit `{below}` of its denominator, which \
+                 contradict each other: correct one of the labels",
                 self.place()
             );
         }
@@ -377,8 +377,8 @@ impl UffResponse<'_> {
         let by_dataset = self.by_dataset(dimension);
         if self.file.units.converts() && (size / by_dataset - 1.0).abs() > SAME_UNIT {
             bail!(
-                "{} has the unit `{label}`, which is {} in SI units, but by the factors of the file (dataset 164) it is \
-                 {}: correct one of them, or remove dataset 164",
+                "{} has the unit `{label}`, which is {} in SI units, but by the factors of the file (dataset 164) it \
+                 is {}: correct one of them, or remove dataset 164",
                 self.place(),
                 short(size, 7),
                 short(by_dataset, 7)
@@ -405,8 +405,8 @@ impl UffResponse<'_> {
                 Err(Refusal::Unfit(format!("has abscissae in the unit `{unit}`, which is no known unit of frequency")))
             }
             None => Err(Refusal::Wrong(anyhow!(
-                "{} has abscissae in the unit `{unit}`, which is no known unit of frequency: correct the label, or export \
-                 the file with Hz",
+                "{} has abscissae in the unit `{unit}`, which is no known unit of frequency: correct the label, or \
+                 export the file with Hz",
                 self.place()
             ))),
         }
