@@ -85,7 +85,7 @@ pub(crate) fn response(error: &ResponseError) -> PyErr {
     python::ResponseError::new_err(error.to_string())
 }
 
-/// Returns a message in which text of the user can neither act on a terminal nor fill it. All exceptions have such ones.
+/// Returns a message in which text of the user can neither act on a terminal nor fill it, as all exceptions have it.
 #[pyfunction]
 pub(crate) fn shown(message: &str) -> String {
     funicular::suggest::shown(message)

@@ -59,7 +59,7 @@ impl RobotText {
         let text = self.changed_text()?;
         match Robot::from_toml(&text) {
             Ok(robot) => Ok(RobotFile { robot, name, text }),
-            Err(error) => Err(Refused { name, text, error }.into()),
+            Err(error) => Err(Refused::new(name, &text, error).into()),
         }
     }
 

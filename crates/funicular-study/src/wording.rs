@@ -58,8 +58,8 @@ pub fn worded(text: &str, words: Words) -> String {
     out + rest
 }
 
-/// Message, warning or note for a front end: names of options as the front end writes them, and text of the user that can
-/// neither act on a terminal nor fill it. Every message leaves the program through this function.
+/// Message, warning or note for a front end: names of options as the front end writes them, and text of the user that
+/// can neither act on a terminal nor fill it. Every message leaves the program through this function.
 pub fn told(text: &str, words: Words) -> String {
     shown(&worded(text, words))
 }

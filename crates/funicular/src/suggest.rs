@@ -92,8 +92,8 @@ pub fn visible(text: &str) -> String {
     out
 }
 
-/// Message of one or more lines in which text of the user is harmless: [`visible`], with long words and long lines cut in
-/// the middle. A message that was shown stays as it is.
+/// Message of one or more lines in which text of the user is harmless: [`visible`], with long words and long lines cut
+/// in the middle. A message that was shown stays as it is.
 ///
 /// # Example
 /// ```

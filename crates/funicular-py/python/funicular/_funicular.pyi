@@ -1330,7 +1330,7 @@ def robot_of_source(source: str) -> Robot:
 
 def shown(message: str) -> str:
     """
-    Returns a message in which text of the user can neither act on a terminal nor fill it. All exceptions have such ones.
+    Returns a message in which text of the user can neither act on a terminal nor fill it, as all exceptions have it.
     """
 
 def source_file(path: str | PathLike[str]) -> str:

@@ -30,16 +30,22 @@ const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
 /// Relative difference of two factors to SI units that are not the same unit: rounded factors of a file have it.
 const SAME_UNIT: f64 = 1e-3;
 
+/// Stands for the line of a function in a reason to leave it out.
+const LINE: &str = "<line>";
+
+/// End of a message: how to give the signals of a function.
+const GIVE_SIGNALS: &str = "give its signals, as in ⟪response⟫ \"<line>=az/fz\" (output/input), or write it as CSV";
+
 /// Type of function of a frequency response.
 pub(crate) const RESPONSE: i64 = 4;
 
-/// Frequency responses of a file, with points by `nodes`, or else by the nodes of the file. `names` gives the signals of
-/// functions that do not tell them. SI units follow from the labels of the units and from dataset 164. The second list
-/// names what was left out, converted or replaced.
+/// Frequency responses of a file, with points by `nodes`, or else by the nodes of the file. `names` gives the signals
+/// of functions that do not tell them. SI units follow from the labels of the units and from dataset 164. The second
+/// list names what was left out, converted or replaced.
 ///
 /// # Errors
-/// A unit that is not known or contradicts dataset 164, damaged numbers, or a file without a single function that can be
-/// used; the message names the line of the dataset.
+/// A unit that is not known or contradicts dataset 164, damaged numbers, or a file without a single function that can
+/// be used; the message names the line of the dataset.
 pub fn responses_of_uff(
     path: &str,
     file: &UffFile,
@@ -101,7 +107,8 @@ impl FoundResponses {
             let Some((reason, lines)) = first else {
                 bail!("{path} has no frequency response: no dataset 58 has a function of type {RESPONSE}");
             };
-            bail!("{}: the function in line {} {reason}", path, lines.first().copied().unwrap_or_default());
+            let line = format!("line {}", lines.first().copied().unwrap_or_default());
+            bail!("{path}: the function in {line} {}", reason.replace(LINE, &line));
         }
 
         for (sentence, count) in self.conversions {
@@ -113,10 +120,9 @@ impl FoundResponses {
                 2 => ", as is another one".to_owned(),
                 count => format!(", as are {} others", count - 1),
             };
-            notes.push(format!(
-                "{path}: the function in line {} is left out{others}: it {reason}",
-                lines.first().copied().unwrap_or_default()
-            ));
+            let line = format!("line {}", lines.first().copied().unwrap_or_default());
+            let reason = reason.replace(LINE, &line);
+            notes.push(format!("{path}: the function in {line} is left out{others}: it {reason}"));
         }
         for (kind, count) in self.others {
             notes.push(format!(
@@ -165,12 +171,6 @@ impl UffResponse<'_> {
     /// Beginning of a message about this function.
     fn place(&self) -> String {
         format!("{}: the function in line {}", self.path, self.function.line + 1)
-    }
-
-    /// End of a message: how to give the signals of this function.
-    fn give_signals(&self) -> String {
-        let line = self.function.line + 1;
-        format!("give its signals, as in ⟪response⟫ \"line {line}=az/fz\" (output/input), or write it as CSV")
     }
 
     fn converted(&self, conversions: &mut BTreeMap<String, usize>) -> Result<MeasuredResponse, Refusal> {
@@ -280,9 +280,7 @@ impl UffResponse<'_> {
             return Err(Refusal::Unfit(format!(
                 "has ordinates of data type {} and the unit `{}`, which do not tell whether they are displacement, \
                  velocity or acceleration: {}",
-                numerator.kind,
-                numerator.unit,
-                self.give_signals()
+                numerator.kind, numerator.unit, GIVE_SIGNALS
             )));
         };
         Ok(Signals { output, input, sign: out_sign * in_sign })
@@ -301,8 +299,7 @@ impl UffResponse<'_> {
             _ => {
                 return Err(Refusal::Unfit(format!(
                     "has no direction of its {what}: it is {}, it must be 1 to 6 or -1 to -6; {}",
-                    end.direction,
-                    self.give_signals()
+                    end.direction, GIVE_SIGNALS
                 )));
             }
         };
@@ -359,8 +356,8 @@ impl UffResponse<'_> {
         let size = self.agreed(above, size, of_ratio)?;
         if !unit_label::is_blank(below) && !unit_label::is_part_of(below, above) {
             bail!(
-                "{} has the unit `{above}` of its ordinates and the unit `{below}` of its denominator, which contradict \
-                 each other: correct one of the labels",
+                "{} has the unit `{above}` of its ordinates and the unit `{below}` of its denominator, which \
+                 contradict each other: correct one of the labels",
                 self.place()
             );
         }
@@ -380,8 +377,8 @@ impl UffResponse<'_> {
         let by_dataset = self.by_dataset(dimension);
         if self.file.units.converts() && (size / by_dataset - 1.0).abs() > SAME_UNIT {
             bail!(
-                "{} has the unit `{label}`, which is {} in SI units, but by the factors of the file (dataset 164) it is \
-                 {}: correct one of them, or remove dataset 164",
+                "{} has the unit `{label}`, which is {} in SI units, but by the factors of the file (dataset 164) it \
+                 is {}: correct one of them, or remove dataset 164",
                 self.place(),
                 short(size, 7),
                 short(by_dataset, 7)
@@ -408,8 +405,8 @@ impl UffResponse<'_> {
                 Err(Refusal::Unfit(format!("has abscissae in the unit `{unit}`, which is no known unit of frequency")))
             }
             None => Err(Refusal::Wrong(anyhow!(
-                "{} has abscissae in the unit `{unit}`, which is no known unit of frequency: correct the label, or export \
-                 the file with Hz",
+                "{} has abscissae in the unit `{unit}`, which is no known unit of frequency: correct the label, or \
+                 export the file with Hz",
                 self.place()
             ))),
         }

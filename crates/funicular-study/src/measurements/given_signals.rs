@@ -1,5 +1,5 @@
-//! Signals of functions of a Universal File: by their data types and directions, and as the user gives them for functions
-//! that do not tell them.
+//! Signals of functions of a Universal File: by their data types and directions, and as the user gives them for
+//! functions that do not tell them.
 
 use super::ResponseName;
 use super::uff::{Function, NodeDirection, UffFile};

@@ -265,7 +265,7 @@ fn words(label: &str) -> Option<Vec<Token>> {
             '-' | '−' | '+' if letters.get(at).is_some_and(char::is_ascii_digit) => {
                 if after_word {
                     tokens.push(Token::Sign('^'));
-                } else if tokens.last() != Some(&Token::Sign('^')) {
+                } else if !matches!(tokens[..], [.., Token::Sign('^')] | [.., Token::Sign('^'), Token::Sign('(')]) {
                     return None;
                 }
                 let digits = at;
