@@ -198,7 +198,10 @@ pub fn control_model(
     let of_second_order = RequestedModel { below_hz, tolerance, damping_at };
     let (cut, second_order) = cut(robot, equilibrium, inputs, outputs, &reference, of_second_order, &mut steps)?;
     steps.reached(&MODES, 1, 2)?;
-    let modal = modal_model(&second_order, &cut, damping_at)?;
+    let modal = modal_model(&second_order, &cut, damping_at).map_err(|error| match error {
+        ReductionError::Unstable if equilibrium.stability.is_indifferent() => ReductionError::Indifferent,
+        other => other,
+    })?;
 
     // Sets of modes to choose from, and the error with all modes that matter.
     let candidates = TermCandidates { modal: &modal, below_hz, tolerance };

@@ -142,9 +142,12 @@ pub fn nearest_equilibrium(
 ) -> Result<NearestEquilibrium, StaticsError> {
     if robot.has_supports() {
         let solve = |rigid: &Robot| nearest_equilibrium(rigid, requested, model);
-        let mut found = supports::on_flexible_supports(robot, solve, |found: &mut NearestEquilibrium| {
-            &mut found.equilibrium.cables
-        })?;
+        let mut found = supports::on_flexible_supports(
+            robot,
+            solve,
+            |found: &mut NearestEquilibrium| &mut found.equilibrium.cables,
+            &[],
+        )?;
         found.equilibrium = with_stability(robot, found.equilibrium);
         return Ok(found);
     }
