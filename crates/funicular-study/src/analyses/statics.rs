@@ -10,8 +10,8 @@ use funicular::cable::Sag;
 use funicular::pose_error::PoseDifference;
 use funicular::robot::{Pose, Robot, State, Support, TensionLimits};
 use funicular::statics::{
-    self, CableFriction, CableState, Candidate, Equilibrium, FreeMotion, FrictionInterval, Held, Interval, MotionInterval,
-    TensionRange,
+    self, CableFriction, CableState, Candidate, Equilibrium, FreeMotion, FrictionInterval, Held, Interval,
+    MotionInterval, TensionRange,
 };
 use serde::Serialize;
 

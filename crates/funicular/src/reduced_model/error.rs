@@ -67,8 +67,9 @@ pub enum ReductionError {
     },
     /// Nothing holds the platform in some direction.
     #[error(
-        "the equilibrium is indifferent: in some direction nothing holds the platform, so that it has no stable state \
-         space; add a cable, or another attachment point, or take the second-order form"
+        "the equilibrium is indifferent: in some direction nothing holds the platform, and an input, an output or the \
+         damping sees this motion, so that it has no stable state space; choose inputs and outputs that do not see it, \
+         add a cable, or another attachment point, or take the second-order form"
     )]
     Indifferent,
     /// The equilibrium is unstable.

@@ -62,15 +62,15 @@ fn a_bar_held_at_its_two_ends_has_the_nearest_tensions_above_the_minimum_and_tur
 #[test]
 fn a_camera_below_one_point_has_the_tensions_of_a_point_mass() {
     for count in [4, 5, 6] {
-        let point = statics::solve(&camera("mass_kg = 20\nmotion = \"point-mass\"", count), StaticModel::Catenary, None);
+        let point =
+            statics::solve(&camera("mass_kg = 20\nmotion = \"point-mass\"", count), StaticModel::Catenary, None);
         let robot = camera(BELOW, count);
         let found = statics::solve(&robot, StaticModel::Catenary, None).unwrap();
         for (found, expected) in tensions(&found).iter().zip(tensions(&point.unwrap())) {
             assert!((found / expected - 1.0).abs() < 1e-9, "{count}: {found} {expected}");
         }
         assert!(found.rule.is_some());
-        let held: Vec<_> =
-            statics::free_motions(&robot, &found.equilibrium).iter().map(|free| free.is_held).collect();
+        let held: Vec<_> = statics::free_motions(&robot, &found.equilibrium).iter().map(|free| free.is_held).collect();
         assert_eq!(held, [Some(false), Some(true), Some(true)]);
     }
 }
@@ -79,5 +79,8 @@ fn a_camera_below_one_point_has_the_tensions_of_a_point_mass() {
 fn a_camera_that_its_weight_would_turn_is_refused_with_the_turn() {
     let robot = camera("mass_kg = 20\ninertia_kg_m2 = [0.5, 0.5, 0.1]\ncenter_of_mass_m = [0.1, 0, -0.3]", 6);
     let error = statics::solve(&robot, StaticModel::Spring, None).unwrap_err();
-    assert!(matches!(error, StaticsError::Singular { .. }) && error.to_string().contains("turn the platform"), "{error}");
+    assert!(
+        matches!(error, StaticsError::Singular { .. }) && error.to_string().contains("turn the platform"),
+        "{error}"
+    );
 }
