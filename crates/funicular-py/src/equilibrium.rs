@@ -128,6 +128,14 @@ impl PyEquilibrium {
         Matrix::of_rows(cables.iter().flat_map(|cable| cable.force_on_platform_w.iter().copied()).collect(), 3)
     }
 
+    /// Motions of the platform that no cable opposes by its tension, in words; empty unless the directions of the cables
+    /// are dependent or the equilibrium is indifferent.
+    #[getter]
+    fn free_motions(&self) -> Vec<String> {
+        let free = statics::free_motions(&self.at_rest.robot, &self.at_rest.equilibrium);
+        free.iter().map(ToString::to_string).collect()
+    }
+
     /// Chord lengths from attachment to anchor [m].
     #[getter]
     fn chord_m(&self) -> Vector {

@@ -94,6 +94,7 @@ fn certificate(found: &Modes) -> String {
     let listed = counted(found.modes.len(), "mode");
     let unstable = match found.unstable_directions {
         0 => String::new(),
+        n if found.is_indifferent => format!(" and {} without a frequency", counted(n, "indifferent direction")),
         n => format!(" and {} without a frequency", counted(n, "unstable direction")),
     };
     let Modes { count_below, below_hz, .. } = found;

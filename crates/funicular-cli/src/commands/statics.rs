@@ -13,11 +13,12 @@ impl Printed for Statics {
         let friction = self.friction_interval.as_ref().map_or_else(String::new, friction_text);
         let stability = match (self.stable, self.stiffness_min_n_per_m) {
             (Some(true), Some(min)) => format!("Stable, min stiffness {} N/m", significant(min, 4)),
-            (Some(false), Some(0.0)) => "INDIFFERENT: the platform is free to move in some direction".to_owned(),
+            (Some(false), Some(0.0)) => indifferent(self),
             (Some(false), Some(min)) => format!("NOT STABLE, min stiffness {} N/m", significant(min, 4)),
             _ => "Rigid cables: no stiffness".to_owned(),
         };
         let rule = self.tension_rule.map_or_else(String::new, |rule| format!(", tensions by the rule `{rule}`"));
+        let balanced = motions(self, Some(true)) + &motions(self, None);
         let load = self.load.as_ref().map_or_else(String::new, |load| format!(", {}", load.text()));
         let wind = self.wind.as_ref().map_or_else(String::new, |wind| format!(", wind {}", wind.text()));
         let held = self.held.as_ref().map_or_else(String::new, |held| {
@@ -45,7 +46,7 @@ impl Printed for Statics {
         };
 
         format!(
-            "{}: equilibrium with {} cables, {} kg{load}{wind}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n{nearest}{held}\n\
+            "{}: equilibrium with {} cables, {} kg{load}{wind}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n{nearest}{held}{balanced}\n\
              {cables}\n{drives}{stability}. {balance} after {}.\n{others}{friction}",
             self.robot,
             self.static_model,
@@ -105,6 +106,24 @@ impl Printed for Statics {
         }
         Ok(())
     }
+}
+
+/// Motions that no cable opposes and that weight or the directions of the tensions hold, or of which nothing is known.
+fn motions(found: &Statics, held: Option<bool>) -> String {
+    let motions: Vec<&str> =
+        found.free_motions.iter().filter(|free| free.held == held).map(|free| free.text.as_str()).collect();
+    let by = if held.is_some() { ", only weight and the directions of the tensions" } else { "" };
+    if motions.is_empty() { String::new() } else { format!("  no cable holds{by}: {}\n", motions.join("; ")) }
+}
+
+/// Sentence on an indifferent equilibrium with the motions that nothing holds.
+fn indifferent(found: &Statics) -> String {
+    let motions: Vec<&str> =
+        found.free_motions.iter().filter(|free| free.held == Some(false)).map(|free| free.text.as_str()).collect();
+    if motions.is_empty() {
+        return "INDIFFERENT: the platform is free to move in some direction".to_owned();
+    }
+    format!("INDIFFERENT: the platform is free to {}", motions.join("; to "))
 }
 
 /// Lengths, tensions and sag of the cables, with limits and margin if the robot has limits.

@@ -517,6 +517,12 @@ class Equilibrium(Analyses):
         Forces of the cables on the platform in world axes [N], one row per cable.
         """
     @property
+    def free_motions(self, /) -> list[str]:
+        """
+        Motions of the platform that no cable opposes by its tension, in words; empty unless the directions of the cables
+        are dependent or the equilibrium is indifferent.
+        """
+    @property
     def held_pose(self, /) -> Pose | None:
         """
         Pose whose unstrained lengths are held, as with `hold_lengths_of_pose=True`; else None.

@@ -25,7 +25,11 @@ pub struct Modes {
     pub models: Models,
     pub count_below: usize,
     pub certified: bool,
+    /// Directions without a frequency, in which the equilibrium is unstable or indifferent.
     pub unstable_directions: usize,
+    /// True if the equilibrium is indifferent in these directions: nothing holds the platform, nor drives it away.
+    #[serde(skip)]
+    pub is_indifferent: bool,
     /// True if a count proves that every mode has its damped mode; absent if damping ratios are of first order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damped_certified: Option<bool>,
@@ -159,6 +163,7 @@ fn about_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> Resu
         count_below: found.count_below,
         certified: found.certified,
         unstable_directions: found.unstable_directions,
+        is_indifferent: at_rest.equilibrium.stability.is_indifferent(),
         damped_certified: None,
         platform_share: request.platform_share,
         first_platform_mode: FirstPlatformMode::of(&found, request.platform_share),
@@ -207,6 +212,7 @@ fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<Si
         count_below: found.count_below,
         certified: found.certified,
         unstable_directions: found.unstable_directions,
+        is_indifferent: at_rest.equilibrium.stability.is_indifferent(),
         damped_certified: damped.map(|damped| damped.certified),
         platform_share: request.platform_share,
         first_platform_mode: FirstPlatformMode::of(&found, request.platform_share),

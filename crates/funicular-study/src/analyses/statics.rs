@@ -10,8 +10,8 @@ use funicular::cable::Sag;
 use funicular::pose_error::PoseDifference;
 use funicular::robot::{Pose, Robot, State, Support, TensionLimits};
 use funicular::statics::{
-    self, CableFriction, CableState, Candidate, Equilibrium, FrictionInterval, Held, Interval, MotionInterval,
-    TensionRange,
+    self, CableFriction, CableState, Candidate, Equilibrium, FreeMotion, FrictionInterval, Held, Interval,
+    MotionInterval, TensionRange,
 };
 use serde::Serialize;
 
@@ -52,6 +52,10 @@ pub struct Statics {
     pub stable: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness_min_n_per_m: Option<f64>,
+    /// Motions that no cable opposes by its tension; absent unless the directions of the cables are dependent or the
+    /// equilibrium is indifferent.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub free_motions: Vec<FreeMotionRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub another_stable_equilibrium: Option<OtherStable>,
     /// All equilibria that the search of `all` found, with the lowest energy first.
@@ -64,6 +68,35 @@ pub struct Statics {
     pub friction_interval: Option<FrictionRow>,
     #[serde(skip)]
     pub warnings: Vec<String>,
+}
+
+/// Motion of the platform that no cable opposes by its tension: a rotation about an axis, or a translation.
+#[derive(Serialize)]
+pub struct FreeMotionRow {
+    /// Axis of the rotation, unit vector; zero for a translation.
+    pub rotation: [f64; 3],
+    /// Velocity of the platform origin, per radian with a rotation.
+    pub translation_m: [f64; 3],
+    /// Point on the axis.
+    pub point_m: [f64; 3],
+    /// False if nothing holds the platform; absent for ideal cables.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held: Option<bool>,
+    /// The motion in words.
+    pub text: String,
+}
+
+impl FreeMotionRow {
+    fn all(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Self> {
+        let row = |free: FreeMotion| Self {
+            rotation: free.rotation_w.into(),
+            translation_m: free.translation_w.into(),
+            point_m: free.point_w.into(),
+            held: free.is_held,
+            text: free.to_string(),
+        };
+        statics::free_motions(robot, equilibrium).into_iter().map(row).collect()
+    }
 }
 
 /// Another equilibrium of the same lengths.
@@ -380,6 +413,7 @@ pub fn about(at_rest: &AtRest, extras: Extras) -> Result<Statics> {
         iterations: equilibrium.iterations,
         stable: equilibrium.stability.is_stable(),
         stiffness_min_n_per_m: equilibrium.stability.min_stiffness(),
+        free_motions: FreeMotionRow::all(robot, equilibrium),
         another_stable_equilibrium,
         equilibria,
         search,

@@ -114,7 +114,8 @@ fn search(
 
 fn refuse_unstable(rest: &Equilibrium) -> Result<(), Status> {
     if let Stability::Unstable { directions, .. } = rest.stability {
-        let reason = format!("the equilibrium is not stable ({directions} directions): it has no first frequency");
+        let word = if rest.stability.is_indifferent() { "indifferent" } else { "not stable" };
+        let reason = format!("the equilibrium is {word} ({directions} directions): it has no first frequency");
         return Err(Status::new("unstable", &reason));
     }
     Ok(())

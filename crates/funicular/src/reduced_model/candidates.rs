@@ -50,19 +50,59 @@ pub(super) struct ModalModel {
     residual: Vec<bool>,
 }
 
+/// Ratio to the largest eigenvalue of the stiffness below which an eigenvalue is rounding.
+const NO_STIFFNESS: f64 = 1e-12;
+/// Ratio to the largest entry of a matrix below which its part along a free motion is rounding.
+const UNCOUPLED: f64 = 1e-9;
+
+/// Motions beside those without stiffness, as columns, between which and the latter the mass does not couple; `None` if
+/// an input, an output or the damping sees a motion without stiffness.
+fn beside_free_motions(model: &SecondOrder) -> Option<DMat> {
+    let eigen = crate::math::symmetric_part(&model.stiffness).symmetric_eigen();
+    let zero = NO_STIFFNESS * eigen.eigenvalues.amax();
+    let (free, others): (Vec<usize>, Vec<usize>) =
+        (0..eigen.eigenvalues.len()).partition(|k| eigen.eigenvalues[*k].abs() <= zero);
+    let columns =
+        |list: &[usize]| DMat::from_fn(model.mass.nrows(), list.len(), |i, k| eigen.eigenvectors[(i, list[k])]);
+    let (free, others) = (columns(&free), columns(&others));
+    if free.ncols() == 0 {
+        return Some(others);
+    }
+
+    let own = (free.transpose() * &model.mass * &free).try_inverse()?;
+    let basis = &others - &free * own * free.transpose() * &model.mass * &others;
+    let is_seen = |part: DMat, whole: &DMat| part.iter().any(|x| x.abs() > UNCOUPLED * whole.amax());
+    let seen = model.inputs().iter().any(|input| is_seen(free.transpose() * *input, input))
+        || model.outputs().iter().any(|output| is_seen(*output * &free, output))
+        || is_seen(basis.transpose() * &model.damping * &free, &model.damping);
+    (!seen).then_some(basis)
+}
+
 impl ModalModel {
     /// Modes of a model; `None` if its stiffness is not positive definite. `parts` has its damping without that of
     /// constant ratios and the matrix R of these; `platform_mass` is the mass matrix of the platform alone, over the
-    /// first coordinates.
-    pub(super) fn new(model: &SecondOrder, parts: &Matrices, platform_mass: &DMat) -> Option<Self> {
+    /// first coordinates. Of an indifferent equilibrium, the motions without stiffness are left out if no input, output
+    /// or damping sees them.
+    pub(super) fn new(
+        model: &SecondOrder,
+        parts: &Matrices,
+        platform_mass: &DMat,
+        is_indifferent: bool,
+    ) -> Option<Self> {
+        let (mut mass, mut stiffness) = (model.mass.clone(), model.stiffness.clone());
+        let basis = if is_indifferent { Some(beside_free_motions(model)?) } else { None };
+        if let Some(basis) = &basis {
+            (mass, stiffness) = (basis.transpose() * mass * basis, basis.transpose() * stiffness * basis);
+        }
+
         // K is factored and not M: the low frequencies then are the largest eigenvalues and keep all their digits.
-        let factor = model.stiffness.clone().cholesky()?.l();
-        let half = factor.solve_lower_triangular(&model.mass)?;
+        let factor = stiffness.cholesky()?.l();
+        let half = factor.solve_lower_triangular(&mass)?;
         let flexible = factor.solve_lower_triangular(&half.transpose())?;
         let eigen = crate::math::symmetric_part(&flexible).symmetric_eigen();
 
         // Ascending in frequency, which is descending in 1/ω².
-        let n = model.mass.nrows();
+        let n = mass.nrows();
         let mut order: Vec<usize> = (0..n).collect();
         order::sort_descending(&mut order, |k| eigen.eigenvalues[*k]);
         let smallest = f64::EPSILON * eigen.eigenvalues[*order.first()?];
@@ -71,10 +111,13 @@ impl ModalModel {
         for (k, from) in order.iter().enumerate() {
             sorted.column_mut(k).copy_from(&(eigen.eigenvectors.column(*from) * omega[k]));
         }
-        let phi = factor.transpose().solve_upper_triangular(&sorted)?;
+        let mut phi = factor.transpose().solve_upper_triangular(&sorted)?;
+        if let Some(basis) = basis {
+            phi = basis * phi;
+        }
 
         let at_platform = phi.rows(0, platform_mass.nrows());
-        let lossy = DMat::from_fn(n, parts.lossy.len(), |i, k| parts.lossy[k][i]);
+        let lossy = DMat::from_fn(phi.nrows(), parts.lossy.len(), |i, k| parts.lossy[k][i]);
         Some(Self {
             damping: phi.transpose() * &model.damping * &phi,
             viscous: phi.transpose() * &parts.damping * &phi,

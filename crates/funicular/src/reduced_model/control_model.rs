@@ -198,7 +198,7 @@ pub fn control_model(
     let of_second_order = RequestedModel { below_hz, tolerance, damping_at };
     let (cut, second_order) = cut(robot, equilibrium, inputs, outputs, &reference, of_second_order, &mut steps)?;
     steps.reached(&MODES, 1, 2)?;
-    let modal = modal_model(&second_order, &cut, damping_at)?;
+    let modal = modal_model(&second_order, &cut, damping_at, equilibrium.stability.is_indifferent())?;
 
     // Sets of modes to choose from, and the error with all modes that matter.
     let candidates = TermCandidates { modal: &modal, below_hz, tolerance };
@@ -227,14 +227,20 @@ fn damped_modes(dynamics: &Dynamics, below_hz: f64, steps: &mut Steps<'_>) -> Re
 }
 
 /// Undamped modes of the second-order model `model` of the robot `cut`.
-fn modal_model(model: &SecondOrder, cut: &Dynamics, damping_at: DampingAt) -> Result<ModalModel, ReductionError> {
+fn modal_model(
+    model: &SecondOrder,
+    cut: &Dynamics,
+    damping_at: DampingAt,
+    is_indifferent: bool,
+) -> Result<ModalModel, ReductionError> {
     let mut parts = matrices(cut).1;
     if let DampingAt::Hz(_) = damping_at {
         // Viscous damping as it was requested.
         let none = &model.damping * 0.0;
         (parts.damping, parts.ratio, parts.loss) = (model.damping.clone(), none.clone(), none);
     }
-    ModalModel::new(model, &parts, &cut.platform_blocks().mass).ok_or(ReductionError::Unstable)
+    let refused = if is_indifferent { ReductionError::Indifferent } else { ReductionError::Unstable };
+    ModalModel::new(model, &parts, &cut.platform_blocks().mass, is_indifferent).ok_or(refused)
 }
 
 /// Modes from which a state space is chosen.

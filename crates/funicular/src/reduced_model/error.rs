@@ -65,6 +65,13 @@ pub enum ReductionError {
         /// Frequency [Hz].
         frequency_hz: f64,
     },
+    /// Nothing holds the platform in some direction.
+    #[error(
+        "the equilibrium is indifferent: in some direction nothing holds the platform, and an input, an output or the \
+         damping sees this motion, so that it has no stable state space; choose inputs and outputs that do not see it, \
+         add a cable, or another attachment point, or take the second-order form"
+    )]
+    Indifferent,
     /// The equilibrium is unstable.
     #[error(
         "the equilibrium is unstable, so that it has no stable state space; choose another state, or take the \
@@ -104,7 +111,12 @@ impl ReductionError {
     pub fn is_no_solution(&self) -> bool {
         matches!(
             self,
-            Self::Undamped { .. } | Self::Unstable | Self::NoResponse | Self::Eigenvalues | Self::Tolerance { .. }
+            Self::Undamped { .. }
+                | Self::Indifferent
+                | Self::Unstable
+                | Self::NoResponse
+                | Self::Eigenvalues
+                | Self::Tolerance { .. }
         )
     }
 }

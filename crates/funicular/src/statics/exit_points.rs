@@ -42,8 +42,19 @@ pub(super) fn equilibrium(
     model: StaticModel,
     solve: impl Fn(&Robot, Option<&Equilibrium>) -> Result<Equilibrium, StaticsError>,
 ) -> Result<Equilibrium, StaticsError> {
+    equilibrium_from(robot, pose, model, solve, &[])
+}
+
+/// Equilibrium by [`equilibrium`] whose search begins with the exit points and the supports of the cables `start`.
+pub(super) fn equilibrium_from(
+    robot: &Robot,
+    pose: &Pose,
+    model: StaticModel,
+    solve: impl Fn(&Robot, Option<&Equilibrium>) -> Result<Equilibrium, StaticsError>,
+    start: &[CableState],
+) -> Result<Equilibrium, StaticsError> {
     let found = if depend_on_tensions(robot, model) {
-        with_places(robot, pose, model, solve, |equilibrium| &mut equilibrium.cables)?
+        with_places(robot, pose, model, solve, |equilibrium| &mut equilibrium.cables, start)?
     } else {
         solve(robot, None)?
     };
@@ -58,23 +69,24 @@ pub(super) fn depend_on_tensions(robot: &Robot, model: StaticModel) -> bool {
 
 /// Result at a pose with the exit points of its tensions, and on flexible supports with their displacements. `solve`
 /// holds both, and gets the result of the round before. `cables` gives access to the cables of a result; a result
-/// without cables is final.
+/// without cables is final. The search begins at the places of the cables `start`, if there are any.
 pub(super) fn with_places<T>(
     robot: &Robot,
     pose: &Pose,
     model: StaticModel,
     solve: impl Fn(&Robot, Option<&T>) -> Result<T, StaticsError>,
     cables: impl Fn(&mut T) -> &mut Vec<CableState>,
+    start: &[CableState],
 ) -> Result<T, StaticsError> {
-    // Every round of the supports starts from the exit points of straight cables.
+    // Every round of the supports starts from the exit points of straight cables, or of the given ones.
     let at_rigid = |rigid: &Robot| {
         if depend_on_tensions(rigid, model) {
-            with_exit_points(rigid, pose, &solve, &cables)
+            with_exit_points(rigid, pose, &solve, &cables, start)
         } else {
             solve(rigid, None)
         }
     };
-    if robot.has_supports() { supports::on_flexible_supports(robot, at_rigid, &cables) } else { at_rigid(robot) }
+    if robot.has_supports() { supports::on_flexible_supports(robot, at_rigid, &cables, start) } else { at_rigid(robot) }
 }
 
 /// Result at a pose with the exit points of its tensions, for a robot with rigid supports.
@@ -83,8 +95,14 @@ fn with_exit_points<T>(
     pose: &Pose,
     solve: impl Fn(&Robot, Option<&T>) -> Result<T, StaticsError>,
     cables: impl Fn(&mut T) -> &mut Vec<CableState>,
+    start: &[CableState],
 ) -> Result<T, StaticsError> {
     let mut contacts = straight_contacts(robot, pose)?;
+    for ((contact, cable), state) in contacts.iter_mut().zip(&robot.cables).zip(start) {
+        if let Some(span) = &state.hanging {
+            *contact = contact_of_span(span, &cable.anchor, contact.as_ref());
+        }
+    }
     let mut held = with_straight_loads(robot, pose);
     let mut moved = f64::INFINITY;
     let mut last = None;

@@ -60,7 +60,7 @@ pub fn forward(
     let pose = start.copied().unwrap_or_else(|| initial_pose::pose_from_lengths(robot, lengths));
     if model == StaticModel::Ideal && robot.has_supports() {
         let solve = |rigid: &Robot| forward(rigid, lengths, model, Some(&pose));
-        return supports::on_flexible_supports(robot, solve, |found: &mut Equilibrium| &mut found.cables);
+        return supports::on_flexible_supports(robot, solve, |found: &mut Equilibrium| &mut found.cables, &[]);
     }
 
     match model {

@@ -16,13 +16,13 @@ use super::error::StaticsError;
 use super::forward::forward;
 use super::ideal;
 use super::limits::TensionRange;
-use bounds::{Bound, Quadratic, excess};
 use super::loaded_cable::LoadedCable;
 use super::model::StaticModel;
 use super::supports;
 use crate::math::{DMat, Mat6, Vec6};
 use crate::platform::{Coordinates, StraightCable, load_wrench, wrench_of};
 use crate::robot::{Cable, Pose, Robot};
+use bounds::{Bound, Quadratic, excess};
 
 /// Equilibrium near a requested pose.
 #[derive(Debug, Clone, PartialEq)]
@@ -142,9 +142,12 @@ pub fn nearest_equilibrium(
 ) -> Result<NearestEquilibrium, StaticsError> {
     if robot.has_supports() {
         let solve = |rigid: &Robot| nearest_equilibrium(rigid, requested, model);
-        let mut found = supports::on_flexible_supports(robot, solve, |found: &mut NearestEquilibrium| {
-            &mut found.equilibrium.cables
-        })?;
+        let mut found = supports::on_flexible_supports(
+            robot,
+            solve,
+            |found: &mut NearestEquilibrium| &mut found.equilibrium.cables,
+            &[],
+        )?;
         found.equilibrium = with_stability(robot, found.equilibrium);
         return Ok(found);
     }
@@ -291,7 +294,8 @@ impl<'a> SurfaceSearch<'a> {
 
         // Slope of the merit's smooth part, with the pressure of the limits.
         let slope = |surface: &Surface, missing: &Vec6, bounds: &[Bound]| {
-            let pressed = bounds.iter().zip(&pressure).map(|(bound, pressure)| surface.motion(&bound.slope) * *pressure);
+            let pressed =
+                bounds.iter().zip(&pressure).map(|(bound, pressure)| surface.motion(&bound.slope) * *pressure);
             surface.along(missing) + pressed.sum::<Vec6>()
         };
         let moved = gap(self.robot, &self.here.pose, &next.pose);

@@ -86,7 +86,9 @@ pub fn solve_at(
             Constraint::Full => Ok(found(determinate(robot, pose, model)?)),
             Constraint::Redundant => {
                 let equilibrium = distribute_tensions(robot, pose, model, rule)?;
-                Ok(Solution { rule: Some(rule.clone()), ..found(equilibrium) })
+                // Fewer cables hold this pose itself.
+                let requested_pose = (robot.cables.len() < robot.platform.motion.count()).then_some((*pose, 0.0));
+                Ok(Solution { requested_pose, rule: Some(rule.clone()), ..found(equilibrium) })
             }
         },
     }
@@ -182,9 +184,7 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
     match Constraint::of(robot, pose, model) {
         Constraint::Full => determinate(robot, pose, model),
         // Refuses fewer cables than degrees of freedom.
-        Constraint::Under | Constraint::Redundant => {
-            distribute_tensions(robot, pose, model, &TensionRule::default())
-        }
+        Constraint::Under | Constraint::Redundant => distribute_tensions(robot, pose, model, &TensionRule::default()),
     }
 }
 

@@ -57,6 +57,11 @@ impl Stability {
         }
     }
 
+    /// True if nothing holds the platform in some direction, and nothing drives it away in any.
+    pub fn is_indifferent(&self) -> bool {
+        matches!(self, Self::Unstable { min_stiffness: 0.0, .. })
+    }
+
     /// Minimum eigenvalue of the scaled stiffness [N/m]; `None` for ideal cables.
     pub fn min_stiffness(&self) -> Option<f64> {
         match *self {

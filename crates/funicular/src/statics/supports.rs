@@ -154,7 +154,8 @@ fn displaced_by_forces(robot: &Robot, cables: &[CableState], displacements_w: &[
 }
 
 /// Result on flexible supports of a solver for rigid ones. Each round solves with the supports held where the forces of
-/// the round before displace them. `cables` gives access to the cables of a result.
+/// the round before displace them, in the first round where they are with the cables of `start`. `cables` gives access
+/// to the cables of a result.
 ///
 /// # Errors
 /// Errors of `solve`; [`StaticsError::NotConverged`].
@@ -162,8 +163,9 @@ pub(super) fn on_flexible_supports<T>(
     robot: &Robot,
     solve: impl Fn(&Robot) -> Result<T, StaticsError>,
     cables: impl Fn(&mut T) -> &mut Vec<CableState>,
+    start: &[CableState],
 ) -> Result<T, StaticsError> {
-    let mut displacements_w = vec![Vec3::zeros(); robot.supports.len()];
+    let mut displacements_w = displacements(robot, start);
     let (mut moved, mut at_w) = (f64::INFINITY, Vec3::zeros());
 
     for _ in 0..MAX_ROUNDS {

@@ -98,7 +98,26 @@ pub fn distribute_tensions(
     model: StaticModel,
     rule: &TensionRule,
 ) -> Result<Equilibrium, StaticsError> {
-    exit_points::equilibrium(robot, pose, model, |held, last| at_exit_points((robot, held), pose, model, rule, last))
+    let solve = |held: &Robot, last: Option<&Equilibrium>| at_exit_points((robot, held), pose, model, rule, last);
+    let found = exit_points::equilibrium(robot, pose, model, solve);
+    let is_beyond = matches!(found, Err(StaticsError::BeyondLimits(_) | StaticsError::NotFoundWithinLimits { .. }));
+    if !is_beyond || !exit_points::depend_on_tensions(robot, model) {
+        return found;
+    }
+    // The first exit points and supports are those of straight cables, with which a load near the limit may not be
+    // held: begin with those of the extreme payload instead.
+    let at_limit = [PayloadSide::Maximum, PayloadSide::Minimum].into_iter().find_map(|side| {
+        let center_p = robot.platform.center_of_mass_p;
+        let requested = RequestedPayload { center_p, side, prove: false };
+        let bound = payload_bound(robot, pose, model, requested, None).ok()?;
+        let is_within = if side == PayloadSide::Maximum { bound.mass >= 0.0 } else { bound.mass <= 0.0 };
+        let start = bound.cables.as_slice();
+        if !is_within || start.is_empty() {
+            return None;
+        }
+        exit_points::equilibrium_from(robot, pose, model, solve, start).ok()
+    });
+    at_limit.map_or(found, Ok)
 }
 
 /// Tensions by [`distribute_tensions`] of cables that end at fixed points. `last` is the result for points nearby, from

@@ -3,6 +3,7 @@
 mod energy;
 mod equilibria;
 mod forward;
+mod free_motion;
 mod friction;
 mod ideal;
 mod inverse;

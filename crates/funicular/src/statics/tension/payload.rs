@@ -141,7 +141,7 @@ pub fn payload_bound(
         return at_exit_points(robot, pose, model, requested, start);
     }
     let solve = |held: &Robot, _: Option<&PayloadBound>| at_exit_points(held, pose, model, requested, start);
-    exit_points::with_places(robot, pose, model, solve, |bound| &mut bound.cables)
+    exit_points::with_places(robot, pose, model, solve, |bound| &mut bound.cables, &[])
 }
 
 /// Payload by [`payload_bound`] of cables that end at fixed points.

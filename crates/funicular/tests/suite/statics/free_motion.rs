@@ -1,0 +1,86 @@
+//! Robots whose cables all end at one point or on one line of the platform.
+
+use funicular::robot::{Robot, State, TensionLimits};
+use funicular::statics::{self, Solution, StaticModel, StaticsError};
+
+/// Robot with cables from these anchors to these attachments [m].
+fn robot(platform: &str, mass_per_length: f64, cables: &[([f64; 3], [f64; 3])]) -> Robot {
+    let mut text = format!(
+        "name = \"few directions\"\n[platform]\n{platform}\n[materials.rope]\naxial_stiffness_n = 1e6\n\
+         mass_kg_per_m = {mass_per_length}\n"
+    );
+    for (i, (anchor, attachment)) in cables.iter().enumerate() {
+        text.push_str(&format!("[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\n"));
+        if *attachment != [0.0; 3] {
+            text.push_str(&format!("attachment_m = {attachment:?}\n"));
+        }
+    }
+    Robot::from_toml(&text).unwrap()
+}
+
+const CORNERS: [[f64; 2]; 4] = [[4.0, 3.0], [-4.0, 3.0], [-4.0, -3.0], [4.0, -3.0]];
+
+/// Bar on eight cables, four at each of its ends.
+fn bar() -> Robot {
+    let cables = CORNERS.map(|[x, y]| [([x, y, 4.0], [0.0, 0.0, -0.4]), ([x, y, 0.1], [0.0, 0.0, 0.4])]);
+    let mut robot = robot("mass_kg = 5\ninertia_kg_m2 = [0.4, 0.4, 0.01]", 0.0, cables.as_flattened());
+    robot.state = State::Pose(funicular::robot::Pose::new([0.1, 0.2, 1.5], [0.0; 3]));
+    robot
+}
+
+/// Camera of 20 kg below one point on the first `count` of six cables, or a point mass there.
+fn camera(platform: &str, count: usize) -> Robot {
+    let mut anchors: Vec<([f64; 3], [f64; 3])> = CORNERS.map(|[x, y]| ([x, y, 4.0], [0.0; 3])).to_vec();
+    anchors.extend([([0.0, 5.0, 4.0], [0.0; 3]), ([0.0, -5.0, 4.0], [0.0; 3])]);
+    let mut robot = robot(platform, 0.05, &anchors[..count]);
+    robot.state = State::Pose(funicular::robot::Pose::new([0.5, 0.2, 1.5], [0.0; 3]));
+    robot
+}
+
+const BELOW: &str = "mass_kg = 20\ninertia_kg_m2 = [0.5, 0.5, 0.1]\ncenter_of_mass_m = [0, 0, -0.3]";
+
+fn tensions(found: &Solution) -> Vec<f64> {
+    found.equilibrium.cables.iter().map(|cable| cable.tension_platform).collect()
+}
+
+/// Tensions by a quadratic program of a separate program, residual 2e-12, four decimals.
+#[test]
+fn a_bar_held_at_its_two_ends_has_the_nearest_tensions_above_the_minimum_and_turns_freely() {
+    let robot = bar().with_tension_limits(TensionLimits { minimum: Some(5.0), maximum: None });
+    let found = statics::solve(&robot, StaticModel::Spring, None).unwrap();
+    let expected = [29.7079, 5.5858, 28.9258, 5.3641, 26.2551, 5.0, 26.9262, 5.0];
+    for (found, expected) in tensions(&found).iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-4, "{found} {expected}");
+    }
+    assert!(found.rule.is_some() && found.equilibrium.residual < 1e-12);
+    let free = statics::free_motions(&robot, &found.equilibrium);
+    assert!(free.len() == 1 && free[0].is_held == Some(false), "{free:?}");
+    assert_eq!(free[0].to_string(), "turn about (0.000, 0.000, 1.000) through (0.100, 0.200, 1.500) m");
+}
+
+/// The centre of mass is straight below the point, so the tensions are those of a point mass.
+#[test]
+fn a_camera_below_one_point_has_the_tensions_of_a_point_mass() {
+    for count in [4, 5, 6] {
+        let point =
+            statics::solve(&camera("mass_kg = 20\nmotion = \"point-mass\"", count), StaticModel::Catenary, None);
+        let robot = camera(BELOW, count);
+        let found = statics::solve(&robot, StaticModel::Catenary, None).unwrap();
+        for (found, expected) in tensions(&found).iter().zip(tensions(&point.unwrap())) {
+            assert!((found / expected - 1.0).abs() < 1e-9, "{count}: {found} {expected}");
+        }
+        assert!(found.rule.is_some());
+        let held: Vec<_> = statics::free_motions(&robot, &found.equilibrium).iter().map(|free| free.is_held).collect();
+        assert_eq!(held, [Some(false), Some(true), Some(true)]);
+    }
+}
+
+#[test]
+fn a_camera_that_its_weight_would_turn_is_refused_with_the_turn() {
+    let robot = camera("mass_kg = 20\ninertia_kg_m2 = [0.5, 0.5, 0.1]\ncenter_of_mass_m = [0.1, 0, -0.3]", 6);
+    let error = statics::solve(&robot, StaticModel::Spring, None).unwrap_err();
+    assert!(
+        matches!(error, StaticsError::Singular { .. }) && error.to_string().contains("turn the platform"),
+        "{error}"
+    );
+}
