@@ -51,8 +51,11 @@ pub const YUAN2014_4MM: &str = include_str!("yuan2014-4mm.toml");
 /// Six cables of 8 mm, the robot of Yuan, Courteille and Deblaise (ICRA 2014).
 pub const YUAN2014_8MM: &str = include_str!("yuan2014-8mm.toml");
 
+/// Robot of the dynamic test of Yuan, Courteille and Deblaise (ICRA 2014): cables of 4 mm, identified platform.
+pub const YUAN2014_DYNAMIC_TEST: &str = include_str!("yuan2014-dynamic-test.toml");
+
 /// All robots: name of the file without `.toml`, and text of the file.
-pub const ALL: [(&str, &str); 15] = [
+pub const ALL: [(&str, &str); 16] = [
     ("caroca", CAROCA),
     ("cogiro", COGIRO),
     ("cogiro-winches", COGIRO_WINCHES),
@@ -68,6 +71,7 @@ pub const ALL: [(&str, &str); 15] = [
     ("stadium-camera", STADIUM_CAMERA),
     ("yuan2014-4mm", YUAN2014_4MM),
     ("yuan2014-8mm", YUAN2014_8MM),
+    ("yuan2014-dynamic-test", YUAN2014_DYNAMIC_TEST),
 ];
 
 #[cfg(test)]

@@ -303,6 +303,10 @@ pub(crate) struct RequestArgs {
     /// Draw the shape of mode N of `modes` in the figure [default: the spectrum]
     #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Figure")]
     pub(crate) figure_mode: Option<usize>,
+
+    /// Write the matrices of `reduce` to an .npz or .mat file, or as CSV files to a new folder
+    #[arg(long, value_name = "FILE|FOLDER", help_heading = "Output")]
+    pub(crate) matrices: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -57,10 +57,7 @@ pub fn vector(values: &[f64], count: usize) -> String {
     values.iter().map(|value| decimals(*value, count)).collect::<Vec<_>>().join(", ")
 }
 
-/// Count and noun, as in `1 mode`, `2 modes`.
-pub fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
-}
+pub use funicular::counted;
 
 /// Text of a file made fit for names and comments: one line, no hidden characters, limited length.
 pub(crate) fn clean(text: &str) -> String {
@@ -95,6 +92,19 @@ mod tests {
             assert_eq!(written(1.25, deviation), "1.25000");
         }
         assert_eq!(digits_for(0.0, Some(1.0)), 6);
+    }
+
+    #[test]
+    fn counted_nouns_have_their_plural() {
+        for (count, noun, text) in [
+            (1, "natural frequency", "1 natural frequency"),
+            (2, "natural frequency", "2 natural frequencies"),
+            (0, "mass", "0 masses"),
+            (3, "mode", "3 modes"),
+            (2, "day", "2 days"),
+        ] {
+            assert_eq!(counted(count, noun), text);
+        }
     }
 
     #[test]

@@ -74,7 +74,11 @@ pub(crate) struct WhatArgs {
 /// Help of the option for quantities.
 fn quantities() -> String {
     let names: Vec<&str> = Quantity::names().collect();
-    format!("Quantities to compute at every point, described in docs/sweeps.md: {}", names.join(", "))
+    format!(
+        "Quantities to compute at every point, described in docs/sweeps.md: {}. first-platform-frequency jumps between \
+         neighbouring points where a mode of the cables is near; for a smooth curve choose --cable-model catenary-static",
+        names.join(", ")
+    )
 }
 
 /// Computation of the rows, and their destination.

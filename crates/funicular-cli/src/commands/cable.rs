@@ -35,7 +35,7 @@ impl Printed for CableResult {
             const SHOWN: usize = 12;
             let shown: Vec<String> = clamped.iter().take(SHOWN).map(|f| decimals(*f, 4)).collect();
             let more = if clamped.len() > SHOWN { ", …" } else { "" };
-            let count = counted(clamped.len(), "clamped frequency").replace("frequencys", "frequencies");
+            let count = counted(clamped.len(), "clamped frequency");
             say(
                 &count,
                 format!("{}{more}{}", shown.join(", "), if clamped.is_empty() { "in the range" } else { " Hz" }),

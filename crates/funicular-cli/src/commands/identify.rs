@@ -139,13 +139,13 @@ fn read_experiments(path: &Path) -> Result<Vec<Experiment>> {
 impl Printed for Identified {
     fn text(&self) -> String {
         let mut text = format!(
-            "{}: {} from {}\n\n{}\n\nχ² = {} for {} degrees of freedom, χ²/n = {}: {}.\n{} tried.\n",
+            "{}: {} from {}\n\n{}\n\nχ² = {} for {} of freedom, χ²/n = {}: {}.\n{} tried.\n",
             self.robot,
             counted(self.values.len(), "value"),
             counted(self.residuals, "residual"),
             values(self),
             significant(self.chi2, 4),
-            self.degrees_of_freedom,
+            counted(self.degrees_of_freedom, "degree"),
             significant(self.chi2_per_degree, 3),
             self.verdict,
             counted(self.starts.len(), "start"),
@@ -160,7 +160,7 @@ impl Printed for Identified {
             let _ = write!(
                 text,
                 "\n{}: root mean square of the differences {} %, before {} %.\n",
-                counted(self.frequencies.len(), "natural frequency").replace("frequencys", "frequencies"),
+                counted(self.frequencies.len(), "natural frequency"),
                 significant(100.0 * after, 3),
                 significant(100.0 * before, 3)
             );

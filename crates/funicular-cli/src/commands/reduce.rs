@@ -1,6 +1,6 @@
 //! `reduce`: text, CSV and the files of the matrices.
 
-use crate::args::ReduceArgs;
+use crate::args::{OutputArgs, ReduceArgs};
 use crate::output::{Content, Printed, Sink, Target};
 use crate::progress::TerminalProgress;
 use crate::robot_file;
@@ -15,7 +15,7 @@ use funicular_study::analyses::Found;
 use funicular_study::analyses::control_model::ControlStateSpace;
 use funicular_study::analyses::reduce::{self, ChannelRow, Reduced, ReducedForm};
 use funicular_study::json;
-use funicular_study::request::Request;
+use funicular_study::request::{ReduceRequest, Request};
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
@@ -23,15 +23,19 @@ use zip::write::SimpleFileOptions;
 /// Runs `reduce`: prints the model and writes its matrices to files.
 pub(super) fn run(request: &Request, args: &ReduceArgs) -> Result<()> {
     let Request::Reduce(of) = request else { bail!("this is not a request of `reduce`") };
+    print(of, &args.sink, args.matrices.as_deref(), robot_file::guard(Some(&args.robot.robot)))
+}
+
+/// Prints the model of a request and writes its matrices to files.
+pub(super) fn print(of: &ReduceRequest, output: &OutputArgs, matrices: Option<&Path>, mut guard: Guard) -> Result<()> {
     let robot = of.robot.read()?.robot;
-    let mut guard = robot_file::guard(Some(&args.robot.robot));
-    let sink = Sink::open(&args.sink, &[], &mut guard)?;
-    let file = args.matrices.as_deref().map(|path| ModelFile::open(path, &mut guard)).transpose()?;
+    let sink = Sink::open(output, &[], &mut guard)?;
+    let file = matrices.map(|path| ModelFile::open(path, &mut guard)).transpose()?;
 
     let mut watch = TerminalProgress::new();
     let mut found = reduce::run(robot, of, &mut watch)?;
     drop(watch);
-    found.set_matrices_file(args.matrices.as_ref().map(|path| path.display().to_string()));
+    found.set_matrices_file(matrices.map(|path| path.display().to_string()));
     if let Some(file) = file {
         file.write(&found)?;
     }

@@ -1,7 +1,7 @@
 //! `request`: runs a request in JSON. Also prints the request of any command.
 
-use super::{analysis, export, import, new_robot, page, schema, uncertainty};
-use crate::args::{OutputArgs, RequestArgs};
+use super::{analysis, export, import, merge, new_robot, page, reduce, schema, uncertainty};
+use crate::args::{OutputArgs, PlotArgs, RequestArgs};
 use crate::output;
 use crate::sweep_run;
 use anyhow::{Context, Result, bail};
@@ -9,7 +9,7 @@ use funicular_files::Guard;
 use funicular_study::request::Request;
 use std::fs;
 use std::io::{self, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Maximum size of a request [bytes]: a list of a million poses takes some 100 MB.
 const MAX_BYTES: u64 = 1 << 30;
@@ -42,6 +42,9 @@ pub(crate) fn print(request: &Request) -> Result<()> {
 /// Runs the request of a file.
 pub(crate) fn run(args: &RequestArgs) -> Result<()> {
     let request = read(&args.file)?;
+    if args.matrices.is_some() && !matches!(request, Request::Reduce(_)) {
+        bail!("⟪matrices⟫ belongs to a request of `reduce`, and this is one of `{}`: leave it out", request.command());
+    }
     let mut guard = Guard::default();
 
     if args.file.as_os_str() != "-" {
@@ -64,9 +67,20 @@ pub(crate) fn run(args: &RequestArgs) -> Result<()> {
             let robot = of.robot.read()?.robot;
             export::write(of, robot, &mut guard, &place())
         }
-        Request::Merge(_) | Request::Plot(_) | Request::Reduce(_) => {
-            bail!("`funicular {}` writes files: use the command with its options", request.command())
+        Request::Reduce(of) => reduce::print(of, &output(), args.matrices.as_deref(), guard),
+        Request::Merge(of) => {
+            let parts: Vec<PathBuf> = of.parts.iter().map(PathBuf::from).collect();
+            let to = args.run.output_file.as_deref();
+            merge::write(&parts, to.context("a request of `merge` needs ⟪output_file⟫, the file of all rows")?)
         }
+        Request::Plot(of) => page::plot(&PlotArgs {
+            file: PathBuf::from(&of.file),
+            output_file: args.run.output_file.clone(),
+            figure: args.figure,
+            quantity: None,
+            plane: None,
+            at: Vec::new(),
+        }),
         _ => analysis::print_or_draw(&request, &output(), args.figure, args.figure_mode, guard),
     }
 }

@@ -99,6 +99,68 @@ fn the_request_of_a_command_gives_its_result() {
     }
 }
 
+/// Every command of the program but `request` itself prints a request that runs again: with the result of the command,
+/// or with a page or file. What a command writes to files stands after its words.
+#[test]
+fn the_request_of_every_command_runs_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let [cogiro, parquet, part, all, page] =
+        [robot("cogiro.toml"), at("rows.parquet"), at("part.parquet"), at("all.parquet"), at("rows.html")];
+    let hall = super::project("docs/quick-start/hall.toml");
+    let modes = super::project("docs/identification/hall-modes.csv");
+    let tripod = super::project("docs/import/tripod.wcrfx");
+    let sweep = ["sweep", "ROBOT", "--vary", "platform.mass_kg=10,20", "--quantity", "pose"];
+    succeed(&[&sweep[..], &["-o", &parquet]].concat());
+    succeed(&[&sweep[..], &["--part", "1/1", "-o", &part]].concat());
+
+    let lines: [(&[&str], &[&str]); 10] = [
+        (&["reduce", "ROBOT", "--below-hz", "1.3", "--input", "fz", "--output", "z", "--order", "4"], &[]),
+        (&["reduce", "ROBOT", "--below-hz", "1.3", "--form", "second-order"], &[]),
+        (&["payload", &cogiro, "--pose", "1,2,1.5"], &[]),
+        (&["identify", &hall, "--hold-lengths-of-pose", "--measured", &modes, "--fit", "platform.mass_kg"], &[]),
+        (
+            &["design", &cogiro, "--pose", "0,0,1.5", "--change", "cables.1.anchor_m.z=±0.1", "--max-iterations", "1"],
+            &[],
+        ),
+        (&["import", &tripod], &[]),
+        (&["report", "ROBOT", "--below-hz", "1.3"], &["-o", "-"]),
+        (&["validate"], &[]),
+        (&["merge", &part, "-o", &all], &["-o", &all]),
+        (&["plot", &parquet], &["-o", &page]),
+    ];
+    for (words, more) in lines {
+        let request = succeed(&[words, &["--print-request"]].concat());
+        let again = run_with(&[&["request", "-"], more].concat(), &request);
+        assert_eq!(again.status.code(), Some(0), "{words:?}: {}", stderr(&again));
+        if more.is_empty() {
+            assert_eq!(stdout(&again), succeed(words), "{words:?}");
+        }
+    }
+    assert!(std::path::Path::new(&all).is_file() && std::path::Path::new(&page).is_file());
+
+    // The matrices go where the option says, and belong to `reduce` alone.
+    let matrices = at("model.npz");
+    let request = succeed(&["reduce", "ROBOT", "--below-hz", "1.3", "--print-request"]);
+    let again = run_with(&["request", "-", "--matrices", &matrices], &request);
+    assert!(again.status.code() == Some(0) && std::path::Path::new(&matrices).is_file(), "{}", stderr(&again));
+    let request = succeed(&["check", "ROBOT", "--print-request"]);
+    let refused = run_with(&["request", "-", "--matrices", &matrices], &request);
+    assert!(refused.status.code() == Some(2) && stderr(&refused).contains("belongs to a request of `reduce`"));
+
+    // `live` and `paper` have tests of their own pages; every other command is in one of the lists.
+    let help = succeed(&["--help"]);
+    let commands = help.split("Commands:").nth(1).unwrap().lines().filter_map(|line| {
+        let name = line.strip_prefix("  ")?.split(' ').next().unwrap();
+        (!name.is_empty()).then_some(name)
+    });
+    let tried: Vec<String> = command_lines().iter().map(|line| line[0].clone()).collect();
+    let tried: Vec<&str> = tried.iter().map(String::as_str).chain(lines.iter().map(|(words, _)| words[0])).collect();
+    let untried: Vec<&str> = commands.filter(|name| !tried.contains(name)).collect();
+    let others = ["request", "help", "live", "paper"];
+    assert!(untried.iter().all(|name| others.contains(name)), "{untried:?}");
+}
+
 #[test]
 fn a_request_that_cannot_be_read_says_where_and_what_there_is() {
     let text = serde_json::to_string(&super::yuan()).unwrap();

@@ -186,6 +186,7 @@ fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<Si
     let ModesBelow { dynamics, modes: found, mut warnings } =
         at_rest.modes_below(linearisation, request.below_hz, modes::MAX_MODES)?;
     let AtRest { robot, .. } = at_rest;
+    warnings.extend(funicular::warnings::of_damping(robot).map(|warning| warning.to_string()));
 
     // Damping, and the peaks that depend on it.
     let mut rows: Vec<ModeRow> = found.modes.iter().cloned().map(ModeRow::from).collect();

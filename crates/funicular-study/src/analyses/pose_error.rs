@@ -194,7 +194,7 @@ fn warnings(points: &[PoseErrorPoint]) -> Vec<String> {
             let count = failed.count() + 1;
             warnings.push(format!(
                 "{name} cables have no equilibrium at {count} of {}, first at {mass} kg: {error}",
-                counted(points.len(), "mass").replace("masss", "masses"),
+                counted(points.len(), "mass"),
             ));
         }
     }

@@ -40,9 +40,9 @@ pub fn page(found: &Identified, command_line: String) -> anyhow::Result<String> 
         found,
         values: values(found),
         chi2: format!(
-            "χ² = {} for {} degrees of freedom, χ²/n = {}",
+            "χ² = {} for {} of freedom, χ²/n = {}",
             significant(found.chi2, 4),
-            found.degrees_of_freedom,
+            crate::text::counted(found.degrees_of_freedom, "degree"),
             significant(found.chi2_per_degree, 3)
         ),
         responses: found.responses.iter().enumerate().map(|(i, response)| curves(i, response)).collect(),

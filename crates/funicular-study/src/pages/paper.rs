@@ -1,7 +1,7 @@
 //! Page that reproduces every figure and table of H. Yuan, E. Courteille, D. Deblaise, ICRA 2014, beside the published
 //! values.
 
-mod dynamic_test;
+mod fig7;
 mod fit;
 mod matching;
 mod pose;
@@ -15,10 +15,11 @@ use anyhow::Context as _;
 use askama::Template;
 use funicular::robot::Robot;
 
-/// Robot of the paper with either cable set.
-const FILES: [(&str, &str); 2] = [
+/// Robot of the paper with either cable set, and in the dynamic test.
+const FILES: [(&str, &str); 3] = [
     ("robots/yuan2014-4mm.toml", funicular_robots::YUAN2014_4MM),
     ("robots/yuan2014-8mm.toml", funicular_robots::YUAN2014_8MM),
+    ("robots/yuan2014-dynamic-test.toml", funicular_robots::YUAN2014_DYNAMIC_TEST),
 ];
 
 pub(crate) const CONTENTS: &[(&str, &str)] = &[
@@ -39,14 +40,14 @@ struct PaperPage {
     cable_elements: PageTable,
     geometry: PageTable,
     ideal_poses: PageTable,
-    distances: [PageFigure; 2],
+    along_z: [PageFigure; 2],
     by_axis: [PageFigure; 2],
     thresholds: PageTable,
     moorpy: PageTable,
     parameters: PageTable,
     fits: PageTable,
     fit_sentences: [String; 2],
-    test_figures: Vec<PageFigure>,
+    test_figure: PageFigure,
     lists: Vec<PageTable>,
     counts: PageTable,
     sag_text: String,
@@ -58,10 +59,10 @@ struct PaperPage {
 /// # Errors
 /// A computation that fails, which the tests exclude.
 pub fn paper(command_line: String) -> anyhow::Result<String> {
-    let [small, large] = robots()?;
+    let [small, large, test] = robots()?;
     let sweeps = [pose::Sweep::of(&small), pose::Sweep::of(&large)];
-    let outcomes = dynamic_test::outcomes([&small, &large])?;
-    let fits = dynamic_test::Fits::of([&small, &large])?;
+    let outcome = fig7::outcome(&test).context(FILES[2].0)?;
+    let fits = fig7::Fits::of([&test, &large])?;
 
     let page = PaperPage {
         shell: Shell::new("Yuan, Courteille and Deblaise 2014: published and computed".to_owned(), CONTENTS),
@@ -70,24 +71,24 @@ pub fn paper(command_line: String) -> anyhow::Result<String> {
         cable_elements: single_cable::against_elements(),
         geometry: pose::geometry(&sweeps),
         ideal_poses: pose::ideal_poses(&sweeps),
-        distances: [0, 1].map(|set| pose::distance_figure(&sweeps, set)),
+        along_z: [0, 1].map(|set| pose::error_figure(&sweeps, set)),
         by_axis: [0, 1].map(|set| pose::axes_figure(&sweeps, set)),
         thresholds: pose::thresholds(&sweeps),
         moorpy: pose::against_moorpy(&sweeps),
-        parameters: dynamic_test::parameters(&outcomes),
+        parameters: fig7::parameters(&outcome),
         fits: fits.table(),
         fit_sentences: fits.sentences(),
-        test_figures: outcomes.iter().map(dynamic_test::Outcome::figure).collect(),
-        lists: dynamic_test::lists(&outcomes),
-        counts: dynamic_test::counts(&outcomes),
-        sag_text: dynamic_test::sag_text(&outcomes),
+        test_figure: outcome.figure(),
+        lists: fig7::lists(&outcome),
+        counts: fig7::counts(&outcome),
+        sag_text: fig7::sag_text(&outcome),
         command_line,
     };
 
     page.render().context("the page could not be written as HTML")
 }
 
-fn robots() -> anyhow::Result<[Robot; 2]> {
+fn robots() -> anyhow::Result<[Robot; 3]> {
     let read = |(name, text): (&str, &str)| Robot::from_toml(text).with_context(|| name.to_owned());
-    Ok([read(FILES[0])?, read(FILES[1])?])
+    Ok([read(FILES[0])?, read(FILES[1])?, read(FILES[2])?])
 }

@@ -116,8 +116,10 @@ pub struct Report {
 pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     let ReportInput { at_rest, linearisation, below_hz, .. } = *input;
     let AtRest { robot, equilibrium, .. } = at_rest;
-    let ModesBelow { dynamics, modes: found, warnings } = at_rest.modes_below(linearisation, below_hz, MAX_MODES)?;
+    let ModesBelow { dynamics, modes: found, mut warnings } =
+        at_rest.modes_below(linearisation, below_hz, MAX_MODES)?;
     let (response_figure, peaks_table, response_notes) = response_part(input, &dynamics, &found)?;
+    warnings.extend(funicular::warnings::of_damping(robot).map(|warning| warning.to_string()));
 
     let page = ReportPage {
         shell: Shell::new(robot.name.clone(), CONTENTS),
@@ -264,14 +266,15 @@ fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
 
     let certified = if found.certified {
         format!(
-            "The Wittrick–Williams count gives {} natural frequencies below {} Hz, and all of them are listed",
-            found.count_below, found.below_hz
+            "The Wittrick–Williams count gives {} below {} Hz, {}",
+            counted(found.count_below, "natural frequency"),
+            found.below_hz,
+            if found.count_below == 1 { "and it is listed" } else { "and all of them are listed" }
         )
     } else {
         format!(
-            "The Wittrick–Williams count gives {} natural frequencies below {} Hz, but {} are listed: the list is not \
-             certified",
-            found.count_below,
+            "The Wittrick–Williams count gives {} below {} Hz, but the list has {}: it is not certified",
+            counted(found.count_below, "natural frequency"),
             found.below_hz,
             found.modes.len()
         )
@@ -344,6 +347,7 @@ fn response_part(
     }
 
     let tops = curves[0].peaks(PEAK_PROMINENCE_DB);
+    notes.extend(without_peaks(&curves[0], &tops, robot));
     let caption = format!(
         "Response of {motion} to {force}: magnitude and phase. Ticks: natural frequencies with the model {}; numbers: \
          frequencies [Hz] of its most prominent peaks. Models with constant cable stiffness (spring, shallow-static, \
@@ -354,6 +358,23 @@ fn response_part(
     let marks = Marks { modes: &found.modes, peaks: &tops, published: None, phase: true };
     let figure = response::figure("figure-response", caption, unit, below_hz, &curves, &marks);
     Ok((figure, peaks_table(&tops, found, unit), notes))
+}
+
+/// Sentence in place of peaks: resonances without damping have no height.
+fn without_peaks(curve: &ResponseCurve, tops: &[Peak], robot: &Robot) -> Option<String> {
+    let cause = if robot.is_damped() {
+        format!("the cable model {} has no damping", curve.name)
+    } else {
+        "nothing in the robot file damps vibration".to_owned()
+    };
+    let undamped = curve.undamped();
+    (undamped > 0).then(|| {
+        format!(
+            "{} without height: {cause}, so the response has no bound there{}.",
+            counted(undamped, "resonance"),
+            if tops.is_empty() { ", and the table of peaks is empty" } else { "" }
+        )
+    })
 }
 
 fn peaks_table(tops: &[Peak], found: &Modes, unit: &str) -> PageTable {

@@ -65,6 +65,11 @@ impl ResponseCurve {
         self.resolved.peaks(0, min_prominence_db)
     }
 
+    /// Number of its resonances without damping, which have no height.
+    pub(crate) fn undamped(&self) -> usize {
+        self.resolved.undamped_resonances_hz(0).len()
+    }
+
     fn magnitude(&self) -> Vec<f64> {
         self.values.iter().map(|v| v.norm()).collect()
     }

@@ -3,7 +3,7 @@
 use super::published::{IDEAL_POSITION, MOORPY};
 use crate::pages::figure::{PageFigure, axis, colour, line, points, with};
 use crate::pages::table::{PageTable, fixed};
-use funicular::pose_error::{PoseErrorPoint, Threshold, threshold};
+use funicular::pose_error::{PoseDifference, PoseErrorPoint, Threshold, threshold};
 use funicular::robot::{Robot, State};
 use serde_json::{Value, json};
 
@@ -15,6 +15,9 @@ const POINTS: u32 = 60;
 const TOLERANCES: [f64; 4] = [0.001, 0.002, 0.005, 0.01];
 /// Names of the cable sets in all tables.
 const SET_NAMES: [&str; 2] = ["4 mm", "8 mm"];
+
+/// Difference between the poses of two static models.
+type Difference = fn(&PoseErrorPoint) -> Option<PoseDifference>;
 
 /// Pose errors of one cable set over the range of masses.
 pub(crate) struct Sweep {
@@ -31,6 +34,16 @@ impl Sweep {
         let points =
             (0..POINTS).map(|k| PoseErrorPoint::at_mass(robot, &lengths, MASS_RANGE.0 + step * f64::from(k))).collect();
         Self { robot: robot.clone(), lengths, points }
+    }
+
+    /// Masses of the points [kg].
+    fn masses(&self) -> Vec<f64> {
+        self.points.iter().map(|point| point.mass).collect()
+    }
+
+    /// Part of the difference between two models at every mass [mm].
+    fn curve(&self, of: Difference, part: fn(&PoseDifference) -> f64) -> Vec<f64> {
+        self.points.iter().map(|point| of(point).map_or(f64::NAN, |difference| 1e3 * part(&difference))).collect()
     }
 }
 
@@ -90,72 +103,65 @@ pub(crate) fn ideal_poses(sweeps: &[Sweep; 2]) -> PageTable {
     table
 }
 
-/// Fig. 6: distance of the platform from its ideal position, for cable set 0 (4 mm) or 1 (8 mm).
-pub(crate) fn distance_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
+/// Fig. 6: error along z of simpler models, for cable set 0 (4 mm) or 1 (8 mm).
+pub(crate) fn error_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
     let sweep = &sweeps[set];
-    let masses: Vec<f64> = sweep.points.iter().map(|p| p.mass).collect();
-
-    let curve = |of: fn(&PoseErrorPoint) -> Option<funicular::pose_error::PoseDifference>| {
-        sweep.points.iter().map(|p| of(p).map_or(f64::NAN, |d| 1e3 * d.distance)).collect::<Vec<_>>()
-    };
-
-    let mut data = vec![
+    let curve = |of: Difference| sweep.curve(of, |difference| difference.translation[2]);
+    let masses = sweep.masses();
+    let data = vec![
         line("catenary", &masses, &curve(PoseErrorPoint::catenary_from_ideal), colour::BLUE, "solid"),
         line("spring", &masses, &curve(PoseErrorPoint::spring_from_ideal), colour::GREEN, "dot"),
         line("spring from catenary", &masses, &curve(PoseErrorPoint::spring_from_catenary), colour::ORANGE, "dash"),
+        independent(sweep, set),
     ];
-    data.push(independent(sweep, set));
 
     let id = ["figure-pose-4mm", "figure-pose-8mm"][set];
     let caption = format!(
-        "The paper's Fig. 6, {} cables: distance of the platform from its ideal position over the platform's mass. \
-         Circles: MoorPy 1.3.0.",
+        "The paper's Fig. 6, the error along z, {} cables: displacement of the platform along z from its ideal position \
+         over the platform's mass, and that of springs from the catenary. Circles: MoorPy 1.3.0.",
         SET_NAMES[set]
     );
     let layout = json!({
         "xaxis": axis("platform mass [kg]", json!({"range": [5, 90]})),
-        "yaxis": axis("distance [mm]", json!({
-            "type": "log", "exponentformat": "power", "tickvals": [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200],
-        })),
+        "yaxis": axis("displacement along z [mm]", json!({"zeroline": true, "zerolinecolor": "#aaaaaa"})),
     });
 
     PageFigure::new(id, 380, caption, &data, layout)
 }
 
-/// Distances of MoorPy's equilibria from the ideal position [mm].
+/// Displacements along z of MoorPy's equilibria from the ideal position [mm].
 fn independent(sweep: &Sweep, set: usize) -> Value {
     let ideal = sweep.points[0].ideal.as_ref().map(|e| e.pose.position_w).unwrap_or_default();
-    let (mut x, mut y) = (Vec::new(), Vec::new());
-    for theirs in &MOORPY[set] {
-        x.push(theirs.mass);
-        y.push(1e3 * (funicular::math::Vec3::from(theirs.position) - ideal).norm());
-    }
+    let x: Vec<f64> = MOORPY[set].iter().map(|theirs| theirs.mass).collect();
+    let y: Vec<f64> = MOORPY[set].iter().map(|theirs| 1e3 * (theirs.position[2] - ideal.z)).collect();
     points("MoorPy, catenary", &x, &y, colour::BLACK, "circle-open")
 }
 
-/// Fig. 6 per axis: components of the displacement from the ideal position.
+/// Displacement from the ideal position along x and y, and its magnitude.
 pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
     let sweep = &sweeps[set];
-    let masses: Vec<f64> = sweep.points.iter().map(|p| p.mass).collect();
+    let masses = sweep.masses();
 
+    let parts: [(&str, &str, fn(&PoseDifference) -> f64); 3] = [
+        ("x", colour::VERMILION, |difference| difference.translation[0]),
+        ("y", colour::GREEN, |difference| difference.translation[1]),
+        ("distance", colour::BLACK, |difference| difference.distance),
+    ];
     let mut data = Vec::new();
-    for (k, (name, colour)) in
-        [("x", colour::VERMILION), ("y", colour::GREEN), ("z", colour::BLUE)].into_iter().enumerate()
-    {
-        let curve = |of: fn(&PoseErrorPoint) -> Option<funicular::pose_error::PoseDifference>| {
-            sweep.points.iter().map(|p| of(p).map_or(f64::NAN, |d| 1e3 * d.translation[k])).collect::<Vec<_>>()
-        };
-
-        data.push(line(name, &masses, &curve(PoseErrorPoint::catenary_from_ideal), colour, "solid"));
+    for (name, colour, part) in parts {
+        let catenary = sweep.curve(PoseErrorPoint::catenary_from_ideal, part);
+        let spring = sweep.curve(PoseErrorPoint::spring_from_ideal, part);
+        data.push(line(name, &masses, &catenary, colour, "solid"));
         data.push(with(
-            line(&format!("{name}, spring"), &masses, &curve(PoseErrorPoint::spring_from_ideal), colour, "dot"),
+            line(&format!("{name}, spring"), &masses, &spring, colour, "dot"),
             json!({"line": {"width": 2.2}, "showlegend": false}),
         ));
     }
 
     let id = ["figure-axes-4mm", "figure-axes-8mm"][set];
     let caption = format!(
-        "Displacement from the ideal position per world axis, {} cables; solid: catenary, dotted: spring.",
+        "Displacement from the ideal position along x and y, and its magnitude in space, {} cables; solid: catenary, \
+         dotted: spring.",
         SET_NAMES[set]
     );
     let layout = json!({

@@ -23,15 +23,19 @@ pub(super) static TABLE: [Definition; 24] = [
     },
     Definition {
         name: "first-platform-frequency",
-        about: "lowest natural frequency of a mode of the platform",
+        about: "lowest natural frequency of a mode of the platform; it jumps from pose to pose where modes of cables are near",
         documentation: "`first_platform_frequency_hz`: lowest natural frequency of a mode with at least \
                         `--platform-share` (0.5 if not given) of its kinetic energy in the platform, with the \
-                        requested cable model; the modes below it are all found, however many they are",
+                        requested cable model; the modes below it are all found, however many they are. It \
+                        jumps between neighbouring points where a mode of the cables is near and takes over half of the \
+                        energy: for a smooth curve choose `--cable-model catenary-static`",
         takes: ParameterKind::Nothing,
         needs: RequiredModel::Anything,
         frequencies: |_| 0,
         columns: |_, _| {
-            one("first_platform_frequency_hz", "Hz", "lowest natural frequency of a mode of the platform, undamped")
+            let about = "lowest natural frequency of a mode of the platform, undamped; it jumps where a mode of the \
+                         cables is near and shares the energy: catenary-static gives a smooth curve";
+            one("first_platform_frequency_hz", "Hz", about)
         },
         values: |row, _, out| {
             let first = row.first_platform_frequency();
