@@ -28,7 +28,8 @@ WORDS = {
     "to": "ExportFormat",
 }
 LISTS = {"of": "Result"}
-ARRAYS = ("pose", "poses", "lengths_m", "force_n", "moment_n_m", "load_point_m", "wind_m_s", "cable_load_n_per_m")
+OTHERS = {"pose": "Pose | ArrayLike", "profile": "str | Sequence[str]"}
+ARRAYS = ("poses", "lengths_m", "force_n", "moment_n_m", "load_point_m", "wind_m_s", "cable_load_n_per_m")
 ARRAYS += ("target_tension_n", "weights", "avoid_hz")
 NUMBERS = ("mass_kg", "min_tension_n", "max_tension_n", "min_frequency_hz", "min_stiffness_n_per_m", "from_hz", "to_hz")
 NUMBERS += ("response_noise", "frequency_noise", "damping_noise")
@@ -44,16 +45,18 @@ def words(text: str) -> str:
         if name in WORDS and kind == "str":
             used.add(WORDS[name])
             return f"{name}: {WORDS[name]}"
-        if name in LISTS and kind == "Sequence[str] | str":
+        if name in LISTS and kind == "str | Sequence[str]":
             used.add(LISTS[name])
-            return f"{name}: Sequence[{LISTS[name]}] | {LISTS[name]}"
+            return f"{name}: {LISTS[name]} | Sequence[{LISTS[name]}]"
+        if kind == "Any" and name in OTHERS:
+            return f"{name}: {OTHERS[name]}"
         if kind == "Any":
             for names, other in ((ARRAYS, "ArrayLike"), (NUMBERS, "SupportsFloat | SupportsIndex"), (COUNTS, "SupportsIndex")):
                 if name in names:
                     return f"{name}: {other}"
         return argument[0]
 
-    text = re.sub(r"\b(\w+): (str \| Sequence\[str\]|Sequence\[str\] \| str|str|Any)\b(?! \| Sequence)", of_word, text)
+    text = re.sub(r"\b(\w+): (str \| Sequence\[str\]|str\b|Any\b)", of_word, text)
     return text.replace("from numpy import", f"from funicular._words import {', '.join(sorted(used))}\nfrom numpy import", 1)
 
 

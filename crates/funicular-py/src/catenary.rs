@@ -46,7 +46,8 @@ impl Catenary {
         let tangent = catenary.tangent();
         if !ends.iter().chain(tangent.as_flattened()).all(|number| number.is_finite()) {
             return Err(errors::input(
-                "the cable has no finite tension or stiffness: its numbers are too far apart; check their units".to_owned(),
+                "the cable has no finite tension or stiffness: its numbers are too far apart; check their units"
+                    .to_owned(),
             ));
         }
         Ok(Self(catenary))

@@ -52,17 +52,50 @@ fn kind(command: &str, key: &str) -> Kind {
         _ => {}
     }
     match key {
-        "mass_kg" | "min_tension_n" | "max_tension_n" | "at_hz" | "below_hz" | "from_hz" | "to_hz" | "prominence_db"
-        | "platform_share" | "tolerance" | "tolerance_mm" | "damping_at_hz" | "up_to_hz" | "min_frequency_hz"
-        | "min_stiffness_n_per_m" | "response_noise" | "frequency_noise" | "damping_noise" | "axial_stiffness_n"
-        | "mass_kg_per_m" | "youngs_modulus_pa" | "diameter_m" | "modes_below_hz" | "position_std_m"
-        | "rotation_std_deg" | "tension_std_n" | "length_std_m" | "minimum" | "maximum" | "prior" | "prior_std"
+        "mass_kg"
+        | "min_tension_n"
+        | "max_tension_n"
+        | "at_hz"
+        | "below_hz"
+        | "from_hz"
+        | "to_hz"
+        | "prominence_db"
+        | "platform_share"
+        | "tolerance"
+        | "tolerance_mm"
+        | "damping_at_hz"
+        | "up_to_hz"
+        | "min_frequency_hz"
+        | "min_stiffness_n_per_m"
+        | "response_noise"
+        | "frequency_noise"
+        | "damping_noise"
+        | "axial_stiffness_n"
+        | "mass_kg_per_m"
+        | "youngs_modulus_pa"
+        | "diameter_m"
+        | "modes_below_hz"
+        | "position_std_m"
+        | "rotation_std_deg"
+        | "tension_std_n"
+        | "length_std_m"
+        | "minimum"
+        | "maximum"
+        | "prior"
+        | "prior_std"
         | "plus_minus" => Kind::Number,
         "points" | "stations" | "order" | "samples" | "seed" | "max_iterations" | "starts" | "segments" => Kind::Count,
-        "hold_lengths_of_pose" | "all" | "friction_interval" | "in_plane_only" | "log" | "adaptive" | "damped"
-        | "rigid_cables" | "platform" => Kind::Flag,
-        "static_model" | "tension_rule" | "cable_model" | "assembly" | "winches" | "hold" | "per" | "method" | "goal"
-        | "form" | "to" | "name" | "motion" | "rope" | "csv_unit" | "cable_set" | "path" => Kind::Text,
+        "hold_lengths_of_pose"
+        | "all"
+        | "friction_interval"
+        | "in_plane_only"
+        | "log"
+        | "adaptive"
+        | "damped"
+        | "rigid_cables"
+        | "platform" => Kind::Flag,
+        "static_model" | "tension_rule" | "cable_model" | "assembly" | "winches" | "hold" | "per" | "method"
+        | "goal" | "form" | "to" | "name" | "motion" | "rope" | "csv_unit" | "cable_set" | "path" => Kind::Text,
         "of" | "by" | "quantities" | "profile" | "cables" => Kind::Texts,
         "force_n" | "moment_n_m" | "load_point_m" | "wind_m_s" | "cable_load_n_per_m" | "input_point_m"
         | "output_point_m" | "payload_center_m" | "box_m" | "center_of_mass_m" | "point_m" => Kind::Vector,

@@ -74,7 +74,8 @@ pub(crate) struct TensionKeywords<'a> {
 impl TensionKeywords<'_> {
     /// Rule and limits for a robot with these cables.
     pub(crate) fn request(self, cables: &[String]) -> PyResult<Tensions> {
-        let target = self.target_tension_n.map(|target| target.one_or_per_cable("target_tension_n", cables)).transpose()?;
+        let target =
+            self.target_tension_n.map(|target| target.one_or_per_cable("target_tension_n", cables)).transpose()?;
         Ok(Tensions {
             tension_rule: self.tension_rule.map(|name| named("tension_rule", name)).transpose()?,
             target_tension_n: target,

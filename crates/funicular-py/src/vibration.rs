@@ -365,19 +365,15 @@ impl Pairs {
     }
 }
 
-pub(crate) fn frf(
-    py: Python<'_>,
-    of: &PyEquilibrium,
-    hz: Numbers,
-    keywords: PairKeywords<'_>,
-) -> PyResult<Responses> {
+pub(crate) fn frf(py: Python<'_>, of: &PyEquilibrium, hz: Numbers, keywords: PairKeywords<'_>) -> PyResult<Responses> {
     let (frequencies, _) = hz.frequencies()?;
     let adaptive = keywords.adaptive;
     let pairs = keywords.pairs()?;
 
     let found = py.detach(|| {
         let mut watch = CtrlC::new();
-        frf::response(&of.at_rest, &pairs.of_study(), frequencies, adaptive, &mut watch).map_err(|error| watch.or(&error))
+        frf::response(&of.at_rest, &pairs.of_study(), frequencies, adaptive, &mut watch)
+            .map_err(|error| watch.or(&error))
     })?;
     if let Some(caveat) = &found.caveat {
         errors::warn(py, "ResponseWarning", caveat, 2)?;

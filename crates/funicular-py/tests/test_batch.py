@@ -79,7 +79,6 @@ def test_what_is_no_state_is_a_row_with_its_reason(robot: funicular.Robot) -> No
     many = robot.equilibria(poses=[[0, 0, 0.5], [np.nan, 0, 0.5], [0, 0, 1e300], [0, 0, 50]])
     assert many.status.tolist() == ["ok", "input", "input", "negative-tension"]
     assert "finite" in many.reason[1] and "tension" in many.reason[3]
-    assert robot.equilibria(lengths_m=[[6.8] * 5]).status.tolist() == ["length-count"]
     assert robot.equilibria(lengths_m=[[6.8] * 5 + [-1.0]]).status.tolist() == ["length"]
     beyond = robot.equilibria(lengths_m=[[6.8] * 5 + [1e13], [6.8] * 5 + [np.inf]])
     assert beyond.status.tolist() == ["input", "input"]
@@ -93,6 +92,7 @@ def test_arguments_that_hold_for_all_states_are_refused_at_once(robot: funicular
         ({"poses": [[0, 0]]}, "rows of 2 numbers"),
         ({"poses": [0, 0, 0]}, "1 dimensions"),
         ({"lengths_m": [7] * 6}, "give an array with one row per state"),
+        ({"lengths_m": [[6.8] * 5]}, "rows of 5 numbers, and the robot has 6 cables"),
         ({"poses": [[0, 0, 0.5]], "threads": 0}, "at least one"),
         ({"poses": [[0, 0, 0.5]], "threads": -1}, "at least one"),
         ({"poses": [[0, 0, 0.5]], "threads": 2**61}, "at most 1024"),

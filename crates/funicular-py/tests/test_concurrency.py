@@ -60,6 +60,8 @@ def test_processes_get_robots_and_give_results(method: str, robot: funicular.Rob
         "robot.equilibria(poses=numpy.full((1_000_000, 3), [0, 0, 0.5]), threads=1)",
         "robot.modes(260)",
         "robot.frf(numpy.linspace(0.1, 20, 30_000_000), 'fz', 'az')",
+        "robot.equilibrium().cable('1', numpy.linspace(1, 30, 3_000_000))",
+        "robot.stiffness(numpy.linspace(1, 30, 10_000_000))",
         "robot.state_space(below_hz=50, tolerance=1e-4)",
         "robot.reduce(below_hz=50, tolerance=1e-9)",
         "funicular.run(robot.request('reduce', below_hz=50, tolerance=1e-4))",

@@ -1,5 +1,6 @@
 """State space for control: SciPy, python-control and MATLAB files agree with the responses of the robot."""
 
+import json
 import os
 import re
 from pathlib import Path
@@ -90,6 +91,8 @@ def test_states_names_and_errors_have_their_shapes(model: funicular.StateSpaceMo
 def test_files_hold_the_matrices(model: funicular.StateSpaceModel, rest: funicular.Equilibrium, tmp_path: Path) -> None:
     model.save(tmp_path / "m.npz")
     arrays = np.load(tmp_path / "m.npz")
+    assert arrays["inputs"].tolist() == ["fz", "mx"] and arrays["outputs"].tolist() == ["z", "vz", "ay"]
+    assert json.loads(arrays["description"][0]) == model.found
     io = pytest.importorskip("scipy.io")
     model.save(tmp_path / "m.mat")
     loaded = io.loadmat(tmp_path / "m.mat")

@@ -152,6 +152,14 @@ def test_what_cannot_be_drawn_is_refused(
         (lambda: funicular.plot.map(line, "tension_max_n"), "a map needs two"),
         (lambda: funicular.plot.shape(rest, rest.modes(2), 0), "stations=65"),
         (lambda: funicular.plot.shape(rest, modes, len(modes)), "modes, from 0"),
+        (lambda: funicular.plot.shape(rest, modes, -1), "it must be zero or more"),
+        (lambda: funicular.plot.shape(rest.robot.equilibrium([0, 0, 0.5]), modes, 0), "another equilibrium"),
+        (lambda: funicular.plot.shape(cogiro.equilibrium([0, 0, 1.5]), modes, 0), "or of another robot"),
+        (lambda: funicular.plot.bode([0.5, 2], cogiro, "fz", "z", modes=modes), "or of another robot"),
+        (lambda: funicular.plot.bode([], []), "at least two frequencies"),
+        (lambda: funicular.plot.bode([2, 1], [1, 1]), "has to ascend"),
+        (lambda: funicular.plot.map(rows, "tension_max_n", at={"z": np.nan}), "finite"),
+        (lambda: funicular.plot.map(rows, "tension_max_n", at={"z": "a"}), "`at["),  # type: ignore[dict-item]
         (lambda: funicular.plot.save(funicular.plot.bode(hz, response), tmp_path / "a.eps"), ".svg, .pdf or .png"),
     ):
         with pytest.raises(funicular.InputError) as caught:

@@ -1,5 +1,6 @@
 """Python and the program have the same core: their values are equal bit for bit."""
 
+import json
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -34,6 +35,17 @@ def test_a_pose_with_a_rule_and_limits_is_that_of_the_program(cogiro: funicular.
     )
     assert [cable["tension_platform_n"] for cable in theirs["cables"]] == ours.tension_platform_n.tolist()
     assert theirs["tension_rule"] == ours.tension_rule == "middle"
+
+
+@pytest.mark.parametrize("form", ["state-space", "second-order"])
+def test_numpy_reads_every_member_of_the_matrices_of_the_program(form: str, program: Program, tmp_path: Path) -> None:
+    path = tmp_path / "m.npz"
+    found = program("reduce", "robots/yuan2014-4mm.toml", "--below-hz", 2, "--input", "fz", "--output", "z", "--form", form, "--matrices", path)
+    with np.load(path) as model:
+        shapes = {name: model[name].shape for name in model}
+        assert shapes["inputs"] == shapes["outputs"] == shapes["description"] == (1,)
+        assert (model["inputs"][0], model["outputs"][0]) == ("fz", "z")
+        assert json.loads(model["description"][0])["below_hz"] == found["below_hz"] == 2
 
 
 @pytest.mark.parametrize("hz", [0.0, 3.5])

@@ -37,6 +37,8 @@ def keywords() -> set[str]:
             of: Any = getattr(module, name)
             if inspect.isclass(of) and issubclass(of, Exception):
                 continue
+            if inspect.isclass(of) and issubclass(of, dict):
+                continue
             members = [member for key, member in inspect.getmembers(of) if not key.startswith("_")] if inspect.isclass(of) else [of]
             for member in filter(callable, members):
                 found.add(member.__name__)

@@ -190,7 +190,8 @@ impl Request {
     /// Text that is not JSON, a key that is there twice, another schema, an unknown command or key, or a value of the
     /// wrong type.
     pub fn from_json(text: &str) -> Result<Self, Error> {
-        let value = json_text::value(text.as_bytes()).map_err(|error| anyhow!("the request is not valid JSON: {error}"))?;
+        let value =
+            json_text::value(text.as_bytes()).map_err(|error| anyhow!("the request is not valid JSON: {error}"))?;
         Self::from_value(value)
     }
 

@@ -12,16 +12,19 @@ from funicular._pages import Page
 from funicular._results import Equilibria, Modes, ReducedModel, StateSpaceModel
 from funicular._sweeps import Sweep
 from funicular._uncertainty import Uncertainty
+from funicular._words import Assembly, CableModel, ExportFormat, Goal, Hold, Method, Per, Result, StaticModel, TensionRule, Winches
 from numpy import complex128, float64
 from numpy.typing import ArrayLike, NDArray
 from os import PathLike
 from pathlib import Path
 from typing import Any, Final, SupportsFloat, SupportsIndex, final, Literal, overload
+from typing_extensions import disjoint_base
 
-__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "axes", "complete_request", "complex_numbers", "figure_sizes", "imported", "matlab_file", "measurements_of_file", "merge_parts", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "text_of", "write_file"]
+__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "complete_request", "complex_numbers", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "write_file"]
 
 __version__: Final[str]
 
+@disjoint_base
 class Analyses:
     """
     Analyses of a robot at an equilibrium: the methods that `Equilibrium` and `Robot` share.
@@ -37,7 +40,7 @@ class Analyses:
         The keys of the program's JSON. `equilibria` lists the solutions, the lowest first, each with `pose`, `stable`,
         `energy_j`, `distance_m` and `tensions_platform_n`; `search` describes the search. Lists of numbers are arrays.
         """
-    def cable(self, /, name: str, hz: ArrayLike, *, cable_model: str | None = None, in_plane_only: bool = False, winches: str = "as-given") -> dict[str, Any]:
+    def cable(self, /, name: str, hz: ArrayLike, *, cable_model: CableModel | None = None, in_plane_only: bool = False, winches: Winches = "as-given") -> dict[str, Any]:
         """
         Computes the dynamic stiffness of the platform end of one cable with a fixed anchor.
 
@@ -56,7 +59,7 @@ class Analyses:
         normal in plane, out of plane [N/m]. `world` is (n, 3, 3), complex, in world axes. `clamped_frequencies_hz` are
         the natural frequencies of the cable with both ends fixed.
         """
-    def compare(self, /, below_hz: SupportsFloat | SupportsIndex, *, platform: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> dict[str, Any]:
+    def compare(self, /, below_hz: SupportsFloat | SupportsIndex, *, platform: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> dict[str, Any]:
         """
         Compares every cable model with the catenary-dynamic model: frequencies found, missed and wrong, and the
         recommended model.
@@ -78,7 +81,7 @@ class Analyses:
         -------
         The keys of the program's JSON; lists of numbers are arrays.
         """
-    def export(self, /, to: str, path: str | PathLike[str], *, segments: SupportsIndex | None = None, modes_below_hz: SupportsFloat | SupportsIndex | None = None) -> list[str]:
+    def export(self, /, to: ExportFormat, path: str | PathLike[str], *, segments: SupportsIndex | None = None, modes_below_hz: SupportsFloat | SupportsIndex | None = None) -> list[str]:
         """
         Writes the equilibrium as a file of another program; returns the caveats of the file.
 
@@ -99,11 +102,11 @@ class Analyses:
             The file cannot be written.
         """
     @overload
-    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: Literal[False] = False, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> NDArray[complex128]: ...
+    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: Literal[False] = False, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> NDArray[complex128]: ...
     @overload
-    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: Literal[True], input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> tuple[NDArray[float64], NDArray[complex128]]: ...
+    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: Literal[True], input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> tuple[NDArray[float64], NDArray[complex128]]: ...
     @overload
-    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: bool, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> NDArray[complex128] | tuple[NDArray[float64], NDArray[complex128]]:
+    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: bool, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> NDArray[complex128] | tuple[NDArray[float64], NDArray[complex128]]:
         """
         Computes frequency responses: complex, for e^{+iωt}, in units of output per input.
 
@@ -166,7 +169,7 @@ class Analyses:
         NoSolutionError
             The equilibrium is indifferent.
         """
-    def gradient(self, /, of: SupportsGetItem[int, str] | None = None, *, by: SupportsGetItem[int, str] | None = None, hold: str = "lengths", per: str = "unit", tolerances: SupportsGetItem[int, str] | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> dict[str, Any]:
+    def gradient(self, /, of: Result | Sequence[Result] | None = None, *, by: str | Sequence[str] | None = None, hold: Hold = "lengths", per: Per = "unit", tolerances: Any | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> dict[str, Any]:
         """
         Computes derivatives of results by numbers of the robot file, without perturbing any.
 
@@ -185,9 +188,8 @@ class Analyses:
         per
             Unit of the derivatives: `unit` of the number, `percent` of its value, or its `tolerance`.
         tolerances
-            Tolerances, as `platform.mass_kg=1%` or `cables.*.anchor_m=0.002`. If not given: 1 mm for positions and
-            lengths,
-            0.1° for angles, 1 % of other values.
+            Tolerances: a mapping from paths to values or percentages, or texts such as `platform.mass_kg=1%` or
+            `cables.*.anchor_m=0.002`. If not given: 1 mm for positions and lengths, 0.1° for angles, 1 % of other values.
         below_hz
             Limit of the frequencies [Hz], for `frequencies` and `damping`.
         at_hz, input, output, input_point_m, output_point_m
@@ -209,7 +211,7 @@ class Analyses:
         NoSolutionError
             A cable is slack, or the equilibrium indifferent: it has no derivatives.
         """
-    def live(self, /, path: str | PathLike[str] | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> Live:
+    def live(self, /, path: str | PathLike[str] | None = None, *, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Live:
         """
         Makes a page in HTML on which the platform can be dragged, which notebooks show.
 
@@ -229,7 +231,7 @@ class Analyses:
         InputError
             The package was built without the page.
         """
-    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True, rigid_cables: bool = False) -> Modes:
+    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True, rigid_cables: bool = False) -> Modes:
         """
         Computes all natural frequencies below a limit, and checks by an independent count that none is missing.
 
@@ -255,14 +257,14 @@ class Analyses:
             Modes with cables that are straight, without mass and rigid in length, of the motions that they leave free.
             The equilibrium has the static model `ideal` or `spring`.
         """
-    def receptance(self, /, hz: ArrayLike, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> NDArray[complex128]:
+    def receptance(self, /, hz: ArrayLike, *, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> NDArray[complex128]:
         """
         Computes the receptance of all six motions to all six wrench components about the platform origin: (n, 6, 6),
         world axes.
 
         The parameters are those of `frf`.
         """
-    def reduce(self, /, below_hz: SupportsFloat | SupportsIndex, input: SupportsGetItem[int, str] | None = None, output: SupportsGetItem[int, str] | None = None, *, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> ReducedModel:
+    def reduce(self, /, below_hz: SupportsFloat | SupportsIndex, input: str | Sequence[str] | None = None, output: str | Sequence[str] | None = None, *, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> ReducedModel:
         """
         Computes a second-order model M x'' + C x' + K x = B f, y = L x, and its state space with all clamped modes.
 
@@ -273,7 +275,7 @@ class Analyses:
         below_hz
             Highest frequency for which the model is made [Hz].
         input, output
-            Lists of signals, as in `frf`; if not given, all forces and moments on the platform, and all its
+            Signals, as in `frf`, one or a list; if not given, all forces and moments on the platform, and all its
             displacements and rotations.
         input_point_m, output_point_m
             Points of the platform, as in `frf`.
@@ -285,7 +287,7 @@ class Analyses:
         cable_model, assembly, in_plane_only, winches
             Models, as in `stiffness`.
         """
-    def report(self, /, path: str | PathLike[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", platform_share: SupportsFloat | SupportsIndex | None = None) -> Page:
+    def report(self, /, path: str | PathLike[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", platform_share: SupportsFloat | SupportsIndex | None = None) -> Page:
         """
         Makes a page in HTML about the equilibrium and its vibration, which notebooks show.
 
@@ -303,14 +305,14 @@ class Analyses:
         platform_share
             Minimum fraction of the kinetic energy in the platform for the first mode of the platform; 0.5 if not given.
         """
-    def state_space(self, /, input: SupportsGetItem[int, str] | None = None, output: SupportsGetItem[int, str] | None = None, *, below_hz: SupportsFloat | SupportsIndex, order: SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> StateSpaceModel:
+    def state_space(self, /, input: str | Sequence[str] | None = None, output: str | Sequence[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex, order: SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> StateSpaceModel:
         """
         Computes a state space A, B, C, D for control design: the modes that inputs and outputs see.
 
         Parameters
         ----------
         input, output
-            Lists of signals, as in `frf`; if not given, all forces and moments on the platform, and all its
+            Signals, as in `frf`, one or a list; if not given, all forces and moments on the platform, and all its
             displacements and rotations.
         below_hz
             Highest frequency for which the model is made [Hz].
@@ -332,7 +334,7 @@ class Analyses:
         funicular.NoSolutionError
             No choice of modes keeps the tolerance, a mode has no damping, or the equilibrium is unstable.
         """
-    def stiffness(self, /, at_hz: ArrayLike | None = None, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> NDArray[Any]:
+    def stiffness(self, /, at_hz: ArrayLike | None = None, *, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> NDArray[Any]:
         """
         Computes the stiffness about the platform origin in world axes [N/m, N, N m].
 
@@ -359,7 +361,7 @@ class Analyses:
         -------
         (6, 6), real at 0 Hz and complex at another frequency; for a row of frequencies (n, 6, 6), complex.
         """
-    def write_frf(self, /, path: str | PathLike[str], hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: bool = False, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> list[str]:
+    def write_frf(self, /, path: str | PathLike[str], hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: bool = False, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> list[str]:
         """
         Writes frequency responses as a Universal File, as the program's `frf -o FILE.uff`; returns the caveats.
 
@@ -380,7 +382,7 @@ class Analyses:
         FileError
             The file cannot be written.
         """
-    def write_modes(self, /, path: str | PathLike[str], below_hz: SupportsFloat | SupportsIndex, *, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", rigid_cables: bool = False) -> list[str]:
+    def write_modes(self, /, path: str | PathLike[str], below_hz: SupportsFloat | SupportsIndex, *, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False) -> list[str]:
         """
         Writes all mode shapes below a limit as a Universal File, as the program's `modes -o FILE.uff`; returns the
         caveats.
@@ -608,9 +610,15 @@ class Equilibrium(Analyses):
         """
         Rule by which tensions were chosen; None if there was no choice.
         """
-    def to_dict(self, /) -> dict[str, Any]:
+    def to_dict(self, /, *, another_stable_equilibrium: bool = False) -> dict[str, Any]:
         """
         Returns a dictionary with the keys of the program's JSON.
+
+        Parameters
+        ----------
+        another_stable_equilibrium
+            Search for another stable equilibrium of the same lengths, too, as the program does. The search takes about a
+            hundred times as long as the equilibrium; the key of this name is absent if there is none.
         """
     def to_pandas(self, /) -> Any:
         """
@@ -639,7 +647,7 @@ class Pose:
     roll_pitch_yaw_deg
         Roll, pitch, yaw [degrees], R = Rz(yaw) Ry(pitch) Rx(roll); zero if not given.
     quaternion_wxyz
-        Quaternion w, x, y, z instead of angles; it is normalised.
+        Unit quaternion w, x, y, z instead of angles.
     """
     def __copy__(self, /) -> Pose: ...
     def __deepcopy__(self, /, memo: Any) -> Pose: ...
@@ -711,7 +719,7 @@ class Robot(Analyses):
         """
         Returns the robot as it was read, with the keys of the program's `check`; lists of numbers are arrays.
         """
-    def design(self, /, change: Any, *, goal: str = "first", poses: Any | None = None, weights: Any | None = None, min_frequency_hz: SupportsFloat | SupportsIndex | None = None, min_stiffness_n_per_m: SupportsFloat | SupportsIndex | None = None, avoid_hz: Any | None = None, max_iterations: SupportsIndex = 50, pose: Any | None = None, static_model: str = "catenary", mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: Any | None = None, moment_n_m: Any | None = None, load_point_m: Any | None = None, wind_m_s: Any | None = None, cable_load_n_per_m: Any | None = None, tension_rule: str | None = None, target_tension_n: Any | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> Designed:
+    def design(self, /, change: Any, *, goal: Goal = "first", poses: ArrayLike | None = None, weights: ArrayLike | None = None, min_frequency_hz: SupportsFloat | SupportsIndex | None = None, min_stiffness_n_per_m: SupportsFloat | SupportsIndex | None = None, avoid_hz: ArrayLike | None = None, max_iterations: SupportsIndex | None = None, pose: Pose | ArrayLike | None = None, static_model: StaticModel = "catenary", mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Designed:
         """
         Chooses values of the robot file with which the robot is best at several poses.
 
@@ -737,7 +745,7 @@ class Robot(Analyses):
         avoid_hz
             Band (first, last) without natural frequencies at every pose [Hz].
         max_iterations
-            Maximum number of iterations.
+            Maximum number of iterations; 50 if not given.
 
         The other parameters are those of `equilibrium` and of `modes`.
 
@@ -758,7 +766,7 @@ class Robot(Analyses):
         ----------
         docs/theory.md, equations (60r) to (60t) and (95a) to (95c).
         """
-    def equilibria(self, /, poses: ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", tension_rule: str | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, threads: SupportsIndex | None = None) -> Equilibria:
+    def equilibria(self, /, poses: ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", tension_rule: TensionRule | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, threads: SupportsIndex | None = None) -> Equilibria:
         """
         Computes the equilibria of many states in parallel, without Python's lock.
 
@@ -776,7 +784,7 @@ class Robot(Analyses):
 
         The other parameters are those of `equilibrium`.
         """
-    def equilibrium(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", tension_rule: str | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False) -> Equilibrium:
+    def equilibrium(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", tension_rule: TensionRule | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False) -> Equilibrium:
         """
         Computes the static equilibrium for a pose or for unstrained lengths.
 
@@ -855,7 +863,7 @@ class Robot(Analyses):
         RobotFileError
             The text is not a valid robot file; the message shows its lines.
         """
-    def identify(self, /, fit: Any, experiments: Any, *, starts: SupportsIndex = 10, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex = 0.02, frequency_noise: SupportsFloat | SupportsIndex = 0.01, damping_noise: SupportsFloat | SupportsIndex = 0.1, rigid_cables: bool = False, profile: SupportsGetItem[int, str] | None = None, pose: Any | None = None, lengths_m: Any | None = None, static_model: str = "catenary", hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: Any | None = None, moment_n_m: Any | None = None, load_point_m: Any | None = None, wind_m_s: Any | None = None, cable_load_n_per_m: Any | None = None, tension_rule: str | None = None, target_tension_n: Any | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given") -> Identified:
+    def identify(self, /, fit: Any, experiments: Any, *, starts: SupportsIndex | None = None, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex | None = None, frequency_noise: SupportsFloat | SupportsIndex | None = None, damping_noise: SupportsFloat | SupportsIndex | None = None, rigid_cables: bool = False, profile: str | Sequence[str] | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Identified:
         """
         Finds the values of the robot file that fit measurements best, with their deviations.
 
@@ -870,11 +878,11 @@ class Robot(Analyses):
             `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m`
             with their deviations, `cables` with the names of those that were mounted, and the keys of the state.
         starts
-            Number of starts of the search; the first one that fits ends it.
+            Number of starts of the search, 10 if not given; the first one that fits ends it.
         from_hz, to_hz
             Range of the responses that counts [Hz].
         response_noise, frequency_noise, damping_noise
-            Relative deviations of measurements that have none.
+            Relative deviations of measurements that have none; 0.02, 0.01 and 0.1 if not given.
         rigid_cables
             Natural frequencies with cables that are rigid in length; with the static model `ideal`.
         profile
@@ -896,7 +904,7 @@ class Robot(Analyses):
         """
         Unstrained lengths of the robot file [m], one per cable; None if the file gives a pose or no state.
         """
-    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: SupportsGetItem[int, str] | None = None, *, poses: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: str | Sequence[str] | None = None, *, poses: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over poses, one row per pose.
 
@@ -975,7 +983,7 @@ class Robot(Analyses):
         Returns every number of the robot file, with the keys of the program's `parameters`: `path`, `value`, `unit`,
         `range`, `minimum`, `maximum`, `meaning` and `given`. `Robot.with_` and `vary=` use the same paths.
         """
-    def payload(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", tension_rule: str | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, payload_center_m: ArrayLike | None = None) -> dict[str, Any]:
+    def payload(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", tension_rule: TensionRule | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, payload_center_m: ArrayLike | None = None) -> dict[str, Any]:
         """
         Computes the minimum and the maximum payload at a pose, with the cables whose tension limits bind.
 
@@ -999,7 +1007,7 @@ class Robot(Analyses):
         StaticsError
             No payload is held at this pose.
         """
-    def pose_error(self, /, mass_kg: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsIndex], *, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, tolerance_mm: SupportsFloat | SupportsIndex | None = None) -> dict[str, Any]:
+    def pose_error(self, /, mass_kg: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsIndex], *, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, tolerance_mm: SupportsFloat | SupportsIndex | None = None) -> dict[str, Any]:
         """
         Computes the distance of the poses of spring and catenary cables from those of ideal cables, over the platform
         mass.
@@ -1041,7 +1049,7 @@ class Robot(Analyses):
         """
         Source of the robot's numbers.
         """
-    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: SupportsGetItem[int, str] | None = None, *, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: str | Sequence[str] | None = None, *, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over values of the robot file, one row per combination, as the program's `sweep`.
 
@@ -1062,7 +1070,7 @@ class Robot(Analyses):
         """
         Returns the text of the robot file with all changes.
         """
-    def uncertainty(self, /, deviations: Any | None = None, tolerances: Any | None = None, of: SupportsGetItem[int, str] | None = None, *, hold: str = "lengths", below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: ArrayLike | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, poses: ArrayLike | None = None, method: str = "automatic", samples: SupportsIndex = 200, seed: SupportsIndex = 0, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: str = "catenary", cable_model: str | None = None, assembly: str = "consistent", in_plane_only: bool = False, winches: str = "as-given", tension_rule: str | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, samples_file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Uncertainty:
+    def uncertainty(self, /, deviations: Any | None = None, tolerances: Any | None = None, of: Result | Sequence[Result] | None = None, *, hold: Hold = "lengths", below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: ArrayLike | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, poses: ArrayLike | None = None, method: Method = "automatic", samples: SupportsIndex | None = None, seed: SupportsIndex | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, samples_file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Uncertainty:
         """
         Computes the deviations of results from deviations or tolerances of numbers of the robot file.
 
@@ -1092,7 +1100,7 @@ class Robot(Analyses):
         method
             `automatic`, `linear` or `sampled`.
         samples, seed
-            Number of sampled robots per pose, and a number that chooses another sample.
+            Number of sampled robots per pose, 200 if not given, and a number that chooses another sample; 0 if not given.
         samples_file, resume, discard
             File of the sampled robots, .parquet or .csv: FILE.partial holds them until all are there, and `resume`
             continues with them.
@@ -1140,10 +1148,11 @@ class SweepPlan:
         Makes the plan of a request in JSON; `part` is one of its parts, such as "3/8".
         """
     def __reduce__(self, /) -> tuple[Any, tuple[str, str | None]]: ...
-    def begin(self, /, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False) -> SweepWork | None:
+    def begin(self, /, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, level: SupportsIndex = 2) -> SweepWork | None:
         """
         Begins to collect rows in memory or in a file; None if the file has all rows. Warns of values of the robot that
         no usual robot has.
+        `level` is the number of functions between the user and this call.
         """
     @property
     def chunk_rows(self, /) -> int:
@@ -1260,9 +1269,10 @@ def answer(request: str) -> str:
     Computes the results of a request; both are JSON. Commands that make files, pages or rows are refused.
     """
 
-def axes(values: Mapping[str, ArrayLike]) -> str:
+def argument(command: str, key: str, name: str, value: Any, cables: SupportsGetItem[int, str]) -> str:
     """
-    Axes of a request, as JSON: a tuple is the first value, the last value and their number; anything else is values.
+    Reads the value of a key of a request, as JSON; `name` stands in errors, and `cables` are the names of the cables,
+    if there are any. For functions of the package that are written in Python.
     """
 
 def complete_request(request: str) -> str:
@@ -1285,6 +1295,12 @@ def figure_sizes() -> tuple[list[tuple[str, float]], tuple[float, float], tuple[
 def imported(request: str) -> tuple[str, list[str], list[str]]:
     """
     Computes robot file, assumptions and losses of a request of `import`.
+    """
+
+def interval(name: str, value: Any) -> tuple[float, float]:
+    """
+    Reads minimum and maximum of an interval; `name` stands in errors. For functions of the package that are written in
+    Python.
     """
 
 def matlab_file(matrices: SupportsGetItem[int, tuple[str, SupportsIndex, SupportsGetItem[int, SupportsFloat | SupportsIndex]]], texts: SupportsGetItem[int, tuple[str, SupportsGetItem[int, str]]]) -> bytes:
@@ -1342,6 +1358,12 @@ def shown(message: str) -> str:
 def source_file(path: str | PathLike[str]) -> str:
     """
     Reads a file of another program for a request: path, text, and the encoding if it had to be guessed, as JSON.
+    """
+
+def suggested(word: str, known: SupportsGetItem[int, str]) -> str:
+    """
+    End of a message about an unknown word: the nearest known one, or all. For functions of the package that are written
+    in Python.
     """
 
 def text_of(request: str, call: str) -> tuple[str, list[str]]:

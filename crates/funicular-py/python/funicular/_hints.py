@@ -4,6 +4,7 @@ import functools
 import inspect
 import re
 from collections.abc import Callable
+from types import MethodDescriptorType
 from typing import Any, ParamSpec, TypeVar
 
 from funicular._errors import InputError
@@ -53,7 +54,5 @@ def _better(function: Callable[..., Any], arguments: Any, keywords: Any, error: 
 # Assigned here and not written into the classes, which are compiled.
 for _class in (Analyses, Robot, Equilibrium, Pose):
     for _name, _method in list(vars(_class).items()):
-        if inspect.ismethoddescriptor(_method) and not _name.startswith("_"):
-            _is_of_class = type(_method).__name__ == "classmethod_descriptor"
-            if not _is_of_class:
-                setattr(_class, _name, hinted(_method))
+        if isinstance(_method, MethodDescriptorType) and not _name.startswith("_"):
+            setattr(_class, _name, hinted(_method))

@@ -130,7 +130,15 @@ impl PyRobot {
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
         let cables = &self.names();
         let model = model(cable_model, assembly, in_plane_only, winches)?;
-        let point = sweep::each_point(quantities, up_to_hz, platform_share, payload_center_m, state.request(cables)?, tensions.request(cables)?, model)?;
+        let point = sweep::each_point(
+            quantities,
+            up_to_hz,
+            platform_share,
+            payload_center_m,
+            state.request(cables)?,
+            tensions.request(cables)?,
+            model,
+        )?;
         let grid = grid.map_or_else(Vec::new, |Axes(axes)| axes);
         let poses = poses.map(sweep::poses).transpose()?;
         let request = Request::Map(MapRequest { robot: self.source.clone(), grid, poses, point });
@@ -209,7 +217,15 @@ impl PyRobot {
         let tensions = TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n };
         let cables = &self.names();
         let model = model(cable_model, assembly, in_plane_only, winches)?;
-        let point = sweep::each_point(quantities, up_to_hz, platform_share, payload_center_m, state.request(cables)?, tensions.request(cables)?, model)?;
+        let point = sweep::each_point(
+            quantities,
+            up_to_hz,
+            platform_share,
+            payload_center_m,
+            state.request(cables)?,
+            tensions.request(cables)?,
+            model,
+        )?;
         let request = Request::Sweep(SweepRequest { robot: self.source.clone(), vary: vary.0, point });
 
         let plan = PyPlan::of(py, request, part)?;

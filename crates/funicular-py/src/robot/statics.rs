@@ -219,7 +219,8 @@ impl PyRobot {
             robot: self.source.clone(),
             payload_center_m: payload_center_m.map(|center| center.three("payload_center_m")).transpose()?,
             state: state.request(&cables)?,
-            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request(&cables)?,
+            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }
+                .request(&cables)?,
         };
 
         let found = py.detach(|| analyses::payload::run((*self.robot).clone(), &request));
@@ -270,7 +271,8 @@ impl PyRobot {
             mass_kg: mass_kg.masses("mass_kg", analyses::pose_error::MAX_MASSES)?,
             lengths_m: lengths(lengths_m, &cables)?,
             pose: pose.map(|pose| pose.0),
-            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request(&cables)?,
+            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }
+                .request(&cables)?,
             tolerance_mm: tolerance_mm.map(|tolerance| tolerance.value("tolerance_mm")).transpose()?,
         };
 

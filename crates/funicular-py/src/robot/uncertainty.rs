@@ -6,9 +6,9 @@ use crate::arrays::{Count, Number, Numbers};
 use crate::errors;
 use crate::interrupt::interruptible_by_flag;
 use crate::pose::PoseLike;
+use crate::reading::sizes;
 use crate::request::{StateKeywords, TensionKeywords, model, named, points};
 use crate::sweep::{self, ProgressArgument};
-use crate::reading::sizes;
 use crate::texts::{Texts, not_empty};
 use crate::threads::Threads;
 use crate::written::UncertaintyObject;
@@ -151,7 +151,8 @@ impl PyRobot {
             points: points(input_point_m, output_point_m)?,
             poses: poses.map(sweep::poses).transpose()?,
             state: state.request(&cables)?,
-            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }.request(&cables)?,
+            tensions: TensionKeywords { tension_rule, target_tension_n, min_tension_n, max_tension_n }
+                .request(&cables)?,
             model: model(cable_model, assembly, in_plane_only, winches)?,
         };
         let samples = samples_file.map(|path| (path, begin(resume, discard)));

@@ -73,7 +73,10 @@ impl<'de> Visitor<'de> for Unique {
         let mut all = Map::new();
         while let Some(key) = entries.next_key::<String>()? {
             if all.contains_key(&key) {
-                return Err(A::Error::custom(format_args!("the key `{}` is there twice: keep one of them", shown(&key))));
+                return Err(A::Error::custom(format_args!(
+                    "the key `{}` is there twice: keep one of them",
+                    shown(&key)
+                )));
             }
             let value = entries.next_value_seed(Self)?;
             all.insert(key, value);
