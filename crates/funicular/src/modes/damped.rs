@@ -66,6 +66,9 @@ const WANTED_ERROR: f64 = 1e-9;
 const ONE_ZERO: f64 = 1e-8;
 /// Maximum damping ratio added in one step: strong damping is added in steps, and each zero starts from its last place.
 const STEP_OF_DAMPING: f64 = 0.1;
+/// Maximum damping ratio of modes that are sought with all damping at once: their first order misses by about the square
+/// of it, 1e-4 of the frequency.
+const WEAK: f64 = 0.01;
 /// Maximum number of these steps.
 const MAX_STEPS: f64 = 20.0;
 /// Maximum number of times that lost zeros are sought again, and of those among them that start near a mode. The others
@@ -78,6 +81,8 @@ const MAX_START_RATIO: f64 = 0.9;
 const SPREAD: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 /// Relative step below which the search of a zero has converged.
 const CONVERGED: f64 = 4e-15;
+/// Maximum relative step that may be rounding: eliminated drives lose two digits of the slope, and clusters more.
+const MAX_ROUNDING: f64 = 1e-12;
 /// Maximum number of rounds of Newton steps. Four are usual; the maximum is a guard for clusters, where convergence is
 /// linear at first.
 const MAX_NEWTON_ROUNDS: usize = 60;
@@ -135,7 +140,8 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
         may_grow: dynamics.has_delays(),
     };
 
-    // All zeros at once; the damping is added in steps.
+    // All zeros at once; the damping is added in steps. Between the first and the last step only the strongly damped
+    // ones are followed.
     let mut zeros = search.starts(&sought);
     search.converge(&mut zeros);
     while search.losses < 1.0 {
@@ -202,12 +208,18 @@ impl ZeroSearch<'_> {
             zeros.push(if let Some(omega) = self.of_cables_alone(mode) {
                 DampedZero { omega, error: 0.0, members }
             } else {
-                let sum: f64 = members.iter().map(|i| modes[*i].damping_ratio).sum();
-                let zeta = self.losses * sum / members.len() as f64;
-                DampedZero { omega: undamped * Complex::new(1.0, zeta), error: f64::INFINITY, members }
+                let zeta = mean_damping(&members, modes);
+                let omega = undamped * Complex::new(1.0, self.losses * zeta);
+                DampedZero { omega, error: self.first_error(zeta), members }
             });
         }
         zeros
+    }
+
+    /// Error of a zero that has been placed by the first order of the damping ratio: it is sought, unless its damping
+    /// is weak and not all of it acts yet.
+    fn first_error(&self, zeta: f64) -> f64 {
+        if self.losses < 1.0 && zeta <= WEAK { 0.0 } else { f64::INFINITY }
     }
 
     /// Complex frequency of a mode with the platform at rest whose cables have the same damping and no drive with
@@ -228,20 +240,27 @@ impl ZeroSearch<'_> {
     /// Moves the zeros from their places with less damping to those with the present damping.
     fn follow(&self, zeros: &mut [DampedZero], modes: &[Mode]) {
         for zero in &mut *zeros {
-            match self.of_cables_alone(&modes[zero.members[0]]) {
-                Some(omega) => zero.omega = omega,
-                None => zero.error = f64::INFINITY,
+            let mode = &modes[zero.members[0]];
+            if let Some(omega) = self.of_cables_alone(mode) {
+                zero.omega = omega;
+                continue;
             }
+            let zeta = mean_damping(&zero.members, modes);
+            if zeta <= WEAK {
+                zero.omega = mode.frequency_hz * TAU * Complex::new(1.0, self.losses * zeta);
+            }
+            zero.error = self.first_error(zeta);
         }
         self.converge(zeros);
     }
 
     /// Takes Newton steps on f, divided by all the other zeros, until no zero moves.
     fn converge(&self, zeros: &mut [DampedZero]) {
+        let mut settled = vec![false; zeros.len()];
         for _ in 0..MAX_NEWTON_ROUNDS {
             let mut moved = false;
             for i in 0..zeros.len() {
-                if zeros[i].error <= CONVERGED {
+                if zeros[i].error <= CONVERGED || settled[i] {
                     continue;
                 }
 
@@ -265,6 +284,8 @@ impl ZeroSearch<'_> {
                 // Limit the step, so that a flat region of f does not move a search far away.
                 let size = step.norm() / omega.norm();
                 let step = if size > MAX_STEP { step * (MAX_STEP / size) } else { step };
+                // A small step that is hardly smaller than the last one is rounding.
+                settled[i] = size <= MAX_ROUNDING && size > 0.25 * zeros[i].error;
                 zeros[i].omega -= step;
                 zeros[i].error = size;
                 moved = true;
@@ -473,6 +494,11 @@ impl ZeroSearch<'_> {
 
         Some(turned)
     }
+}
+
+/// Mean damping ratio of modes that share a zero.
+fn mean_damping(members: &[usize], modes: &[Mode]) -> f64 {
+    members.iter().map(|i| modes[*i].damping_ratio).sum::<f64>() / members.len() as f64
 }
 
 /// Frequency at or slightly above the limit [rad/s], in the widest gap between undamped modes. Damping shifts the

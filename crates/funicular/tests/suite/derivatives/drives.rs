@@ -423,6 +423,36 @@ fn compare(
             values(&robot, &at)
         });
         let Some((differences, added)) = found else { continue };
+        if std::env::var("SHOWSTEPS").is_ok() {
+            for (i, difference) in differences.iter().enumerate() {
+                let largest = rows.iter().fold(0.0, |most: f64, row| most.max(row[i].abs()));
+                if (rows[d][i] - difference).abs()
+                    > 0.3 * added[i] + 1e-8 * largest + digits * here[i].abs() / smallest_step
+                {
+                    let mut line = String::new();
+                    for n in 0..8 {
+                        let h = step / 2f64.powi(n);
+                        let central = |h: f64| -> Option<f64> {
+                            let at = |h: f64| {
+                                let (r, e) = changed(robot, rest, change, h)?;
+                                Some(values(&r, &e)?[i])
+                            };
+                            Some((at(h)? - at(-h)?) / (2.0 * h))
+                        };
+                        let d1 = central(h).unwrap_or(f64::NAN);
+                        let d2 = central(h / 2.0).unwrap_or(f64::NAN);
+                        line += &format!(" {:.2e}", d2 + (d2 - d1) / 3.0 - rows[d][i]);
+                    }
+                    eprintln!(
+                        "STEPS {what} {i} value {:.4e} ours {:.6e} largest {largest:.2e} added {:.2e} diff {:.2e}: {line}",
+                        here[i],
+                        rows[d][i],
+                        added[i],
+                        difference - rows[d][i]
+                    );
+                }
+            }
+        }
         for (i, difference) in differences.iter().enumerate() {
             let largest = rows.iter().fold(0.0, |most: f64, row| most.max(row[i].abs()));
             prop_assert!(
