@@ -312,7 +312,8 @@ impl SpringForm {
 
     /// Adds `factor` times the coefficients of `(EA/L₀)(u_a·e)(u_b·e)` over two motions (translation, rotation) of the
     /// platform: by the chord, by the arm of the ends, by EA, by L₀; u is the motion of the platform end less that of
-    /// the far end, e the direction of the chord. The result are the forces of a drum side from the ground on its entry point, which flexible supports move.
+    /// the far end, e the direction of the chord. The result are the forces of a drum side from the ground on its entry
+    /// point, which flexible supports move.
     fn add<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,

@@ -21,8 +21,9 @@ pub enum FrameInput {
     /// anchors and drums [rad].
     BaseAbout(Vec3),
     /// The anchor of one cable, with its pulley, moves along a direction in world axes (normalised on use); its drum
-    /// stays where it is if a drum side leads to the pulley, else the end of the cable moves with the anchor [m]. If the anchor is on a flexible
-    /// support, the foot of that support moves: the ground end of its spring. Drums on the support follow it.
+    /// stays where it is if a drum side leads to the pulley, else the end of the cable moves with the anchor [m]. If
+    /// the anchor is on a flexible support, the foot of that support moves: the ground end of its spring. Drums on the
+    /// support follow it.
     Anchor {
         /// Index of the cable, in the order of the file.
         cable: usize,

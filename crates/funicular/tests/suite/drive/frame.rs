@@ -205,7 +205,7 @@ proptest! {
             let Ok(dynamics) = Dynamics::about(&robot, &rest, Linearisation { cable_model, ..Default::default() }, 1.0)
             else { return Err(TestCaseError::reject("no such model")) };
             let has_tension = cable_model.is_dynamic() && !frame.without.contains(&3);
-            let outputs = [&motions(), if has_tension { &tensions[..] } else { &[] }].concat();
+            let outputs: Vec<Signal> = motions().into_iter().chain(tensions.into_iter().filter(|_| has_tension)).collect();
             let found = responses(&robot, &rest, &dynamics, 1e-6, &signals, &outputs);
 
             for (input, found) in inputs.iter().zip(&found) {
