@@ -159,7 +159,7 @@ impl RobotComparison<'_> {
         Dynamics::about(&self.without_strain(robot), &self.rest, linearisation, self.given.modes.below_hz)
     }
 
-    /// The robot with ropes whose stretched cables have the EA and the mass per length of the file. The reference takes
+    /// The robot with ropes whose stretched cables have the EA, mass and damping per length of the file. The reference takes
     /// these numbers for shallow cables and leaves out their strain, as the paper does (docs/theory.md, equation
     /// (18a)).
     fn without_strain(&self, robot: &Robot) -> Robot {
@@ -168,7 +168,11 @@ impl RobotComparison<'_> {
             let Some(hanging) = &state.hanging else { continue };
             let stretched = cable.material.axial_stiffness;
             cable.material.axial_stiffness -= hanging.catenary.parallel_tension();
-            cable.material.mass_per_length *= stretched / cable.material.axial_stiffness;
+            let stretch = stretched / cable.material.axial_stiffness;
+            cable.material.mass_per_length *= stretch;
+            if let Damping::Viscous(damping) = &mut cable.material.damping {
+                *damping *= stretch;
+            }
         }
         robot
     }

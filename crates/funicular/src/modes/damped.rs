@@ -66,9 +66,12 @@ const WANTED_ERROR: f64 = 1e-9;
 const ONE_ZERO: f64 = 1e-8;
 /// Maximum damping ratio added in one step: strong damping is added in steps, and each zero starts from its last place.
 const STEP_OF_DAMPING: f64 = 0.1;
-/// Maximum damping ratio of modes that are sought with all damping at once: their first order misses by about the square
-/// of it, 1e-4 of the frequency.
-const WEAK: f64 = 0.01;
+/// Maximum relative motion of a zero in one step that is expected again in the next one. Strongly damped zeros, which
+/// may turn, start from their last place.
+const MAX_PREDICTED: f64 = 0.01;
+/// Relative step below which a zero is near enough to be followed in the next step of damping: Newton's method leaves
+/// the square of it.
+const FOLLOWED: f64 = 1e-5;
 /// Maximum number of these steps.
 const MAX_STEPS: f64 = 20.0;
 /// Maximum number of times that lost zeros are sought again, and of those among them that start near a mode. The others
@@ -140,13 +143,16 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
         may_grow: dynamics.has_delays(),
     };
 
-    // All zeros at once; the damping is added in steps. Between the first and the last step only the strongly damped
-    // ones are followed.
+    // All zeros at once; the damping is added in steps.
     let mut zeros = search.starts(&sought);
+    let mut before: Vec<Complex> =
+        zeros.iter().map(|zero| Complex::from(sought[zero.members[0]].frequency_hz * TAU)).collect();
     search.converge(&mut zeros);
     while search.losses < 1.0 {
+        let here = zeros.iter().map(|zero| zero.omega).collect();
         search.losses = (search.losses + 1.0 / steps).min(1.0);
-        search.follow(&mut zeros, &sought);
+        search.follow(&mut zeros, &before, &sought);
+        before = here;
     }
 
     // Separate zeros that a multiple mode shares, and search again for lost zeros.
@@ -208,18 +214,12 @@ impl ZeroSearch<'_> {
             zeros.push(if let Some(omega) = self.of_cables_alone(mode) {
                 DampedZero { omega, error: 0.0, members }
             } else {
-                let zeta = mean_damping(&members, modes);
-                let omega = undamped * Complex::new(1.0, self.losses * zeta);
-                DampedZero { omega, error: self.first_error(zeta), members }
+                let sum: f64 = members.iter().map(|i| modes[*i].damping_ratio).sum();
+                let zeta = self.losses * sum / members.len() as f64;
+                DampedZero { omega: undamped * Complex::new(1.0, zeta), error: f64::INFINITY, members }
             });
         }
         zeros
-    }
-
-    /// Error of a zero that has been placed by the first order of the damping ratio: it is sought, unless its damping
-    /// is weak and not all of it acts yet.
-    fn first_error(&self, zeta: f64) -> f64 {
-        if self.losses < 1.0 && zeta <= WEAK { 0.0 } else { f64::INFINITY }
     }
 
     /// Complex frequency of a mode with the platform at rest whose cables have the same damping and no drive with
@@ -237,19 +237,19 @@ impl ZeroSearch<'_> {
         damped.all(|omega| omega == first).then_some(first)
     }
 
-    /// Moves the zeros from their places with less damping to those with the present damping.
-    fn follow(&self, zeros: &mut [DampedZero], modes: &[Mode]) {
-        for zero in &mut *zeros {
-            let mode = &modes[zero.members[0]];
-            if let Some(omega) = self.of_cables_alone(mode) {
+    /// Moves the zeros from their places with less damping to those with the present damping. `before` are their places
+    /// one step earlier: a zero that has hardly moved goes on as far.
+    fn follow(&self, zeros: &mut [DampedZero], before: &[Complex], modes: &[Mode]) {
+        for (zero, before) in zeros.iter_mut().zip(before) {
+            if let Some(omega) = self.of_cables_alone(&modes[zero.members[0]]) {
                 zero.omega = omega;
                 continue;
             }
-            let zeta = mean_damping(&zero.members, modes);
-            if zeta <= WEAK {
-                zero.omega = mode.frequency_hz * TAU * Complex::new(1.0, self.losses * zeta);
+            let moved = zero.omega - before;
+            if moved.norm() <= MAX_PREDICTED * zero.omega.norm() {
+                zero.omega += moved;
             }
-            zero.error = self.first_error(zeta);
+            zero.error = f64::INFINITY;
         }
         self.converge(zeros);
     }
@@ -285,7 +285,8 @@ impl ZeroSearch<'_> {
                 let size = step.norm() / omega.norm();
                 let step = if size > MAX_STEP { step * (MAX_STEP / size) } else { step };
                 // A small step that is hardly smaller than the last one is rounding.
-                settled[i] = size <= MAX_ROUNDING && size > 0.25 * zeros[i].error;
+                settled[i] =
+                    (size <= MAX_ROUNDING && size > 0.25 * zeros[i].error) || (self.losses < 1.0 && size <= FOLLOWED);
                 zeros[i].omega -= step;
                 zeros[i].error = size;
                 moved = true;
@@ -494,11 +495,6 @@ impl ZeroSearch<'_> {
 
         Some(turned)
     }
-}
-
-/// Mean damping ratio of modes that share a zero.
-fn mean_damping(members: &[usize], modes: &[Mode]) -> f64 {
-    members.iter().map(|i| modes[*i].damping_ratio).sum::<f64>() / members.len() as f64
 }
 
 /// Frequency at or slightly above the limit [rad/s], in the widest gap between undamped modes. Damping shifts the
