@@ -293,8 +293,7 @@ impl<'d> BorderedParts<'d> {
         let (mut pole_slope, mut pole_phase, mut first) = (self.pole_slope, self.pole_phase, first_drive);
         for (drive, found) in drives {
             if let Some(found) = found {
-                let (places, transfer) = drive.by_others(f, first_support);
-                found.add(&mut value, &mut slope, &places, &transfer);
+                found.add(&mut value, &mut slope, &drive.by_others(f, first_support));
                 pole_slope += found.log_slope;
                 pole_phase += found.phase;
                 continue;
@@ -370,19 +369,18 @@ impl DriveRows {
         Self { transfer, receptance, loss, near, on_supports: Vec::new() }
     }
 
-    /// Motions per unknown of the matrix: places of platform, border and supports, and T over them with its derivative
-    /// by ω, one row per motion.
-    fn by_others(&self, f: usize, first_support: usize) -> (Vec<usize>, Vec<Vec<(Complex, Complex)>>) {
+    /// Motions per unknown of the matrix: T over `f` coordinates of the platform, the border and the supports, one row
+    /// per motion.
+    fn by_others(&self, f: usize, first_support: usize) -> Vec<Vec<(usize, (Complex, Complex))>> {
         let zero = Complex::new(0.0, 0.0);
-        let supports = self.on_supports.first().map_or(0, Vec::len);
-        let border = self.near.iter().map(|(border, _)| f + border);
-        let places = (0..f).chain(border).chain(first_support..first_support + supports).collect();
         let of = |j: usize| {
-            let by_platform = self.transfer[j].iter().take(f).copied();
-            let by_border = self.near.iter().map(|(_, phi)| (phi[j].into(), zero));
-            by_platform.chain(by_border).chain(self.on_supports.get(j).into_iter().flatten().copied()).collect()
+            let by_platform = self.transfer[j].iter().take(f).copied().enumerate();
+            let by_border = self.near.iter().map(|(border, phi)| (f + border, (phi[j].into(), zero)));
+            let on_supports = self.on_supports.get(j).into_iter().flatten().copied().enumerate();
+            let by_supports = on_supports.map(|(k, entry)| (first_support + k, entry));
+            by_platform.chain(by_border).chain(by_supports).collect()
         };
-        (places, (0..self.loss.len()).map(of).collect())
+        (0..self.loss.len()).map(of).collect()
     }
 
     /// Adds the rows and columns to a matrix and its derivative: `f` coordinates of the platform, then the border, and
@@ -479,20 +477,17 @@ impl EliminatedDrive {
         })
     }
 
-    /// Adds `Tᵀ G T` to a matrix, and its derivative; T has one row per motion, with entries at these places.
-    fn add(&self, value: &mut CDMat, slope: &mut CDMat, places: &[usize], transfer: &[Vec<(Complex, Complex)>]) {
+    /// Adds `Tᵀ G T` to a matrix, and its derivative; T has one row per motion, with the places of its entries.
+    fn add(&self, value: &mut CDMat, slope: &mut CDMat, transfer: &[Vec<(usize, (Complex, Complex))>]) {
         for (i, row) in transfer.iter().enumerate() {
-            for (c, column) in places.iter().enumerate() {
-                // Force on the motion, G T.
-                let (mut force, mut force_slope) = (Complex::new(0.0, 0.0), Complex::new(0.0, 0.0));
-                for (j, other) in transfer.iter().enumerate() {
-                    let (moved, moved_slope) = other[c];
-                    force += self.stiffness[(i, j)] * moved;
-                    force_slope += self.slope[(i, j)] * moved + self.stiffness[(i, j)] * moved_slope;
-                }
-                for ((t, t_slope), place) in row.iter().zip(places) {
-                    value[(*place, *column)] += t * force;
-                    slope[(*place, *column)] += t_slope * force + t * force_slope;
+            for (j, column) in transfer.iter().enumerate() {
+                let (g, g_slope) = (self.stiffness[(i, j)], self.slope[(i, j)]);
+                for (r, (t, t_slope)) in row {
+                    let (left, left_slope) = (t * g, t_slope * g + t * g_slope);
+                    for (c, (u, u_slope)) in column {
+                        value[(*r, *c)] += left * u;
+                        slope[(*r, *c)] += left_slope * u + left * u_slope;
+                    }
                 }
             }
         }

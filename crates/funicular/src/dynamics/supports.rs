@@ -11,9 +11,8 @@
 //! (docs/theory.md, equations (92) and (93)).
 
 use super::{DynamicCableAt, Dynamics};
-use crate::cable::catenary_dynamic::{CarrierMotion, CatenaryDynamicEnd, ENDS, NearPole, NearRanges, TwoEnded};
+use crate::cable::catenary_dynamic::{ByTurn, CarrierMotion, CatenaryDynamicEnd, ENDS, NearPole, NearRanges, TwoEnded};
 use crate::cable::{DynamicCable, LocalAxes};
-use crate::drive::ByTurn;
 use crate::math::{CDMat, CMat6, Complex, DMat, DVec, Mat3, Mat6, Vec3, Vec6};
 use crate::platform::{Coordinates, wrench_columns};
 use crate::robot::Robot;

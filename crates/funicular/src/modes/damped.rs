@@ -66,9 +66,6 @@ const WANTED_ERROR: f64 = 1e-9;
 const ONE_ZERO: f64 = 1e-8;
 /// Maximum damping ratio added in one step: strong damping is added in steps, and each zero starts from its last place.
 const STEP_OF_DAMPING: f64 = 0.1;
-/// Maximum relative motion of a zero in one step that is expected again in the next one. Strongly damped zeros, which
-/// may turn, start from their last place.
-const MAX_PREDICTED: f64 = 0.01;
 /// Relative step below which a zero is near enough to be followed in the next step of damping: Newton's method leaves
 /// the square of it.
 const FOLLOWED: f64 = 1e-5;
@@ -86,6 +83,9 @@ const SPREAD: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 const CONVERGED: f64 = 4e-15;
 /// Maximum relative step that may be rounding: eliminated drives lose two digits of the slope, and clusters more.
 const MAX_ROUNDING: f64 = 1e-12;
+/// Maximum step over the distance of the nearest other zero at which a search may end early. Beside another zero steps
+/// are small, too, because it is divided out: they are then as long as the distance.
+const APART: f64 = 0.1;
 /// Maximum number of rounds of Newton steps. Four are usual; the maximum is a guard for clusters, where convergence is
 /// linear at first.
 const MAX_NEWTON_ROUNDS: usize = 60;
@@ -145,14 +145,10 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
 
     // All zeros at once; the damping is added in steps.
     let mut zeros = search.starts(&sought);
-    let mut before: Vec<Complex> =
-        zeros.iter().map(|zero| Complex::from(sought[zero.members[0]].frequency_hz * TAU)).collect();
     search.converge(&mut zeros);
     while search.losses < 1.0 {
-        let here = zeros.iter().map(|zero| zero.omega).collect();
         search.losses = (search.losses + 1.0 / steps).min(1.0);
-        search.follow(&mut zeros, &before, &sought);
-        before = here;
+        search.follow(&mut zeros, &sought);
     }
 
     // Separate zeros that a multiple mode shares, and search again for lost zeros.
@@ -237,19 +233,13 @@ impl ZeroSearch<'_> {
         damped.all(|omega| omega == first).then_some(first)
     }
 
-    /// Moves the zeros from their places with less damping to those with the present damping. `before` are their places
-    /// one step earlier: a zero that has hardly moved goes on as far.
-    fn follow(&self, zeros: &mut [DampedZero], before: &[Complex], modes: &[Mode]) {
-        for (zero, before) in zeros.iter_mut().zip(before) {
-            if let Some(omega) = self.of_cables_alone(&modes[zero.members[0]]) {
-                zero.omega = omega;
-                continue;
+    /// Moves the zeros from their places with less damping to those with the present damping.
+    fn follow(&self, zeros: &mut [DampedZero], modes: &[Mode]) {
+        for zero in &mut *zeros {
+            match self.of_cables_alone(&modes[zero.members[0]]) {
+                Some(omega) => zero.omega = omega,
+                None => zero.error = f64::INFINITY,
             }
-            let moved = zero.omega - before;
-            if moved.norm() <= MAX_PREDICTED * zero.omega.norm() {
-                zero.omega += moved;
-            }
-            zero.error = f64::INFINITY;
         }
         self.converge(zeros);
     }
@@ -284,9 +274,14 @@ impl ZeroSearch<'_> {
                 // Limit the step, so that a flat region of f does not move a search far away.
                 let size = step.norm() / omega.norm();
                 let step = if size > MAX_STEP { step * (MAX_STEP / size) } else { step };
-                // A small step that is hardly smaller than the last one is rounding.
-                settled[i] =
-                    (size <= MAX_ROUNDING && size > 0.25 * zeros[i].error) || (self.losses < 1.0 && size <= FOLLOWED);
+
+                // End at rounding, where a small step is hardly smaller than the last one, or before all damping acts.
+                let is_rounding = size <= MAX_ROUNDING && size > 0.25 * zeros[i].error;
+                if is_rounding || (self.losses < 1.0 && size <= FOLLOWED) {
+                    let others = zeros.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, other)| other.omega);
+                    let distances = others.chain(self.foreign.iter().copied()).map(|other| (omega - other).norm());
+                    settled[i] = step.norm() <= APART * distances.fold(f64::INFINITY, f64::min);
+                }
                 zeros[i].omega -= step;
                 zeros[i].error = size;
                 moved = true;

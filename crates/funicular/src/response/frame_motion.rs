@@ -3,10 +3,9 @@
 //! Every cable pulls at the platform by the motion of its far end; gravity and loads stay where they are. Derivation:
 //! docs/theory.md, equations (83) to (86).
 
-use crate::cable::catenary_dynamic::{CarrierMotion, DriveSignal};
+use crate::cable::catenary_dynamic::{ByTurn, CarrierMotion, DriveSignal};
 use crate::cable::{DynamicCable, EndStiffness, LocalAxes, span_stiffness};
 use crate::cable_motion::{CableMotionError, CableStations};
-use crate::drive::ByTurn;
 use crate::dynamics::{Dynamics, Supports};
 use crate::math::{CVec6, Complex, Mat3, Vec3, Vec6};
 use crate::robot::Robot;

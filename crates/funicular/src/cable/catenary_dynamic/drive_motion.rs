@@ -111,50 +111,38 @@ impl DriveAt {
         if motions.is_empty() {
             return;
         }
-        for (i, of) in motions.iter().enumerate() {
+        let rows = first..first + motions.len();
+        for (i, of) in rows.clone().zip(motions) {
             for (s, axis) in axes.iter().enumerate() {
-                self.transfer[first + i][*axis] += motion.still[*of][0][s];
+                self.transfer[i][*axis] += motion.still[*of][0][s];
             }
         }
 
-        let mut phi = vec![0.0; motions.len()];
         for (k, (pole, g)) in family.poles.iter().zip(&family.participation).enumerate() {
-            phi.iter_mut().zip(motions).for_each(|(phi, of)| *phi = motion.modes[k][*of][0]);
+            let phi = |i: usize| motion.modes[k][motions[i - first]][0];
             if left_out.contains(&k) {
                 // The mode is an unknown beside these motions: only its static response, which the flexibility
                 // contains, has to be taken out.
-                for i in 0..phi.len() {
-                    for j in 0..=i {
-                        self.receptance[(first + i, first + j)] -= phi[i] * phi[j] / pole;
+                for i in rows.clone() {
+                    for j in rows.clone() {
+                        self.receptance[(i, j)] -= phi(i) * phi(j) / pole;
                     }
                 }
                 continue;
             }
-
             let inverse = (*pole - x).inv();
             // x/(p − x), x/(p (p − x)) and their derivatives p/(p − x)², 1/(p − x)².
             let (by_end, by_end_slope) = (x * inverse, *pole * inverse * inverse);
             let (by_force, by_force_slope) = (x * inverse / *pole, inverse * inverse);
-            for i in 0..phi.len() {
-                let (row, slope) = (&mut self.transfer[first + i], &mut self.transfer_slope[first + i]);
-                for (g, axis) in g.iter().zip(axes) {
-                    let part = phi[i] * g;
-                    row[axis] += by_end * part;
-                    slope[axis] += by_end_slope * part;
+            for i in rows.clone() {
+                for (s, axis) in axes.iter().enumerate() {
+                    self.transfer[i][*axis] += by_end * (phi(i) * g[s]);
+                    self.transfer_slope[i][*axis] += by_end_slope * (phi(i) * g[s]);
                 }
-                for j in 0..=i {
-                    let part = phi[i] * phi[j];
-                    self.receptance[(first + i, first + j)] += by_force * part;
-                    self.receptance_slope[(first + i, first + j)] += by_force_slope * part;
+                for j in rows.clone() {
+                    self.receptance[(i, j)] += by_force * (phi(i) * phi(j));
+                    self.receptance_slope[(i, j)] += by_force_slope * (phi(i) * phi(j));
                 }
-            }
-        }
-
-        // The receptance is symmetric.
-        for i in first..first + phi.len() {
-            for j in first..i {
-                self.receptance[(j, i)] = self.receptance[(i, j)];
-                self.receptance_slope[(j, i)] = self.receptance_slope[(i, j)];
             }
         }
     }
