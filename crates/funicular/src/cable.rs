@@ -9,7 +9,7 @@ pub mod catenary_dynamic;
 mod damping;
 pub mod shallow_dynamic;
 pub mod shallow_static;
-pub mod spring;
+mod spring;
 
 use crate::catenary::space::HangingCable;
 use crate::drive::DriveChain;
@@ -25,7 +25,7 @@ use thiserror::Error;
 /// Model of the stiffness of a cable at its platform end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CableModel {
-    /// Massless spring along the chord with stiffness EA/l; no stiffness in other directions.
+    /// Massless spring along the chord with stiffness EA/L₀; no stiffness in other directions.
     Spring,
     /// Irvine's static stiffness of a shallow sagging cable; independent of frequency.
     ShallowStatic,
@@ -143,6 +143,9 @@ impl LocalStiffness<f64> {
 }
 
 /// Parameters of a shallow sagging cable, used by the shallow-static and the shallow-dynamic model.
+///
+/// EA, mass and load are per length of the chord: of a cable with the stretch λ they are λ EA, m/λ and q/λ of its rope
+/// (docs/theory.md, equation (18a)).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sag {
     /// Chord l [m].
@@ -168,7 +171,7 @@ impl Sag {
     /// Sag parameters of cable `i` at an equilibrium. A straight cable (spring or ideal statics) gets the sag that
     /// follows from its tension.
     pub fn of(robot: &Robot, i: usize, state: &CableState) -> Self {
-        let material = &robot.cables[i].material;
+        let (material, stretch) = (&robot.cables[i].material, stretch_of(robot, i, state));
         let chord_w = state.chord_w();
         let chord = chord_w.norm();
         let load = robot.line_load(i, &chord_w);
@@ -177,7 +180,8 @@ impl Sag {
             Some(hanging) => hanging.catenary.parallel_tension(),
             None => state.tension_platform,
         };
-        Self::new(chord, cos_alpha, tension, material.axial_stiffness, material.mass_per_length, load.size)
+        let (axial_stiffness, mass) = (material.axial_stiffness * stretch, material.mass_per_length / stretch);
+        Self::new(chord, cos_alpha, tension, axial_stiffness, mass, load.size / stretch)
     }
 
     /// Sag parameters from chord [m], cosine of the angle between the chord and the plane normal to the load, parallel
@@ -213,6 +217,12 @@ impl Sag {
     pub fn axial_frequency_hz(&self) -> f64 {
         (self.axial_stiffness / self.mass_per_length).sqrt() / (2.0 * self.chord)
     }
+}
+
+/// Stretch λ = 1 + τ/EA of cable `i` at an equilibrium, with its tension τ parallel to the chord; 1 for a rigid cable.
+fn stretch_of(robot: &Robot, i: usize, state: &CableState) -> f64 {
+    let tension = state.hanging.as_ref().map_or(0.0, |hanging| hanging.catenary.parallel_tension());
+    1.0 + tension / robot.cables[i].material.axial_stiffness
 }
 
 /// End stiffness of one cable in one model.
@@ -337,6 +347,7 @@ impl EndStiffness {
         let axes = LocalAxes::of_cable(robot, i, state);
         let sag = Sag::of(robot, i, state);
         let material = &robot.cables[i].material;
+        let shallow_damping = material.damping.per_length_over(stretch_of(robot, i, state));
 
         // All models with sag divide by the tension.
         if sag.tension <= 0.0
@@ -354,20 +365,20 @@ impl EndStiffness {
         let limit = up_to_hz * TAU;
         Ok(match model {
             CableModel::Spring if state.is_slack() => Self::Constant(Mat3::zeros()),
-            CableModel::Spring => Self::Constant(in_series(spring::stiffness(&sag).in_world(&axes))),
+            CableModel::Spring => Self::Constant(in_series(spring::stiffness(robot, i, state).in_world(&axes))),
             CableModel::ShallowStatic => {
                 Self::Constant(without_b(in_series(shallow_static::stiffness(&sag).in_world(&axes))))
             }
             CableModel::CatenaryStatic => Self::Constant(without_b(state.tangent_w().ok_or(NoStiffness::Rigid)?)),
             CableModel::ShallowDynamic if robot.has_moving_ends() => {
                 let end = moving_end(robot, i, state, &axes, winches, limit);
-                match shallow_span(state, (&sag, axes), end, material.damping, in_plane_only, limit)? {
+                match shallow_span(state, (&sag, axes), end, shallow_damping, in_plane_only, limit)? {
                     Some(cable) => Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable))),
                     None => Self::Constant(without_b(in_series(shallow_static::stiffness(&sag).in_world(&axes)))),
                 }
             }
             CableModel::ShallowDynamic => {
-                let cable = ShallowDynamic::new(sag, axes, material.damping, in_plane_only);
+                let cable = ShallowDynamic::new(sag, axes, shallow_damping, in_plane_only);
                 Self::Dynamic(DynamicCable::ShallowDynamic(cable))
             }
             CableModel::CatenaryDynamic => {
@@ -406,13 +417,11 @@ fn shallow_span(
 /// Static stiffness of the free span of cable `i` in a model, its far end held; 3×3, world axes [N/m]. `None` for a
 /// rigid cable in a catenary model.
 pub(crate) fn span_stiffness(robot: &Robot, i: usize, state: &CableState, model: CableModel) -> Option<Mat3> {
-    let straight = |stiffness: fn(&Sag) -> LocalStiffness<f64>| {
-        stiffness(&Sag::of(robot, i, state)).in_world(&LocalAxes::of_cable(robot, i, state))
-    };
+    let straight = |of: LocalStiffness<f64>| of.in_world(&LocalAxes::of_cable(robot, i, state));
     match model {
         CableModel::Spring if state.is_slack() => Some(Mat3::zeros()),
-        CableModel::Spring => Some(straight(spring::stiffness)),
-        CableModel::ShallowStatic => Some(straight(shallow_static::stiffness)),
+        CableModel::Spring => Some(straight(spring::stiffness(robot, i, state))),
+        CableModel::ShallowStatic => Some(straight(shallow_static::stiffness(&Sag::of(robot, i, state)))),
         _ => state.hanging.as_ref().map(HangingCable::tangent_w),
     }
 }

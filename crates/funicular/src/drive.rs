@@ -185,7 +185,41 @@ impl DriveAtRest {
     }
 }
 
+/// Forces on the end of a cable when the frame turns: the wheel and the drum side turn, and weight and span stay in the
+/// world.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct ByTurn {
+    /// Forces on the motions (σ, v) of the end [N].
+    pub(crate) on_end: [f64; 2],
+    /// Displacement of the end of the drum side at the wheel that stretches arc and drum side as much as the weight on
+    /// the turned arc does, towards the platform, measured with the stretch at the exit point [m].
+    pub(crate) stretched: f64,
+}
+
 impl DriveAtRest {
+    /// Forces on the end of the cable per rotation of its anchor about the entry point [rad].
+    ///
+    /// # References
+    /// docs/theory.md, equation (83a).
+    pub(crate) fn by_turn(&self, span: &HangingCable, anchor: &Anchor, turn_w: &Vec3) -> ByTurn {
+        let Some(contact) = &self.contact else { return ByTurn::default() };
+        let (load_w, force_w, wheel) = (span.load_w(), end_force_w(span), contact.wheel());
+        let beyond = Beyond::of(span, anchor, Some(contact));
+        let turned = |of_w: Vec3| turn_w.cross(&of_w);
+
+        let along =
+            force_w.dot(&turned(self.end.travel_w)) + load_w.dot(&turned(contact.exit_offset_w())) / beyond.stretch;
+        let sideways_w = turned(contact.sideways_w);
+        let distance = contact.distance_from_axis();
+        let arc = if distance > 0.0 { load_w.dot(&sideways_w) * beyond.moment / distance } else { 0.0 };
+        let axial_stiffness = span.catenary.rope().axial_stiffness;
+        let moment_w = beyond.compliance_moment(&load_w, axial_stiffness, &wheel);
+        ByTurn {
+            on_end: [along, force_w.dot(&sideways_w) + arc],
+            stretched: beyond.stretch * load_w.dot(&turned(moment_w)),
+        }
+    }
+
     /// Mass that the swivel of the anchor's pulley adds to the sideways motion of the exit point [kg]; zero without a
     /// swivel.
     pub(crate) fn swivel_mass(&self, anchor: &Anchor) -> f64 {

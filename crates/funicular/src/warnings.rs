@@ -145,7 +145,7 @@ fn measured(robot: &Robot, i: usize, state: &CableState, sag: Sag, model: CableM
         let e = hanging.chord_w().normalize();
         return Some(shallow_static::stiffness(&sag).axial / e.dot(&(hanging.tangent_w() * e)) - 1.0);
     }
-    let m = sag.mass_per_length;
+    let m = robot.cables[i].material.mass_per_length;
     let axes = LocalAxes::of_cable(robot, i, state);
 
     // The first frequency of the sagging string lies below the third of the straight one.

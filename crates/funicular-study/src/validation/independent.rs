@@ -70,8 +70,9 @@ impl RobotComparison<'_> {
             .flat_map(|(a, b)| [[a.tension_platform_n, b.tension_platform], [a.tension_anchor_n, b.tension_anchor]])
             .collect();
         rows.push(self.each("tensions at both ends, largest [N]", &pairs, 1e-9));
+        let without_strain = self.without_strain(&self.robot);
         let sags: Vec<Sag> =
-            self.rest.cables.iter().enumerate().map(|(i, cable)| Sag::of(&self.robot, i, cable)).collect();
+            self.rest.cables.iter().enumerate().map(|(i, cable)| Sag::of(&without_strain, i, cable)).collect();
         let pairs: Vec<[f64; 2]> = cables.iter().zip(&sags).map(|(a, b)| [a.sag_ratio, b.ratio()]).collect();
         rows.push(self.each("sag over chord, largest", &pairs, 1e-9));
 
@@ -155,7 +156,25 @@ impl RobotComparison<'_> {
             in_plane_only,
             winches: WinchMode::AsGiven,
         };
-        Dynamics::about(robot, &self.rest, linearisation, self.given.modes.below_hz)
+        Dynamics::about(&self.without_strain(robot), &self.rest, linearisation, self.given.modes.below_hz)
+    }
+
+    /// The robot with ropes whose stretched cables have the EA, mass and damping per length of the file. The reference takes
+    /// these numbers for shallow cables and leaves out their strain, as the paper does (docs/theory.md, equation
+    /// (18a)).
+    fn without_strain(&self, robot: &Robot) -> Robot {
+        let mut robot = robot.clone();
+        for (cable, state) in robot.cables.iter_mut().zip(&self.rest.cables) {
+            let Some(hanging) = &state.hanging else { continue };
+            let stretched = cable.material.axial_stiffness;
+            cable.material.axial_stiffness -= hanging.catenary.parallel_tension();
+            let stretch = stretched / cable.material.axial_stiffness;
+            cable.material.mass_per_length *= stretch;
+            if let Damping::Viscous(damping) = &mut cable.material.damping {
+                *damping *= stretch;
+            }
+        }
+        robot
     }
 
     fn shallow_dynamic_stiffness(&self, rows: &mut Vec<Comparison>) -> Result<()> {

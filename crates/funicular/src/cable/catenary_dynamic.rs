@@ -27,6 +27,7 @@ mod poles;
 mod shallow_span;
 mod two_ended;
 
+pub(crate) use crate::drive::ByTurn;
 pub(crate) use carrier::CarrierMotion;
 pub(crate) use drive_forms::{DriveForm, DrivePart, EndSignal, InPowersOfS};
 pub use drive_motion::DriveMotion;

@@ -63,6 +63,15 @@ impl Damping {
         }
     }
 
+    /// Damping of a rope per length that is `stretch` times its unstrained length: a viscous coefficient acts on the
+    /// same piece of rope.
+    pub(crate) fn per_length_over(self, stretch: f64) -> Self {
+        match self {
+            Self::Ratio(_) => self,
+            Self::Viscous(c) => Self::Viscous(c / stretch),
+        }
+    }
+
     /// Damping multiplied by `fraction`.
     pub(crate) fn times(self, fraction: f64) -> Self {
         match self {

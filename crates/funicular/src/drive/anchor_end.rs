@@ -185,22 +185,29 @@ impl AnchorEnd {
         Some((along * a + sideways * b) * self.force_by_length)
     }
 
-    /// Force on the platform per generalised force on the motion sideways [-]; zero if there is none.
-    pub(crate) fn force_by_swivel_w(&self, held: &Mat3) -> Vec3 {
-        let (Some(along_w), Some(sideways_w)) = (self.along_w, self.sideways_w) else { return Vec3::zeros() };
-        let [_, [b, c]] = self.inverse(held);
-        held * (along_w * b + sideways_w * c)
+    /// Force on the platform by forces on the motions of the end [N].
+    pub(crate) fn force_by_end_w(&self, held: &Mat3, on_end: [f64; 2]) -> Vec3 {
+        let Some(along_w) = self.along_w else { return Vec3::zeros() };
+        let [slip, swivel] = self.motion_by_forces(held, on_end);
+        held * (along_w * slip + self.sideways_w.map_or_else(Vec3::zeros, |sideways_w| sideways_w * swivel))
+    }
+
+    /// Motions (σ, v) of the end by forces on them, both ends of the span held.
+    fn motion_by_forces(&self, held: &Mat3, [on_slip, on_swivel]: [f64; 2]) -> [f64; 2] {
+        let [[a, b], [_, c]] = self.inverse(held);
+        [a * on_slip + b * on_swivel, b * on_slip + c * on_swivel]
     }
 
     /// Change of the tension of a drum side, as a force on its entry point along it, by a given motion [N]: the exit
-    /// point moves with the anchor by `exit_w`, a generalised force acts on the motion sideways, and the entry point
-    /// moves along a drum side from the ground by `stretched`. The platform is held; zero if the end is held.
-    pub(crate) fn drum_side_tension(&self, held: &Mat3, exit_w: &Vec3, on_swivel: f64, stretched: f64) -> f64 {
+    /// point moves with the anchor by `exit_w`, forces act on the motions of the end, and the entry point moves along a
+    /// drum side from the ground by `stretched`. The platform is held; zero if the end is held.
+    pub(crate) fn drum_side_tension(&self, held: &Mat3, exit_w: &Vec3, on_end: [f64; 2], stretched: f64) -> f64 {
         let Some(by_length_w) = self.force_by_length_w(held) else { return 0.0 };
-        let [[sigma, mixed], _] = self.inverse(held);
+        let [[sigma, _], _] = self.inverse(held);
         let pull = self.force_by_length / self.stretch_drum;
         let own = pull * self.stretch / self.stretch_drum - pull * pull * sigma;
-        own * stretched - by_length_w.dot(exit_w) / self.stretch_drum + pull * mixed * on_swivel
+        let [slip, _] = self.motion_by_forces(held, on_end);
+        own * stretched - by_length_w.dot(exit_w) / self.stretch_drum + pull * slip
     }
 
     /// Stiffness of a cable between platform and anchor for a motion of the anchor whose drum stays on the ground.

@@ -2,6 +2,7 @@
 
 use super::end_force_w;
 use crate::catenary::space::HangingCable;
+use crate::math::Vec3;
 use crate::math::dual::{Real, dot};
 use crate::robot::{Anchor, PulleyContact, Wheel};
 
@@ -179,6 +180,21 @@ impl<T: Real> Beyond<T> {
         self.rope_compliance = self.rope_compliance + self.drum_side_compliance;
         self.compliance = self.compliance + by_tension / squared;
         self.energy = self.energy + tension * 0.5 * tension * (self.drum_side_length / ea + by_tension);
+    }
+}
+
+impl Beyond {
+    /// Integral of the place on the rim, measured from the entry point, over the compliance of the arc, world axes
+    /// [m²/N].
+    pub(super) fn compliance_moment(&self, load_w: &Vec3, axial_stiffness: f64, wheel: &Wheel<f64>) -> Vec3 {
+        let exit = Vec3::from(wheel.offset_w(wheel.wrap));
+        let at_exit = self.tension * 0.5 * (1.0 + self.stretch);
+        let of_node = |(angle, arc): (f64, f64)| {
+            let offset = Vec3::from(wheel.offset_w(angle));
+            let stretch = stretch_of(at_exit + load_w.dot(&(exit - offset)), axial_stiffness);
+            offset * (arc / (axial_stiffness * stretch.powi(3)))
+        };
+        arc_nodes(wheel).map(of_node).sum()
     }
 }
 

@@ -8,12 +8,14 @@
 //!        [ −s g_kᵀ     ω_k² − s ]      s = ω_c²(ω)
 //! ```
 //!
-//! The motions z of a drive with losses are unknowns, too: the forces Δ z of its losses act on platform and clamped
-//! modes by T and φ_k, and `z = T x + φ_k q_k − R Δ z` (docs/theory.md, equation (82)).
+//! The motions z of a drive that have losses are unknowns, too: the forces Δ z of its losses act on platform and
+//! clamped modes by T and φ_k, and `z = T x + φ_k q_k − R Δ z` (docs/theory.md, equation (82)). Motions without losses
+//! follow the others. Where only the determinant is wanted, the motions of each drive are eliminated, except near a frequency
+//! at which the drive alone vibrates with losses.
 
 use super::supports::{Supports, SupportsAt};
 use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
-use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveAt, DriveLosses, Family, NearPole, NearRanges};
+use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveAt, Family, NearPole, NearRanges};
 use crate::cable::{DynamicCable, LocalStiffness};
 use crate::math::{CDMat, CMat6, CVec6, Complex, Vec6, order};
 
@@ -48,7 +50,7 @@ impl Dynamics {
     /// one.
     pub(crate) fn damped_motion(&self, omega: Complex) -> Option<DampedMotion> {
         let no_poles = vec![Vec::new(); self.terms.len()];
-        let Bordered { value, slope, .. } = self.bordered(omega, 1.0, &no_poles);
+        let Bordered { value, slope, .. } = self.bordered(omega, 1.0, &no_poles, false);
         // Poles near ω, as the border has them.
         let mut near = Vec::new();
         for (t, term) in self.terms.iter().enumerate() {
@@ -81,11 +83,9 @@ impl Dynamics {
         let mut first = first_drive;
         for term in &self.terms {
             let DynamicCable::CatenaryDynamic(form) = &term.form else { continue };
-            if form.has_drive_losses() {
-                for (delta, _) in form.beyond_undamped(omega, 1.0).0 {
-                    left[first] *= -delta;
-                    first += 1;
-                }
+            for (_, (delta, _)) in motions_with_losses(form, omega, 1.0) {
+                left[first] *= -delta;
+                first += 1;
             }
         }
         let product = |r: usize| -> Complex { (0..motion.len()).map(|c| slope[(r, c)] * motion[c]).sum() };
@@ -119,7 +119,7 @@ impl Dynamics {
     /// The zeros of f are the damped natural frequencies, with their multiplicity, and f has no pole in their region.
     /// `losses` is the fraction of the damping that acts: 1 all, 0 none.
     pub(crate) fn logarithmic_slope(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> Complex {
-        let Bordered { value, slope, pole_slope, .. } = self.bordered(omega, losses, poles);
+        let Bordered { value, slope, pole_slope, .. } = self.bordered(omega, losses, poles, true);
         match value.lu().solve(&slope) {
             Some(solved) => solved.trace() + pole_slope,
             None => Complex::new(f64::INFINITY, 0.0),
@@ -128,18 +128,19 @@ impl Dynamics {
 
     /// Phase of f of [`logarithmic_slope`](Self::logarithmic_slope) [rad], up to multiples of 2π.
     pub(crate) fn phase(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> f64 {
-        let Bordered { value, pole_phase, .. } = self.bordered(omega, losses, poles);
+        let Bordered { value, pole_phase, .. } = self.bordered(omega, losses, poles, true);
         value.lu().determinant().arg() + pole_phase
     }
 
     /// Bordered dynamic stiffness at a complex ω [rad/s] with the fraction `losses` of the damping. `poles` are the
-    /// squares of the clamped frequencies of each cable whose factors complete the determinant.
-    fn bordered(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> Bordered {
+    /// squares of the clamped frequencies of each cable whose factors complete the determinant. With `eliminated` the
+    /// motions of drives are no unknowns where that loses no digits; their determinant is then part of the product.
+    fn bordered(&self, omega: Complex, losses: f64, poles: &[Vec<f64>], eliminated: bool) -> Bordered {
         let mut parts = BorderedParts::of_platform(self, omega, losses);
         for (t, poles) in poles.iter().enumerate() {
             parts.add_cable(t, poles);
         }
-        parts.assembled()
+        parts.assembled(eliminated)
     }
 }
 
@@ -239,27 +240,36 @@ impl<'d> BorderedParts<'d> {
     fn drive_rows(&self, t: usize, (square, square_slope): (Complex, Complex), near: &[NearPole]) -> Option<DriveRows> {
         let term = &self.dynamics.terms[t];
         let DynamicCable::CatenaryDynamic(form) = &term.form else { return None };
-        if !form.has_drive_losses() {
+        let (indices, loss): (Vec<usize>, Vec<(Complex, Complex)>) =
+            motions_with_losses(form, self.omega, self.losses).into_iter().unzip();
+        if indices.is_empty() {
             return None;
         }
         let left_out = form.near(square.re, NEAR_POLE_FRACTION);
-        let motions = form.drive_at(square, &left_out)?;
-        let losses = form.beyond_undamped(self.omega, self.losses);
-        let mut rows = DriveRows::new(term, form, &motions, &losses, (near, self.borders.len()), square_slope);
+        let motions = form.motions_at(&indices, square, &left_out)?;
+        let mut rows = DriveRows::new(term, form, (&indices, &motions), loss, (near, self.borders.len()), square_slope);
         if let Some(supports) = self.dynamics.supports() {
-            rows.on_supports = supports.drive(t, square, &left_out).unwrap_or_default();
+            rows.on_supports = supports.drive(t, &indices, square, &left_out).unwrap_or_default();
             rows.on_supports.iter_mut().flatten().for_each(|(_, slope)| *slope *= square_slope);
         }
         Some(rows)
     }
 
-    /// Matrix over the platform, the near poles, the supports and the motions of drives, in this order.
-    fn assembled(self) -> Bordered {
+    /// Matrix over the platform, the near poles, the supports and the motions of drives that are not eliminated, in
+    /// this order.
+    fn assembled(self, eliminated: bool) -> Bordered {
         let dynamics = self.dynamics;
         let f = dynamics.dof();
         let first_support = f + self.borders.len();
         let first_drive = first_support + dynamics.supports().map_or(0, Supports::count);
-        let n = first_drive + self.drives.iter().map(|drive| drive.loss.len()).sum::<usize>();
+        let drives: Vec<(DriveRows, Option<EliminatedDrive>)> = (self.drives.into_iter())
+            .map(|drive| {
+                let found = if eliminated { EliminatedDrive::of(&drive) } else { None };
+                (drive, found)
+            })
+            .collect();
+        let kept = drives.iter().filter(|(_, found)| found.is_none());
+        let n = first_drive + kept.map(|(drive, _)| drive.loss.len()).sum::<usize>();
 
         // The platform, then each near pole with its row.
         let (mut value, mut slope) = (CDMat::zeros(n, n), CDMat::zeros(n, n));
@@ -280,13 +290,19 @@ impl<'d> BorderedParts<'d> {
         }
 
         // The drives.
-        let mut first = first_drive;
-        for drive in self.drives {
+        let (mut pole_slope, mut pole_phase, mut first) = (self.pole_slope, self.pole_phase, first_drive);
+        for (drive, found) in drives {
+            if let Some(found) = found {
+                found.add(&mut value, &mut slope, &drive.by_others(f, first_support));
+                pole_slope += found.log_slope;
+                pole_phase += found.phase;
+                continue;
+            }
             drive.add(&mut value, &mut slope, f, first);
             drive.add_to_supports(&mut value, &mut slope, first_support, first);
             first += drive.loss.len();
         }
-        Bordered { value, slope, pole_slope: self.pole_slope, pole_phase: self.pole_phase }
+        Bordered { value, slope, pole_slope, pole_phase }
     }
 }
 
@@ -327,12 +343,12 @@ impl DriveRows {
     fn new(
         term: &DynamicCableAt,
         form: &CatenaryDynamicEnd,
-        motions: &DriveAt,
-        losses: &DriveLosses,
+        (indices, motions): (&[usize], &DriveAt),
+        loss: Vec<(Complex, Complex)>,
         (near, first_border): (&[NearPole], usize),
         square_slope: Complex,
     ) -> Self {
-        let count = losses.0.len();
+        let count = indices.len();
         let axes = term.axes();
 
         // T and R.
@@ -345,10 +361,26 @@ impl DriveRows {
         let receptance = (0..count).map(|i| (0..count).map(|j| entry(i, j)).collect()).collect();
 
         let near = (near.iter().enumerate())
-            .map(|(k, near)| (first_border + k, form.drive_in_mode(near.index, near.family)))
+            .map(|(k, near)| {
+                let all = form.drive_in_mode(near.index, near.family);
+                (first_border + k, indices.iter().map(|motion| all[*motion]).collect())
+            })
             .collect();
-        let loss = losses.0.clone();
         Self { transfer, receptance, loss, near, on_supports: Vec::new() }
+    }
+
+    /// Motions per unknown of the matrix: T over `f` coordinates of the platform, the border and the supports, one row
+    /// per motion.
+    fn by_others(&self, f: usize, first_support: usize) -> Vec<Vec<(usize, (Complex, Complex))>> {
+        let zero = Complex::new(0.0, 0.0);
+        let of = |j: usize| {
+            let by_platform = self.transfer[j].iter().take(f).copied().enumerate();
+            let by_border = self.near.iter().map(|(border, phi)| (f + border, (phi[j].into(), zero)));
+            let on_supports = self.on_supports.get(j).into_iter().flatten().copied().enumerate();
+            let by_supports = on_supports.map(|(k, entry)| (first_support + k, entry));
+            by_platform.chain(by_border).chain(by_supports).collect()
+        };
+        (0..self.loss.len()).map(of).collect()
     }
 
     /// Adds the rows and columns to a matrix and its derivative: `f` coordinates of the platform, then the border, and
@@ -387,6 +419,76 @@ impl DriveRows {
                 slope[(at, column)] = t_slope * delta + t * delta_slope;
                 value[(column, at)] = -t;
                 slope[(column, at)] = -t_slope;
+            }
+        }
+    }
+}
+
+/// Motions of a drive at a complex ω [rad/s] that have losses, ascending, with their stiffness Δ and its derivative by
+/// ω. The other motions of the drive, as the waves of a drum side, follow these.
+fn motions_with_losses(form: &CatenaryDynamicEnd, omega: Complex, losses: f64) -> Vec<(usize, (Complex, Complex))> {
+    if !form.has_drive_losses() {
+        return Vec::new();
+    }
+    let zero = Complex::new(0.0, 0.0);
+    let all = form.beyond_undamped(omega, losses).0.into_iter().enumerate();
+    all.filter(|(_, (delta, slope))| *delta != zero || *slope != zero).collect()
+}
+
+/// Motions of a drive that are eliminated: the stiffness `G = Δ (1 + R Δ)⁻¹` that they leave, and what they add to the
+/// logarithm of the determinant.
+struct EliminatedDrive {
+    /// G and its derivative by ω.
+    stiffness: CDMat,
+    slope: CDMat,
+    /// Derivative and imaginary part of ln det(1 + R Δ).
+    log_slope: Complex,
+    phase: f64,
+}
+
+/// Minimum of |det(1 + R Δ)| over the product of its columns' lengths at which the motions of a drive are eliminated:
+/// two digits are lost there. It is zero where the drive vibrates with its losses while the platform rests, and about
+/// one elsewhere.
+const MIN_DETERMINANT: f64 = 1e-2;
+
+impl EliminatedDrive {
+    /// `None` near a frequency at which the drive alone vibrates with its losses.
+    fn of(drive: &DriveRows) -> Option<Self> {
+        let count = drive.loss.len();
+        let (r, loss) = (&drive.receptance, &drive.loss);
+        let one = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+        let matrix = CDMat::from_fn(count, count, |i, j| r[i][j].0 * loss[j].0 + one(i, j));
+        let slope = CDMat::from_fn(count, count, |i, j| r[i][j].1 * loss[j].0 + r[i][j].0 * loss[j].1);
+        let lengths: f64 = matrix.column_iter().map(|column| column.norm()).product();
+        let lu = matrix.lu();
+        let determinant = lu.determinant();
+        if !(determinant.norm() >= MIN_DETERMINANT * lengths) {
+            return None;
+        }
+
+        let inverse = lu.try_inverse()?;
+        let turned = &inverse * slope;
+        let by_inverse = &turned * &inverse;
+        Some(Self {
+            stiffness: CDMat::from_fn(count, count, |i, j| loss[i].0 * inverse[(i, j)]),
+            slope: CDMat::from_fn(count, count, |i, j| loss[i].1 * inverse[(i, j)] - loss[i].0 * by_inverse[(i, j)]),
+            log_slope: turned.trace(),
+            phase: determinant.arg(),
+        })
+    }
+
+    /// Adds `Tᵀ G T` to a matrix, and its derivative; T has one row per motion, with the places of its entries.
+    fn add(&self, value: &mut CDMat, slope: &mut CDMat, transfer: &[Vec<(usize, (Complex, Complex))>]) {
+        for (i, row) in transfer.iter().enumerate() {
+            for (j, column) in transfer.iter().enumerate() {
+                let (g, g_slope) = (self.stiffness[(i, j)], self.slope[(i, j)]);
+                for (r, (t, t_slope)) in row {
+                    let (left, left_slope) = (t * g, t_slope * g + t * g_slope);
+                    for (c, (u, u_slope)) in column {
+                        value[(*r, *c)] += left * u;
+                        slope[(*r, *c)] += left_slope * u + left * u_slope;
+                    }
+                }
             }
         }
     }

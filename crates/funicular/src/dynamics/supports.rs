@@ -11,7 +11,7 @@
 //! (docs/theory.md, equations (92) and (93)).
 
 use super::{DynamicCableAt, Dynamics};
-use crate::cable::catenary_dynamic::{CarrierMotion, CatenaryDynamicEnd, ENDS, NearPole, NearRanges, TwoEnded};
+use crate::cable::catenary_dynamic::{ByTurn, CarrierMotion, CatenaryDynamicEnd, ENDS, NearPole, NearRanges, TwoEnded};
 use crate::cable::{DynamicCable, LocalAxes};
 use crate::math::{CDMat, CMat6, Complex, DMat, DVec, Mat3, Mat6, Vec3, Vec6};
 use crate::platform::{Coordinates, wrench_columns};
@@ -253,9 +253,15 @@ impl Supports {
         }
     }
 
-    /// Motions of a cable's drive per displacement of the supports at x = ω_c², and their derivatives by x: one row per
-    /// motion. `None` for a cable with a rigid anchor.
-    pub(super) fn drive(&self, term: usize, x: Complex, left_out: &NearRanges) -> Option<Vec<Vec<(Complex, Complex)>>> {
+    /// The given motions of a cable's drive per displacement of the supports at x = ω_c², and their derivatives by x:
+    /// one row per motion. `None` for a cable with a rigid anchor.
+    pub(super) fn drive(
+        &self,
+        term: usize,
+        motions: &[usize],
+        x: Complex,
+        left_out: &NearRanges,
+    ) -> Option<Vec<Vec<(Complex, Complex)>>> {
         let carried = self.carried[term].as_ref()?;
         let zero = Complex::new(0.0, 0.0);
         let by_supports = |(value, slope): ([Complex; ENDS], [Complex; ENDS])| {
@@ -268,7 +274,7 @@ impl Supports {
             }
             row
         };
-        Some(carried.both.drive(x, left_out).into_iter().map(by_supports).collect())
+        Some(carried.both.motions(motions, x, left_out).into_iter().map(by_supports).collect())
     }
 
     /// Motion of the carrier of a cable's end per displacement of its support along each axis of the world, with the
@@ -278,7 +284,7 @@ impl Supports {
         let [.., e, n, b, along] = carried.directions_w;
         let motion = |k: usize| CarrierMotion {
             displacement: [e[k], n[k], b[k]],
-            on_swivel: 0.0,
+            by_turn: ByTurn::default(),
             along_drum_side: along[k],
             with_drum: !carried.from_ground,
         };
@@ -327,6 +333,9 @@ impl Supports {
                     .sum::<Complex>();
             }
             on_ends[ENDS - 1] += square * carried.mass_beside_ends(form, moved);
+            if carried.from_ground {
+                on_ends[ENDS - 1] -= form.drum_side_at_wheel() * form.drum_side_ratio() * moved.by_turn.stretched;
+            }
         }
 
         for (direction, force) in carried.directions_w.iter().zip(on_ends) {

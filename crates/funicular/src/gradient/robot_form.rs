@@ -13,6 +13,7 @@ use crate::drive::derivatives::end;
 use crate::dynamics::{Assembly, Dynamics, Linearisation};
 use crate::math::Vec3;
 use crate::robot::{Cable, Robot, Servo};
+use crate::statics::derivatives::StaticDerivativeError;
 use crate::statics::{CableState, Equilibrium};
 
 /// Quadratic form of a robot about an equilibrium.
@@ -33,7 +34,7 @@ pub(super) struct RobotForm {
 enum AnyCable {
     /// Cable of the catenary models.
     Catenary(Box<CableForm>),
-    /// Spring EA/l along the chord, with its end at the pulley or the winch.
+    /// Spring EA/L₀ along the chord, with its end at the pulley or the winch.
     Spring(Box<SpringForm>),
 }
 
@@ -41,7 +42,9 @@ enum AnyCable {
 struct SpringForm {
     chord_w: Vec3,
     lever_w: Vec3,
+    /// EA and unstrained length L₀ of the free span.
     axial_stiffness: f64,
+    length: f64,
     end: Option<EndAtRest>,
 }
 
@@ -106,7 +109,7 @@ impl RobotForm {
             let cable = &settled.cables[i];
             let term = dynamics.terms().iter().position(|term| term.cable() == i);
             cables.push(match (cable_model, term.map(|term| dynamics.terms()[term].form())) {
-                (CableModel::Spring, _) => AnyCable::Spring(Box::new(SpringForm::of(cable, state))),
+                (CableModel::Spring, _) => AnyCable::Spring(Box::new(SpringForm::of(cable, state)?)),
                 (CableModel::CatenaryStatic, _) => {
                     AnyCable::Catenary(Box::new(CableForm::at_rest(&cable.anchor, state, false)?))
                 }
@@ -298,16 +301,19 @@ impl RobotForm {
 }
 
 impl SpringForm {
-    fn of(cable: &Cable, state: &CableState) -> Self {
+    fn of(cable: &Cable, state: &CableState) -> Result<Self, GradientError> {
         let (chord_w, axial_stiffness) = (state.chord_w(), cable.material.axial_stiffness);
-        let held = chord_w * chord_w.transpose() * (axial_stiffness / chord_w.norm().powi(3));
+        let hanging = state.hanging.as_ref().ok_or(StaticDerivativeError::Ideal)?;
+        let length = hanging.catenary.rope().unstrained_length;
+        let held = chord_w * chord_w.transpose() * (axial_stiffness / (length * chord_w.norm_squared()));
         let end = EndAtRest::of(&cable.anchor, state.drive.as_deref(), &held);
-        Self { chord_w, lever_w: state.lever_w, axial_stiffness, end }
+        Ok(Self { chord_w, lever_w: state.lever_w, axial_stiffness, length, end })
     }
 
-    /// Adds `factor` times the coefficients of `(EA/l³)(u_a·d)(u_b·d)` over two motions (translation, rotation) of the
-    /// platform: by the chord, by the arm of the ends, by EA; u is the motion of the platform end less that of the far
-    /// end. The result are the forces of a drum side from the ground on its entry point, which flexible supports move.
+    /// Adds `factor` times the coefficients of `(EA/L₀)(u_a·e)(u_b·e)` over two motions (translation, rotation) of the
+    /// platform: by the chord, by the arm of the ends, by EA, by L₀; u is the motion of the platform end less that of
+    /// the far end, e the direction of the chord. The result are the forces of a drum side from the ground on its entry
+    /// point, which flexible supports move.
     fn add<T: Field>(
         &self,
         sum: &mut CableAdjoint<T>,
@@ -327,15 +333,17 @@ impl SpringForm {
         };
         let [(far_a, u_a), (far_b, u_b)] = [followed(&end_a, &carriers[0]), followed(&end_b, &carriers[1])];
 
-        let (l, ea) = (self.chord_w.norm(), self.axial_stiffness);
+        let squared = self.chord_w.norm_squared();
+        let per_stiffness = 1.0 / (self.length * squared);
         let [along_a, along_b] = [dot(&u_a, &chord), dot(&u_b, &chord)];
-        let size = factor * (ea / l.powi(3));
+        let size = factor * (self.axial_stiffness * per_stiffness);
         let mut by_chord = add(&times(&u_a, along_b), &times(&u_b, along_a));
-        add_times(&mut by_chord, &chord, -(along_a * along_b * (3.0 / (l * l))));
+        add_times(&mut by_chord, &chord, -(along_a * along_b * (2.0 / squared)));
         add_times(&mut sum.chord, &by_chord, size);
         let by_end = add(&times(&cross(&chord, a.1), along_b), &times(&cross(&chord, b.1), along_a));
         add_times(&mut sum.lever, &by_end, size);
-        sum.stiffness += factor * along_a * along_b * l.powi(-3);
+        sum.stiffness += factor * along_a * along_b * per_stiffness;
+        sum.free_length += -(size * along_a * along_b * (1.0 / self.length));
 
         let mut on_side = [T::default(); 2];
         if let Some(end) = &self.end {

@@ -66,6 +66,9 @@ const WANTED_ERROR: f64 = 1e-9;
 const ONE_ZERO: f64 = 1e-8;
 /// Maximum damping ratio added in one step: strong damping is added in steps, and each zero starts from its last place.
 const STEP_OF_DAMPING: f64 = 0.1;
+/// Relative step below which a zero is near enough to be followed in the next step of damping: Newton's method leaves
+/// the square of it.
+const FOLLOWED: f64 = 1e-5;
 /// Maximum number of these steps.
 const MAX_STEPS: f64 = 20.0;
 /// Maximum number of times that lost zeros are sought again, and of those among them that start near a mode. The others
@@ -78,6 +81,11 @@ const MAX_START_RATIO: f64 = 0.9;
 const SPREAD: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 /// Relative step below which the search of a zero has converged.
 const CONVERGED: f64 = 4e-15;
+/// Maximum relative step that may be rounding: eliminated drives lose two digits of the slope, and clusters more.
+const MAX_ROUNDING: f64 = 1e-12;
+/// Maximum step over the distance of the nearest other zero at which a search may end early. Beside another zero steps
+/// are small, too, because it is divided out: they are then as long as the distance.
+const APART: f64 = 0.1;
 /// Maximum number of rounds of Newton steps. Four are usual; the maximum is a guard for clusters, where convergence is
 /// linear at first.
 const MAX_NEWTON_ROUNDS: usize = 60;
@@ -238,10 +246,11 @@ impl ZeroSearch<'_> {
 
     /// Takes Newton steps on f, divided by all the other zeros, until no zero moves.
     fn converge(&self, zeros: &mut [DampedZero]) {
+        let mut settled = vec![false; zeros.len()];
         for _ in 0..MAX_NEWTON_ROUNDS {
             let mut moved = false;
             for i in 0..zeros.len() {
-                if zeros[i].error <= CONVERGED {
+                if zeros[i].error <= CONVERGED || settled[i] {
                     continue;
                 }
 
@@ -265,6 +274,14 @@ impl ZeroSearch<'_> {
                 // Limit the step, so that a flat region of f does not move a search far away.
                 let size = step.norm() / omega.norm();
                 let step = if size > MAX_STEP { step * (MAX_STEP / size) } else { step };
+
+                // End at rounding, where a small step is hardly smaller than the last one, or before all damping acts.
+                let is_rounding = size <= MAX_ROUNDING && size > 0.25 * zeros[i].error;
+                if is_rounding || (self.losses < 1.0 && size <= FOLLOWED) {
+                    let others = zeros.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, other)| other.omega);
+                    let distances = others.chain(self.foreign.iter().copied()).map(|other| (omega - other).norm());
+                    settled[i] = step.norm() <= APART * distances.fold(f64::INFINITY, f64::min);
+                }
                 zeros[i].omega -= step;
                 zeros[i].error = size;
                 moved = true;

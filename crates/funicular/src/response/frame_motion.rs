@@ -3,7 +3,7 @@
 //! Every cable pulls at the platform by the motion of its far end; gravity and loads stay where they are. Derivation:
 //! docs/theory.md, equations (83) to (86).
 
-use crate::cable::catenary_dynamic::{CarrierMotion, DriveSignal};
+use crate::cable::catenary_dynamic::{ByTurn, CarrierMotion, DriveSignal};
 use crate::cable::{DynamicCable, EndStiffness, LocalAxes, span_stiffness};
 use crate::cable_motion::{CableMotionError, CableStations};
 use crate::dynamics::{Dynamics, Supports};
@@ -20,8 +20,9 @@ pub enum FrameInput {
     /// anchors and drums [rad].
     BaseAbout(Vec3),
     /// The anchor of one cable, with its pulley, moves along a direction in world axes (normalised on use); its drum
-    /// stays where it is if there is a drum side, else it moves with the anchor [m]. If the anchor is on a flexible
-    /// support, the foot of that support moves: the ground end of its spring. Drums on the support follow it.
+    /// stays where it is if a drum side leads to the pulley, else the end of the cable moves with the anchor [m]. If
+    /// the anchor is on a flexible support, the foot of that support moves: the ground end of its spring. Drums on the
+    /// support follow it.
     Anchor {
         /// Index of the cable, in the order of the file.
         cable: usize,
@@ -90,8 +91,9 @@ impl FrameInput {
 
                 let with_drum = match anchor.support.map(|support| &robot.supports[support]) {
                     Some(support) => support.drum_side_from_ground(anchor).is_none(),
-                    // Without a pulley the file does not say where the drum side comes from.
-                    None => anchor.pulley.is_none(),
+                    // Without a pulley the file does not say where the drum side comes from, and without a drum side
+                    // the cable ends at the anchor.
+                    None => anchor.pulley.is_none() || anchor.drum_side_length() == 0.0,
                 };
                 let motion = AnchorMotion { entry_w: along_w, exit_w: along_w, turn_w: Vec3::zeros(), with_drum };
                 is_moved.then_some(motion)
@@ -142,7 +144,8 @@ impl FrameMotion {
 
             let side = dynamics.supports().and_then(|_| support_side(robot, i, state));
             let force_on_support_w = if let Some(term) = dynamics.terms().iter().position(|term| term.cable() == i) {
-                let motion = carrier_motion(state, &anchor, side.as_ref(), dynamics.terms()[term].form().axes());
+                let axes = dynamics.terms()[term].form().axes();
+                let motion = carrier_motion((robot, i, state), &anchor, side.as_ref(), axes);
                 frame.cables.push(MovedCable { term, lever_w: state.lever_w, motion });
                 Vec3::zeros()
             } else {
@@ -247,19 +250,23 @@ impl FrameMotion {
 
 /// Motion of the carrier of a cable in the axes of its model. `side` is its drum side, if the anchor is on a support.
 fn carrier_motion(
-    state: &CableState,
+    (robot, i, state): (&Robot, usize, &CableState),
     anchor: &AnchorMotion,
     side: Option<&SupportSide>,
     axes: &LocalAxes,
 ) -> CarrierMotion {
     let LocalAxes { e, n, b } = axes;
-    let drive = state.drive.as_ref();
+    let drive = state.drive.as_deref();
+    let by_turn = match (drive, &state.hanging) {
+        (Some(drive), Some(span)) => drive.by_turn(span, &robot.cables[i].anchor, &anchor.turn_w),
+        _ => ByTurn::default(),
+    };
     let contact = drive.and_then(|drive| drive.contact.as_ref());
     let travel_w = drive.map_or_else(Vec3::zeros, |drive| drive.end.travel_w);
     let along_w = side.map_or_else(|| contact.map_or(travel_w, |contact| contact.axis_w), |side| side.direction_w);
     CarrierMotion {
         displacement: [e, n, b].map(|axis| axis.dot(&anchor.exit_w)),
-        on_swivel: contact.map_or(0.0, |contact| state.tension_anchor * contact.exit_normal_w().dot(&anchor.turn_w)),
+        by_turn,
         along_drum_side: along_w.dot(&anchor.entry_w),
         with_drum: anchor.with_drum,
     }
@@ -289,19 +296,22 @@ fn constant_forces_w(
 
     // The drive adds the forces of a drum side that is stretched and of a swivel that turns.
     let (mut added_to_drum_side, axes) = (0.0, LocalAxes::of_cable(robot, i, state));
-    let motion = carrier_motion(state, anchor, side, &axes);
+    let motion = carrier_motion((robot, i, state), anchor, side, &axes);
     if let (Some(drive), Some(span)) = (&state.drive, &state.hanging) {
         // Supports have been assembled with the stiffness of the span in its model.
         let held: Mat3 = match side {
             Some(_) => span_stiffness(robot, i, state, model).ok_or_else(no_motion)?,
             None => span.tangent_w(),
         };
-        let stretched = if motion.with_drum { 0.0 } else { motion.along_drum_side };
-        if let Some(by_length_w) = drive.end.force_by_length_w(&held) {
-            on_platform_w -= by_length_w * (stretched / drive.end.stretch_drum);
-            added_to_drum_side = drive.end.drum_side_tension(&held, &anchor.exit_w, motion.on_swivel, stretched);
+        let end = &drive.end;
+        let ratio = end.stretch / end.stretch_drum;
+        let [_, at_wheel, _] = motion.of_drum_side(ratio);
+        let (stretched, on_end) = (at_wheel / ratio, motion.by_turn.on_end);
+        if let Some(by_length_w) = end.force_by_length_w(&held) {
+            on_platform_w -= by_length_w * (stretched / end.stretch_drum);
+            added_to_drum_side = end.drum_side_tension(&held, &anchor.exit_w, on_end, stretched);
         }
-        on_platform_w += drive.end.force_by_swivel_w(&held) * motion.on_swivel;
+        on_platform_w += end.force_by_end_w(&held, on_end);
     }
 
     let pulled_w = side.filter(|side| side.from_ground).map_or_else(Vec3::zeros, |side| side.direction_w);

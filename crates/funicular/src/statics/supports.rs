@@ -215,7 +215,7 @@ pub(crate) fn on_support(robot: &Robot, i: usize, state: &CableState, held: &Mat
 pub(super) fn pull_by_length(robot: &Robot, i: usize, state: &CableState) -> Option<(Vec3, f64)> {
     let side = SupportedCable::of_state(robot, i, state)?.drum_side()?;
     let (span, drive) = (state.hanging.as_ref()?, state.drive.as_deref()?);
-    let by_drum_side = drive.end.drum_side_tension(&span.tangent_w(), &Vec3::zeros(), 0.0, 1.0);
+    let by_drum_side = drive.end.drum_side_tension(&span.tangent_w(), &Vec3::zeros(), [0.0; 2], 1.0);
     Some((side.direction_w, -drive.end.stretch_drum * by_drum_side))
 }
 

@@ -6,6 +6,7 @@
 
 mod catenary_dynamic;
 mod shallow_dynamic;
+mod stretched;
 
 use funicular::cable::catenary_dynamic::CatenaryDynamic;
 use funicular::cable::shallow_dynamic::ShallowDynamic;

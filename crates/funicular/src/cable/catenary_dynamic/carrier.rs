@@ -4,7 +4,7 @@
 use super::{
     CatenaryDynamic, CatenaryDynamicEnd, DriveAt, DriveLosses, DriveSignal, Family, InternalMotion, NearRanges,
 };
-use crate::drive::DriveChain;
+use crate::drive::{ByTurn, DriveChain};
 use crate::math::Complex;
 
 /// Given motion of the carrier of a cable's end, harmonic.
@@ -12,8 +12,8 @@ use crate::math::Complex;
 pub(crate) struct CarrierMotion {
     /// Displacement of the exit point with the carrier in the axes (e, n, b) of the cable.
     pub(crate) displacement: [f64; 3],
-    /// Generalised force on the swivelling wheel that turns with the carrier [N].
-    pub(crate) on_swivel: f64,
+    /// Forces by a rotation of the carrier, with which the wheel turns.
+    pub(crate) by_turn: ByTurn,
     /// Displacement of the entry point along the drum side, towards the platform.
     pub(crate) along_drum_side: f64,
     /// True if the drum moves with the carrier, false if it stays where it is.
@@ -26,8 +26,10 @@ impl CarrierMotion {
     ///
     /// The elongation of the drum side is measured with the stretch at the exit point, `ratio` times that at the entry
     /// point.
-    pub(super) fn of_drum_side(&self, ratio: f64) -> [f64; 3] {
-        if self.with_drum { [0.0, 0.0, self.along_drum_side] } else { [0.0, ratio * self.along_drum_side, 0.0] }
+    pub(crate) fn of_drum_side(&self, ratio: f64) -> [f64; 3] {
+        let (at_wheel, whole) =
+            if self.with_drum { (0.0, self.along_drum_side) } else { (ratio * self.along_drum_side, 0.0) };
+        [0.0, at_wheel + self.by_turn.stretched, whole]
     }
 }
 
@@ -40,19 +42,17 @@ impl CatenaryDynamicEnd {
     pub(crate) fn forces_by_carrier(&self, motion: &CarrierMotion) -> Vec<(f64, f64)> {
         let [_, at_wheel, whole] = motion.of_drum_side(self.drum_side_ratio());
         let mut forces: Vec<(f64, f64)> = (self.chain().map_or(&[][..], |chain| &chain.drum_side).iter())
-            .map(|side| {
-                if motion.with_drum {
-                    (0.0, side.carried_mass * whole)
-                } else {
-                    (-side.stiffness * at_wheel, side.mass * at_wheel)
-                }
-            })
+            .map(|side| (-side.stiffness * at_wheel, side.mass * at_wheel + side.carried_mass * whole))
             .collect();
 
-        // A chain without a drum side has no such force; the swivel turns with the carrier.
+        // A chain without a drum side has no such force; wheel and swivel turn with the carrier.
         let (along, _) = self.cable.end.as_ref().map_or((0, 0), super::MovingEnd::counts);
+        let [on_slip, on_swivel] = motion.by_turn.on_end;
         forces.resize(along, (0.0, 0.0));
-        forces.resize(self.motions(), (motion.on_swivel, 0.0));
+        if let Some((still, _)) = forces.first_mut() {
+            *still += on_slip;
+        }
+        forces.resize(self.motions(), (on_swivel, 0.0));
         forces
     }
 
@@ -220,6 +220,11 @@ impl CatenaryDynamicEnd {
     pub(crate) fn carried_mass(&self, motion: usize) -> f64 {
         let side = self.chain().and_then(|chain| chain.drum_side.get(motion));
         side.map_or(0.0, |side| side.carried_mass)
+    }
+
+    /// Stiffness of the drum side between the motion along the cable and its end at the wheel [N/m].
+    pub(crate) fn drum_side_at_wheel(&self) -> f64 {
+        self.chain().and_then(|chain| chain.drum_side.first()).map_or(0.0, |side| side.stiffness)
     }
 
     /// Stretch at the exit point over that at the drum; 1 without a drum side.

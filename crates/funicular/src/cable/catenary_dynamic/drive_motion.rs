@@ -47,30 +47,32 @@ impl DriveAt {
         x: Complex,
         left_out: &NearRanges,
     ) -> Self {
-        let zero = Complex::new(0.0, 0.0);
+        Self::of((cable, drive), &(0..count).collect::<Vec<usize>>(), x, left_out)
+    }
+
+    /// The given motions of a drive, ascending, at x = ω_c², without the poles `left_out`.
+    fn of(
+        (cable, drive): (&CatenaryDynamic, &DriveMotion),
+        motions: &[usize],
+        x: Complex,
+        left_out: &NearRanges,
+    ) -> Self {
+        let (zero, count) = (Complex::new(0.0, 0.0), motions.len());
         let mut at = Self {
             transfer: vec![[zero; 3]; count],
             transfer_slope: vec![[zero; 3]; count],
-            receptance: drive.flexibility.view((0, 0), (count, count)).map(Complex::from),
+            receptance: CDMat::from_fn(count, count, |i, j| drive.flexibility[(motions[i], motions[j])].into()),
             receptance_slope: CDMat::zeros(count, count),
         };
-        let along = drive.along.still.len();
-        at.add(&cable.in_plane, &drive.along, 0..along, [0, 1], x, &left_out.in_plane);
-        if count > along {
-            at.add(
-                &cable.out_of_plane,
-                &drive.sideways,
-                along..along + drive.sideways.still.len(),
-                [2],
-                x,
-                &left_out.out_of_plane,
-            );
-        }
-
         if let Some(coupled) = &cable.coupled {
-            at.add(coupled, &drive.coupled, 0..count, [0, 1, 2], x, &left_out.coupled);
+            at.add(coupled, &drive.coupled, 0, motions, [0, 1, 2], x, &left_out.coupled);
+            return at;
         }
-
+        let sideways = drive.along.still.len();
+        let (along, beside) = motions.split_at(motions.partition_point(|motion| *motion < sideways));
+        at.add(&cable.in_plane, &drive.along, 0, along, [0, 1], x, &left_out.in_plane);
+        let beside: Vec<usize> = beside.iter().map(|motion| motion - sideways).collect();
+        at.add(&cable.out_of_plane, &drive.sideways, along.len(), &beside, [2], x, &left_out.out_of_plane);
         at
     }
 
@@ -93,24 +95,31 @@ impl DriveAt {
         rows
     }
 
-    /// Adds the motions `rows` by the modes of one family, for the components `axes` of the platform end.
+    /// Adds the given motions of one family, as rows from `first` on, by its modes, for the components `axes` of the
+    /// platform end.
+    #[expect(clippy::too_many_arguments, reason = "motions of a family, a frequency, and the poles left out")]
     fn add<const D: usize, const N: usize, const E: usize>(
         &mut self,
         family: &PoleResidue<N, E>,
         motion: &Displacements<D, N>,
-        rows: Range<usize>,
+        first: usize,
+        motions: &[usize],
         axes: [usize; D],
         x: Complex,
         left_out: &Range<usize>,
     ) {
-        for (i, still) in rows.clone().zip(&motion.still) {
+        if motions.is_empty() {
+            return;
+        }
+        let rows = first..first + motions.len();
+        for (i, of) in rows.clone().zip(motions) {
             for (s, axis) in axes.iter().enumerate() {
-                self.transfer[i][*axis] += still[0][s];
+                self.transfer[i][*axis] += motion.still[*of][0][s];
             }
         }
 
         for (k, (pole, g)) in family.poles.iter().zip(&family.participation).enumerate() {
-            let phi = |i: usize| motion.modes[k][i - rows.start][0];
+            let phi = |i: usize| motion.modes[k][motions[i - first]][0];
             if left_out.contains(&k) {
                 // The mode is an unknown beside these motions: only its static response, which the flexibility
                 // contains, has to be taken out.
@@ -127,12 +136,12 @@ impl DriveAt {
             let (by_force, by_force_slope) = (x * inverse / *pole, inverse * inverse);
             for i in rows.clone() {
                 for (s, axis) in axes.iter().enumerate() {
-                    self.transfer[i][*axis] += phi(i) * g[s] * by_end;
-                    self.transfer_slope[i][*axis] += phi(i) * g[s] * by_end_slope;
+                    self.transfer[i][*axis] += by_end * (phi(i) * g[s]);
+                    self.transfer_slope[i][*axis] += by_end_slope * (phi(i) * g[s]);
                 }
                 for j in rows.clone() {
-                    self.receptance[(i, j)] += phi(i) * phi(j) * by_force;
-                    self.receptance_slope[(i, j)] += phi(i) * phi(j) * by_force_slope;
+                    self.receptance[(i, j)] += by_force * (phi(i) * phi(j));
+                    self.receptance_slope[(i, j)] += by_force_slope * (phi(i) * phi(j));
                 }
             }
         }
@@ -319,6 +328,11 @@ impl CatenaryDynamicEnd {
     /// Motions of the drive at x = ω_c², without the poles `left_out`; `None` without a drive.
     pub(crate) fn drive_at(&self, x: Complex, left_out: &NearRanges) -> Option<DriveAt> {
         Some(DriveAt::at(&self.cable, self.cable.drive.as_ref()?, self.motions(), x, left_out))
+    }
+
+    /// The given motions of the drive, ascending, at x = ω_c², without the poles `left_out`; `None` without a drive.
+    pub(crate) fn motions_at(&self, motions: &[usize], x: Complex, left_out: &NearRanges) -> Option<DriveAt> {
+        Some(DriveAt::of((&self.cable, self.cable.drive.as_ref()?), motions, x, left_out))
     }
 
     /// True if the control of its motor has a delay.

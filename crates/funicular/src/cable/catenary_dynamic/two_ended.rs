@@ -203,12 +203,23 @@ impl TwoEnded {
     /// Motions of the drive per motion of the ends at x = ω_c² without the poles `left_out`, and their derivatives by
     /// x.
     pub(crate) fn drive(&self, x: Complex, left_out: &NearRanges) -> Vec<([Complex; ENDS], [Complex; ENDS])> {
+        self.motions(&(0..self.still.len()).collect::<Vec<usize>>(), x, left_out)
+    }
+
+    /// The given motions of the drive, as by [`drive`](Self::drive).
+    pub(crate) fn motions(
+        &self,
+        motions: &[usize],
+        x: Complex,
+        left_out: &NearRanges,
+    ) -> Vec<([Complex; ENDS], [Complex; ENDS])> {
         let mut rows: Vec<([Complex; ENDS], [Complex; ENDS])> =
-            (self.still.iter()).map(|row| (row.map(Complex::from), [Complex::new(0.0, 0.0); ENDS])).collect();
+            motions.iter().map(|of| (self.still[*of].map(Complex::from), [Complex::new(0.0, 0.0); ENDS])).collect();
         for mode in self.counted(left_out) {
             let factor = (mode.pole - x).inv();
             let (by_end, by_end_slope) = (x * factor, mode.pole * factor * factor);
-            for (row, phi) in rows.iter_mut().zip(&mode.drive) {
+            for (row, of) in rows.iter_mut().zip(motions) {
+                let phi = mode.drive[*of];
                 for (i, g) in mode.participation.iter().enumerate() {
                     row.0[i] += by_end * (phi * g);
                     row.1[i] += by_end_slope * (phi * g);

@@ -402,6 +402,50 @@ fn signals() -> ([Signal; 2], [(Signal, Quantity); 2]) {
     ([first, second], [(out, Quantity::Acceleration), (first, Quantity::Displacement)])
 }
 
+/// Maximum number of halvings of a step of differences.
+const MAX_HALVINGS: usize = 8;
+
+/// Differences as by [`extrapolated`], at steps that are halved until they are short beside the distance to the next
+/// resonance, and a bound of their error besides the `noise` of the first quarter step. The bound is infinite where no
+/// step is short enough.
+///
+/// A response has complex poles at its resonances. Its central differences at a step h are those of `1/(1 − x)`,
+/// `x = (h/ρ)²`, with the distance ρ of the pole. What the last extrapolation adds is x²/64, what the one before adds
+/// is x/16, and the error is x³/64. So the last addition bounds the error for x < 1 alone, and x is four times the
+/// ratio of both. Lightly damped cables in a step that moves a resonance by more than its width have x > 1.
+fn differences_within_resonance(
+    step: f64,
+    noise: &[f64],
+    mut at: impl FnMut(f64) -> Option<Vec<f64>>,
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    /// Maximum x of a step: the error is then at most a half of the bound.
+    const SHORT: f64 = 0.5;
+
+    let mut central: Vec<Vec<f64>> = Vec::new();
+    let (mut best, mut bound) = (vec![0.0; noise.len()], vec![f64::INFINITY; noise.len()]);
+    for halvings in 0..=MAX_HALVINGS {
+        let h = step * 0.5_f64.powi(halvings as i32);
+        let (low, high) = (at(-h)?, at(h)?);
+        central.push(low.iter().zip(&high).map(|(low, high)| (high - low) / (2.0 * h)).collect());
+        let [.., one, half, quarter] = &central[..] else { continue };
+        for i in (0..noise.len()).filter(|i| bound[*i].is_infinite()).collect::<Vec<_>>() {
+            let first = half[i] + (half[i] - one[i]) / 3.0;
+            let second = quarter[i] + (quarter[i] - half[i]) / 3.0;
+            let added = (second - first) / 15.0;
+            // Noise grows with the inverse of the step.
+            let noise_here = noise[i] * 2_f64.powi(halvings as i32 - 2);
+            let is_short = 4.0 * added.abs() <= SHORT * (second - quarter[i]).abs();
+            if is_short || (second - quarter[i]).abs() <= noise_here {
+                (best[i], bound[i]) = (second + added, added.abs() + noise_here);
+            }
+        }
+        if bound.iter().all(|bound| bound.is_finite()) {
+            break;
+        }
+    }
+    Some((best, bound))
+}
+
 /// Compares the derivatives of `values` along changes with differences: every `count`-th change from the number `first`
 /// on.
 fn compare(
@@ -414,26 +458,33 @@ fn compare(
     values: &dyn Fn(&Robot, &Equilibrium) -> Option<Vec<f64>>,
 ) -> Result<(), TestCaseError> {
     let step = 0.02;
-    let smallest_step = 0.25 * step;
     let here = values(robot, rest).unwrap();
+    let noise: Vec<f64> = here.iter().map(|value| digits * value.abs() / (0.25 * step)).collect();
     let rows: Vec<Vec<f64>> = (0..all.len()).map(ours).collect();
+    let (mut compared, mut passed_over) = (0, 0);
     for (d, (what, change)) in all.iter().enumerate().skip(first).step_by(count) {
-        let found = extrapolated(step, |h| {
+        let found = differences_within_resonance(step, &noise, |h| {
             let (robot, at) = changed(robot, rest, change, h)?;
             values(&robot, &at)
         });
-        let Some((differences, added)) = found else { continue };
+        let Some((differences, bound)) = found else { continue };
         for (i, difference) in differences.iter().enumerate() {
+            if bound[i].is_infinite() {
+                passed_over += 1;
+                continue;
+            }
+            compared += 1;
             let largest = rows.iter().fold(0.0, |most: f64, row| most.max(row[i].abs()));
             prop_assert!(
-                agrees(rows[d][i], (*difference, added[i]), largest, digits * here[i].abs() / smallest_step),
-                "{what}, value {i} {}: {} {difference}, largest {largest}, added {}",
+                agrees(rows[d][i], (*difference, bound[i]), largest, 0.0),
+                "{what}, value {i} {}: {} {difference}, largest {largest}, bound {}",
                 here[i],
                 rows[d][i],
-                added[i]
+                bound[i]
             );
         }
     }
+    prop_assert!(passed_over <= compared / 10, "{passed_over} of {}", compared + passed_over);
     Ok(())
 }
 
