@@ -17,6 +17,7 @@ def test_the_package_finds_what_the_program_finds(program: Program, tmp_path: Pa
     robot = funicular.Robot.from_file(ROBOT)
     fit = {"platform.mass_kg": {"prior": 60, "prior_std": 10}}
     found = robot.identify(fit, funicular.read_measurements(MODES), hold_lengths_of_pose=True)
+    assert found.determined and found.assignment is None
     assert found.success and found.names == ("platform.mass_kg",)
     assert found.x[0] == theirs["values"][0]["value"] and found.chi2 == theirs["chi2"]
     assert abs(found.x[0] - 63.86) < 0.05 and 0 < found.deviations[0] < 1
@@ -25,6 +26,14 @@ def test_the_package_finds_what_the_program_finds(program: Program, tmp_path: Pa
     assert (tmp_path / "fit.html").read_text() == page.html and page._repr_html_().startswith("<iframe")
     assert "robot.identify(experiments, " in page.html and "schema" not in page.html.split("robot.identify(")[1][:400]
     assert found.robot.mass_kg == pytest.approx(found.x[0], rel=1e-4)
+
+
+def test_modes_of_frequencies_without_numbers_are_searched() -> None:
+    robot = funicular.Robot.from_file(ROOT / "robots/yuan2014-4mm.toml")
+    found = robot.identify(["platform.mass_kg"], funicular.read_measurements(ROOT / "docs/identification/unnumbered.csv"))
+    assert found.determined and abs(found.x[0] - 14.3) < 0.01
+    assert found.assignment is not None and found.assignment["second_best"]["values"][0] == pytest.approx(10.86, abs=0.05)
+    assert [row["number"] for row in found.details["frequencies"]] == [1, 2, 4, 6, 8]
 
 
 def test_unknown_paths_and_measurements_are_refused() -> None:

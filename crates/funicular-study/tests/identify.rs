@@ -320,7 +320,9 @@ fn two_hundred_repetitions_hold_as_often_as_they_say() {
 
 #[test]
 fn a_common_factor_of_masses_and_stiffness_is_said_to_be_unknown() {
-    let measured: Vec<Value> = frequencies(&[]).iter().map(|hz| json!({"frequency_hz": hz})).collect();
+    let numbered = (1..).zip(frequencies(&[]));
+    let measured: Vec<Value> =
+        numbered.map(|(number, hz)| json!({"frequency_hz": hz, "label": format!("{number}")})).collect();
     let fit: Vec<Value> =
         ["platform.mass_kg", "platform.inertia_kg_m2", "materials.*.axial_stiffness_n", "materials.rope.mass_kg_per_m"]
             .iter()

@@ -3,7 +3,7 @@
 
 use super::chi2::degrees_of_freedom;
 use super::draws::{mixed, point};
-use super::lists::{Sample, Target, targets};
+use super::lists::{NearBest, Sample, Target, targets};
 use super::model::{Assigned, IdentifiedModel};
 use super::observations::Subject;
 use super::precision::Judged;
@@ -41,14 +41,20 @@ const MAX_AS_GOOD: f64 = 0.02;
 /// Minimum number of assignments from which a search starts, beside the values of the file.
 const MIN_REFINED: usize = 7;
 
-/// Ratio of likelihoods up to which the second best assignment is possible.
-const POSSIBLE: f64 = 0.01;
+/// Ratio of likelihoods down to which another assignment is possible, if the deviations of the measurements are given,
+/// and if they were assumed. With an unknown factor of the deviations, five frequencies with errors of 0.5 % were fitted
+/// to 0.1 % with one wrong mode, a ratio of 1e-3.
+const POSSIBLE: f64 = 1e-2;
+const POSSIBLE_IF_ASSUMED: f64 = 1e-4;
 
 /// Difference of values, in spreads, up to which two minima are one.
 const SAME: f64 = 1e-3;
 
 /// Deviations from a measured frequency within which a second mode leaves the choice open.
 const CROWDED: f64 = 2.0;
+
+/// Deviations from a measured frequency within which other modes are tried in place of its mode.
+const EXCHANGED: f64 = 3.0;
 
 /// Number of nearest modes within whose distance random frequencies are spread.
 const AROUND: usize = 3;
@@ -80,6 +86,18 @@ pub(crate) struct Assigning {
     pub(crate) random: Vec<f64>,
     /// Second best fit.
     pub(crate) other: Option<OtherFit>,
+    /// Fits in which one frequency belongs to another mode nearby, in the linear model.
+    exchanges: Vec<Exchange>,
+}
+
+/// Fit with another mode of one frequency.
+struct Exchange {
+    /// Logarithm of the measured frequency in Hz.
+    ln_hz: f64,
+    /// Index of the other mode.
+    mode: usize,
+    chi2: f64,
+    x: Vec<f64>,
 }
 
 /// Minimum with its choices.
@@ -226,11 +244,18 @@ fn assigning(
 ) -> Result<Assigning> {
     let here = model.sample(x, targets)?;
     let open: Vec<usize> = (0..targets.len()).filter(|&k| targets[k].mode.is_none()).collect();
-    let (mut own, mut crowded, mut random) = (0.0, 0, Vec::new());
+    let (mut own, mut crowded, mut random, mut exchanges) = (0.0, 0, Vec::new(), Vec::new());
     if let Some(here) = &here {
         own = here.best(model, targets, &vec![0.0; x.len()], bounds).map_or(f64::INFINITY, |best| best.chi2);
         let is_crowded = |&&k: &&usize| here.distance(&targets[k], 2) <= CROWDED * targets[k].deviation;
         crowded = open.iter().filter(is_crowded).count();
+        let found = here.exchanges(model, targets, EXCHANGED).into_iter();
+        exchanges.extend(found.map(|(k, NearBest { chi2, x, partners })| Exchange {
+            ln_hz: targets[k].ln_hz,
+            mode: partners[0],
+            chi2,
+            x,
+        }));
 
         let around: Vec<f64> = targets.iter().map(|target| here.distance(target, AROUND)).collect();
         for list in 0..RANDOM_LISTS {
@@ -254,6 +279,7 @@ fn assigning(
         own_degrees: (targets.len() + statics + model.prior_count()).saturating_sub(model.unknowns.len()),
         random,
         other,
+        exchanges,
     })
 }
 
@@ -284,21 +310,43 @@ impl Assigning {
         } else if self.as_good() as f64 > MAX_AS_GOOD * lists as f64 {
             doubts.push(format!("{} of {lists} lists of random frequencies fit as well", self.as_good()));
         }
-        if let Some(other) = self.other.as_ref().filter(|other| is_possible(other, best, judged, is_noise_given)) {
-            let away = |(k, deviation): (usize, &Option<f64>)| {
-                deviation.is_some_and(|deviation| (other.x[k] - best.x[k]).abs() > NORMAL_95 * deviation)
-            };
-            if judged.deviations.iter().enumerate().any(away) {
-                let values = model.unknowns.iter().zip(model.values(&other.x));
-                let values: Vec<String> =
-                    values.map(|(unknown, value)| format!("{} = {}", unknown.path, significant(value, 4))).collect();
-                doubts.push(format!(
-                    "other modes fit with χ² = {}, not {}, and {}",
-                    significant(other.chi2, 3),
-                    significant(best.chi2(), 3),
-                    values.join(", ")
-                ));
+        let is_away = |x: &[f64]| {
+            let values = judged.deviations.iter().zip(x).zip(&best.x);
+            values.into_iter().any(|((deviation, x), best)| {
+                deviation.is_some_and(|deviation| (x - best).abs() > NORMAL_95 * deviation)
+            })
+        };
+        let told = |x: &[f64]| {
+            let values = model.unknowns.iter().zip(model.values(x));
+            let values = values.map(|(unknown, value)| format!("{} = {}", unknown.path, significant(value, 4)));
+            values.collect::<Vec<_>>().join(", ")
+        };
+        let is_possible = |chi2: f64, best: f64, degrees: usize| {
+            if is_noise_given {
+                (best - chi2) / (2.0 * judged.factor * judged.factor) > POSSIBLE.ln()
+            } else {
+                0.5 * degrees as f64 * (best / chi2).ln() > POSSIBLE_IF_ASSUMED.ln()
             }
+        };
+        let other = self.other.as_ref().filter(|other| is_possible(other.chi2, best.chi2(), judged.degrees));
+        if let Some(other) = other.filter(|other| is_away(&other.x)) {
+            doubts.push(format!(
+                "other modes fit with χ² = {}, not {}, and {}",
+                significant(other.chi2, 3),
+                significant(best.chi2(), 3),
+                told(&other.x)
+            ));
+        }
+        let exchange = (self.exchanges.iter())
+            .filter(|other| is_possible(other.chi2, self.own, self.own_degrees) && is_away(&other.x))
+            .min_by(|a, b| a.chi2.total_cmp(&b.chi2));
+        if let Some(other) = exchange {
+            doubts.push(format!(
+                "{} Hz fits mode {} as well, with {}",
+                significant(other.ln_hz.exp(), 5),
+                other.mode + 1,
+                told(&other.x)
+            ));
         }
         if !doubts.is_empty() && self.crowded > 0 {
             doubts.push(format!(
@@ -321,15 +369,4 @@ impl Assigning {
             )
         })
     }
-}
-
-/// True if the second best fit is not much less likely than the best. If the deviations of measurements were assumed,
-/// the likelihood is that of an unknown factor of them.
-fn is_possible(other: &OtherFit, best: &Minimum, judged: &Judged, is_noise_given: bool) -> bool {
-    let log_ratio = if is_noise_given {
-        (best.chi2() - other.chi2) / (2.0 * judged.factor * judged.factor)
-    } else {
-        0.5 * judged.degrees as f64 * (best.chi2() / other.chi2).ln()
-    };
-    log_ratio > POSSIBLE.ln()
 }

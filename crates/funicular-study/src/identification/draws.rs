@@ -18,7 +18,7 @@ pub(super) fn point(number: usize, dimensions: usize) -> Vec<f64> {
     (0..dimensions)
         .map(|_| {
             place /= root;
-            // The root of 0 has no quantile of the normal distribution.
+            // A coordinate of 0 has no quantile of the normal distribution.
             (0.5 + place * number as f64).fract().max(f64::EPSILON)
         })
         .collect()

@@ -182,6 +182,37 @@ impl Sample {
         best
     }
 
+    /// Fits in which one frequency without a number belongs to another mode within `deviations`, and all others stay.
+    pub(super) fn exchanges(
+        &self,
+        model: &IdentifiedModel<'_>,
+        targets: &[Target],
+        deviations: f64,
+    ) -> Vec<(usize, NearBest)> {
+        let none = vec![0.0; self.x.len()];
+        let Some(partners) = self.partners(targets, &none) else { return Vec::new() };
+        let mut found = Vec::new();
+        for (k, target) in targets.iter().enumerate().filter(|(_, target)| target.mode.is_none()) {
+            let taken: Vec<usize> = (partners.iter().zip(targets))
+                .filter(|(_, other)| other.experiment == target.experiment)
+                .map(|(at, _)| *at)
+                .collect();
+            for (at, mode) in self.modes[target.experiment].iter().enumerate() {
+                if taken.contains(&at) || (mode.ln_hz - target.ln_hz).abs() > deviations * target.deviation {
+                    continue;
+                }
+                let mut others = partners.clone();
+                others[k] = at;
+                let (_, hessian, gradient) = self.normal_equations(model, targets, &others, &none);
+                let shift: Vec<f64> = solve(hessian, &gradient).into_iter().map(|step| -step).collect();
+                let (chi2, ..) = self.normal_equations(model, targets, &others, &shift);
+                let x = self.x.iter().zip(&shift).map(|(x, shift)| x + shift).collect();
+                found.push((k, NearBest { chi2, x, partners: vec![mode.index] }));
+            }
+        }
+        found
+    }
+
     /// Logarithmic distance of the nearest modes from a measured frequency: that of the last of `count` modes, or of the
     /// farthest if there are fewer.
     pub(super) fn distance(&self, target: &Target, count: usize) -> f64 {
