@@ -11,15 +11,17 @@ mod precision;
 mod profile;
 mod reading;
 mod resolution;
+mod ridge;
 mod search;
 mod unknowns;
 
 pub(crate) use model::IdentifiedModel;
 pub(crate) use observations::{Observation, Subject};
 pub(crate) use precision::judge;
-pub(crate) use profile::{LIMIT, profiles};
+pub(crate) use profile::LIMIT;
 pub use profile::{OpenEnd, Profile};
 pub(crate) use resolution::unresolved_peaks;
+pub(crate) use ridge::{Profiled, profiles};
 pub(crate) use search::StartRow;
 pub(crate) use search::search;
 pub(crate) use unknowns::{Unknown, unknowns};

@@ -15,7 +15,8 @@ const FOUND: f64 = 1.5;
 /// Maximum number of iterations of one search.
 const MAX_ITERATIONS: usize = 60;
 
-/// Maximum number of times that the complex responses are fitted again with other values left out; two are usual.
+/// Maximum number of times that the complex responses are fitted again with other deviations or other values left out;
+/// two or three are usual.
 const MAX_ROUNDS: usize = 6;
 
 /// Iterations for the root of x^{d+1} = x + 1, each of which takes its error at least to a third; the root is between 1
@@ -128,8 +129,8 @@ fn best_start(
     })
 }
 
-/// Minimum with the complex values of responses, from the best start. Ranges that the model misses are known at a
-/// minimum only, and a minimum without them shows more of them.
+/// Minimum with the complex values of responses, from the best start. Assumed deviations and the ranges that the model
+/// misses are known at a minimum only, and a minimum without these ranges shows more of them.
 fn fit_responses(model: &mut IdentifiedModel<'_>, start: &[f64], bounds: &[(f64, f64)]) -> Result<Minimum> {
     let again = |model: &mut IdentifiedModel<'_>, x: &[f64]| {
         minimise(model, x, bounds, MAX_ITERATIONS)
@@ -137,7 +138,7 @@ fn fit_responses(model: &mut IdentifiedModel<'_>, start: &[f64], bounds: &[(f64,
     };
     let mut best = again(model, start)?;
     for _ in 0..MAX_ROUNDS {
-        if best.ending == LeastSquaresEnding::Cancelled || !model.leave_out(&best.x) {
+        if best.ending == LeastSquaresEnding::Cancelled || !model.renew_responses(&best.x) {
             break;
         }
         best = again(model, &best.x)?;

@@ -1,7 +1,7 @@
 //! Sentences that a user should know before trusting a fit.
 
 use super::tables::FittedResponse;
-use super::{Profile, ValueRow};
+use super::ValueRow;
 use crate::identification::IdentifiedModel;
 use crate::request::IdentifyRequest;
 use crate::text::{counted, significant};
@@ -21,9 +21,37 @@ pub(super) fn value_at_bound(row: &ValueRow) -> Option<String> {
     ))
 }
 
+/// χ²/n beyond which no error of a model or of a deviation is the reason: the differences are ten times as large as the
+/// deviations.
+const UNEXPLAINED: f64 = 100.0;
+
+/// Sentence on a χ² per degree of freedom that is so large that the values mean nothing; `None` if it is not.
+pub(super) fn unexplained(chi2_per_degree: f64) -> Option<String> {
+    (chi2_per_degree > UNEXPLAINED).then(|| {
+        format!(
+            "χ²/n = {} is above {UNEXPLAINED}: the model does not explain the measurements, and the values mean \
+             nothing. Check units, signs and directions of the measurements first; then points, lengths and the state; \
+             then whether another start arrives (⟪starts⟫)",
+            significant(chi2_per_degree, 3)
+        )
+    })
+}
+
+/// Sentence on a value that moves with others that are poorly determined; `None` for a value that does not.
+pub(super) fn moves(row: &ValueRow) -> Option<String> {
+    let (with, path) = (row.moves_with.join(", "), &row.path);
+    (!row.moves_with.is_empty()).then(|| {
+        format!(
+            "{path} moves with {with}, which the measurements determine poorly: its deviation would hold with {with} \
+             held, and its interval is that of its profile; give a prior, hold one of the values, or measure more"
+        )
+    })
+}
+
 /// Sentence on a profile that falls below the minimum; `None` if it does not. `factor` is the factor of the deviations.
-pub(super) fn missed_minimum(row: &ValueRow, profile: &Profile, chi2: f64, factor: f64) -> Option<String> {
-    let lowest = profile.points.iter().min_by(|a, b| a.chi2_rise.total_cmp(&b.chi2_rise)).filter(|_| profile.falls)?;
+pub(super) fn missed_minimum(row: &ValueRow, chi2: f64, factor: f64) -> Option<String> {
+    let profile = row.profile.as_ref().filter(|profile| profile.falls)?;
+    let lowest = profile.points.iter().min_by(|a, b| a.chi2_rise.total_cmp(&b.chi2_rise))?;
     // Measurements without noise determine the value to more digits than the search finds.
     if (lowest.value - row.value).abs() <= SAME_VALUE * row.value.abs() {
         return None;
