@@ -130,8 +130,7 @@ impl ValueRow {
     pub fn remark(&self) -> String {
         let bound = self.at_bound.map(|bound| format!("at its {bound}"));
         let moves = (!self.moves_with.is_empty()).then(|| format!("moves with {}", self.moves_with.join(", ")));
-        let undetermined =
-            (self.deviation.is_none() && moves.is_none()).then(|| "not determined".to_owned());
+        let undetermined = (self.deviation.is_none() && moves.is_none()).then(|| "not determined".to_owned());
         bound.into_iter().chain(moves).chain(undetermined).collect::<Vec<_>>().join(", ")
     }
 }
@@ -166,6 +165,10 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
     let rows = value_rows(&model, &best.x, &judged.deviations, profiled);
     let mut warnings = warnings(&model, request, best, &rows)?;
     warnings.splice(0..0, caveats::unexplained(judged.chi2_per_degree));
+    warnings.extend(caveats::damping_in_per_cent(request));
+    let fitted = model.robot(&best.x)?;
+    warnings
+        .extend(funicular::warnings::of_robot(&fitted).iter().map(|warning| format!("identified robot: {warning}")));
     warnings.extend(judged.weak.iter().cloned());
     warnings.extend(rows.iter().filter_map(caveats::moves));
     warnings.extend(rows.iter().filter_map(|row| caveats::missed_minimum(row, best.chi2(), judged.factor)));
@@ -305,12 +308,7 @@ fn tables(
 }
 
 /// Identified values at coordinates, with their deviations and profiles.
-fn value_rows(
-    model: &IdentifiedModel<'_>,
-    x: &[f64],
-    deviations: &[Option<f64>],
-    profiled: Profiled,
-) -> Vec<ValueRow> {
+fn value_rows(model: &IdentifiedModel<'_>, x: &[f64], deviations: &[Option<f64>], profiled: Profiled) -> Vec<ValueRow> {
     let Profiled { profiles, moves_with, takes_profile } = profiled;
     let rows = model.unknowns.iter().zip(model.values(x)).zip(deviations);
     let mut rows: Vec<ValueRow> =
@@ -332,8 +330,7 @@ fn value_rows(
 
 fn value_row(unknown: &Unknown, value: f64, deviation: Option<f64>) -> ValueRow {
     let x = unknown.coordinate(value);
-    let interval =
-        deviation.map(|deviation| [-1.0, 1.0].map(|side| unknown.value(x + side * NORMAL_95 * deviation)));
+    let interval = deviation.map(|deviation| [-1.0, 1.0].map(|side| unknown.value(x + side * NORMAL_95 * deviation)));
     ValueRow {
         path: unknown.path.clone(),
         unit: unknown.unit,

@@ -17,8 +17,8 @@ use funicular::robot::parameters::Parameters;
 /// of the equilibrium with its inverse.
 const STEP: f64 = 3e-4;
 
-/// Relative change of an assumed deviation up to which it stays: it is far below the noise, with which a deviation at the
-/// measured value varies.
+/// Relative change of an assumed deviation up to which it stays: it is far below the noise, with which a deviation at
+/// the measured value varies.
 const SAME_DEVIATION: f64 = 1e-3;
 
 /// Modes to which the frequencies of each experiment are assigned: indices in the ascending list.

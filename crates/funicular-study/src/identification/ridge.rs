@@ -6,12 +6,12 @@ use super::profile::{LIMIT, Profile, Profiler, USUAL_FITS};
 use anyhow::Result;
 use funicular::math::least_squares::Minimum;
 
-/// Standard deviation of the coordinate of a value from which on χ² is not taken as a parabola along this value: a
-/// positive value is between 0.55 and 1.8 times the identified one then, and its inverse between 1 ± 0.6 if it acts by it.
+/// Standard deviation of a logarithm from which on χ² is not taken as a parabola along it: the value is between 0.55 and
+/// 1.8 times the identified one, and not between 1 ± 0.6 times.
 const MAX_LOG_DEVIATION: f64 = 0.3;
 
-/// Standard deviation of the coordinate of a value without a logarithm, in units of its usual error, from which on χ² is
-/// not taken as a parabola.
+/// Standard deviation of a value without a logarithm, in units of its usual error, from which on χ² is not taken as a
+/// parabola.
 const MAX_DEVIATION: f64 = 1.0;
 
 /// Distance of a fit with another value held, over the half width of the interval of the deviation, beyond which this

@@ -1,16 +1,40 @@
 //! Sentences that a user should know before trusting a fit.
 
-use super::tables::FittedResponse;
 use super::ValueRow;
+use super::tables::FittedResponse;
 use crate::identification::IdentifiedModel;
 use crate::request::IdentifyRequest;
 use crate::text::{counted, significant};
+use funicular::warnings::plausibility::usual::DAMPING_RATIO;
 
 /// Maximum fraction of the values of responses that may be far outside of the deviations without a warning.
 const MAX_OUTLIERS: f64 = 0.01;
 
+/// Number of measured damping ratios that a sentence names.
+const NAMED: usize = 3;
+
 /// Relative difference up to which the value at the minimum of a profile is the identified one.
 const SAME_VALUE: f64 = 1e-6;
+
+/// Sentence on measured damping ratios that may be in per cent; `None` if all are usual. The weakest usual one of a
+/// rope, 0.05 %, is the usual maximum if it is given in per cent.
+pub(super) fn damping_in_per_cent(request: &IdentifyRequest) -> Option<String> {
+    let frequencies = request.experiments.iter().flat_map(|experiment| &experiment.frequencies);
+    let large: Vec<(f64, f64)> = frequencies
+        .filter_map(|frequency| Some((frequency.damping_ratio?, frequency.frequency_hz)))
+        .filter(|(damping, _)| *damping > DAMPING_RATIO[1])
+        .collect();
+    let (first, _) = large.first()?;
+    let named: Vec<String> = large.iter().take(NAMED).map(|(damping, hz)| format!("{damping} at {hz} Hz")).collect();
+    let more = if large.len() > NAMED { format!(" and {} more", large.len() - NAMED) } else { String::new() };
+    Some(format!(
+        "measured damping ratios are above {}, the usual maximum of ropes: {}{more}. Were they measured in per cent? \
+         Then divide `damping_ratio` of the measurements by 100: {first} % is {}",
+        DAMPING_RATIO[1],
+        named.join(", "),
+        significant(first / 100.0, 3)
+    ))
+}
 
 /// Sentence on a value at one of its bounds; `None` for a value between them.
 pub(super) fn value_at_bound(row: &ValueRow) -> Option<String> {
