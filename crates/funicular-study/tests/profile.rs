@@ -146,6 +146,58 @@ fn a_value_without_a_limit_on_one_side_is_said_to_be_open() {
     assert!((ends[0] / best - 0.9).abs() < 1e-9 && (ends[1] / best - 1.1).abs() < 1e-9, "{ends:?}");
 }
 
+/// Six-cable robot with example winches.
+fn winches() -> String {
+    std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/pulleys/winches.toml")).unwrap()
+}
+
+/// Natural frequencies 1 to 16 of the robot with example winches, with a modulus of 1.85e10 Pa and noise of 0.3 %, which
+/// makes the springs of the drums best if they are rigid: springs and ropes are in series.
+const RIDGE: [f64; 16] = [
+    0.9983, 1.1862, 1.2230, 1.2675, 1.3472, 1.8090, 1.8251, 1.8889, 2.0220, 2.0592, 2.1281, 2.1371, 2.3670, 2.4138,
+    2.4444, 2.4619,
+];
+
+#[test]
+fn a_value_on_a_ridge_has_the_interval_of_its_profile() {
+    const STIFFNESS: &str = "winches.drum.stiffness_n_per_m";
+    let request = |set: Value, fit: Value| {
+        let measured: Vec<Value> = (RIDGE.iter().enumerate())
+            .map(|(i, hz)| json!({"frequency_hz": hz, "std_hz": 0.003 * hz, "label": format!("{}", i + 1)}))
+            .collect();
+        let text = winches();
+        json!({
+            "command": "identify", "robot": {"text": text, "set": set}, "fit": fit, "starts": 1,
+            "experiments": [{"frequencies": measured}],
+        })
+    };
+    let others = json!([
+        {"path": "platform.mass_kg", "prior": 11.2, "prior_std": 0.2}, {"path": "materials.rope-4mm.mass_kg_per_m"},
+        {"path": MODULUS},
+    ]);
+    let mut all = others.clone();
+    all.as_array_mut().unwrap().push(json!({"path": STIFFNESS}));
+    let found = identified(&request(json!([]), all));
+
+    let (modulus, stiffness) = (row(&found, MODULUS), row(&found, STIFFNESS));
+    assert!(stiffness.deviation.is_none() && stiffness.value > 1e7, "{}", stiffness.value);
+    assert_eq!(modulus.moves_with, [STIFFNESS]);
+    assert_eq!((modulus.deviation, modulus.interval_95), (None, None));
+    assert!(found.warnings.iter().any(|text| text.contains("moves with winches.drum.stiffness_n_per_m")));
+    let profile = modulus.profile.as_ref().unwrap();
+    assert!(profile.from.unwrap() < 1.85e10 && profile.to.is_none(), "{profile:?}");
+
+    // Fits with the springs of the drums held, which the measurements do not contradict.
+    for held in [30e3, 100e3] {
+        let held = identified(&request(json!([{"path": STIFFNESS, "value": held}]), others.clone()));
+        assert!((held.chi2 - found.chi2) / found.deviation_factor.powi(2) < LIMIT);
+        let value = row(&held, MODULUS).value;
+        assert!(value > profile.from.unwrap(), "{value}");
+    }
+    // Mass and weight of the rope have their deviations as before.
+    assert!(row(&found, "platform.mass_kg").deviation.is_some() && row(&found, "platform.mass_kg").profile.is_none());
+}
+
 /// Stops the work in the profiles.
 struct Stopping(bool, usize);
 

@@ -149,6 +149,44 @@ fn linear_deviations_are_those_of_samples_where_the_tests_allow_them() {
     }
 }
 
+/// Six-cable robot with example winches.
+fn winches() -> String {
+    std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/pulleys/winches.toml")).unwrap()
+}
+
+#[test]
+fn modes_that_come_near_and_mix_are_sampled() {
+    // The four lowest frequencies lie within 6 %: they turn away from each other before they meet.
+    const ANCHORS: f64 = 0.0015;
+    let robot = winches();
+    let with = |deviation: f64, method: &str| {
+        uncertainty(
+            &robot,
+            &json!({
+                "of": ["frequencies"], "below_hz": 1.3, "deviations": [format!("cables.*.anchor_m={deviation}")],
+                "method": method, "samples": 100,
+            }),
+        )
+    };
+    let found = with(ANCHORS, "automatic");
+    let [first, .., fourth] = results(&found) else { panic!("four frequencies") };
+    for one in [first, fourth] {
+        assert_eq!(one.method, "sampled", "{one:?}");
+        assert!(one.sampling_reason.as_ref().unwrap().contains("come near each other and mix"), "{one:?}");
+    }
+    // The lowest frequency has hardly a derivative here, and changes by what pushes it from those above.
+    let ratio = first.deviation.unwrap() / first.linear_deviation.unwrap();
+    assert!(ratio > 1.3, "{ratio}");
+
+    // Where deviations are small, everything is linear, and agrees with a sample: 100 robots have a deviation to 7 %.
+    let (linear, sampled) = (with(0.01 * ANCHORS, "automatic"), with(0.01 * ANCHORS, "sampled"));
+    for (linear, sampled) in results(&linear).iter().zip(results(&sampled)) {
+        assert_eq!(linear.method, "linear", "{linear:?}");
+        let ratio = linear.deviation.unwrap() / sampled.deviation.unwrap();
+        assert!((0.8..1.2).contains(&ratio), "{linear:?} {ratio}");
+    }
+}
+
 #[test]
 fn robots_without_gradients_are_sampled() {
     let found = uncertainty(

@@ -305,7 +305,7 @@ fn profiles(found: &Identified) -> String {
         let ends = [profile.from, profile.to];
         let end = |k: usize| ends[k].map_or_else(|| NONE.to_owned(), |end| significant(end, digits));
         let away = |k: usize| ends[k].map_or_else(|| NONE.to_owned(), |end| significant((end - row.value).abs(), 3));
-        let by_deviations = row.interval_95.map_or_else(
+        let by_deviations = row.parabola_95.map_or_else(
             || NONE.to_owned(),
             |[low, high]| format!("{}, {}", significant(row.value - low, 3), significant(high - row.value, 3)),
         );

@@ -30,7 +30,7 @@ class Identified(ArrayFields):
     x: NDArray[np.float64]
     """Values, in the units of the file."""
     deviations: NDArray[np.float64]
-    """Standard deviations; NaN for a value that the measurements do not determine."""
+    """Standard deviations; NaN for a value that the measurements do not determine, or that moves with such a value."""
     correlations: NDArray[np.float64]
     """Correlations of the values, one row per value."""
     chi2: float

@@ -10,7 +10,7 @@ use super::found;
 use crate::Watch;
 use crate::chosen_numbers::at_bound;
 use crate::identification::{
-    Assigning, IdentifiedModel, LIMIT as NORMAL_95, StartRow, Unknown, judge, profiles, search, unknowns,
+    Assigning, IdentifiedModel, LIMIT as NORMAL_95, Profiled, StartRow, Unknown, judge, profiles, search, unknowns,
     unresolved_peaks,
 };
 use crate::parameter_pattern::ParameterPattern;
@@ -160,10 +160,10 @@ pub struct ValueRow {
     pub unit: &'static str,
     pub start: f64,
     pub value: f64,
-    /// Standard deviation; absent for a value that the measurements do not determine.
+    /// Standard deviation; absent for a value that the measurements do not determine, or that moves with such a value.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deviation: Option<f64>,
-    /// Interval that holds the value with 95 %.
+    /// Interval that holds the value with 95 %: that of the deviation, or that of the profile where χ² is no parabola.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interval_95: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -173,7 +173,13 @@ pub struct ValueRow {
     /// `minimum` or `maximum` if the value is at this bound.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_bound: Option<&'static str>,
-    /// Profile of χ², if it was asked for.
+    /// Values that the measurements determine poorly, with which this one moves farther than its deviation.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub moves_with: Vec<String>,
+    /// Interval of the deviation; absent if χ² is no parabola.
+    #[serde(skip)]
+    pub parabola_95: Option<[f64; 2]>,
+    /// Profile of χ², if it was asked for or if χ² is no parabola.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub profile: Option<Profile>,
 }
@@ -209,8 +215,9 @@ impl ValueRow {
     /// Remark: the bound at which the value is, and whether the measurements determine it.
     pub fn remark(&self) -> String {
         let bound = self.at_bound.map(|bound| format!("at its {bound}"));
-        let undetermined = self.deviation.is_none().then(|| "not determined".to_owned());
-        bound.into_iter().chain(undetermined).collect::<Vec<_>>().join(", ")
+        let moves = (!self.moves_with.is_empty()).then(|| format!("moves with {}", self.moves_with.join(", ")));
+        let undetermined = (self.deviation.is_none() && moves.is_none()).then(|| "not determined".to_owned());
+        bound.into_iter().chain(moves).chain(undetermined).collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -254,19 +261,22 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
         judged.deviations.fill(None);
         profiled.clear();
     }
-    let mut rows = value_rows(&model, &best.x, &judged.deviations);
+    let progress = |done: usize, total: usize| watch.borrow_mut().progress(done, total, "fits of profiles");
+    let profiled = profiles(&mut model, best, &profiled, &judged.deviations, judged.factor, &progress)?;
+    let rows = value_rows(&model, &best.x, &judged.deviations, profiled);
+
+    // What is doubtful.
     let mut warnings = warnings(&model, request, best, &rows)?;
+    warnings.splice(0..0, caveats::unexplained(judged.chi2_per_degree));
     warnings.extend(searched.apart.clone());
     warnings.extend(searched.assigning.as_ref().and_then(|assigning| assigning.warning(&doubts)));
+    warnings.extend(caveats::damping_in_per_cent(request));
+    let fitted = model.robot(&best.x)?;
+    warnings
+        .extend(funicular::warnings::of_robot(&fitted).iter().map(|warning| format!("identified robot: {warning}")));
     warnings.extend(judged.weak.iter().cloned());
-    if !profiled.is_empty() {
-        let progress = |done: usize, total: usize| watch.borrow_mut().progress(done, total, "fits of profiles");
-        let found = profiles(&mut model, best, &profiled, &judged.deviations, judged.factor, &progress)?;
-        for (&number, profile) in profiled.iter().zip(found) {
-            warnings.extend(caveats::missed_minimum(&rows[number], &profile, best.chi2(), judged.factor));
-            rows[number].profile = Some(profile);
-        }
-    }
+    warnings.extend(rows.iter().filter_map(caveats::moves));
+    warnings.extend(rows.iter().filter_map(|row| caveats::missed_minimum(row, best.chi2(), judged.factor)));
 
     let tables = tables(&mut model, request, &best.x, Some(&nominal[..]).filter(|_| has_nominal))?;
     warnings.splice(0..0, caveats::left_out(&model, &tables.responses));
@@ -406,26 +416,43 @@ fn tables(
     Ok(Tables::of(model, &request.experiments, &fitted.assigned, [&fitted.values, &before]))
 }
 
-/// Identified values at coordinates, with their deviations.
-fn value_rows(model: &IdentifiedModel<'_>, x: &[f64], deviations: &[Option<f64>]) -> Vec<ValueRow> {
+/// Identified values at coordinates, with their deviations and profiles.
+fn value_rows(model: &IdentifiedModel<'_>, x: &[f64], deviations: &[Option<f64>], profiled: Profiled) -> Vec<ValueRow> {
+    let Profiled { profiles, moves_with, takes_profile } = profiled;
     let rows = model.unknowns.iter().zip(model.values(x)).zip(deviations);
-    rows.map(|((unknown, value), deviation)| value_row(unknown, value, *deviation)).collect()
+    let mut rows: Vec<ValueRow> =
+        rows.map(|((unknown, value), deviation)| value_row(unknown, value, *deviation)).collect();
+    for (k, profile) in profiles.into_iter().enumerate() {
+        let row = &mut rows[k];
+        if takes_profile[k] {
+            row.interval_95 = profile.as_ref().and_then(|profile| Some([profile.from?, profile.to?]));
+            row.parabola_95 = None;
+        }
+        if !moves_with[k].is_empty() {
+            row.deviation = None;
+            row.moves_with = moves_with[k].iter().map(|other| model.unknowns[*other].path.clone()).collect();
+        }
+        row.profile = profile;
+    }
+    rows
 }
 
 fn value_row(unknown: &Unknown, value: f64, deviation: Option<f64>) -> ValueRow {
     let x = unknown.coordinate(value);
-    let interval = |deviation: f64| [-1.0, 1.0].map(|side| unknown.value(x + side * NORMAL_95 * deviation));
+    let interval = deviation.map(|deviation| [-1.0, 1.0].map(|side| unknown.value(x + side * NORMAL_95 * deviation)));
     ValueRow {
         path: unknown.path.clone(),
         unit: unknown.unit,
         start: unknown.start,
         value,
         deviation: deviation.map(|deviation| deviation * unknown.rate(value)),
-        interval_95: deviation.map(interval),
+        interval_95: interval,
         prior: unknown.prior.map(|prior| prior.0),
         prior_deviation: unknown.prior.map(|prior| prior.1),
         // A bound is reached exactly.
         at_bound: at_bound(value, unknown.bounds, 0.0),
+        moves_with: Vec::new(),
+        parabola_95: interval,
         profile: None,
     }
 }

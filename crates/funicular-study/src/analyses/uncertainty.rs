@@ -1,8 +1,8 @@
 //! `uncertainty`: deviations of results from deviations of numbers of the robot file.
 //!
-//! The linear method uses the gradients of all results, and three tests decide where it is valid: whether a cable may
-//! become slack, whether natural frequencies may cross, and whether a response is far from linear. Where it is not
-//! valid, or where a result has no gradient, robots are sampled (docs/theory.md, section "Uncertainty").
+//! The linear method uses the gradients of all results, and four tests decide where it is valid: whether a cable may
+//! become slack, whether natural frequencies may cross, whether modes come near and mix, and whether a response is far
+//! from linear. Where it is not valid, or where a result has no gradient, robots are sampled (docs/theory.md, section "Uncertainty").
 //!
 //! The work comes in parts that do not depend on each other: poses, then chunks of sampled robots. A front end runs
 //! them on its own threads and may keep the samples in a file, as those of a sweep.
@@ -10,6 +10,7 @@
 mod distribution;
 mod inputs;
 mod linear;
+mod mode_linearity;
 mod output;
 mod response_linearity;
 mod responses;

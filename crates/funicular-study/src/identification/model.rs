@@ -18,6 +18,10 @@ use std::ops::Range;
 /// of the equilibrium with its inverse.
 const STEP: f64 = 3e-4;
 
+/// Relative change of an assumed deviation up to which it stays: it is far below the noise, with which a deviation at
+/// the measured value varies.
+const SAME_DEVIATION: f64 = 1e-3;
+
 /// Modes to which the frequencies of each experiment are assigned: indices in the ascending list.
 pub(crate) type Assigned = Vec<Vec<usize>>;
 
@@ -205,15 +209,17 @@ impl<'a> IdentifiedModel<'a> {
         self.held.as_ref().map_or(&[], |(_, weights)| weights)
     }
 
-    /// Leaves out the ranges of responses that the model misses at coordinates. Returns true if they differ from those
-    /// before.
-    pub(crate) fn leave_out(&mut self, x: &[f64]) -> bool {
+    /// Takes the assumed deviations of responses from their predictions at coordinates, and leaves out the ranges of
+    /// responses that the model misses there. Returns true if deviations or ranges differ from those before.
+    pub(crate) fn renew_responses(&mut self, x: &[f64]) -> bool {
         let Some((assigned, _)) = self.held.clone() else { return false };
         let Ok(predicted) = self.predict(x, Some(&assigned)) else { return false };
+        let renewed = self.observations.iter_mut().zip(&predicted.values);
+        let change = renewed.map(|(observation, value)| observation.renew_deviation(*value)).fold(0.0, f64::max);
         let found = left_out(&self.observations, &predicted.values, &self.left_out);
         let is_new = found != self.left_out;
         self.left_out = found;
-        is_new
+        is_new || change > SAME_DEVIATION
     }
 
     /// Choices at the point that was linearised last: modes of frequencies, weights of observations.

@@ -79,8 +79,26 @@ pub(crate) struct Observation {
     pub(crate) measured: Complex,
     /// Standard deviation; of frequencies and damping ratios relative, of responses that of the magnitude of the noise.
     pub(crate) deviation: f64,
+    /// Noise that the deviation of a response follows from; `None` for a deviation that is given.
+    pub(crate) noise: Option<AssumedNoise>,
     /// True for a frequency whose mode has to be found.
     pub(crate) is_assigned: bool,
+}
+
+/// Assumed noise of a response: a part that is proportional to the response, and a constant one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct AssumedNoise {
+    /// Standard deviation relative to the magnitude of the response.
+    pub(crate) relative: f64,
+    /// Standard deviation where the response is zero, in its unit.
+    pub(crate) constant: f64,
+}
+
+impl AssumedNoise {
+    /// Standard deviation at a response.
+    pub(crate) fn deviation(self, response: Complex) -> f64 {
+        (self.relative * response.norm()).hypot(self.constant)
+    }
 }
 
 /// Residuals that a stage of the search uses.
@@ -151,6 +169,15 @@ impl Observation {
     /// Standard deviation of the logarithm of the magnitude.
     fn log_deviation(&self) -> f64 {
         FRAC_1_SQRT_2 * (self.deviation / self.measured.norm()).max(MIN_LOG_DEVIATION)
+    }
+
+    /// Takes the deviation of the assumed noise from the predicted response, and returns its relative change. At the
+    /// measured value it would be smaller where noise has made this value smaller, which gives such values more weight:
+    /// the fitted magnitude would be too small by the square of the relative noise (docs/theory.md, section 18a).
+    pub(super) fn renew_deviation(&mut self, predicted: Complex) -> f64 {
+        let Some(noise) = self.noise else { return 0.0 };
+        let before = std::mem::replace(&mut self.deviation, noise.deviation(predicted));
+        (self.deviation / before - 1.0).abs()
     }
 
     /// Distance of a prediction from the measured value, in standard deviations.

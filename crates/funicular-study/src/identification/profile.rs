@@ -17,10 +17,13 @@ const ACCURACY: f64 = 1e-3;
 const MAX_FITS: usize = 30;
 
 /// Number of fits that is expected per side, for the progress alone.
-const USUAL_FITS: usize = 8;
+pub(super) const USUAL_FITS: usize = 8;
 
 /// Maximum distance at which an end is searched, in spreads of the value.
 const REACH: f64 = 30.0;
+
+/// Distance at which an end is searched at least, over the distance of the value in the file.
+const BEYOND_START: f64 = 1.5;
 
 /// Minimum and maximum factor by which the distance grows from one fit to the next before an end is enclosed.
 const MIN_GROWTH: f64 = 1.1;
@@ -86,54 +89,59 @@ pub struct Profile {
     pub falls: bool,
 }
 
-/// Computes the profiles of the unknowns with these indices. `deviations` are the standard deviations of the
-/// coordinates, and `factor` is the factor by which they were multiplied. `progress` gets the number of fits and the
-/// expected number of all.
-///
-/// # Errors
-/// Work that was stopped.
-///
-/// # References
-/// docs/theory.md, equation (93h).
-pub(crate) fn profiles(
-    model: &mut IdentifiedModel<'_>,
-    best: &Minimum,
-    numbers: &[usize],
-    deviations: &[Option<f64>],
-    factor: f64,
-    progress: &dyn Fn(usize, usize),
-) -> Result<Vec<Profile>> {
-    let total = 2 * USUAL_FITS * numbers.len();
-    let held = model.choices();
-    let mut found = Vec::with_capacity(numbers.len());
-    for (i, &k) in numbers.iter().enumerate() {
-        let unknown = &model.unknowns[k];
-        let step = deviations[k].filter(|deviation| *deviation > 0.0).unwrap_or_else(|| unknown.spread());
-        let mut ends = [(None, None); 2];
-        let mut points = vec![(best.x[k], 0.0)];
-        let mut fits = 0;
-        for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
-            let begin = USUAL_FITS * (2 * i + side);
-            let mut of_side = Side {
-                model,
-                best,
-                k,
-                sign,
-                factor,
-                known: vec![Known { distance: 0.0, x: best.x.clone(), rise: Some(0.0) }],
-                begin: &|fits| progress(begin + fits.min(USUAL_FITS), total),
-            };
-            ends[side] = of_side.end(step)?;
-            let known = &of_side.known[1..];
-            fits += known.len();
-            points.extend(known.iter().filter_map(|known| Some((known.x[k], known.rise?))));
-        }
+/// Fit with one value held.
+#[derive(Debug, Clone)]
+pub(super) struct HeldFit {
+    /// All coordinates at the minimum.
+    pub(super) x: Vec<f64>,
+    /// Rise of χ²; `None` if the robot has no equilibrium.
+    pub(super) rise: Option<f64>,
+}
 
+/// Computes profiles about a minimum.
+pub(super) struct Profiler<'p, 'm> {
+    /// Model at the last stage of the search.
+    pub(super) model: &'p mut IdentifiedModel<'m>,
+    /// Minimum.
+    pub(super) best: &'p Minimum,
+    /// Factor by which the deviations were multiplied.
+    pub(super) factor: f64,
+    /// Fits of all profiles so far, from which later ones start.
+    pub(super) fits: Vec<HeldFit>,
+}
+
+impl Profiler<'_, '_> {
+    /// Profile of the unknown with this index, whose coordinate has the standard deviation `deviation`. `progress` gets
+    /// the number of fits, at most two times [`USUAL_FITS`].
+    ///
+    /// # Errors
+    /// Work that was stopped.
+    ///
+    /// # References
+    /// docs/theory.md, equation (93h).
+    pub(super) fn profile(&mut self, k: usize, deviation: Option<f64>, progress: &dyn Fn(usize)) -> Result<Profile> {
+        let choices = self.model.choices();
+        let unknown = &self.model.unknowns[k];
+        let step = deviation.filter(|deviation| *deviation > 0.0).unwrap_or_else(|| unknown.spread());
+        let mut ends = [(None, None); 2];
+        let first = self.fits.len();
+        for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
+            let begin = side * USUAL_FITS;
+            let first = self.fits.len();
+            let mut of_side =
+                Side { profiler: self, k, sign, first, begin: &|fits| progress(begin + fits.min(USUAL_FITS)) };
+            ends[side] = of_side.end(step)?;
+        }
+        self.model.choose(choices);
+
+        let fits = &self.fits[first..];
+        let mut points: Vec<(f64, f64)> = fits.iter().filter_map(|fit| Some((fit.x[k], fit.rise?))).collect();
+        points.push((self.best.x[k], 0.0));
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let unknown: &Unknown = &model.unknowns[k];
+        let unknown: &Unknown = &self.model.unknowns[k];
         let [from, to] = ends.map(|(end, _)| end.map(|x| unknown.value(x)));
         let [open_below, open_above] = ends.map(|(_, open)| open);
-        found.push(Profile {
+        Ok(Profile {
             from,
             to,
             open_below,
@@ -143,45 +151,34 @@ pub(crate) fn profiles(
                 .into_iter()
                 .map(|(x, chi2_rise)| ProfilePoint { value: unknown.value(x), chi2_rise })
                 .collect(),
-            fits,
-        });
+            fits: fits.len(),
+        })
     }
-    model.choose(held);
-    progress(total, total);
-    Ok(found)
-}
-
-/// Fit with one value held.
-struct Known {
-    /// Distance of the coordinate from the best one.
-    distance: f64,
-    /// All coordinates at the minimum.
-    x: Vec<f64>,
-    /// Rise of χ²; `None` if the robot has no equilibrium.
-    rise: Option<f64>,
 }
 
 /// One side of a profile.
-struct Side<'s, 'm> {
-    model: &'s mut IdentifiedModel<'m>,
-    best: &'s Minimum,
+struct Side<'s, 'p, 'm> {
+    profiler: &'s mut Profiler<'p, 'm>,
     k: usize,
     sign: f64,
-    factor: f64,
-    known: Vec<Known>,
+    /// Index of the first fit of this side.
+    first: usize,
     /// Reports the number of fits.
     begin: &'s dyn Fn(usize),
 }
 
-impl Side<'_, '_> {
+impl Side<'_, '_, '_> {
     /// Coordinate at which χ² reaches its limit, or the reason why there is none.
     fn end(&mut self, step: f64) -> Result<(Option<f64>, Option<OpenEnd>)> {
-        let (low, high) = self.model.unknowns[self.k].coordinate_bounds();
-        let bound = if self.sign < 0.0 { self.best.x[self.k] - low } else { high - self.best.x[self.k] };
+        let (unknown, best) = (&self.profiler.model.unknowns[self.k], self.profiler.best.x[self.k]);
+        let (low, high) = unknown.coordinate_bounds();
+        let bound = if self.sign < 0.0 { best - low } else { high - best };
         if bound <= 0.0 {
             return Ok((None, Some(OpenEnd::Bound)));
         }
-        let reach = REACH * step.max(self.model.unknowns[self.k].spread());
+        // A value without an end has run away from the file's value, which the profile has to come back to.
+        let from_start = (best - unknown.coordinate(unknown.start)).abs();
+        let reach = (REACH * step.max(unknown.spread())).max(BEYOND_START * from_start);
 
         // The root of the rise is nearly proportional to the distance.
         let (mut below, mut above) = ((0.0, 0.0), None::<(f64, f64)>);
@@ -229,28 +226,28 @@ impl Side<'_, '_> {
                 self.rise(at)?;
             }
         }
-        let x = self.best.x[self.k] + self.sign * end;
-        Ok((open.is_none().then_some(x), open))
+        Ok((open.is_none().then_some(best + self.sign * end), open))
     }
 
     /// Rise of χ² if the coordinate is held at a distance; `None` if the robot has no equilibrium there.
     fn rise(&mut self, distance: f64) -> Result<Option<f64>> {
-        (self.begin)(self.known.len() - 1);
-        let nearest = (self.known.iter())
-            .filter(|known| known.rise.is_some())
-            .min_by(|a, b| (a.distance - distance).abs().total_cmp(&(b.distance - distance).abs()));
-        let mut start = nearest.map_or_else(|| self.best.x.clone(), |known| known.x.clone());
-        start[self.k] = self.best.x[self.k] + self.sign * distance;
+        let Profiler { model, best, factor, fits } = &mut *self.profiler;
+        (self.begin)(fits.len() - self.first);
+        let at = best.x[self.k] + self.sign * distance;
+        let near = fits.iter().filter(|fit| fit.rise.is_some()).map(|fit| &fit.x).chain([&best.x]);
+        let nearest = near.min_by(|a, b| (a[self.k] - at).abs().total_cmp(&(b[self.k] - at).abs()));
+        let mut start = nearest.unwrap_or(&best.x).clone();
+        start[self.k] = at;
 
         // Equal bounds hold the value.
-        let mut bounds: Vec<(f64, f64)> = self.model.unknowns.iter().map(Unknown::coordinate_bounds).collect();
-        bounds[self.k] = (start[self.k], start[self.k]);
-        let found = minimise(self.model, &start, &bounds, MAX_ITERATIONS);
-        if found.as_ref().is_none_or(|found| found.ending == LeastSquaresEnding::Cancelled) && self.model.is_stopped() {
+        let mut bounds: Vec<(f64, f64)> = model.unknowns.iter().map(Unknown::coordinate_bounds).collect();
+        bounds[self.k] = (at, at);
+        let found = minimise(*model, &start, &bounds, MAX_ITERATIONS);
+        if found.as_ref().is_none_or(|found| found.ending == LeastSquaresEnding::Cancelled) && model.is_stopped() {
             return Err(Cancelled.into());
         }
-        let rise = found.as_ref().map(|found| (found.chi2() - self.best.chi2()) / (self.factor * self.factor));
-        self.known.push(Known { distance, x: found.map_or(start, |found| found.x), rise });
+        let rise = found.as_ref().map(|found| (found.chi2() - best.chi2()) / (*factor * *factor));
+        fits.push(HeldFit { x: found.map_or(start, |found| found.x), rise });
         Ok(rise)
     }
 }

@@ -1,6 +1,6 @@
 //! Measurements of an experiment become observations, after checks of their numbers.
 
-use super::observations::{Observation, Subject};
+use super::observations::{AssumedNoise, Observation, Subject};
 use crate::measurements::{LENGTH_STD_M, MeasuredResponse, POSITION_STD_M, ROTATION_STD_DEG, TENSION_STD};
 use crate::request::{Experiment, IdentifyRequest};
 use anyhow::{Result, anyhow, bail};
@@ -92,7 +92,7 @@ pub(super) fn observations(
 impl Reader<'_> {
     fn add(&mut self, subject: Subject, measured: Complex, deviation: f64) {
         let experiment = self.number;
-        self.found.push(Observation { subject, experiment, measured, deviation, is_assigned: false });
+        self.found.push(Observation { subject, experiment, measured, deviation, noise: None, is_assigned: false });
     }
 
     /// Positive value of an option.
@@ -155,6 +155,7 @@ impl Reader<'_> {
                 measured: hz.into(),
                 // A weight of zero is an infinite deviation.
                 deviation: relative / weight.sqrt(),
+                noise: None,
                 is_assigned: frequency.number().is_none(),
             });
         }
@@ -192,14 +193,17 @@ impl Reader<'_> {
             bail!("{name}: {} frequencies and {} deviations", values.len(), std.len());
         }
 
+        let assumed = AssumedNoise { relative: self.request.response_noise, constant: NOISE_FLOOR * median };
+        let noise = given.std.is_none().then_some(assumed);
         for (line, measured) in values.into_iter().enumerate() {
             let deviation = match &given.std {
                 Some(std) => self.key("std", std[line])?,
-                None => (self.request.response_noise * measured.norm()).hypot(NOISE_FLOOR * median),
+                None => assumed.deviation(measured),
             };
             // The logarithm of zero does not exist, and a measured zero is uncertain by its deviation.
             let measured = if measured.norm() == 0.0 { Complex::new(deviation, 0.0) } else { measured };
-            self.add(Subject::Response { response, line }, measured, deviation);
+            let (subject, experiment) = (Subject::Response { response, line }, self.number);
+            self.found.push(Observation { subject, experiment, measured, deviation, noise, is_assigned: false });
         }
         Ok(())
     }

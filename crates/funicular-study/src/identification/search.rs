@@ -25,7 +25,8 @@ const LAST_STARTS: usize = 4;
 /// Difference of values, in spreads, up to which two ends are one minimum.
 const NEAR: f64 = 0.02;
 
-/// Maximum number of times that the complex responses are fitted again with other values left out; two are usual.
+/// Maximum number of times that the complex responses are fitted again with other deviations or other values left out;
+/// two or three are usual.
 const MAX_ROUNDS: usize = 6;
 
 /// Result of one start.
@@ -205,8 +206,11 @@ fn last_stage(model: &mut IdentifiedModel<'_>, ends: &[End], bounds: &[(f64, f64
         }
     }
 
+    // Each start has its own assumed deviations and ranges that are left out.
+    let observations = model.observations.clone();
     let (mut found, mut kept): (Vec<End>, Option<_>) = (Vec::new(), None);
     for start in chosen {
+        model.observations.clone_from(&observations);
         model.left_out.fill(false);
         let Ok(minimum) = fit_responses(model, start, bounds) else { continue };
         if model.is_stopped() {
@@ -215,7 +219,7 @@ fn last_stage(model: &mut IdentifiedModel<'_>, ends: &[End], bounds: &[(f64, f64
         let end = End { per_degree: minimum.chi2() / degrees_of_freedom(model, &minimum).max(1) as f64, minimum };
         let is_last = is_noise(model, &end);
         if found.first().is_none_or(|best| end.per_degree < best.per_degree) {
-            kept = Some((model.choices(), model.left_out.clone()));
+            kept = Some((model.choices(), model.left_out.clone(), model.observations.clone()));
             found.insert(0, end);
         } else {
             found.push(end);
@@ -227,15 +231,16 @@ fn last_stage(model: &mut IdentifiedModel<'_>, ends: &[End], bounds: &[(f64, f64
     if found.is_empty() {
         bail!("the responses at the best start cannot be computed again");
     }
-    if let Some((choices, left_out)) = kept {
+    if let Some((choices, left_out, observations)) = kept {
         model.choose(choices);
         model.left_out = left_out;
+        model.observations = observations;
     }
     Ok(found)
 }
 
-/// Minimum with the complex values of responses. Ranges that the model misses are known at a minimum only, and a minimum
-/// without them shows more of them.
+/// Minimum with the complex values of responses, from one start. Assumed deviations and the ranges that the model misses are
+/// known at a minimum only, and a minimum without these ranges shows more of them.
 fn fit_responses(model: &mut IdentifiedModel<'_>, start: &[f64], bounds: &[(f64, f64)]) -> Result<Minimum> {
     let again = |model: &mut IdentifiedModel<'_>, x: &[f64]| {
         minimise(model, x, bounds, MAX_ITERATIONS)
@@ -243,7 +248,7 @@ fn fit_responses(model: &mut IdentifiedModel<'_>, start: &[f64], bounds: &[(f64,
     };
     let mut best = again(model, start)?;
     for _ in 0..MAX_ROUNDS {
-        if best.ending == LeastSquaresEnding::Cancelled || !model.leave_out(&best.x) {
+        if best.ending == LeastSquaresEnding::Cancelled || !model.renew_responses(&best.x) {
             break;
         }
         best = again(model, &best.x)?;

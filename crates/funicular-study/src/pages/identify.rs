@@ -231,7 +231,7 @@ fn profile(number: usize, row: &ValueRow) -> Option<PageFigure> {
         vec![with(curve, json!({"mode": "lines+markers", "line": {"shape": "spline"}, "marker": {"size": 5}}))];
 
     let limit = LIMIT * LIMIT;
-    if let (Some([low, high]), Some(from), Some(to)) = (row.interval_95, x.first(), x.last()) {
+    if let (Some([low, high]), Some(from), Some(to)) = (row.parabola_95, x.first(), x.last()) {
         // The deviation's interval as the parabola of χ², whose coordinate may be a logarithm.
         let at = |x: f64| {
             let half = if x < 0.0 { row.value - low } else { high - row.value };

@@ -113,6 +113,16 @@ impl<'g> VibrationGradients<'g> {
         (0..modes.len()).map(|i| (0..modes.len()).map(|j| entry(i, j)).collect()).collect()
     }
 
+    /// Gradient of the coupling of two modes [Hz], the entry of [`Self::block`] off its diagonal. A change with the
+    /// coupling c moves two frequencies with the distance d apart by c²/d each, beyond the change by their gradients.
+    /// For modes at different frequencies it is taken at the geometric mean of both.
+    ///
+    /// # References
+    /// docs/theory.md, equations (60g) and (94d2).
+    pub fn coupling(&self, a: &Mode, b: &Mode) -> RobotChange {
+        self.of_pair((a, &self.motion_of(a)), (b, &self.motion_of(b)))
+    }
+
     /// Motion of a mode with unit modal mass.
     fn motion_of(&self, mode: &Mode) -> FormMotion<f64> {
         let (v, theta) = self.platform_motion(&mode.motion.platform);

@@ -1,16 +1,40 @@
 //! Sentences that a user should know before trusting a fit.
 
+use super::ValueRow;
 use super::tables::FittedResponse;
-use super::{Profile, ValueRow};
 use crate::identification::IdentifiedModel;
 use crate::request::IdentifyRequest;
 use crate::text::{counted, significant};
+use funicular::warnings::plausibility::usual::DAMPING_RATIO;
 
 /// Maximum fraction of the values of responses that may be far outside of the deviations without a warning.
 const MAX_OUTLIERS: f64 = 0.01;
 
+/// Number of measured damping ratios that a sentence names.
+const NAMED: usize = 3;
+
 /// Relative difference up to which the value at the minimum of a profile is the identified one.
 const SAME_VALUE: f64 = 1e-6;
+
+/// Sentence on measured damping ratios that may be in per cent; `None` if all are usual. The weakest usual one of a
+/// rope, 0.05 %, is the usual maximum if it is given in per cent.
+pub(super) fn damping_in_per_cent(request: &IdentifyRequest) -> Option<String> {
+    let frequencies = request.experiments.iter().flat_map(|experiment| &experiment.frequencies);
+    let large: Vec<(f64, f64)> = frequencies
+        .filter_map(|frequency| Some((frequency.damping_ratio?, frequency.frequency_hz)))
+        .filter(|(damping, _)| *damping > DAMPING_RATIO[1])
+        .collect();
+    let (first, _) = large.first()?;
+    let named: Vec<String> = large.iter().take(NAMED).map(|(damping, hz)| format!("{damping} at {hz} Hz")).collect();
+    let more = if large.len() > NAMED { format!(" and {} more", large.len() - NAMED) } else { String::new() };
+    Some(format!(
+        "measured damping ratios are above {}, the usual maximum of ropes: {}{more}. Were they measured in per cent? \
+         Then divide `damping_ratio` of the measurements by 100: {first} % is {}",
+        DAMPING_RATIO[1],
+        named.join(", "),
+        significant(first / 100.0, 3)
+    ))
+}
 
 /// Sentence on a value at one of its bounds; `None` for a value between them.
 pub(super) fn value_at_bound(row: &ValueRow) -> Option<String> {
@@ -21,9 +45,37 @@ pub(super) fn value_at_bound(row: &ValueRow) -> Option<String> {
     ))
 }
 
+/// χ²/n beyond which no error of a model or of a deviation is the reason: the differences are ten times as large as the
+/// deviations.
+const UNEXPLAINED: f64 = 100.0;
+
+/// Sentence on a χ² per degree of freedom that is so large that the values mean nothing; `None` if it is not.
+pub(super) fn unexplained(chi2_per_degree: f64) -> Option<String> {
+    (chi2_per_degree > UNEXPLAINED).then(|| {
+        format!(
+            "χ²/n = {} is above {UNEXPLAINED}: the model does not explain the measurements, and the values mean \
+             nothing. Check units, signs and directions of the measurements first; then points, lengths and the state; \
+             then whether another start arrives (⟪starts⟫)",
+            significant(chi2_per_degree, 3)
+        )
+    })
+}
+
+/// Sentence on a value that moves with others that are poorly determined; `None` for a value that does not.
+pub(super) fn moves(row: &ValueRow) -> Option<String> {
+    let (with, path) = (row.moves_with.join(", "), &row.path);
+    (!row.moves_with.is_empty()).then(|| {
+        format!(
+            "{path} moves with {with}, which the measurements determine poorly: its deviation would hold with {with} \
+             held, and its interval is that of its profile; give a prior, hold one of the values, or measure more"
+        )
+    })
+}
+
 /// Sentence on a profile that falls below the minimum; `None` if it does not. `factor` is the factor of the deviations.
-pub(super) fn missed_minimum(row: &ValueRow, profile: &Profile, chi2: f64, factor: f64) -> Option<String> {
-    let lowest = profile.points.iter().min_by(|a, b| a.chi2_rise.total_cmp(&b.chi2_rise)).filter(|_| profile.falls)?;
+pub(super) fn missed_minimum(row: &ValueRow, chi2: f64, factor: f64) -> Option<String> {
+    let profile = row.profile.as_ref().filter(|profile| profile.falls)?;
+    let lowest = profile.points.iter().min_by(|a, b| a.chi2_rise.total_cmp(&b.chi2_rise))?;
     // Measurements without noise determine the value to more digits than the search finds.
     if (lowest.value - row.value).abs() <= SAME_VALUE * row.value.abs() {
         return None;

@@ -1,6 +1,7 @@
 //! Linear deviations at one pose, and the tests of where they hold.
 
 use super::inputs::{Distribution, Inputs};
+use super::mode_linearity;
 use super::response_linearity;
 use super::responses::{RequestedResponse, Responses};
 use super::results::{NominalModes, ResultKind, static_gradients};
@@ -18,9 +19,6 @@ use funicular::statics::{TensionRange, TensionRule};
 /// Minimum distance of a tension from its limit, in standard deviations: with eight cables at this distance, one in
 /// ninety robots exceeds a limit.
 const TENSION_DEVIATIONS: f64 = 3.0;
-
-/// Minimum distance of neighbouring frequencies, in standard deviations of this distance.
-const FREQUENCY_DEVIATIONS: f64 = 2.0;
 
 /// Robot at a pose with the linear deviations of its results.
 #[derive(Clone)]
@@ -130,7 +128,7 @@ fn differentiate_and_test(
     }
     test_tensions(rows, robot, gradients, along);
     if let Some(modes) = modes {
-        test_frequencies(rows, modes, gradients, along);
+        mode_linearity::test(rows, modes, gradients, along);
     }
     if let (Some(of), Some(modes)) = (responses, modes) {
         response_linearity::test(rows, of, robot, gradients, modes, along);
@@ -244,53 +242,4 @@ fn tension_reason(robot: &Robot, i: usize, chosen: bool, reached: f64, distance:
         number(reached),
         number(distance.max(0.0))
     )
-}
-
-/// Tests whether natural frequencies may cross: the ascending list then changes its order, and with it the results of
-/// both modes are far from linear.
-fn test_frequencies(rows: &mut [Row], modes: &NominalModes, gradients: &Gradients, along: &Along) {
-    let Ok(vibration) = gradients.vibration(&modes.dynamics) else { return };
-    let list = &modes.found.modes;
-    let derivatives: Vec<Option<Vec<f64>>> =
-        (list.iter().take(modes.count + 1)).map(|mode| along.of(&vibration.frequency(mode).ok()?).ok()).collect();
-
-    let mut reasons: Vec<Option<String>> = vec![None; modes.count];
-    for k in 0..modes.count {
-        let Some(own) = &derivatives[k] else { continue };
-        let (gap, reached) = match (list.get(k + 1), derivatives.get(k + 1)) {
-            (Some(next), Some(Some(other))) => {
-                let difference: Vec<f64> = other.iter().zip(own).map(|(a, b)| a - b).collect();
-                let reached = along.reach(&difference, FREQUENCY_DEVIATIONS);
-                (next.frequency_hz - list[k].frequency_hz, reached)
-            }
-            // A neighbour that shares its frequency has no single derivative; its own deviation is taken as equal.
-            (Some(next), _) => {
-                let reached = 2.0 * along.reach(own, FREQUENCY_DEVIATIONS);
-                (next.frequency_hz - list[k].frequency_hz, reached)
-            }
-            // No further mode up to the end of the list.
-            (None, _) => (modes.found.below_hz - list[k].frequency_hz, along.reach(own, FREQUENCY_DEVIATIONS)),
-        };
-        if reached >= gap {
-            let number = |value: f64| crate::text::significant(value, 3);
-            let reason = format!(
-                "frequencies {} and {} may cross: they are {} Hz apart, and {FREQUENCY_DEVIATIONS} deviations of this \
-                 distance are {} Hz",
-                k + 1,
-                k + 2,
-                number(gap),
-                number(reached)
-            );
-            for mode in [k, k + 1] {
-                if let Some(first) = reasons.get_mut(mode) {
-                    first.get_or_insert_with(|| reason.clone());
-                }
-            }
-        }
-    }
-    for row in rows {
-        if let Some(reason) = row.kind.mode().and_then(|k| reasons[k].clone()) {
-            row.sampling_reason.get_or_insert(reason);
-        }
-    }
 }
