@@ -338,7 +338,7 @@ mod tests {
 
     #[test]
     fn ascending_pairs_have_the_smallest_sum() {
-        let (rows, columns) = ([1.0, 1.1, 4.0], [0.0, 1.05, 1.3, 3.0, 9.0]);
+        let (rows, columns): ([f64; 3], [f64; 5]) = ([1.0, 1.1, 4.0], [0.0, 1.05, 1.3, 3.0, 9.0]);
         let cost = |row: usize, column: usize| (rows[row] - columns[column]).powi(2);
         let found = ascending_pairs(3, 5, cost).unwrap();
         let sum = |columns: &[usize]| columns.iter().enumerate().map(|(row, column)| cost(row, *column)).sum::<f64>();
