@@ -131,7 +131,7 @@ fn the_request_of_every_command_runs_again() {
     ];
     for (words, more) in lines {
         let request = succeed(&[words, &["--print-request"]].concat());
-        let again = run_with(&[&["request", "-"], more].concat(), &request);
+        let again = run_with(&[&["request", "-"][..], more].concat(), &request);
         assert_eq!(again.status.code(), Some(0), "{words:?}: {}", stderr(&again));
         if more.is_empty() {
             assert_eq!(stdout(&again), succeed(words), "{words:?}");
@@ -150,7 +150,7 @@ fn the_request_of_every_command_runs_again() {
 
     // `live` and `paper` have tests of their own pages; every other command is in one of the lists.
     let help = succeed(&["--help"]);
-    let commands = help.split("Commands:").nth(1).unwrap().lines().filter_map(|line| {
+    let commands = help.split("Commands:").nth(1).unwrap().lines().skip(1).take_while(|line| !line.is_empty()).filter_map(|line| {
         let name = line.strip_prefix("  ")?.split(' ').next().unwrap();
         (!name.is_empty()).then_some(name)
     });
