@@ -28,7 +28,7 @@ def test_several_signals_make_an_array_of_outputs_and_inputs(rest: funicular.Equ
 
 
 def test_signals_that_are_no_names_are_refused(rest: funicular.Equilibrium) -> None:
-    with pytest.raises(funicular.InputError, match="type int: give its name as text"):
+    with pytest.raises(funicular.InputError, match="type int: give text, or a list of texts"):
         rest.frf([1], 5, "az")  # type: ignore[call-overload]
     with pytest.raises(funicular.InputError, match="`input` is an empty list"):
         rest.frf([1], [], "az")
