@@ -360,8 +360,7 @@ fn measurements_in_other_units_are_no_small_misfit() {
 
 #[test]
 fn damping_in_per_cent_is_met_with_a_hint() {
-    let Ok(Results::Modes(modes)) = results(&json!({"command": "modes", "robot": robot(&[]), "below_hz": 200.0}))
-    else {
+    let Ok(Results::Modes(modes)) = results(&json!({"command": "modes", "robot": robot(&[]), "below_hz": 20.0})) else {
         panic!("modes were requested")
     };
     let with = |damping: f64| {
