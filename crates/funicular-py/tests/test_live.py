@@ -70,7 +70,7 @@ def test_a_notebook_shows_the_widget_with_a_note_or_the_page_alone(monkeypatch: 
     monkeypatch.setitem(sys.modules, "anywidget", None)
     alone = page()
     assert "<iframe" in alone._repr_mimebundle_()["text/html"]
-    with pytest.raises(funicular.InputError, match=r"pip install funicular\[live\]"):
+    with pytest.raises(funicular.InputError, match=r"pip install anywidget"):
         alone.widget()
 
 

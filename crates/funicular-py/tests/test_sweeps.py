@@ -252,7 +252,7 @@ def test_files_of_other_sweeps_are_left_alone(robot: funicular.Robot, tmp_path: 
         ("map", {"poses": [[0, 0, 0.5]], "lengths_m": [7] * 6}, "leave out `pose` and `lengths_m`"),
         ("map", {"poses": np.zeros((0, 3))}, "has no poses"),
         ("map", {"grid": {"x": 0}, "quantities": ["tension-mx"]}, "did you mean `tension-max`"),
-        ("map", {"grid": {"x": 0}, "quantities": []}, "no quantity"),
+        ("map", {"grid": {"x": 0}, "quantities": []}, "`quantities` is an empty list"),
         ("map", {"grid": {"x": 0}, "tension_rule": "middle"}, "nothing to choose"),
         ("map", {"grid": {"x": 0}, "resume": True}, "go with `file`"),
         ("map", {"grid": {"x": 0}, "chunks_per_task": 3}, "goes with `executor`"),

@@ -184,7 +184,7 @@ fn apart(model: &IdentifiedModel<'_>, ends: &[End]) -> Option<String> {
     }
     Some(format!(
         "the search has not arrived: {} starts ended apart, with χ²/n from {} to {}, and only one at the best values: give \
-         more ⟪starts⟫, values nearer to the true ones, or priors",
+         more starts, values nearer to the true ones, or priors",
         ends.len(),
         significant(best.per_degree, 3),
         significant(worst.per_degree, 3)

@@ -55,7 +55,7 @@ pub(super) fn unexplained(chi2_per_degree: f64) -> Option<String> {
         format!(
             "χ²/n = {} is above {UNEXPLAINED}: the model does not explain the measurements, and the values mean \
              nothing. Check units, signs and directions of the measurements first; then points, lengths and the state; \
-             then whether another start arrives (⟪starts⟫)",
+             then whether another start arrives",
             significant(chi2_per_degree, 3)
         )
     })
