@@ -58,7 +58,7 @@ pub use equilibria::{Candidate, Candidates, all_equilibria, another_stable_equil
 pub use equilibrium::{CableState, Equilibrium, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT, Stability};
 pub use error::StaticsError;
 pub use forward::forward;
-pub use free_motion::{FreeMotion, free_motions};
+pub use free_motion::{FreeMotion, free_motions, leaves_choice};
 pub use friction::{
     CableFriction, FrictionError, FrictionInterval, Held, Interval, MotionInterval, friction_exponents,
     friction_interval,

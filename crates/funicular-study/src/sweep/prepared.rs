@@ -238,11 +238,11 @@ fn quantities_and_options(robot: &Robot, point: &mut EachPoint) -> Result<(Vec<Q
 
     let rule = at_rest::rule(&point.tensions)?;
     let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
-    if rule.is_some() && cables <= dof {
+    if rule.is_some() && !statics::leaves_choice(robot) {
         return Err(StaticsError::NothingToChoose { cables, dof }.into());
     }
     let tension_rule = rule.unwrap_or_default();
-    if cables > dof {
+    if statics::leaves_choice(robot) {
         point.tensions.tension_rule = Some(TensionRuleName::from(&tension_rule));
     }
 

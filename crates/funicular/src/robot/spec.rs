@@ -321,6 +321,9 @@ fn on_supports(cables: Vec<(Cable, Option<String>)>, named: read::Named<Support>
     (cables.into_iter().map(with_support).collect(), supports)
 }
 
+/// Radius above which a wheel is refused if the platform may be far from the anchors [m]. No wheel of a rope is so large.
+const LARGEST_WHEEL: f64 = 100.0;
+
 /// Refuses wheels of pulleys that are larger than the robot: the largest distance between two anchors, from an anchor to
 /// the platform, or along a cable.
 fn refuse_huge_wheels(reader: &mut Reader, root: &DeTable, cables: &[Cable], state: &State) {
@@ -331,9 +334,12 @@ fn refuse_huge_wheels(reader: &mut Reader, root: &DeTable, cables: &[Cable], sta
     let from_platform = anchors_w.iter().map(|anchor_w| (anchor_w - platform_w).norm());
     let size = between.chain(from_platform).chain(lengths.iter().copied()).fold(0.0, f64::max);
 
+    // Without a state, the anchors do not tell how long the cables are.
+    let least = if matches!(state, State::Unknown) { LARGEST_WHEEL } else { 0.0 };
+
     let mut named: Vec<&str> = Vec::new();
     for pulley in cables.iter().filter_map(|cable| cable.anchor.pulley.as_ref()) {
-        let is_huge = size > 0.0 && pulley.radius > size;
+        let is_huge = size > 0.0 && pulley.radius > size.max(least);
         if !is_huge || named.contains(&pulley.name.as_str()) {
             continue;
         }

@@ -1,6 +1,7 @@
 //! Reasons why an equilibrium cannot be given, and their messages.
 
 use super::equilibrium::RESIDUAL_LIMIT;
+use super::free_motion::FreeMotion;
 use super::limits::{Limit, LimitViolation};
 use super::loaded_cable::MAX_LENGTH_RATIO;
 use super::model::StaticModel;
@@ -203,6 +204,15 @@ pub enum StaticsError {
          platform"
     )]
     WeightlessPayload,
+    /// The weight of a payload has a part along motions that no cable opposes.
+    #[error(
+        "no payload with this center of mass can be held: it would make the platform {motion}, and no cable opposes \
+         this motion; choose a center of mass straight below or above the attachments"
+    )]
+    UnbalancedPayload {
+        /// Motion that the payload would cause.
+        motion: Box<FreeMotion>,
+    },
     /// The rule needs a maximum tension.
     #[error(
         "the tension rule `{rule}` needs a maximum tension for every cable, and cable \"{cable}\" has none: give \
@@ -237,6 +247,13 @@ pub enum StaticsError {
          or `catenary`"
     )]
     StiffestNeedsElastic,
+    /// The least stiff motion is one that no cable opposes.
+    #[error(
+        "the tension rule `stiffest` has nothing to raise: all cables end at one point or on one line of the platform, \
+         and its least stiff motion about them does not depend on the tensions; choose the rule `middle`, `lowest` or \
+         `closest`"
+    )]
+    StiffestNeedsSpread,
     /// More cables than the rule `stiffest` allows.
     #[error(
         "the tension rule `stiffest` is for up to {limit} cables, and the robot has {cables}: its time grows with the \
@@ -405,10 +422,11 @@ impl StaticsError {
             Self::LimitsExclude { .. } => "limits-exclude",
             Self::NoPayload => "no-payload",
             Self::WeightlessPayload => "weightless-payload",
+            Self::UnbalancedPayload { .. } => "unbalanced-payload",
             Self::NeedsMaximum { .. } => "needs-maximum",
             Self::TargetCount { .. } => "wanted-count",
             Self::TargetTension { .. } => "wanted",
-            Self::StiffestNeedsElastic => "nothing-to-stiffen",
+            Self::StiffestNeedsElastic | Self::StiffestNeedsSpread => "nothing-to-stiffen",
             Self::TooManyToStiffen { .. } => "too-many-to-stiffen",
             Self::NeedsElasticCables => "one-ideal",
             Self::NotNearest { .. } | Self::NearestByLoop { .. } => "not-nearest",
@@ -441,6 +459,7 @@ impl StaticsError {
                 | Self::BeyondLimits(_)
                 | Self::NotFoundWithinLimits { .. }
                 | Self::NoPayload
+                | Self::UnbalancedPayload { .. }
                 | Self::NotNearest { .. }
                 | Self::NearestBeyondLimits { .. }
                 | Self::NearestByLoop { .. }

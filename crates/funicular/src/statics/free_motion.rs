@@ -8,7 +8,7 @@ use super::residual::scaled_residual;
 use super::stiffness::indifferent_motions;
 use crate::math::{DMat, Vec3, Vec6};
 use crate::platform::{Coordinates, StraightCable, balance};
-use crate::robot::{Pose, Robot};
+use crate::robot::{PlatformMotion, Pose, Robot};
 use crate::statics::loaded_cable::LoadedCable;
 use crate::statics::model::StaticModel;
 use std::fmt;
@@ -81,6 +81,49 @@ pub(super) fn has_choice(robot: &Robot, pose: &Pose, model: StaticModel) -> bool
     let back = coordinates.expand(&along);
     let along = Vec6::from_fn(|i, _| if i < 3 { back[i] } else { back[i] * coordinates.ell() });
     scaled_residual(&coordinates, &along, scale) <= BALANCED_ALONG_FREE
+}
+
+/// Largest number of independent directions that the cables of a robot have at any pose: fewer than the degrees of
+/// freedom if all end at one point or on one line of the platform.
+pub(super) fn independent_directions(robot: &Robot) -> usize {
+    let dof = robot.platform.motion.count();
+    let turns = match robot.platform.motion {
+        PlatformMotion::Rigid => 3,
+        PlatformMotion::Planar(_) => 1,
+        PlatformMotion::PointMass => 0,
+    };
+    let Some(first) = robot.cables.first() else { return 0 };
+    let offsets: Vec<Vec3> = robot.cables.iter().map(|cable| cable.attachment_p - first.attachment_p).collect();
+    let longest = offsets.iter().copied().max_by(|a, b| a.norm().total_cmp(&b.norm())).unwrap_or_else(Vec3::zeros);
+    let size = DEPENDENT * robot.platform_length();
+    let is_point = longest.norm() <= size;
+    let is_line = offsets.iter().all(|offset| offset.cross(&longest).norm() <= size * longest.norm());
+    // Turns about a common point, or about a common line, are opposed by no cable.
+    let free = match (is_point, is_line) {
+        (true, _) => turns,
+        (false, true) if turns == 3 => 1,
+        _ => 0,
+    };
+    (dof - free).min(robot.cables.len())
+}
+
+/// True if a tension rule has something to choose: there are more cables than independent directions that they can
+/// have. At single poses with dependent directions there may be a choice although this is false.
+pub fn leaves_choice(robot: &Robot) -> bool {
+    robot.cables.len() > independent_directions(robot)
+}
+
+/// Motion along which a reduced wrench acts and that no cable opposes, at a pose; `None` if there is none.
+pub(super) fn unopposed(robot: &Robot, pose: &Pose, wrench: &Vec6) -> Option<FreeMotion> {
+    let free = SpannedWrenches::at(robot, pose).free;
+    let along: Vec6 = free.iter().map(|free| free * free.dot(wrench)).sum();
+    if along.norm() <= BALANCED_ALONG_FREE * wrench.norm() {
+        return None;
+    }
+    let coordinates = Coordinates::of(robot);
+    let scaled = coordinates.expand(&along);
+    let motion = Vec6::from_fn(|i, _| if i < 3 { scaled[i] } else { scaled[i] / coordinates.ell() });
+    Some(FreeMotion::new(&motion, pose, Some(false)))
 }
 
 /// Motion of the platform that no cable opposes by its tension.

@@ -20,7 +20,7 @@ use super::collect::without_stability;
 use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
 use super::exit_points;
-use super::free_motion::has_choice;
+use super::free_motion::{has_choice, independent_directions};
 use super::ideal;
 use super::limits::TensionRange;
 use super::model::StaticModel;
@@ -231,6 +231,9 @@ fn check(
 
     if *rule == TensionRule::Stiffest && model == StaticModel::Ideal {
         return Err(StaticsError::StiffestNeedsElastic);
+    }
+    if *rule == TensionRule::Stiffest && independent_directions(robot) < robot.platform.motion.count() {
+        return Err(StaticsError::StiffestNeedsSpread);
     }
     if *rule == TensionRule::Stiffest && robot.cables.len() > MAX_CABLES_TO_STIFFEN {
         return Err(StaticsError::TooManyToStiffen { cables: robot.cables.len(), limit: MAX_CABLES_TO_STIFFEN });

@@ -21,6 +21,7 @@ use crate::statics::collect::collect;
 use crate::statics::equilibrium::{CableState, Equilibrium};
 use crate::statics::error::StaticsError;
 use crate::statics::exit_points;
+use crate::statics::free_motion::unopposed;
 use crate::statics::ideal;
 use crate::statics::limits::Limit;
 use crate::statics::model::StaticModel;
@@ -169,6 +170,11 @@ fn at_exit_points(
     let search = TensionSearch::new(robot, pose, model, cables);
     let mut payload = PayloadSearch { robot, pose, search, unit, requested, iterations: 0 };
     let optimum = payload.extreme()?;
+    if optimum.weight.abs() <= CONVERGED * payload.search.size() {
+        if let Some(motion) = unopposed(robot, pose, &payload.unit) {
+            return Err(StaticsError::UnbalancedPayload { motion: Box::new(motion) });
+        }
+    }
     Ok(payload.collect(model, &optimum))
 }
 

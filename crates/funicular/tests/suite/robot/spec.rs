@@ -673,3 +673,22 @@ fn broken_loads_are_refused_at_their_line() {
         assert!(error.contains(said), "{error}");
     }
 }
+
+/// Without a state the platform may hang far below an anchor at the origin.
+#[test]
+fn a_wheel_larger_than_the_robot_is_refused_and_one_of_a_robot_without_a_state_is_not() {
+    let crane = |radius: &str, state: &str| {
+        format!(
+            "name = \"crane\"\n[platform]\nmass_kg = 1\nmotion = \"point-mass\"\n[materials.rope]\n\
+             axial_stiffness_n = 1e5\nmass_kg_per_m = 0\n[pulleys.wheel]\nradius_m = {radius}\n\
+             entry_direction = [0, 0, 1]\n[[cables]]\nname = \"only\"\nmaterial = \"rope\"\nanchor_m = [0, 0, 0.5]\n\
+             pulley = \"wheel\"\n{state}"
+        )
+    };
+    let state = "[state]\nposition_m = [0, 0, -60]\n";
+    assert!(Robot::from_toml(&crane("3.0", state)).is_ok() && Robot::from_toml(&crane("3.0", "")).is_ok());
+    for state in [state, ""] {
+        let error = Robot::from_toml(&crane("3946.7", state)).unwrap_err().to_string();
+        assert!(error.contains("radius_m") && error.contains("larger than the robot"), "{error}");
+    }
+}

@@ -1,7 +1,7 @@
 //! Robots whose cables all end at one point or on one line of the platform.
 
 use funicular::robot::{Robot, State, TensionLimits};
-use funicular::statics::{self, Solution, StaticModel, StaticsError};
+use funicular::statics::{self, PayloadSide, RequestedPayload, Solution, StaticModel, StaticsError, TensionRule};
 
 /// Robot with cables from these anchors to these attachments [m].
 fn robot(platform: &str, mass_per_length: f64, cables: &[([f64; 3], [f64; 3])]) -> Robot {
@@ -83,4 +83,34 @@ fn a_camera_that_its_weight_would_turn_is_refused_with_the_turn() {
         matches!(error, StaticsError::Singular { .. }) && error.to_string().contains("turn the platform"),
         "{error}"
     );
+}
+
+/// Loads whose centre of mass is straight below the common point are carried; others would turn the platform.
+#[test]
+fn a_payload_beside_the_common_point_is_refused_with_the_turn_that_it_causes() {
+    let robot = camera(BELOW, 6).with_tension_limits(TensionLimits { minimum: None, maximum: Some(300.0) });
+    let State::Pose(pose) = robot.state else { panic!("the state is a pose") };
+    let bound = |x: f64| {
+        let center_p = funicular::math::Vec3::new(x, 0.0, -0.3);
+        let requested = RequestedPayload { center_p, side: PayloadSide::Maximum, prove: false };
+        statics::payload_bound(&robot, &pose, StaticModel::Catenary, requested, None)
+    };
+    let mass = bound(0.0).unwrap().mass;
+    let lifted = statics::solve(&robot.with_mass(20.0 + mass * (1.0 - 1e-4)), StaticModel::Catenary, None);
+    assert!(mass > 10.0 && lifted.is_ok(), "{mass} {lifted:?}");
+    let error = bound(0.2).unwrap_err();
+    assert!(matches!(error, StaticsError::UnbalancedPayload { .. }) && error.is_no_solution(), "{error}");
+    assert!(error.to_string().contains("turn about (0.000, 1.000, 0.000)"), "{error}");
+}
+
+#[test]
+fn the_rule_stiffest_is_refused_where_no_tension_changes_the_least_stiffness() {
+    for robot in [bar(), camera(BELOW, 6)] {
+        let robot = robot.with_tension_limits(TensionLimits { minimum: None, maximum: Some(300.0) });
+        assert!(statics::leaves_choice(&robot));
+        let error = statics::solve(&robot, StaticModel::Catenary, Some(TensionRule::Stiffest)).unwrap_err();
+        assert_eq!(error, StaticsError::StiffestNeedsSpread);
+        assert!(statics::solve(&robot, StaticModel::Catenary, Some(TensionRule::Middle)).is_ok());
+    }
+    assert!(!statics::leaves_choice(&Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap()));
 }

@@ -113,6 +113,33 @@ fn no_loop_of_rope_serves_as_a_weight_and_given_limits_hold() {
     }
 }
 
+/// Two cables from one wall hold the platform only below it, one cable from above and one from below only on the line
+/// between them: the ropes fit the room, and their tensions are of the size of the weight.
+#[test]
+fn two_cables_far_from_the_requested_pose_hold_the_platform_without_loops() {
+    let cases = [
+        ([-3.0, 0.0, 4.0], [-4.0, 0.0, 4.0], [0.0, 0.0, 0.1], [1.0, 0.0, 1.0], -3.0),
+        ([0.0, 0.0, 0.0], [0.0, 0.0, 4.0], [0.1, 0.1, 0.1], [2.0, 2.0, 2.0], 0.0),
+    ];
+    for (first, second, attachment, requested, x) in cases {
+        let mut text = "name = \"two\"\n[platform]\nmass_kg = 10\ninertia_kg_m2 = [0.5, 0.6, 0.4]\n\
+             [materials.rope]\naxial_stiffness_n = 1e6\nmass_kg_per_m = 0.02\n"
+            .to_owned();
+        for (name, anchor) in [("1", first), ("2", second)] {
+            text.push_str(&format!("[[cables]]\nname = \"{name}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\n"));
+            text.push_str(&format!("attachment_m = {attachment:?}\n"));
+        }
+        let robot = Robot::from_toml(&text).unwrap();
+        let asked = Pose::new(requested, [0.0; 3]);
+        let found = statics::nearest_equilibrium(&robot, &asked, StaticModel::Catenary).unwrap();
+        assert!((found.equilibrium.pose.position_w.x - x).abs() < 0.3, "{}", found.equilibrium.pose.position_w);
+        for cable in &found.equilibrium.cables {
+            assert!(cable.unstrained_length < 1.26 * cable.chord());
+            assert!(cable.tension_platform < 1.1 * 10.0 * 9.81, "{}", cable.tension_platform);
+        }
+    }
+}
+
 proptest! {
     // Fixed poses: of some hundred random ones the search stops short at one and reports it (`NotNearest`), as at
     // (-0.42587, 0.33305, 2.06175) m with a roll of -9.84337°, no yaw and 0.09354 kg/m.
