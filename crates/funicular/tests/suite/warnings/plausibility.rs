@@ -426,6 +426,8 @@ fn hall_with_drives() -> String {
     changed(
         &hall(),
         &[
+            // Indented, so that `scaled` changes the inertia of the wheel alone.
+            ("inertia_kg_m2 = [4.45", "  inertia_kg_m2 = [4.45"),
             ("[state]", drives),
             ("material = \"rope\"\n", "material = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\n"),
         ],
@@ -581,7 +583,6 @@ fn hints_name_slips_of_the_right_direction_alone() {
     let (hall, drives) = (hall(), hall_with_drives());
     for (key, text, small, large) in [
         ("drag_coefficient", &hall, "coefficient times diameter?", "a coefficient in per cent?"),
-        ("damping_ratio", &hall, "a fraction divided by 100 once more?", "per cent given as a fraction?"),
         ("air_density_kg_m3", &hall, "g/cm³ given as kg/m³?", "g/m³ given as kg/m³?"),
         ("drag_diameter_m", &hall, "a slip of its unit or of the decimal point?", "diameter in"),
         ("breaking_load_n", &hall, "breaking load in kN", "breaking load in mN"),
@@ -594,6 +595,13 @@ fn hints_name_slips_of_the_right_direction_alone() {
             let said = said(&Robot::from_toml(&scaled(&text, key, factor)).unwrap());
             assert!(said.contains(&format!(": {expected}")), "{key} times {factor}: {said}");
         }
+    }
+    // The reader refuses ratios from 0.5 on.
+    for (factor, expected) in
+        [(1e-2, ": a fraction divided by 100 once more?"), (1e2, ": per cent given as a fraction?")]
+    {
+        let said = said(&Robot::from_toml(&scaled(&hall, "damping_ratio", factor)).unwrap());
+        assert!(said.contains(expected), "damping_ratio times {factor}: {said}");
     }
 }
 
