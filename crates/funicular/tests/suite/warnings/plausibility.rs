@@ -709,7 +709,7 @@ fn no_robot_of_the_library_is_implausible() {
         }
         assert_eq!(said(&robot), "", "{name}");
         // The source of this robot says nothing of damping.
-        let undamped = ["nothing in the robot file damps vibration"].map(|note| note.to_owned());
+        let undamped = ["nothing in the robot file damps vibration"].map(str::to_owned);
         let expected = if name.starts_with("sap2000-") { &undamped[..] } else { &[] };
         let notes = plausibility::notes(&robot);
         let as_expected = notes.iter().zip(expected).all(|(note, expected)| note.starts_with(expected.as_str()));
