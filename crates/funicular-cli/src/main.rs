@@ -12,6 +12,7 @@ mod sweep_run;
 mod table;
 
 use args::Cli;
+use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser};
 use funicular::suggest;
@@ -48,7 +49,16 @@ fn report_usage(usage: &clap::Error) -> ExitCode {
     }
 }
 
-/// Adds the present name to an error of the command line about an earlier name of an option or value.
+/// Names that other programs have for a command, with its name here.
+const COMMANDS_OF_OTHERS: [(&[&str], &str); 4] = [
+    (&["workspace", "trajectory", "path"], "map"),
+    (&["optimize", "optimise", "optimization"], "design"),
+    (&["eigen", "frequencies", "modal"], "modes"),
+    (&["equilibrium", "tensions"], "statics"),
+];
+
+/// Adds the present name to an error of the command line about an earlier name of an option or value, or about the name
+/// that other programs have for a command, and a tip to numbers without commas.
 fn with_new_name(mut usage: clap::Error) -> clap::Error {
     let text = |kind| match usage.get(kind) {
         Some(ContextValue::String(text)) => Some(text.as_str()),
@@ -75,6 +85,19 @@ fn with_new_name(mut usage: clap::Error) -> clap::Error {
                 }
                 // The tip to write `--` before it takes a mistyped option for the name of a file.
                 usage.remove(ContextKind::Suggested);
+            } else if text(ContextKind::InvalidArg).is_some_and(|argument| argument.parse::<f64>().is_ok()) {
+                let tip = StyledStr::from("the numbers of an option are separated by commas alone: `--pose 0,0,5`");
+                usage.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
+            }
+        }
+
+        ErrorKind::InvalidSubcommand => {
+            let meant = text(ContextKind::InvalidSubcommand).and_then(|name| {
+                COMMANDS_OF_OTHERS.iter().find_map(|(others, ours)| others.contains(&name).then_some(*ours))
+            });
+            if let Some(meant) = meant {
+                let found = ContextValue::Strings(vec![meant.to_owned()]);
+                usage.insert(ContextKind::SuggestedSubcommand, found);
             }
         }
 

@@ -215,6 +215,17 @@ fn an_earlier_name_is_answered_with_the_present_name() {
         assert!(!stderr(&output).contains("-- --"), "{line}: {}", stderr(&output));
     }
 
+    // Commands by the names that other programs have for them, and numbers without commas.
+    for (line, tip) in [
+        ("workspace ROBOT", "a similar subcommand exists: 'map'"),
+        ("trajectory ROBOT", "a similar subcommand exists: 'map'"),
+        ("optimize ROBOT", "a similar subcommand exists: 'design'"),
+        ("statics ROBOT --pose 0 0 5", "separated by commas alone: `--pose 0,0,5`"),
+        ("statics ROBOT --pose 0 -1.5 5", "separated by commas alone: `--pose 0,0,5`"),
+    ] {
+        assert_refused(&run(&line.split(' ').collect::<Vec<_>>()), 2, tip, line);
+    }
+
     // Keys of a robot file.
     let with_key = |text: &str| text.replacen("[platform]\n", "[platform]\nfreedoms = \"rigid\"\n", 1);
     assert_refused(&run_with(&["check", "-"], &with_key(&yuan())), 2, "did you mean `motion`?", "key of a robot file");

@@ -225,7 +225,10 @@ fn a_live_page_contains_the_robot_or_says_how_to_build_with_the_page() {
     } else {
         assert_eq!(output.status.code(), Some(2));
         let said = stderr(&output);
-        assert!(said.contains("this build does not contain the page: in the sources of funicular, `scripts/install`"), "{said}");
+        assert!(
+            said.contains("this build does not contain the page: in the sources of funicular, `scripts/install`"),
+            "{said}"
+        );
     }
     let output = run(&["live", &robot("cogiro.toml"), "--mass-kg", "-1", "-o", "-"]);
     assert_eq!(output.status.code(), Some(2));

@@ -150,10 +150,13 @@ fn the_request_of_every_command_runs_again() {
 
     // `live` and `paper` have tests of their own pages; every other command is in one of the lists.
     let help = succeed(&["--help"]);
-    let commands = help.split("Commands:").nth(1).unwrap().lines().skip(1).take_while(|line| !line.is_empty()).filter_map(|line| {
-        let name = line.strip_prefix("  ")?.split(' ').next().unwrap();
-        (!name.is_empty()).then_some(name)
-    });
+    let commands =
+        help.split("Commands:").nth(1).unwrap().lines().skip(1).take_while(|line| !line.is_empty()).filter_map(
+            |line| {
+                let name = line.strip_prefix("  ")?.split(' ').next().unwrap();
+                (!name.is_empty()).then_some(name)
+            },
+        );
     let tried: Vec<String> = command_lines().iter().map(|line| line[0].clone()).collect();
     let tried: Vec<&str> = tried.iter().map(String::as_str).chain(lines.iter().map(|(words, _)| words[0])).collect();
     let untried: Vec<&str> = commands.filter(|name| !tried.contains(name)).collect();

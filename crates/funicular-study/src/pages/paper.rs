@@ -50,6 +50,7 @@ struct PaperPage {
     test_figure: PageFigure,
     lists: Vec<PageTable>,
     counts: PageTable,
+    chance_text: String,
     sag_text: String,
     command_line: String,
 }
@@ -81,6 +82,7 @@ pub fn paper(command_line: String) -> anyhow::Result<String> {
         test_figure: outcome.figure(),
         lists: fig7::lists(&outcome),
         counts: fig7::counts(&outcome),
+        chance_text: fig7::chance_text(&outcome),
         sag_text: fig7::sag_text(&outcome),
         command_line,
     };
