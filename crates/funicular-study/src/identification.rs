@@ -16,6 +16,7 @@ mod reading;
 mod resolution;
 mod ridge;
 mod search;
+mod starts;
 mod unknowns;
 
 pub(crate) use assignment::Assigning;
@@ -26,6 +27,6 @@ pub(crate) use profile::LIMIT;
 pub use profile::{OpenEnd, Profile};
 pub(crate) use resolution::unresolved_peaks;
 pub(crate) use ridge::{Profiled, profiles};
-pub(crate) use search::StartRow;
 pub(crate) use search::search;
+pub(crate) use starts::StartRow;
 pub(crate) use unknowns::{Unknown, unknowns};

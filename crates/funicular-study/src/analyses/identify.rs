@@ -59,7 +59,7 @@ pub struct Identified {
     pub frequency_rms_before: Option<f64>,
     /// Assignment of frequencies without a number, unless responses were measured as well.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub assignment: Option<Assignment>,
+    pub assignment: Option<ModeAssignment>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub responses: Vec<FittedResponse>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -72,7 +72,7 @@ pub struct Identified {
 
 /// Assignment of measured frequencies without a number to modes; the numbers are in `frequencies`.
 #[derive(Serialize)]
-pub struct Assignment {
+pub struct ModeAssignment {
     /// False if other assignments are possible; deviations and intervals are then absent.
     pub determined: bool,
     /// Reasons why it is not determined.
@@ -106,7 +106,7 @@ pub struct SecondBest {
     pub frequency_hz: Vec<f64>,
 }
 
-impl Assignment {
+impl ModeAssignment {
     fn of(found: &Assigning, model: &IdentifiedModel<'_>, doubts: Vec<String>) -> Self {
         let second_best = found.other.as_ref().map(|other| SecondBest {
             values: model.values(&other.x),
@@ -299,7 +299,7 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
         frequency_rms: tables.frequency_rms(|row| row.fitted_hz),
         frequency_rms_before: tables.frequency_rms(|row| row.before_hz),
         frequencies: tables.frequencies,
-        assignment: searched.assigning.as_ref().map(|found| Assignment::of(found, &model, doubts)),
+        assignment: searched.assigning.as_ref().map(|found| ModeAssignment::of(found, &model, doubts)),
         responses: tables.responses,
         statics: tables.statics,
         robot_file: model.text(&best.x)?,

@@ -3,11 +3,11 @@
 
 use super::chi2::degrees_of_freedom;
 use super::draws::{mixed, point};
-use super::lists::{NearBest, Sample, Target, targets};
+use super::lists::{ListSample, NearBest, Target, targets};
 use super::model::{Assigned, IdentifiedModel};
 use super::observations::Subject;
 use super::precision::Judged;
-use super::search::{MAX_ITERATIONS, StartRow};
+use super::starts::{MAX_ITERATIONS, StartRow};
 use super::unknowns::Unknown;
 use crate::error::Cancelled;
 use crate::normal::normal_quantile;
@@ -101,7 +101,7 @@ struct Exchange {
 }
 
 /// Minimum with its choices.
-struct Fit {
+struct AssignedFit {
     minimum: Minimum,
     choices: (Assigned, Vec<f64>),
 }
@@ -145,7 +145,7 @@ pub(super) fn search(
     // Searches from the best assignments that no search has ended with.
     let mut tried: Vec<Vec<usize>> = Vec::new();
     for candidate in candidates {
-        let is_known = fits.iter().any(|fit: &Fit| fit.choices.0.iter().flatten().eq(&candidate.partners));
+        let is_known = fits.iter().any(|fit: &AssignedFit| fit.choices.0.iter().flatten().eq(&candidate.partners));
         if is_known || tried.contains(&candidate.partners) {
             continue;
         }
@@ -193,7 +193,7 @@ fn refine(
     model: &mut IdentifiedModel<'_>,
     start: &[f64],
     bounds: &[(f64, f64)],
-    (fits, rows): (&mut Vec<Fit>, &mut Vec<StartRow>),
+    (fits, rows): (&mut Vec<AssignedFit>, &mut Vec<StartRow>),
 ) -> Result<()> {
     let found = minimise(model, start, bounds, MAX_ITERATIONS);
     if model.is_stopped() {
@@ -208,8 +208,8 @@ fn refine(
     let known = fits.iter_mut().find(|fit| fit.choices.0 == choices.0 || is_same(model, &fit.minimum.x, &minimum.x));
     match known {
         Some(known) if known.minimum.chi2() <= minimum.chi2() => {}
-        Some(known) => *known = Fit { minimum, choices },
-        None => fits.push(Fit { minimum, choices }),
+        Some(known) => *known = AssignedFit { minimum, choices },
+        None => fits.push(AssignedFit { minimum, choices }),
     }
     Ok(())
 }
@@ -219,7 +219,7 @@ fn is_same(model: &IdentifiedModel<'_>, a: &[f64], b: &[f64]) -> bool {
 }
 
 /// Second best fit with its frequencies.
-fn other_fit(model: &mut IdentifiedModel<'_>, fit: &Fit) -> Result<OtherFit> {
+fn other_fit(model: &mut IdentifiedModel<'_>, fit: &AssignedFit) -> Result<OtherFit> {
     let predicted = model.predict(&fit.minimum.x, Some(&fit.choices.0))?;
     let frequencies = model.observations.iter().zip(&predicted.values);
     Ok(OtherFit {
@@ -238,7 +238,7 @@ fn other_fit(model: &mut IdentifiedModel<'_>, fit: &Fit) -> Result<OtherFit> {
 fn assigning(
     model: &mut IdentifiedModel<'_>,
     x: &[f64],
-    samples: &[Sample],
+    samples: &[ListSample],
     (targets, reach, bounds): (&[Target], &[f64], &[(f64, f64)]),
     other: Option<OtherFit>,
 ) -> Result<Assigning> {

@@ -38,7 +38,7 @@ pub(super) struct Target {
 }
 
 /// Mode of a sampled robot.
-struct NearMode {
+struct ListedMode {
     /// Index in the ascending list.
     index: usize,
     ln_hz: f64,
@@ -47,10 +47,10 @@ struct NearMode {
 }
 
 /// Robot at sampled values.
-pub(super) struct Sample {
+pub(super) struct ListSample {
     pub(super) x: Vec<f64>,
     /// Modes near the measured frequencies, ascending, per experiment.
-    modes: Vec<Vec<NearMode>>,
+    modes: Vec<Vec<ListedMode>>,
     /// Residuals of poses, tensions and lengths with their derivatives.
     statics: Vec<(f64, Vec<f64>)>,
 }
@@ -107,7 +107,7 @@ impl IdentifiedModel<'_> {
     ///
     /// # Errors
     /// Work that was stopped.
-    pub(super) fn sample(&mut self, x: &[f64], targets: &[Target]) -> Result<Option<Sample>> {
+    pub(super) fn sample(&mut self, x: &[f64], targets: &[Target]) -> Result<Option<ListSample>> {
         if self.is_stopped() {
             return Err(Cancelled.into());
         }
@@ -118,7 +118,7 @@ impl IdentifiedModel<'_> {
         let Some(rates) = self.list_rates(x, &solved, &ranges, &steps) else { return Ok(None) };
         let modes = lists.iter().zip(ranges).zip(rates).map(|((list, range), rates)| {
             let of_range = range.clone().zip(&list[range]).zip(rates);
-            of_range.map(|((index, ln_hz), rates)| NearMode { index, ln_hz: *ln_hz, rates }).collect()
+            of_range.map(|((index, ln_hz), rates)| ListedMode { index, ln_hz: *ln_hz, rates }).collect()
         });
         let modes = modes.collect();
 
@@ -137,7 +137,7 @@ impl IdentifiedModel<'_> {
                 }
             }
         }
-        Ok(Some(Sample { x: x.to_vec(), modes, statics }))
+        Ok(Some(ListSample { x: x.to_vec(), modes, statics }))
     }
 }
 
@@ -146,7 +146,7 @@ fn ln_hz(list: &[Mode]) -> Vec<f64> {
     list.iter().map(|mode| mode.frequency_hz.ln()).collect()
 }
 
-impl Sample {
+impl ListSample {
     /// Best values within `reach` of each coordinate for measured frequencies; `None` if the list has too few modes.
     pub(super) fn best(
         &self,

@@ -5,6 +5,7 @@ use super::chi2::{degrees_of_freedom, noise_range};
 use super::draws::point;
 use super::model::IdentifiedModel;
 use super::observations::Stage;
+use super::starts::{MAX_ITERATIONS, StartRow};
 use super::unknowns::Unknown;
 use crate::error::Cancelled;
 use crate::normal::normal_quantile;
@@ -16,9 +17,6 @@ use funicular::math::least_squares::{LeastSquaresEnding, Minimum, minimise};
 /// and the maximum of [`noise_range`] takes its place.
 const FOUND: f64 = 1.5;
 
-/// Maximum number of iterations of one search.
-pub(super) const MAX_ITERATIONS: usize = 60;
-
 /// Maximum number of ends from which the complex responses are fitted.
 const LAST_STARTS: usize = 4;
 
@@ -28,33 +26,6 @@ const NEAR: f64 = 0.02;
 /// Maximum number of times that the complex responses are fitted again with other deviations or other values left out;
 /// two or three are usual.
 const MAX_ROUNDS: usize = 6;
-
-/// Result of one start.
-#[derive(Debug, Clone, serde::Serialize)]
-pub struct StartRow {
-    /// χ² per degree of freedom at its end; absent if the robot has no equilibrium there.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub chi2_per_degree: Option<f64>,
-    /// Iterations.
-    pub iterations: usize,
-    /// True if the search ended at a minimum.
-    pub converged: bool,
-}
-
-impl StartRow {
-    /// Start without an equilibrium.
-    pub(super) fn refused() -> Self {
-        Self { chi2_per_degree: None, iterations: 0, converged: false }
-    }
-
-    pub(super) fn of(found: &Minimum, degrees: f64) -> Self {
-        Self {
-            chi2_per_degree: Some(found.chi2() / degrees),
-            iterations: found.iterations,
-            converged: found.ending == LeastSquaresEnding::Converged,
-        }
-    }
-}
 
 /// Result of the search.
 pub(crate) struct Searched {

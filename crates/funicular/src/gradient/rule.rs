@@ -57,7 +57,7 @@ struct Condition {
 
 /// Limit of a tension, in terms of which conditions are written.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Bound {
+enum TensionBound {
     /// Minimum tension anywhere in the cable.
     Minimum,
     /// Maximum tension anywhere in the cable.
@@ -156,7 +156,7 @@ impl RuleConditions<'_> {
             Some(target) => target[i % target.len()],
             None => self.ranges[i].minimum + self.below_span(i),
         };
-        let held: Vec<Option<Bound>> = (0..cables).map(|i| self.reached(i)).collect();
+        let held: Vec<Option<TensionBound>> = (0..cables).map(|i| self.reached(i)).collect();
         let free: Vec<usize> = (0..cables).filter(|i| held[*i].is_none()).collect();
         if free.len() < n {
             return Err(self.one_sided(rule, held.iter().position(Option::is_some).unwrap_or(0), &held));
@@ -177,7 +177,7 @@ impl RuleConditions<'_> {
             let outwards = match bound {
                 None if pressure.abs() <= rounding => continue,
                 None => -1.0,
-                Some(Bound::Maximum) => -pressure,
+                Some(TensionBound::Maximum) => -pressure,
                 Some(_) => pressure,
             };
             if outwards < -rounding {
@@ -215,8 +215,8 @@ impl RuleConditions<'_> {
         let distances: Vec<[f64; 2]> = (0..cables)
             .map(|i| {
                 [
-                    self.tension(i, Bound::Minimum) - self.ranges[i].minimum,
-                    self.ranges[i].maximum - self.tension(i, Bound::Maximum),
+                    self.tension(i, TensionBound::Minimum) - self.ranges[i].minimum,
+                    self.ranges[i].maximum - self.tension(i, TensionBound::Maximum),
                 ]
             })
             .collect();
@@ -226,14 +226,14 @@ impl RuleConditions<'_> {
         let mut conditions = Vec::new();
         for i in 0..cables {
             for (bound, sign, distance) in
-                [(Bound::Minimum, 1.0, distances[i][0]), (Bound::Maximum, -1.0, distances[i][1])]
+                [(TensionBound::Minimum, 1.0, distances[i][0]), (TensionBound::Maximum, -1.0, distances[i][1])]
             {
                 if distance - smallest * widths[i] <= AT_LIMIT * self.size {
                     conditions.push(self.at_bound(i, bound, sign, Some((smallest, widths[i])))?);
                 }
             }
         }
-        if let Some(i) = (0..cables).find(|&i| self.reached(i) == Some(Bound::Slackest)) {
+        if let Some(i) = (0..cables).find(|&i| self.reached(i) == Some(TensionBound::Slackest)) {
             return Err(self.one_sided(rule, i, &[]));
         }
 
@@ -297,9 +297,9 @@ impl RuleConditions<'_> {
     }
 
     /// Error of tensions whose rule has different derivatives on both sides.
-    fn one_sided(&self, rule: &TensionRule, i: usize, held: &[Option<Bound>]) -> GradientError {
+    fn one_sided(&self, rule: &TensionRule, i: usize, held: &[Option<TensionBound>]) -> GradientError {
         let limit = match held.get(i).copied().flatten() {
-            Some(Bound::Maximum) => Some(Limit::Maximum),
+            Some(TensionBound::Maximum) => Some(Limit::Maximum),
             Some(_) => Some(Limit::Minimum),
             None => None,
         };
@@ -313,56 +313,56 @@ impl RuleConditions<'_> {
     }
 
     /// Minimum or maximum tension in a cable, the drum included [N].
-    fn tension(&self, i: usize, bound: Bound) -> f64 {
+    fn tension(&self, i: usize, bound: TensionBound) -> f64 {
         let (in_span, drum) = (self.tension_in_span(i, bound), self.state(i).tension_drum());
         match bound {
-            Bound::Minimum => in_span.min(drum),
-            Bound::Maximum => in_span.max(drum),
-            Bound::Slackest => in_span,
+            TensionBound::Minimum => in_span.min(drum),
+            TensionBound::Maximum => in_span.max(drum),
+            TensionBound::Slackest => in_span,
         }
     }
 
     /// Minimum or maximum tension in the free span of a cable [N].
-    fn tension_in_span(&self, i: usize, bound: Bound) -> f64 {
+    fn tension_in_span(&self, i: usize, bound: TensionBound) -> f64 {
         let state = self.state(i);
         let both =
             state.hanging.as_ref().map(|hanging| [hanging.catenary.min_tension(), hanging.catenary.max_tension()]);
         let [low, high] = both.unwrap_or([state.tension_platform; 2]);
         match bound {
-            Bound::Minimum => low,
-            Bound::Maximum => high,
-            Bound::Slackest => self.parallel(i),
+            TensionBound::Minimum => low,
+            TensionBound::Maximum => high,
+            TensionBound::Slackest => self.parallel(i),
         }
     }
 
     /// True if a cable has its minimum or maximum tension at its drum.
-    fn is_at_drum(&self, i: usize, bound: Bound) -> bool {
+    fn is_at_drum(&self, i: usize, bound: TensionBound) -> bool {
         let state = self.state(i);
         let (in_span, drum) = (self.tension_in_span(i, bound), state.tension_drum());
         let beyond = match bound {
-            Bound::Minimum => in_span - drum,
-            Bound::Maximum => drum - in_span,
-            Bound::Slackest => 0.0,
+            TensionBound::Minimum => in_span - drum,
+            TensionBound::Maximum => drum - in_span,
+            TensionBound::Slackest => 0.0,
         };
         state.drive.is_some() && beyond > DRUM_ROUNDING * drum
     }
 
     /// Minimum tension in the free span less that in the whole cable [N]: the minimum of the span is higher by it.
     fn below_span(&self, i: usize) -> f64 {
-        self.tension_in_span(i, Bound::Minimum) - self.tension(i, Bound::Minimum)
+        self.tension_in_span(i, TensionBound::Minimum) - self.tension(i, TensionBound::Minimum)
     }
 
     /// Limit at which a tension is, within rounding.
-    fn reached(&self, i: usize) -> Option<Bound> {
+    fn reached(&self, i: usize) -> Option<TensionBound> {
         let (range, rounding) = (&self.ranges[i], AT_LIMIT * self.size);
         let state = self.state(i);
         let slackest = Catenary::MIN_TENSION_TO_WEIGHT * load_of(state).norm() * state.chord();
-        if self.tension(i, Bound::Minimum) <= range.minimum + rounding {
-            Some(Bound::Minimum)
-        } else if self.tension(i, Bound::Maximum) >= range.maximum - rounding {
-            Some(Bound::Maximum)
+        if self.tension(i, TensionBound::Minimum) <= range.minimum + rounding {
+            Some(TensionBound::Minimum)
+        } else if self.tension(i, TensionBound::Maximum) >= range.maximum - rounding {
+            Some(TensionBound::Maximum)
         } else {
-            (self.parallel(i) <= slackest + rounding).then_some(Bound::Slackest)
+            (self.parallel(i) <= slackest + rounding).then_some(TensionBound::Slackest)
         }
     }
 
@@ -375,12 +375,12 @@ impl RuleConditions<'_> {
     fn at_bound(
         &self,
         i: usize,
-        bound: Bound,
+        bound: TensionBound,
         sign: f64,
         distance: Option<(f64, f64)>,
     ) -> Result<Condition, GradientError> {
         let mut condition = Condition::new(i);
-        if bound == Bound::Slackest {
+        if bound == TensionBound::Slackest {
             let state = self.state(i);
             let (q, d) = (load_of(state), state.chord_w());
             self.tensions[i].add(&mut condition.coefficients, sign);
@@ -391,7 +391,7 @@ impl RuleConditions<'_> {
         }
 
         self.add_tension(&mut condition.coefficients, i, bound, sign);
-        let of_minimum = if bound == Bound::Minimum { -sign } else { 0.0 };
+        let of_minimum = if bound == TensionBound::Minimum { -sign } else { 0.0 };
         let (by_width, width) = distance.unwrap_or_default();
         self.add_minimum(&mut condition, of_minimum + by_width)?;
         condition.distance = -width;
@@ -410,8 +410,8 @@ impl RuleConditions<'_> {
         self.tensions[i].add(&mut condition.coefficients, 1.0);
         if from_minimum {
             self.add_minimum(&mut condition, -1.0)?;
-            if self.is_at_drum(i, Bound::Minimum) {
-                self.add_tension_in_span(&mut condition.coefficients, i, Bound::Minimum, -1.0);
+            if self.is_at_drum(i, TensionBound::Minimum) {
+                self.add_tension_in_span(&mut condition.coefficients, i, TensionBound::Minimum, -1.0);
                 condition.coefficients.end[end::TENSION_DRUM] += 1.0;
             }
         }
@@ -440,7 +440,7 @@ impl RuleConditions<'_> {
     }
 
     /// Adds `factor` times the coefficients of the minimum or maximum tension in a cable, the drum included.
-    fn add_tension(&self, sum: &mut CableAdjoint<f64>, i: usize, bound: Bound, factor: f64) {
+    fn add_tension(&self, sum: &mut CableAdjoint<f64>, i: usize, bound: TensionBound, factor: f64) {
         if self.is_at_drum(i, bound) {
             sum.end[end::TENSION_DRUM] += factor;
         } else {
@@ -449,12 +449,12 @@ impl RuleConditions<'_> {
     }
 
     /// Adds `factor` times the coefficients of the minimum or maximum tension in the free span of a cable.
-    fn add_tension_in_span(&self, sum: &mut CableAdjoint<f64>, i: usize, bound: Bound, factor: f64) {
+    fn add_tension_in_span(&self, sum: &mut CableAdjoint<f64>, i: usize, bound: TensionBound, factor: f64) {
         let state = self.state(i);
         let (f, q, at_anchor) = (state.force_on_platform_w, load_of(state), force_at_anchor(state));
         let is_sagging = q != Vec3::zeros();
         let lowest_between = is_sagging && f.dot(&q) > 0.0 && at_anchor.dot(&q) < 0.0;
-        if bound == Bound::Minimum && lowest_between {
+        if bound == TensionBound::Minimum && lowest_between {
             // Horizontal force: f less its part along the load.
             let up = -q.normalize();
             let horizontal = (f - up * f.dot(&up)).normalize();
@@ -464,7 +464,7 @@ impl RuleConditions<'_> {
         }
 
         let anchor_is_higher = at_anchor.norm() > f.norm();
-        if is_sagging && anchor_is_higher == (bound == Bound::Maximum) {
+        if is_sagging && anchor_is_higher == (bound == TensionBound::Maximum) {
             let along = at_anchor.normalize();
             add_real(&mut sum.force, along * factor);
             add_real(&mut sum.load, along * (-state.free_length() * factor));

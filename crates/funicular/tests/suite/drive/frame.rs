@@ -313,9 +313,9 @@ fn shallow_cables_transmit_the_motion_of_the_base_as_catenaries_do() {
             Dynamics::about(&robot, &rest, Linearisation { cable_model, ..Default::default() }, 30.0).unwrap();
         responses(&robot, &rest, &dynamics, hz, &inputs, &motions())
     };
-    // The shallow model has no inertia along the chord, whose effect grows with the square of the frequency, and with
-    // the amplification near the resonance above 11 Hz.
-    for (hz, tolerance) in [(0.5, 1e-3), (2.0, 1e-3), (6.0, 1e-2)] {
+    // The shallow model has no inertia along the chord, whose effect grows with the square of the frequency and with the
+    // amplification: up to 1e-3 at 4 Hz, where the platform moves three times as far as the base.
+    for (hz, tolerance) in [(0.5, 1e-3), (2.0, 1e-3), (4.0, 3e-3)] {
         let (shallow, exact) = (of(CableModel::ShallowDynamic, hz), of(CableModel::CatenaryDynamic, hz));
         let size = exact.iter().flatten().map(|x| x.norm()).fold(0.0, f64::max);
         for (shallow, exact) in shallow.iter().flatten().zip(exact.iter().flatten()) {
