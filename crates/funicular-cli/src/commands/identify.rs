@@ -156,13 +156,16 @@ impl Printed for Identified {
             let _ = writeln!(text, "{strong}.");
         }
 
-        if let (Some(before), Some(after)) = (self.frequency_rms_before, self.frequency_rms) {
+        if let Some(after) = self.frequency_rms {
+            let before = self.frequency_rms_before.map_or_else(
+                || "; before the fit, these modes cannot be computed".to_owned(),
+                |before| format!(", before {} %", significant(100.0 * before, 3)),
+            );
             let _ = write!(
                 text,
-                "\n{}: root mean square of the differences {} %, before {} %.\n",
+                "\n{}: root mean square of the differences {} %{before}.\n",
                 counted(self.frequencies.len(), "natural frequency"),
-                significant(100.0 * after, 3),
-                significant(100.0 * before, 3)
+                significant(100.0 * after, 3)
             );
         }
         if !self.responses.is_empty() {

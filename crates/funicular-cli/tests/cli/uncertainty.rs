@@ -90,7 +90,9 @@ fn a_cable_that_may_become_slack_and_frequencies_that_may_cross_are_sampled() {
     ]);
     let results = found["poses"][0]["results"].as_array().unwrap();
     let reasons: Vec<Option<&str>> = results.iter().map(|result| result["sampling_reason"].as_str()).collect();
-    assert_eq!((results.len(), reasons[0]), (4, None), "{reasons:?}");
+    assert_eq!(results.len(), 4, "{reasons:?}");
+    // 300 robots have a deviation of frequency 1 that is 2 % above the linear one.
+    assert!(reasons[0].unwrap().starts_with("frequencies 1 and 4 come near each other and mix"), "{reasons:?}");
     assert!(reasons[1].unwrap().starts_with("frequencies 2 and 3 may cross: they are 0.0355 Hz apart"), "{reasons:?}");
     assert_eq!(reasons[1], reasons[2]);
     assert_eq!(found["evaluations"], 12);

@@ -256,8 +256,8 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
             profiled.clear();
         }
     }
-    if let Some(apart) = &searched.apart {
-        judged.verdict.clone_from(apart);
+    if searched.apart.is_some() {
+        "the search has not arrived: its starts ended apart".clone_into(&mut judged.verdict);
         judged.deviations.fill(None);
         profiled.clear();
     }
@@ -296,7 +296,7 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
         converged: best.ending == LeastSquaresEnding::Converged && searched.apart.is_none(),
         starts: searched.starts,
         evaluations: model.evaluations,
-        frequency_rms: tables.frequency_rms(|row| row.fitted_hz),
+        frequency_rms: tables.frequency_rms(|row| Some(row.fitted_hz)),
         frequency_rms_before: tables.frequency_rms(|row| row.before_hz),
         frequencies: tables.frequencies,
         assignment: searched.assigning.as_ref().map(|found| ModeAssignment::of(found, &model, doubts)),
@@ -412,8 +412,8 @@ fn tables(
 ) -> Result<Tables> {
     let fitted = model.predict(x, None)?;
     let before = nominal.and_then(|nominal| model.predict(nominal, Some(&fitted.assigned)).ok());
-    let before = before.map_or_else(|| fitted.values.clone(), |before| before.values);
-    Ok(Tables::of(model, &request.experiments, &fitted.assigned, [&fitted.values, &before]))
+    let before = before.as_ref().map(|before| before.values.as_slice());
+    Ok(Tables::of(model, &request.experiments, &fitted.assigned, &fitted.values, before))
 }
 
 /// Identified values at coordinates, with their deviations and profiles.

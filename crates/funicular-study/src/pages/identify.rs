@@ -95,6 +95,9 @@ fn curves(number: usize, response: &FittedResponse) -> PageFigure {
         ("before the fit", &response.before_real, &response.before_imag, colour::ORANGE, "dot"),
         ("fitted", &response.fitted_real, &response.fitted_imag, colour::BLUE, "solid"),
     ] {
+        if real.is_empty() {
+            continue;
+        }
         let (magnitude, phase) = polar(real, imag);
         data.push(with(line(name, x, &magnitude, colour, dash), json!({"legendgroup": name})));
         data.push(with(with(line(name, x, &phase, colour, dash), json!({"legendgroup": name})), below.clone()));
@@ -132,13 +135,13 @@ fn curves(number: usize, response: &FittedResponse) -> PageFigure {
 /// Figure of the differences of all natural frequencies before and after the fit.
 fn differences(found: &Identified) -> PageFigure {
     let x: Vec<f64> = found.frequencies.iter().map(|row| row.measured_hz).collect();
-    let relative = |hz: fn(&crate::analyses::identify::FrequencyRow) -> f64| -> Vec<f64> {
-        found.frequencies.iter().map(|row| 100.0 * (hz(row) / row.measured_hz - 1.0)).collect()
+    let relative = |hz: fn(&crate::analyses::identify::FrequencyRow) -> Option<f64>| -> Vec<f64> {
+        found.frequencies.iter().filter_map(|row| Some(100.0 * (hz(row)? / row.measured_hz - 1.0))).collect()
     };
 
     let data = [
         points("before the fit", &x, &relative(|row| row.before_hz), colour::ORANGE, "circle-open"),
-        points("fitted", &x, &relative(|row| row.fitted_hz), colour::BLUE, "circle"),
+        points("fitted", &x, &relative(|row| Some(row.fitted_hz)), colour::BLUE, "circle"),
     ];
 
     let rms = |value: Option<f64>| value.map_or_else(|| text::NONE.to_owned(), |value| significant(100.0 * value, 3));
@@ -188,7 +191,7 @@ fn frequencies(found: &Identified) -> PageTable {
             row.experiment.clone(),
             row.number.to_string(),
             fixed(row.measured_hz, 4),
-            fixed(row.before_hz, 4),
+            row.before_hz.map_or_else(|| text::NONE.to_owned(), |hz| fixed(hz, 4)),
             fixed(row.fitted_hz, 4),
             fixed(100.0 * (row.fitted_hz / row.measured_hz - 1.0), 2),
             damping(row.measured_damping_ratio),

@@ -25,7 +25,8 @@ pub(super) fn damping_in_per_cent(request: &IdentifyRequest) -> Option<String> {
         .filter(|(damping, _)| *damping > DAMPING_RATIO[1])
         .collect();
     let (first, _) = large.first()?;
-    let named: Vec<String> = large.iter().take(NAMED).map(|(damping, hz)| format!("{damping} at {hz} Hz")).collect();
+    let named: Vec<String> =
+        large.iter().take(NAMED).map(|(damping, hz)| format!("{damping} at {} Hz", significant(*hz, 4))).collect();
     let more = if large.len() > NAMED { format!(" and {} more", large.len() - NAMED) } else { String::new() };
     Some(format!(
         "measured damping ratios are above {}, the usual maximum of ropes: {}{more}. Were they measured in per cent? \

@@ -16,7 +16,9 @@ pub struct FrequencyRow {
     pub number: usize,
     pub measured_hz: f64,
     pub fitted_hz: f64,
-    pub before_hz: f64,
+    /// Absent if the robot has no equilibrium before the fit, or not this mode.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub before_hz: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured_damping_ratio: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -40,7 +42,10 @@ pub struct FittedResponse {
     pub frequency_hz: Vec<f64>,
     pub measured_real: Vec<f64>,
     pub measured_imag: Vec<f64>,
+    /// Empty if the robot has no equilibrium before the fit.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub before_real: Vec<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub before_imag: Vec<f64>,
     pub fitted_real: Vec<f64>,
     pub fitted_imag: Vec<f64>,
@@ -77,24 +82,25 @@ pub(super) struct Tables {
 struct ComparedObservation<'a> {
     observation: &'a Observation,
     fitted: Complex,
-    before: Complex,
+    before: Option<Complex>,
     is_left_out: bool,
 }
 
 impl Tables {
     /// Tables of all experiments. `assigned` are the modes of the measured frequencies per experiment; `fitted` and
-    /// `before` are predictions in the order of the observations.
+    /// `before` are predictions in the order of the observations, `before` if they exist.
     pub(super) fn of(
         model: &IdentifiedModel<'_>,
         experiments: &[Experiment],
         assigned: &[Vec<usize>],
-        [fitted, before]: [&[Complex]; 2],
+        fitted: &[Complex],
+        before: Option<&[Complex]>,
     ) -> Self {
         let compared: Vec<ComparedObservation<'_>> = (model.observations.iter().enumerate())
             .map(|(i, observation)| ComparedObservation {
                 observation,
                 fitted: fitted[i],
-                before: before[i],
+                before: before.map(|before| before[i]),
                 is_left_out: model.left_out[i],
             })
             .collect();
@@ -128,10 +134,11 @@ impl Tables {
     }
 
     /// Root mean square of the relative differences of all natural frequencies from the measured ones, for one of their
-    /// values; `None` without frequencies.
-    pub(super) fn frequency_rms(&self, value: fn(&FrequencyRow) -> f64) -> Option<f64> {
-        let squares = self.frequencies.iter().map(|row| (value(row) / row.measured_hz - 1.0).powi(2));
-        (!self.frequencies.is_empty()).then(|| (squares.sum::<f64>() / self.frequencies.len() as f64).sqrt())
+    /// values; `None` without frequencies or without one of the values.
+    pub(super) fn frequency_rms(&self, value: fn(&FrequencyRow) -> Option<f64>) -> Option<f64> {
+        let squares = self.frequencies.iter().map(|row| Some((value(row)? / row.measured_hz - 1.0).powi(2)));
+        let sum = squares.sum::<Option<f64>>()?;
+        (!self.frequencies.is_empty()).then(|| (sum / self.frequencies.len() as f64).sqrt())
     }
 }
 
@@ -168,7 +175,7 @@ fn frequency_row(
         number: assigned[k] + 1,
         measured_hz: measured.frequency_hz,
         fitted_hz: compared.fitted.re,
-        before_hz: compared.before.re,
+        before_hz: compared.before.map(|before| before.re),
         measured_damping_ratio: measured.damping_ratio,
         fitted_damping_ratio: None,
     })
@@ -210,8 +217,8 @@ fn fitted_response<'a>(
             }
         }
         is_open = *is_left_out;
-        row.before_real.push(before.re);
-        row.before_imag.push(before.im);
+        row.before_real.extend(before.map(|before| before.re));
+        row.before_imag.extend(before.map(|before| before.im));
         row.fitted_real.push(fitted.re);
         row.fitted_imag.push(fitted.im);
     }

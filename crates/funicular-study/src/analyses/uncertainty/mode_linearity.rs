@@ -82,7 +82,7 @@ pub(super) fn test(rows: &mut [Row], modes: &NominalModes, gradients: &Gradients
             || matches!(row.kind, ResultKind::Damping(_))
                 && linear(&row.derivatives) * MAX_NONLINEAR < mixed[k].damping;
         row.sampling_reason = crossing[k].clone().or_else(|| {
-            let (beyond, other) = mixed[k].nearest.filter(|_| bends)?;
+            let (_, other) = mixed[k].nearest.filter(|_| bends)?;
             Some(format!(
                 "frequencies {} and {} come near each other and mix: they are {} Hz apart, and within {DEVIATIONS} \
                  deviations frequency {} changes by {} Hz and by up to {} Hz more than its derivative says",
@@ -91,7 +91,7 @@ pub(super) fn test(rows: &mut [Row], modes: &NominalModes, gradients: &Gradients
                 significant((list[k].frequency_hz - list[other].frequency_hz).abs(), 3),
                 k + 1,
                 significant(linear(&derivatives[k]), 3),
-                significant(beyond, 3)
+                significant(mixed[k].frequency_hz, 3)
             ))
         });
     }
