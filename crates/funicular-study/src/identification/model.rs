@@ -308,7 +308,9 @@ impl<'a> IdentifiedModel<'a> {
                 changes.and_then(|changes| experiment.list_derivatives(solved, range.clone(), &changes).ok());
             if let Some(mut rates) = by_gradients {
                 let units = || self.unknowns.iter().zip(&values).map(|(unknown, value)| unknown.rate(*value));
-                rates.iter_mut().for_each(|rates| rates.iter_mut().zip(units()).for_each(|(rate, unit)| *rate *= unit));
+                for (rate, unit) in rates.iter_mut().flat_map(|rates| rates.iter_mut().zip(units())) {
+                    *rate *= unit;
+                }
                 found.push(rates);
                 continue;
             }

@@ -18,6 +18,10 @@ const MAX_DEVIATION: f64 = 1.0;
 /// interval does not hold. Fits to the last digit have 1.
 const BEYOND: f64 = 1.15;
 
+/// Maximum number of experiments with which profiles are computed without being asked for. Each fit of a profile computes
+/// all experiments; with 200 of them the profiles take a minute, and the search a second.
+const MAX_EXPERIMENTS: usize = 30;
+
 /// Profiles of the values of a fit.
 pub(crate) struct Profiled {
     /// Profile of each unknown, if it was requested or is needed.
@@ -28,7 +32,8 @@ pub(crate) struct Profiled {
     pub(crate) takes_profile: Vec<bool>,
 }
 
-/// Computes the profiles of the unknowns with the indices `requested`, and of those whose deviation does not hold.
+/// Computes the profiles of the unknowns with the indices `requested`, and, with up to [`MAX_EXPERIMENTS`] experiments, of
+/// those whose deviation does not hold.
 /// `deviations` are the standard deviations of the coordinates, and `factor` is the factor by which they were
 /// multiplied. `progress` gets the number of fits and the expected number of all.
 ///
@@ -51,7 +56,7 @@ pub(crate) fn profiles(
         deviations[k].is_none_or(|deviation| deviation > limit)
     };
     // Without any deviation nothing is said that may be wrong.
-    let has_any = deviations.iter().any(Option::is_some);
+    let has_any = model.experiments.len() <= MAX_EXPERIMENTS && deviations.iter().any(Option::is_some);
     let poor: Vec<usize> = (0..count).filter(|&k| has_any && is_poor(k)).collect();
 
     let mut found = Profiled {

@@ -1,8 +1,8 @@
 //! Functions of a Universal File as measured responses of the robot: signals, points and SI units.
 
 use super::given_signals::{
-    ACCELERATION, DISPLACEMENT, FORCE, FREQUENCY, GENERAL, GivenSignals, UNKNOWN, VELOCITY, given_signals, quantity_of,
-    sign_along,
+    ACCELERATION, DISPLACEMENT, DataQuantity, FORCE, FREQUENCY, GENERAL, GivenSignals, UNKNOWN, VELOCITY,
+    given_signals, quantity_of, sign_along,
 };
 use super::uff::{Function, NodeDirection, UffAxis, UffFile};
 use super::unit_label::{self, Dimension, FORCE as NEWTON, LENGTH as METRE, MOMENT, NO_DIMENSION};
@@ -238,7 +238,7 @@ impl UffResponse<'_> {
     /// their unit.
     fn told(&self, notes: &mut Vec<String>) -> Result<Signals, Refusal> {
         let Function { numerator, denominator, response, reference, .. } = self.function;
-        if quantity_of(numerator.kind) == Some(None) {
+        if quantity_of(numerator.kind) == DataQuantity::Other {
             return Err(Refusal::Unfit(format!(
                 "has ordinates of data type {}: a response needs displacement ({DISPLACEMENT}), velocity ({VELOCITY}) \
                  or acceleration ({ACCELERATION})",
@@ -251,8 +251,8 @@ impl UffResponse<'_> {
                 denominator.kind
             )));
         }
-        let (out_axis, out_turns, out_sign) = self.direction(response, "response")?;
-        let (in_axis, in_turns, in_sign) = self.direction(reference, "reference")?;
+        let (out_axis, out_turns, out_sign) = direction(response, "response")?;
+        let (in_axis, in_turns, in_sign) = direction(reference, "reference")?;
         let input = format!("{}{in_axis}", if in_turns { "m" } else { "f" });
         let input = Input::parse(&input).map_err(anyhow::Error::from)?;
 
@@ -261,8 +261,8 @@ impl UffResponse<'_> {
             Output::parse(&name).map_err(anyhow::Error::from)
         };
         let all = [named("")?, named("v")?, named("a")?];
-        let output = if let Some(quantity) = quantity_of(numerator.kind) {
-            all.into_iter().find(|output| Some(output.quantity) == quantity)
+        let output = if let DataQuantity::Motion(quantity) = quantity_of(numerator.kind) {
+            all.into_iter().find(|output| output.quantity == quantity)
         } else {
             let fits = |output: &Output| {
                 size_of(unit_of(numerator, |label| size_of(label, output, &input).is_some()), output, &input).is_some()
@@ -284,26 +284,6 @@ impl UffResponse<'_> {
             )));
         };
         Ok(Signals { output, input, sign: out_sign * in_sign })
-    }
-
-    /// Axis, true for a rotation or moment, and sign of a direction.
-    fn direction(&self, end: &NodeDirection, what: &str) -> Result<(char, bool, f64), Refusal> {
-        let sign = if end.direction < 0 { -1.0 } else { 1.0 };
-        let (axis, turns) = match end.direction.abs() {
-            1 => ('x', false),
-            2 => ('y', false),
-            3 => ('z', false),
-            4 => ('x', true),
-            5 => ('y', true),
-            6 => ('z', true),
-            _ => {
-                return Err(Refusal::Unfit(format!(
-                    "has no direction of its {what}: it is {}, it must be 1 to 6 or -1 to -6; {}",
-                    end.direction, GIVE_SIGNALS
-                )));
-            }
-        };
-        Ok((axis, turns, sign))
     }
 
     /// Point of the platform at a node [m].
@@ -411,6 +391,26 @@ impl UffResponse<'_> {
             ))),
         }
     }
+}
+
+/// Axis, true for a rotation or moment, and sign of a direction.
+fn direction(end: &NodeDirection, what: &str) -> Result<(char, bool, f64), Refusal> {
+    let sign = if end.direction < 0 { -1.0 } else { 1.0 };
+    let (axis, turns) = match end.direction.abs() {
+        1 => ('x', false),
+        2 => ('y', false),
+        3 => ('z', false),
+        4 => ('x', true),
+        5 => ('y', true),
+        6 => ('z', true),
+        _ => {
+            return Err(Refusal::Unfit(format!(
+                "has no direction of its {what}: it is {}, it must be 1 to 6 or -1 to -6; {}",
+                end.direction, GIVE_SIGNALS
+            )));
+        }
+    };
+    Ok((axis, turns, sign))
 }
 
 /// Label of an axis's unit; where its field says nothing, the unit that stands in the label of the axis, as in

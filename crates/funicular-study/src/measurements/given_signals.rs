@@ -82,27 +82,41 @@ impl GivenSignals {
         let whole = format!("{response} / {} at node {}", self.input.name, function.reference.node);
         let may_be = |end: &NodeDirection, place: &Place| end.direction == 0 || sign_along(end, place).is_some();
         (name == response || name == whole)
-            && quantity_of(function.numerator.kind).is_none_or(|quantity| quantity == Some(self.output.quantity))
+            && match quantity_of(function.numerator.kind) {
+                DataQuantity::Unsaid => true,
+                DataQuantity::Motion(quantity) => quantity == self.output.quantity,
+                DataQuantity::Other => false,
+            }
             && may_be(&function.response, &self.output.place)
             && may_be(&function.reference, &self.input.place)
     }
 }
 
-/// Quantity of a specific data type; `None` if the type does not tell it, and `Some(None)` if it is no motion.
-pub(super) fn quantity_of(kind: i64) -> Option<Option<Quantity>> {
+/// Quantity that a specific data type tells.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum DataQuantity {
+    /// The type is general or unknown.
+    Unsaid,
+    Motion(Quantity),
+    /// The type is no motion.
+    Other,
+}
+
+/// Quantity of a specific data type.
+pub(super) fn quantity_of(kind: i64) -> DataQuantity {
     match kind {
-        UNKNOWN | GENERAL => None,
-        DISPLACEMENT => Some(Some(Quantity::Displacement)),
-        VELOCITY => Some(Some(Quantity::Velocity)),
-        ACCELERATION => Some(Some(Quantity::Acceleration)),
-        _ => Some(None),
+        UNKNOWN | GENERAL => DataQuantity::Unsaid,
+        DISPLACEMENT => DataQuantity::Motion(Quantity::Displacement),
+        VELOCITY => DataQuantity::Motion(Quantity::Velocity),
+        ACCELERATION => DataQuantity::Motion(Quantity::Acceleration),
+        _ => DataQuantity::Other,
     }
 }
 
 /// Sign of the file's direction if it is along the axis of a signal of the platform.
 pub(super) fn sign_along(end: &NodeDirection, place: &Place) -> Option<f64> {
     let Place::Platform { turns, direction_w } = place else { return None };
-    let axis = [Vec3::x(), Vec3::y(), Vec3::z()].iter().position(|axis| axis == direction_w)? as i64;
+    let axis = [Vec3::x(), Vec3::y(), Vec3::z()].iter().position(|axis| axis == direction_w)?;
     let number = axis + if *turns { 4 } else { 1 };
-    (end.direction.abs() == number).then(|| if end.direction < 0 { -1.0 } else { 1.0 })
+    (usize::try_from(end.direction.abs()) == Ok(number)).then(|| if end.direction < 0 { -1.0 } else { 1.0 })
 }

@@ -335,9 +335,8 @@ impl Parser<'_> {
             sign = match token {
                 Token::Sign(')') => break,
                 Token::Sign('/') => -1,
-                Token::Sign('*') => 1,
                 Token::Sign(' ') if self.is_tight => sign,
-                Token::Sign(' ') => 1,
+                Token::Sign('*' | ' ') => 1,
                 // A bracket may follow at once, as in `m(s)`.
                 Token::Sign('(') => {
                     self.at -= 1;

@@ -462,7 +462,8 @@ impl EliminatedDrive {
         let lengths: f64 = matrix.column_iter().map(|column| column.norm()).product();
         let lu = matrix.lu();
         let determinant = lu.determinant();
-        if !(determinant.norm() >= MIN_DETERMINANT * lengths) {
+        let is_separate = determinant.norm() >= MIN_DETERMINANT * lengths;
+        if !is_separate {
             return None;
         }
 

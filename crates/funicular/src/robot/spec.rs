@@ -346,7 +346,7 @@ fn refuse_huge_wheels(reader: &mut Reader, root: &DeTable, cables: &[Cable], sta
         named.push(&pulley.name);
         let tables = root.get("pulleys").and_then(|pulleys| pulleys.get_ref().as_table());
         let own = tables.and_then(|pulleys| pulleys.get(pulley.name.as_str())?.get_ref().as_table());
-        let span = own.and_then(|pulley| pulley.get("radius_m")).map_or(0..0, |value| value.span());
+        let span = own.and_then(|pulley| pulley.get("radius_m")).map_or(0..0, toml::Spanned::span);
         reader
             .issue(
                 span,

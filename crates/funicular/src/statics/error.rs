@@ -1,7 +1,6 @@
 //! Reasons why an equilibrium cannot be given, and their messages.
 
 use super::equilibrium::RESIDUAL_LIMIT;
-use super::free_motion::FreeMotion;
 use super::limits::{Limit, LimitViolation};
 use super::loaded_cable::MAX_LENGTH_RATIO;
 use super::model::StaticModel;
@@ -210,8 +209,8 @@ pub enum StaticsError {
          this motion; choose a center of mass straight below or above the attachments"
     )]
     UnbalancedPayload {
-        /// Motion that the payload would cause.
-        motion: Box<FreeMotion>,
+        /// Motion that the payload would cause, in words.
+        motion: String,
     },
     /// The rule needs a maximum tension.
     #[error(

@@ -45,8 +45,9 @@ pub struct Solution {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn solve(robot: &Robot, model: StaticModel, rule: Option<TensionRule>) -> Result<Solution, StaticsError> {
-    let found = solve_at(robot, &robot.state, model, rule.as_ref().unwrap_or(&TensionRule::default()))?;
-    if rule.is_some() {
+    let is_given = rule.is_some();
+    let found = solve_at(robot, &robot.state, model, &rule.unwrap_or_default())?;
+    if is_given {
         refuse_idle_rule(robot, &found)?;
     }
     Ok(found)
@@ -118,9 +119,9 @@ pub fn solve_held(
     model: StaticModel,
     rule: Option<TensionRule>,
 ) -> Result<Solution, StaticsError> {
-    let default = TensionRule::default();
-    let found = solve_held_at(holder, robot, &holder.state, model, rule.as_ref().unwrap_or(&default))?;
-    if rule.is_some() {
+    let is_given = rule.is_some();
+    let found = solve_held_at(holder, robot, &holder.state, model, &rule.unwrap_or_default())?;
+    if is_given {
         refuse_idle_rule(holder, &found)?;
     }
     Ok(found)

@@ -14,10 +14,10 @@ fn frame() -> String {
 /// The response with ordinates multiplied by a factor.
 fn scaled(text: &str, factor: f64) -> String {
     let is_number = |field: &str| field.contains('E') && field.trim().parse::<f64>().is_ok();
-    let is_data = |line: &str| line.len() % 40 == 0 && line.get(..20).is_some_and(is_number);
+    let is_data = |line: &str| line.len().is_multiple_of(40) && line.get(..20).is_some_and(is_number);
     let scaled = |line: &str| -> String {
         let fields = (0..line.len() / 20).map(|i| line[20 * i..20 * i + 20].trim().parse::<f64>().unwrap());
-        fields.map(|number| format!("{:>20.12e}", number * factor)).collect()
+        fields.map(|number| format!("{:>20.12e}", number * factor)).collect::<Vec<_>>().concat()
     };
     let line = |line: &str| if is_data(line) { scaled(line) } else { line.to_owned() };
     text.lines().map(line).collect::<Vec<_>>().join("\n") + "\n"
@@ -194,7 +194,7 @@ fn the_size_of_binary_data_follows_from_the_number_of_points() {
     // `pyuff` writes eight bytes per point for complex numbers.
     for count in [81 * 16, 81 * 8, 0, 1_000_000] {
         let kind = format!("    58b{:6}{:6}{:12}{count:12}{:6}{:6}{:12}{:12}", 1, 2, 11, 0, 0, 0, 0);
-        let mut bytes = text[..at].as_bytes().to_vec();
+        let mut bytes = text.as_bytes()[..at].to_vec();
         bytes.extend(format!("{kind}\n{}\n", head[1..].join("\n")).into_bytes());
         bytes.extend(&body);
         bytes.extend(b"\n    -1\n");

@@ -80,10 +80,11 @@ pub(super) fn about(robot: &Robot, here: &Equilibrium, directions: &[Vec6], leng
 
         // Where the tension is lowest and highest; the drum follows the anchor.
         let drum = state.tension_drum() / state.tension_anchor.max(f64::MIN_POSITIVE);
-        let end = |is_anchor: bool, value: f64| match (is_anchor, state.tension_anchor == value) {
+        let is_at_drum = |value: f64| (value - state.tension_drum()).abs() < (value - state.tension_anchor).abs();
+        let end = |is_beyond: bool, value: f64| match (is_beyond, is_at_drum(value)) {
             (false, _) => of_end(&force_w, false, 1.0),
-            (true, true) => of_end(&anchor_w, true, 1.0),
-            (true, false) => of_end(&anchor_w, true, drum),
+            (true, false) => of_end(&anchor_w, true, 1.0),
+            (true, true) => of_end(&anchor_w, true, drum),
         };
         let reference = load_size(robot).max(f64::MIN_POSITIVE);
         if range.minimum.is_finite() {
@@ -143,7 +144,9 @@ impl Quadratic {
 
         let nearest = |relaxed: f64| {
             let mut set = Polyhedron::new(r);
-            rows.iter().for_each(|(_, normal, level, _)| set.add(normal.iter(), 1.0, None, level - relaxed));
+            for (_, normal, level, _) in &rows {
+                set.add(normal.iter(), 1.0, None, level - relaxed);
+            }
             let mut point: Vec<f64> = start.iter().copied().collect();
             set.nearest(&mut point, 0.0).map(|held| (point, held))
         };
@@ -153,7 +156,9 @@ impl Quadratic {
         };
 
         let mut pressure = vec![0.0; bounds.len()];
-        held.iter().for_each(|held| pressure[rows[held.row].0] += held.multiplier / rows[held.row].3);
+        for held in &held {
+            pressure[rows[held.row].0] += held.multiplier / rows[held.row].3;
+        }
         let parts = factor.transpose().solve_upper_triangular(&DMat::from_column_slice(r, 1, &point))?;
         Some((parts.iter().copied().collect(), pressure))
     }
@@ -162,7 +167,9 @@ impl Quadratic {
     fn violation(&self, rows: &[(usize, Vec<f64>, f64, f64)]) -> Option<f64> {
         let r = self.right.len();
         let mut set = Polyhedron::new(r + 1);
-        rows.iter().for_each(|(_, normal, level, _)| set.add(normal.iter(), 1.0, Some(-1.0), *level));
+        for (_, normal, level, _) in rows {
+            set.add(normal.iter(), 1.0, Some(-1.0), *level);
+        }
         for k in 0..r {
             let unit: Vec<f64> = (0..r).map(|j| if j == k { 1.0 } else { 0.0 }).collect();
             set.add(unit.iter(), 1.0, Some(0.0), -LONGEST);

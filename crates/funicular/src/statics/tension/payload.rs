@@ -170,10 +170,10 @@ fn at_exit_points(
     let search = TensionSearch::new(robot, pose, model, cables);
     let mut payload = PayloadSearch { robot, pose, search, unit, requested, iterations: 0 };
     let optimum = payload.extreme()?;
-    if optimum.weight.abs() <= CONVERGED * payload.search.size() {
-        if let Some(motion) = unopposed(robot, pose, &payload.unit) {
-            return Err(StaticsError::UnbalancedPayload { motion: Box::new(motion) });
-        }
+    if optimum.weight.abs() <= CONVERGED * payload.search.size()
+        && let Some(motion) = unopposed(robot, pose, &payload.unit)
+    {
+        return Err(StaticsError::UnbalancedPayload { motion: motion.to_string() });
     }
     Ok(payload.collect(model, &optimum))
 }

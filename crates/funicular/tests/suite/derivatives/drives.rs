@@ -403,7 +403,7 @@ fn signals() -> ([Signal; 2], [(Signal, Quantity); 2]) {
 }
 
 /// Maximum number of halvings of a step of differences.
-const MAX_HALVINGS: usize = 8;
+const MAX_HALVINGS: i32 = 8;
 
 /// Differences as by [`extrapolated`], at steps that are halved until they are short beside the distance to the next
 /// resonance, and a bound of their error besides the `noise` of the first quarter step. The bound is infinite where no
@@ -427,7 +427,7 @@ fn differences_within_resonance(
     let mut central: Vec<Vec<f64>> = Vec::new();
     let (mut best, mut bound) = (vec![0.0; noise.len()], vec![f64::INFINITY; noise.len()]);
     for halvings in 0..=MAX_HALVINGS {
-        let h = step * 0.5_f64.powi(halvings as i32);
+        let h = step * 0.5_f64.powi(halvings);
         let (low, high) = (at(-h)?, at(h)?);
         central.push(low.iter().zip(&high).map(|(low, high)| (high - low) / (2.0 * h)).collect());
         let [.., one, half, quarter] = &central[..] else { continue };
@@ -443,7 +443,7 @@ fn differences_within_resonance(
             let added = size(&|i| last_addition(i).1);
             let before = size(&|i| last_addition(i).0 - quarter[i]);
             // Noise grows with the inverse of the step.
-            let noise_here = noise[i] * 2_f64.powi(halvings as i32 - 2);
+            let noise_here = noise[i] * 2_f64.powi(halvings - 2);
             if 4.0 * added <= SHORT * before || before <= noise_here {
                 (best[i], bound[i]) = (second + addition, added + noise_here);
             }

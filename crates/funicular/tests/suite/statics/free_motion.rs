@@ -2,6 +2,7 @@
 
 use funicular::robot::{Robot, State, TensionLimits};
 use funicular::statics::{self, PayloadSide, RequestedPayload, Solution, StaticModel, StaticsError, TensionRule};
+use std::fmt::Write as _;
 
 /// Robot with cables from these anchors to these attachments [m].
 fn robot(platform: &str, mass_per_length: f64, cables: &[([f64; 3], [f64; 3])]) -> Robot {
@@ -10,9 +11,9 @@ fn robot(platform: &str, mass_per_length: f64, cables: &[([f64; 3], [f64; 3])]) 
          mass_kg_per_m = {mass_per_length}\n"
     );
     for (i, (anchor, attachment)) in cables.iter().enumerate() {
-        text.push_str(&format!("[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\n"));
-        if *attachment != [0.0; 3] {
-            text.push_str(&format!("attachment_m = {attachment:?}\n"));
+        write!(text, "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\n").unwrap();
+        if !platform.contains("point-mass") {
+            writeln!(text, "attachment_m = {attachment:?}").unwrap();
         }
     }
     Robot::from_toml(&text).unwrap()
