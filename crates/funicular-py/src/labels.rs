@@ -1,7 +1,7 @@
 //! Labels of tables and series (pandas, polars, pyarrow): a labelled number is taken by its name or refused, because its
 //! place may be another one than that of an array.
 
-use crate::arrays::{Unusable, has_method, read};
+use crate::elements::{Unusable, has_method, read, short};
 use numpy::ndarray::ArrayD;
 use pyo3::prelude::*;
 use pyo3::types::{PyInt, PyString};
@@ -177,13 +177,6 @@ fn whole(label: &Bound<'_, PyAny>) -> Option<i64> {
     let is_whole = label.is_instance_of::<PyInt>()
         || (!label.is_instance_of::<PyString>() && label.hasattr("__index__").unwrap_or(false));
     if is_whole { label.call_method0("__index__").ok()?.extract().ok() } else { None }
-}
-
-/// First letters of a text, without control characters.
-pub(crate) fn short(text: &str) -> String {
-    const LETTERS: usize = 40;
-    let shown: String = text.chars().filter(|c| !c.is_control()).take(LETTERS).collect();
-    if text.chars().count() > LETTERS { format!("{shown}…") } else { shown }
 }
 
 /// Numbers with labels, which are read when the names are known under which they are wanted.

@@ -13,6 +13,7 @@ mod arrays;
 mod batch;
 mod catenary;
 mod dict_to_toml;
+mod elements;
 mod equilibrium;
 mod errors;
 mod interrupt;

@@ -1,6 +1,7 @@
 //! Arguments that become keys of a request in JSON, by the readers that all arguments have.
 
-use crate::arrays::{self, Count, Number, Numbers, Unusable};
+use crate::arrays::{self, Count, Number, Numbers};
+use crate::elements::Unusable;
 use crate::errors;
 use crate::labels::Names;
 use crate::pose::{PoseLike, PyPose};

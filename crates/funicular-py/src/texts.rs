@@ -1,6 +1,6 @@
 //! Texts as arguments: one text, or several.
 
-use crate::arrays::{Unusable, has_method};
+use crate::elements::{Unusable, has_method};
 use crate::errors;
 use pyo3::inspect::{PyStaticExpr, PyStaticOperator};
 use pyo3::prelude::*;

@@ -86,7 +86,13 @@ pub fn solve_at(
             Constraint::Under => nearest(robot, pose, model, rule),
             Constraint::Full => Ok(found(determinate(robot, pose, model)?)),
             Constraint::Redundant => {
-                let equilibrium = distribute_tensions(robot, pose, model, rule)?;
+                let equilibrium = match distribute_tensions(robot, pose, model, rule) {
+                    // Directions that are dependent to rounding only.
+                    Err(StaticsError::Singular { .. }) if robot.cables.len() < robot.platform.motion.count() => {
+                        return nearest(robot, pose, model, rule);
+                    }
+                    tensions => tensions?,
+                };
                 // Fewer cables hold this pose itself.
                 let requested_pose = (robot.cables.len() < robot.platform.motion.count()).then_some((*pose, 0.0));
                 Ok(Solution { requested_pose, rule: Some(rule.clone()), ..found(equilibrium) })
@@ -104,8 +110,11 @@ fn nearest(robot: &Robot, pose: &Pose, model: StaticModel, rule: &TensionRule) -
     if !has_choice(robot, &reached, model) {
         return Ok(found);
     }
-    let equilibrium = distribute_tensions(robot, &reached, model, rule)?;
-    Ok(Solution { equilibrium, rule: Some(rule.clone()), ..found })
+    match distribute_tensions(robot, &reached, model, rule) {
+        // Directions that are dependent to rounding only: the tensions of the search are an equilibrium.
+        Err(StaticsError::Singular { .. }) => Ok(found),
+        tensions => Ok(Solution { equilibrium: tensions?, rule: Some(rule.clone()), ..found }),
+    }
 }
 
 /// Equilibrium of a robot at held unstrained lengths by [`solve_held_at`]: those with which `holder` rests at its own

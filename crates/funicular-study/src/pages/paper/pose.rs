@@ -142,8 +142,8 @@ pub(crate) fn axes_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
     let sweep = &sweeps[set];
     let masses = sweep.masses();
 
-    type Part = fn(&PoseDifference) -> f64;
-    let parts: [(&str, &str, Part); 3] = [
+    type DifferencePart = fn(&PoseDifference) -> f64;
+    let parts: [(&str, &str, DifferencePart); 3] = [
         ("x", colour::VERMILION, |difference| difference.translation[0]),
         ("y", colour::GREEN, |difference| difference.translation[1]),
         ("distance", colour::BLACK, |difference| difference.distance),
