@@ -363,12 +363,12 @@ fn damping_in_per_cent_is_met_with_a_hint() {
     let Ok(Results::Modes(modes)) = results(&json!({"command": "modes", "robot": robot(&[]), "below_hz": 20.0})) else {
         panic!("modes were requested")
     };
-    let with = |damping: f64| {
+    let with = |damping: &dyn Fn(f64) -> f64| {
         let list = modes.modes.iter().take(3).enumerate();
         let measured: Vec<Value> = list
             .map(|(i, mode)| {
                 json!({
-                    "frequency_hz": mode.frequency_hz, "damping_ratio": damping, "label": format!("{}", i + 1),
+                    "frequency_hz": mode.frequency_hz, "damping_ratio": damping(mode.damping_ratio), "label": format!("{}", i + 1),
                 })
             })
             .collect();
@@ -377,14 +377,14 @@ fn damping_in_per_cent_is_met_with_a_hint() {
             "experiments": [{"frequencies": measured}],
         }))
     };
-    let found = with(0.3);
+    let found = with(&|_| 0.3);
     let has = |found: &Identified, text: &str| found.warnings.iter().any(|warning| warning.contains(text));
     let above = "above 0.05, the usual maximum of ropes: 0.3 at";
     assert!(has(&found, above) && has(&found, "0.3 % is 0.003"), "{:?}", found.warnings);
     // The rope that fits it, as `check` says of a file.
     assert!(has(&found, "identified robot: ") && has(&found, "per cent given as a fraction"), "{:?}", found.warnings);
-    let found = with(0.003);
-    assert!(!has(&found, "damping"), "{:?}", found.warnings);
+    let found = with(&|of_model| of_model);
+    assert!(!has(&found, "above 0.05") && !has(&found, "identified robot: "), "{:?}", found.warnings);
 }
 
 /// Ten values of the six-cable robot from three responses, 200 times: docs/identification.md has the result. Half an hour
