@@ -83,7 +83,7 @@ fn drag_turns(at_rest: &AtRest, model: Model, hz: f64) -> bool {
 /// Computes the stiffness of a robot at equilibrium at every frequency [Hz], none of them negative.
 ///
 /// # Errors
-/// [`DynamicsError`]: a cable model that has no stiffness there. [`Cancelled`]: work that was stopped.
+/// [`DynamicsError`]: a cable model that has no stiffness there; or work that was stopped.
 pub fn matrices(at_rest: &AtRest, model: Model, frequencies: &[f64], watch: &mut dyn Watch) -> Result<Vec<CMat6>> {
     let highest_hz = frequencies.iter().copied().fold(0.0, f64::max);
     let still = if frequencies.contains(&0.0) { Some(Form::at(at_rest, model, 0.0)?) } else { None };
