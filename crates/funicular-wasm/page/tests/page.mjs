@@ -595,7 +595,7 @@ test("a page that `funicular live` has made begins with its robot and state", as
   found.modes.forEach((mode, i) => near(mode.hz, modes[i].frequency_hz, FREQUENCY, `frequency ${i + 1}`));
   assert.equal(await made.inputValue("#rule"), "middle");
   // The commands follow when nothing has changed for a while.
-  await made.waitForFunction(() => document.getElementById("commands").textContent !== "");
+  await made.waitForFunction(() => document.getElementById("commands").textContent.startsWith("funicular "));
   const [statics, listing] = (await made.locator("#commands").textContent()).split("\n\n");
   assert.ok(/--tension-rule middle.*--force-n 0,0,-200/s.test(statics) && !statics.includes("--cable-model"), statics);
   assert.ok(listing.includes("--force-n 0,0,-200") && listing.includes("--cable-model catenary-static"), listing);
