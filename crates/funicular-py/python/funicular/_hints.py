@@ -18,7 +18,7 @@ _WANTED = {"str": "text", "bool": "True or False", "PathLike": "a path as text o
 
 
 def hinted(function: Callable[P, R]) -> Callable[P, R]:
-    """The same function with better errors of its call."""
+    """Function with hints in the errors of its call."""
 
     @functools.wraps(function)
     def call(*arguments: P.args, **keywords: P.kwargs) -> R:

@@ -265,7 +265,7 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
     let profiled = profiles(&mut model, best, &profiled, &judged.deviations, judged.factor, &progress)?;
     let rows = value_rows(&model, &best.x, &judged.deviations, profiled);
 
-    // What is doubtful.
+    // Doubts about the fit.
     let mut warnings = warnings(&model, request, best, &rows)?;
     warnings.splice(0..0, caveats::unexplained(judged.chi2_per_degree));
     warnings.extend(searched.apart.clone());

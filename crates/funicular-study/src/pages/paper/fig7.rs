@@ -384,7 +384,7 @@ mod tests {
         rounds_to(&frequencies(&found.spring), &SPRING);
         rounds_to(&frequencies(&found.static_sag), &STATIC_SAG);
         assert!(found.natural.certified);
-        // What the page concludes: the peaks are no nearer than by chance.
+        // The page concludes that the peaks are no nearer than by chance.
         let peaks: Vec<f64> = found.peaks.iter().map(|peak| peak.frequency_hz).collect();
         for published in [&DYNAMIC[..], &EXPERIMENT[..]] {
             assert!(nearest_rms(published, &peaks) > rms_by_chance(peaks.len()), "{peaks:?}");
