@@ -14,13 +14,12 @@ mod table;
 use args::Cli;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{CommandFactory, Parser};
 use funicular::suggest;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    match Cli::try_parse() {
+    match Cli::read() {
         Ok(cli) => match commands::run(&cli) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => errors::report(&error),
@@ -122,7 +121,7 @@ fn present_options(option: &str, known: &[String]) -> Vec<String> {
 
 /// Names of the options of the command that the command line names, without `--`.
 fn options_of_command() -> Vec<String> {
-    let program = Cli::command();
+    let program = args::program();
     let command = std::env::args().skip(1).find_map(|argument| program.find_subcommand(argument));
     let options = command.into_iter().flat_map(clap::Command::get_arguments);
     options.filter_map(|option| option.get_long()).map(str::to_owned).collect()

@@ -1,12 +1,12 @@
 //! Reading of poses from a CSV file.
 
-use crate::args::values::finite;
 use crate::errors;
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::robot::{PlatformMotion, Pose, Robot};
 use funicular_study::at_rest::refuse_orientation;
 use funicular_study::csv_lines::line_at;
 use funicular_study::request::RobotText;
+use funicular_study::request::written::number;
 use std::fs;
 use std::path::Path;
 
@@ -48,7 +48,7 @@ fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
         let mut pose = [0.0; 6];
         for ((value, place), column) in pose.iter_mut().zip(places).zip(COLUMNS) {
             let Some(place) = place else { continue };
-            *value = finite(record.get(place).unwrap_or_default())
+            *value = number(record.get(place).unwrap_or_default())
                 .map_err(|reason| anyhow!("{shown}, line {}, column `{column}`: {reason}", line()))?;
         }
         let [x, y, z, roll, pitch, yaw] = pose;

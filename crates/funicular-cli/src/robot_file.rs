@@ -27,7 +27,7 @@ pub(crate) fn read(path: Option<&Path>, changes: &ChangeArgs) -> Result<RobotTex
             (name, text)
         }
     };
-    Ok(changes.robot(name, text))
+    Ok(RobotText { name, text, set: changes.set.clone() })
 }
 
 /// Guard of a command's files that knows the robot file, also if it is standard input.

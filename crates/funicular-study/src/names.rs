@@ -19,6 +19,14 @@ pub trait Named: Copy + PartialEq + Sized + 'static {
     /// Name of the choice.
     fn name(self) -> &'static str;
 
+    /// Meaning of the choice, for help texts.
+    fn about(self) -> &'static str;
+
+    /// Another name that the program understands.
+    fn also(self) -> Option<&'static str> {
+        None
+    }
+
     /// Choice with a given name.
     ///
     /// # Errors
@@ -62,6 +70,15 @@ impl Named for WinchMode {
     fn name(self) -> &'static str {
         self.name()
     }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::AsGiven => "As the robot file describes them",
+            Self::Clamped => "Motors held at their angle",
+            Self::Torque => "Motors with constant torque",
+            Self::Stuck => "Cables that stick to their pulleys",
+        }
+    }
 }
 
 impl Named for StaticModel {
@@ -70,6 +87,14 @@ impl Named for StaticModel {
 
     fn name(self) -> &'static str {
         StaticModel::name(self)
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Ideal => "Straight, massless, rigid",
+            Self::Spring => "Straight, massless, elastic",
+            Self::Catenary => "Elastic, sagging under its own weight",
+        }
     }
 }
 
@@ -80,6 +105,16 @@ impl Named for CableModel {
     fn name(self) -> &'static str {
         CableModel::name(self)
     }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::CatenaryDynamic => "Vibration about the elastic catenary: any sag, axial waves included",
+            Self::ShallowDynamic => "Dynamic stiffness of a shallow sagging cable (Starossek 1991)",
+            Self::ShallowStatic => "Static stiffness of a shallow sagging cable (Irvine 1981)",
+            Self::CatenaryStatic => "Exact static stiffness of the elastic catenary",
+            Self::Spring => "Massless spring along the chord",
+        }
+    }
 }
 
 impl Named for Assembly {
@@ -88,6 +123,15 @@ impl Named for Assembly {
 
     fn name(self) -> &'static str {
         Assembly::name(self)
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Consistent => {
+                "All terms: end stiffness of the cables, and rotation of their forces on their lever arms"
+            }
+            Self::WithoutGeometricStiffness => "End stiffness of the cables only, as in Yuan et al. 2014",
+        }
     }
 }
 
@@ -114,6 +158,15 @@ impl Named for TensionRuleName {
             Self::Closest => TensionRule::Closest(Vec::new()).name(),
             Self::Middle => TensionRule::Middle.name(),
             Self::Stiffest => TensionRule::Stiffest.name(),
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Lowest => "Minimum sum of squares of the tensions above their minimum",
+            Self::Closest => "Minimum sum of squares of the differences from ⟪target_tension_n⟫",
+            Self::Middle => "Maximum distance from the limits, relative to the distance between them",
+            Self::Stiffest => "Maximum of the minimum eigenvalue of the scaled stiffness",
         }
     }
 }
@@ -149,6 +202,15 @@ impl Named for ModelForm {
             Self::SecondOrder => "second-order",
         }
     }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::StateSpace => "State space of the modes that inputs and outputs see",
+            Self::SecondOrder => {
+                "M, C, K of the platform and all modes of the cables with fixed ends, and their state space"
+            }
+        }
+    }
 }
 
 impl Named for Hold {
@@ -157,6 +219,14 @@ impl Named for Hold {
 
     fn name(self) -> &'static str {
         Hold::name(self)
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Lengths => "The unstrained lengths; the pose follows",
+            Self::Pose => "The pose; the unstrained lengths follow",
+            Self::Rule => "The pose and the rule of ⟪tension_rule⟫; the unstrained lengths follow",
+        }
     }
 }
 
@@ -210,6 +280,16 @@ impl Named for DesignGoal {
             Self::RopeLength => "rope-length",
         }
     }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::First => "Highest first natural frequency, cables included",
+            Self::Platform => "Highest first natural frequency of the platform on the static stiffness of its cables",
+            Self::Stiffness => "Highest minimum stiffness, as `statics` prints it",
+            Self::RopeMass => "Least mass of all ropes",
+            Self::RopeLength => "Least length of all ropes",
+        }
+    }
 }
 
 /// Step of a number that derivatives are for.
@@ -233,6 +313,14 @@ impl Named for Per {
             Self::Unit => "unit",
             Self::Percent => "percent",
             Self::Tolerance => "tolerance",
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Unit => "Unit of the number",
+            Self::Percent => "Percent of its value",
+            Self::Tolerance => "Tolerance of the number",
         }
     }
 }
@@ -260,6 +348,14 @@ impl Named for UncertaintyMethod {
             Self::Sampled => "sampled",
         }
     }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Automatic => "Linear where tensions and frequencies allow it, otherwise sampled",
+            Self::Linear => "Linear for every result",
+            Self::Sampled => "Sampled for every result",
+        }
+    }
 }
 
 /// Programs that robots can be exported to.
@@ -282,6 +378,14 @@ impl Named for ExportFormat {
             Self::Opensees => "opensees",
             Self::Moordyn => "moordyn",
             Self::Vtk => "vtk",
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Opensees => "Python script for OpenSeesPy",
+            Self::Moordyn => "Input file of version 2",
+            Self::Vtk => "VTK XML of polylines and polygons (.vtp), for ParaView",
         }
     }
 }
@@ -307,6 +411,22 @@ impl Named for NewMotion {
             Self::Rigid => "rigid",
             Self::PointMass => "point-mass",
             Self::PlanarXz => "planar-xz",
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Rigid => "Three translations and three rotations",
+            Self::PointMass => "Three translations",
+            Self::PlanarXz => "Translations along x and z, rotation about y",
+        }
+    }
+
+    fn also(self) -> Option<&'static str> {
+        match self {
+            Self::Rigid => Some("spatial"),
+            Self::PointMass => Some("point"),
+            Self::PlanarXz => Some("planar"),
         }
     }
 }
@@ -340,6 +460,13 @@ impl Named for LengthUnit {
             Self::Millimetre => "mm",
         }
     }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Metre => "Metres",
+            Self::Millimetre => "Millimetres",
+        }
+    }
 }
 
 /// Constructions of wire ropes with factors in EN 12385 (Feyrer, Wire Ropes, 2nd edition 2015, table of factors for
@@ -361,6 +488,13 @@ impl Named for WireRope {
         match self {
             Self::SixTimes19 => "6x19",
             Self::SevenTimes7 => "7x7",
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::SixTimes19 => "Six strands of 19 wires on a steel core",
+            Self::SevenTimes7 => "Seven strands of seven wires",
         }
     }
 }

@@ -10,7 +10,7 @@ mod gradient;
 mod grids;
 mod identify;
 mod json_text;
-mod keys;
+pub mod key;
 mod pages;
 mod parts;
 mod source_file;
@@ -18,6 +18,7 @@ mod statics;
 mod steps;
 mod uncertainty;
 mod vibration;
+pub mod written;
 
 pub use design::{ChangeValue, DesignRequest};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest};
@@ -27,7 +28,7 @@ pub use identify::{
     DEFAULT_DAMPING_NOISE, DEFAULT_FREQUENCY_NOISE, DEFAULT_RESPONSE_NOISE, DEFAULT_STARTS, Experiment, FitValue,
     IdentifyRequest,
 };
-pub use keys::KEYS;
+pub use key::{Choice, Declared, Key, Kind, Range};
 pub use pages::{LiveRequest, PaperRequest, ReportRequest, ValidateRequest};
 pub use parts::{
     Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, OneOrSeveral, Pose,
@@ -52,137 +53,113 @@ use anyhow::{anyhow, bail};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
+use std::sync::LazyLock;
 
 /// Name and version of the vocabulary of requests. The version changes if the meaning of a key changes.
 pub const SCHEMA: &str = "funicular-request/1";
 
-/// Request of one analysis of one robot, or, for a few commands, of files.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "command", rename_all = "kebab-case")]
-pub enum Request {
-    /// Check of the robot file, and a description of the robot.
-    Check(CheckRequest),
-    /// Every number of the robot file.
-    Parameters(ParametersRequest),
-    /// Equilibrium: pose, tensions, sag.
-    Statics(StaticsRequest),
-    /// 6×6 stiffness at one frequency.
-    Stiffness(StiffnessRequest),
-    /// Every natural frequency below a limit.
-    Modes(ModesRequest),
-    /// Frequency response and its peaks.
-    Frf(FrfRequest),
-    /// Comparison of all cable models.
-    Compare(CompareRequest),
-    /// Derivatives of results by numbers of the robot file.
-    Gradient(GradientRequest),
-    /// Deviations of results from deviations of numbers of the robot file.
-    Uncertainty(UncertaintyRequest),
-    /// Minimum and maximum payload at a pose.
-    Payload(PayloadRequest),
-    /// Distances between the poses of ideal, spring and catenary cables over platform mass.
-    PoseError(PoseErrorRequest),
-    /// Dynamic stiffness of one cable over frequency.
-    Cable(CableRequest),
-    /// Model for control design: state space or second-order form.
-    Reduce(ReduceRequest),
-    /// Values of the robot file that fit measurements best.
-    Identify(IdentifyRequest),
-    /// Values of the robot file with which the robot is best at several poses.
-    Design(DesignRequest),
-    /// Quantities over poses.
-    Map(MapRequest),
-    /// Quantities over values of the robot file.
-    Sweep(SweepRequest),
-    /// HTML page about one robot.
-    Report(ReportRequest),
-    /// HTML page on which the platform can be dragged.
-    Live(LiveRequest),
-    /// HTML page that reproduces Yuan et al. 2014.
-    Paper(PaperRequest),
-    /// Robot file with starting values.
-    New(NewRequest),
-    /// JSON Schema of the robot file.
-    Schema(SchemaRequest),
-    /// Robot file made from files of other programs.
-    Import(ImportRequest),
-    /// Robot at equilibrium as a file of another program.
-    Export(ExportRequest),
-    /// Comparison of the program with published and independent numbers.
-    Validate(ValidateRequest),
-    /// Parts of a map or sweep combined in one file.
-    Merge(MergeRequest),
-    /// HTML page about a map or sweep.
-    Plot(PlotRequest),
+/// Command of the program and of requests.
+#[derive(Debug, Clone)]
+pub struct CommandInfo {
+    /// Name.
+    pub name: &'static str,
+    /// Meaning; further paragraphs follow after an empty line.
+    pub about: String,
+    /// Uses of the program.
+    pub examples: &'static [&'static str],
+    /// Robot file of its request.
+    pub robot: RequestRobot,
+    /// Keys of its request besides `command`, in the order of the program's help.
+    pub keys: Vec<Key>,
+}
+
+/// Robot file of a command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RequestRobot {
+    /// None.
+    None,
+    /// One that has to be given.
+    Needed,
+    /// In the program the embedded one, if none is given.
+    Embedded,
+}
+
+/// Declares the commands: variant and type of each request, its name, and the field with its robot.
+macro_rules! commands {
+    ($($Variant:ident($Request:ident) $name:literal $Robot:ident $($robot:ident)?;)*) => {
+        /// Request of one analysis of one robot, or, for a few commands, of files.
+        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+        #[serde(tag = "command", rename_all = "kebab-case")]
+        pub enum Request {
+            $(#[doc = concat!("Request of `", $name, "`.")] $Variant($Request),)*
+        }
+
+        /// Every command, in the order of the program's help.
+        pub fn commands() -> &'static [CommandInfo] {
+            static COMMANDS: LazyLock<Vec<CommandInfo>> = LazyLock::new(|| {
+                vec![$(CommandInfo {
+                    name: $name,
+                    about: $Request::about(),
+                    examples: $Request::EXAMPLES,
+                    robot: RequestRobot::$Robot,
+                    keys: $Request::keys(),
+                }),*]
+            });
+            &COMMANDS
+        }
+
+        impl Request {
+            /// Name of the command.
+            pub fn command(&self) -> &'static str {
+                match self {
+                    $(Self::$Variant(_) => $name,)*
+                }
+            }
+
+            /// Robot file of the request, if it has one.
+            pub fn robot(&self) -> Option<&RobotText> {
+                match self {
+                    $(Self::$Variant(request) => {
+                        let _ = request;
+                        None$(.or(Some(&request.$robot)))?
+                    })*
+                }
+            }
+        }
+    };
+}
+
+commands! {
+    New(NewRequest) "new" None;
+    Schema(SchemaRequest) "schema" None;
+    Check(CheckRequest) "check" Needed robot;
+    Parameters(ParametersRequest) "parameters" Needed robot;
+    Statics(StaticsRequest) "statics" Needed robot;
+    Stiffness(StiffnessRequest) "stiffness" Needed robot;
+    Modes(ModesRequest) "modes" Needed robot;
+    Frf(FrfRequest) "frf" Needed robot;
+    Compare(CompareRequest) "compare" Needed robot;
+    Gradient(GradientRequest) "gradient" Needed robot;
+    Uncertainty(UncertaintyRequest) "uncertainty" Needed robot;
+    Payload(PayloadRequest) "payload" Needed robot;
+    PoseError(PoseErrorRequest) "pose-error" Needed robot;
+    Cable(CableRequest) "cable" Needed robot;
+    Reduce(ReduceRequest) "reduce" Needed robot;
+    Identify(IdentifyRequest) "identify" Needed robot;
+    Design(DesignRequest) "design" Needed robot;
+    Map(MapRequest) "map" Needed robot;
+    Sweep(SweepRequest) "sweep" Needed robot;
+    Merge(MergeRequest) "merge" None;
+    Plot(PlotRequest) "plot" None;
+    Report(ReportRequest) "report" Embedded robot;
+    Live(LiveRequest) "live" Embedded robot;
+    Paper(PaperRequest) "paper" None;
+    Import(ImportRequest) "import" None;
+    Export(ExportRequest) "export" Needed robot;
+    Validate(ValidateRequest) "validate" None;
 }
 
 impl Request {
-    /// Name of the command.
-    pub fn command(&self) -> &'static str {
-        match self {
-            Self::Check(_) => "check",
-            Self::Parameters(_) => "parameters",
-            Self::Statics(_) => "statics",
-            Self::Stiffness(_) => "stiffness",
-            Self::Modes(_) => "modes",
-            Self::Frf(_) => "frf",
-            Self::Compare(_) => "compare",
-            Self::Gradient(_) => "gradient",
-            Self::Uncertainty(_) => "uncertainty",
-            Self::Payload(_) => "payload",
-            Self::PoseError(_) => "pose-error",
-            Self::Cable(_) => "cable",
-            Self::Reduce(_) => "reduce",
-            Self::Identify(_) => "identify",
-            Self::Design(_) => "design",
-            Self::Map(_) => "map",
-            Self::Sweep(_) => "sweep",
-            Self::Report(_) => "report",
-            Self::Live(_) => "live",
-            Self::Paper(_) => "paper",
-            Self::New(_) => "new",
-            Self::Schema(_) => "schema",
-            Self::Import(_) => "import",
-            Self::Export(_) => "export",
-            Self::Validate(_) => "validate",
-            Self::Merge(_) => "merge",
-            Self::Plot(_) => "plot",
-        }
-    }
-
-    /// Robot file of the request, if it has one.
-    pub fn robot(&self) -> Option<&RobotText> {
-        match self {
-            Self::Check(request) => Some(&request.robot),
-            Self::Parameters(request) => Some(&request.robot),
-            Self::Statics(request) => Some(&request.robot),
-            Self::Stiffness(request) => Some(&request.robot),
-            Self::Modes(request) => Some(&request.robot),
-            Self::Frf(request) => Some(&request.robot),
-            Self::Compare(request) => Some(&request.robot),
-            Self::Gradient(request) => Some(&request.robot),
-            Self::Uncertainty(request) => Some(&request.robot),
-            Self::Payload(request) => Some(&request.robot),
-            Self::PoseError(request) => Some(&request.robot),
-            Self::Cable(request) => Some(&request.robot),
-            Self::Reduce(request) => Some(&request.robot),
-            Self::Identify(request) => Some(&request.robot),
-            Self::Design(request) => Some(&request.robot),
-            Self::Map(request) => Some(&request.robot),
-            Self::Sweep(request) => Some(&request.robot),
-            Self::Report(request) => Some(&request.robot),
-            Self::Live(request) => Some(&request.robot),
-            Self::Export(request) => Some(&request.robot),
-            Self::New(_)
-            | Self::Schema(_)
-            | Self::Paper(_)
-            | Self::Import(_)
-            | Self::Validate(_)
-            | Self::Merge(_)
-            | Self::Plot(_) => None,
-        }
-    }
-
     /// Reads a request from JSON. A key that the command does not have is refused, and the nearest known key is
     /// suggested.
     ///
@@ -212,17 +189,18 @@ impl Request {
         // A key with `null` counts as a key that is absent.
         given.retain(|_, value| !value.is_null());
         let request: Self = parsed(&given).map_err(|error| anyhow!("the request cannot be read: {error}"))?;
-
-        // Every known key is written again. A key that is not written again is unknown to the command.
-        let Value::Object(understood) = request.to_value() else {
-            unreachable!("a request is serialised as an object")
-        };
-        if let Some(unknown) = given.keys().find(|key| !understood.contains_key(*key)) {
-            let names: Vec<String> = KEYS.iter().map(|(key, _)| (*key).to_owned()).collect();
-            let nearest = suggestion(unknown, &names);
+        let keys = commands().iter().find(|info| info.name == request.command()).map_or(&[][..], |info| &info.keys);
+        if let Some(unknown) =
+            given.keys().find(|name| *name != "command" && !keys.iter().any(|key| key.name == **name))
+        {
+            let all = commands().iter().flat_map(|command| &command.keys);
+            let nearest = suggestion(unknown, &all.map(|key| key.name.to_owned()).collect::<Vec<_>>());
             return Err(anyhow!("a request of `{}` has no key `{unknown}`{nearest}", request.command()).into());
         }
-        identify::check_keys(&given, &understood)?;
+        if let Some(missing) = keys.iter().find(|key| key.required && !given.contains_key(key.name)) {
+            return Err(anyhow!("the request cannot be read: missing field `{}`", missing.name).into());
+        }
+        identify::check_keys(&given, &keys_of(&request).map_err(anyhow::Error::from)?)?;
 
         Ok(request)
     }
@@ -230,11 +208,29 @@ impl Request {
     /// Request as JSON, with its schema. A key without a default is absent if it was not given.
     pub fn to_value(&self) -> Value {
         let mut object = Map::from_iter([("schema".to_owned(), Value::from(SCHEMA))]);
-        if let Ok(Value::Object(keys)) = serde_json::to_value(self) {
+        if let Ok(keys) = keys_of(self) {
             object.extend(keys);
         }
         Value::Object(object)
     }
+}
+
+/// Keys of a request, or of a group of them, as JSON; those that are not given are absent.
+///
+/// # Errors
+/// A value that is no object of JSON.
+pub fn keys_of(group: &impl Serialize) -> serde_json::Result<Map<String, Value>> {
+    fn given(value: Value) -> Value {
+        match value {
+            Value::Object(keys) => Value::Object(without_null(keys)),
+            Value::Array(values) => Value::Array(values.into_iter().map(given).collect()),
+            other => other,
+        }
+    }
+    fn without_null(keys: Map<String, Value>) -> Map<String, Value> {
+        keys.into_iter().filter(|(_, value)| !value.is_null()).map(|(key, value)| (key, given(value))).collect()
+    }
+    serde_json::from_value(serde_json::to_value(group)?).map(without_null)
 }
 
 /// Request read by serde. A missing command is reported separately, because serde's message for it is hard to read.

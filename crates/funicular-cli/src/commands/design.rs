@@ -1,33 +1,36 @@
 //! `design`: text and CSV.
 
 use super::result_files::ResultFiles;
-use crate::args::DesignArgs;
+use crate::args::{Cli, DesignArgs};
 use crate::output::Printed;
 use crate::progress::TerminalProgress;
 
+use crate::pose_csv;
 use crate::table::{Table, counted, significant};
-use crate::{pose_csv, robot_file};
-use anyhow::{Result, bail};
+use anyhow::Result;
+use funicular_files::Guard;
 use funicular_study::analyses::design::{self, Designed};
-use funicular_study::request::{DesignRequest, Request, RobotText};
+use funicular_study::request::{DesignRequest, Request};
 use funicular_study::wording::{Words, worded};
+use serde_json::{Map, Value};
 use std::fmt::Write as _;
 
 /// Request of a design. Errors of its poses name the line in the file of poses.
-pub(super) fn request(args: &DesignArgs, robot: RobotText) -> Result<DesignRequest> {
-    let poses = pose_csv::read_if_given(args.poses.as_deref(), &robot)?;
-    Ok(args.request(robot, poses))
+pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
+    let mut request = cli.request(further)?;
+    if let Request::Design(of) = &mut request {
+        of.poses = pose_csv::read_if_given(cli.files::<DesignArgs>()?.poses.as_deref(), &of.robot)?;
+    }
+    Ok(request)
 }
 
 /// Runs `design`: prints the result, writes the robot file and the page.
-pub(super) fn run(request: &Request, args: &DesignArgs) -> Result<()> {
-    let Request::Design(of) = request else { bail!("this is not a request of `design`") };
-    let mut guard = robot_file::guard(Some(&args.robot.robot));
+pub(super) fn run(of: &DesignRequest, args: &DesignArgs, guard: &mut Guard) -> Result<()> {
     if let Some(poses) = &args.poses {
         guard.reads("the poses", poses);
     }
     let designed = ("designed", args.designed.as_deref());
-    let files = ResultFiles::open(&args.sink, designed, args.page.as_deref(), &mut guard)?;
+    let files = ResultFiles::open(&args.sink, designed, args.page.as_deref(), guard)?;
 
     let mut watch = TerminalProgress::new();
     let found = design::run(of, &mut watch)?;

@@ -1,22 +1,20 @@
 //! `export`: the robot at its equilibrium as a file of another program.
 
-use crate::args::ExportArgs;
+use crate::errors;
 use crate::output::{Content, Target};
-use crate::{errors, robot_file};
-use anyhow::{Result, bail};
+use anyhow::Result;
 use funicular::robot::Robot;
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
 use funicular_study::at_rest;
 use funicular_study::export::{self, ExportFormat};
-use funicular_study::request::{ExportRequest, Request};
+use funicular_study::request::ExportRequest;
 use std::path::Path;
 
 /// Writes the robot at its equilibrium as a file of another program.
-pub(super) fn run(request: &Request, args: &ExportArgs) -> Result<()> {
-    let Request::Export(of) = request else { bail!("this is not a request of `export`") };
+pub(super) fn run(of: &ExportRequest, guard: &mut Guard, path: &Path) -> Result<()> {
     let robot = of.robot.read()?.robot;
-    write(of, robot, &mut robot_file::guard(Some(&args.robot.robot)), &args.output_file)
+    write(of, robot, guard, path)
 }
 
 /// Writes the file of an exported robot.

@@ -1,32 +1,32 @@
 //! `identify`: files of measurements, text and CSV.
 
 use super::result_files::ResultFiles;
-use crate::args::IdentifyArgs;
+use crate::args::{Cli, IdentifyArgs};
+use crate::errors;
 use crate::output::Printed;
 use crate::progress::TerminalProgress;
 use crate::table::{NONE, Table, counted, significant};
-use crate::{errors, robot_file};
 use anyhow::{Context, Result, bail};
 use std::fmt::Write as _;
 
+use funicular_files::Guard;
 use funicular_study::analyses::identify::{self, Identified, OpenEnd};
 use funicular_study::measurements::{self, FileOptions};
-use funicular_study::request::{Experiment, FitValue, IdentifyRequest, Pose, Request, RobotText};
+use funicular_study::request::{Experiment, FitValue, IdentifyRequest, Request, ResponsePoints};
 use funicular_study::wording::{Words, worded};
+use serde_json::{Map, Value};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 /// Runs `identify`: prints the values, writes the robot file and the page.
-pub(super) fn run(request: &Request, args: &IdentifyArgs) -> Result<()> {
-    let Request::Identify(of) = request else { bail!("this is not a request of `identify`") };
-    let mut guard = robot_file::guard(Some(&args.robot.robot));
+pub(super) fn run(of: &IdentifyRequest, args: &IdentifyArgs, guard: &mut Guard) -> Result<()> {
     for file in args.measured.iter().chain(&args.experiments) {
         guard.reads("the measurements", file);
     }
 
     let fitted = ("fitted", args.fitted.as_deref());
-    let files = ResultFiles::open(&args.sink, fitted, args.page.as_deref(), &mut guard)?;
+    let files = ResultFiles::open(&args.sink, fitted, args.page.as_deref(), guard)?;
     let mut watch = TerminalProgress::new();
     let found = identify::run(of, &mut watch)?;
     drop(watch);
@@ -37,25 +37,27 @@ pub(super) fn run(request: &Request, args: &IdentifyArgs) -> Result<()> {
 }
 
 /// Request with the measurements of all files.
-pub(super) fn request(args: &IdentifyArgs, robot: RobotText) -> Result<IdentifyRequest> {
+pub(super) fn request(cli: &Cli, mut further: Map<String, Value>) -> Result<Request> {
+    let args: IdentifyArgs = cli.files()?;
+    further.insert("experiments".to_owned(), Value::Array(Vec::new()));
+    let mut request = cli.request(further)?;
+    if let Request::Identify(of) = &mut request {
+        of.experiments = experiments(cli, &args)?;
+        add_priors(&mut of.fit, &args.prior)?;
+    }
+    Ok(request)
+}
+
+/// Measurements of all files, and those that are given themselves.
+fn experiments(cli: &Cli, args: &IdentifyArgs) -> Result<Vec<Experiment>> {
     let mut experiments = match &args.experiments {
         Some(path) => read_experiments(path)?,
         None => Vec::new(),
     };
-    let (state, tensions, model) = args.linearised.request();
-    let mut own = Experiment {
-        state,
-        measured_pose: args.measured_pose.map(|pose| Pose::Angles(pose.0)),
-        position_std_m: args.position_std_m,
-        rotation_std_deg: args.rotation_std_deg,
-        measured_tensions_n: args.measured_tensions_n.as_ref().map(|tensions| tensions.0.clone()),
-        tension_std_n: args.tension_std_n,
-        measured_lengths_m: args.measured_lengths_m.as_ref().map(|lengths| lengths.0.clone()),
-        length_std_m: args.length_std_m,
-        ..Experiment::default()
-    };
+    let mut own: Experiment = serde_json::from_value(Value::Object(cli.given::<Experiment>()))?;
+    let points: ResponsePoints = serde_json::from_value(Value::Object(cli.given::<ResponsePoints>()))?;
     for path in &args.measured {
-        read_measured(path, args, &mut own)?;
+        read_measured(path, args, points, &mut own)?;
     }
     let is_measured = !own.responses.is_empty()
         || !own.frequencies.is_empty()
@@ -65,9 +67,12 @@ pub(super) fn request(args: &IdentifyArgs, robot: RobotText) -> Result<IdentifyR
     if is_measured || experiments.is_empty() {
         experiments.insert(0, own);
     }
+    Ok(experiments)
+}
 
-    let mut fit = args.fit.clone();
-    for prior in &args.prior {
+/// Adds values that are known beforehand to the values that are identified.
+fn add_priors(fit: &mut [FitValue], priors: &[FitValue]) -> Result<()> {
+    for prior in priors {
         let Some(place) = fit.iter().position(|value| value.path == prior.path) else {
             let fitted: Vec<&str> = fit.iter().map(|value| value.path.as_str()).collect();
             bail!(
@@ -79,21 +84,7 @@ pub(super) fn request(args: &IdentifyArgs, robot: RobotText) -> Result<IdentifyR
         let value = &mut fit[place];
         *value = FitValue { prior: prior.prior, prior_std: prior.prior_std, ..value.clone() };
     }
-    Ok(IdentifyRequest {
-        robot,
-        fit,
-        experiments,
-        from_hz: args.from_hz,
-        to_hz: args.to_hz,
-        starts: args.starts,
-        response_noise: args.response_noise,
-        frequency_noise: args.frequency_noise,
-        damping_noise: args.damping_noise,
-        rigid_cables: args.rigid_cables,
-        profile: args.profile.clone(),
-        tensions,
-        model,
-    })
+    Ok(())
 }
 
 /// Bytes of a file of measurements.
@@ -112,14 +103,14 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>> {
 }
 
 /// Adds the measurements of a file.
-fn read_measured(path: &Path, args: &IdentifyArgs, to: &mut Experiment) -> Result<()> {
+fn read_measured(path: &Path, args: &IdentifyArgs, points: ResponsePoints, to: &mut Experiment) -> Result<()> {
     let shown = path.display().to_string();
     let bytes = bytes_of(path)?;
     let options = FileOptions {
         nodes: args.node.clone(),
         responses: args.response.clone(),
-        input_point_m: args.points.input_point_m.map(Into::into),
-        output_point_m: args.points.output_point_m.map(Into::into),
+        input_point_m: points.input_point_m,
+        output_point_m: points.output_point_m,
     };
     let found = measurements::read(&shown, &bytes, &options)?;
     found.notes.iter().for_each(|note| errors::note(note));

@@ -1,26 +1,33 @@
 //! `import`: a robot file from files of other programs.
 
-use crate::args::ImportArgs;
+use crate::args::{Cli, ImportArgs};
 use crate::errors;
 use crate::output::{Content, Target};
 use anyhow::{Context, Result, bail};
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
 use funicular_study::import::{self, SourceFile};
-use funicular_study::request::ImportRequest;
+use funicular_study::request::{ImportRequest, Request};
 use funicular_study::wording::Words;
+use serde_json::{Map, Value};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+/// Request with the texts of the files.
+pub(super) fn request(cli: &Cli, mut further: Map<String, Value>) -> Result<Request> {
+    let files = sources(&cli.files::<ImportArgs>()?.files)?;
+    further.insert("files".to_owned(), serde_json::to_value(files)?);
+    cli.request(further)
+}
+
 /// Converts files of other programs to a robot file.
-pub(super) fn run(args: &ImportArgs) -> Result<()> {
-    let request = args.request(sources(&args.files)?);
+pub(super) fn run(request: &ImportRequest, args: &ImportArgs) -> Result<()> {
     let mut guard = Guard::default();
     for source in &args.files {
         guard.reads("the source file", source);
     }
-    write(&request, &mut guard, &args.output_file)
+    write(request, &mut guard, &args.to.output_file)
 }
 
 /// Writes the robot file of files of other programs.

@@ -1,34 +1,35 @@
 //! `new`: a robot file with starting values.
 
 use super::import::sources;
-use crate::args::NewArgs;
+use crate::args::{Cli, NewArgs};
 use crate::errors;
 use crate::output::{Content, Target};
 use anyhow::{Result, bail};
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
 use funicular_study::new_robot;
-use funicular_study::request::NewRequest;
+use funicular_study::request::{NewRequest, Request};
 use funicular_study::wording::Words;
+use serde_json::{Map, Value};
 use std::path::Path;
 use std::slice;
 
 /// Request of a new robot, with the table that it names.
-pub(super) fn request(args: &NewArgs) -> Result<NewRequest> {
-    let table = match &args.from_csv {
-        Some(path) => sources(slice::from_ref(path))?.pop(),
-        None => None,
-    };
-    Ok(args.request(table))
+pub(super) fn request(cli: &Cli, mut further: Map<String, Value>) -> Result<Request> {
+    if let Some(path) = cli.files::<NewArgs>()?.from_csv {
+        let table = sources(slice::from_ref(&path))?.pop();
+        further.insert("from_csv".to_owned(), serde_json::to_value(table)?);
+    }
+    cli.request(further)
 }
 
 /// Runs `new`.
-pub(super) fn run(args: &NewArgs) -> Result<()> {
+pub(super) fn run(request: &NewRequest, args: &NewArgs) -> Result<()> {
     let mut guard = Guard::default();
     if let Some(table) = &args.from_csv {
         guard.reads("the table of points", table);
     }
-    write(&request(args)?, &mut guard, &args.output_file)
+    write(request, &mut guard, &args.output_file)
 }
 
 /// Writes a new robot file. An existing file may hold numbers that somebody has written by hand, so it is never

@@ -1,6 +1,6 @@
 //! HTML pages: `report`, `live`, `paper`, `plot`.
 
-use crate::args::PlotArgs;
+use crate::args::{Cli, PlotArgs};
 use crate::errors;
 use crate::output::{Content, FigureSink, Target, refuse_page_as_figure, refuse_without_figure};
 use crate::progress::{TerminalProgress, WaitingSpinner};
@@ -10,6 +10,7 @@ use funicular_files::{Guard, SweepFile};
 use funicular_study::Request;
 use funicular_study::pages;
 use funicular_study::wording::{Words, worded};
+use serde_json::{Map, Value};
 use std::path::Path;
 
 /// Writes the page of one robot.
@@ -48,6 +49,13 @@ pub(crate) fn paper(output: &Path) -> Result<()> {
     let page = pages::paper::paper(command_line()?)?;
     drop(waiting);
     write(&target, output, &page)
+}
+
+/// Request with the path of the file of a map or sweep.
+pub(crate) fn plot_request(cli: &Cli, mut further: Map<String, Value>) -> Result<Request> {
+    let file = cli.files::<PlotArgs>()?.file.display().to_string();
+    further.insert("file".to_owned(), file.into());
+    cli.request(further)
 }
 
 /// Writes the page of a map or sweep, or one figure of it.

@@ -3,7 +3,6 @@
 use crate::args::{OutputArgs, ReduceArgs};
 use crate::output::{Content, Printed, Sink, Target};
 use crate::progress::TerminalProgress;
-use crate::robot_file;
 use crate::table::{Table, counted, decimals};
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::math::DMat;
@@ -15,15 +14,14 @@ use funicular_study::analyses::Found;
 use funicular_study::analyses::control_model::ControlStateSpace;
 use funicular_study::analyses::reduce::{self, ChannelRow, Reduced, ReducedForm};
 use funicular_study::json;
-use funicular_study::request::{ReduceRequest, Request};
+use funicular_study::request::ReduceRequest;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
 
 /// Runs `reduce`: prints the model and writes its matrices to files.
-pub(super) fn run(request: &Request, args: &ReduceArgs) -> Result<()> {
-    let Request::Reduce(of) = request else { bail!("this is not a request of `reduce`") };
-    print(of, &args.sink, args.matrices.as_deref(), robot_file::guard(Some(&args.robot.robot)))
+pub(super) fn run(of: &ReduceRequest, args: &ReduceArgs, guard: Guard) -> Result<()> {
+    print(of, &args.sink, args.matrices.as_deref(), guard)
 }
 
 /// Prints the model of a request and writes its matrices to files.

@@ -1,18 +1,19 @@
 //! `uncertainty`: run on all cores, text and CSV.
 
-use crate::args::{OutputArgs, UncertaintyArgs};
+use crate::args::{Cli, OutputArgs, UncertaintyArgs};
 use crate::errors::{self, Interrupted};
 use crate::interrupt::{STOPPED, stop_at_next_row};
 use crate::output::{Content, Printed, Sink, Target};
+use crate::pose_csv;
 use crate::progress::Progress;
 use crate::table::{NONE, Table, counted, digits_for, significant};
-use crate::{pose_csv, robot_file};
 use anyhow::{Result, bail};
 use funicular_files::endings::Kind;
 use funicular_files::{Begin, Guard, UncertaintyOutcome, UncertaintyRun, threads};
 use funicular_study::analyses::uncertainty::{PoseUncertainty, UncertainResult, Uncertainties, UncertaintyStudy};
-use funicular_study::request::{Request, RobotText, UncertaintyRequest};
+use funicular_study::request::{Request, UncertaintyRequest};
 use funicular_study::wording::{Words, worded};
+use serde_json::{Map, Value};
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -21,15 +22,16 @@ use std::path::Path;
 const SHOWN: usize = 3;
 
 /// Request of `uncertainty`. Errors of its poses name the line in the file of poses.
-pub(super) fn request(args: &UncertaintyArgs, robot: RobotText) -> Result<UncertaintyRequest> {
-    let poses = pose_csv::read_if_given(args.poses.as_deref(), &robot)?;
-    Ok(args.request(robot, poses))
+pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
+    let mut request = cli.request(further)?;
+    if let Request::Uncertainty(of) = &mut request {
+        of.poses = pose_csv::read_if_given(cli.files::<UncertaintyArgs>()?.poses.as_deref(), &of.robot)?;
+    }
+    Ok(request)
 }
 
 /// Runs `uncertainty`: prints the deviations, writes the samples and the page.
-pub(super) fn run(request: &Request, args: &UncertaintyArgs) -> Result<()> {
-    let Request::Uncertainty(of) = request else { bail!("this is not a request of `uncertainty`") };
-    let guard = &mut robot_file::guard(Some(&args.robot.robot));
+pub(super) fn run(of: &UncertaintyRequest, args: &UncertaintyArgs, guard: &mut Guard) -> Result<()> {
     if let Some(poses) = &args.poses {
         guard.reads("the poses", poses);
     }

@@ -4,7 +4,7 @@
 //! the crate is built, as `scripts/release` does.
 
 use crate::names::TensionRuleName;
-use crate::request::{LiveRequest, Pose, RobotText};
+use crate::request::{LiveRequest, Pose, RobotText, keys_of};
 use anyhow::{Result, bail};
 use serde_json::{Value, json};
 
@@ -59,12 +59,10 @@ fn start(request: &LiveRequest) -> Result<Value> {
     };
 
     // Everything besides pose, lengths and rule goes into each request of the page.
-    let mut more = serde_json::to_value(state)?;
-    if let (Value::Object(more), Value::Object(tensions)) = (&mut more, serde_json::to_value(tensions)?) {
-        more.extend(tensions);
-        for key in ["pose", "lengths_m", "tension_rule"] {
-            more.remove(key);
-        }
+    let mut more = keys_of(state)?;
+    more.extend(keys_of(tensions)?);
+    for key in ["pose", "lengths_m", "tension_rule"] {
+        more.remove(key);
     }
     let rule = match tensions.tension_rule {
         None => "",

@@ -1,46 +1,53 @@
 //! Request of `design`: values of the robot file to be chosen, and what they have to achieve.
 
+use super::key::declared;
 use super::parts::{Model, RobotText, State, Tensions};
+use super::written;
 use crate::names::DesignGoal;
 use serde::{Deserialize, Serialize};
 
-/// Request of `design`: values of the robot file with which the robot is best at several poses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct DesignRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Values to choose.
-    pub change: Vec<ChangeValue>,
-    /// Goal of the design.
-    #[serde(default, with = "crate::names")]
-    pub goal: DesignGoal,
-    /// Poses: position [m] and roll, pitch, yaw [degrees]; default the pose of the state.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub poses: Option<Vec<[f64; 6]>>,
-    /// Weights of the poses, for their mean instead of the worst pose.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub weights: Option<Vec<f64>>,
-    /// Minimum of the first natural frequency at every pose [Hz].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub min_frequency_hz: Option<f64>,
-    /// Minimum of the minimum stiffness at every pose [N/m].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub min_stiffness_n_per_m: Option<f64>,
-    /// Band without natural frequencies: first and last frequency [Hz].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub avoid_hz: Option<[f64; 2]>,
-    /// Maximum number of iterations.
-    #[serde(default = "fifty")]
-    pub max_iterations: usize,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Linearisation.
-    #[serde(flatten)]
-    pub model: Model,
+declared! {
+    /// Values of the robot file with which the robot is stiffest, fastest or lightest at several poses.
+    ///
+    /// The values move within their bounds until the goal at the worst pose, or its weighted mean, improves no further. The
+    /// poses are held, and the tensions follow ⟪tension_rule⟫. docs/design.md explains goals, demands and the result.
+    pub struct DesignRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Value of the robot file to choose, with its bounds: around the present value, as in
+        /// 'cables.*.attachment_m=±0.05' (or +-), or absolute, as in platform.mass_kg=80:120; * stands for any key, and a
+        /// path to a table or vector for all numbers of it that the file gives (repeatable).
+        change: Vec<ChangeValue> = Vec::new() => (List(written::change)).form("PATH=±REACH|MIN:MAX").required();
+        /// Goal of the design.
+        #[serde(with = "crate::names")]
+        goal: DesignGoal = DesignGoal::default() => (name::<DesignGoal>()).form("GOAL");
+        /// Poses: position [m] and roll, pitch, yaw [degrees].
+        poses: Option<Vec<[f64; 6]>> = None => (Data).otherwise("the pose of the state");
+        /// Weights of the poses, for their mean instead of the worst pose.
+        weights: Option<Vec<f64>> = None => (Commas(written::positive)).form("W1,W2,…");
+        /// Demand: first natural frequency at every pose of at least HZ.
+        min_frequency_hz: Option<f64> = None => (Number(Positive)).under("Demands");
+        /// Demand: minimum stiffness at every pose of at least K, as `statics` prints it [N/m].
+        min_stiffness_n_per_m: Option<f64> = None => (Number(Positive)).form("K").under("Demands");
+        /// Demand: no natural frequency between two frequencies at any pose, as in 2.5:3.2 [Hz].
+        avoid_hz: Option<[f64; 2]> = None => (Written(written::band)).form("FROM:TO").under("Demands");
+        /// Maximum number of iterations.
+        max_iterations: usize = 50 => (Count(0..=u64::MAX));
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => (group without ["lengths_m", "hold_lengths_of_pose"]);
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Linearisation.
+        #[serde(flatten)]
+        model: Model = Model::default() => group;
+    }
+    examples {
+        "funicular design robots/cogiro.toml --poses docs/design/cogiro-poses.csv --target-tension-n 350 \\\n    --change 'cables.*.attachment_m=±0.05' -o designed.toml",
+        "funicular design robots/cogiro.toml --pose 1,2,1.5 --change 'cables.*.anchor_m.z=5:6' --goal stiffness \\\n    --page design.html",
+        "funicular design robots/cogiro.toml --pose 0,0,1.5 --change 'cables.*.anchor_m=±0.5' --goal rope-mass \\\n    --min-stiffness-n-per-m 20000",
+    }
 }
 
 /// Value of the robot file to choose, with its bounds.
@@ -58,8 +65,4 @@ pub struct ChangeValue {
     /// Largest change to both sides, instead of minimum and maximum.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plus_minus: Option<f64>,
-}
-
-fn fifty() -> usize {
-    50
 }

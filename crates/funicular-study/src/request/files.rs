@@ -1,93 +1,122 @@
 //! Requests that make a robot file, or write the robot for another program.
 
+use super::key::declared;
 use super::parts::{ImportPlatform, ImportRopes, Pose, RobotText, State, Tensions};
 use super::source_file::SourceFile;
-use crate::names::{ExportFormat, LengthUnit, NewMotion, WireRope};
-use serde::{Deserialize, Serialize};
+use crate::names::{ExportFormat, LengthUnit, NewMotion, WireRope, optional};
 
-/// Request of `new`.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct NewRequest {
-    /// Name of the robot.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub name: Option<String>,
-    /// Number of cables; default 8, or for a planar platform and a point mass 4.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub cables: Option<usize>,
-    /// Motion of the platform.
-    #[serde(default, with = "crate::names")]
-    pub motion: NewMotion,
-    /// Table of the points of the cables, in place of a number of cables.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub from_csv: Option<SourceFile>,
-    /// Unit of the points in the table; default metres, or the unit in the names of the columns.
-    #[serde(default, skip_serializing_if = "Option::is_none", with = "crate::names::optional")]
-    pub csv_unit: Option<LengthUnit>,
-    /// Mass of the platform [kg]; default 100.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mass_kg: Option<f64>,
-    /// Sides of the homogeneous box that gives the inertia [m]; default 1 × 1 × 0.5, or the box around the attachments.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub box_m: Option<[f64; 3]>,
-    /// Construction of the wire rope.
-    #[serde(default, with = "crate::names")]
-    pub rope: WireRope,
-    /// Diameter of the rope [m]; default by the mass of the platform, 6 mm for 100 kg.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub diameter_m: Option<f64>,
-    /// Axial stiffness EA of another rope [N], in place of construction and diameter; needs its mass.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub axial_stiffness_n: Option<f64>,
-    /// Mass of that rope per unstrained length [kg/m].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mass_kg_per_m: Option<f64>,
-    /// Pose of the state; default a stable pose that the program finds.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pose: Option<Pose>,
+declared! {
+    /// Write a robot file with starting values and comments.
+    ///
+    /// Without options: eight wire ropes and a platform of 100 kg. The state of the file is a stable equilibrium, so that
+    /// every command runs on it at once. docs/robot-file.md explains every key.
+    pub struct NewRequest {
+        /// Name of the robot.
+        name: Option<String> = None => (Text);
+        /// Number of cables, up to 64, in a symmetric layout.
+        cables: Option<usize> = None => (Count(0..=u64::MAX)).otherwise("8; 4 for planar-xz and point-mass");
+        /// Motion of the platform.
+        #[serde(with = "crate::names")]
+        motion: NewMotion = NewMotion::default() => (name::<NewMotion>()).form("MOTION");
+        /// Table of the cables in place of their number: name (may be left out), anchor x, y, z in the world frame,
+        /// attachment x, y, z in the platform frame; a first line may name the columns: name, anchor_x, …, attachment_z.
+        from_csv: Option<SourceFile> = None => (Data);
+        /// Unit of the points in the table.
+        #[serde(with = "optional")]
+        csv_unit: Option<LengthUnit> = None => (name::<LengthUnit>()).form("UNIT")
+            .otherwise("m, or the ending of the names of the columns, as in anchor_x_mm");
+        /// Pose of the state x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll).
+        pose: Option<Pose> = None => (Pose).otherwise("a stable pose that the program finds");
+        /// Mass of the platform [kg].
+        mass_kg: Option<f64> = None => (Number(Positive)).under("Platform").otherwise("100");
+        /// Sides of the homogeneous box that gives the inertia [m].
+        box_m: Option<[f64; 3]> = None => (Vector).form("A,B,C").under("Platform")
+            .otherwise("1,1,0.5, or the box around the attachments of the table");
+        /// Construction of the wire rope.
+        #[serde(with = "crate::names")]
+        rope: WireRope = WireRope::default() => (name::<WireRope>()).form("ROPE").under("Ropes");
+        /// Diameter of the wire rope [m].
+        diameter_m: Option<f64> = None => (Number(Positive)).under("Ropes")
+            .otherwise("by the mass of the platform, 0.006 for 100 kg");
+        /// Axial stiffness EA of another rope [N]; needs ⟪mass_kg_per_m⟫.
+        axial_stiffness_n: Option<f64> = None => (Number(Positive)).under("Ropes");
+        /// Mass of this rope per unstrained length [kg/m].
+        mass_kg_per_m: Option<f64> = None => (Number(NotNegative)).under("Ropes");
+    }
+    examples {
+        "funicular new -o robot.toml",
+        "funicular new --cables 6 --mass-kg 20 --box-m 0.4,0.3,0.2 --diameter-m 0.003",
+        "funicular new --motion planar-xz --name \"planar test rig\"",
+        "funicular new --from-csv docs/robot-file.csv --csv-unit mm --mass-kg 60",
+    }
 }
 
-/// Request of `schema`.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct SchemaRequest {}
-
-/// Request of `import`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ImportRequest {
-    /// Files of one robot.
-    pub files: Vec<SourceFile>,
-    /// Name of the cable set in a CASPR file.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub cable_set: Option<String>,
-    /// Rope values that the files do not give.
-    #[serde(flatten)]
-    pub ropes: ImportRopes,
-    /// Platform values that the files do not give.
-    #[serde(flatten)]
-    pub platform: ImportPlatform,
+declared! {
+    /// Write the JSON Schema of the robot file, with which editors complete and check it.
+    ///
+    /// The first line `#:schema ./robot.schema.json` of a robot file names the schema to Even Better TOML in VS Code and to
+    /// other editors with Taplo.
+    pub struct SchemaRequest {
+    }
+    examples {
+        "funicular schema -o robot.schema.json",
+    }
 }
 
-/// Request of `export`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ExportRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Program that the file is for.
-    #[serde(with = "crate::names")]
-    pub to: ExportFormat,
-    /// Elements per cable.
-    #[serde(default = "twenty_segments")]
-    pub segments: usize,
-    /// Upper limit of the frequencies of modes in the file [Hz].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub modes_below_hz: Option<f64>,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
+declared! {
+    /// Convert files of CASPR, WireX or MoorDyn to a robot file.
+    ///
+    /// CASPR: the bodies file and the cables file, in any order. WireX: a .wcrfx file. MoorDyn: an input file of version 2
+    /// with one body, or one free point, on lines. No value is invented: if a file lacks one, a message names the option that
+    /// gives it. Data that a robot file cannot hold is listed, also at the head of the file. docs/import.md explains how each
+    /// number is read.
+    pub struct ImportRequest {
+        /// Files of one robot; their format is recognised from their content.
+        files: Vec<SourceFile> = Vec::new() => (Data).required();
+        /// Name of the cable set if a CASPR file has several.
+        cable_set: Option<String> = None => (Text).form("NAME").otherwise("from the file");
+        /// Rope values that the files do not give.
+        #[serde(flatten)]
+        ropes: ImportRopes = ImportRopes::default() => group;
+        /// Platform values that the files do not give.
+        #[serde(flatten)]
+        platform: ImportPlatform = ImportPlatform::default() => group;
+    }
+    examples {
+        "funicular import docs/import/tripod_bodies.xml docs/import/tripod_cables.xml \\\n    --mass-kg-per-m 0.05 --axial-stiffness-n 1e6 -o tripod.toml",
+        "funicular import robot.wcrfx --pose 0,0,1 -o robot.toml",
+        "funicular import mooring.txt -o robot.toml",
+    }
 }
 
-fn twenty_segments() -> usize {
-    20
+declared! {
+    /// Export the robot at its equilibrium for OpenSees, MoorDyn or ParaView.
+    ///
+    /// opensees: a Python script for OpenSeesPy that prints its statics and modes beside those of funicular. moordyn: an input
+    /// file of version 2. vtk: a .vtp file of cables and platform, with modes on request. docs/export.md describes the files
+    /// and the differences between the programs.
+    pub struct ExportRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Program that the file is for.
+        #[serde(with = "crate::names")]
+        to: ExportFormat = ExportFormat::Opensees => (name::<ExportFormat>()).form("PROGRAM").required();
+        /// Elements per cable, 1 to 1000: bars in OpenSees, segments in MoorDyn, pieces of a curve in VTK.
+        segments: usize = 20 => (Count(1..=1000));
+        /// Upper limit of the frequencies of modes in the file [Hz]: in VTK one field per mode, in OpenSees the modes to
+        /// compare with.
+        modes_below_hz: Option<f64> = None =>
+            (Number(Positive)).otherwise("no modes in VTK, the first ten in OpenSees");
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+    }
+    examples {
+        "funicular export robots/yuan2014-4mm.toml --to opensees -o yuan.py && python3 yuan.py",
+        "funicular export robots/cogiro.toml --to moordyn --segments 20 -o cogiro.txt",
+        "funicular export robots/cogiro.toml --to vtk --pose 1,2,1.5 --modes-below-hz 10 -o cogiro.vtp",
+    }
 }

@@ -1,54 +1,61 @@
 //! Request of derivatives.
 
+use super::key::declared;
 use super::parts::{Model, ResponsePoints, RobotText, State, Tensions};
+use super::written;
 use crate::names::Per;
 use funicular::gradient::Hold;
-use serde::{Deserialize, Serialize};
 
-/// Request of `gradient`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct GradientRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Groups of results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`.
-    #[serde(default = "frequencies")]
-    pub of: Vec<String>,
-    /// Paths of the numbers of the robot file, in which `*` stands for any key; without any all numbers.
-    #[serde(default)]
-    pub by: Vec<String>,
-    /// Quantity that is held while a number changes.
-    #[serde(default, with = "crate::names")]
-    pub hold: Hold,
-    /// Unit of the derivatives.
-    #[serde(default, with = "crate::names")]
-    pub per: Per,
-    /// Tolerances of numbers, as `PATH=VALUE` or `PATH=PERCENT%`; numbers without one have the usual tolerance.
-    #[serde(default)]
-    pub tolerances: Vec<String>,
-    /// Upper limit of the frequencies [Hz]; for frequencies and damping.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub below_hz: Option<f64>,
-    /// Frequency of the response [Hz].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at_hz: Option<f64>,
-    /// Input of the response.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub input: Option<String>,
-    /// Output of the response.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub output: Option<String>,
-    /// Points of the response.
-    #[serde(flatten)]
-    pub points: ResponsePoints,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Linearisation.
-    #[serde(flatten)]
-    pub model: Model,
+declared! {
+    /// Derivatives of results with respect to every number of the robot file.
+    ///
+    /// All derivatives come from the solution itself, without perturbing a number; docs/gradients.md explains the tables. The
+    /// text shows the ten largest of each result, JSON and CSV all of them.
+    pub struct GradientRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Results: pose, lengths, tensions, stiffness-min, frequencies, damping, response; separated by commas.
+        of: Vec<String> = frequencies() => (Texts).form("RESULTS");
+        /// Numbers of the robot file, by paths that `parameters` lists, separated by commas; * stands for any key, and a path
+        /// to a table or vector for all numbers in it.
+        by: Vec<String> = Vec::new() => (Texts).form("PATHS").otherwise("all");
+        /// Quantity that is held while a number changes; with the pose held, the tensions parallel to the chords of more
+        /// cables than degrees of freedom change least, or follow their rule.
+        #[serde(with = "crate::names")]
+        hold: Hold = Hold::default() => (name::<Hold>()).form("WHAT");
+        /// Unit of the derivatives: per unit, percent or tolerance of each number.
+        #[serde(with = "crate::names")]
+        per: Per = Per::default() => (name::<Per>()).form("STEP");
+        /// Tolerances PATH=VALUE or PATH=PERCENT%, separated by commas.
+        tolerances: Vec<String> = Vec::new() =>
+            (Texts).form("TOLERANCES").otherwise("usual ones, which docs/gradients.md lists");
+        /// Upper limit of the frequencies [Hz]; for frequencies and damping.
+        below_hz: Option<f64> = None => (Number(Positive));
+        /// Frequency of the response [Hz].
+        at_hz: Option<f64> = None => (Number(NotNegative));
+        /// Input of the response, on the platform (see `frf`).
+        input: Option<String> = None => (Written(written::input)).form("INPUT");
+        /// Output of the response, on the platform (see `frf`).
+        output: Option<String> = None => (Written(written::output)).form("OUTPUT");
+        /// Points of the platform.
+        #[serde(flatten)]
+        points: ResponsePoints = ResponsePoints::default() => group;
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Linearisation.
+        #[serde(flatten)]
+        model: Model = Model::default() => group;
+    }
+    examples {
+        "funicular gradient robots/yuan2014-4mm.toml --below-hz 2",
+        "funicular gradient robots/cogiro.toml --pose 1,2,1.5 --of tensions,stiffness-min --by cables.*.anchor_m --hold pose",
+        "funicular gradient robots/yuan2014-4mm.toml --of frequencies,damping --below-hz 1.5 --per percent -o gradients.csv",
+        "funicular gradient robots/yuan2014-4mm.toml --of response --at-hz 1.1 --input fz --output az \\\n    --by platform,materials --per tolerance --tolerances platform.mass_kg=2%",
+    }
 }
 
 /// Results that are differentiated if a request names none.

@@ -1,46 +1,74 @@
 //! Requests over many poses or values of the robot file, and about their files.
 
+use super::key::declared;
 use super::parts::{Axis, EachPoint, RobotText};
-use serde::{Deserialize, Serialize};
+use super::written;
 
-/// Request of `map`: quantities over poses, from a grid or a list.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct MapRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Axes of the grid, each once. An axis that is left out keeps the value of the state.
-    #[serde(default)]
-    pub grid: Vec<Axis>,
-    /// List of poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub poses: Option<Vec<[f64; 6]>>,
-    /// Quantities and options of every point.
-    #[serde(flatten)]
-    pub point: EachPoint,
+declared! {
+    /// Tensions, frequencies, stiffness over the workspace, with one row per pose.
+    pub struct MapRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Axis of the grid: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed values
+        /// (repeatable); an axis that is not given keeps the value of the robot's state or of ⟪pose⟫.
+        grid: Vec<Axis> = Vec::new() => (List(written::grid_axis)).form("AXIS=A:B:N|V,V,…");
+        /// List of poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
+        poses: Option<Vec<[f64; 6]>> = None => (Data);
+        /// Quantities and options of every point.
+        #[serde(flatten)]
+        point: EachPoint = EachPoint::default() => group;
+    }
+    examples {
+        "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    --quantity tension-max,stiffness-min -o cogiro.parquet",
+        "funicular map robots/yuan2014-4mm.toml --grid x=-1:1:21 --grid y=-1:1:21 --grid z=0.5 \\\n    --quantity first-frequency,model-error:spring -o first.vti",
+        "funicular map robots/cogiro.toml --poses trajectory.csv --quantity lengths,tensions --format csv\n\nAfter an interruption or a power failure the same command with --resume continues and gives the same file.\nIn a job array: --part 3/8 -o part-3.parquet, and at the end funicular merge part-*.parquet -o all.parquet",
+    }
 }
 
-/// Request of `sweep`: quantities over all combinations of values of the robot file.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SweepRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Values of the robot file that vary, each an axis named by its path. The first axis runs fastest.
-    pub vary: Vec<Axis>,
-    /// Quantities and options of every point.
-    #[serde(flatten)]
-    pub point: EachPoint,
+declared! {
+    /// Tensions, frequencies, stiffness over values of the robot file, with one row per combination.
+    pub struct SweepRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Number of the robot file that varies, with N values from A to B, or with listed values (repeatable: all
+        /// combinations, the first fastest).
+        vary: Vec<Axis> = Vec::new() => (List(written::variation)).form("PATH=A:B:N|V,V,…").required();
+        /// Quantities and options of every point.
+        #[serde(flatten)]
+        point: EachPoint = EachPoint::default() => group;
+    }
+    examples {
+        "funicular sweep robots/yuan2014-4mm.toml --vary platform.mass_kg=10.55:86.35:50 \\\n    --quantity pose,first-frequency,pose-error -o mass.parquet",
+        "funicular sweep robots/yuan2014-4mm.toml --pose 0,0,0.5 --vary materials.rope-4mm.diameter_m=0.002:0.008:25 \\\n    --vary platform.mass_kg=10,20,40 --quantity tension-max,sag-max --format csv",
+    }
 }
 
-/// Request of `merge`; only a front end with a disk can run it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct MergeRequest {
-    /// Paths of the parts.
-    pub parts: Vec<String>,
+declared! {
+    /// Combine the parts of a map or sweep in one file.
+    pub struct MergeRequest {
+        /// Parts, in any order.
+        parts: Vec<String> = Vec::new() => (Data).required();
+    }
+    examples {
+        "funicular merge part-*.parquet -o all.parquet",
+    }
 }
 
-/// Request of `plot`; only a front end with a disk can run it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PlotRequest {
-    /// Path of the file of a map or sweep.
-    pub file: String,
+declared! {
+    /// HTML page with figures of a map or sweep, which opens offline.
+    ///
+    /// Grids are shown as slices with contours, the feasible set, histograms and points in space. Trajectories and sweeps of
+    /// one value are shown as curves; the curves of natural frequencies follow their modes through crossings and veering.
+    /// docs/sweeps.md explains the figures. With a FILE.svg or FILE.pdf the command writes one figure for a paper instead of
+    /// the page.
+    pub struct PlotRequest {
+        /// File that `map` or `sweep` has written.
+        file: String = String::new() => (Data).required();
+    }
+    examples {
+        "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    --quantity tension-max,stiffness-min -o cogiro.parquet",
+        "funicular plot cogiro.parquet",
+        "funicular plot mass.parquet -o mass.html",
+        "funicular plot cogiro.parquet --quantity tension-max --at z=1.5 -o tension.pdf",
+    }
 }

@@ -1,8 +1,9 @@
 //! Request of `identify`: measurements in one or several states, and the values to find.
 
 use super::json_text;
-use super::keys::KEYS;
+use super::key::declared;
 use super::parts::{Model, Pose, RobotText, State, Tensions};
+use super::{commands, written};
 use crate::measurements::{MeasuredFrequency, MeasuredResponse};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -19,45 +20,54 @@ pub const DEFAULT_FREQUENCY_NOISE: f64 = 0.01;
 /// Relative deviation of damping ratios.
 pub const DEFAULT_DAMPING_NOISE: f64 = 0.1;
 
-/// Request of `identify`: values of the robot file that fit measurements best.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct IdentifyRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Values to identify.
-    pub fit: Vec<FitValue>,
-    /// Measurements, one element per state of the robot.
-    pub experiments: Vec<Experiment>,
-    /// First frequency of the responses that counts [Hz]; default all.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub from_hz: Option<f64>,
-    /// Last frequency of the responses that counts [Hz]; default all.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub to_hz: Option<f64>,
-    /// Number of starts of the search.
-    #[serde(default = "default_starts")]
-    pub starts: usize,
-    /// Deviation of responses without deviations, relative to their magnitude; 0.3 % of the median magnitude is added.
-    #[serde(default = "default_response_noise")]
-    pub response_noise: f64,
-    /// Relative deviation of natural frequencies without deviations.
-    #[serde(default = "default_frequency_noise")]
-    pub frequency_noise: f64,
-    /// Relative deviation of damping ratios.
-    #[serde(default = "default_damping_noise")]
-    pub damping_noise: f64,
-    /// Cables that are rigid in length: natural frequencies of the motions that they leave free.
-    #[serde(default)]
-    pub rigid_cables: bool,
-    /// Paths of fitted values whose profiles are computed, in which `*` stands for any key.
-    #[serde(default)]
-    pub profile: Vec<String>,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Linearisation.
-    #[serde(flatten)]
-    pub model: Model,
+declared! {
+    /// Values of the robot file that fit measurements best, with their deviations.
+    ///
+    /// Measurements are frequency responses, natural frequencies with damping ratios, poses, tensions and lengths, in one or
+    /// several states. The result says how sure each value is, and which combinations the measurements do not determine.
+    /// docs/identification.md explains files, priors and the result.
+    pub struct IdentifyRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Value of the robot file to identify, with optional bounds, as in platform.mass_kg=10:30; * stands for any key, as in
+        /// 'materials.*.axial_stiffness_n', and a path to a table or vector for all numbers of it that the file gives
+        /// (repeatable).
+        fit: Vec<FitValue> = Vec::new() => (List(written::fit)).form("PATH[=MIN:MAX]").required();
+        /// Measurements of the robot, each in a state of its own.
+        experiments: Vec<Experiment> = Vec::new() => (Data).required();
+        /// Maximum number of starts of the search. The first start has the values of the file, the others are spread by the
+        /// priors; the search ends at the first start that fits.
+        starts: usize = DEFAULT_STARTS => (Count(0..=u64::MAX));
+        /// Fitted values with a profile, by their paths, separated by commas: each value is held at steps and all others are
+        /// fitted again, until χ² has risen by 3.84; * stands for any key, and a path to a table or vector for all numbers
+        /// in it.
+        profile: Vec<String> = Vec::new() => (Texts).form("PATHS");
+        /// First frequency of the responses that counts [Hz].
+        from_hz: Option<f64> = None => (Number(NotNegative)).under("Measurements").otherwise("all");
+        /// Last frequency of the responses that counts [Hz].
+        to_hz: Option<f64> = None => (Number(Positive)).under("Measurements").otherwise("all");
+        /// Standard deviation of responses without deviations, relative to their magnitude; 0.3 % of the median magnitude is
+        /// added.
+        response_noise: f64 = DEFAULT_RESPONSE_NOISE => (Number(Positive)).under("Measurements");
+        /// Relative standard deviation of natural frequencies without deviations.
+        frequency_noise: f64 = DEFAULT_FREQUENCY_NOISE => (Number(Positive)).under("Measurements");
+        /// Relative standard deviation of damping ratios.
+        damping_noise: f64 = DEFAULT_DAMPING_NOISE => (Number(Positive)).under("Measurements");
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Linearisation.
+        #[serde(flatten)]
+        model: Model = Model::default() => group;
+        /// Natural frequencies with cables that are straight, without mass and rigid in length; with ideal as
+        /// ⟪static_model⟫.
+        rigid_cables: bool = false => (Switch).under("Model");
+    }
+    examples {
+        "funicular identify docs/quick-start/hall.toml --hold-lengths-of-pose \\\n    --measured docs/identification/hall-modes.csv --fit platform.mass_kg --prior platform.mass_kg=60±10",
+        "funicular identify robot.toml --measured test.uff --node 2=0.1,0.08,0.02 --node 1=0.03,-0.02,0.05 \\\n    --fit platform.mass_kg --fit platform.center_of_mass_m --prior platform.center_of_mass_m=0±0.03 -o fitted.toml",
+        "funicular identify robot.toml --experiments poses.json --rigid-cables --fit platform.center_of_mass_m \\\n    --fit platform.inertia_kg_m2 -o result.json --page result.html",
+    }
 }
 
 impl IdentifyRequest {
@@ -96,45 +106,46 @@ pub struct FitValue {
     pub prior_std: Option<f64>,
 }
 
-/// Measurements of the robot in one state.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct Experiment {
-    /// Name in tables and messages.
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub name: String,
-    /// Names of the cables that were mounted; default all.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub cables: Option<Vec<String>>,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Frequency responses.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub responses: Vec<MeasuredResponse>,
-    /// Natural frequencies.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub frequencies: Vec<MeasuredFrequency>,
-    /// Measured pose; the lengths are then held.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub measured_pose: Option<Pose>,
-    /// Standard deviation of each coordinate of the measured position [m]; default 1 mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub position_std_m: Option<f64>,
-    /// Standard deviation of the measured rotation about each axis [degrees]; default 0.1°.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rotation_std_deg: Option<f64>,
-    /// Measured tensions at the platform [N], one per cable.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub measured_tensions_n: Option<Vec<f64>>,
-    /// Standard deviation of the tensions [N]; default 1 % of the maximum.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tension_std_n: Option<f64>,
-    /// Measured unstrained lengths [m], one per cable; the pose is then held.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub measured_lengths_m: Option<Vec<f64>>,
-    /// Standard deviation of the lengths [m]; default 1 mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub length_std_m: Option<f64>,
+declared! {
+    /// Measurements of the robot in one state.
+    pub struct Experiment {
+        /// Name in tables and messages.
+        #[serde(skip_serializing_if = "String::is_empty")]
+        name: String = String::new() => (Data);
+        /// Names of the cables that were mounted.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        cables: Option<Vec<String>> = None => (Data).otherwise("all");
+        /// Frequency responses.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        responses: Vec<MeasuredResponse> = Vec::new() => (Data);
+        /// Natural frequencies.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        frequencies: Vec<MeasuredFrequency> = Vec::new() => (Data);
+        /// Measured pose at held lengths [m, degrees].
+        #[serde(skip_serializing_if = "Option::is_none")]
+        measured_pose: Option<Pose> = None => (Pose).form("X,Y,Z,ROLL,PITCH,YAW").under("Measurements");
+        /// Measured tensions at the platform [N], one per cable.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        measured_tensions_n: Option<Vec<f64>> = None => (Numbers(NotNegative)).form("T1,T2,…").under("Measurements");
+        /// Measured unstrained lengths at a held pose [m], one per cable.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        measured_lengths_m: Option<Vec<f64>> = None => (Numbers(Positive)).form("L1,L2,…").under("Measurements");
+        /// Standard deviation of each coordinate of the measured position [m].
+        #[serde(skip_serializing_if = "Option::is_none")]
+        position_std_m: Option<f64> = None => (Number(Positive)).under("Measurements").otherwise("0.001");
+        /// Standard deviation of the measured rotation about each axis [degrees].
+        #[serde(skip_serializing_if = "Option::is_none")]
+        rotation_std_deg: Option<f64> = None => (Number(Positive)).under("Measurements").otherwise("0.1");
+        /// Standard deviation of the measured tensions [N].
+        #[serde(skip_serializing_if = "Option::is_none")]
+        tension_std_n: Option<f64> = None => (Number(Positive)).under("Measurements").otherwise("1 % of the maximum");
+        /// Standard deviation of the measured lengths [m].
+        #[serde(skip_serializing_if = "Option::is_none")]
+        length_std_m: Option<f64> = None => (Number(Positive)).under("Measurements").otherwise("0.001");
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+    }
 }
 
 /// Checks that experiments have no unknown key. Fields that are spread over groups cannot refuse one themselves.
@@ -153,7 +164,7 @@ pub(super) fn check_keys(given: &Map<String, Value>, understood: &Map<String, Va
     });
     let Some(unknown) = unknown else { return Ok(()) };
 
-    let is_of_requests = KEYS.iter().any(|(key, _)| key == unknown);
+    let is_of_requests = commands().iter().flat_map(|command| &command.keys).any(|key| key.name == unknown);
     let place = if is_of_requests { "; it is a key of requests and stands beside `experiments`" } else { "" };
     anyhow::bail!("an experiment has no key `{unknown}`{place}")
 }
@@ -166,20 +177,4 @@ fn is_empty(value: &Value) -> bool {
         Value::String(text) => text.is_empty(),
         _ => false,
     }
-}
-
-fn default_starts() -> usize {
-    DEFAULT_STARTS
-}
-
-fn default_response_noise() -> f64 {
-    DEFAULT_RESPONSE_NOISE
-}
-
-fn default_frequency_noise() -> f64 {
-    DEFAULT_FREQUENCY_NOISE
-}
-
-fn default_damping_noise() -> f64 {
-    DEFAULT_DAMPING_NOISE
 }

@@ -1,63 +1,86 @@
 //! Requests of pages, and of the comparison with published numbers.
 
-use super::parts::{Model, ResponsePoints, RobotText, State, Tensions, platform_share};
-use serde::{Deserialize, Serialize};
+use super::key::declared;
+use super::parts::{Model, ResponsePoints, RobotText, State, Tensions};
+use super::written;
+use funicular::modes::PLATFORM_SHARE;
 
-/// Request of `report`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ReportRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Upper limit of the frequencies [Hz].
-    #[serde(default = "twenty")]
-    pub below_hz: f64,
-    /// Minimum fraction of the kinetic energy in the platform for the first mode of the platform.
-    #[serde(default = "platform_share")]
-    pub platform_share: f64,
-    /// Force or moment of the response. Default: `fz`, or `fx` if the platform cannot move along z.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub input: Option<String>,
-    /// Motion of the response. Default: `az`, or `ax` if the platform cannot move along z.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub output: Option<String>,
-    /// Points of the platform.
-    #[serde(flatten)]
-    pub points: ResponsePoints,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Linearisation.
-    #[serde(flatten)]
-    pub model: Model,
+declared! {
+    /// HTML page with all analyses of a robot and their figures.
+    pub struct ReportRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Upper limit of the frequencies [Hz].
+        below_hz: f64 = 20.0 => (Number(Positive));
+        /// Input of the frequency response: fx … mz, or f:ux,uy,uz, m:ux,uy,uz, see `funicular frf`.
+        input: Option<String> = None =>
+            (Written(written::input)).form("INPUT").otherwise("fz; fx if the platform cannot move along z");
+        /// Output of the frequency response: x … arz, or x:ux,uy,uz, v:…, a:…, see `funicular frf`.
+        output: Option<String> = None =>
+            (Written(written::output)).form("OUTPUT").otherwise("az; ax if the platform cannot move along z");
+        /// Points of the platform.
+        #[serde(flatten)]
+        points: ResponsePoints = ResponsePoints::default() => group;
+        /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform.
+        platform_share: f64 = PLATFORM_SHARE => (Number(Fraction));
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Linearisation.
+        #[serde(flatten)]
+        model: Model = Model::default() => group;
+    }
+    examples {
+        "funicular report",
+        "funicular report robots/cogiro.toml -o cogiro.html",
+        "funicular report robots/yuan2014-4mm.toml --pose 0,0,0.5 --below-hz 10 --input f:1,0,1 --output x",
+    }
 }
 
-/// Request of `live`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct LiveRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Linearisation.
-    #[serde(flatten)]
-    pub model: Model,
+declared! {
+    /// HTML page on which the platform can be dragged, and everything is computed anew.
+    ///
+    /// The page contains the program itself, as WebAssembly, and opens in a browser without network. docs/web.md describes
+    /// it.
+    pub struct LiveRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Linearisation.
+        #[serde(flatten)]
+        model: Model = Model::default() => group;
+    }
+    examples {
+        "funicular live robots/cogiro.toml -o cogiro.html",
+        "funicular live robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --set platform.mass_kg=150",
+    }
 }
 
-/// Request of `paper`.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct PaperRequest {}
+declared! {
+    /// HTML page with every figure and table of Yuan et al. 2014 beside the results of this program.
+    pub struct PaperRequest {
+    }
+    examples {
+        "funicular paper -o paper.html",
+    }
+}
 
-/// Request of `validate`.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct ValidateRequest {}
-
-fn twenty() -> f64 {
-    20.0
+declared! {
+    /// Compare the program with numbers that others published or computed; exit code 1 if a difference is out of
+    /// tolerance.
+    pub struct ValidateRequest {
+    }
+    examples {
+        "funicular validate",
+        "funicular validate -o docs/validation.md",
+        "funicular validate --format json",
+    }
 }

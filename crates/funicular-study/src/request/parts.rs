@@ -1,12 +1,16 @@
 //! Groups of keys that several commands share.
 
+use super::key::declared;
 use super::steps::Steps;
+use super::written;
 use crate::names::{TensionRuleName, optional};
+use crate::sweep::Quantity;
 use crate::values::{finite, not_negative, positive};
 use anyhow::{Result, anyhow, bail};
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::math::{Quaternion, Rotation, rotation};
+use funicular::modes::PLATFORM_SHARE;
 use funicular::robot::WinchMode;
 use funicular::statics::StaticModel;
 use serde::{Deserialize, Serialize};
@@ -123,116 +127,118 @@ impl From<&funicular::robot::Pose> for Pose {
     }
 }
 
-/// State and loads of the robot. A value that is not given comes from the robot file.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct State {
-    /// Unstrained lengths [m], one per cable.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub lengths_m: Option<Vec<f64>>,
-    /// Pose of the platform.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pose: Option<Pose>,
-    /// Hold the unstrained lengths with which the robot of the file, without any change, rests at the pose. Changes of
-    /// mass, loads and other values then move the platform.
-    #[serde(default)]
-    pub hold_lengths_of_pose: bool,
-    /// Mass of the platform [kg].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mass_kg: Option<f64>,
-    /// Static model of the cables.
-    #[serde(default, with = "crate::names")]
-    pub static_model: StaticModel,
-    /// Loads besides weight.
-    #[serde(flatten)]
-    pub load: Load,
+declared! {
+    /// State and loads of the robot. A value that is not given comes from the robot file.
+    pub struct State {
+        /// Unstrained lengths [m], one per cable in the order of the file; the pose follows from them.
+        lengths_m: Option<Vec<f64>> = None =>
+            (Numbers(Positive)).form("L1,L2,…").under("State").excludes(&["pose", "hold_lengths_of_pose"]);
+        /// Pose x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll); the lengths follow from it.
+        pose: Option<Pose> = None => (Pose).under("State");
+        /// Hold the unstrained lengths with which the robot of the file rests at the pose (of the file or of ⟪pose⟫); all
+        /// changes (⟪set⟫, ⟪mass_kg⟫, loads, wind, ⟪vary⟫) then act at these lengths and move the platform.
+        hold_lengths_of_pose: bool = false => (Switch).under("State");
+        /// Mass of the platform [kg]; inertia and centre of mass do not change.
+        mass_kg: Option<f64> = None => (Number(Positive)).under("State");
+        /// Static model of the cables.
+        #[serde(with = "crate::names")]
+        static_model: StaticModel = StaticModel::default() => (name::<StaticModel>()).form("MODEL").under("State");
+        /// Loads besides weight.
+        #[serde(flatten)]
+        load: Load = Load::default() => group;
+    }
 }
 
-/// Loads on platform and cables besides their weight, fixed in world axes.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Load {
-    /// Force on the platform [N].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub force_n: Option<[f64; 3]>,
-    /// Moment on the platform [N m].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub moment_n_m: Option<[f64; 3]>,
-    /// Point where the force acts, platform frame [m].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub load_point_m: Option<[f64; 3]>,
-    /// Velocity of the steady wind [m/s].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wind_m_s: Option<[f64; 3]>,
-    /// Load per metre of every cable besides its weight [N/m].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub cable_load_n_per_m: Option<[f64; 3]>,
+declared! {
+    /// Loads on platform and cables besides their weight, fixed in world axes; they replace the loads of the robot file.
+    #[derive(Copy)]
+    pub struct Load {
+        /// Force on the platform, world axes [N].
+        force_n: Option<[f64; 3]> = None => (Vector).under("Load");
+        /// Moment on the platform, world axes [N m].
+        moment_n_m: Option<[f64; 3]> = None => (Vector).under("Load");
+        /// Point where the force acts, platform frame [m].
+        load_point_m: Option<[f64; 3]> = None =>
+            (Vector).under("Load").otherwise("from the robot file, or the origin");
+        /// Velocity of the steady wind, world axes [m/s]; it acts on ropes with a `drag_coefficient` and platforms with a
+        /// `drag_area_m2`.
+        wind_m_s: Option<[f64; 3]> = None => (Vector).under("Load");
+        /// Load per metre of every cable besides its weight, world axes [N/m].
+        cable_load_n_per_m: Option<[f64; 3]> = None => (Vector).under("Load");
+    }
 }
 
-/// Rule and limits of the tensions at a pose.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct Tensions {
-    /// Rule.
-    #[serde(default, skip_serializing_if = "Option::is_none", with = "optional")]
-    pub tension_rule: Option<TensionRuleName>,
-    /// Target tensions [N], one for all cables or one per cable in the order of the file.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub target_tension_n: Option<Vec<f64>>,
-    /// Minimum tension anywhere in a cable [N].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub min_tension_n: Option<f64>,
-    /// Maximum tension anywhere in a cable [N].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max_tension_n: Option<f64>,
+declared! {
+    /// Choice of the tensions at a pose, for a robot with more cables than degrees of freedom.
+    pub struct Tensions {
+        /// Rule that chooses the tensions at a pose if there are more cables than degrees of freedom.
+        #[serde(with = "optional")]
+        tension_rule: Option<TensionRuleName> = None =>
+            (name::<TensionRuleName>()).form("RULE").under("Tensions").otherwise("lowest");
+        /// Target tensions [N], one for all cables or one per cable in the order of the file; the rule is then closest.
+        target_tension_n: Option<Vec<f64>> = None => (Numbers(NotNegative)).form("T|T1,T2,…").under("Tensions");
+        /// Minimum tension anywhere in a cable [N].
+        min_tension_n: Option<f64> = None =>
+            (Number(NotNegative)).under("Tensions").otherwise("from the robot file, or 2.5 times the cable's weight");
+        /// Maximum tension anywhere in a cable [N].
+        max_tension_n: Option<f64> = None =>
+            (Number(Positive)).under("Tensions").otherwise("from the robot file, or none");
+    }
 }
 
-/// Linearisation of the robot.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Model {
-    /// Cable model. The default depends on the static model.
-    #[serde(default, skip_serializing_if = "Option::is_none", with = "optional")]
-    pub cable_model: Option<CableModel>,
+declared! {
+    /// Linearisation of the robot.
+    #[derive(Copy)]
+    pub struct Model {
+        /// Cable model: how cables respond to motion of the platform.
+        #[serde(with = "optional")]
+        cable_model: Option<CableModel> = None => (name::<CableModel>()).form("MODEL").under("Model")
+            .otherwise("catenary-dynamic; shallow-dynamic for static models other than catenary");
+        /// Terms of the stiffness.
+        #[serde(flatten)]
+        terms: Terms = Terms::default() => group;
+    }
+}
+
+declared! {
     /// Terms of the stiffness.
-    #[serde(flatten)]
-    pub terms: Terms,
+    #[derive(Copy)]
+    pub struct Terms {
+        /// Terms of the stiffness.
+        #[serde(with = "crate::names")]
+        assembly: Assembly = Assembly::default() => (name::<Assembly>()).form("TERMS").under("Model");
+        /// Leave out the out-of-plane stiffness of the cables, as in Yuan et al. 2014.
+        in_plane_only: bool = false => (Switch).under("Model");
+        /// Winches in vibration, for cables that run to a winch.
+        #[serde(with = "crate::names")]
+        winches: WinchMode = WinchMode::default() => (name::<WinchMode>()).form("MODE").under("Model");
+    }
 }
 
-/// Terms of the stiffness.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Terms {
-    /// Terms to take: all, or only the end stiffness of the cables.
-    #[serde(default, with = "crate::names")]
-    pub assembly: Assembly,
-    /// Leave out the out-of-plane stiffness of the cables.
-    #[serde(default)]
-    pub in_plane_only: bool,
-    /// Winches in vibration.
-    #[serde(default, with = "crate::names")]
-    pub winches: WinchMode,
+declared! {
+    /// Points of the platform for the input and the output of a response.
+    #[derive(Copy)]
+    pub struct ResponsePoints {
+        /// Point where the force acts, platform frame [m].
+        input_point_m: Option<[f64; 3]> = None => (Vector).otherwise("the origin");
+        /// Point whose motion is measured, platform frame [m].
+        output_point_m: Option<[f64; 3]> = None => (Vector).otherwise("the origin");
+    }
 }
 
-/// Points of the platform for the input and the output of a response, platform frame [m].
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct ResponsePoints {
-    /// Point where the force acts.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub input_point_m: Option<[f64; 3]>,
-    /// Point whose motion is measured.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub output_point_m: Option<[f64; 3]>,
-}
-
-/// Range of frequencies, ends included.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct FrequencyRange {
-    /// First frequency [Hz].
-    pub from_hz: f64,
-    /// Last frequency [Hz].
-    pub to_hz: f64,
-    /// Number of frequencies; may be left out only where frequencies are added adaptively.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub points: Option<usize>,
-    /// Equal ratios instead of equal steps.
-    #[serde(default)]
-    pub log: bool,
+declared! {
+    /// Range of frequencies, ends included.
+    #[derive(Copy)]
+    pub struct FrequencyRange {
+        /// First frequency [Hz].
+        from_hz: f64 = 0.0 => (Number(NotNegative)).required();
+        /// Last frequency [Hz].
+        to_hz: f64 = 0.0 => (Number(Positive)).required();
+        /// Number of frequencies, 2 to 1000000; with ⟪adaptive⟫ the number from which it starts.
+        points: Option<usize> = None => (Count(2..=1_000_000));
+        /// Equal ratios between frequencies instead of equal steps.
+        log: bool = false => (Switch);
+    }
 }
 
 /// Name of one signal, or names of several.
@@ -243,6 +249,12 @@ pub enum OneOrSeveral {
     One(String),
     /// Several signals, in the order of the results.
     Several(Vec<String>),
+}
+
+impl Default for OneOrSeveral {
+    fn default() -> Self {
+        Self::Several(Vec::new())
+    }
 }
 
 impl OneOrSeveral {
@@ -319,75 +331,69 @@ impl Axis {
 /// robot, and low enough that a search ends.
 pub const MAX_HZ: f64 = 1000.0;
 
-/// Quantities and options of every point of a map or sweep.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct EachPoint {
-    /// Names of the quantities.
-    #[serde(default = "EachPoint::default_quantities")]
-    pub quantities: Vec<String>,
-    /// Upper limit of the search for natural frequencies [Hz].
-    #[serde(default = "default_up_to_hz")]
-    pub up_to_hz: f64,
-    /// Minimum fraction of the kinetic energy in the platform for the first mode of the platform.
-    #[serde(default = "platform_share")]
-    pub platform_share: f64,
-    /// Centre of mass of the payload, platform frame [m]. Default: that of the platform.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub payload_center_m: Option<[f64; 3]>,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Linearisation.
-    #[serde(flatten)]
-    pub model: Model,
+/// Names of all quantities, for the help.
+fn every_quantity() -> String {
+    let names: Vec<&str> = Quantity::names().collect();
+    format!(
+        ": {}. first-platform-frequency jumps between neighbouring points where a mode of the cables is near; for a \
+         smooth curve choose catenary-static as ⟪cable_model⟫",
+        names.join(", ")
+    )
 }
 
-impl EachPoint {
-    /// Quantities of a request that names none.
-    pub fn default_quantities() -> Vec<String> {
-        vec!["tension-min".to_owned(), "tension-max".to_owned()]
+declared! {
+    /// Quantities and options of every point of a map or sweep.
+    pub struct EachPoint {
+        /// Quantities to compute at every point, described in docs/sweeps.md
+        quantities: Vec<String> = vec!["tension-min".to_owned(), "tension-max".to_owned()] =>
+            (Commas(written::quantity)).form("Q,Q,…").option("quantity").more(&every_quantity());
+        /// Upper limit of the search for natural frequencies [Hz].
+        up_to_hz: f64 = MAX_HZ => (Number(Positive));
+        /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform.
+        platform_share: f64 = PLATFORM_SHARE => (Number(Fraction));
+        /// Centre of mass of the payload, platform frame [m].
+        payload_center_m: Option<[f64; 3]> = None => (Vector).otherwise("that of the platform");
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Linearisation.
+        #[serde(flatten)]
+        model: Model = Model::default() => group;
     }
 }
 
-fn default_up_to_hz() -> f64 {
-    MAX_HZ
+declared! {
+    /// Rope values that files of other programs may lack. A value given here takes precedence over the files.
+    #[derive(Copy)]
+    pub struct ImportRopes {
+        /// Mass of the ropes per unstrained length [kg/m]; 0 for massless ropes.
+        mass_kg_per_m: Option<f64> = None => (Number(NotNegative)).under("Ropes");
+        /// Axial stiffness EA of the ropes [N].
+        axial_stiffness_n: Option<f64> = None =>
+            (Number(Positive)).under("Ropes").excludes(&["youngs_modulus_pa", "diameter_m"]);
+        /// Young's modulus of the full circular section of the ropes [Pa]; needs the diameter.
+        youngs_modulus_pa: Option<f64> = None => (Number(Positive)).form("PA").under("Ropes");
+        /// Diameter of the ropes [m].
+        diameter_m: Option<f64> = None => (Number(Positive)).under("Ropes");
+    }
 }
 
-/// Rope values that files of other programs may lack. A value given here takes precedence over the files.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct ImportRopes {
-    /// Mass per unstrained length [kg/m].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mass_kg_per_m: Option<f64>,
-    /// Axial stiffness EA [N].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub axial_stiffness_n: Option<f64>,
-    /// Young's modulus of the full circular section [Pa].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub youngs_modulus_pa: Option<f64>,
-    /// Diameter [m].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub diameter_m: Option<f64>,
-}
-
-/// Platform values that files of other programs may lack. A value given here takes precedence over the files.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct ImportPlatform {
-    /// Mass [kg].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mass_kg: Option<f64>,
-    /// Inertia tensor about the centre of mass, platform axes [kg m²]: xx, yy, zz, xy, xz, yz.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub inertia_kg_m2: Option<[f64; 6]>,
-    /// Centre of mass in the platform frame [m].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub center_of_mass_m: Option<[f64; 3]>,
-    /// Pose of the state.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pose: Option<Pose>,
+declared! {
+    /// Platform values that files of other programs may lack. A value given here takes precedence over the files.
+    #[derive(Copy)]
+    pub struct ImportPlatform {
+        /// Mass of the platform [kg].
+        mass_kg: Option<f64> = None => (Number(Positive)).under("Platform");
+        /// Inertia tensor about the centre of mass, platform axes [kg m²]: xx, yy, zz, xy, xz, yz.
+        inertia_kg_m2: Option<[f64; 6]> = None => (Tensor).under("Platform");
+        /// Centre of mass in the platform frame [m].
+        center_of_mass_m: Option<[f64; 3]> = None => (Vector).under("Platform");
+        /// Pose of the state x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll).
+        pose: Option<Pose> = None => (Pose).under("Platform").otherwise("from the file");
+    }
 }
 
 /// Checks a number if it is given; the message names its key.
@@ -458,9 +464,4 @@ impl ImportPlatform {
         self.inertia_kg_m2.iter().flatten().try_for_each(|value| check("inertia_kg_m2", Some(*value), finite))?;
         check_vector("center_of_mass_m", self.center_of_mass_m)
     }
-}
-
-/// Default of the minimum fraction of the kinetic energy in the platform for a mode of the platform.
-pub(crate) fn platform_share() -> f64 {
-    funicular::modes::PLATFORM_SHARE
 }

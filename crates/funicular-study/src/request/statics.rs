@@ -1,94 +1,138 @@
 //! Requests about the robot file and the robot at rest.
 
+use super::key::declared;
 use super::parts::{Model, Pose, RobotText, State, Tensions};
-use serde::{Deserialize, Serialize};
+use super::written;
 
-/// Request of `check`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CheckRequest {
-    /// Robot file.
-    pub robot: RobotText,
+declared! {
+    /// Read and check a robot file, and describe the robot.
+    pub struct CheckRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+    }
+    examples {
+        "funicular check robots/yuan2014-4mm.toml",
+        "funicular check robots/cogiro.toml --set platform.mass_kg=300 --format json",
+    }
 }
 
-/// Request of `parameters`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ParametersRequest {
-    /// Robot file.
-    pub robot: RobotText,
+declared! {
+    /// List every number of a robot file: path, value, unit, range, meaning.
+    ///
+    /// The paths can be used in `--set` and in `sweep --vary`. One number of a vector is named by its axis or by its index
+    /// from 0: `anchor_m.z` is `anchor_m.2`. A number that the file leaves out is listed with its default.
+    pub struct ParametersRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+    }
+    examples {
+        "funicular parameters robots/yuan2014-4mm.toml",
+        "funicular parameters robots/cogiro.toml --set cables.1.anchor_m.z=5.5 --format csv",
+        "funicular parameters robots/cogiro.toml --set loads.force_n.2=-50",
+    }
 }
 
-/// Request of `statics`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StaticsRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Search for all equilibria of the unstrained lengths.
-    #[serde(default)]
-    pub all: bool,
-    /// Interval in which friction of pulleys leaves pose and tensions.
-    #[serde(default)]
-    pub friction_interval: bool,
+declared! {
+    /// Equilibrium: pose, tensions, sag.
+    pub struct StaticsRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Search for all equilibria of the unstrained lengths, including unstable ones.
+        all: bool = false => (Switch);
+        /// Compute the interval in which friction of pulleys leaves pose and tensions.
+        ///
+        /// The interval is that of every cable having last run towards the platform or towards its drum. With lengths
+        /// given, or with ⟪hold_lengths_of_pose⟫, pose and tensions vary. With a pose given, the tensions at the drums
+        /// and the lengths vary. Friction is given in [pulleys.NAME] by `friction_coefficient`, `efficiency` or
+        /// `bearing_friction_coefficient`.
+        friction_interval: bool = false => (Switch);
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+    }
+    examples {
+        "funicular statics robots/yuan2014-4mm.toml",
+        "funicular statics robots/yuan2014-4mm.toml --pose 0,0,0.5 --mass-kg 20",
+        "funicular statics robots/yuan2014-4mm.toml --lengths-m 6.9,6.6,6.8,6.7,6.8,6.6",
+        "funicular statics robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250",
+        "funicular statics robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --max-tension-n 1200",
+        "funicular statics docs/pulleys/winches.toml --friction-interval",
+        "funicular statics robots/cogiro.toml -o robot.pdf",
+    }
 }
 
-/// Request of `stiffness`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StiffnessRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Frequency [Hz]; at 0 the tangent of the static model unless a cable model is named.
-    #[serde(default)]
-    pub at_hz: f64,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Linearisation.
-    #[serde(flatten)]
-    pub model: Model,
+declared! {
+    /// 6×6 stiffness at one frequency, static at 0 Hz.
+    pub struct StiffnessRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Frequency of the stiffness [Hz]; at 0 Hz the tangent of the static model, unless ⟪cable_model⟫ is given.
+        at_hz: f64 = 0.0 => (Number(NotNegative));
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Linearisation.
+        #[serde(flatten)]
+        model: Model = Model::default() => group;
+    }
+    examples {
+        "funicular stiffness robots/yuan2014-4mm.toml",
+        "funicular stiffness robots/yuan2014-4mm.toml --at-hz 3.5 --format json",
+    }
 }
 
-/// Request of `payload`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PayloadRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Centre of mass of the payload, platform frame [m]. Default: that of the platform.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub payload_center_m: Option<[f64; 3]>,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions. The rule only chooses the lengths of a pose that are held; the payload is the
-    /// extreme one of all tensions within the limits.
-    #[serde(flatten)]
-    pub tensions: Tensions,
+declared! {
+    /// Minimum and maximum payload at a pose, with the cables and ends whose tension limits bind.
+    ///
+    /// The payload is held by any tensions within the limits, not only by those of a tension rule.
+    pub struct PayloadRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Centre of mass of the payload, platform frame [m].
+        payload_center_m: Option<[f64; 3]> = None => (Vector).otherwise("that of the platform");
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+    }
+    examples {
+        "funicular payload robots/cogiro.toml --pose 1,2,1.5",
+        "funicular payload robots/cogiro.toml --pose 1,2,1.5 --payload-center-m 0,0,-0.5 --max-tension-n 3000",
+        "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=1.5 --quantity payload-max -o cogiro.parquet",
+    }
 }
 
-/// Request of `pose-error`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PoseErrorRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Platform masses: first [kg], last [kg], number of them in equal steps.
-    pub mass_kg: (f64, f64, usize),
-    /// Unstrained lengths [m], one per cable.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub lengths_m: Option<Vec<f64>>,
-    /// Pose whose unstrained lengths are held: those with which the robot of the file rests there.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pose: Option<Pose>,
-    /// Rule and limits of the tensions at this pose.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Maximum distance between spring pose and catenary pose at which springs are good enough [mm].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tolerance_mm: Option<f64>,
+declared! {
+    /// Distances between the poses of ideal, spring and catenary cables over platform mass.
+    pub struct PoseErrorRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Platform masses [kg]: N masses from A to B in equal steps, as in 10:90:81.
+        mass_kg: (f64, f64, usize) = (0.0, 0.0, 0) => (Written(written::mass_range)).form("A:B:N").required();
+        /// Unstrained lengths [m], one per cable in the order of the file.
+        lengths_m: Option<Vec<f64>> = None =>
+            (Numbers(Positive)).form("L1,L2,…").excludes(&["pose"]).otherwise("from the robot file");
+        /// Pose x,y,z[,roll,pitch,yaw] [m, degrees]: hold the unstrained lengths with which the robot of the file, without
+        /// ⟪set⟫, rests there.
+        pose: Option<Pose> = None => (Pose).otherwise("the [state] of the robot file");
+        /// Rule and limits of the tensions at this pose.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Maximum distance between spring pose and catenary pose at which springs are good enough [mm]; reports the masses
+        /// where they are.
+        tolerance_mm: Option<f64> = None => (Number(Positive));
+    }
+    examples {
+        "funicular pose-error robots/yuan2014-4mm.toml --mass-kg 10.55:86.35:100",
+        "funicular pose-error robots/yuan2014-8mm.toml --mass-kg 10:90:81 --tolerance-mm 5 --format csv",
+        "funicular pose-error robots/cogiro.toml --pose 1,2,1.5 --mass-kg 80:400:33",
+    }
 }

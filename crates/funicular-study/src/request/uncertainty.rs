@@ -1,66 +1,75 @@
 //! Request of the uncertainty of results.
 
+use super::key::declared;
 use super::parts::{Model, ResponsePoints, RobotText, State, Tensions};
+use super::written;
 use crate::names::UncertaintyMethod;
 use funicular::gradient::Hold;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Deserializer};
 
 /// Number of sampled robots if a request gives none: deviations are then accurate to 5 %.
 pub const DEFAULT_SAMPLES: usize = 200;
 
-/// Request of `uncertainty`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct UncertaintyRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Groups of results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`.
-    #[serde(default = "pose_and_tensions")]
-    pub of: Vec<String>,
-    /// Standard deviations of normally distributed numbers, as `PATH=VALUE` or `PATH=PERCENT%`.
-    #[serde(default)]
-    pub deviations: Vec<String>,
-    /// Tolerances of numbers that are anywhere within them, as `PATH=VALUE` or `PATH=PERCENT%`.
-    #[serde(default)]
-    pub tolerances: Vec<String>,
-    /// Quantity that is held while the numbers deviate.
-    #[serde(default, with = "crate::names")]
-    pub hold: Hold,
-    /// Method for the deviations of the results.
-    #[serde(default, with = "crate::names")]
-    pub method: UncertaintyMethod,
-    /// Number of sampled robots.
-    #[serde(default = "default_samples")]
-    pub samples: usize,
-    /// Number that chooses the sample.
-    #[serde(default)]
-    pub seed: u32,
-    /// Upper limit of the frequencies [Hz]; for frequencies and damping.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub below_hz: Option<f64>,
-    /// Frequencies of the response [Hz]: a list, or a single number.
-    #[serde(skip_serializing_if = "Option::is_none", default, deserialize_with = "one_or_several")]
-    pub at_hz: Option<Vec<f64>>,
-    /// Input of the response.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub input: Option<String>,
-    /// Output of the response.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub output: Option<String>,
-    /// Points of the response.
-    #[serde(flatten)]
-    pub points: ResponsePoints,
-    /// List of poses instead of the state: position [m] and roll, pitch, yaw [degrees].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub poses: Option<Vec<[f64; 6]>>,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Linearisation.
-    #[serde(flatten)]
-    pub model: Model,
+declared! {
+    /// Deviations of results from deviations or tolerances of numbers of the robot file.
+    ///
+    /// Results are linear in the deviations where no cable may become slack and no frequencies may cross; elsewhere the
+    /// program computes sampled robots, on all cores. Each result has its deviation, the interval that holds 95 % of all
+    /// robots, and the shares of the numbers; docs/uncertainty.md explains the tables.
+    pub struct UncertaintyRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Standard deviations PATH=VALUE or PATH=PERCENT% of normally distributed numbers, separated by commas. `parameters`
+        /// lists the paths; * stands for any key, and a path to a table or vector for all numbers in it. Each entry is a
+        /// group with its own share.
+        deviations: Vec<String> = Vec::new() => (Texts).form("DEVIATIONS");
+        /// Tolerances PATH=VALUE or PATH=PERCENT% of numbers with a uniform distribution within ± their tolerance, separated
+        /// by commas.
+        tolerances: Vec<String> = Vec::new() => (Texts).form("TOLERANCES");
+        /// Results: pose, lengths, tensions, stiffness-min, frequencies, damping, response; separated by commas.
+        of: Vec<String> = pose_and_tensions() => (Texts).form("RESULTS");
+        /// Quantity that is held while the numbers deviate; with the pose held, the tensions parallel to the chords of more
+        /// cables than degrees of freedom change least, or follow their rule.
+        #[serde(with = "crate::names")]
+        hold: Hold = Hold::default() => (name::<Hold>()).form("WHAT");
+        /// Upper limit of the frequencies [Hz]; for frequencies and damping.
+        below_hz: Option<f64> = None => (Number(Positive));
+        /// Frequencies of the response [Hz], separated by commas.
+        #[serde(deserialize_with = "one_or_several")]
+        at_hz: Option<Vec<f64>> = None => (Commas(written::not_negative)).form("HZ");
+        /// Input of the response (see `frf`).
+        input: Option<String> = None => (Written(written::input)).form("INPUT");
+        /// Output of the response (see `frf`); results are its magnitudes in decibels and its phases in degrees.
+        output: Option<String> = None => (Written(written::output)).form("OUTPUT");
+        /// Points of the platform.
+        #[serde(flatten)]
+        points: ResponsePoints = ResponsePoints::default() => group;
+        /// List of poses instead of the state: position [m] and roll, pitch, yaw [degrees].
+        poses: Option<Vec<[f64; 6]>> = None => (Data);
+        /// Method for the deviations.
+        #[serde(with = "crate::names")]
+        method: UncertaintyMethod = UncertaintyMethod::default() => (name::<UncertaintyMethod>()).form("METHOD");
+        /// Number of sampled robots per pose that needs sampling, 10 to 1000000; with several groups, each group needs as
+        /// many again.
+        samples: usize = DEFAULT_SAMPLES => (Count(0..=u64::MAX));
+        /// Seed of the sample.
+        seed: u32 = 0 => (Count(0..=u64::from(u32::MAX)));
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Linearisation.
+        #[serde(flatten)]
+        model: Model = Model::default() => group;
+    }
+    examples {
+        "funicular uncertainty robots/yuan2014-4mm.toml --deviations platform.mass_kg=1%,cables.*.anchor_m=0.002 \\\n    --of pose,tensions,frequencies --below-hz 2",
+        "funicular uncertainty robots/cogiro.toml --pose 1,2,1.5 --tolerances cables.*.unstrained_length_m=0.0002 -o cogiro.html",
+        "funicular uncertainty robots/cogiro.toml --poses trajectory.csv --deviations platform.center_of_mass_m=0.005 \\\n    --of stiffness-min --hold pose -o stiffness.csv",
+        "funicular uncertainty robots/yuan2014-4mm.toml --deviations materials.*.youngs_modulus_pa=5%,platform=1% \\\n    --of frequencies,damping --below-hz 3 --samples 2000 --samples-file robots.parquet",
+    }
 }
 
 /// Results whose deviations are computed if a request names none.
@@ -80,8 +89,4 @@ fn one_or_several<'de, D: Deserializer<'de>>(source: D) -> Result<Option<Vec<f64
         Numbers::One(hz) => vec![hz],
         Numbers::Several(all) => all,
     }))
-}
-
-fn default_samples() -> usize {
-    DEFAULT_SAMPLES
 }

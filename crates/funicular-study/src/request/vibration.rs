@@ -1,184 +1,210 @@
 //! Requests about vibration.
 
-use super::parts::{
-    FrequencyRange, Model, OneOrSeveral, ResponsePoints, RobotText, State, Tensions, Terms, platform_share,
-};
-use crate::names::ModelForm;
-use serde::{Deserialize, Serialize};
+use super::key::{Key, declared};
+use super::parts::{FrequencyRange, Model, OneOrSeveral, ResponsePoints, RobotText, State, Tensions, Terms};
+use super::{MAX_STATIONS, written};
+use crate::names::{ModelForm, optional};
+use funicular::cable::CableModel;
+use funicular::compare::TOLERANCE;
+use funicular::modes::PLATFORM_SHARE;
+use funicular::robot::WinchMode;
 
-/// Request of `modes`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ModesRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Upper limit of the frequencies [Hz].
-    pub below_hz: f64,
-    /// Input of the response to which the modes contribute; needs an output.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub input: Option<String>,
-    /// Output of that response; needs an input.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub output: Option<String>,
-    /// Points of that response.
-    #[serde(flatten)]
-    pub points: ResponsePoints,
-    /// Number of points along every cable whose displacements in each mode are listed, ends included.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stations: Option<usize>,
-    /// Minimum fraction of the kinetic energy in the platform for the first mode of the platform.
-    #[serde(default = "platform_share")]
-    pub platform_share: f64,
-    /// Compute the damped mode of every undamped mode; otherwise damping ratios are of first order in the damping.
-    #[serde(default = "enabled")]
-    pub damped: bool,
-    /// Cables that are rigid in length: the motions that they leave free.
-    #[serde(default)]
-    pub rigid_cables: bool,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Linearisation.
-    #[serde(flatten)]
-    pub model: Model,
+declared! {
+    /// Every natural frequency below a limit, with a count that proves that none is missing.
+    pub struct ModesRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Upper limit of the frequencies [Hz].
+        below_hz: f64 = 0.0 => (Number(Positive)).required();
+        /// Input of a response (see `frf`): also show the contribution of each mode to this response; needs ⟪output⟫.
+        input: Option<String> = None => (Written(written::input)).form("INPUT").needs("output");
+        /// Output of that response; needs ⟪input⟫.
+        output: Option<String> = None => (Written(written::output)).form("OUTPUT").needs("input");
+        /// Points of the platform.
+        #[serde(flatten)]
+        points: ResponsePoints = ResponsePoints::default() => group;
+        /// Number of points along every cable whose displacements in each mode are listed, ends included; only in JSON.
+        stations: Option<usize> = None => (Count(2..=MAX_STATIONS as u64));
+        /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform.
+        platform_share: f64 = PLATFORM_SHARE => (Number(Fraction));
+        /// Compute the damped mode of every undamped mode; otherwise damping ratios are of first order in the damping.
+        damped: bool = true => (Switch).option(Key::NOT_IN_PROGRAM);
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Linearisation.
+        #[serde(flatten)]
+        model: Model = Model::default() => group;
+        /// Modes with cables that are straight, without mass and rigid in length: how a platform swings on fewer cables
+        /// than it has degrees of freedom; with ideal as ⟪static_model⟫.
+        rigid_cables: bool = false => (Switch).under("Model");
+    }
+    examples {
+        "funicular modes robots/yuan2014-4mm.toml --below-hz 20",
+        "funicular modes robots/yuan2014-4mm.toml --below-hz 5 --input fz --output az",
+        "funicular modes robots/yuan2014-4mm.toml --below-hz 5 --stations 21 -o modes.json",
+        "funicular modes robots/yuan2014-4mm.toml --below-hz 5 -o modes.uff",
+        "funicular modes robots/cogiro.toml --below-hz 10 --cable-model spring -o modes.csv",
+        "funicular modes robots/cogiro.toml --pose 1,2,1.5 --tension-rule middle --below-hz 8 --platform-share 0.75",
+        "funicular modes robots/grab-3-cables.toml --static-model ideal --rigid-cables --below-hz 10",
+        "funicular modes robots/cogiro.toml --below-hz 5 --figure-mode 3 -o shape.pdf",
+    }
 }
 
-/// Request of `frf`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FrfRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Frequencies.
-    #[serde(flatten)]
-    pub range: FrequencyRange,
-    /// Add frequencies until every peak has its height and the drawn curve is accurate.
-    #[serde(default)]
-    pub adaptive: bool,
-    /// Input signal, as `fz`, `cable:3@0.5:fz`, `length:3` or `base-x`, or a list of input signals.
-    pub input: OneOrSeveral,
-    /// Output signal, as `ay`, `cable:3@0.5:az` or `tension:3`, or a list of output signals.
-    pub output: OneOrSeveral,
-    /// Points of the platform.
-    #[serde(flatten)]
-    pub signal_points: ResponsePoints,
-    /// Minimum height of a peak above the valleys beside it [dB].
-    #[serde(default = "one")]
-    pub prominence_db: f64,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Linearisation.
-    #[serde(flatten)]
-    pub model: Model,
+declared! {
+    /// Frequency response of the platform or of points on cables, and its peaks.
+    pub struct FrfRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Frequencies.
+        #[serde(flatten)]
+        range: FrequencyRange = FrequencyRange::default() => group;
+        /// Add frequencies until every peak has its height (to 0.1 %) and straight lines over the logarithm of the
+        /// magnitude are accurate to 1 %.
+        adaptive: bool = false => (Switch);
+        /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; a force on
+        /// a cable, as in cable:3@0.5:fz; the commanded length of a cable, length:3, a force of its motor or on its drum,
+        /// motor:3, drum:3; a motion of the base, base-x to base-rz, or of an anchor, anchor:3:x (repeatable).
+        input: OneOrSeveral = OneOrSeveral::default() => (OneOrMore(written::input)).form("INPUT").required();
+        /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…,
+        /// a:… along a direction, world axes; the motion of a point on a cable (name, fraction of its length from the
+        /// platform), as in cable:3@0.5:az; the motion of a drum or motor, drum:3, motor:3, or the tension at the platform
+        /// or at the drum, tension:3, drum-tension:3 (repeatable).
+        output: OneOrSeveral = OneOrSeveral::default() => (OneOrMore(written::output)).form("OUTPUT").required();
+        /// Points of the platform.
+        #[serde(flatten)]
+        signal_points: ResponsePoints = ResponsePoints::default() => group;
+        /// Minimum height of a peak above the valleys beside it [dB].
+        prominence_db: f64 = 1.0 => (Number(NotNegative));
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Linearisation.
+        #[serde(flatten)]
+        model: Model = Model::default() => group;
+    }
+    examples {
+        "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 \\\n    --input fz --output ay",
+        "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 100 --points 5000 --log \\\n    --input f:1,0,1 --output x --output-point-m 0,0,-0.2 -o frf.csv",
+        "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    --input fz --output ay",
+        "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    --input fx --input fz --output x --output cable:3@0.5:az -o frf.json",
+        "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 \\\n    --input fz --output az --output-point-m 0.1,0.08,0.02 -o frf.uff",
+        "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    --input fz --output az --figure-width-mm ieee-single -o frf.pdf",
+    }
 }
 
-/// Request of `compare`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CompareRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Upper limit of the frequencies [Hz].
-    pub below_hz: f64,
-    /// Compare the modes of the platform alone.
-    #[serde(default)]
-    pub platform: bool,
-    /// Minimum fraction of the kinetic energy in the platform for a mode of the platform.
-    #[serde(default = "platform_share")]
-    pub platform_share: f64,
-    /// Maximum relative difference of frequency for a model that is good enough.
-    #[serde(default = "one_per_cent")]
-    pub tolerance: f64,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Terms of the stiffness.
-    #[serde(flatten)]
-    pub terms: Terms,
+declared! {
+    /// Comparison of all cable models, and the simplest model that is good enough.
+    pub struct CompareRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Upper limit of the frequencies [Hz].
+        below_hz: f64 = 0.0 => (Number(Positive)).required();
+        /// Compare the modes of the platform alone.
+        platform: bool = false => (Switch);
+        /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform.
+        platform_share: f64 = PLATFORM_SHARE => (Number(Fraction));
+        /// Maximum relative difference of frequency for a model that is good enough.
+        tolerance: f64 = TOLERANCE => (Number(NotNegative)).form("FRACTION");
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Terms of the stiffness.
+        #[serde(flatten)]
+        terms: Terms = Terms::default() => group;
+    }
+    examples {
+        "funicular compare robots/yuan2014-4mm.toml --below-hz 5",
+        "funicular compare robots/cogiro.toml --below-hz 15 --platform --tolerance 0.05",
+        "funicular compare robots/yuan2014-4mm.toml --below-hz 5 -o models.svg",
+    }
 }
 
-/// Request of `cable`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CableRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Name of the cable.
-    pub name: String,
-    /// Frequencies.
-    #[serde(flatten)]
-    pub range: FrequencyRange,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Cable model.
-    #[serde(default, skip_serializing_if = "Option::is_none", with = "crate::names::optional")]
-    pub cable_model: Option<funicular::cable::CableModel>,
-    /// Leave out the out-of-plane stiffness of the cable.
-    #[serde(default)]
-    pub in_plane_only: bool,
-    /// Winches in vibration.
-    #[serde(default, with = "crate::names")]
-    pub winches: funicular::robot::WinchMode,
+declared! {
+    /// Dynamic stiffness of one cable over frequency.
+    pub struct CableRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Name of the cable in the robot file.
+        name: String = String::new() => (Text).required();
+        /// Frequencies.
+        #[serde(flatten)]
+        range: FrequencyRange = FrequencyRange::default() => group;
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Cable model: how the cable responds to motion of its platform end.
+        #[serde(with = "optional")]
+        cable_model: Option<CableModel> = None => (name::<CableModel>()).form("MODEL").under("Model")
+            .otherwise("catenary-dynamic; shallow-dynamic for static models other than catenary");
+        /// Leave out the out-of-plane stiffness of the cable, as in Yuan et al. 2014.
+        in_plane_only: bool = false => (Switch).under("Model");
+        /// Winch in vibration, for a cable that runs to a winch.
+        #[serde(with = "crate::names")]
+        winches: WinchMode = WinchMode::default() => (name::<WinchMode>()).form("MODE").under("Model");
+    }
+    examples {
+        "funicular cable robots/yuan2014-4mm.toml --name 1 --from-hz 0.1 --to-hz 20 --points 1000",
+    }
 }
 
-/// Request of `reduce`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ReduceRequest {
-    /// Robot file.
-    pub robot: RobotText,
-    /// Highest frequency that the model is for [Hz].
-    pub below_hz: f64,
-    /// Input signals; an empty list stands for all forces and moments on the platform.
-    #[serde(default)]
-    pub input: Vec<String>,
-    /// Output signals; an empty list stands for all displacements and rotations of the platform.
-    #[serde(default)]
-    pub output: Vec<String>,
-    /// Points of the platform.
-    #[serde(flatten)]
-    pub points: ResponsePoints,
-    /// Form of the model.
-    #[serde(default, with = "crate::names")]
-    pub form: ModelForm,
-    /// Maximum number of states of a state space, instead of a tolerance.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub order: Option<usize>,
-    /// Maximum error of a response relative to its peak (0.01 if neither tolerance nor order is given); for the
-    /// second-order form the maximum relative error due to omitted modes (0.001).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tolerance: Option<f64>,
-    /// Frequency at which viscous damping reproduces constant damping ratios [Hz].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub damping_at_hz: Option<f64>,
-    /// State and loads.
-    #[serde(flatten)]
-    pub state: State,
-    /// Rule and limits of tensions.
-    #[serde(flatten)]
-    pub tensions: Tensions,
-    /// Linearisation.
-    #[serde(flatten)]
-    pub model: Model,
-}
-
-fn one() -> f64 {
-    1.0
-}
-
-fn enabled() -> bool {
-    true
-}
-
-fn one_per_cent() -> f64 {
-    funicular::compare::TOLERANCE
+declared! {
+    /// State space A, B, C, D for control design, or the second-order model M, C, K.
+    ///
+    /// The state space has the modes that the inputs and outputs see: as few states as the tolerance allows, or the best ones
+    /// for a given number of states. docs/control.md explains the error and the use in Python and MATLAB.
+    pub struct ReduceRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data).required();
+        /// Highest frequency for which the model is valid [Hz].
+        below_hz: f64 = 0.0 => (Number(Positive)).required();
+        /// Input signal, see `frf` (repeatable).
+        input: Vec<String> = Vec::new() =>
+            (List(written::input)).form("INPUT").otherwise("all forces and moments on the platform");
+        /// Output signal, see `frf` (repeatable).
+        output: Vec<String> = Vec::new() =>
+            (List(written::output)).form("OUTPUT").otherwise("all displacements and rotations of the platform");
+        /// Points of the platform.
+        #[serde(flatten)]
+        points: ResponsePoints = ResponsePoints::default() => group;
+        /// Form of the model.
+        #[serde(with = "crate::names")]
+        form: ModelForm = ModelForm::default() => (name::<ModelForm>()).form("FORM");
+        /// Maximum error of each response, relative to its peak below the limit; the state space has as few states as it
+        /// allows (0.01 if neither tolerance nor order is given). With the second-order form: maximum relative error due
+        /// to omitted modes (0.001).
+        tolerance: Option<f64> = None => (Number(NotNegative)).form("FRACTION");
+        /// Maximum number of states, instead of a tolerance.
+        order: Option<usize> = None => (Count(0..=u64::MAX));
+        /// Frequency at which viscous damping reproduces constant damping ratios [Hz].
+        damping_at_hz: Option<f64> = None => (Number(Positive)).otherwise("every natural frequency");
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Linearisation.
+        #[serde(flatten)]
+        model: Model = Model::default() => group;
+    }
+    examples {
+        "funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --input fz --output az --matrices model.mat",
+        "funicular reduce robots/cogiro.toml --below-hz 10 --input fz --output z --order 8 --matrices model.npz",
+        "funicular reduce robots/cogiro-winches.toml --below-hz 5 --input length:1 --output z --output tension:1",
+        "funicular reduce robots/cogiro-winches.toml --below-hz 5 --input base-z --output z --output az",
+        "funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --form second-order --matrices model\n\nIn Python: m = numpy.load('model.npz'); m['A'], m['B'], m['C'], m['D']\nIn MATLAB: load model.mat; sys = ss(A, B, C, D)",
+    }
 }

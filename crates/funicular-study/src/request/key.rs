@@ -1,0 +1,366 @@
+//! Declaration of the options of a command.
+//!
+//! A [`Key`] is said once, beside its field, and is everywhere: key of a request in JSON, option of the program with
+//! its help and its range, keyword in Python, row of the tables in the documentation.
+
+use super::written;
+use crate::names::Named;
+use crate::values::{MAX_MAGNITUDE, MIN_POSITIVE, finite, fraction, not_negative, positive};
+use serde_json::Value;
+use std::ops::RangeInclusive;
+
+/// Range of a number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Range {
+    /// Any number up to [`MAX_MAGNITUDE`].
+    Finite,
+    /// At least [`MIN_POSITIVE`].
+    Positive,
+    /// Zero or more.
+    NotNegative,
+    /// Above 0, at most 1.
+    Fraction,
+}
+
+impl Range {
+    /// Checks a number.
+    ///
+    /// # Errors
+    /// A message that says what is wrong with it.
+    pub fn check(self, value: f64) -> Result<f64, String> {
+        match self {
+            Self::Finite => finite(value),
+            Self::Positive => positive(value),
+            Self::NotNegative => not_negative(value),
+            Self::Fraction => fraction(value),
+        }
+    }
+
+    /// Smallest and largest number of the range.
+    pub fn ends(self) -> (f64, f64) {
+        match self {
+            Self::Finite => (-MAX_MAGNITUDE, MAX_MAGNITUDE),
+            Self::Positive => (MIN_POSITIVE, MAX_MAGNITUDE),
+            Self::NotNegative => (0.0, MAX_MAGNITUDE),
+            Self::Fraction => (MIN_POSITIVE, 1.0),
+        }
+    }
+}
+
+/// One of the names that an option can have as its value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Choice {
+    /// Name.
+    pub name: &'static str,
+    /// Meaning.
+    pub about: &'static str,
+    /// Another name that the program understands.
+    pub also: Option<&'static str>,
+}
+
+/// Reads the text of an option of the program as the JSON value of its key.
+///
+/// # Errors
+/// A message that says what is wrong with the text.
+pub type Reader = fn(&str) -> Result<Value, String>;
+
+/// Kind of value of an option.
+#[derive(Debug, Clone)]
+pub enum Kind {
+    /// Truth value; in the program a switch without a value.
+    Switch,
+    /// Number.
+    Number(Range),
+    /// Whole number.
+    Count(RangeInclusive<u64>),
+    /// List of numbers.
+    Numbers(Range),
+    /// Vector x, y, z.
+    Vector,
+    /// Position and orientation, or only the position.
+    Pose,
+    /// Entries xx, yy, zz, xy, xz, yz of a symmetric tensor, or its diagonal.
+    Tensor,
+    /// One of several names.
+    Name(Vec<Choice>),
+    /// Any text.
+    Text,
+    /// Several texts; in the program separated by commas.
+    Texts,
+    /// Value that the program writes in a form of its own.
+    Written(Reader),
+    /// List of such values; the option can be given several times.
+    List(Reader),
+    /// Such a value, or a list of them; the option can be given several times.
+    OneOrMore(Reader),
+    /// List of such values, separated by commas.
+    Commas(Reader),
+    /// Data that the program reads from files, with options that it declares itself.
+    Data,
+}
+
+/// One option of a command.
+#[derive(Debug, Clone)]
+pub struct Key {
+    /// Name: of the key in JSON and of the keyword in Python; the program writes it with `-` for `_`.
+    pub name: &'static str,
+    /// Meaning, with ⟪other keys⟫; further paragraphs follow after an empty line.
+    pub about: String,
+    /// Kind of value.
+    pub kind: Kind,
+    /// True if a request without it is refused.
+    pub required: bool,
+    /// Value of a request that does not give it; null without one.
+    pub default: Value,
+    /// What stands for the value if it is not given, in words.
+    pub otherwise: Option<&'static str>,
+    /// Form of the value in help texts.
+    pub form: &'static str,
+    /// Heading of the help texts under which it stands; empty for the options of the command itself.
+    pub heading: &'static str,
+    /// Key without which this one has no meaning.
+    pub needs: Option<&'static str>,
+    /// Keys that exclude this one.
+    pub excludes: &'static [&'static str],
+    /// Option of the program; empty if the program has none.
+    pub option: String,
+}
+
+impl Key {
+    /// Key of a kind; [`request!`](super::request) gives name, meaning and default.
+    pub(crate) fn new(kind: Kind) -> Self {
+        let form = match &kind {
+            Kind::Vector => "X,Y,Z",
+            Kind::Pose => "X,Y,Z[,ROLL,PITCH,YAW]",
+            Kind::Tensor => "XX,YY,ZZ[,XY,XZ,YZ]",
+            Kind::Number(Range::Fraction) => "FRACTION",
+            Kind::Count(_) => "N",
+            _ => "",
+        };
+        Self {
+            name: "",
+            about: String::new(),
+            kind,
+            required: false,
+            default: Value::Null,
+            otherwise: None,
+            form,
+            heading: "",
+            needs: None,
+            excludes: &[],
+            option: String::new(),
+        }
+    }
+
+    /// Refuses requests without this key.
+    pub(crate) fn required(self) -> Self {
+        Self { required: true, ..self }
+    }
+
+    /// Says in words what stands for the value if it is not given.
+    pub(crate) fn otherwise(self, otherwise: &'static str) -> Self {
+        Self { otherwise: Some(otherwise), ..self }
+    }
+
+    /// Continues the meaning with a text that is not constant.
+    pub(crate) fn more(self, more: &str) -> Self {
+        Self { about: more.to_owned(), ..self }
+    }
+
+    /// Sets the form of the value in help texts.
+    pub(crate) fn form(self, form: &'static str) -> Self {
+        Self { form, ..self }
+    }
+
+    /// Puts the key under a heading of the help texts.
+    pub(crate) fn under(self, heading: &'static str) -> Self {
+        Self { heading, ..self }
+    }
+
+    /// Names the key without which this one has no meaning.
+    pub(crate) fn needs(self, other: &'static str) -> Self {
+        Self { needs: Some(other), ..self }
+    }
+
+    /// Names the keys that exclude this one.
+    pub(crate) fn excludes(self, others: &'static [&'static str]) -> Self {
+        Self { excludes: others, ..self }
+    }
+
+    /// Gives the option of the program another name; without one, the program has no such option.
+    pub(crate) fn option(self, option: &str) -> Self {
+        Self { option: option.to_owned(), ..self }
+    }
+
+    /// Completes the key with what stands beside its field.
+    pub(crate) fn named(mut self, name: &'static str, about: &[&str], default: Option<&Value>) -> Self {
+        self.name = name;
+        self.about.insert_str(0, &sentence(about));
+        if !self.required {
+            self.default = default.cloned().unwrap_or_default();
+        }
+        if self.option.is_empty() && !matches!(self.kind, Kind::Data) {
+            self.option = name.replace('_', "-");
+        }
+        if self.option == Self::NOT_IN_PROGRAM {
+            self.option.clear();
+        }
+        if self.form.is_empty() {
+            self.form = form_of(name);
+        }
+        self
+    }
+
+    /// Name of an option that the program does not have.
+    pub(crate) const NOT_IN_PROGRAM: &'static str = "-";
+
+    /// Reads the text of the program's option as the JSON value of the key. Of a list it reads one element.
+    ///
+    /// # Errors
+    /// A message that says what is wrong with the text.
+    pub fn read(&self, text: &str) -> Result<Value, String> {
+        match &self.kind {
+            Kind::Switch => Ok(Value::Bool(true)),
+            Kind::Number(range) => Ok(range.check(written::number(text)?)?.into()),
+            Kind::Count(range) => written::count(text, range),
+            Kind::Numbers(range) => written::numbers(text, *range),
+            Kind::Vector => written::vector(text),
+            Kind::Pose => written::pose(text),
+            Kind::Tensor => written::tensor(text),
+            Kind::Name(_) | Kind::Text | Kind::Texts | Kind::Data => Ok(text.into()),
+            Kind::Written(read) | Kind::List(read) | Kind::OneOrMore(read) | Kind::Commas(read) => read(text),
+        }
+    }
+}
+
+/// Kind of value for a choice by name.
+pub(crate) fn name<T: Named>() -> Kind {
+    let choice = |of: &T| Choice { name: of.name(), about: of.about(), also: of.also() };
+    Kind::Name(T::ALL.iter().map(choice).collect())
+}
+
+/// Form of a number in help texts: its unit, which the end of its name tells.
+fn form_of(name: &str) -> &'static str {
+    const UNITS: [(&str, &str); 12] = [
+        ("_hz", "HZ"),
+        ("_kg", "KG"),
+        ("_kg_per_m", "KG_PER_M"),
+        ("_n_per_m", "N_PER_M"),
+        ("_mm", "MM"),
+        ("_db", "DB"),
+        ("_pa", "PA"),
+        ("_n", "N"),
+        ("_m", "M"),
+        ("_deg", "DEG"),
+        ("name", "NAME"),
+        ("noise", "FRACTION"),
+    ];
+    let longest = UNITS.iter().filter(|(end, _)| name.ends_with(end)).max_by_key(|(end, _)| end.len());
+    longest.map_or("VALUE", |(_, form)| form)
+}
+
+/// Text of the lines of a doc comment. An empty line stands between paragraphs; the last full stop of each paragraph
+/// that is a single sentence goes, as usual in help texts.
+pub(crate) fn sentence(lines: &[&str]) -> String {
+    let paragraphs = lines.split(|line| line.trim().is_empty());
+    let joined = paragraphs.map(|lines| lines.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" "));
+    let mut paragraphs: Vec<String> = joined.filter(|text| !text.is_empty()).collect();
+    if let Some(first) = paragraphs.first_mut()
+        && first.ends_with('.')
+    {
+        first.pop();
+    }
+    paragraphs.join("\n\n")
+}
+
+/// Struct whose fields are keys of a request.
+pub trait Declared: Default {
+    /// Commands of the program that show how a command is used.
+    const EXAMPLES: &'static [&'static str];
+
+    /// Meaning of the group, or of the command.
+    fn about() -> String;
+
+    /// Keys in the order of the program's help.
+    fn keys() -> Vec<Key>;
+}
+
+/// Changes keys of a list by their name.
+pub(crate) fn with(keys: Vec<Key>, names: &[&str], change: impl Fn(Key) -> Key) -> Vec<Key> {
+    keys.into_iter().map(|key| if names.contains(&key.name) { change(key) } else { key }).collect()
+}
+
+/// Declares a group of keys, or the request of a command: each field with its meaning, its default and its
+/// kind of value. `=> group` spreads the keys of another struct, under its heading.
+macro_rules! declared {
+    (
+        $(#[doc = $about:literal])+
+        $(#[derive($($derive:path),*)])?
+        pub struct $Name:ident {
+            $(
+                $(#[doc = $text:literal])+
+                $(#[serde($($serde:tt)*)])?
+                $field:ident: $Type:ty = $default:expr => $how:tt $(. $method:ident ( $($argument:tt)* ))*;
+            )*
+        }
+        $(examples { $($example:literal,)* })?
+    ) => {
+        $(#[doc = $about])+
+        #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize $(, $($derive),*)?)]
+        #[serde(default)]
+        pub struct $Name {
+            $(
+                $(#[doc = $text])+
+                $(#[serde($($serde)*)])?
+                pub $field: $Type,
+            )*
+        }
+
+        impl Default for $Name {
+            fn default() -> Self {
+                Self { $($field: $default,)* }
+            }
+        }
+
+        impl crate::request::key::Declared for $Name {
+            const EXAMPLES: &'static [&'static str] = &[$($($example),*)?];
+
+            fn about() -> String {
+                crate::request::key::sentence(&[$($about),+])
+            }
+
+            #[allow(unused_imports, unused_variables, reason = "not every group has every kind, or a key")]
+            fn keys() -> Vec<crate::request::key::Key> {
+                use crate::request::key::{Kind::*, Range::*, name};
+                let defaults = serde_json::to_value(Self::default()).unwrap_or_default();
+                let keys: Vec<Vec<crate::request::key::Key>> = vec![
+                    $(crate::request::key::entry!(
+                        defaults, $field: $Type, [$($text),+], $how $(. $method ( $($argument)* ))*
+                    )),*
+                ];
+                keys.concat()
+            }
+        }
+    };
+}
+
+/// One entry of [`declared!`]: a key, a group, or a field that is no option.
+macro_rules! entry {
+    ($defaults:ident, $field:ident: $Type:ty, [$($text:literal),+], group) => {
+        <$Type as crate::request::key::Declared>::keys()
+    };
+    ($defaults:ident, $field:ident: $Type:ty, [$($text:literal),+], (group without $names:expr)) => {
+        crate::request::key::with(<$Type as crate::request::key::Declared>::keys(), &$names, |key| {
+            crate::request::key::Key { option: String::new(), ..key }
+        })
+    };
+    ($defaults:ident, $field:ident: $Type:ty, [$($text:literal),+], ($kind:expr) $(. $method:ident ( $($argument:tt)* ))*) => {
+        vec![
+            crate::request::key::Key::new($kind)
+                $(.$method($($argument)*))*
+                .named(stringify!($field), &[$($text),+], $defaults.get(stringify!($field))),
+        ]
+    };
+}
+
+pub(crate) use {declared, entry};

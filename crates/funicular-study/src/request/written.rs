@@ -1,0 +1,236 @@
+//! Forms of values on the command line. Each message contains the value and its permitted range.
+
+use super::key::Range;
+use super::{ChangeValue, FitValue};
+use crate::set_values;
+use crate::signals::{Input, Output};
+use crate::sweep::{self, Steps, ValueAxis};
+use crate::values;
+use serde_json::{Value, json};
+use std::ops::RangeInclusive;
+
+/// Reads a finite number.
+///
+/// # Errors
+/// A message that says what is wrong with the text.
+pub fn number(text: &str) -> Result<f64, String> {
+    values::number(text).map_err(|error| error.to_string())
+}
+
+/// Reads numbers separated by commas.
+fn list(text: &str) -> Result<Vec<f64>, String> {
+    text.split(',').map(number).collect()
+}
+
+/// Reads a whole number in a range.
+pub(super) fn count(text: &str, range: &RangeInclusive<u64>) -> Result<Value, String> {
+    let number = text.trim().parse::<u64>().ok().filter(|count| range.contains(count));
+    let (first, last) = (range.start(), range.end());
+    let limit = if *last == u64::MAX { format!("from {first} on") } else { format!("from {first} to {last}") };
+    number.map(Value::from).ok_or_else(|| format!("`{text}` is not possible: give a whole number {limit}"))
+}
+
+/// Reads `6.863,6.565,…`.
+pub(super) fn numbers(text: &str, range: Range) -> Result<Value, String> {
+    let values: Result<Vec<f64>, String> = text.split(',').map(|part| range.check(number(part)?)).collect();
+    Ok(values?.into())
+}
+
+/// Reads `x,y,z`.
+///
+/// # Errors
+/// A text that is not three finite numbers.
+pub fn point(text: &str) -> Result<[f64; 3], String> {
+    match list(text)?[..] {
+        [x, y, z] => Ok([x, y, z]),
+        ref other => Err(format!("{} numbers where x,y,z are needed", other.len())),
+    }
+}
+
+/// Reads `x,y,z` as JSON.
+pub(super) fn vector(text: &str) -> Result<Value, String> {
+    Ok(json!(point(text)?))
+}
+
+/// Reads `x,y,z` or `x,y,z,roll,pitch,yaw`.
+pub(super) fn pose(text: &str) -> Result<Value, String> {
+    match list(text)?[..] {
+        [x, y, z] => Ok(json!([x, y, z, 0.0, 0.0, 0.0])),
+        [x, y, z, roll, pitch, yaw] => Ok(json!([x, y, z, roll, pitch, yaw])),
+        ref other => Err(format!("{} numbers where x,y,z or x,y,z,roll,pitch,yaw are needed", other.len())),
+    }
+}
+
+/// Reads `xx,yy,zz` or `xx,yy,zz,xy,xz,yz`, the entries of the tensor.
+pub(super) fn tensor(text: &str) -> Result<Value, String> {
+    match list(text)?[..] {
+        [xx, yy, zz] => Ok(json!([xx, yy, zz, 0.0, 0.0, 0.0])),
+        [xx, yy, zz, xy, xz, yz] => Ok(json!([xx, yy, zz, xy, xz, yz])),
+        ref other => Err(format!("{} numbers where xx,yy,zz or xx,yy,zz,xy,xz,yz are needed", other.len())),
+    }
+}
+
+/// Reads the name of an input signal.
+pub(super) fn input(text: &str) -> Result<Value, String> {
+    Input::parse(text).map(|input| input.name.into()).map_err(|error| error.to_string())
+}
+
+/// Reads the name of an output signal.
+pub(super) fn output(text: &str) -> Result<Value, String> {
+    Output::parse(text).map(|output| output.name.into()).map_err(|error| error.to_string())
+}
+
+/// Reads a number that is not negative.
+pub(super) fn not_negative(text: &str) -> Result<Value, String> {
+    Ok(values::not_negative(number(text)?)?.into())
+}
+
+/// Reads a positive number.
+pub(super) fn positive(text: &str) -> Result<Value, String> {
+    Ok(values::positive(number(text)?)?.into())
+}
+
+/// Reads the name of a quantity of a sweep.
+pub(super) fn quantity(text: &str) -> Result<Value, String> {
+    let quantity: sweep::Quantity = text.parse().map_err(|error: sweep::UnknownQuantity| error.to_string())?;
+    Ok(quantity.name().into())
+}
+
+/// Reads masses in equal steps, `from:to:count`.
+pub(super) fn mass_range(text: &str) -> Result<Value, String> {
+    const MAX_MASSES: usize = crate::analyses::pose_error::MAX_MASSES;
+    let parts: Vec<&str> = text.split(':').collect();
+    let [from, to, count] = parts[..] else {
+        return Err("not a range: write from:to:count, as in 10:90:81".to_owned());
+    };
+    let (from, to) = (values::positive(number(from)?)?, values::positive(number(to)?)?);
+    if to <= from {
+        return Err(format!("the range ends at {to}, it must end above its start {from}"));
+    }
+    match count.trim().parse::<usize>() {
+        Ok(count @ 2..=MAX_MASSES) => Ok(json!([from, to, count])),
+        _ => Err(format!("`{count}` is not a number of masses: give a whole number from 2 to {MAX_MASSES}")),
+    }
+}
+
+/// Maximum number of values in a list. A range may have more.
+const MAX_LISTED: usize = 10_000;
+
+/// Reads `A:B:N`, or values separated by commas.
+fn steps(text: &str) -> Result<Steps, String> {
+    let parts: Vec<&str> = text.split(':').collect();
+    match parts[..] {
+        [_] => {
+            let values = list(text)?;
+            if values.len() > MAX_LISTED {
+                return Err(format!(
+                    "the list has {} values, at most {MAX_LISTED} are possible: give a range",
+                    values.len()
+                ));
+            }
+            Ok(Steps::List(values))
+        }
+        [from, to, count] => {
+            let (from, to) = (number(from)?, number(to)?);
+            let max = sweep::MAX_POINTS;
+            match count.trim().parse::<usize>() {
+                Ok(count) if count <= max => Steps::range(from, to, count),
+                _ => Err(format!("`{count}` is not a number of values: give a whole number from 2 to {max}")),
+            }
+        }
+        _ => Err("not a range: write from:to:count, as in -4:4:81, or values, as in 0.5,1,2".to_owned()),
+    }
+}
+
+/// Axis of a grid or sweep as JSON.
+fn axis(name: &str, steps: &Steps) -> Result<Value, String> {
+    serde_json::to_value(super::Axis::new(name.to_owned(), steps)).map_err(|error| error.to_string())
+}
+
+/// Reads `x=-4:4:81`.
+pub(super) fn grid_axis(text: &str) -> Result<Value, String> {
+    let (name, values) = text.split_once('=').ok_or("it has no `=`: write AXIS=from:to:count, as in x=-4:4:81")?;
+    let name = name.trim();
+    if !sweep::AXES.contains(&name) {
+        return Err(sweep::SweepError::UnknownAxis { axis: name.to_owned() }.to_string());
+    }
+    axis(name, &steps(values)?)
+}
+
+/// Reads `platform.mass_kg=10:90:81`.
+pub(super) fn variation(text: &str) -> Result<Value, String> {
+    let form = "it has no `=`: write PATH=from:to:count, as in platform.mass_kg=10:90:81";
+    let (path, values) = set_values::split(text).ok_or(form)?;
+    let varied = ValueAxis::new(path, steps(values)?)?;
+    axis(&varied.path.text, &varied.steps)
+}
+
+/// Reads `PATH` or `PATH=MIN:MAX`; each bound may be left out.
+pub(super) fn fit(text: &str) -> Result<Value, String> {
+    let Some((path, bounds)) = set_values::split(text) else {
+        return Ok(json!({ "path": text.trim() }));
+    };
+    let (low, high) = bounds.split_once(':').ok_or("the bounds are two numbers, as in platform.mass_kg=10:30")?;
+    let bound = |text: &str| if text.trim().is_empty() { Ok(None) } else { number(text).map(Some) };
+    let fit =
+        FitValue { path: path.trim().to_owned(), minimum: bound(low)?, maximum: bound(high)?, ..FitValue::default() };
+    serde_json::to_value(fit).map_err(|error| error.to_string())
+}
+
+/// Reads `PATH=±REACH` or `PATH=MIN:MAX`.
+pub(super) fn change(text: &str) -> Result<Value, String> {
+    let wrong = "bounds are written as in cables.*.attachment_m=±0.05 or platform.mass_kg=80:120";
+    let (path, bounds) = set_values::split(text).ok_or(wrong)?;
+    let path = path.trim().to_owned();
+    let bounds = bounds.trim();
+    let change = if let Some(reach) = bounds.strip_prefix('±').or_else(|| bounds.strip_prefix("+-")) {
+        ChangeValue { path, plus_minus: Some(values::positive(number(reach)?)?), ..ChangeValue::default() }
+    } else {
+        let (low, high) = bounds.split_once(':').ok_or(wrong)?;
+        ChangeValue { path, minimum: Some(number(low)?), maximum: Some(number(high)?), ..ChangeValue::default() }
+    };
+    serde_json::to_value(change).map_err(|error| error.to_string())
+}
+
+/// Reads `FROM:TO`.
+pub(super) fn band(text: &str) -> Result<Value, String> {
+    let (first, last) = text.split_once(':').ok_or("a band is written as in 2.5:3.2")?;
+    Ok(json!([values::positive(number(first)?)?, values::positive(number(last)?)?]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_finite_and_in_range() {
+        assert_eq!(number(" -0.5 "), Ok(-0.5));
+        for bad in ["", "nan", "inf", "-inf", "1e13", "1,5", "5kg", "1e999"] {
+            assert!(number(bad).is_err(), "{bad}");
+        }
+        assert!(positive("0").is_err() && positive("-1").is_err() && positive("1e-13").is_err());
+        assert!(not_negative("0").is_ok() && not_negative("-1e-3").is_err());
+    }
+
+    #[test]
+    fn poses_have_three_or_six_numbers() {
+        assert_eq!(pose("-1,2,3").unwrap(), json!([-1.0, 2.0, 3.0, 0.0, 0.0, 0.0]));
+        assert_eq!(pose("1,2,3,4,5,-6").unwrap(), json!([1.0, 2.0, 3.0, 4.0, 5.0, -6.0]));
+        assert!(pose("1,2").is_err() && pose("1,2,3,4").is_err() && pose("1,,3").is_err());
+    }
+
+    #[test]
+    fn a_mass_range_goes_up() {
+        assert_eq!(mass_range("10:90:81").unwrap()[2], 81);
+        for bad in ["10", "10:90", "90:10:5", "10:90:1", "10:90:x", "0:9:3", "1:2:3:4"] {
+            assert!(mass_range(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn bounds_may_be_left_out() {
+        assert_eq!(fit("a.b=1:").unwrap(), json!({ "path": "a.b", "minimum": 1.0 }));
+        assert_eq!(change("a.*=+-0.5").unwrap(), json!({ "path": "a.*", "plus_minus": 0.5 }));
+        assert!(fit("a=3").is_err() && change("a=3").is_err() && band("3").is_err());
+    }
+}
