@@ -111,12 +111,16 @@ pub(crate) fn points(input_point_m: Option<Numbers>, output_point_m: Option<Numb
     })
 }
 
-/// Keys of several objects as one object in JSON.
+/// Keys of several objects as one object in JSON, without those that are not given.
 pub(crate) fn joined(parts: &[&serde_json::Result<serde_json::Value>]) -> PyResult<String> {
     let mut all = Map::new();
     for part in parts {
         match part {
-            Ok(serde_json::Value::Object(keys)) => all.extend(keys.clone()),
+            Ok(serde_json::Value::Object(keys)) => {
+                all.extend(
+                    keys.iter().filter(|(_, value)| !value.is_null()).map(|(key, value)| (key.clone(), value.clone())),
+                );
+            }
             Ok(_) => {}
             Err(error) => return Err(errors::input(error.to_string())),
         }

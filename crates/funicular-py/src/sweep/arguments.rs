@@ -148,7 +148,7 @@ pub(crate) fn each_point(
     model: Model,
 ) -> PyResult<EachPoint> {
     Ok(EachPoint {
-        quantities: not_empty(quantities, "quantities")?.unwrap_or_else(EachPoint::default_quantities),
+        quantities: not_empty(quantities, "quantities")?.unwrap_or_else(|| EachPoint::default().quantities),
         up_to_hz: up_to_hz.map_or(Ok(MAX_HZ), |up_to_hz| up_to_hz.value("up_to_hz"))?,
         platform_share: share(platform_share)?,
         payload_center_m: payload_center_m.map(|center| center.three("payload_center_m")).transpose()?,
