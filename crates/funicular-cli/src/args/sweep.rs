@@ -33,7 +33,8 @@ pub(crate) struct SweepArgs {
     pub(crate) robot: RobotArgs,
 
     /// Number of the robot file that varies, with N values from A to B, or with listed values (repeatable: all
-    /// combinations, the first fastest)
+    /// combinations, the first fastest); `*` for any key moves all numbers that match together, as in
+    /// cables.*.anchor_m.z
     #[arg(long, value_name = "PATH=A:B:N|V,V,…", value_parser = values::variation, required = true)]
     pub(crate) vary: Vec<ValueAxis>,
 
