@@ -27,7 +27,7 @@ pub(crate) use groups::{
 pub(crate) use identify::IdentifyArgs;
 pub(crate) use import::ImportArgs;
 pub(crate) use names::{AssemblyName, CableModelName, TensionRuleName, WinchModeName};
-pub(crate) use new_robot::{LengthUnitName, MotionName, NewArgs, SchemaArgs, WireRopeName};
+pub(crate) use new_robot::{LengthUnitName, MotionName, NewArgs, RopeName, SchemaArgs};
 pub(crate) use pages::{LiveArgs, PaperArgs, ReportArgs};
 pub(crate) use statics::{CheckArgs, PayloadArgs, PoseErrorArgs, StaticsArgs, StiffnessArgs};
 use std::path::PathBuf;

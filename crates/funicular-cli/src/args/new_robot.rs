@@ -29,7 +29,7 @@ pub(crate) struct NewArgs {
     pub(crate) csv_unit: Option<LengthUnitName>,
 
     /// Pose of the state x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll) [default: a stable pose
-    /// that the program finds]
+    /// that the program finds, above the floor z = 0 if no anchor is below it]
     #[arg(long, value_name = "X,Y,Z[,ROLL,PITCH,YAW]", value_parser = values::pose, allow_hyphen_values = true)]
     pub(crate) pose: Option<PoseNumbers>,
 
@@ -42,11 +42,11 @@ pub(crate) struct NewArgs {
     #[arg(long, value_name = "A,B,C", value_parser = values::point, allow_hyphen_values = true, help_heading = "Platform")]
     pub(crate) box_m: Option<Vec3>,
 
-    /// Construction of the wire rope
+    /// Type of the rope: a wire rope, or a rope of HMPE fibre
     #[arg(long, value_name = "ROPE", value_enum, default_value = "6x19", help_heading = "Ropes")]
-    pub(crate) rope: WireRopeName,
+    pub(crate) rope: RopeName,
 
-    /// Diameter of the wire rope [m] [default: by the mass of the platform, 0.006 for 100 kg]
+    /// Diameter of the rope [m] [default: by the mass of the platform, a wire rope of 0.006 for 100 kg]
     #[arg(long, value_name = "M", value_parser = values::positive, allow_hyphen_values = true, help_heading = "Ropes")]
     pub(crate) diameter_m: Option<f64>,
 
@@ -93,13 +93,16 @@ pub(crate) enum LengthUnitName {
     Mm,
 }
 
-/// Construction of a wire rope with factors in EN 12385.
+/// Type of rope whose numbers follow from a diameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum WireRopeName {
+pub(crate) enum RopeName {
     /// Six strands of 19 wires on a steel core
     #[value(name = "6x19")]
     SixTimes19,
     /// Seven strands of seven wires
     #[value(name = "7x7")]
     SevenTimes7,
+    /// Braided rope of HMPE fibre, as Dyneema or Spectra
+    #[value(alias = "dyneema")]
+    Hmpe,
 }

@@ -5,13 +5,13 @@ use super::{
     AssemblyName, CableArgs, CableModelName, ChangeArgs, CompareArgs, EachArgs, ExportArgs, ExportFormat, FrfArgs,
     GradientArgs, ImportArgs, LengthUnitName, LinearisedArgs, LiveArgs, LoadArgs, LoadedRobotArgs, MapArgs, MergeArgs,
     ModelArgs, ModesArgs, MotionName, NewArgs, PayloadArgs, PlotArgs, PointArgs, PoseErrorArgs, RangeArgs, ReduceArgs,
-    ReportArgs, StateArgs, StaticsArgs, StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs,
-    UncertaintyArgs, WinchModeName, WireRopeName,
+    ReportArgs, RopeName, StateArgs, StaticsArgs, StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs,
+    UncertaintyArgs, WinchModeName,
 };
 use funicular_files::endings::Kind;
 use funicular_study::import::SourceFile;
 use funicular_study::names::TensionRuleName as Rule;
-use funicular_study::new_robot::{LengthUnit, NewMotion, WireRope};
+use funicular_study::new_robot::{LengthUnit, NewMotion, RopeType};
 use funicular_study::request::{
     self, Axis, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, OneOrSeveral, Pose,
     ResponsePoints, RobotText, State, Tensions, Terms,
@@ -406,8 +406,9 @@ impl NewArgs {
             mass_kg: self.mass_kg,
             box_m: self.box_m.map(Into::into),
             rope: match self.rope {
-                WireRopeName::SixTimes19 => WireRope::SixTimes19,
-                WireRopeName::SevenTimes7 => WireRope::SevenTimes7,
+                RopeName::SixTimes19 => RopeType::SixTimes19,
+                RopeName::SevenTimes7 => RopeType::SevenTimes7,
+                RopeName::Hmpe => RopeType::Hmpe,
             },
             diameter_m: self.diameter_m,
             axial_stiffness_n: self.axial_stiffness_n,

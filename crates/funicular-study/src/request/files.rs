@@ -2,7 +2,7 @@
 
 use super::parts::{ImportPlatform, ImportRopes, Pose, RobotText, State, Tensions};
 use super::source_file::SourceFile;
-use crate::names::{ExportFormat, LengthUnit, NewMotion, WireRope};
+use crate::names::{ExportFormat, LengthUnit, NewMotion, RopeType};
 use serde::{Deserialize, Serialize};
 
 /// Request of `new`.
@@ -29,13 +29,13 @@ pub struct NewRequest {
     /// Sides of the homogeneous box that gives the inertia [m]; default 1 × 1 × 0.5, or the box around the attachments.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub box_m: Option<[f64; 3]>,
-    /// Construction of the wire rope.
+    /// Type of the rope.
     #[serde(default, with = "crate::names")]
-    pub rope: WireRope,
+    pub rope: RopeType,
     /// Diameter of the rope [m]; default by the mass of the platform, 6 mm for 100 kg.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub diameter_m: Option<f64>,
-    /// Axial stiffness EA of another rope [N], in place of construction and diameter; needs its mass.
+    /// Axial stiffness EA of another rope [N], in place of type and diameter; needs its mass.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axial_stiffness_n: Option<f64>,
     /// Mass of that rope per unstrained length [kg/m].
