@@ -31,7 +31,7 @@ pub use keys::KEYS;
 pub use pages::{LiveRequest, PaperRequest, ReportRequest, ValidateRequest};
 pub use parts::{
     Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, OneOrSeveral, Pose,
-    ResponsePoints, RobotText, State, Tensions, Terms,
+    ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
 };
 pub use source_file::{MAX_BYTES, SourceFile};
 pub use statics::{
@@ -40,7 +40,9 @@ pub use statics::{
 pub use steps::{Steps, digits};
 pub use uncertainty::{DEFAULT_SAMPLES, UncertaintyRequest, pose_and_tensions};
 
-pub use vibration::{CableRequest, CompareRequest, FrfRequest, ModesRequest, ReduceRequest};
+pub use vibration::{
+    CableRequest, CompareRequest, DEFAULT_INPUT, DEFAULT_OUTPUT, FrfRequest, ModesRequest, ReduceRequest,
+};
 
 pub(crate) use parts::{check, check_vector};
 

@@ -240,7 +240,8 @@ fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
 
     // For a tip, found before the document is borrowed.
     let is_known = parents.first().is_none_or(|parent| document.contains_key(parent));
-    let tip = if is_known { None } else { Some(path_suggestion(&to_key.join("."), &paths(document))) };
+    let known = if is_known { Vec::new() } else { paths(document) };
+    let tip = (!known.is_empty()).then(|| path_suggestion(&to_key.join("."), &known));
 
     let mut table: &mut dyn TableLike = document.as_table_mut();
     let mut parents = parents.iter();

@@ -46,7 +46,7 @@ pub(crate) struct NewArgs {
     #[arg(long, value_name = "ROPE", value_enum, default_value = "6x19", help_heading = "Ropes")]
     pub(crate) rope: RopeName,
 
-    /// Diameter of the rope [m] [default: by the mass of the platform, a wire rope of 0.006 for 100 kg]
+    /// Diameter of the rope [m] [default: by the mass of the platform, 0.006 for 100 kg on wire ropes]
     #[arg(long, value_name = "M", value_parser = values::positive, allow_hyphen_values = true, help_heading = "Ropes")]
     pub(crate) diameter_m: Option<f64>,
 

@@ -8,13 +8,12 @@ use super::{
     ReportArgs, RopeName, StateArgs, StaticsArgs, StiffnessArgs, SweepArgs, TensionArgs, TensionRuleName, TermArgs,
     UncertaintyArgs, WinchModeName,
 };
-use funicular_files::endings::Kind;
 use funicular_study::import::SourceFile;
 use funicular_study::names::TensionRuleName as Rule;
 use funicular_study::new_robot::{LengthUnit, NewMotion, RopeType};
 use funicular_study::request::{
     self, Axis, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, Model, OneOrSeveral, Pose,
-    ResponsePoints, RobotText, State, Tensions, Terms,
+    ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
 };
 use std::path::Path;
 
@@ -160,24 +159,17 @@ impl ModesArgs {
 }
 
 impl FrfArgs {
-    /// True if the output file is a figure.
-    fn draws_figure(&self) -> bool {
-        let kind = self.sink.output_file.as_deref().and_then(Kind::of);
-        matches!(kind, Some(Kind::Svg | Kind::Pdf))
-    }
-
     pub(crate) fn request(&self, robot: RobotText) -> request::FrfRequest {
         let (state, tensions, model) = self.linearised.request();
         request::FrfRequest {
             robot,
-            range: FrequencyRange {
+            range: ResponseRange {
                 from_hz: self.from_hz,
                 to_hz: self.to_hz,
                 points: self.points.map(|points| points as usize),
                 log: self.log,
             },
-            // A figure shows every peak unless the frequencies are given.
-            adaptive: self.adaptive || self.points.is_none() && self.draws_figure(),
+            adaptive: self.adaptive,
             input: OneOrSeveral::of(self.input.iter().map(|input| input.name.clone()).collect()),
             output: OneOrSeveral::of(self.output.iter().map(|output| output.name.clone()).collect()),
             signal_points: self.signal_points.request(),

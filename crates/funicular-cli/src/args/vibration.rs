@@ -8,6 +8,7 @@ use super::names::{CableModelName, ModelFormName, WinchModeName};
 use super::values::{self};
 use clap::Args;
 use funicular::compare::TOLERANCE;
+use funicular_study::request::{DEFAULT_INPUT, DEFAULT_OUTPUT};
 use funicular_study::signals::{Input, Output};
 use std::path::PathBuf;
 
@@ -16,9 +17,9 @@ pub(crate) struct ModesArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// Upper limit of the frequencies [Hz]
+    /// Upper limit of the frequencies [Hz] [default: slightly above the 20 lowest; with --rigid-cables above all]
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
-    pub(crate) below_hz: f64,
+    pub(crate) below_hz: Option<f64>,
 
     /// Input of a response (see `frf`): also show the contribution of each mode to this response; needs --output
     #[arg(long, value_name = "INPUT", value_parser = Input::parse, requires = "output")]
@@ -60,18 +61,18 @@ pub(crate) struct FrfArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// First frequency [Hz]
+    /// First frequency [Hz] [default: 0; with --log a thousandth of the last one]
     #[arg(long, value_name = "HZ", value_parser = values::not_negative, allow_hyphen_values = true)]
-    pub(crate) from_hz: f64,
+    pub(crate) from_hz: Option<f64>,
 
-    /// Last frequency [Hz]
+    /// Last frequency [Hz] [default: above the 20 lowest natural frequencies and the first mode of the platform]
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
-    pub(crate) to_hz: f64,
+    pub(crate) to_hz: Option<f64>,
 
-    /// Number of frequencies, 2 to 1000000; with --adaptive the number from which it starts. A figure, FILE.svg or
-    /// FILE.pdf, is --adaptive without it [default with --adaptive: 200]
+    /// Number of frequencies, 2 to 1000000; with --adaptive the number from which it starts [default: 200, with
+    /// --adaptive]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(2..=1_000_000),
-        allow_hyphen_values = true, required_unless_present_any = ["adaptive", "output_file"])]
+        allow_hyphen_values = true)]
     pub(crate) points: Option<u64>,
 
     /// Equal ratios between frequencies instead of equal steps
@@ -86,14 +87,14 @@ pub(crate) struct FrfArgs {
     /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; a force on
     /// a cable, as in cable:3@0.5:fz; the commanded length of a cable, length:3, a force of its motor or on its drum,
     /// motor:3, drum:3; a motion of the base, base-x to base-rz, or of an anchor, anchor:3:x (repeatable)
-    #[arg(long, value_name = "INPUT", value_parser = Input::parse, required = true)]
+    #[arg(long, value_name = "INPUT", value_parser = Input::parse, default_value = DEFAULT_INPUT)]
     pub(crate) input: Vec<Input>,
 
     /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…,
     /// a:… along a direction, world axes; the motion of a point on a cable (name, fraction of its length from the
     /// platform), as in cable:3@0.5:az; the motion of a drum or motor, drum:3, motor:3, or the tension at the platform
     /// or at the drum, tension:3, drum-tension:3 (repeatable)
-    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse, required = true)]
+    #[arg(long, value_name = "OUTPUT", value_parser = Output::parse, default_value = DEFAULT_OUTPUT)]
     pub(crate) output: Vec<Output>,
     #[command(flatten)]
     pub(crate) signal_points: PointArgs,

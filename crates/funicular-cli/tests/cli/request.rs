@@ -204,12 +204,6 @@ fn a_request_that_cannot_be_read_says_where_and_what_there_is() {
             "--input is an empty list: name at least one signal",
         ),
         (
-            format!(
-                r#"{{"command": "frf", "robot": {{"text": {text}}}, "from_hz": 1, "to_hz": 2, "input": "fz", "output": "z"}}"#
-            ),
-            "--points is missing: give the number of frequencies, or --adaptive",
-        ),
-        (
             r#"{"command": "paper", "schema": "funicular-request/9"}"#.to_owned(),
             "this program reads funicular-request/1",
         ),

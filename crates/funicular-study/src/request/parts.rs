@@ -235,6 +235,30 @@ pub struct FrequencyRange {
     pub log: bool,
 }
 
+/// Range of frequencies of a response, ends included; a limit that is left out follows from the robot.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct ResponseRange {
+    /// First frequency [Hz]. Default: 0, or with equal ratios a fraction of the last one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from_hz: Option<f64>,
+    /// Last frequency [Hz]. Default: above the lowest natural frequencies and the first mode of the platform.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub to_hz: Option<f64>,
+    /// Number of frequencies; without it frequencies are added adaptively.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub points: Option<usize>,
+    /// Equal ratios instead of equal steps.
+    #[serde(default)]
+    pub log: bool,
+}
+
+impl From<FrequencyRange> for ResponseRange {
+    fn from(range: FrequencyRange) -> Self {
+        let FrequencyRange { from_hz, to_hz, points, log } = range;
+        Self { from_hz: Some(from_hz), to_hz: Some(to_hz), points, log }
+    }
+}
+
 /// Name of one signal, or names of several.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "a signal is a text, and several signals are a list of texts")]

@@ -1,7 +1,8 @@
 //! Requests about vibration.
 
 use super::parts::{
-    FrequencyRange, Model, OneOrSeveral, ResponsePoints, RobotText, State, Tensions, Terms, platform_share,
+    FrequencyRange, Model, OneOrSeveral, ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
+    platform_share,
 };
 use crate::names::ModelForm;
 use serde::{Deserialize, Serialize};
@@ -11,8 +12,10 @@ use serde::{Deserialize, Serialize};
 pub struct ModesRequest {
     /// Robot file.
     pub robot: RobotText,
-    /// Upper limit of the frequencies [Hz].
-    pub below_hz: f64,
+    /// Upper limit of the frequencies [Hz]. Default: slightly above the lowest ones, of which
+    /// [`LOWEST`](crate::frequency_range::LOWEST) are shown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub below_hz: Option<f64>,
     /// Input of the response to which the modes contribute; needs an output.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub input: Option<String>,
@@ -52,13 +55,16 @@ pub struct FrfRequest {
     pub robot: RobotText,
     /// Frequencies.
     #[serde(flatten)]
-    pub range: FrequencyRange,
-    /// Add frequencies until every peak has its height and the drawn curve is accurate.
+    pub range: ResponseRange,
+    /// Add frequencies until every peak has its height and the drawn curve is accurate; so it is without a number of
+    /// frequencies.
     #[serde(default)]
     pub adaptive: bool,
     /// Input signal, as `fz`, `cable:3@0.5:fz`, `length:3` or `base-x`, or a list of input signals.
+    #[serde(default = "default_input")]
     pub input: OneOrSeveral,
     /// Output signal, as `ay`, `cable:3@0.5:az` or `tension:3`, or a list of output signals.
+    #[serde(default = "default_output")]
     pub output: OneOrSeveral,
     /// Points of the platform.
     #[serde(flatten)]
@@ -169,6 +175,27 @@ pub struct ReduceRequest {
     /// Linearisation.
     #[serde(flatten)]
     pub model: Model,
+}
+
+/// Input of a response that names none: a vertical force on the platform.
+pub const DEFAULT_INPUT: &str = "fz";
+
+/// Output of a response that names none: the vertical acceleration of the platform, which sensors measure.
+pub const DEFAULT_OUTPUT: &str = "az";
+
+fn default_input() -> OneOrSeveral {
+    OneOrSeveral::One(DEFAULT_INPUT.to_owned())
+}
+
+fn default_output() -> OneOrSeveral {
+    OneOrSeveral::One(DEFAULT_OUTPUT.to_owned())
+}
+
+impl FrfRequest {
+    /// True if frequencies are added until every peak has its height.
+    pub fn is_adaptive(&self) -> bool {
+        self.adaptive || self.range.points.is_none()
+    }
 }
 
 fn one() -> f64 {
