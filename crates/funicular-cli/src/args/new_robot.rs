@@ -29,7 +29,7 @@ pub(crate) struct NewArgs {
     pub(crate) csv_unit: Option<LengthUnitName>,
 
     /// Pose of the state x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll) [default: a stable pose
-    /// that the program finds, above the floor z = 0 if no anchor is below it]
+    /// that the program finds, above the floor of the anchors]
     #[arg(long, value_name = "X,Y,Z[,ROLL,PITCH,YAW]", value_parser = values::pose, allow_hyphen_values = true)]
     pub(crate) pose: Option<PoseNumbers>,
 

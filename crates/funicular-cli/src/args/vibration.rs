@@ -17,7 +17,7 @@ pub(crate) struct ModesArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// Upper limit of the frequencies [Hz] [default: slightly above the 20 lowest; with --rigid-cables above all]
+    /// Upper limit of the frequencies [Hz] [default: slightly above the 20 lowest; with rigid cables above all]
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) below_hz: Option<f64>,
 
@@ -61,7 +61,7 @@ pub(crate) struct FrfArgs {
     #[command(flatten)]
     pub(crate) robot: RobotArgs,
 
-    /// First frequency [Hz] [default: 0; with --log a thousandth of the last one]
+    /// First frequency [Hz] [default: 0; with equal ratios a thousandth of the last one]
     #[arg(long, value_name = "HZ", value_parser = values::not_negative, allow_hyphen_values = true)]
     pub(crate) from_hz: Option<f64>,
 
@@ -69,8 +69,8 @@ pub(crate) struct FrfArgs {
     #[arg(long, value_name = "HZ", value_parser = values::positive, allow_hyphen_values = true)]
     pub(crate) to_hz: Option<f64>,
 
-    /// Number of frequencies, 2 to 1000000; with --adaptive the number from which it starts [default: 200, with
-    /// --adaptive]
+    /// Number of frequencies, 2 to 1000000; with --adaptive the number from which it starts [default: 200, and
+    /// others are added]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(2..=1_000_000),
         allow_hyphen_values = true)]
     pub(crate) points: Option<u64>,

@@ -190,7 +190,7 @@ fn a_request_that_cannot_be_read_says_where_and_what_there_is() {
             format!(r#"{{"command": "statics", "robot": {{"text": {text}}}, "static_model": "catenery"}}"#),
             "did you mean `catenary`?",
         ),
-        (format!(r#"{{"command": "modes", "robot": {{"text": {text}}}}}"#), "missing field `below_hz`"),
+        (format!(r#"{{"command": "compare", "robot": {{"text": {text}}}}}"#), "missing field `below_hz`"),
         (
             format!(
                 r#"{{"command": "frf", "robot": {{"text": {text}}}, "from_hz": 1, "to_hz": 2, "points": 9, "input": 3, "output": "z"}}"#

@@ -267,7 +267,7 @@ fn in_words(vector: &Vec3) -> String {
 
     let mostly = if largest > ALONG_AXIS * size { "" } else { "mostly " };
     let names: Vec<String> = axes.into_iter().map(|(_, name)| name).collect();
-    format!("{} ({mostly}{})", direction(vector), names.join(" and "))
+    format!("{} ({mostly}{})", direction(vector), names.join(", "))
 }
 
 /// Cables by their names, with a verb: `cable "1" comes`, `cables "1", "2" come`.
@@ -294,7 +294,7 @@ mod tests {
         for (vector, words) in [
             ([-0.9, 0.1, 0.2], "(-0.900, 0.100, 0.200) (mostly -x)"),
             ([0.0, 0.6, 0.0], "(0.000, 0.600, 0.000) (+y)"),
-            ([0.492, 0.0, 0.589], "(0.492, 0.000, 0.589) (mostly +z and +x)"),
+            ([0.492, 0.0, 0.589], "(0.492, 0.000, 0.589) (mostly +z, +x)"),
         ] {
             assert_eq!(in_words(&Vec3::from(vector)), words);
         }
