@@ -94,7 +94,9 @@ fn aligned(cell: &str, widths: &[usize]) -> String {
     if !cell.contains(COMPONENTS) {
         return cell.to_owned();
     }
-    cell.split(COMPONENTS).zip(widths).map(|(text, width)| format!("{text:>width$}")).collect()
+    let parts: Vec<String> =
+        cell.split(COMPONENTS).zip(widths).map(|(text, width)| format!("{text:>width$}")).collect();
+    parts.concat()
 }
 
 #[cfg(test)]

@@ -50,22 +50,22 @@ impl AtRest {
         Ok(list.iter().take(LOWEST).next_back().map_or(MAX_HZ, |mode| rounded_up(mode.frequency_hz)))
     }
 
+    /// End of a response [Hz] above the lowest natural frequencies and the first mode of the platform.
+    fn response_limit(&self, linearisation: Linearisation) -> Result<f64> {
+        let limit = self.modes_limit(None, linearisation)?;
+        let share = modes::PLATFORM_SHARE;
+        let found = modes::lowest_with_platform(&self.robot, &self.equilibrium, linearisation, share, MAX_HZ);
+        // Without a mode of the platform the lowest natural frequencies are the range.
+        let first = found.ok().and_then(|(_, list)| Some(list.modes[list.first_platform(share)?].frequency_hz));
+        Ok(first.map_or(limit, |hz| limit.max(rounded_up(BEYOND_PLATFORM * hz))))
+    }
+
     /// Frequencies of a response, with limits that follow from the robot where the request leaves them out.
     ///
     /// # Errors
     /// The errors of [`modes_limit`](Self::modes_limit).
     pub fn response_range(&self, range: &ResponseRange, linearisation: Linearisation) -> Result<FrequencyRange> {
-        let to_hz = match range.to_hz {
-            Some(to_hz) => to_hz,
-            None => {
-                let limit = self.modes_limit(None, linearisation)?;
-                let share = modes::PLATFORM_SHARE;
-                let found = modes::lowest_with_platform(&self.robot, &self.equilibrium, linearisation, share, MAX_HZ);
-                // Without a mode of the platform the lowest natural frequencies are the range.
-                let first = found.ok().and_then(|(_, list)| Some(list.modes[list.first_platform(share)?].frequency_hz));
-                first.map_or(limit, |hz| limit.max(rounded_up(BEYOND_PLATFORM * hz)))
-            }
-        };
+        let to_hz = range.to_hz.map_or_else(|| self.response_limit(linearisation), Ok)?;
         let first = if range.log { FIRST_OVER_LAST * to_hz } else { 0.0 };
         Ok(FrequencyRange { from_hz: range.from_hz.unwrap_or(first), to_hz, points: range.points, log: range.log })
     }

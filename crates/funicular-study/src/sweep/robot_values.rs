@@ -391,8 +391,9 @@ mod tests {
 
         for (i, (height, mass)) in [(5.0, 80.0), (6.0, 80.0), (5.0, 90.0), (6.0, 90.0)].into_iter().enumerate() {
             let robot = sweep.robot_at(&sweep.values(i)).unwrap();
-            assert!(robot.cables.len() > 6 && robot.cables.iter().all(|cable| cable.anchor.reference_w().z == height));
-            assert_eq!(robot.platform.mass, mass);
+            let heights = robot.cables.iter().map(|cable| cable.anchor.reference_w().z.to_bits());
+            assert!(heights.clone().count() > 6 && heights.clone().all(|bits| bits == f64::to_bits(height)));
+            assert_eq!(robot.platform.mass.to_bits(), f64::to_bits(mass));
             assert_eq!(sweep.robot(&sweep.assignments(&sweep.values(i))), Ok(robot));
         }
 

@@ -84,7 +84,7 @@ impl Parameter {
     /// `exit point of the cable (3), z [m]`.
     pub fn label(&self) -> String {
         // The first part of the meaning says what the number is, the others explain it.
-        let mut label = self.about.split([',', ';', ':']).next().unwrap_or(self.about).to_owned();
+        let meaning = self.about.split([',', ';', ':']).next().unwrap_or(self.about);
         let has_name = match self.part {
             RobotPart::Robot | RobotPart::Platform | RobotPart::Load | RobotPart::Wind | RobotPart::State => false,
             RobotPart::Material
@@ -94,16 +94,10 @@ impl Parameter {
             | RobotPart::Support
             | RobotPart::Cable(_) => true,
         };
-        if let Some(name) = self.keys.get(1).filter(|_| has_name) {
-            label += &format!(" ({name})");
-        }
-        if let Some(component) = self.component {
-            label += &format!(", {component}");
-        }
-        if self.unit != "1" {
-            label += &format!(" [{}]", self.unit);
-        }
-        label
+        let name = self.keys.get(1).filter(|_| has_name).map_or_else(String::new, |name| format!(" ({name})"));
+        let component = self.component.map_or_else(String::new, |component| format!(", {component}"));
+        let unit = if self.unit == "1" { String::new() } else { format!(" [{}]", self.unit) };
+        format!("{meaning}{name}{component}{unit}")
     }
 }
 
