@@ -138,12 +138,8 @@ fn with_files(name: &str, command: Command) -> Command {
     match name {
         "new" => NewArgs::augment_args(command),
         "schema" => FileArgs::augment_args(command),
-        "statics" | "compare" => DrawArgs::augment_args(command),
+        "statics" | "frf" | "compare" => DrawArgs::augment_args(command),
         "modes" => DrawModesArgs::augment_args(command),
-        // A figure adds frequencies by itself.
-        "frf" => DrawArgs::augment_args(command)
-            .mut_arg("points", |arg| arg.required_unless_present_any(["adaptive", "output_file"])),
-        "cable" => OutputArgs::augment_args(command).mut_arg("points", |arg| arg.required(true)),
         "uncertainty" => UncertaintyArgs::augment_args(command),
         "reduce" => ReduceArgs::augment_args(command),
         "identify" => IdentifyArgs::augment_args(command),

@@ -86,7 +86,6 @@ fn request_of(cli: &Cli) -> Result<Request> {
     }
 
     match cli.name.as_str() {
-        "frf" => frf::request(cli, further),
         "uncertainty" => uncertainty::request(cli, further),
         "identify" => identify::request(cli, further),
         "design" => design::request(cli, further),

@@ -6,9 +6,25 @@ pub(crate) use funicular_study::text::{
 };
 use std::fmt;
 
+/// Minimum width of a component of a vector in a table.
+const COMPONENT_WIDTH: usize = 10;
+
+/// Minimum number of spaces before a component of a vector.
+const COMPONENT_GAP: usize = 2;
+
+/// Mark between the components of a vector in a cell, until the table knows how wide they are.
+const COMPONENTS: char = '\u{1f}';
+
 /// Table with a header. Columns from the second on hold numbers and are aligned to the right.
 pub(crate) struct Table {
     inner: comfy_table::Table,
+    rows: Vec<Vec<String>>,
+}
+
+/// Cell with the components of a vector, which the table puts below each other.
+pub(crate) fn components(values: &[f64], count: usize) -> String {
+    let texts: Vec<String> = values.iter().map(|value| decimals(*value, count)).collect();
+    texts.join(&COMPONENTS.to_string())
 }
 
 impl Table {
@@ -16,7 +32,7 @@ impl Table {
         let mut inner = comfy_table::Table::new();
         // Lines are never wrapped: a table in a pipe or a file is the same as in a wide terminal.
         inner.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled).set_header(header);
-        let mut table = Self { inner };
+        let mut table = Self { inner, rows: Vec::new() };
         for index in 1..header.len() {
             table.align(index, CellAlignment::Right);
         }
@@ -38,22 +54,76 @@ impl Table {
     }
 
     pub(crate) fn row(&mut self, cells: Vec<String>) {
-        self.inner.add_row(cells);
+        self.rows.push(cells);
+    }
+
+    /// Widths of the components of the vectors in a column.
+    fn component_widths(&self, column: usize) -> Vec<usize> {
+        let mut widths = Vec::new();
+        for cell in self.rows.iter().filter_map(|row| row.get(column)).filter(|cell| cell.contains(COMPONENTS)) {
+            for (i, text) in cell.split(COMPONENTS).enumerate() {
+                let width = COMPONENT_WIDTH.max(text.chars().count() + COMPONENT_GAP);
+                match widths.get_mut(i) {
+                    Some(known) => *known = width.max(*known),
+                    None => widths.push(width),
+                }
+            }
+        }
+        widths
     }
 }
 
 impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for line in self.inner.lines() {
+        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
+        let widths: Vec<Vec<usize>> = (0..columns).map(|column| self.component_widths(column)).collect();
+        let mut laid_out = self.inner.clone();
+        for row in &self.rows {
+            laid_out.add_row(row.iter().zip(&widths).map(|(cell, widths)| aligned(cell, widths)));
+        }
+
+        for line in laid_out.lines() {
             writeln!(f, " {}", line.trim_end())?;
         }
         Ok(())
     }
 }
 
+/// Cell with the components of a vector aligned to the right; any other cell as it is.
+fn aligned(cell: &str, widths: &[usize]) -> String {
+    if !cell.contains(COMPONENTS) {
+        return cell.to_owned();
+    }
+    let parts: Vec<String> =
+        cell.split(COMPONENTS).zip(widths).map(|(text, width)| format!("{text:>width$}")).collect();
+    parts.concat()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn components_of_vectors_never_touch_and_stand_below_each_other() {
+        let mut table = Table::new(&["cable", "anchor [m]", "n"]);
+        for (name, anchor) in [("1", [17_500.0, 11_000.0, -123_456.5]), ("2", [-4.0, 3.0, 5.0])] {
+            table.row(vec![name.to_owned(), components(&anchor, 4), "7".to_owned()]);
+        }
+        table.row(vec!["3".to_owned(), NONE.to_owned(), "7".to_owned()]);
+        let text = table.to_string();
+        let numbers: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
+        assert_eq!(numbers[1], ["1", "17500.0000", "11000.0000", "-123456.5000", "7"], "{text}");
+        assert_eq!(numbers[2], ["2", "-4.0000", "3.0000", "5.0000", "7"], "{text}");
+
+        let ends = |line: &str| -> Vec<usize> {
+            let starts = line
+                .char_indices()
+                .filter(|(i, c)| !c.is_whitespace() && line[i + c.len_utf8()..].starts_with([' ', '\n']));
+            starts.map(|(i, _)| i).collect()
+        };
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(ends(lines[1]), ends(lines[2]), "{text}");
+    }
 
     #[test]
     fn columns_are_aligned() {

@@ -109,7 +109,7 @@ impl<'py> IntoPyObject<'py> for ModesObject {
 
 /// Keywords of `modes`.
 pub(crate) struct ModesKeywords<'a> {
-    pub(crate) below_hz: Number,
+    pub(crate) below_hz: Option<Number>,
     pub(crate) input: Option<String>,
     pub(crate) output: Option<String>,
     pub(crate) input_point_m: Option<Numbers>,
@@ -188,7 +188,7 @@ impl ModesKeywords<'_> {
         };
         Ok(request::ModesRequest {
             robot: of.of.get().source.clone(),
-            below_hz: self.below_hz.value("below_hz")?,
+            below_hz: self.below_hz.map(|hz| hz.value("below_hz")).transpose()?,
             input: self.input,
             output: self.output,
             points: points(self.input_point_m, self.output_point_m)?,
@@ -204,7 +204,13 @@ impl ModesKeywords<'_> {
 }
 
 pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<'_>) -> PyResult<ModesObject> {
-    let request = keywords.request(of)?;
+    let mut request = keywords.request(of)?;
+    if !request.rigid_cables {
+        let linearisation = at_rest::linearisation(&request.model, of.at_rest.equilibrium.model);
+        let (at_rest, given) = (Arc::clone(&of.at_rest), request.below_hz);
+        let limit = interruptible(py, move || at_rest.modes_limit(given, linearisation))?;
+        request.below_hz = Some(limit.map_err(|error| errors::study(&error))?);
+    }
 
     // The request of the derivatives of these modes, for `Modes.gradient`.
     let own = request.clone();
@@ -215,7 +221,7 @@ pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<
         hold: Hold::default(),
         per: Per::default(),
         tolerances: Vec::new(),
-        below_hz: Some(own.below_hz),
+        below_hz: own.below_hz,
         at_hz: None,
         input: None,
         output: None,
@@ -328,8 +334,8 @@ pub(crate) const PROMINENCE_DB: f64 = 1.0;
 
 /// Keywords for inputs and outputs of responses.
 pub(crate) struct PairKeywords<'a> {
-    pub(crate) input: Texts,
-    pub(crate) output: Texts,
+    pub(crate) input: Option<Texts>,
+    pub(crate) output: Option<Texts>,
     pub(crate) adaptive: bool,
     pub(crate) input_point_m: Option<Numbers>,
     pub(crate) output_point_m: Option<Numbers>,
@@ -351,8 +357,11 @@ pub(crate) struct Pairs {
 
 impl PairKeywords<'_> {
     pub(crate) fn pairs(self) -> PyResult<Pairs> {
-        let (inputs, one_input) = self.input.one_or_several("input")?;
-        let (outputs, one_output) = self.output.one_or_several("output")?;
+        let signals = |given: Option<Texts>, key: &'static str, default: &str| {
+            given.map_or_else(|| Ok((vec![default.to_owned()], true)), |names| names.one_or_several(key))
+        };
+        let (inputs, one_input) = signals(self.input, "input", request::DEFAULT_INPUT)?;
+        let (outputs, one_output) = signals(self.output, "output", request::DEFAULT_OUTPUT)?;
         let points = points(self.input_point_m, self.output_point_m)?;
         let model = model(self.cable_model, self.assembly, self.in_plane_only, self.winches)?;
         Ok(Pairs { inputs, outputs, one: one_input && one_output, points, model })
@@ -365,10 +374,24 @@ impl Pairs {
     }
 }
 
-pub(crate) fn frf(py: Python<'_>, of: &PyEquilibrium, hz: Numbers, keywords: PairKeywords<'_>) -> PyResult<Responses> {
-    let (frequencies, _) = hz.frequencies()?;
+pub(crate) fn frf(
+    py: Python<'_>,
+    of: &PyEquilibrium,
+    hz: Option<Numbers>,
+    keywords: PairKeywords<'_>,
+) -> PyResult<Responses> {
     let adaptive = keywords.adaptive;
     let pairs = keywords.pairs()?;
+    let frequencies = match hz {
+        Some(hz) => hz.frequencies()?.0,
+        None if adaptive => default_frequencies(py, of, pairs.model)?,
+        None => {
+            return Err(errors::input(
+                "`hz` is missing: give the frequencies, or `adaptive=True` for those that the program chooses"
+                    .to_owned(),
+            ));
+        }
+    };
 
     let found = py.detach(|| {
         let mut watch = CtrlC::new();
@@ -392,6 +415,16 @@ pub(crate) fn frf(py: Python<'_>, of: &PyEquilibrium, hz: Numbers, keywords: Pai
     } else {
         Responses::Given(values)
     })
+}
+
+/// Frequencies from which an adaptive response starts if none are given, as those of the program's `frf`.
+fn default_frequencies(py: Python<'_>, of: &PyEquilibrium, model: request::Model) -> PyResult<Vec<f64>> {
+    let at_rest = Arc::clone(&of.at_rest);
+    let found = interruptible(py, move || {
+        let linearisation = at_rest::linearisation(&model, at_rest.equilibrium.model);
+        at_rest.response_range(&request::ResponseRange::default(), linearisation)?.starts()
+    })?;
+    found.map_err(|error| errors::study(&error))
 }
 
 /// Computes values at all frequencies, with checks for Ctrl-C.

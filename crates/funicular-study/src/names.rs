@@ -48,6 +48,40 @@ pub fn suggestion(word: &str, names: &[String]) -> String {
     }
 }
 
+/// Minimum length of a word that is searched in the keys of paths: two letters stand in too many of them.
+const MIN_WORD: usize = 3;
+
+/// End of a message about a path that no number has: the paths with a key that begins with its last word or contains it,
+/// as `mass` does for `platform.mass_kg`; else as [`suggestion`].
+pub(crate) fn path_suggestion(text: &str, paths: &[String]) -> String {
+    let text = text.trim().to_lowercase();
+    let mut keys: Vec<&str> = text.split('.').collect();
+    while keys.last().is_some_and(|key| key.len() < MIN_WORD) {
+        keys.pop();
+    }
+    let Some((word, parents)) = keys.split_last() else { return suggestion(&text, paths) };
+
+    // The best path has all parents of the text, then a key that begins with the word, then the shortest key.
+    let mut ranked: Vec<((usize, bool, usize), String)> = Vec::new();
+    for path in paths {
+        let own: Vec<&str> = path.split('.').collect();
+        let Some(at) = own.iter().rposition(|key| key.to_lowercase().contains(word)) else { continue };
+        let missing = parents.iter().filter(|parent| !own[..at].contains(parent)).count();
+        let key = own[at].to_lowercase();
+        let found = ((missing, !key.starts_with(word), key.len()), own[..=at].join("."));
+        if !ranked.contains(&found) {
+            ranked.push(found);
+        }
+    }
+    let Some(best) = ranked.iter().map(|(rank, _)| *rank).min() else { return suggestion(&text, paths) };
+
+    const SHOWN: usize = 3;
+    let same: Vec<String> =
+        ranked.iter().filter(|(rank, _)| *rank == best).map(|(_, path)| format!("`{path}`")).collect();
+    let more = if same.len() > SHOWN { ", …" } else { "" };
+    format!("; did you mean {}{more}?", same[..same.len().min(SHOWN)].join(" or "))
+}
+
 /// End of a message that lists the names; only the first ones if there are many.
 pub(crate) fn listed(names: &[String]) -> String {
     const SHOWN: usize = 12;
@@ -469,25 +503,28 @@ impl Named for LengthUnit {
     }
 }
 
-/// Constructions of wire ropes with factors in EN 12385 (Feyrer, Wire Ropes, 2nd edition 2015, table of factors for
-/// stranded ropes).
+/// Types of rope whose numbers follow from a diameter: wire ropes with factors in EN 12385 (Feyrer, Wire Ropes, 2nd
+/// edition 2015, table of factors for stranded ropes), and a fibre rope.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum WireRope {
+pub enum RopeType {
     /// Six strands of 19 wires on a steel core.
     #[default]
     SixTimes19,
     /// Seven strands of seven wires: six strands of 7 wires on a steel strand.
     SevenTimes7,
+    /// Braided rope of high-modulus polyethylene, as Dyneema or Spectra.
+    Hmpe,
 }
 
-impl Named for WireRope {
-    const WHAT: &'static str = "rope construction";
-    const ALL: &'static [Self] = &[Self::SixTimes19, Self::SevenTimes7];
+impl Named for RopeType {
+    const WHAT: &'static str = "type of rope";
+    const ALL: &'static [Self] = &[Self::SixTimes19, Self::SevenTimes7, Self::Hmpe];
 
     fn name(self) -> &'static str {
         match self {
             Self::SixTimes19 => "6x19",
             Self::SevenTimes7 => "7x7",
+            Self::Hmpe => "hmpe",
         }
     }
 
@@ -495,7 +532,12 @@ impl Named for WireRope {
         match self {
             Self::SixTimes19 => "Six strands of 19 wires on a steel core",
             Self::SevenTimes7 => "Seven strands of seven wires",
+            Self::Hmpe => "Braided rope of HMPE fibre, as Dyneema or Spectra",
         }
+    }
+
+    fn also(self) -> Option<&'static str> {
+        (self == Self::Hmpe).then_some("dyneema")
     }
 }
 

@@ -9,6 +9,7 @@ mod points;
 
 use crate::at_rest;
 use crate::request::{NewRequest, RobotText, State, Tensions, check};
+use crate::text::vector;
 use crate::values::{not_negative, positive};
 use crate::wording::{Words, worded};
 use anyhow::{Result, anyhow, bail};
@@ -19,7 +20,7 @@ use funicular::statics::Stability;
 use layout::Layout;
 use points::CablePoints;
 
-pub use crate::names::{LengthUnit, NewMotion, WireRope};
+pub use crate::names::{LengthUnit, NewMotion, RopeType};
 
 /// Default mass of the platform [kg].
 const MASS: f64 = 100.0;
@@ -53,6 +54,8 @@ const UNLIKELY_M: f64 = 1e3;
 pub struct NewRobot {
     /// Text of the robot file.
     pub text: String,
+    /// Pose of the file's state.
+    pub pose: Pose,
     /// Caveats, one sentence each; empty if the robot has a stable equilibrium in the state of the file.
     pub warnings: Vec<String>,
 }
@@ -74,7 +77,7 @@ pub fn run(request: &NewRequest, words: Words) -> Result<NewRobot> {
         }
         let cables = points::read(csv, request.csv_unit, request.motion)?;
         warnings.extend(unlikely_unit(&cables));
-        Layout::of_points(cables, request.motion)
+        Layout::of_points(cables, request.motion, request.box_m)
     } else {
         if request.csv_unit.is_some() {
             bail!("⟪csv_unit⟫ is the unit of the table of ⟪from_csv⟫: give the table, or leave the unit out");
@@ -86,18 +89,30 @@ pub fn run(request: &NewRequest, words: Words) -> Result<NewRobot> {
         Some(pose) => vec![pose.to_robot()?],
         None => layout.heights.iter().map(|height| layout.pose_at(*height)).collect(),
     };
+    // A pose of the user may be anywhere, for example in a pit.
+    let floor = layout.floor.filter(|_| request.pose.is_none());
     let box_sides = request.box_m.unwrap_or(layout.sides);
     let file = NewFile { request, mass, rope, cables: &layout.cables, box_sides };
 
-    let (text, caveat) = with_stable_state(&file, &poses)?;
+    let (text, pose, caveat) = with_stable_state(&file, &poses, floor)?;
     warnings.extend(caveat);
     let in_words = |texts: &[String]| texts.iter().map(|text| worded(text, words)).collect();
-    Ok(NewRobot { text: worded(&text, words), warnings: in_words(&warnings) })
+    Ok(NewRobot { text: worded(&text, words), pose, warnings: in_words(&warnings) })
+}
+
+impl NewRobot {
+    /// Sentence on the pose of the file's state, for a program that has written the file.
+    #[must_use]
+    pub fn pose_line(&self) -> String {
+        let position: Vec<f64> = self.pose.position_w.iter().copied().collect();
+        let angles: Vec<f64> = angles(&self.pose).iter().copied().collect();
+        format!("start pose: position ({}) m, roll, pitch, yaw ({})°", vector(&position, 3), vector(&angles, 2))
+    }
 }
 
 /// File with the first pose that is stable; without one the first pose and the reason why its cables do not hold it.
-fn with_stable_state(file: &NewFile, poses: &[Pose]) -> Result<(String, Option<String>)> {
-    let mut first: Option<(String, String)> = None;
+fn with_stable_state(file: &NewFile, poses: &[Pose], floor: Option<f64>) -> Result<(String, Pose, Option<String>)> {
+    let mut first: Option<(String, Pose, String)> = None;
     for pose in poses {
         let text = file.text(pose)?;
         let robot = Robot::from_toml(&text).map_err(|error| {
@@ -112,18 +127,21 @@ fn with_stable_state(file: &NewFile, poses: &[Pose]) -> Result<(String, Option<S
             }
             Ok(found) => {
                 // With fewer cables than degrees of freedom the file gets the pose that the cables hold.
-                return match found.requested_pose {
-                    Some((_, distance)) if distance > OTHER_POSE => Ok((file.text(&found.equilibrium.pose)?, None)),
-                    _ => Ok((text, None)),
-                };
+                let moved = found.requested_pose.is_some_and(|(_, distance)| distance > OTHER_POSE);
+                let held = if moved { &found.equilibrium.pose } else { pose };
+                if floor.is_none_or(|floor| file.lowest_point(held) > floor) {
+                    let text = if moved { file.text(held)? } else { text };
+                    return Ok((text, *held, None));
+                }
+                "the pose that the cables hold is below the floor, z = 0".to_owned()
             }
             Err(error) => format!("the cables do not hold the platform at the pose of the file: {error:#}"),
         };
-        first.get_or_insert((text, reason));
+        first.get_or_insert((text, *pose, reason));
     }
 
-    let Some((text, reason)) = first else { bail!("there is no pose to try: give ⟪pose⟫") };
-    Ok((text, Some(format!("{reason}; give another ⟪pose⟫, or change points, mass or rope in the file"))))
+    let Some((text, pose, reason)) = first else { bail!("there is no pose to try: give ⟪pose⟫") };
+    Ok((text, pose, Some(format!("{reason}; give another ⟪pose⟫, or change points, mass or rope in the file"))))
 }
 
 /// Checks a side of the box [m].
@@ -156,15 +174,15 @@ fn rope(request: &NewRequest, mass: f64) -> Result<Rope> {
         (Some(_), None) => bail!("⟪axial_stiffness_n⟫ needs the mass of the rope: give ⟪mass_kg_per_m⟫"),
         (None, Some(_)) => bail!("⟪mass_kg_per_m⟫ goes with ⟪axial_stiffness_n⟫: a ⟪rope⟫ has its own mass"),
         (None, None) => {
-            let construction = request.rope;
+            let rope = request.rope;
             let diameter = request.diameter_m.unwrap_or_else(|| {
-                let per_mm2 = construction.breaking_load(1e-3);
+                let per_mm2 = rope.breaking_load(1e-3);
                 let needed = (STRENGTH * mass * GRAVITY / per_mm2).sqrt();
                 // Whole millimetres, or tenths of thin ropes.
                 let tenths = if needed > 1.0 { 10.0 * needed.ceil() } else { (10.0 * needed).ceil() };
                 tenths.max(10.0 * MIN_DIAMETER_MM) * 1e-4
             });
-            Ok(Rope::Wire { construction, diameter })
+            Ok(Rope::Type { rope, diameter })
         }
     }
 }
@@ -243,7 +261,7 @@ mod tests {
 
     #[test]
     fn a_wire_rope_has_the_stiffness_of_its_metal_and_the_mass_of_the_norm() {
-        for (rope, area, mass) in [(WireRope::SixTimes19, 0.449, 0.400), (WireRope::SevenTimes7, 0.432, 0.384)] {
+        for (rope, area, mass) in [(RopeType::SixTimes19, 0.449, 0.400), (RopeType::SevenTimes7, 0.432, 0.384)] {
             let (robot, _) = made(&NewRequest { rope, diameter_m: Some(0.01), ..NewRequest::default() });
             let material = &robot.cables[0].material;
             // 100 GPa on C d², W d² kg per 100 m with d in mm.
@@ -254,6 +272,28 @@ mod tests {
         let (robot, _) = made(&NewRequest::default());
         assert!((robot.cables[0].material.mass_per_length - 0.400 * 0.36).abs() < 1e-9);
         let (heavy, _) = made(&NewRequest { mass_kg: Some(5000.0), ..NewRequest::default() });
+        assert!(heavy.cables[0].material.breaking_load.unwrap() > 20.0 * 5000.0 * 9.81);
+    }
+
+    #[test]
+    fn a_fibre_rope_is_lighter_and_softer_than_a_wire_rope_and_states_its_sources() {
+        let of = |rope| made(&NewRequest { rope, diameter_m: Some(0.01), ..NewRequest::default() });
+        let ((fibre, new), (wire, _)) = (of(RopeType::Hmpe), of(RopeType::SixTimes19));
+        assert!(new.warnings.is_empty() && is_stable(fibre.clone(), &new), "{:?}\n{}", new.warnings, new.text);
+        let (fibre, wire) = (&fibre.cables[0].material, &wire.cables[0].material);
+        assert!(fibre.mass_per_length < 0.15 * wire.mass_per_length);
+        assert!((fibre.mass_per_length - 0.0496).abs() < 1e-9);
+        assert_eq!(fibre.breaking_load, Some(58e3));
+
+        // Below the EA of ropes in service, 56 breaking loads, and below that of the fibres alone, 109 GPa on their area.
+        assert!((fibre.axial_stiffness - 25.0 * 58e3).abs() < 1.0, "{}", fibre.axial_stiffness);
+        assert!(fibre.axial_stiffness < 0.5 * 109e9 * fibre.mass_per_length / 970.0);
+        for says in ["MoorPy", "CIS YA100", "cautious", "fibre ropes damp more"] {
+            assert!(new.text.contains(says), "{says}: {}", new.text);
+        }
+
+        // The default diameter follows from the breaking load of the type.
+        let (heavy, _) = made(&NewRequest { rope: RopeType::Hmpe, mass_kg: Some(5000.0), ..NewRequest::default() });
         assert!(heavy.cables[0].material.breaking_load.unwrap() > 20.0 * 5000.0 * 9.81);
     }
 
@@ -322,6 +362,40 @@ mod tests {
         let (numbered, _) = made(&csv(&table(false, 1.0)));
         assert_eq!(numbered.cables[3].name, "4");
         assert_eq!(numbered.cables[3].anchor, robot.cables[3].anchor);
+    }
+
+    #[test]
+    fn the_whole_platform_starts_above_the_floor_of_its_anchors() {
+        // Anchors of one height: far below them would be under the floor, z = 0.
+        let table = |z: f64, below: f64| {
+            let corner = |x: f64, y: f64| format!("{},{},{z},{},{},{below}\n", 4.0 * x, 4.0 * y, 0.5 * x, 0.5 * y);
+            csv(&[corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)].concat())
+        };
+        for (z, below, box_m) in [
+            (3.0, 0.0, Some([1.0, 1.0, 0.5])),
+            (1.5, -1.0, None),
+            (6.0, -0.5, None),
+            (2.0, 0.25, Some([1.0, 1.0, 1.8])),
+            (0.4, 0.0, Some([1.0, 1.0, 0.2])),
+        ] {
+            let (robot, new) = made(&NewRequest { box_m, mass_kg: Some(5.0), ..table(z, below) });
+            assert!(new.warnings.is_empty() && is_stable(robot.clone(), &new), "{z} {below}: {:?}", new.warnings);
+            let low = f64::min(below, -0.5 * box_m.map_or(0.0, |sides| sides[2]));
+            assert!(new.pose.position_w.z + low > 0.0, "{z} {below}: {}\n{}", new.pose_line(), new.text);
+        }
+
+        // A coordinate below zero says that z = 0 is not the floor, and so do anchors without room below them.
+        for z in [-1.0, 0.0] {
+            let (_, new) = made(&table(z, 0.0));
+            assert!(new.warnings.is_empty() && new.pose.position_w.z < z, "{:?}", new.warnings);
+        }
+        // The user's own pose is taken as it is.
+        let pose = Some(crate::request::Pose::Angles([0.0, 0.0, -1.0, 0.0, 0.0, 0.0]));
+        let (_, new) = made(&NewRequest { pose, ..table(3.0, 0.0) });
+        assert_eq!(
+            new.pose_line(),
+            "start pose: position (0.000, 0.000, -1.000) m, roll, pitch, yaw (0.00, 0.00, 0.00)°"
+        );
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Paths with which a request names numbers of the robot file: one rule for all commands.
 
-use crate::names::suggestion;
-use crate::set_values;
+use crate::names::path_suggestion;
+use crate::set_values::{self, ANY};
 use anyhow::{Result, anyhow, bail};
 use funicular::robot::parameters::{Parameter, Parameters};
 
@@ -21,9 +21,7 @@ impl ParameterPattern {
     /// # Errors
     /// A text that is not a path.
     pub(crate) fn parse(option: &'static str, text: &str, parameters: &Parameters) -> Result<Self> {
-        // A star is a key of its own, which TOML would want in quotes.
-        let quoted: Vec<&str> = text.trim().split('.').map(|part| if part == "*" { "'*'" } else { part }).collect();
-        let path = set_values::path(&quoted.join(".")).map_err(|reason| anyhow!("⟪{option}⟫: {reason}"))?;
+        let path = set_values::path(text).map_err(|reason| anyhow!("⟪{option}⟫: {reason}"))?;
 
         // A component may be written by its index; the list of numbers has its name.
         let keys = match parameters.find(path.keys()) {
@@ -41,7 +39,7 @@ impl ParameterPattern {
     /// True for a number at this path or below it.
     pub(crate) fn matches(&self, parameter: &Parameter) -> bool {
         parameter.keys.len() >= self.keys.len()
-            && self.keys.iter().zip(&parameter.keys).all(|(own, key)| own == "*" || own == key)
+            && self.keys.iter().zip(&parameter.keys).all(|(own, key)| own == ANY || own == key)
     }
 
     /// Indices of the numbers that a request may change: all numbers whose key the path names; below a table only those
@@ -82,7 +80,7 @@ impl ParameterPattern {
 
     /// Error of a path that is none of `paths`: the reason, and the nearest of them.
     pub(crate) fn unknown(&self, reason: &str, paths: &[String]) -> anyhow::Error {
-        anyhow!("⟪{}⟫ {}: {reason}{}", self.option, self.text, suggestion(&self.text, paths))
+        anyhow!("⟪{}⟫ {}: {reason}{}", self.option, self.text, path_suggestion(&self.text, paths))
     }
 }
 
@@ -160,6 +158,17 @@ mod tests {
             message(changeable("platform.mas_kg")),
             "⟪fit⟫ platform.mas_kg: the robot file has no such number; did you mean `platform.mass_kg`?"
         );
+        // The end of a path is enough for a tip, and so is a part of a key.
+        for (text, tip) in [
+            ("mass", "did you mean `platform.mass_kg`?"),
+            ("robot.mass_kg", "did you mean `platform.mass_kg`?"),
+            ("stiffness", "did you mean `materials.'steel 6.5'.axial_stiffness_n`?"),
+            ("materials.mass", "did you mean `materials.'steel 6.5'.mass_kg_per_m`?"),
+            ("anchor", "did you mean `cables.1.anchor_m` or `cables.2.anchor_m`?"),
+        ] {
+            let said = message(changeable(text));
+            assert!(said.contains(tip), "{text}: {said}");
+        }
         assert!(message(changeable("platform.mass kg")).starts_with("⟪fit⟫: `platform.mass kg` is not a path"));
     }
 }

@@ -32,7 +32,7 @@ pub use key::{Choice, Declared, Key, Kind, Range};
 pub use pages::{LiveRequest, PaperRequest, ReportRequest, ValidateRequest};
 pub use parts::{
     Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, OneOrSeveral, Pose,
-    ResponsePoints, RobotText, State, Tensions, Terms,
+    ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
 };
 pub use source_file::{MAX_BYTES, SourceFile};
 pub use statics::{
@@ -41,7 +41,9 @@ pub use statics::{
 pub use steps::{Steps, digits};
 pub use uncertainty::{DEFAULT_SAMPLES, UncertaintyRequest, pose_and_tensions};
 
-pub use vibration::{CableRequest, CompareRequest, FrfRequest, ModesRequest, ReduceRequest};
+pub use vibration::{
+    CableRequest, CompareRequest, DEFAULT_INPUT, DEFAULT_OUTPUT, FrfRequest, ModesRequest, ReduceRequest,
+};
 
 pub(crate) use parts::{check, check_vector};
 
@@ -235,8 +237,10 @@ pub fn keys_of(group: &impl Serialize) -> serde_json::Result<Map<String, Value>>
 
 /// Request read by serde. A missing command is reported separately, because serde's message for it is hard to read.
 fn parsed<T: DeserializeOwned>(given: &Map<String, Value>) -> anyhow::Result<T> {
-    if !given.contains_key("command") {
-        bail!("it has no `command`");
+    let Some(command) = given.get("command") else { bail!("it has no `command`") };
+    let names: Vec<String> = commands().iter().map(|command| command.name.to_owned()).collect();
+    if let Some(name) = command.as_str().filter(|name| !names.iter().any(|known| known == name)) {
+        bail!("there is no command `{name}`{}", suggestion(name, &names));
     }
     Ok(serde_json::from_value(Value::Object(given.clone()))?)
 }

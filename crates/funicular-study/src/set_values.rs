@@ -2,9 +2,9 @@
 //! reader apply and its errors point at the changed line. A path may end at one number of an array:
 //! `cables.1.anchor_m.z`, or by its index from 0, `cables.1.anchor_m.2`.
 
-use crate::names::{listed, suggestion};
+use crate::names::{listed, path_suggestion, suggestion};
 use crate::request::Change;
-use funicular::robot::parameters::{self, ComponentOfKey};
+use funicular::robot::parameters::{self, ComponentOfKey, Parameter, Parameters};
 use std::str::FromStr;
 use thiserror::Error;
 use toml_edit::{Decor, DocumentMut, Item, Key, Table, TableLike, Value};
@@ -60,6 +60,11 @@ impl ValuePath {
         &self.keys
     }
 
+    /// True for a path with `*`, which stands for any key.
+    pub(crate) fn is_pattern(&self) -> bool {
+        self.keys.iter().any(|key| key == ANY)
+    }
+
     /// True for a value of `[state]`, which gives the pose.
     pub(crate) fn is_of_state(&self) -> bool {
         self.keys.first().is_some_and(|key| key == "state")
@@ -83,12 +88,17 @@ impl ValuePath {
     }
 }
 
+/// Key of a path that stands for any key.
+pub(crate) const ANY: &str = "*";
+
 /// Parses `path.to.key`: keys separated by dots, quoted if they hold anything except letters, digits, _ and -.
 ///
 /// # Errors
 /// A message for the user.
 pub fn path(text: &str) -> Result<ValuePath, String> {
-    let keys = Key::parse(text).map_err(|_| {
+    // A star is a key of its own, which TOML would want in quotes.
+    let quoted: Vec<&str> = text.trim().split('.').map(|part| if part == ANY { "'*'" } else { part }).collect();
+    let keys = Key::parse(&quoted.join(".")).map_err(|_| {
         format!(
             "`{text}` is not a path: write keys separated by dots, quoted if they hold anything except letters, \
              digits, _ and -"
@@ -224,6 +234,14 @@ fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
     let component = parameters::component(path);
     let (to_key, rest) = path.split_at(path.len() - component.map_or(0, |component| component.beyond_key));
     let Some((key, parents)) = to_key.split_last() else { bail!("the path is empty") };
+    if parents.is_empty() && !document.contains_key(key) && !parameters::is_top_key(key) {
+        bail!("the robot file has no `{key}`{}", path_suggestion(key, &paths(document)));
+    }
+
+    // For a tip, found before the document is borrowed.
+    let is_known = parents.first().is_none_or(|parent| document.contains_key(parent));
+    let known = if is_known { Vec::new() } else { paths(document) };
+    let tip = (!known.is_empty()).then(|| path_suggestion(&to_key.join("."), &known));
 
     let mut table: &mut dyn TableLike = document.as_table_mut();
     let mut parents = parents.iter();
@@ -237,7 +255,8 @@ fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
         }
         let names: Vec<String> = table.iter().map(|(name, _)| name.to_owned()).collect();
         let Some(item) = table.get_mut(parent) else {
-            bail!("the robot file has no `{}`{}", walked.join("."), suggestion(parent, &names))
+            let tip = tip.unwrap_or_else(|| suggestion(parent, &names));
+            bail!("the robot file has no `{}`{tip}", walked.join("."))
         };
         in_lines &= !item.is_value();
         table = if walked == ["cables"] {
@@ -259,6 +278,12 @@ fn assign(document: &mut DocumentMut, assignment: &Assignment) -> Result<()> {
             put(table, key, in_lines, assignment, value)
         }
     }
+}
+
+/// Paths of all numbers of a robot file; none if the reader refuses it.
+fn paths(document: &DocumentMut) -> Vec<String> {
+    let parameters = Parameters::from_toml(&document.to_string());
+    parameters.map_or_else(|_| Vec::new(), |found| found.list().iter().map(Parameter::path).collect())
 }
 
 /// Array of a key with one number replaced.
@@ -371,6 +396,17 @@ mod tests {
         assert!(set("cables.\"a.b\".x=[1, 2]").unwrap().contains("x = [1, 2] # set:"));
         let error = set("cables.a.x=1").unwrap_err().to_string();
         assert!(error.contains("no cable \"a\"") && error.contains("a.b"), "{error}");
+    }
+
+    #[test]
+    fn a_part_of_a_path_gives_a_tip() {
+        let text = funicular_robots::COGIRO;
+        let error = |change: &str| apply(text, &[assignment(change).unwrap()]).unwrap_err().to_string();
+        assert_eq!(error("mass=75"), "⟪set⟫ mass=75: the robot file has no `mass`; did you mean `platform.mass_kg`?");
+        assert!(error("robot.mass=75").contains("has no `robot`; did you mean `platform.mass_kg`?"));
+        assert!(error("force=75").contains("did you mean `loads.force_n`?"));
+        // A key at the top that the file leaves out is set.
+        assert!(apply("name = 'a'\n", &[assignment("source=book").unwrap()]).unwrap().contains("source = \"book\""));
     }
 
     #[test]

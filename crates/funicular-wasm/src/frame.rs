@@ -296,8 +296,10 @@ impl Session {
     /// A request that contradicts itself or the robot, or an undamped resonance at one of the frequencies.
     pub fn response(&self, request: &FrfRequest) -> Result<Answer> {
         let Some(Frame { at_rest, .. }) = &self.last else { bail!(NO_FRAME) };
-        let adaptive = request.adaptive;
-        let frequencies = if adaptive { request.range.starts()? } else { request.range.frequencies()? };
+        let adaptive = request.is_adaptive();
+        let linearisation = at_rest::linearisation(&self.request.model, at_rest.equilibrium.model);
+        let range = at_rest.response_range(&request.range, linearisation)?;
+        let frequencies = if adaptive { range.starts()? } else { range.frequencies()? };
         let (inputs, outputs) = (request.input.names(), request.output.names());
         if inputs.len() != 1 || outputs.len() != 1 {
             bail!("give one ⟪input⟫ and one ⟪output⟫: a frame has one response");

@@ -152,7 +152,7 @@ pub struct Match {
 pub struct Advice {
     /// Recommended model.
     pub model: CableModel,
-    /// Recommendation with its reason, in one or two sentences.
+    /// Recommendation with its reason, in a few short lines.
     pub text: String,
 }
 
@@ -404,99 +404,103 @@ impl Advisor<'_> {
         let reference = self.dynamics.linearisation.cable_model;
         let enough = |m: &&ModelResult| m.modes.is_ok() && m.first_wrong_hz.is_none();
         let simplest = self.models.iter().find(enough).map_or(reference, |m| m.model);
-        let choice = match self.criterion.platform_share {
+        let mut lines = match self.criterion.platform_share {
             None => self.for_all_modes(simplest, reference),
             Some(share) => self.for_the_platform(simplest, reference, total, share),
         };
 
-        let range = if ratio > SHALLOW_SAG_LIMIT {
-            " The maximum sag is beyond d/l = 1/20, the range of `shallow-dynamic`: its cable resonances are approximate."
-        } else {
-            ""
-        };
-        let cable = &self.robot.cables[deepest].name;
-        let text =
-            format!("{choice} (maximum sag d/l = {ratio:.4} at cable \"{cable}\", maximum λ² = {lambda2:.1}).{range}");
-        Advice { model: simplest, text }
+        lines.push(self.sag_and_resonance(deepest, ratio, lambda2));
+        if ratio > SHALLOW_SAG_LIMIT {
+            lines.push(
+                "The sag is beyond d/l = 1/20: cable resonances of `shallow-dynamic` are approximate.".to_owned(),
+            );
+        }
+        Advice { model: simplest, text: lines.join("\n") }
     }
 
     fn result(&self, model: CableModel) -> Option<&ModelResult> {
         self.models.iter().find(|m| m.model == model)
     }
 
-    /// Choice for all modes.
-    fn for_all_modes(&self, simplest: CableModel, reference: CableModel) -> String {
+    /// Choice for all modes and the reason, a line each.
+    fn for_all_modes(&self, simplest: CableModel, reference: CableModel) -> Vec<String> {
         let Self { truth, below_hz, .. } = self;
-
-        // Vibrations of the cables below the limit. A cable with fixed ends gives no lower bound for them: with the
-        // moving platform there are modes of the cables below it.
-        let mut of_cables = truth.modes.iter().filter(|m| m.platform_energy_fraction < 0.5).map(|m| m.frequency_hz);
-        let first_of_cables = of_cables.next();
-        let cable_modes = usize::from(first_of_cables.is_some()) + of_cables.count();
-        let clamped = self.dynamics.clamped_frequencies_below(below_hz * TAU);
-        let string = match clamped.first() {
-            Some((omega, cable)) => format!(
-                "with fixed ends the cables resonate from {:.3} Hz on (cable \"{}\"), below the limit of {below_hz} Hz",
-                omega / TAU,
-                self.robot.cables[*cable].name
-            ),
-            None => format!("with fixed ends no cable resonates below the limit of {below_hz} Hz"),
-        };
-
-        let percent = self.criterion.percent();
-        let lost = self.result(CableModel::CatenaryStatic).map_or(0, |m| m.missed);
-        let total = truth.modes.len();
-        let first = first_of_cables.map_or(String::new(), |hz| format!(" (the first at {hz:.3} Hz)"));
-        let constant = format!(
-            "{string}; with the moving platform {cable_modes} of the {total} modes there have most of their energy in \
-             the cables{first}, and a constant cable stiffness misses {lost} of them"
-        );
+        let (total, percent) = (truth.modes.len(), self.criterion.percent());
+        if total == 0 {
+            return vec![format!("Use `{simplest}`: no natural frequency lies below {below_hz} Hz with any model.")];
+        }
 
         let all = if total == 1 { "the one mode".to_owned() } else { format!("all {total} modes") };
-
-        match simplest {
-            _ if truth.modes.is_empty() => {
-                format!("Use `{simplest}`: no natural frequency lies below {below_hz} Hz with any model")
+        let wrong = self.result(CableModel::ShallowDynamic).and_then(|m| m.first_wrong_hz);
+        let choice = match (simplest == reference, wrong) {
+            (false, _) => {
+                format!("Use `{simplest}`: it has {all} below {below_hz} Hz within {percent} % of `{reference}`.")
             }
-            model if model == reference => {
-                let wrong = self.result(CableModel::ShallowDynamic).and_then(|m| m.first_wrong_hz);
-                let closed = wrong.map_or(String::new(), |hz| {
-                    format!("; `shallow-dynamic` lacks the mode at {hz:.3} Hz or has it wrong by more than {percent} %")
-                });
-                format!("Use `{model}`: {constant}{closed}")
-            }
-            CableModel::ShallowDynamic => {
-                format!(
-                    "Use `shallow-dynamic`: it has {all} below {below_hz} Hz within {percent} % of those by \
-                     `{reference}`; {constant}"
-                )
-            }
-            _ => format!(
-                "Use `{simplest}`: it has {all} below {below_hz} Hz within {percent} % of those by \
-                 `{reference}`; {string}"
+            (true, Some(hz)) => format!(
+                "Use `{reference}`: `shallow-dynamic` lacks the mode at {hz:.3} Hz or has it wrong by more than \
+                 {percent} %."
             ),
-        }
+            (true, None) => {
+                format!("Use `{reference}`: no simpler model has {all} below {below_hz} Hz within {percent} %.")
+            }
+        };
+        let is_dynamic = simplest == reference || simplest == CableModel::ShallowDynamic;
+        std::iter::once(choice).chain(is_dynamic.then(|| self.modes_of_cables())).collect()
     }
 
-    /// Choice for the modes of the platform alone.
-    fn for_the_platform(&self, simplest: CableModel, reference: CableModel, total: usize, share: f64) -> String {
+    /// Line on the modes that only a dynamic model has.
+    fn modes_of_cables(&self) -> String {
+        // A cable with fixed ends gives no lower bound for them: with the moving platform there are modes of the cables
+        // below it.
+        let modes = &self.truth.modes;
+        let mut of_cables = modes.iter().filter(|m| m.platform_energy_fraction < 0.5).map(|m| m.frequency_hz);
+        let first = of_cables.next();
+        let count = usize::from(first.is_some()) + of_cables.count();
+
+        let lost = self.result(CableModel::CatenaryStatic).map_or(0, |m| m.missed);
+        let from = first.map_or_else(String::new, |hz| format!(", from {hz:.3} Hz on"));
+        format!(
+            "{count} of {} have most of their energy in the cables{from}; a constant cable stiffness misses {lost}.",
+            crate::counted(modes.len(), "mode")
+        )
+    }
+
+    /// Line on the largest sag and the first resonance of a cable.
+    fn sag_and_resonance(&self, deepest: usize, ratio: f64, lambda2: f64) -> String {
+        let clamped = self.dynamics.clamped_frequencies_below(self.below_hz * TAU);
+        let name = |cable: usize| &self.robot.cables[cable].name;
+        let resonance = match clamped.first() {
+            Some((omega, cable)) => format!("from {:.3} Hz on (cable \"{}\")", omega / TAU, name(*cable)),
+            None => format!("not below {} Hz", self.below_hz),
+        };
+        format!(
+            "Maximum sag d/l = {ratio:.4} (cable \"{}\"), maximum λ² = {lambda2:.1}; cables with fixed ends resonate \
+             {resonance}.",
+            name(deepest)
+        )
+    }
+
+    /// Choice for the modes of the platform alone and the reason, a line each.
+    fn for_the_platform(&self, simplest: CableModel, reference: CableModel, total: usize, share: f64) -> Vec<String> {
         let (below_hz, percent) = (self.below_hz, self.criterion.percent());
         let modes = crate::counted(total, "platform mode");
         if total == 0 {
-            return format!(
+            return vec![format!(
                 "No mode below {below_hz} Hz has at least {} % of its kinetic energy in the platform: raise the limit, \
-                 or require a smaller share",
+                 or require a smaller share.",
                 100.0 * share
-            );
+            )];
         }
+        let all = if total == 1 { "the one platform mode".to_owned() } else { format!("all {modes}") };
         if simplest != reference {
             let difference = self.result(simplest).and_then(|m| m.largest_difference).unwrap_or(0.0);
-            return format!(
-                "Use `{simplest}` for the platform: it has {} below {below_hz} Hz within {percent} % of `{reference}`, \
-                 the largest difference is {:+.2} %",
-                if total == 1 { "the one platform mode".to_owned() } else { format!("all {modes}") },
-                100.0 * difference
-            );
+            return vec![
+                format!(
+                    "Use `{simplest}` for the platform: it has {all} below {below_hz} Hz within {percent} % of \
+                     `{reference}`."
+                ),
+                format!("Its largest difference is {:+.2} %.", 100.0 * difference),
+            ];
         }
 
         // How far the simplest models come.
@@ -511,10 +515,11 @@ impl Advisor<'_> {
                 Some(format!("`{model}` has {} ({farthest})", result.within))
             })
             .collect();
-        format!(
-            "Use `{reference}` for the platform: no simpler model has {} below {below_hz} Hz within {percent} %: {}",
-            if total == 1 { "the one platform mode".to_owned() } else { format!("all {modes}") },
-            reached.join(", ")
-        )
+        vec![
+            format!(
+                "Use `{reference}` for the platform: no simpler model has {all} below {below_hz} Hz within {percent} %."
+            ),
+            format!("Of them {}.", reached.join(", ")),
+        ]
     }
 }

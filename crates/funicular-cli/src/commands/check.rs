@@ -1,7 +1,7 @@
 //! `check`: text and CSV.
 
 use crate::output::Printed;
-use crate::table::{self, Table, decimals, decimals_or_none, short, vector};
+use crate::table::{self, Table, components, decimals_or_none, short, vector};
 use funicular::robot::PlatformMotion;
 use funicular_study::analyses::check::{
     Checked, CheckedCable, CheckedLimits, CheckedPlatform, CheckedRope, CheckedWinch,
@@ -257,12 +257,7 @@ fn cable_table(found: &Checked) -> String {
 
     let mut cables = Table::new(&columns).text_columns(&[1]);
     for cable in &found.cables {
-        let point = |values: &[f64; 3]| {
-            values.iter().fold(String::new(), |mut text, value| {
-                let _ = write!(text, "{:>10}", decimals(*value, 4));
-                text
-            })
-        };
+        let point = |values: &[f64; 3]| components(values, 4);
         let mut row = vec![
             cable.name.clone(),
             cable.material.clone(),

@@ -1,25 +1,9 @@
 //! `frf`: text and CSV.
 
-use crate::args::{Cli, DrawArgs};
 use crate::output::Printed;
 use crate::table::{Table, counted, decimals, significant, vector};
-use anyhow::Result;
-use funicular_files::endings::Kind;
 use funicular_study::analyses::frf::{Frf, PairRow, PlaceRow};
-use funicular_study::request::Request;
 use funicular_study::uff_writing::frf_file;
-use serde_json::{Map, Value};
-
-/// Request of a frequency response. A figure shows every peak unless the frequencies are given.
-pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
-    let mut request = cli.request(further)?;
-    if let Request::Frf(of) = &mut request {
-        let path = cli.files::<DrawArgs>()?.output.output_file;
-        let is_figure = matches!(path.as_deref().and_then(Kind::of), Some(Kind::Svg | Kind::Pdf));
-        of.adaptive |= of.range.points.is_none() && is_figure;
-    }
-    Ok(request)
-}
 
 impl Printed for Frf {
     fn text(&self) -> String {

@@ -35,9 +35,10 @@ impl Printed for Modes {
         };
 
         format!(
-            "{}: natural frequencies below {} Hz\n{}\n{pair}\n{}{}\n{}\n",
+            "{}: natural frequencies below {} Hz{}\n{}\n{pair}\n{}{}\n{}\n",
             self.robot,
             self.below_hz,
+            if self.is_default_limit { ", the lowest ones; --below-hz sets another limit" } else { "" },
             self.models.line(),
             if self.modes.is_empty() { String::new() } else { format!("{table}\n") },
             certificate(self),

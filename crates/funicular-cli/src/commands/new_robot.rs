@@ -44,6 +44,7 @@ pub(super) fn write(request: &NewRequest, guard: &mut Guard, path: &Path) -> Res
     target.write(made.text.as_bytes())?;
     if target.is_file() {
         errors::note(&format!("wrote {}", path.display()));
+        errors::note(&made.pose_line());
     }
     made.warnings.iter().for_each(|warning| errors::warn(warning));
     Ok(())

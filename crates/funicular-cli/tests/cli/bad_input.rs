@@ -33,7 +33,7 @@ fn broken_command_lines_are_refused() {
         ("statics ROBOT --static-model rigid", "[possible values: ideal, spring, catenary]"),
         (
             "modes ROBOT --below-hz 9 --cable-model finite-element",
-            "catenary-dynamic, shallow-dynamic, shallow-static, catenary-static, spring",
+            "spring, shallow-static, catenary-static, shallow-dynamic, catenary-dynamic",
         ),
         ("modes ROBOT --below-hz 9 --assembly full", "[possible values: consistent, without-geometric-stiffness]"),
         // The state.
@@ -77,7 +77,9 @@ fn broken_command_lines_are_refused() {
         ("statics ROBOT --set platform.mass_kg=-3", "# set: platform.mass_kg=-3"),
         ("statics ROBOT --set platform.mass_kg=nan", "it must be finite"),
         ("statics ROBOT --set platform.mass=3", "mass_kg"),
-        ("statics ROBOT --set platfrom.mass_kg=3", "did you mean `platform`"),
+        ("statics ROBOT --set platfrom.mass_kg=3", "did you mean `platform.mass_kg`?"),
+        ("statics ROBOT --set mass=75", "did you mean `platform.mass_kg`?"),
+        ("statics ROBOT --set stiffness=75", "the robot file has no `stiffness`"),
         ("statics ROBOT --set platform=3", "it names a table"),
         ("statics ROBOT --set cables.7.unstrained_length_m=3", "no cable \"7\"; there are `1`, `2`"),
         ("statics ROBOT --set cables=3", "it names a table"),
@@ -91,7 +93,6 @@ fn broken_command_lines_are_refused() {
         ("stiffness ROBOT --static-model ideal", "use the static model `catenary` or `spring`"),
         ("stiffness ROBOT --static-model ideal --assembly without-geometric-stiffness", "use the static model"),
         // Modes.
-        ("modes ROBOT", "--below-hz"),
         ("modes ROBOT --below-hz 0", "0 is not positive"),
         ("modes ROBOT --below-hz -5", "-5 is not positive"),
         ("modes ROBOT --below-hz 20Hz", "without its unit"),
@@ -100,7 +101,7 @@ fn broken_command_lines_are_refused() {
         ("compare ROBOT --below-hz 1e9", "lower the limit"),
         ("compare ROBOT --below-hz 5 --cable-model spring", "unexpected argument"),
         // Frequency responses.
-        ("frf ROBOT --from-hz 1 --to-hz 2 --points 9 --input fz", "--output"),
+        ("frf ROBOT --from-hz 2 --to-hz 1", "the range has to ascend"),
         ("frf ROBOT --from-hz 2 --to-hz 1 --points 9 --input fz --output z", "the range has to ascend"),
         ("frf ROBOT --from-hz 1 --to-hz 1 --points 9 --input fz --output z", "the range has to ascend"),
         ("frf ROBOT --from-hz 0 --to-hz 1 --points 9 --log --input fz --output z", "--log needs"),

@@ -10,7 +10,15 @@ fn compare_has_all_models_and_advice() {
     assert_eq!(models, ["spring", "shallow-static", "catenary-static", "shallow-dynamic", "catenary-dynamic"]);
     assert_eq!(value["reference"], "catenary-dynamic");
     assert_eq!(value["advice"]["cable_model"], "shallow-dynamic");
-    assert!(succeed(&["compare", "ROBOT", "--below-hz", "3"]).contains("Use `shallow-dynamic`"));
+    let text = succeed(&["compare", "ROBOT", "--below-hz", "3"]);
+    let (_, advice) = text.split_once("\nUse `shallow-dynamic`").unwrap();
+
+    // Three short lines, each a sentence.
+    let lines: Vec<&str> = advice.lines().take_while(|line| !line.is_empty()).collect();
+    assert!(lines.len() == 3 && lines.iter().all(|line| line.ends_with('.')), "{text}");
+    assert!(lines.iter().all(|line| line.split_whitespace().count() <= 25), "{text}");
+    assert!(lines[1].contains("a constant cable stiffness misses"), "{text}");
+    assert!(lines[2].starts_with("Maximum sag d/l = "), "{text}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use funicular::math::Vec3;
 use funicular::robot::Robot;
 use funicular::statics::{StaticModel, TensionRange, TensionRule};
 use funicular_study::analyses::reduce;
-use funicular_study::frequency_range::START_POINTS;
+use funicular_study::frequency_range::{LOWEST, START_POINTS};
 use funicular_study::measurements;
 use funicular_study::request::RobotText;
 use funicular_study::{Request, at_rest, figures};
@@ -18,15 +18,14 @@ use std::fs;
 fn shortest() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
     let imported = project("docs/import/tripod.wcrfx");
-    let response = ["--input", "fz", "--output", "z"];
     let range = ["--from-hz", "1", "--to-hz", "2", "--points", "9"];
     let with_robot: [(&str, &[&str]); 20] = [
         ("check", &[]),
         ("parameters", &[]),
         ("statics", &[]),
         ("stiffness", &[]),
-        ("modes", &["--below-hz", "2"]),
-        ("frf", &range),
+        ("modes", &[]),
+        ("frf", &[]),
         ("compare", &["--below-hz", "2"]),
         ("gradient", &["--below-hz", "2"]),
         ("uncertainty", &["--deviations", "platform.mass_kg=1%"]),
@@ -46,7 +45,6 @@ fn shortest() -> Vec<Vec<String>> {
     let line = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect::<Vec<String>>();
     for (command, options) in with_robot {
         let more: &[&str] = match command {
-            "frf" => &response,
             "cable" => &range,
             _ => &[],
         };
@@ -220,6 +218,11 @@ fn filled_in() -> Vec<(&'static str, &'static str, Vec<String>)> {
 
     // Number of frequencies of an adaptive response.
     all.push(("frf", "points", vec![START_POINTS.to_string()]));
+
+    // Limits that follow from the natural frequencies.
+    all.push(("modes", "below-hz", vec![format!("slightly above the {LOWEST} lowest")]));
+    all.push(("frf", "from-hz", vec!["0".to_owned()]));
+    all.push(("frf", "to-hz", vec![format!("above the {LOWEST} lowest natural frequencies")]));
 
     // Values of a new robot, as its file has them.
     let of = |motion: &str| succeed(&["new", "--motion", motion]);

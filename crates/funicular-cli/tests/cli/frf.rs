@@ -25,6 +25,29 @@ fn a_frequency_response_is_that_of_its_csv_and_finds_the_peaks() {
 }
 
 #[test]
+fn without_options_the_response_is_vertical_and_contains_the_first_resonances() {
+    let found = json(&["frf", "ROBOT"]);
+    assert_eq!((&found["input"], &found["output"]), (&Value::from("fz"), &Value::from("az")));
+    let hz = numbers(&found["frequency_hz"]);
+    let (first, last) = (hz[0], hz[hz.len() - 1]);
+    let modes = json(&["modes", "ROBOT"]);
+    let platform = number(&modes["first_platform_mode"]["frequency_hz"]);
+    assert!(first == 0.0 && last >= number(&modes["below_hz"]) && last >= 1.5 * platform, "{first} {last} {platform}");
+    assert!(!found["peaks"].as_array().unwrap().is_empty());
+
+    // What was chosen is printed, and gives the same response.
+    let text = succeed(&["frf", "ROBOT"]);
+    assert!(text.contains("response of az at") && text.contains("to fz at"), "{text}");
+    assert!(text.contains(&format!("frequencies from 0 to {last} Hz, chosen so that every peak")), "{text}");
+    let last = last.to_string();
+    let given = ["frf", "ROBOT", "--from-hz", "0", "--to-hz", &last, "--input", "fz", "--output", "az", "--adaptive"];
+    assert_eq!(json(&given), found);
+
+    let even = numbers(&json(&["frf", "ROBOT", "--log", "--points", "5"])["frequency_hz"]);
+    assert!(even.len() == 5 && close(even[4] / even[0], 1000.0, 1e-6), "{even:?}");
+}
+
+#[test]
 fn a_force_at_a_point_is_a_force_and_a_moment() {
     let frf = |input: &str, output: &str, more: &[&str]| {
         let range =
@@ -103,8 +126,8 @@ fn adaptive_frequencies_have_the_values_and_the_ends_of_a_plain_response() {
     }
     let text = succeed(&words(&format!("{frf} --adaptive")));
     assert!(text.contains(" Hz, chosen so that every peak has its height; largest magnitude "), "{text}");
-    let refused = run(&words("frf ROBOT --from-hz 0.5 --to-hz 3 --input fx --output x"));
-    assert!(refused.status.code() == Some(2) && stderr(&refused).contains("--points <N>"), "{}", stderr(&refused));
+    // So it is without a number of frequencies.
+    assert_eq!(succeed(&words(frf)), text);
 }
 
 #[test]

@@ -55,7 +55,7 @@ fn options_with_any_text_give_harmless_messages() {
             &["statics"],
             &["request"],
             &["plot"],
-            &["modes", "ROBOT", "-o"],
+            &["modes", "ROBOT", "--below-hz"],
             &[],
         ] {
             refused(&[arguments, &[&text]].concat());

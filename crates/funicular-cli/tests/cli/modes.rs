@@ -27,6 +27,30 @@ fn modes_below_20_hz_are_147_and_certified() {
 }
 
 #[test]
+fn without_a_limit_the_20_lowest_modes_are_shown() {
+    for line in [&["modes", "ROBOT"][..], &["modes", &robot("cogiro.toml"), "--pose", "0,0,1.5"]] {
+        let found = json(line);
+        let limit = number(&found["below_hz"]);
+        let modes = found["modes"].as_array().unwrap();
+        // The limit is rounded up, so that a neighbour may be below it too.
+        assert!(found["certified"] == true && (20..=24).contains(&modes.len()), "{line:?}: {}", modes.len());
+        let last = number(&modes[19]["frequency_hz"]);
+        assert!(last < limit && limit < 1.11 * last, "{line:?}: {last} {limit}");
+
+        // The limit is printed, and gives the same list.
+        let text = succeed(line);
+        assert!(text.contains(&format!("below {limit} Hz, the lowest ones; --below-hz sets another")), "{text}");
+        let given = json(&[line, &["--below-hz", &limit.to_string()]].concat());
+        assert_eq!(given, found);
+    }
+
+    // A robot with fewer modes shows all of them.
+    let springs = json(&["modes", "ROBOT", "--cable-model", "spring"]);
+    let modes = springs["modes"].as_array().unwrap();
+    assert!(modes.len() == 6 && number(&springs["below_hz"]) < 1.11 * number(&modes[5]["frequency_hz"]));
+}
+
+#[test]
 fn modes_take_part_in_a_response_and_move_their_cables() {
     let value =
         json(&["modes", "ROBOT", "--below-hz", "3", "--input", "fz", "--output", "cable:3@0.5:az", "--stations", "5"]);

@@ -16,6 +16,7 @@ fn every_command_runs_on_a_new_robot_at_once() {
         &["--motion", "planar-xz"],
         &["--motion", "planar", "--cables", "3"],
         &["--motion", "point-mass", "--rope", "7x7"],
+        &["--rope", "hmpe", "--diameter-m", "0.006"],
         &["--from-csv", &table, "--csv-unit", "mm", "--mass-kg", "60"],
     ] {
         let text = new(arguments);
@@ -33,7 +34,9 @@ fn a_new_file_is_never_written_over_another_one() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("robot.toml");
     let path = path.to_str().unwrap();
-    assert_eq!(stderr(&run(&["new", "-o", path])).trim(), format!("wrote {path}"));
+    let output = run(&["new", "-o", path]);
+    let pose = "start pose: position (0.000, 0.000, 2.400) m, roll, pitch, yaw (0.00, 0.00, 0.00)°";
+    assert_eq!(stderr(&output).trim(), format!("wrote {path}\n{pose}"));
     let written = std::fs::read_to_string(path).unwrap();
     assert_eq!(written, new(&[]));
 
@@ -98,6 +101,16 @@ fn one_number_of_a_vector_is_set_varied_and_listed() {
         rows.iter().find(|row| row["path"] == path).map(|row| (number(&row["value"]), row["given"].clone()))
     };
     assert_eq!(value("state.position_m.z"), Some((2.2, true.into())));
+    // Names in words, for a page or a table.
+    for (path, label) in [
+        ("platform.mass_kg", "mass of the platform [kg]"),
+        ("materials.rope.damping_ratio", "damping ratio of the rope (rope)"),
+        ("cables.3.anchor_m.z", "exit point of the cable (3), z [m]"),
+        ("state.position_m.x", "origin of the platform frame in the world frame, x [m]"),
+    ] {
+        let rows = listed["parameters"].as_array().unwrap();
+        assert_eq!(rows.iter().find(|row| row["path"] == path).unwrap()["label"], label);
+    }
     // Tables that a file lacks are listed with their defaults.
     let plain = json(&["parameters", "ROBOT"]);
     let paths: Vec<&str> =

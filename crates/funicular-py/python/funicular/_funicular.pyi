@@ -102,28 +102,30 @@ class Analyses:
             The file cannot be written.
         """
     @overload
-    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: Literal[False] = False, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> NDArray[complex128]: ...
+    def frf(self, /, hz: ArrayLike | None = None, input: str | Sequence[str] | None = None, output: str | Sequence[str] | None = None, *, adaptive: Literal[False] = False, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> NDArray[complex128]: ...
     @overload
-    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: Literal[True], input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> tuple[NDArray[float64], NDArray[complex128]]: ...
+    def frf(self, /, hz: ArrayLike | None = None, input: str | Sequence[str] | None = None, output: str | Sequence[str] | None = None, *, adaptive: Literal[True], input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> tuple[NDArray[float64], NDArray[complex128]]: ...
     @overload
-    def frf(self, /, hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: bool, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> NDArray[complex128] | tuple[NDArray[float64], NDArray[complex128]]:
+    def frf(self, /, hz: ArrayLike | None = None, input: str | Sequence[str] | None = None, output: str | Sequence[str] | None = None, *, adaptive: bool, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> NDArray[complex128] | tuple[NDArray[float64], NDArray[complex128]]:
         """
         Computes frequency responses: complex, for e^{+iωt}, in units of output per input.
 
         Parameters
         ----------
         hz
-            Frequencies [Hz], a row of n.
+            Frequencies [Hz], a row of n. With `adaptive` it may be left out: from 0 to above the 20 lowest natural
+            frequencies and the first mode of the platform.
         input
             Input signal: force `fx`, `fy`, `fz`, moment `mx`, `my`, `mz`, or `f:ux,uy,uz`, `m:ux,uy,uz` along a
             direction, in world axes; a force on a cable, as in `cable:3@0.5:fz`; the commanded length of a cable, a
             force of its motor or on its drum, as in `length:3`, `motor:3`, `drum:3`; or a motion of the base, `base-x`
-            to `base-rz`, or of an anchor, as in `anchor:3:x`. A list names several.
+            to `base-rz`, or of an anchor, as in `anchor:3:x`. A list names several; `fz` if not
+            given.
         output
             Output signal: displacement `x`, `y`, `z`, rotation `rx`, `ry`, `rz`, with `v` (velocity) or `a`
             (acceleration) before it, or `x:ux,uy,uz`, `v:…`, `a:…` along a direction; a point of a cable, as in
             `cable:3@0.5:az`; or the motion of a drum or motor, or the tension of a cable at the platform or at its
-            drum, as in `drum:3`, `motor:3`, `tension:3`, `drum-tension:3`. A list names several.
+            drum, as in `drum:3`, `motor:3`, `tension:3`, `drum-tension:3`. A list names several; `az` if not given.
         adaptive
             Add frequencies between those in `hz`, which ascend, until every peak has its height (to 0.1 %) and straight
             lines over the logarithm of the magnitude are accurate to 1 %. At undamped natural frequencies, where the
@@ -231,14 +233,14 @@ class Analyses:
         InputError
             The package was built without the page.
         """
-    def modes(self, /, below_hz: SupportsFloat | SupportsIndex, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True, rigid_cables: bool = False) -> Modes:
+    def modes(self, /, below_hz: SupportsFloat | SupportsIndex | None = None, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True, rigid_cables: bool = False) -> Modes:
         """
         Computes all natural frequencies below a limit, and checks by an independent count that none is missing.
 
         Parameters
         ----------
         below_hz
-            Limit of the frequencies [Hz].
+            Limit of the frequencies [Hz]; if not given, slightly above the 20 lowest, or with `rigid_cables` above all.
         input, output
             Signals of a response, as in `frf`: every mode then has its residue and the height of its peak.
         input_point_m, output_point_m
@@ -981,7 +983,7 @@ class Robot(Analyses):
     def parameters(self, /) -> dict[str, Any]:
         """
         Returns every number of the robot file, with the keys of the program's `parameters`: `path`, `value`, `unit`,
-        `range`, `minimum`, `maximum`, `meaning` and `given`. `Robot.with_` and `vary=` use the same paths.
+        `range`, `minimum`, `maximum`, `meaning`, `label` (name in words with the unit) and `given`. `Robot.with_` and `vary=` use the same paths.
         """
     def payload(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", tension_rule: TensionRule | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, payload_center_m: ArrayLike | None = None) -> dict[str, Any]:
         """
@@ -1058,7 +1060,7 @@ class Robot(Analyses):
         vary
             Values of the robot file that vary, by their paths as in `with_`: `{"platform.mass_kg": (10, 90, 81)}`. A
             tuple is the first value, the last value and their number; anything else is values. The first path varies
-            fastest.
+            fastest. `*` for any key moves all numbers that match together: `{"cables.*.anchor_m.z": (5, 6, 3)}`.
 
         The other parameters are those of `map`.
         """

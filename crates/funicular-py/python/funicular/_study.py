@@ -194,7 +194,7 @@ def new_robot(
     mass_kg, box_m
         Mass of the platform [kg], 100 if not given, and sides [m] of the homogeneous box that gives the inertia.
     rope, diameter_m
-        Construction of the wire rope, `6x19` or `7x7`, and its diameter [m].
+        Type of the rope, the wire ropes `6x19` and `7x7` or the fibre rope `hmpe`, and its diameter [m].
     axial_stiffness_n, mass_kg_per_m
         Axial stiffness EA [N] and mass per unstrained length [kg/m] of another rope.
 

@@ -14,7 +14,7 @@ impl PyAnalyses {
     /// Parameters
     /// ----------
     /// below_hz
-    ///     Limit of the frequencies [Hz].
+    ///     Limit of the frequencies [Hz]; if not given, slightly above the 20 lowest, or with `rigid_cables` above all.
     /// input, output
     ///     Signals of a response, as in `frf`: every mode then has its residue and the height of its peak.
     /// input_point_m, output_point_m
@@ -33,7 +33,7 @@ impl PyAnalyses {
     ///     Modes with cables that are straight, without mass and rigid in length, of the motions that they leave free.
     ///     The equilibrium has the static model `ideal` or `spring`.
     #[pyo3(signature = (
-        below_hz, *, input=None, output=None, input_point_m=None, output_point_m=None, stations=None, cable_model=None,
+        below_hz=None, *, input=None, output=None, input_point_m=None, output_point_m=None, stations=None, cable_model=None,
         assembly="consistent", in_plane_only=false, winches="as-given", platform_share=None, damped=true,
         rigid_cables=false
     ))]
@@ -41,7 +41,7 @@ impl PyAnalyses {
     fn modes(
         slf: &Bound<'_, Self>,
         py: Python<'_>,
-        below_hz: Number,
+        below_hz: Option<Number>,
         input: Option<String>,
         output: Option<String>,
         input_point_m: Option<Numbers>,
@@ -78,17 +78,19 @@ impl PyAnalyses {
     /// Parameters
     /// ----------
     /// hz
-    ///     Frequencies [Hz], a row of n.
+    ///     Frequencies [Hz], a row of n. With `adaptive` it may be left out: from 0 to above the 20 lowest natural
+    ///     frequencies and the first mode of the platform.
     /// input
     ///     Input signal: force `fx`, `fy`, `fz`, moment `mx`, `my`, `mz`, or `f:ux,uy,uz`, `m:ux,uy,uz` along a
     ///     direction, in world axes; a force on a cable, as in `cable:3@0.5:fz`; the commanded length of a cable, a
     ///     force of its motor or on its drum, as in `length:3`, `motor:3`, `drum:3`; or a motion of the base, `base-x`
-    ///     to `base-rz`, or of an anchor, as in `anchor:3:x`. A list names several.
+    ///     to `base-rz`, or of an anchor, as in `anchor:3:x`. A list names several; `fz` if not
+    ///     given.
     /// output
     ///     Output signal: displacement `x`, `y`, `z`, rotation `rx`, `ry`, `rz`, with `v` (velocity) or `a`
     ///     (acceleration) before it, or `x:ux,uy,uz`, `v:…`, `a:…` along a direction; a point of a cable, as in
     ///     `cable:3@0.5:az`; or the motion of a drum or motor, or the tension of a cable at the platform or at its
-    ///     drum, as in `drum:3`, `motor:3`, `tension:3`, `drum-tension:3`. A list names several.
+    ///     drum, as in `drum:3`, `motor:3`, `tension:3`, `drum-tension:3`. A list names several; `az` if not given.
     /// adaptive
     ///     Add frequencies between those in `hz`, which ascend, until every peak has its height (to 0.1 %) and straight
     ///     lines over the logarithm of the magnitude are accurate to 1 %. At undamped natural frequencies, where the
@@ -113,16 +115,16 @@ impl PyAnalyses {
     /// ResponseWarning
     ///     At least ten frequencies ascend, and peaks between them are read more than 5 % too low.
     #[pyo3(signature = (
-        hz, input, output, *, adaptive=false, input_point_m=None, output_point_m=None, cable_model=None,
+        hz=None, input=None, output=None, *, adaptive=false, input_point_m=None, output_point_m=None, cable_model=None,
         assembly="consistent", in_plane_only=false, winches="as-given"
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn frf(
         slf: &Bound<'_, Self>,
         py: Python<'_>,
-        hz: Numbers,
-        input: Texts,
-        output: Texts,
+        hz: Option<Numbers>,
+        input: Option<Texts>,
+        output: Option<Texts>,
         adaptive: bool,
         input_point_m: Option<Numbers>,
         output_point_m: Option<Numbers>,

@@ -78,8 +78,8 @@ impl PyAnalyses {
         winches: &str,
     ) -> PyResult<Vec<String>> {
         let keywords = PairKeywords {
-            input,
-            output,
+            input: Some(input),
+            output: Some(output),
             adaptive,
             input_point_m,
             output_point_m,
@@ -124,7 +124,7 @@ impl PyAnalyses {
         rigid_cables: bool,
     ) -> PyResult<Vec<String>> {
         let keywords = ModesKeywords {
-            below_hz,
+            below_hz: Some(below_hz),
             input: None,
             output: None,
             input_point_m: None,

@@ -154,7 +154,7 @@ impl PyRobot {
     /// vary
     ///     Values of the robot file that vary, by their paths as in `with_`: `{"platform.mass_kg": (10, 90, 81)}`. A
     ///     tuple is the first value, the last value and their number; anything else is values. The first path varies
-    ///     fastest.
+    ///     fastest. `*` for any key moves all numbers that match together: `{"cables.*.anchor_m.z": (5, 6, 3)}`.
     ///
     /// The other parameters are those of `map`.
     #[pyo3(signature = (

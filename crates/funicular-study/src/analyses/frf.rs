@@ -4,7 +4,7 @@ use super::found;
 use super::shared::Models;
 use crate::at_rest::{self, AtRest};
 use crate::error::Cancelled;
-use crate::request;
+use crate::request::{self, FrequencyRange, ResponseRange};
 use crate::signals::{Input, Output, SignalLists, response_unit};
 use crate::text::{counted, significant};
 use crate::{Silent, Watch};
@@ -137,11 +137,10 @@ struct SeveralResponses<'a> {
 /// A request that contradicts itself or the robot, a robot without such an equilibrium, an undamped resonance at one of
 /// the frequencies, or work that was stopped.
 pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -> Result<Frf> {
-    let frequencies = match (request.adaptive, request.range.points) {
-        (true, _) => request.range.starts()?,
-        (false, Some(_)) => request.range.frequencies()?,
-        (false, None) => bail!("⟪points⟫ is missing: give the number of frequencies, or ⟪adaptive⟫"),
-    };
+    // A range that the request gives completely is checked before the work.
+    if let ResponseRange { from_hz: Some(from_hz), to_hz: Some(to_hz), points, log } = request.range {
+        FrequencyRange { from_hz, to_hz, points, log }.starts()?;
+    }
     request::check_not_negative("prominence_db", request.prominence_db)?;
 
     // Signals that the robot does not have are refused before the work.
@@ -153,7 +152,11 @@ pub fn run(robot: Robot, request: &request::FrfRequest, watch: &mut dyn Watch) -
     };
     signals(&robot, &pairs)?;
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
-    about(&at_rest, &pairs, frequencies, request.adaptive, request.prominence_db, watch)
+    let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
+    let range = at_rest.response_range(&request.range, linearisation)?;
+    let adaptive = request.is_adaptive();
+    let frequencies = if adaptive { range.starts()? } else { range.frequencies()? };
+    about(&at_rest, &pairs, frequencies, adaptive, request.prominence_db, watch)
 }
 
 /// Computes responses at the equilibrium of a robot: at the frequencies [Hz], or from them on `adaptive`.

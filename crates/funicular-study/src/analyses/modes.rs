@@ -21,6 +21,9 @@ pub struct Modes {
     #[serde(skip)]
     pub robot: String,
     pub below_hz: f64,
+    /// True if the request gives no limit, and the lowest natural frequencies are shown.
+    #[serde(skip)]
+    pub is_default_limit: bool,
     #[serde(flatten)]
     pub models: Models,
     pub count_below: usize,
@@ -144,7 +147,9 @@ pub fn with_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> R
         bail!("⟪rigid_cables⟫ does not go with ⟪{key}⟫, because {reason}: leave out one of the two");
     }
 
-    let found = modes::with_rigid_cables(&at_rest.robot, &at_rest.equilibrium, request.below_hz)
+    // There are at most six such motions, so all of them are shown without a limit.
+    let limit = request.below_hz.unwrap_or(request::MAX_HZ);
+    let found = modes::with_rigid_cables(&at_rest.robot, &at_rest.equilibrium, limit)
         .map_err(|error| anyhow!("⟪rigid_cables⟫: {error}"))?;
     let mut warnings = at_rest.warnings(None);
     warnings.extend(found.caveat());
@@ -158,7 +163,8 @@ fn about_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> Resu
 
     Ok(Modes {
         robot: robot.name.clone(),
-        below_hz: request.below_hz,
+        below_hz: found.below_hz,
+        is_default_limit: false,
         models: Models { cable_model: RIGID, ..Models::of(at_rest, Linearisation::default()) },
         count_below: found.count_below,
         certified: found.certified,
@@ -183,8 +189,9 @@ fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<Si
         return about_rigid_cables(at_rest, request);
     }
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
+    let limit = at_rest.modes_limit(request.below_hz, linearisation)?;
     let ModesBelow { dynamics, modes: found, mut warnings } =
-        at_rest.modes_below(linearisation, request.below_hz, modes::MAX_MODES)?;
+        at_rest.modes_below(linearisation, limit, modes::MAX_MODES)?;
     let AtRest { robot, .. } = at_rest;
     warnings.extend(funicular::warnings::of_damping(robot).map(|warning| warning.to_string()));
 
@@ -208,7 +215,8 @@ fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<Si
 
     Ok(Modes {
         robot: robot.name.clone(),
-        below_hz: request.below_hz,
+        below_hz: limit,
+        is_default_limit: request.below_hz.is_none(),
         models: Models::of(at_rest, linearisation),
         count_below: found.count_below,
         certified: found.certified,
@@ -266,7 +274,7 @@ struct SignalPair {
 
 /// Refuses numbers out of range, and reads the signals of the response if the request has one.
 fn checked(robot: &Robot, request: &request::ModesRequest) -> Result<Option<SignalPair>> {
-    request::check_positive("below_hz", request.below_hz)?;
+    request.below_hz.map_or(Ok(()), |limit| request::check_positive("below_hz", limit))?;
     request::check_fraction("platform_share", request.platform_share)?;
     match (&request.input, &request.output) {
         (Some(input), Some(output)) => {

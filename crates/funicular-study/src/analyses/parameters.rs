@@ -32,6 +32,8 @@ pub struct ParameterRow {
     /// Maximum of the range, or the limit below which values are permitted.
     pub maximum: f64,
     pub meaning: &'static str,
+    /// Name in words with the unit.
+    pub label: String,
     /// True if the file gives the number; otherwise the value is the default.
     pub given: bool,
 }
@@ -40,8 +42,8 @@ impl ParameterRow {
     fn of(parameter: &Parameter) -> Self {
         let Parameter { value, unit, range, about, given, .. } = *parameter;
         let (minimum, maximum) = (range.minimum(), range.maximum());
-        let path = parameter.path();
-        Self { path, value, unit, range: range.to_string(), minimum, maximum, meaning: about, given }
+        let (path, label) = (parameter.path(), parameter.label());
+        Self { path, label, value, unit, range: range.to_string(), minimum, maximum, meaning: about, given }
     }
 }
 

@@ -16,7 +16,7 @@ use crate::text::{counted, decimals, significant};
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
 use funicular::cable_motion::CableStations;
-use funicular::dynamics::Dynamics;
+use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes::{self, Mode};
 use funicular::robot::Robot;
@@ -78,15 +78,14 @@ fn equilibrium(robot: Robot, of: &request::StaticsRequest) -> Result<RequestFigu
 
 /// Spectrum of the natural frequencies, or the shape of one mode.
 fn natural_frequencies(robot: Robot, of: &request::ModesRequest, choice: &FigureChoice) -> Result<RequestFigure> {
-    request::check_positive("below_hz", of.below_hz)?;
     let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?;
     let (dynamics, found, warnings) = if of.rigid_cables {
         let (found, warnings) = with_rigid_cables(&at_rest, of)?;
         (None, found, warnings)
     } else {
         let linearisation = at_rest::linearisation(&of.model, at_rest.equilibrium.model);
-        let ModesBelow { dynamics, modes, warnings } =
-            at_rest.modes_below(linearisation, of.below_hz, modes::MAX_MODES)?;
+        let limit = at_rest.modes_limit(of.below_hz, linearisation)?;
+        let ModesBelow { dynamics, modes, warnings } = at_rest.modes_below(linearisation, limit, modes::MAX_MODES)?;
         (Some(dynamics), modes, warnings)
     };
     let Some(number) = choice.mode else {
@@ -101,7 +100,7 @@ fn natural_frequencies(robot: Robot, of: &request::ModesRequest, choice: &Figure
             } else {
                 format!("are {}", counted(found.modes.len(), "mode"))
             },
-            of.below_hz,
+            found.below_hz,
             found.modes.len()
         );
     };
@@ -239,14 +238,18 @@ const LABEL_DISTANCE: f64 = 0.05;
 /// Magnitude and phase of a frequency response, with its natural frequencies.
 fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Result<RequestFigure> {
     // A curve has every peak at its height, whatever the requested frequencies.
-    let found = frf::run(robot.clone(), &request::FrfRequest { adaptive: true, ..of.clone() }, watch)?;
+    let at_rest = at_rest::equilibrium(robot.clone(), &of.robot, &of.state, &of.tensions)?;
+    let linearisation = at_rest::linearisation(&of.model, at_rest.equilibrium.model);
+    let range = at_rest.response_range(&of.range, linearisation)?;
+    let of = &request::FrfRequest { adaptive: true, range: range.into(), ..of.clone() };
+    let found = frf::run(robot, of, watch)?;
     let mut warnings = found.warnings.clone();
     refuse_several_units(&found)?;
     let first_pair = &found.responses[0];
-    let (marks, caveat) = marks(robot, of)?;
+    let (marks, caveat) = marks(&at_rest, linearisation, range.to_hz)?;
     warnings.extend(caveat);
     let hz = &found.frequency_hz;
-    let (first, last) = (of.range.from_hz, of.range.to_hz);
+    let (first, last) = (range.from_hz, range.to_hz);
     let x_axis = || {
         if of.range.log {
             ChartAxis::logarithmic("frequency [Hz]", first, last)
@@ -348,14 +351,12 @@ fn phase<'a>(values: impl Iterator<Item = (&'a f64, (&'a f64, &'a f64))>) -> Vec
 }
 
 /// Natural frequencies up to the end of a response, and the reason if they are not marked.
-fn marks(robot: Robot, of: &request::FrfRequest) -> Result<(Vec<Mode>, Option<String>)> {
-    let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?;
-    let linearisation = at_rest::linearisation(&of.model, at_rest.equilibrium.model);
-    let (dynamics, _) = at_rest.dynamics(linearisation, of.range.to_hz)?;
-    if let Err(too_many) = modes::check_count(&dynamics, of.range.to_hz, MAX_MARKS) {
+fn marks(at_rest: &AtRest, linearisation: Linearisation, to_hz: f64) -> Result<(Vec<Mode>, Option<String>)> {
+    let (dynamics, _) = at_rest.dynamics(linearisation, to_hz)?;
+    if let Err(too_many) = modes::check_count(&dynamics, to_hz, MAX_MARKS) {
         return Ok((Vec::new(), Some(format!("natural frequencies are not marked: {too_many}"))));
     }
-    let found = modes::below(&dynamics, of.range.to_hz);
+    let found = modes::below(&dynamics, to_hz);
     let caveat = found.caveat();
     Ok((found.modes, caveat))
 }

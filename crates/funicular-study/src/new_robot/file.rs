@@ -2,7 +2,7 @@
 
 use super::layout::rounded;
 use super::points::CablePoints;
-use super::{NewMotion, WireRope, angles};
+use super::{NewMotion, RopeType, angles};
 use crate::import::draft::file::{WIDTH, comment, float, quoted, vector};
 use crate::names::Named;
 use crate::request::NewRequest;
@@ -22,40 +22,54 @@ const GRADE: f64 = 1770.0;
 /// Damping ratio of wire ropes that the reader's messages name.
 const DAMPING_RATIO: f64 = 0.003;
 
+/// Mass of an HMPE rope over the square of its diameter [kg/m³] (MoorPy, MoorProps_default.yaml, `hmpe`).
+const HMPE_MASS: f64 = 496.0;
+
+/// Minimum breaking load of an HMPE rope over the square of its diameter [N/m²], without the cubic term of the source,
+/// which adds 1 % at 10 mm (MoorPy, MoorProps_default.yaml, `hmpe`).
+const HMPE_BREAKING_LOAD: f64 = 580e6;
+
+/// Strain at which the linear law of an HMPE rope reaches the breaking load: the largest elongation at break of the
+/// fibre, 3 to 4 % (DSM Dyneema, CIS YA100, 2010). MoorPy has EA of 56 breaking loads for a rope in service, and the
+/// modulus of the fibre, 109 GPa, would give 96.
+const HMPE_STRAIN_AT_BREAK: f64 = 0.04;
+
 /// Name of the rope in the file.
 const ROPE: &str = "rope";
 
 /// Rope of a new robot.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Rope {
-    /// Wire rope by the factors of EN 12385, with its diameter [m].
-    Wire { construction: WireRope, diameter: f64 },
+    /// Rope of a type with its diameter [m].
+    Type { rope: RopeType, diameter: f64 },
     /// Rope with known stiffness EA [N] and mass per length [kg/m].
     Other { axial_stiffness: f64, mass_per_length: f64 },
 }
 
-impl WireRope {
-    /// Factors C of the metal area, W of the mass and K of the breaking load.
-    fn factors(self) -> [f64; 3] {
+impl RopeType {
+    /// Factors C of the metal area, W of the mass and K of the breaking load of a wire rope.
+    fn wire_factors(self) -> Option<[f64; 3]> {
         match self {
-            Self::SixTimes19 => [0.449, 0.400, 0.356],
-            Self::SevenTimes7 => [0.432, 0.384, 0.388],
+            Self::SixTimes19 => Some([0.449, 0.400, 0.356]),
+            Self::SevenTimes7 => Some([0.432, 0.384, 0.388]),
+            Self::Hmpe => None,
         }
     }
 
-    /// Metal area C d² [m²].
-    fn metal_area(self, diameter: f64) -> f64 {
-        self.factors()[0] * diameter * diameter
-    }
-
-    /// Mass per length W d² [kg/m]; W is for kg per 100 m and mm.
+    /// Mass per length [kg/m]: W d² of a wire rope, with W for kg per 100 m and mm.
     fn mass_per_length(self, diameter: f64) -> f64 {
-        self.factors()[1] * (diameter * 1e3).powi(2) / 100.0
+        match self.wire_factors() {
+            Some([_, mass, _]) => mass * (diameter * 1e3).powi(2) / 100.0,
+            None => HMPE_MASS * diameter * diameter,
+        }
     }
 
-    /// Minimum breaking load K d² R [N].
+    /// Minimum breaking load [N]: K d² R of a wire rope.
     pub(super) fn breaking_load(self, diameter: f64) -> f64 {
-        self.factors()[2] * (diameter * 1e3).powi(2) * GRADE
+        match self.wire_factors() {
+            Some([_, _, load]) => load * (diameter * 1e3).powi(2) * GRADE,
+            None => HMPE_BREAKING_LOAD * diameter * diameter,
+        }
     }
 }
 
@@ -106,6 +120,15 @@ impl NewFile<'_> {
         FileSection::new(&mut out, "[wind]").rest(&[]);
         self.state(&mut out, pose);
         Ok(out)
+    }
+
+    /// Height of the lowest point of the platform in a pose [m]: of an attachment, or of a corner of the given box.
+    pub(super) fn lowest_point(&self, pose: &Pose) -> f64 {
+        let attachments = self.cables.iter().map(|cable| cable.attachment);
+        attachments
+            .chain(self.request.box_m.into_iter().flat_map(corners))
+            .map(|point| (pose.position_w + pose.rot_wp * point).z)
+            .fold(pose.position_w.z, f64::min)
     }
 
     fn root(&self, out: &mut String) {
@@ -167,32 +190,27 @@ impl NewFile<'_> {
 
     fn material(&self, out: &mut String) {
         let mut section = FileSection::new(out, "[materials.NAME]");
+        // The drag diameter alone is refused, and so is a drag coefficient without a diameter.
+        let mut given = vec!["drag_coefficient", "drag_diameter_m"];
 
         match self.rope {
-            Rope::Wire { construction, diameter } => {
-                section.note(&format!(
-                    "Wire rope {}, {} mm: metal area C d², mass W d² and breaking load K d² R with the factors of EN \
-                     12385 and R = {GRADE} N/mm². The modulus on the metal area is a starting value: replace it by \
-                     that of your rope.",
-                    construction.name(),
-                    short(diameter * 1e3, 4)
-                ));
-                section.value("youngs_modulus_pa", &format!("{MODULUS:e}"));
-                section.value("area_m2", &float(digits(construction.metal_area(diameter), 6)));
-                section.value("mass_kg_per_m", &float(digits(construction.mass_per_length(diameter), 6)));
+            Rope::Type { rope, diameter } => {
+                given.extend(match rope.wire_factors() {
+                    Some([area, ..]) => wire_stiffness(&mut section, rope, diameter, area),
+                    None => fibre_stiffness(&mut section, rope, diameter),
+                });
+                section.value("mass_kg_per_m", &float(digits(rope.mass_per_length(diameter), 6)));
                 section.value("damping_ratio", &float(DAMPING_RATIO));
-                section.value("breaking_load_n", &float(digits(construction.breaking_load(diameter), 4)));
-
-                let given = ["youngs_modulus_pa", "area_m2", "mass_kg_per_m", "damping_ratio", "breaking_load_n"];
-                // The drag diameter alone is refused, and so is a drag coefficient without a diameter.
-                section.rest(&[&given[..], &["drag_coefficient", "drag_diameter_m"]].concat());
+                section.value("breaking_load_n", &float(digits(rope.breaking_load(diameter), 4)));
+                given.extend(["mass_kg_per_m", "damping_ratio", "breaking_load_n"]);
             }
             Rope::Other { axial_stiffness, mass_per_length } => {
                 section.value("axial_stiffness_n", &float(axial_stiffness));
                 section.value("mass_kg_per_m", &float(mass_per_length));
-                section.rest(&["axial_stiffness_n", "mass_kg_per_m", "drag_coefficient", "drag_diameter_m"]);
+                given.extend(["axial_stiffness_n", "mass_kg_per_m"]);
             }
         }
+        section.rest(&given);
     }
 
     fn all_cables(&self, out: &mut String) {
@@ -288,6 +306,43 @@ impl<'o> FileSection<'o> {
     }
 }
 
+/// Writes the stiffness of a wire rope by its metal area, and says where its numbers come from. Returns the keys.
+fn wire_stiffness(section: &mut FileSection, rope: RopeType, diameter: f64, area: f64) -> &'static [&'static str] {
+    section.note(&format!(
+        "Wire rope {}, {} mm: metal area C d², mass W d² and breaking load K d² R with the factors of EN 12385 and R = \
+         {GRADE} N/mm². The modulus on the metal area is a starting value: replace it by that of your rope.",
+        rope.name(),
+        short(diameter * 1e3, 4)
+    ));
+    section.value("youngs_modulus_pa", &format!("{MODULUS:e}"));
+    section.value("area_m2", &float(digits(area * diameter * diameter, 6)));
+    &["youngs_modulus_pa", "area_m2"]
+}
+
+/// Writes the cautious stiffness of an HMPE rope, and says where its numbers come from. Returns the key.
+fn fibre_stiffness(section: &mut FileSection, rope: RopeType, diameter: f64) -> &'static [&'static str] {
+    let (mm, strain) = (short(diameter * 1e3, 4), HMPE_STRAIN_AT_BREAK);
+    for note in [
+        format!(
+            "Braided HMPE rope (as Dyneema), {mm} mm. Mass {HMPE_MASS} kg/m³ d² and breaking load {} N/mm² d²: MoorPy, \
+             MoorProps_default.yaml, `hmpe`.",
+            short(HMPE_BREAKING_LOAD * 1e-6, 4)
+        ),
+        format!(
+            "The stiffness is cautious: breaking load / {strain}, because the fibre breaks at a strain of at most \
+             {strain} (DSM Dyneema, CIS YA100, 2010). A rope in service is about twice as stiff. Low frequencies and \
+             large displacements are on the safe side, differences of tension between cables are not: replace the value by \
+             that of your rope."
+        ),
+        "The damping ratio is that of wire ropes, without a measurement of this rope: fibre ropes damp more."
+            .to_owned(),
+    ] {
+        section.note(&note);
+    }
+    section.value("axial_stiffness_n", &float(digits(rope.breaking_load(diameter) / strain, 4)));
+    &["axial_stiffness_n"]
+}
+
 /// Adds a line of the file.
 fn add_line(out: &mut String, line: &str) {
     out.push_str(line);
@@ -300,6 +355,12 @@ fn about(key: &Key) -> String {
         Some(numbers) if numbers.unit != "1" => format!("{} [{}]", key.about, numbers.unit),
         _ => key.about.to_owned(),
     }
+}
+
+/// Corners of a box around the origin of the platform.
+fn corners(sides: [f64; 3]) -> [Vec3; 8] {
+    let half = |corner: usize, axis: usize| if corner >> axis & 1 == 0 { -0.5 } else { 0.5 } * sides[axis];
+    std::array::from_fn(|corner| Vec3::from_fn(|axis, _| half(corner, axis)))
 }
 
 /// Sides of a box in words.

@@ -28,6 +28,9 @@ const TRIED_BETWEEN: [f64; 5] = [0.4, 0.5, 0.25, 0.6, 0.75];
 /// Depths below anchors of one height that are tried, over half the width of the anchors.
 const TRIED_BELOW: [f64; 5] = [0.8, 0.5, 1.2, 0.3, 2.0];
 
+/// Height of the floor if no anchor is below it [m].
+const FLOOR: f64 = 0.0;
+
 /// Points of all cables, and where the platform may hang.
 pub(super) struct Layout {
     pub(super) cables: Vec<CablePoints>,
@@ -35,6 +38,8 @@ pub(super) struct Layout {
     pub(super) middle: [f64; 2],
     /// Heights of the platform to try, in this order [m].
     pub(super) heights: Vec<f64>,
+    /// Floor below which no part of the platform is, if the anchors stand on one [m].
+    pub(super) floor: Option<f64>,
     /// Sides of the box of the platform, or else of the box around the attachments [m].
     pub(super) sides: [f64; 3],
 }
@@ -71,11 +76,17 @@ impl Layout {
             attachment: attachment.map(rounded),
         };
         let cables = points.into_iter().enumerate().map(named).collect();
-        Ok(Self { cables, middle: [0.0, 0.0], heights: vec![rounded(PLATFORM_OVER_HEIGHT * height)], sides })
+        Ok(Self {
+            cables,
+            middle: [0.0, 0.0],
+            heights: vec![rounded(PLATFORM_OVER_HEIGHT * height)],
+            floor: Some(FLOOR),
+            sides,
+        })
     }
 
     /// Layout with the points of a table. The platform hangs in the middle of the anchors.
-    pub(super) fn of_points(cables: Vec<CablePoints>, motion: NewMotion) -> Self {
+    pub(super) fn of_points(cables: Vec<CablePoints>, motion: NewMotion, box_m: Option<[f64; 3]>) -> Self {
         let [x, y, z] = extent(cables.iter().map(|cable| cable.anchor));
         let middle = |[low, high]: [f64; 2]| rounded(0.5 * (low + high));
         // The origin of a planar platform moves in the plane of the anchors.
@@ -95,9 +106,23 @@ impl Layout {
         let heights: Vec<f64> =
             if depth > 0.5 * half_width { between.chain(below).collect() } else { below.chain(between).collect() };
 
-        let heights = heights.into_iter().map(rounded).collect();
+        // Distance of the origin above the lowest point of the platform.
+        let lowest = cables.iter().map(|cable| cable.attachment.z).fold(0.0, f64::min);
+        let below_origin = f64::max(-lowest, 0.5 * box_m.map_or(0.0, |sides| sides[2]));
+        let least = FLOOR + below_origin;
+        // Anchors that leave no room above the floor do not stand on it: the origin is at their height.
+        let floor = (z[0] >= FLOOR && z[1] > least).then_some(FLOOR);
+
+        let heights = heights.into_iter().map(rounded);
+        let heights = match floor {
+            Some(_) => {
+                let room = TRIED_BETWEEN.iter().map(|part| rounded(least + part * (z[1] - least)));
+                heights.filter(|height| *height > least).chain(room).collect()
+            }
+            None => heights.collect(),
+        };
         let sides = extent(cables.iter().map(|cable| cable.attachment)).map(|[low, high]| rounded(high - low));
-        Self { cables, middle: [middle(x), across], heights, sides }
+        Self { cables, middle: [middle(x), across], heights, floor, sides }
     }
 }
 

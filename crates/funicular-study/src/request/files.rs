@@ -3,7 +3,7 @@
 use super::key::declared;
 use super::parts::{ImportPlatform, ImportRopes, Pose, RobotText, State, Tensions};
 use super::source_file::SourceFile;
-use crate::names::{ExportFormat, LengthUnit, NewMotion, WireRope, optional};
+use crate::names::{ExportFormat, LengthUnit, NewMotion, RopeType, optional};
 
 declared! {
     /// Write a robot file with starting values and comments.
@@ -26,18 +26,18 @@ declared! {
         csv_unit: Option<LengthUnit> = None => (name::<LengthUnit>()).form("UNIT")
             .otherwise("m, or the ending of the names of the columns, as in anchor_x_mm");
         /// Pose of the state x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll).
-        pose: Option<Pose> = None => (Pose).otherwise("a stable pose that the program finds");
+        pose: Option<Pose> = None => (Pose).otherwise("a stable pose that the program finds, above the floor of the anchors");
         /// Mass of the platform [kg].
         mass_kg: Option<f64> = None => (Number(Positive)).under("Platform").otherwise("100");
         /// Sides of the homogeneous box that gives the inertia [m].
         box_m: Option<[f64; 3]> = None => (Vector).form("A,B,C").under("Platform")
             .otherwise("1,1,0.5, or the box around the attachments of the table");
-        /// Construction of the wire rope.
+        /// Type of the rope: a wire rope, or a rope of HMPE fibre.
         #[serde(with = "crate::names")]
-        rope: WireRope = WireRope::default() => (name::<WireRope>()).form("ROPE").under("Ropes");
-        /// Diameter of the wire rope [m].
+        rope: RopeType = RopeType::default() => (name::<RopeType>()).form("ROPE").under("Ropes");
+        /// Diameter of the rope [m].
         diameter_m: Option<f64> = None => (Number(Positive)).under("Ropes")
-            .otherwise("by the mass of the platform, 0.006 for 100 kg");
+            .otherwise("by the mass of the platform, 0.006 for 100 kg on wire ropes");
         /// Axial stiffness EA of another rope [N]; needs ⟪mass_kg_per_m⟫.
         axial_stiffness_n: Option<f64> = None => (Number(Positive)).under("Ropes");
         /// Mass of this rope per unstrained length [kg/m].

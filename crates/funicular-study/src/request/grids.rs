@@ -31,7 +31,8 @@ declared! {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data).required();
         /// Number of the robot file that varies, with N values from A to B, or with listed values (repeatable: all
-        /// combinations, the first fastest).
+        /// combinations, the first fastest); `*` for any key moves all numbers that match together, as in
+        /// cables.*.anchor_m.z.
         vary: Vec<Axis> = Vec::new() => (List(written::variation)).form("PATH=A:B:N|V,V,…").required();
         /// Quantities and options of every point.
         #[serde(flatten)]

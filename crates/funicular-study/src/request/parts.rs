@@ -234,10 +234,34 @@ declared! {
         from_hz: f64 = 0.0 => (Number(NotNegative)).required();
         /// Last frequency [Hz].
         to_hz: f64 = 0.0 => (Number(Positive)).required();
-        /// Number of frequencies, 2 to 1000000; with ⟪adaptive⟫ the number from which it starts.
-        points: Option<usize> = None => (Count(2..=1_000_000));
+        /// Number of frequencies, 2 to 1000000.
+        points: Option<usize> = None => (Count(2..=1_000_000)).required();
         /// Equal ratios between frequencies instead of equal steps.
         log: bool = false => (Switch);
+    }
+}
+
+declared! {
+    /// Range of frequencies of a response, ends included; a limit that is left out follows from the robot.
+    #[derive(Copy)]
+    pub struct ResponseRange {
+        /// First frequency [Hz].
+        from_hz: Option<f64> = None =>
+            (Number(NotNegative)).otherwise("0; with equal ratios a thousandth of the last one");
+        /// Last frequency [Hz].
+        to_hz: Option<f64> = None => (Number(Positive))
+            .otherwise("above the 20 lowest natural frequencies and the first mode of the platform");
+        /// Number of frequencies, 2 to 1000000; with ⟪adaptive⟫ the number from which it starts.
+        points: Option<usize> = None => (Count(2..=1_000_000)).otherwise("200, and others are added");
+        /// Equal ratios between frequencies instead of equal steps.
+        log: bool = false => (Switch);
+    }
+}
+
+impl From<FrequencyRange> for ResponseRange {
+    fn from(range: FrequencyRange) -> Self {
+        let FrequencyRange { from_hz, to_hz, points, log } = range;
+        Self { from_hz: Some(from_hz), to_hz: Some(to_hz), points, log }
     }
 }
 

@@ -1,7 +1,9 @@
 //! Requests about vibration.
 
 use super::key::{Key, declared};
-use super::parts::{FrequencyRange, Model, OneOrSeveral, ResponsePoints, RobotText, State, Tensions, Terms};
+use super::parts::{
+    FrequencyRange, Model, OneOrSeveral, ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
+};
 use super::{MAX_STATIONS, written};
 use crate::names::{ModelForm, optional};
 use funicular::cable::CableModel;
@@ -15,7 +17,8 @@ declared! {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data).required();
         /// Upper limit of the frequencies [Hz].
-        below_hz: f64 = 0.0 => (Number(Positive)).required();
+        below_hz: Option<f64> = None =>
+            (Number(Positive)).otherwise("slightly above the 20 lowest; with rigid cables above all");
         /// Input of a response (see `frf`): also show the contribution of each mode to this response; needs ⟪output⟫.
         input: Option<String> = None => (Written(written::input)).form("INPUT").needs("output");
         /// Output of that response; needs ⟪input⟫.
@@ -61,19 +64,19 @@ declared! {
         robot: RobotText = RobotText::default() => (Data).required();
         /// Frequencies.
         #[serde(flatten)]
-        range: FrequencyRange = FrequencyRange::default() => group;
+        range: ResponseRange = ResponseRange::default() => group;
         /// Add frequencies until every peak has its height (to 0.1 %) and straight lines over the logarithm of the
         /// magnitude are accurate to 1 %.
         adaptive: bool = false => (Switch);
         /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; a force on
         /// a cable, as in cable:3@0.5:fz; the commanded length of a cable, length:3, a force of its motor or on its drum,
         /// motor:3, drum:3; a motion of the base, base-x to base-rz, or of an anchor, anchor:3:x (repeatable).
-        input: OneOrSeveral = OneOrSeveral::default() => (OneOrMore(written::input)).form("INPUT").required();
+        input: OneOrSeveral = OneOrSeveral::One(DEFAULT_INPUT.to_owned()) => (OneOrMore(written::input)).form("INPUT");
         /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…,
         /// a:… along a direction, world axes; the motion of a point on a cable (name, fraction of its length from the
         /// platform), as in cable:3@0.5:az; the motion of a drum or motor, drum:3, motor:3, or the tension at the platform
         /// or at the drum, tension:3, drum-tension:3 (repeatable).
-        output: OneOrSeveral = OneOrSeveral::default() => (OneOrMore(written::output)).form("OUTPUT").required();
+        output: OneOrSeveral = OneOrSeveral::One(DEFAULT_OUTPUT.to_owned()) => (OneOrMore(written::output)).form("OUTPUT");
         /// Points of the platform.
         #[serde(flatten)]
         signal_points: ResponsePoints = ResponsePoints::default() => group;
@@ -183,8 +186,8 @@ declared! {
         #[serde(with = "crate::names")]
         form: ModelForm = ModelForm::default() => (name::<ModelForm>()).form("FORM");
         /// Maximum error of each response, relative to its peak below the limit; the state space has as few states as it
-        /// allows (0.01 if neither tolerance nor order is given). With the second-order form: maximum relative error due
-        /// to omitted modes (0.001).
+        /// allows [default: 0.01]. With the second-order form: maximum relative error due to omitted modes
+        /// [default: 0.001].
         tolerance: Option<f64> = None => (Number(NotNegative)).form("FRACTION");
         /// Maximum number of states, instead of a tolerance.
         order: Option<usize> = None => (Count(0..=u64::MAX));
@@ -206,5 +209,18 @@ declared! {
         "funicular reduce robots/cogiro-winches.toml --below-hz 5 --input length:1 --output z --output tension:1",
         "funicular reduce robots/cogiro-winches.toml --below-hz 5 --input base-z --output z --output az",
         "funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --form second-order --matrices model\n\nIn Python: m = numpy.load('model.npz'); m['A'], m['B'], m['C'], m['D']\nIn MATLAB: load model.mat; sys = ss(A, B, C, D)",
+    }
+}
+
+/// Input of a response that names none: a vertical force on the platform.
+pub const DEFAULT_INPUT: &str = "fz";
+
+/// Output of a response that names none: the vertical acceleration of the platform, which sensors measure.
+pub const DEFAULT_OUTPUT: &str = "az";
+
+impl FrfRequest {
+    /// True if frequencies are added until every peak has its height.
+    pub fn is_adaptive(&self) -> bool {
+        self.adaptive || self.range.points.is_none()
     }
 }

@@ -1,6 +1,7 @@
 //! Points of a sweep over values of the robot file.
 
-use crate::set_values::{self, Assignment};
+use crate::parameter_pattern::ParameterPattern;
+use crate::set_values::{self, Assignment, ValuePath};
 use crate::sweep::{Column, ColumnKind, Point, Points, Steps, digits};
 use funicular::robot::Robot;
 use funicular::robot::parameters::Parameters;
@@ -9,8 +10,9 @@ use std::borrow::Cow;
 /// Value of the robot file that varies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ValueAxis {
-    /// Path of the value in the robot file.
-    pub path: set_values::ValuePath,
+    /// Path of the value in the robot file. With `*` for a key it stands for several values, which are equal at every
+    /// point.
+    pub path: ValuePath,
     /// Values along the axis.
     pub steps: Steps,
 }
@@ -35,9 +37,11 @@ type Adjust = Box<dyn Fn(Robot) -> Result<Robot, String> + Send + Sync>;
 pub struct RobotValues {
     text: String,
     axes: Vec<ValueAxis>,
-    /// Numbers of the file with the values of the first point, and the index of each axis among them. `None` if an axis
-    /// is not a number of the file; every robot is then read from its own text.
-    numbers: Option<(Parameters, Vec<usize>)>,
+    /// Values that each axis sets: one, or several if its path has a `*`.
+    targets: Vec<Vec<ValuePath>>,
+    /// Numbers of the file with the values of the first point, and for each of them the index of its axis and its own
+    /// index. `None` if an axis is not a number of the file; every robot is then read from its own text.
+    numbers: Option<(Parameters, Vec<(usize, usize)>)>,
     adjust: Adjust,
     /// Robots whose unstrained lengths are held: only the values of `[state]` vary in them.
     holders: Option<Box<Self>>,
@@ -50,8 +54,10 @@ impl RobotValues {
     /// A message for the user: a value that varies twice, an end of one variation that alone makes no valid robot, or a
     /// value that changes nothing because another option sets it for every robot.
     pub fn new(text: String, axes: Vec<ValueAxis>, adjust: Adjust) -> Result<Self, String> {
+        let targets = axes.iter().map(|axis| targets(&text, &axis.path)).collect::<Result<Vec<_>, _>>()?;
         for (i, axis) in axes.iter().enumerate() {
-            if axes[..i].iter().any(|other| other.path.is_same(&axis.path)) {
+            let mut earlier = targets[..i].iter().flatten();
+            if earlier.any(|other| targets[i].iter().any(|own| own.is_same(other))) {
                 return Err(format!("{OPTION} {} is given twice", axis.path.text));
             }
             if let Some(value) = axis.steps.repeated() {
@@ -59,8 +65,8 @@ impl RobotValues {
             }
         }
 
-        let mut variations = Self { text, axes, numbers: None, adjust, holders: None };
-        for axis in &variations.axes {
+        let mut variations = Self { text, axes, targets, numbers: None, adjust, holders: None };
+        for (axis, own) in variations.axes.iter().zip(&variations.targets) {
             let tried = match &axis.steps {
                 Steps::Range { from, to, .. } => vec![*from, *to],
                 Steps::List(values) => values.clone(),
@@ -68,7 +74,7 @@ impl RobotValues {
             let mut first = None;
             let (mut values_differ, mut robots_differ) = (false, false);
             for value in tried {
-                let robot = variations.robot(&[axis.path.with(OPTION, value)])?;
+                let robot = variations.robot(&set_to(own, value))?;
                 let (of_first, first) = first.get_or_insert_with(|| (value.to_bits(), robot.clone()));
                 values_differ |= *of_first != value.to_bits();
                 robots_differ |= *first != robot;
@@ -107,10 +113,11 @@ impl RobotValues {
     }
 
     /// Numbers that vary, found in the text of the first point, which contains all of them.
-    fn find_numbers(&self) -> Option<(Parameters, Vec<usize>)> {
+    fn find_numbers(&self) -> Option<(Parameters, Vec<(usize, usize)>)> {
         let text = set_values::apply(&self.text, &self.assignments(&self.values(0))).ok()?;
         let parameters = Parameters::from_toml(&text).ok()?;
-        let places = self.axes.iter().map(|axis| parameters.find(axis.path.keys())).collect::<Option<Vec<_>>>()?;
+        let own = self.targets.iter().enumerate().flat_map(|(axis, paths)| paths.iter().map(move |path| (axis, path)));
+        let places = own.map(|(axis, path)| Some((axis, parameters.find(path.keys())?))).collect::<Option<Vec<_>>>()?;
         Some((parameters, places))
     }
 
@@ -131,7 +138,7 @@ impl RobotValues {
     /// read from its text, so that the error names line and column.
     fn robot_at(&self, values: &[f64]) -> Result<Robot, String> {
         if let Some((parameters, places)) = &self.numbers {
-            let changes: Vec<(usize, f64)> = places.iter().copied().zip(values.iter().copied()).collect();
+            let changes: Vec<(usize, f64)> = places.iter().map(|(axis, place)| (*place, values[*axis])).collect();
             if let Ok(robot) = parameters.robot_with(&changes) {
                 return (self.adjust)(robot);
             }
@@ -158,7 +165,7 @@ impl RobotValues {
     }
 
     fn assignments(&self, values: &[f64]) -> Vec<Assignment> {
-        self.axes.iter().zip(values).map(|(axis, value)| axis.path.with(OPTION, *value)).collect()
+        self.targets.iter().zip(values).flat_map(|(own, value)| set_to(own, *value)).collect()
     }
 }
 
@@ -203,8 +210,25 @@ impl Points for RobotValues {
     }
 }
 
+/// Values of a robot file that a path sets: one, or with a `*` all that match.
+fn targets(text: &str, path: &ValuePath) -> Result<Vec<ValuePath>, String> {
+    if !path.is_pattern() {
+        return Ok(vec![path.clone()]);
+    }
+    let parameters = Parameters::from_toml(text).map_err(|error| format!("{OPTION} {}: {error}", path.text))?;
+    let chosen = ParameterPattern::parse("vary", &path.text, &parameters)
+        .and_then(|pattern| pattern.changeable(&parameters))
+        .map_err(|error| format!("{error:#}"))?;
+    chosen.into_iter().map(|index| set_values::path(&parameters.list()[index].path())).collect()
+}
+
+/// Assignments of one number to several values.
+fn set_to(paths: &[ValuePath], value: f64) -> Vec<Assignment> {
+    paths.iter().map(|path| path.with(OPTION, value)).collect()
+}
+
 /// Unit of a column: that of the robot file's number, in the letters of the files of rows.
-fn unit(path: &set_values::ValuePath) -> String {
+fn unit(path: &ValuePath) -> String {
     path.unit().unwrap_or("1").replace("degrees", "deg").replace('²', "2").replace('³', "3")
 }
 
@@ -235,6 +259,7 @@ mod tests {
             ("wind.velocity_m_s.x", "m/s"),
             ("wind.air_density_kg_m3", "kg/m3"),
             ("state.roll_pitch_yaw_deg.yaw", "deg"),
+            ("cables.*.anchor_m.z", "m"),
         ] {
             assert_eq!(unit(&set_values::path(path).unwrap()), expected, "{path}");
         }
@@ -353,6 +378,29 @@ mod tests {
         }
 
         assert!(robots > 0 && refusals > 0, "{robots} {refusals}");
+    }
+
+    #[test]
+    fn a_star_moves_all_values_that_match_at_once() {
+        let text = funicular_robots::COGIRO;
+        let axis = |path: &str, from: f64, to: f64| ValueAxis::new(path, Steps::range(from, to, 2).unwrap()).unwrap();
+        let made = |axes: Vec<ValueAxis>| RobotValues::new(text.to_owned(), axes, Box::new(Ok));
+        let sweep = made(vec![axis("cables.*.anchor_m.z", 5.0, 6.0), axis("platform.mass_kg", 80.0, 90.0)]).unwrap();
+        assert_eq!((sweep.count(), sweep.columns()[0].name.as_str()), (4, "cables.*.anchor_m.z"));
+        assert!(sweep.numbers.is_some());
+
+        for (i, (height, mass)) in [(5.0, 80.0), (6.0, 80.0), (5.0, 90.0), (6.0, 90.0)].into_iter().enumerate() {
+            let robot = sweep.robot_at(&sweep.values(i)).unwrap();
+            let heights = robot.cables.iter().map(|cable| cable.anchor.reference_w().z.to_bits());
+            assert!(heights.clone().count() > 6 && heights.clone().all(|bits| bits == f64::to_bits(height)));
+            assert_eq!(robot.platform.mass.to_bits(), f64::to_bits(mass));
+            assert_eq!(sweep.robot(&sweep.assignments(&sweep.values(i))), Ok(robot));
+        }
+
+        let twice = made(vec![axis("cables.*.anchor_m.z", 5.0, 6.0), axis("cables.1.anchor_m.2", 5.0, 6.0)]).err();
+        assert!(twice.unwrap().contains("cables.1.anchor_m.2 is given twice"));
+        let none = made(vec![axis("cables.*.height", 5.0, 6.0)]).err().unwrap();
+        assert!(none.contains("⟪vary⟫ cables.*.height: the robot file has no such number"), "{none}");
     }
 
     #[test]

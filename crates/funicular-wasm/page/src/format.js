@@ -22,6 +22,12 @@ export function short(value, digits = 4) {
 const sign = (text) => text.replace("-", "−");
 const superscript = (number) => String(number).replace(/[-0-9]/g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]));
 
+/** Values in words: one number, or the smallest and the largest. */
+export function span(values, digits = 3) {
+  const [low, high] = [Math.min(...values), Math.max(...values)].map((value) => short(value, digits));
+  return low === high ? low : `${low} to ${high}`;
+}
+
 /** Number as one types it: a point, no grouping, at most `digits` significant digits, an exponent if it is shorter. */
 export function plain(value, digits = 7) {
   const number = Number(value.toPrecision(digits));

@@ -18,7 +18,7 @@ export async function readParameters() {
   } finally {
     page.pending -= 1;
   }
-  $("paths").replaceChildren(...page.parameters.map(({ path, unit, meaning }) => element("option", { value: path }, `${unit === "1" ? "" : `${unit}: `}${meaning}`)));
+  $("paths").replaceChildren(...page.parameters.map(({ path, label }) => element("option", { value: path }, label)));
   showSliders();
 }
 
@@ -67,7 +67,7 @@ function sliderOf(path) {
   const id = `value-${path}`;
   const [low, high] = rangeOf(parameter);
   const value = valueOf(path);
-  const range = element("input", { type: "range", min: low, max: high, step: (high - low) / 400, value, "aria-label": path, "data-path": path });
+  const range = element("input", { type: "range", min: low, max: high, step: (high - low) / 400, value, "aria-label": parameter.label, "data-path": path });
   const number = element("input", { id, value: plain(value), inputmode: "decimal", "data-number": path });
   const set = (next, done) => {
     setValue(path, next);
@@ -86,7 +86,7 @@ function sliderOf(path) {
   number.addEventListener("change", () => {
     const next = numberOf(number.value);
     if (next === null) {
-      refuse(number, `${path}: “${number.value}” is not a number`);
+      refuse(number, `${parameter.label}: “${number.value}” is not a number`);
       return;
     }
     accept(number);
@@ -101,10 +101,10 @@ function sliderOf(path) {
   };
   return element("div", { class: "slider" },
     element("div", { class: "head" },
-      element("label", { for: id, title: parameter.meaning }, path.split(".").join(" "), " ", element("small", {}, parameter.unit === "1" ? "" : `[${parameter.unit}]`)),
+      element("label", { for: id, title: `${path}: ${parameter.meaning}` }, parameter.label),
       number,
-      element("button", { title: "Back to the value of the file", "aria-label": `${path} back to the value of the file`, onclick: back }, "↺"),
-      element("button", { title: "Remove this slider", "aria-label": `Remove the slider ${path}`, onclick: () => unpin(path) }, "×")),
+      element("button", { title: "Back to the value of the file", "aria-label": `${parameter.label} back to the value of the file`, onclick: back }, "↺"),
+      element("button", { title: "Remove this slider", "aria-label": `Remove the slider ${parameter.label}`, onclick: () => unpin(path) }, "×")),
     range);
 }
 

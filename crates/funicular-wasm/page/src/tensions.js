@@ -1,7 +1,7 @@
 // Table of tensions, the legend of their colours, and fields for held lengths.
 
 import { change } from "./computation.js";
-import { $, element, plain, short } from "./format.js";
+import { $, element, plain, short, span } from "./format.js";
 import { commit } from "./history.js";
 import { accept, numberOf, put, refuse, rowsOf } from "./messages.js";
 import { content, on, page, shown } from "./store.js";
@@ -12,12 +12,17 @@ function showLegend() {
   const limits = frame.limited && frame.cables.every((cable) => Number.isFinite(cable.maximum));
   const scale = [0, 0.2, 0.4, 0.6, 0.8, 1].map((at) => `#${colorOf(at).getHexString()}`).join(",");
   const { kinds } = page.view.drives;
-  const key = `${limits} ${Object.values(kinds)}`;
+  // The ends of the scale: the limits of the cables, or zero and the highest tension, as the view colours them.
+  const of = (name) => span(frame.cables.map((cable) => cable[name]));
+  const [low, high] = limits
+    ? [`minimum ${of("minimum")} N`, `${of("maximum")} N maximum`]
+    : ["0 N", `${short(Math.max(...frame.cables.map((cable) => cable.highest)), 3)} N highest`];
+  const key = `${low} ${high} ${Object.values(kinds)}`;
   if ($("legend").dataset.key === key) {
     return;
   }
   $("legend").dataset.key = key;
-  $("legend").innerHTML = `<span>Tension: ${limits ? "minimum" : "none"}<i style="background:linear-gradient(90deg,${scale})"></i>${limits ? "maximum" : "highest"}</span>`
+  $("legend").innerHTML = `<span>Tension: ${low}<i style="background:linear-gradient(90deg,${scale})"></i>${high}</span>`
     + `<span><i class="one" style="background:${COLORS.slack}"></i>slack</span><span><i class="one" style="background:${COLORS.beyond}"></i>beyond a limit</span>`
     + (kinds.drums ? '<span><i class="dot drum"></i>drum</span>' : "")
     + (kinds.pulleys ? `<span><i class="dot wheel"></i>pulley${kinds.guides ? ", guide wheel" : ""}</span>` : "")

@@ -439,7 +439,12 @@ test("sliders change values, and undo brings them back", async () => {
   await choose("cogiro");
   const start = await frame();
   await framed(async () => { await page.fill("[data-number='platform.mass_kg']", "150"); await page.keyboard.press("Enter"); });
+  // The names are words with their unit, and the path is their tip.
+  const label = page.locator("label[for='value-platform.mass_kg']");
+  assert.equal(await label.innerText(), "mass of the platform [kg]");
+  assert.match(await label.getAttribute("title"), /^platform\.mass_kg: /);
   const heavy = await frame();
+  assert.match(await text("#legend"), /Tension: [\s\S]*\d N[\s\S]*\d N/);
   assert.ok(heavy.cables[2].tension > 1.2 * start.cables[2].tension);
   const rest = native({
     command: "statics",

@@ -10,7 +10,7 @@ mod list;
 mod paths;
 
 pub use super::spec::range::{MAX_MAGNITUDE, MIN_POSITIVE, Range};
-pub use paths::{ComponentOfKey, component, is_optional_table, unit, unknown_component};
+pub use paths::{ComponentOfKey, component, is_optional_table, is_top_key, unit, unknown_component};
 
 use super::Robot;
 use super::spec::key::{Component, Shape};
@@ -78,6 +78,26 @@ impl Parameter {
     /// Path by which a request changes the parameter: keys as [`quoted_key`] writes them, separated by dots.
     pub fn path(&self) -> String {
         self.keys.iter().map(|key| quoted_key(key)).collect::<Vec<_>>().join(".")
+    }
+
+    /// Name in words with the unit, as beside a field: `mass of the platform [kg]`, `diameter of the rope (steel) [m]`,
+    /// `exit point of the cable (3), z [m]`.
+    pub fn label(&self) -> String {
+        // The first part of the meaning says what the number is, the others explain it.
+        let meaning = self.about.split([',', ';', ':']).next().unwrap_or(self.about);
+        let has_name = match self.part {
+            RobotPart::Robot | RobotPart::Platform | RobotPart::Load | RobotPart::Wind | RobotPart::State => false,
+            RobotPart::Material
+            | RobotPart::Pulley
+            | RobotPart::Winch
+            | RobotPart::GuideWheel
+            | RobotPart::Support
+            | RobotPart::Cable(_) => true,
+        };
+        let name = self.keys.get(1).filter(|_| has_name).map_or_else(String::new, |name| format!(" ({name})"));
+        let component = self.component.map_or_else(String::new, |component| format!(", {component}"));
+        let unit = if self.unit == "1" { String::new() } else { format!(" [{}]", self.unit) };
+        format!("{meaning}{name}{component}{unit}")
     }
 }
 

@@ -13,7 +13,7 @@ use crate::robot::{Pose, Robot};
 use std::fmt;
 
 /// Reason why no tensions of straight cables balance the platform at a pose, whatever the limits of the tensions.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Obstacle {
     /// No cable pulls against the force on the platform.
     OneSided {
@@ -31,6 +31,10 @@ pub enum Obstacle {
         rotation_w: Vec3,
         /// Share of the load that the best combination of tensions leaves unbalanced, 0 to 1.
         unbalanced: f64,
+        /// Names of the cables that come nearest to pulling along this motion: at a right angle to it, or nearly.
+        nearest: Vec<String>,
+        /// Names of the cables that pull most against this motion: they would have to push.
+        opposed: Vec<String>,
     },
 }
 
@@ -60,6 +64,20 @@ const SIDEWAYS: f64 = 0.5;
 /// and a pose whose balance has a condition number above 1e10 is refused as singular.
 const MIN_UNBALANCED: f64 = 1e-9;
 
+/// Difference of the cosines between cables and a motion below which they count as equal: printed digits of symmetric
+/// robots have 1e-3.
+const SAME_COSINE: f64 = 1e-3;
+
+/// Maximum number of cables that a message names.
+const MAX_NAMED: usize = 3;
+
+/// Component of a direction over the largest one, above which it is named too: two axes at 45° have 1, an axis within 27°
+/// of a direction stands for it alone.
+const NAMED_COMPONENT: f64 = 0.5;
+
+/// Component of a unit vector above which it is along the axis to the printed digits, and not mostly.
+const ALONG_AXIS: f64 = 0.9995;
+
 /// Share of a motion below which its translation or its rotation is left out of a message.
 const MINOR: f64 = 0.05;
 
@@ -83,7 +101,7 @@ impl Obstacle {
         if size == 0.0 || !size.is_finite() {
             return None;
         }
-        one_sided(robot, pose, &load).or_else(|| not_spanned(&coordinates, &wrenches, &(reduced / size)))
+        one_sided(robot, pose, &load).or_else(|| not_spanned(robot, &coordinates, &wrenches, &(reduced / size)))
     }
 }
 
@@ -122,7 +140,7 @@ pub(crate) fn spread(points: impl Iterator<Item = Vec3> + Clone) -> f64 {
 }
 
 /// Obstacle of a load outside the cone of the unit wrenches; all of them reduced, the load of length 1.
-fn not_spanned(coordinates: &Coordinates, wrenches: &[Vec6], load: &Vec6) -> Option<Obstacle> {
+fn not_spanned(robot: &Robot, coordinates: &Coordinates, wrenches: &[Vec6], load: &Vec6) -> Option<Obstacle> {
     // The shortest y with y·w_i ≤ 0 and y·e ≤ −1 is along the unbalanced part of the load, and its length is
     // the inverse of that part.
     let n = coordinates.count();
@@ -139,12 +157,37 @@ fn not_spanned(coordinates: &Coordinates, wrenches: &[Vec6], load: &Vec6) -> Opt
     if unbalanced.is_nan() || unbalanced < MIN_UNBALANCED {
         return None;
     }
-    let motion = coordinates.expand(&y.normalize());
+    let along = y.normalize();
+    let (nearest, opposed) = nearest_and_opposed(robot, wrenches, &along);
+    let motion = coordinates.expand(&along);
     Some(Obstacle::NotSpanned {
         translation_w: motion.fixed_rows::<3>(0).into(),
         rotation_w: motion.fixed_rows::<3>(3).into(),
         unbalanced: unbalanced.min(1.0),
+        nearest,
+        opposed,
     })
+}
+
+/// Names of the cables that come nearest to pulling along a motion of length 1, and of those that pull most against it.
+/// If all cables are at the same angle to it, they are the nearest.
+fn nearest_and_opposed(robot: &Robot, wrenches: &[Vec6], along: &Vec6) -> (Vec<String>, Vec<String>) {
+    let cosine = |wrench: &Vec6| if wrench.norm() > 0.0 { along.dot(wrench) / wrench.norm() } else { 0.0 };
+    let cosines: Vec<f64> = wrenches.iter().map(cosine).collect();
+    let (most, least) =
+        cosines.iter().fold((f64::NEG_INFINITY, f64::INFINITY), |(most, least), of| (of.max(most), of.min(least)));
+
+    let named = |is_chosen: &dyn Fn(f64) -> bool| -> Vec<String> {
+        let chosen = robot.cables.iter().zip(&cosines).filter(|(_, cosine)| is_chosen(**cosine));
+        chosen.map(|(cable, _)| cable.name.clone()).collect()
+    };
+    let nearest = named(&|cosine| cosine > most - SAME_COSINE);
+    let opposed = if most - least > SAME_COSINE && least < -SAME_COSINE {
+        named(&|cosine| cosine < least + SAME_COSINE)
+    } else {
+        Vec::new()
+    };
+    (nearest, opposed)
 }
 
 impl Obstacle {
@@ -181,23 +224,58 @@ impl fmt::Display for Obstacle {
                 let along = direction(&force_w.normalize());
                 write!(f, "no cable pulls against the load of {:.4} N along {along}: {cause}", force_w.norm())
             }
-            Self::NotSpanned { translation_w, rotation_w, unbalanced } => {
+            Self::NotSpanned { translation_w, rotation_w, unbalanced, nearest, opposed } => {
                 let [translation, rotation] = [translation_w, rotation_w].map(Vec3::norm);
                 let motion = if rotation < MINOR {
-                    format!("pull the platform along {}", direction(&translation_w.normalize()))
+                    format!("pull the platform along {}", in_words(&translation_w.normalize()))
                 } else if translation < MINOR {
-                    format!("turn the platform about {}", direction(&rotation_w.normalize()))
+                    format!("turn the platform about {}", in_words(&rotation_w.normalize()))
                 } else {
                     format!(
                         "pull the platform along {} while it turns about {}",
-                        direction(translation_w),
-                        direction(rotation_w)
+                        in_words(translation_w),
+                        in_words(rotation_w)
                     )
                 };
-                write!(f, "no cable can {motion}, so that {:.2} % of the load stay unbalanced", 100.0 * unbalanced)
+                write!(f, "no cable can {motion}, so that {:.2} % of the load stay unbalanced", 100.0 * unbalanced)?;
+                match (nearest.is_empty(), opposed.is_empty()) {
+                    (true, _) => Ok(()),
+                    (false, true) => write!(f, "; {} nearest to it", cables(nearest, "comes", "come")),
+                    (false, false) => write!(
+                        f,
+                        "; {} nearest to it, and {} to push",
+                        cables(nearest, "comes", "come"),
+                        cables(opposed, "would have", "would have")
+                    ),
+                }
             }
         }
     }
+}
+
+/// Vector for a message, with the axes that it is near to: `(-0.443, 0.012, 0.101) (mostly -x)`.
+fn in_words(vector: &Vec3) -> String {
+    let size = vector.norm();
+    let largest = vector.amax();
+    let mut axes: Vec<(f64, String)> = vector
+        .iter()
+        .zip(["x", "y", "z"])
+        .filter(|(part, _)| part.abs() > NAMED_COMPONENT * largest)
+        .map(|(part, axis)| (part.abs(), format!("{}{axis}", if *part < 0.0 { '-' } else { '+' })))
+        .collect();
+    axes.sort_by(|(one, _), (other, _)| other.total_cmp(one));
+
+    let mostly = if largest > ALONG_AXIS * size { "" } else { "mostly " };
+    let names: Vec<String> = axes.into_iter().map(|(_, name)| name).collect();
+    format!("{} ({mostly}{})", direction(vector), names.join(", "))
+}
+
+/// Cables by their names, with a verb: `cable "1" comes`, `cables "1", "2" come`.
+fn cables(names: &[String], one: &str, several: &str) -> String {
+    let shown: Vec<String> = names.iter().take(MAX_NAMED).map(|name| format!("\"{name}\"")).collect();
+    let more = if names.len() > MAX_NAMED { ", …" } else { "" };
+    let (noun, verb) = if names.len() == 1 { ("cable", one) } else { ("cables", several) };
+    format!("{noun} {}{more} {verb}", shown.join(", "))
 }
 
 /// Vector with three decimals for a message.
@@ -205,4 +283,39 @@ pub(super) fn direction(vector: &Vec3) -> String {
     // Adding zero turns -0.000 into 0.000.
     let part = |value: f64| (1e3 * value).round() / 1e3 + 0.0;
     format!("({:.3}, {:.3}, {:.3})", part(vector.x), part(vector.y), part(vector.z))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_direction_is_said_in_words_too() {
+        for (vector, words) in [
+            ([-0.9, 0.1, 0.2], "(-0.900, 0.100, 0.200) (mostly -x)"),
+            ([0.0, 0.6, 0.0], "(0.000, 0.600, 0.000) (+y)"),
+            ([0.492, 0.0, 0.589], "(0.492, 0.000, 0.589) (mostly +z, +x)"),
+        ] {
+            assert_eq!(in_words(&Vec3::from(vector)), words);
+        }
+    }
+
+    #[test]
+    fn a_message_names_the_cables_that_come_nearest_and_those_that_would_have_to_push() {
+        let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
+        let of = |nearest: &[&str], opposed: &[&str]| Obstacle::NotSpanned {
+            translation_w: -Vec3::x(),
+            rotation_w: Vec3::zeros(),
+            unbalanced: 0.25,
+            nearest: names(nearest),
+            opposed: names(opposed),
+        };
+        assert_eq!(
+            of(&["1", "2"], &["5"]).to_string(),
+            "no cable can pull the platform along (-1.000, 0.000, 0.000) (-x), so that 25.00 % of the load stay \
+             unbalanced; cables \"1\", \"2\" come nearest to it, and cable \"5\" would have to push"
+        );
+        assert!(of(&["1"], &[]).to_string().ends_with("; cable \"1\" comes nearest to it"));
+        assert!(of(&["1", "2", "3", "4"], &[]).to_string().contains("cables \"1\", \"2\", \"3\", … come nearest"));
+    }
 }

@@ -101,6 +101,11 @@ pub fn unit<K: AsRef<str>>(path: &[K]) -> Option<&'static str> {
     numbers_of(&path).map(|(_, numbers, _)| numbers.unit)
 }
 
+/// True for a key that may stand at the top of the file.
+pub fn is_top_key(name: &str) -> bool {
+    TABLES.iter().filter(|table| table.header == TOP).flat_map(|table| table.keys).any(|key| key.name == name)
+}
+
 /// True for a table at the top of the file that may be absent: `loads`, `wind` and `state`.
 pub fn is_optional_table(name: &str) -> bool {
     let root = TABLES.iter().filter(|table| table.header == TOP).flat_map(|table| table.keys);

@@ -298,21 +298,35 @@ fn the_direction_of_an_obstacle_is_one_in_which_no_cable_pulls() {
             Ok(_) => spanned += 1,
             Err(error) => {
                 let obstacle = error.obstacle().unwrap_or_else(|| panic!("{i}: {error}"));
-                let (translation, rotation, unbalanced) = match *obstacle {
-                    Obstacle::NotSpanned { translation_w, rotation_w, unbalanced } => {
-                        (translation_w, rotation_w, Some(unbalanced))
+                let (translation, rotation, unbalanced) = match obstacle {
+                    Obstacle::NotSpanned { translation_w, rotation_w, unbalanced, .. } => {
+                        (*translation_w, *rotation_w, Some(*unbalanced))
                     }
                     Obstacle::OneSided { force_w, .. } => {
-                        assert!((force_w - load.0).norm() < 1e-9 * size);
+                        assert!((*force_w - load.0).norm() < 1e-9 * size);
                         (-load.0.normalize(), Vec3::zeros(), None)
                     }
                 };
                 assert!(((translation.norm_squared() + rotation.norm_squared()).sqrt() - 1.0).abs() < 1e-12);
+                let mut cosines = Vec::new();
                 for cable in &robot.cables {
                     let lever = pose.rot_wp * cable.attachment_p;
                     let pull = cable.chord_w(&pose).normalize();
-                    let power = pull.dot(&translation) + lever.cross(&pull).dot(&rotation) / ell;
+                    let moment = lever.cross(&pull) / ell;
+                    let power = pull.dot(&translation) + moment.dot(&rotation);
                     assert!(power < 1e-8, "{i}: {obstacle:?}, cable {} has {power}", cable.name);
+                    cosines.push((power / (1.0 + moment.norm_squared()).sqrt(), cable.name.as_str()));
+                }
+
+                // The cables that the message names are those at both ends.
+                cosines.sort_by(|one, other| one.0.total_cmp(&other.0));
+                if let Obstacle::NotSpanned { nearest, opposed, .. } = obstacle {
+                    let [(_, least), .., (_, most)] = cosines[..] else { panic!("cables") };
+                    assert!(nearest.iter().any(|name| name == most), "{i}: {obstacle:?} {cosines:?}");
+                    assert!(opposed.iter().any(|name| name == least), "{i}: {obstacle:?} {cosines:?}");
+                    assert!(opposed.iter().all(|name| !nearest.contains(name)), "{i}: {obstacle:?}");
+                    let words = obstacle.to_string();
+                    assert!(words.contains("nearest to it, and cable") && words.contains("to push"), "{words}");
                 }
                 // The unbalanced part is the projection of the load on the direction.
                 let along = -(load.0.dot(&translation) + load.1.dot(&rotation)) / size;
