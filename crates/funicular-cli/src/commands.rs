@@ -69,7 +69,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         Request::Report(_) => page::report(&request, cli.robot_path().map(|path| &**path), &page()?),
         Request::Paper(_) => page::paper(&page()?),
         Request::New(of) => new_robot::run(of, &cli.files()?),
-        Request::Schema(_) => schema::write(&mut Guard::default(), &cli.files::<FileArgs>()?.output_file),
+        Request::Schema(of) => schema::write(of, &mut Guard::default(), &cli.files::<FileArgs>()?.output_file),
         Request::Import(of) => import::run(of, &cli.files()?),
         Request::Export(of) => export::run(of, &mut guard(), &cli.files::<FileArgs>()?.output_file),
         _ => analysis::print(&request, &cli.files::<OutputArgs>()?, guard()),

@@ -12,6 +12,7 @@ import funicular
 import numpy as np
 import pytest
 from conftest import ROOT
+from jsonschema import Draft202012Validator
 
 # Lines for commands and options without an example in the help texts.
 STATE = "--mass-kg 20 --force-n 1,0,-5 --moment-n-m 0,0.1,0 --load-point-m 0,0,0.1 --wind-m-s 5,0,0 --cable-load-n-per-m 0,0,-0.1"
@@ -191,6 +192,22 @@ def ours(line: str) -> dict[str, Any]:
     if command in ("paper", "schema", "validate"):
         return funicular._study.request(command, None, (), keywords)
     return commands.robot_of(files, changes).request(command, **keywords)
+
+
+@pytest.fixture(scope="module")
+def schema() -> Draft202012Validator:
+    made = funicular.schema("request")
+    Draft202012Validator.check_schema(made)
+    return Draft202012Validator(made)
+
+
+@pytest.mark.parametrize("line", lines())
+def test_a_request_is_valid_by_the_schema_and_with_another_key_it_is_not(
+    line: str, executable: str, schema: Draft202012Validator
+) -> None:
+    request = asked(executable, line)
+    assert [error.message for error in schema.iter_errors(request)] == []
+    assert not schema.is_valid(request | {"poze": 1})
 
 
 @pytest.mark.parametrize("line", lines())
@@ -407,7 +424,7 @@ def test_every_comparison_of_the_validation_passes() -> None:
 @pytest.mark.parametrize(
     ("request_", "told"),
     [
-        ({"command": "statik"}, "unknown variant `statik`"),
+        ({"command": "statik"}, "there is no command `statik`; did you mean `statics`?"),
         ({"command": "modes", "robot": {"text": "x"}}, "below_hz"),
         ({"command": "statics", "robot": {"text": ""}, "poze": 1}, "has no key `poze`; did you mean `pose`"),
         ({"command": "merge", "parts": []}, "funicular.merge"),

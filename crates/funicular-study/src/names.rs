@@ -541,6 +541,35 @@ impl Named for RopeType {
     }
 }
 
+/// Subjects of the JSON Schemas that the program writes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum SchemaSubject {
+    /// Robot file.
+    #[default]
+    RobotFile,
+    /// Request of any command.
+    Request,
+}
+
+impl Named for SchemaSubject {
+    const WHAT: &'static str = "subject of a schema";
+    const ALL: &'static [Self] = &[Self::RobotFile, Self::Request];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::RobotFile => "robot-file",
+            Self::Request => "request",
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::RobotFile => "Robot files (TOML), for editors",
+            Self::Request => "Requests (JSON) of all commands, for programs that write them",
+        }
+    }
+}
+
 /// Serialises a choice as its name: for `#[serde(with = "…")]`.
 pub(crate) fn serialize<T: Named, S: Serializer>(choice: &T, to: S) -> Result<S::Ok, S::Error> {
     to.serialize_str(choice.name())

@@ -13,6 +13,7 @@ mod json_text;
 pub mod key;
 mod pages;
 mod parts;
+mod shape;
 mod source_file;
 mod statics;
 mod steps;

@@ -61,7 +61,7 @@ pub(crate) fn run(args: &RequestArgs) -> Result<()> {
         Request::Live(_) => page::live(&request, Some(&args.file), &place()),
         Request::Paper(_) => page::paper(&place()),
         Request::New(of) => new_robot::write(of, &mut guard, &place()),
-        Request::Schema(_) => schema::write(&mut guard, &place()),
+        Request::Schema(of) => schema::write(of, &mut guard, &place()),
         Request::Import(of) => import::write(of, &mut guard, &place()),
         Request::Export(of) => {
             let robot = of.robot.read()?.robot;

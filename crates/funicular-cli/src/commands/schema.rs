@@ -1,18 +1,18 @@
-//! `schema`: the JSON Schema of the robot file.
+//! `schema`: the JSON Schema of the robot file or of requests.
 
 use crate::errors;
 use crate::output::{Content, Target};
 use anyhow::Result;
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
-use funicular_study::robot_file::schema;
+use funicular_study::request::SchemaRequest;
 use std::path::Path;
 
-/// Writes the JSON Schema of the robot file.
-pub(super) fn write(guard: &mut Guard, path: &Path) -> Result<()> {
+/// Writes the JSON Schema.
+pub(super) fn write(of: &SchemaRequest, guard: &mut Guard, path: &Path) -> Result<()> {
     let content = Content { name: "the schema", in_words: "a JSON Schema", fitting: &[Kind::Json] };
     let target = Target::open(Some(path), content, guard)?;
-    target.write(schema::text().as_bytes())?;
+    target.write(of.schema_text().as_bytes())?;
     if target.is_file() {
         errors::note(&format!("wrote {}", path.display()));
     }

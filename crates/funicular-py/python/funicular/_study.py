@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from numpy.typing import ArrayLike
 
@@ -222,9 +222,15 @@ def new_robot(
     return made
 
 
-def schema() -> dict[str, Any]:
-    """Returns the JSON Schema of the robot file, as the program's `schema` writes it."""
-    made: dict[str, Any] = run({"command": "schema"})
+def schema(of: Literal["robot-file", "request"] = "robot-file") -> dict[str, Any]:
+    """Returns a JSON Schema, as the program's `schema` writes it.
+
+    Parameters
+    ----------
+    of
+        The robot file, or requests: the dictionaries that `run` takes.
+    """
+    made: dict[str, Any] = run({"command": "schema", "of": of})
     return made
 
 

@@ -334,7 +334,8 @@ fn fibre_stiffness(section: &mut FileSection, rope: RopeType, diameter: f64) -> 
              large displacements are on the safe side, differences of tension between cables are not: replace the value by \
              that of your rope."
         ),
-        "The damping ratio is that of wire ropes, without a measurement of this rope: fibre ropes damp more."
+        "MoorPy's numbers are those of mooring ropes, tens of millimetres thick: below that they are extrapolated. The \
+         damping ratio is that of wire ropes, because no measurement of such a rope was found."
             .to_owned(),
     ] {
         section.note(&note);

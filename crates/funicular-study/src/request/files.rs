@@ -3,7 +3,7 @@
 use super::key::declared;
 use super::parts::{ImportPlatform, ImportRopes, Pose, RobotText, State, Tensions};
 use super::source_file::SourceFile;
-use crate::names::{ExportFormat, LengthUnit, NewMotion, RopeType, optional};
+use crate::names::{ExportFormat, LengthUnit, NewMotion, RopeType, SchemaSubject, optional};
 
 declared! {
     /// Write a robot file with starting values and comments.
@@ -20,7 +20,7 @@ declared! {
         motion: NewMotion = NewMotion::default() => (name::<NewMotion>()).form("MOTION");
         /// Table of the cables in place of their number: name (may be left out), anchor x, y, z in the world frame,
         /// attachment x, y, z in the platform frame; a first line may name the columns: name, anchor_x, …, attachment_z.
-        from_csv: Option<SourceFile> = None => (Data);
+        from_csv: Option<SourceFile> = None => (Data(shape::file));
         /// Unit of the points in the table.
         #[serde(with = "optional")]
         csv_unit: Option<LengthUnit> = None => (name::<LengthUnit>()).form("UNIT")
@@ -52,14 +52,18 @@ declared! {
 }
 
 declared! {
-    /// Write the JSON Schema of the robot file, with which editors complete and check it.
+    /// Write the JSON Schema of the robot file, with which editors complete and check it, or that of requests.
     ///
     /// The first line `#:schema ./robot.schema.json` of a robot file names the schema to Even Better TOML in VS Code and to
     /// other editors with Taplo.
     pub struct SchemaRequest {
+        /// Subject of the schema.
+        #[serde(with = "crate::names")]
+        of: SchemaSubject = SchemaSubject::default() => (name::<SchemaSubject>()).form("SUBJECT");
     }
     examples {
         "funicular schema -o robot.schema.json",
+        "funicular schema --of request -o request.schema.json",
     }
 }
 
@@ -72,7 +76,7 @@ declared! {
     /// number is read.
     pub struct ImportRequest {
         /// Files of one robot; their format is recognised from their content.
-        files: Vec<SourceFile> = Vec::new() => (Data).required();
+        files: Vec<SourceFile> = Vec::new() => (Data(shape::files)).required();
         /// Name of the cable set if a CASPR file has several.
         cable_set: Option<String> = None => (Text).form("NAME").otherwise("from the file");
         /// Rope values that the files do not give.
@@ -97,7 +101,7 @@ declared! {
     /// and the differences between the programs.
     pub struct ExportRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Program that the file is for.
         #[serde(with = "crate::names")]
         to: ExportFormat = ExportFormat::Opensees => (name::<ExportFormat>()).form("PROGRAM").required();

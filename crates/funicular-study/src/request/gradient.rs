@@ -13,7 +13,7 @@ declared! {
     /// text shows the ten largest of each result, JSON and CSV all of them.
     pub struct GradientRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Results: pose, lengths, tensions, stiffness-min, frequencies, damping, response; separated by commas.
         of: Vec<String> = frequencies() => (Texts).form("RESULTS");
         /// Numbers of the robot file, by paths that `parameters` lists, separated by commas; * stands for any key, and a path
@@ -34,9 +34,9 @@ declared! {
         /// Frequency of the response [Hz].
         at_hz: Option<f64> = None => (Number(NotNegative));
         /// Input of the response, on the platform (see `frf`).
-        input: Option<String> = None => (Written(written::input)).form("INPUT");
+        input: Option<String> = None => (Written(written::INPUT)).form("INPUT");
         /// Output of the response, on the platform (see `frf`).
-        output: Option<String> = None => (Written(written::output)).form("OUTPUT");
+        output: Option<String> = None => (Written(written::OUTPUT)).form("OUTPUT");
         /// Points of the platform.
         #[serde(flatten)]
         points: ResponsePoints = ResponsePoints::default() => group;

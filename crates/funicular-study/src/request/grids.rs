@@ -8,12 +8,12 @@ declared! {
     /// Tensions, frequencies, stiffness over the workspace, with one row per pose.
     pub struct MapRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Axis of the grid: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed values
         /// (repeatable); an axis that is not given keeps the value of the robot's state or of ⟪pose⟫.
-        grid: Vec<Axis> = Vec::new() => (List(written::grid_axis)).form("AXIS=A:B:N|V,V,…");
+        grid: Vec<Axis> = Vec::new() => (List(written::GRID_AXIS)).form("AXIS=A:B:N|V,V,…");
         /// List of poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
-        poses: Option<Vec<[f64; 6]>> = None => (Data);
+        poses: Option<Vec<[f64; 6]>> = None => (Data(shape::poses));
         /// Quantities and options of every point.
         #[serde(flatten)]
         point: EachPoint = EachPoint::default() => group;
@@ -29,11 +29,11 @@ declared! {
     /// Tensions, frequencies, stiffness over values of the robot file, with one row per combination.
     pub struct SweepRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Number of the robot file that varies, with N values from A to B, or with listed values (repeatable: all
         /// combinations, the first fastest); `*` for any key moves all numbers that match together, as in
         /// cables.*.anchor_m.z.
-        vary: Vec<Axis> = Vec::new() => (List(written::variation)).form("PATH=A:B:N|V,V,…").required();
+        vary: Vec<Axis> = Vec::new() => (List(written::VARIATION)).form("PATH=A:B:N|V,V,…").required();
         /// Quantities and options of every point.
         #[serde(flatten)]
         point: EachPoint = EachPoint::default() => group;
@@ -48,7 +48,7 @@ declared! {
     /// Combine the parts of a map or sweep in one file.
     pub struct MergeRequest {
         /// Parts, in any order.
-        parts: Vec<String> = Vec::new() => (Data).required();
+        parts: Vec<String> = Vec::new() => (Data(shape::texts)).required();
     }
     examples {
         "funicular merge part-*.parquet -o all.parquet",
@@ -64,7 +64,7 @@ declared! {
     /// the page.
     pub struct PlotRequest {
         /// File that `map` or `sweep` has written.
-        file: String = String::new() => (Data).required();
+        file: String = String::new() => (Data(shape::text)).required();
     }
     examples {
         "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    --quantity tension-max,stiffness-min -o cogiro.parquet",

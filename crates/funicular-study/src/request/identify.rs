@@ -28,13 +28,13 @@ declared! {
     /// docs/identification.md explains files, priors and the result.
     pub struct IdentifyRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Value of the robot file to identify, with optional bounds, as in platform.mass_kg=10:30; * stands for any key, as in
         /// 'materials.*.axial_stiffness_n', and a path to a table or vector for all numbers of it that the file gives
         /// (repeatable).
-        fit: Vec<FitValue> = Vec::new() => (List(written::fit)).form("PATH[=MIN:MAX]").required();
+        fit: Vec<FitValue> = Vec::new() => (List(written::FIT)).form("PATH[=MIN:MAX]").required();
         /// Measurements of the robot, each in a state of its own.
-        experiments: Vec<Experiment> = Vec::new() => (Data).required();
+        experiments: Vec<Experiment> = Vec::new() => (Data(shape::experiments)).required();
         /// Maximum number of starts of the search. The first start has the values of the file, the others are spread by the
         /// priors; the search ends at the first start that fits.
         starts: usize = DEFAULT_STARTS => (Count(0..=u64::MAX));
@@ -111,16 +111,16 @@ declared! {
     pub struct Experiment {
         /// Name in tables and messages.
         #[serde(skip_serializing_if = "String::is_empty")]
-        name: String = String::new() => (Data);
+        name: String = String::new() => (Data(shape::text));
         /// Names of the cables that were mounted.
         #[serde(skip_serializing_if = "Option::is_none")]
-        cables: Option<Vec<String>> = None => (Data).otherwise("all");
+        cables: Option<Vec<String>> = None => (Data(shape::texts)).otherwise("all");
         /// Frequency responses.
         #[serde(skip_serializing_if = "Vec::is_empty")]
-        responses: Vec<MeasuredResponse> = Vec::new() => (Data);
+        responses: Vec<MeasuredResponse> = Vec::new() => (Data(shape::objects));
         /// Natural frequencies.
         #[serde(skip_serializing_if = "Vec::is_empty")]
-        frequencies: Vec<MeasuredFrequency> = Vec::new() => (Data);
+        frequencies: Vec<MeasuredFrequency> = Vec::new() => (Data(shape::objects));
         /// Measured pose at held lengths [m, degrees].
         #[serde(skip_serializing_if = "Option::is_none")]
         measured_pose: Option<Pose> = None => (Pose).form("X,Y,Z,ROLL,PITCH,YAW").under("Measurements");

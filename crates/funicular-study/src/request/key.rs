@@ -58,11 +58,14 @@ pub struct Choice {
     pub also: Option<&'static str>,
 }
 
-/// Reads the text of an option of the program as the JSON value of its key.
-///
-/// # Errors
-/// A message that says what is wrong with the text.
-pub type Reader = fn(&str) -> Result<Value, String>;
+/// Value that the program writes in a form of its own.
+#[derive(Debug, Clone, Copy)]
+pub struct Form {
+    /// Reads the text of the program's option as JSON, or says what is wrong with it.
+    pub read: fn(&str) -> Result<Value, String>,
+    /// JSON Schema of the value.
+    pub schema: fn() -> Value,
+}
 
 /// Kind of value of an option.
 #[derive(Debug, Clone)]
@@ -88,15 +91,15 @@ pub enum Kind {
     /// Several texts; in the program separated by commas.
     Texts,
     /// Value that the program writes in a form of its own.
-    Written(Reader),
+    Written(Form),
     /// List of such values; the option can be given several times.
-    List(Reader),
+    List(Form),
     /// Such a value, or a list of them; the option can be given several times.
-    OneOrMore(Reader),
+    OneOrMore(Form),
     /// List of such values, separated by commas.
-    Commas(Reader),
-    /// Data that the program reads from files, with options that it declares itself.
-    Data,
+    Commas(Form),
+    /// Data of this JSON Schema that the program reads from files, with options that it declares itself.
+    Data(fn() -> Value),
 }
 
 /// One option of a command.
@@ -199,7 +202,7 @@ impl Key {
         if !self.required {
             self.default = default.cloned().unwrap_or_default();
         }
-        if self.option.is_empty() && !matches!(self.kind, Kind::Data) {
+        if self.option.is_empty() && !matches!(self.kind, Kind::Data(_)) {
             self.option = name.replace('_', "-");
         }
         if self.option == Self::NOT_IN_PROGRAM {
@@ -227,8 +230,8 @@ impl Key {
             Kind::Vector => written::vector(text),
             Kind::Pose => written::pose(text),
             Kind::Tensor => written::tensor(text),
-            Kind::Name(_) | Kind::Text | Kind::Texts | Kind::Data => Ok(text.into()),
-            Kind::Written(read) | Kind::List(read) | Kind::OneOrMore(read) | Kind::Commas(read) => read(text),
+            Kind::Name(_) | Kind::Text | Kind::Texts | Kind::Data(_) => Ok(text.into()),
+            Kind::Written(form) | Kind::List(form) | Kind::OneOrMore(form) | Kind::Commas(form) => (form.read)(text),
         }
     }
 }
@@ -332,6 +335,7 @@ macro_rules! declared {
             #[allow(unused_imports, unused_variables, reason = "not every group has every kind, or a key")]
             fn keys() -> Vec<crate::request::key::Key> {
                 use crate::request::key::{Kind::*, Range::*, name};
+                use crate::request::shape;
                 let defaults = serde_json::to_value(Self::default()).unwrap_or_default();
                 let keys: Vec<Vec<crate::request::key::Key>> = vec![
                     $(crate::request::key::entry!(

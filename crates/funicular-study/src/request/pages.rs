@@ -9,15 +9,15 @@ declared! {
     /// HTML page with all analyses of a robot and their figures.
     pub struct ReportRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Upper limit of the frequencies [Hz].
         below_hz: f64 = 20.0 => (Number(Positive));
         /// Input of the frequency response: fx … mz, or f:ux,uy,uz, m:ux,uy,uz, see `funicular frf`.
         input: Option<String> = None =>
-            (Written(written::input)).form("INPUT").otherwise("fz; fx if the platform cannot move along z");
+            (Written(written::INPUT)).form("INPUT").otherwise("fz; fx if the platform cannot move along z");
         /// Output of the frequency response: x … arz, or x:ux,uy,uz, v:…, a:…, see `funicular frf`.
         output: Option<String> = None =>
-            (Written(written::output)).form("OUTPUT").otherwise("az; ax if the platform cannot move along z");
+            (Written(written::OUTPUT)).form("OUTPUT").otherwise("az; ax if the platform cannot move along z");
         /// Points of the platform.
         #[serde(flatten)]
         points: ResponsePoints = ResponsePoints::default() => group;
@@ -47,7 +47,7 @@ declared! {
     /// it.
     pub struct LiveRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// State and loads.
         #[serde(flatten)]
         state: State = State::default() => group;

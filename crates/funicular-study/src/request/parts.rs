@@ -370,7 +370,7 @@ declared! {
     pub struct EachPoint {
         /// Quantities to compute at every point, described in docs/sweeps.md
         quantities: Vec<String> = vec!["tension-min".to_owned(), "tension-max".to_owned()] =>
-            (Commas(written::quantity)).form("Q,Q,…").option("quantity").more(&every_quantity());
+            (Commas(written::QUANTITY)).form("Q,Q,…").option("quantity").more(&every_quantity());
         /// Upper limit of the search for natural frequencies [Hz].
         up_to_hz: f64 = MAX_HZ => (Number(Positive));
         /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform.

@@ -8,7 +8,7 @@ declared! {
     /// Read and check a robot file, and describe the robot.
     pub struct CheckRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
     }
     examples {
         "funicular check robots/yuan2014-4mm.toml",
@@ -23,7 +23,7 @@ declared! {
     /// from 0: `anchor_m.z` is `anchor_m.2`. A number that the file leaves out is listed with its default.
     pub struct ParametersRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
     }
     examples {
         "funicular parameters robots/yuan2014-4mm.toml",
@@ -36,7 +36,7 @@ declared! {
     /// Equilibrium: pose, tensions, sag.
     pub struct StaticsRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Search for all equilibria of the unstrained lengths, including unstable ones.
         all: bool = false => (Switch);
         /// Compute the interval in which friction of pulleys leaves pose and tensions.
@@ -68,7 +68,7 @@ declared! {
     /// 6×6 stiffness at one frequency, static at 0 Hz.
     pub struct StiffnessRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Frequency of the stiffness [Hz]; at 0 Hz the tangent of the static model, unless ⟪cable_model⟫ is given.
         at_hz: f64 = 0.0 => (Number(NotNegative));
         /// State and loads.
@@ -93,7 +93,7 @@ declared! {
     /// The payload is held by any tensions within the limits, not only by those of a tension rule.
     pub struct PayloadRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Centre of mass of the payload, platform frame [m].
         payload_center_m: Option<[f64; 3]> = None => (Vector).otherwise("that of the platform");
         /// State and loads.
@@ -114,9 +114,9 @@ declared! {
     /// Distances between the poses of ideal, spring and catenary cables over platform mass.
     pub struct PoseErrorRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Platform masses [kg]: N masses from A to B in equal steps, as in 10:90:81.
-        mass_kg: (f64, f64, usize) = (0.0, 0.0, 0) => (Written(written::mass_range)).form("A:B:N").required();
+        mass_kg: (f64, f64, usize) = (0.0, 0.0, 0) => (Written(written::MASS_RANGE)).form("A:B:N").required();
         /// Unstrained lengths [m], one per cable in the order of the file.
         lengths_m: Option<Vec<f64>> = None =>
             (Numbers(Positive)).form("L1,L2,…").excludes(&["pose"]).otherwise("from the robot file");

@@ -18,7 +18,7 @@ declared! {
     /// robots, and the shares of the numbers; docs/uncertainty.md explains the tables.
     pub struct UncertaintyRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Standard deviations PATH=VALUE or PATH=PERCENT% of normally distributed numbers, separated by commas. `parameters`
         /// lists the paths; * stands for any key, and a path to a table or vector for all numbers in it. Each entry is a
         /// group with its own share.
@@ -36,16 +36,16 @@ declared! {
         below_hz: Option<f64> = None => (Number(Positive));
         /// Frequencies of the response [Hz], separated by commas.
         #[serde(deserialize_with = "one_or_several")]
-        at_hz: Option<Vec<f64>> = None => (Commas(written::not_negative)).form("HZ");
+        at_hz: Option<Vec<f64>> = None => (Commas(written::NOT_NEGATIVE)).form("HZ");
         /// Input of the response (see `frf`).
-        input: Option<String> = None => (Written(written::input)).form("INPUT");
+        input: Option<String> = None => (Written(written::INPUT)).form("INPUT");
         /// Output of the response (see `frf`); results are its magnitudes in decibels and its phases in degrees.
-        output: Option<String> = None => (Written(written::output)).form("OUTPUT");
+        output: Option<String> = None => (Written(written::OUTPUT)).form("OUTPUT");
         /// Points of the platform.
         #[serde(flatten)]
         points: ResponsePoints = ResponsePoints::default() => group;
         /// List of poses instead of the state: position [m] and roll, pitch, yaw [degrees].
-        poses: Option<Vec<[f64; 6]>> = None => (Data);
+        poses: Option<Vec<[f64; 6]>> = None => (Data(shape::poses));
         /// Method for the deviations.
         #[serde(with = "crate::names")]
         method: UncertaintyMethod = UncertaintyMethod::default() => (name::<UncertaintyMethod>()).form("METHOD");

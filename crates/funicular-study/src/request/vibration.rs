@@ -15,14 +15,14 @@ declared! {
     /// Every natural frequency below a limit, with a count that proves that none is missing.
     pub struct ModesRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Upper limit of the frequencies [Hz].
         below_hz: Option<f64> = None =>
             (Number(Positive)).otherwise("slightly above the 20 lowest; with rigid cables above all");
         /// Input of a response (see `frf`): also show the contribution of each mode to this response; needs ⟪output⟫.
-        input: Option<String> = None => (Written(written::input)).form("INPUT").needs("output");
+        input: Option<String> = None => (Written(written::INPUT)).form("INPUT").needs("output");
         /// Output of that response; needs ⟪input⟫.
-        output: Option<String> = None => (Written(written::output)).form("OUTPUT").needs("input");
+        output: Option<String> = None => (Written(written::OUTPUT)).form("OUTPUT").needs("input");
         /// Points of the platform.
         #[serde(flatten)]
         points: ResponsePoints = ResponsePoints::default() => group;
@@ -61,7 +61,7 @@ declared! {
     /// Frequency response of the platform or of points on cables, and its peaks.
     pub struct FrfRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Frequencies.
         #[serde(flatten)]
         range: ResponseRange = ResponseRange::default() => group;
@@ -71,12 +71,12 @@ declared! {
         /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; a force on
         /// a cable, as in cable:3@0.5:fz; the commanded length of a cable, length:3, a force of its motor or on its drum,
         /// motor:3, drum:3; a motion of the base, base-x to base-rz, or of an anchor, anchor:3:x (repeatable).
-        input: OneOrSeveral = OneOrSeveral::One(DEFAULT_INPUT.to_owned()) => (OneOrMore(written::input)).form("INPUT");
+        input: OneOrSeveral = OneOrSeveral::One(DEFAULT_INPUT.to_owned()) => (OneOrMore(written::INPUT)).form("INPUT");
         /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…,
         /// a:… along a direction, world axes; the motion of a point on a cable (name, fraction of its length from the
         /// platform), as in cable:3@0.5:az; the motion of a drum or motor, drum:3, motor:3, or the tension at the platform
         /// or at the drum, tension:3, drum-tension:3 (repeatable).
-        output: OneOrSeveral = OneOrSeveral::One(DEFAULT_OUTPUT.to_owned()) => (OneOrMore(written::output)).form("OUTPUT");
+        output: OneOrSeveral = OneOrSeveral::One(DEFAULT_OUTPUT.to_owned()) => (OneOrMore(written::OUTPUT)).form("OUTPUT");
         /// Points of the platform.
         #[serde(flatten)]
         signal_points: ResponsePoints = ResponsePoints::default() => group;
@@ -106,7 +106,7 @@ declared! {
     /// Comparison of all cable models, and the simplest model that is good enough.
     pub struct CompareRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Upper limit of the frequencies [Hz].
         below_hz: f64 = 0.0 => (Number(Positive)).required();
         /// Compare the modes of the platform alone.
@@ -136,7 +136,7 @@ declared! {
     /// Dynamic stiffness of one cable over frequency.
     pub struct CableRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Name of the cable in the robot file.
         name: String = String::new() => (Text).required();
         /// Frequencies.
@@ -170,15 +170,15 @@ declared! {
     /// for a given number of states. docs/control.md explains the error and the use in Python and MATLAB.
     pub struct ReduceRequest {
         /// Robot file.
-        robot: RobotText = RobotText::default() => (Data).required();
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Highest frequency for which the model is valid [Hz].
         below_hz: f64 = 0.0 => (Number(Positive)).required();
         /// Input signal, see `frf` (repeatable).
         input: Vec<String> = Vec::new() =>
-            (List(written::input)).form("INPUT").otherwise("all forces and moments on the platform");
+            (List(written::INPUT)).form("INPUT").otherwise("all forces and moments on the platform");
         /// Output signal, see `frf` (repeatable).
         output: Vec<String> = Vec::new() =>
-            (List(written::output)).form("OUTPUT").otherwise("all displacements and rotations of the platform");
+            (List(written::OUTPUT)).form("OUTPUT").otherwise("all displacements and rotations of the platform");
         /// Points of the platform.
         #[serde(flatten)]
         points: ResponsePoints = ResponsePoints::default() => group;

@@ -1,7 +1,7 @@
 //! Forms of values on the command line. Each message contains the value and its permitted range.
 
-use super::key::Range;
-use super::{ChangeValue, FitValue};
+use super::key::{Form, Range};
+use super::{ChangeValue, FitValue, shape};
 use crate::set_values;
 use crate::signals::{Input, Output};
 use crate::sweep::{self, Steps, ValueAxis};
@@ -70,34 +70,52 @@ pub(super) fn tensor(text: &str) -> Result<Value, String> {
     }
 }
 
+/// The name of an input signal.
+pub(super) const INPUT: Form = Form { read: input, schema: shape::text };
+
 /// Reads the name of an input signal.
-pub(super) fn input(text: &str) -> Result<Value, String> {
+fn input(text: &str) -> Result<Value, String> {
     Input::parse(text).map(|input| input.name.into()).map_err(|error| error.to_string())
 }
 
+/// The name of an output signal.
+pub(super) const OUTPUT: Form = Form { read: output, schema: shape::text };
+
 /// Reads the name of an output signal.
-pub(super) fn output(text: &str) -> Result<Value, String> {
+fn output(text: &str) -> Result<Value, String> {
     Output::parse(text).map(|output| output.name.into()).map_err(|error| error.to_string())
 }
 
+/// A number that is not negative.
+pub(super) const NOT_NEGATIVE: Form = Form { read: not_negative, schema: || shape::number(Range::NotNegative) };
+
 /// Reads a number that is not negative.
-pub(super) fn not_negative(text: &str) -> Result<Value, String> {
+fn not_negative(text: &str) -> Result<Value, String> {
     Ok(values::not_negative(number(text)?)?.into())
 }
 
+/// A positive number.
+pub(super) const POSITIVE: Form = Form { read: positive, schema: || shape::number(Range::Positive) };
+
 /// Reads a positive number.
-pub(super) fn positive(text: &str) -> Result<Value, String> {
+fn positive(text: &str) -> Result<Value, String> {
     Ok(values::positive(number(text)?)?.into())
 }
 
+/// The name of a quantity of a sweep.
+pub(super) const QUANTITY: Form = Form { read: quantity, schema: shape::text };
+
 /// Reads the name of a quantity of a sweep.
-pub(super) fn quantity(text: &str) -> Result<Value, String> {
+fn quantity(text: &str) -> Result<Value, String> {
     let quantity: sweep::Quantity = text.parse().map_err(|error: sweep::UnknownQuantity| error.to_string())?;
     Ok(quantity.name().into())
 }
 
+/// Masses in equal steps, `from:to:count`.
+pub(super) const MASS_RANGE: Form = Form { read: mass_range, schema: shape::mass_range };
+
 /// Reads masses in equal steps, `from:to:count`.
-pub(super) fn mass_range(text: &str) -> Result<Value, String> {
+fn mass_range(text: &str) -> Result<Value, String> {
     const MAX_MASSES: usize = crate::analyses::pose_error::MAX_MASSES;
     let parts: Vec<&str> = text.split(':').collect();
     let [from, to, count] = parts[..] else {
@@ -147,8 +165,11 @@ fn axis(name: &str, steps: &Steps) -> Result<Value, String> {
     serde_json::to_value(super::Axis::new(name.to_owned(), steps)).map_err(|error| error.to_string())
 }
 
+/// `x=-4:4:81`.
+pub(super) const GRID_AXIS: Form = Form { read: grid_axis, schema: shape::axis };
+
 /// Reads `x=-4:4:81`.
-pub(super) fn grid_axis(text: &str) -> Result<Value, String> {
+fn grid_axis(text: &str) -> Result<Value, String> {
     let (name, values) = text.split_once('=').ok_or("it has no `=`: write AXIS=from:to:count, as in x=-4:4:81")?;
     let name = name.trim();
     if !sweep::AXES.contains(&name) {
@@ -157,16 +178,22 @@ pub(super) fn grid_axis(text: &str) -> Result<Value, String> {
     axis(name, &steps(values)?)
 }
 
+/// `platform.mass_kg=10:90:81`.
+pub(super) const VARIATION: Form = Form { read: variation, schema: shape::axis };
+
 /// Reads `platform.mass_kg=10:90:81`.
-pub(super) fn variation(text: &str) -> Result<Value, String> {
+fn variation(text: &str) -> Result<Value, String> {
     let form = "it has no `=`: write PATH=from:to:count, as in platform.mass_kg=10:90:81";
     let (path, values) = set_values::split(text).ok_or(form)?;
     let varied = ValueAxis::new(path, steps(values)?)?;
     axis(&varied.path.text, &varied.steps)
 }
 
+/// `PATH` or `PATH=MIN:MAX`; each bound may be left out.
+pub(super) const FIT: Form = Form { read: fit, schema: shape::fit };
+
 /// Reads `PATH` or `PATH=MIN:MAX`; each bound may be left out.
-pub(super) fn fit(text: &str) -> Result<Value, String> {
+fn fit(text: &str) -> Result<Value, String> {
     let Some((path, bounds)) = set_values::split(text) else {
         return Ok(json!({ "path": text.trim() }));
     };
@@ -177,8 +204,11 @@ pub(super) fn fit(text: &str) -> Result<Value, String> {
     serde_json::to_value(fit).map_err(|error| error.to_string())
 }
 
+/// `PATH=±REACH` or `PATH=MIN:MAX`.
+pub(super) const CHANGE: Form = Form { read: change, schema: shape::change };
+
 /// Reads `PATH=±REACH` or `PATH=MIN:MAX`.
-pub(super) fn change(text: &str) -> Result<Value, String> {
+fn change(text: &str) -> Result<Value, String> {
     let wrong = "bounds are written as in cables.*.attachment_m=±0.05 or platform.mass_kg=80:120";
     let (path, bounds) = set_values::split(text).ok_or(wrong)?;
     let path = path.trim().to_owned();
@@ -192,8 +222,11 @@ pub(super) fn change(text: &str) -> Result<Value, String> {
     serde_json::to_value(change).map_err(|error| error.to_string())
 }
 
+/// `FROM:TO`.
+pub(super) const BAND: Form = Form { read: band, schema: || shape::numbers(Range::Positive, Some(2)) };
+
 /// Reads `FROM:TO`.
-pub(super) fn band(text: &str) -> Result<Value, String> {
+fn band(text: &str) -> Result<Value, String> {
     let (first, last) = text.split_once(':').ok_or("a band is written as in 2.5:3.2")?;
     Ok(json!([values::positive(number(first)?)?, values::positive(number(last)?)?]))
 }

@@ -10,8 +10,8 @@
 //!
 //! The motions z of a drive that have losses are unknowns, too: the forces Δ z of its losses act on platform and
 //! clamped modes by T and φ_k, and `z = T x + φ_k q_k − R Δ z` (docs/theory.md, equation (82)). Motions without losses
-//! follow the others. Where only the determinant is wanted, the motions of each drive are eliminated, except near a frequency
-//! at which the drive alone vibrates with losses.
+//! follow the others. Where only the determinant is wanted, the motions of each drive are eliminated, except near a
+//! frequency at which the drive alone vibrates with losses.
 
 use super::supports::{Supports, SupportsAt};
 use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
@@ -293,7 +293,8 @@ impl<'d> BorderedParts<'d> {
         let (mut pole_slope, mut pole_phase, mut first) = (self.pole_slope, self.pole_phase, first_drive);
         for (drive, found) in drives {
             if let Some(found) = found {
-                found.add(&mut value, &mut slope, &drive.by_others(f, first_support));
+                let (places, transfer) = drive.by_others(f, first_support);
+                found.add(&mut value, &mut slope, &places, &transfer);
                 pole_slope += found.log_slope;
                 pole_phase += found.phase;
                 continue;
@@ -369,18 +370,20 @@ impl DriveRows {
         Self { transfer, receptance, loss, near, on_supports: Vec::new() }
     }
 
-    /// Motions per unknown of the matrix: T over `f` coordinates of the platform, the border and the supports, one row
-    /// per motion.
-    fn by_others(&self, f: usize, first_support: usize) -> Vec<Vec<(usize, (Complex, Complex))>> {
+    /// Places of `f` coordinates of the platform, of the near poles and of the supports in the matrix, and the motions
+    /// by these: T and its derivative, one row per motion.
+    fn by_others(&self, f: usize, first_support: usize) -> (Vec<usize>, Vec<Vec<(Complex, Complex)>>) {
         let zero = Complex::new(0.0, 0.0);
+        let supports = self.on_supports.first().map_or(0, Vec::len);
+        let border = self.near.iter().map(|(border, _)| f + border);
+        let places = (0..f).chain(border).chain(first_support..first_support + supports).collect();
         let of = |j: usize| {
-            let by_platform = self.transfer[j].iter().take(f).copied().enumerate();
-            let by_border = self.near.iter().map(|(border, phi)| (f + border, (phi[j].into(), zero)));
-            let on_supports = self.on_supports.get(j).into_iter().flatten().copied().enumerate();
-            let by_supports = on_supports.map(|(k, entry)| (first_support + k, entry));
+            let by_platform = self.transfer[j].iter().take(f).copied();
+            let by_border = self.near.iter().map(|(_, phi)| (phi[j].into(), zero));
+            let by_supports = self.on_supports.get(j).into_iter().flatten().copied();
             by_platform.chain(by_border).chain(by_supports).collect()
         };
-        (0..self.loss.len()).map(of).collect()
+        (places, (0..self.loss.len()).map(of).collect())
     }
 
     /// Adds the rows and columns to a matrix and its derivative: `f` coordinates of the platform, then the border, and
@@ -478,17 +481,21 @@ impl EliminatedDrive {
         })
     }
 
-    /// Adds `Tᵀ G T` to a matrix, and its derivative; T has one row per motion, with the places of its entries.
-    fn add(&self, value: &mut CDMat, slope: &mut CDMat, transfer: &[Vec<(usize, (Complex, Complex))>]) {
+    /// Adds `Tᵀ G T` to a matrix, and its derivative. T has one row per motion, with entries at these places. `G T` is
+    /// formed first: the product of all three at once has a term for each pair of motions and each pair of places.
+    fn add(&self, value: &mut CDMat, slope: &mut CDMat, places: &[usize], transfer: &[Vec<(Complex, Complex)>]) {
         for (i, row) in transfer.iter().enumerate() {
-            for (j, column) in transfer.iter().enumerate() {
-                let (g, g_slope) = (self.stiffness[(i, j)], self.slope[(i, j)]);
-                for (r, (t, t_slope)) in row {
-                    let (left, left_slope) = (t * g, t_slope * g + t * g_slope);
-                    for (c, (u, u_slope)) in column {
-                        value[(*r, *c)] += left * u;
-                        slope[(*r, *c)] += left_slope * u + left * u_slope;
-                    }
+            for (c, column) in places.iter().enumerate() {
+                // Force on this motion by a unit displacement.
+                let (mut force, mut force_slope) = (Complex::new(0.0, 0.0), Complex::new(0.0, 0.0));
+                for (j, moved) in transfer.iter().enumerate() {
+                    let (t, t_slope) = moved[c];
+                    force += self.stiffness[(i, j)] * t;
+                    force_slope += self.slope[(i, j)] * t + self.stiffness[(i, j)] * t_slope;
+                }
+                for ((t, t_slope), place) in row.iter().zip(places) {
+                    value[(*place, *column)] += t * force;
+                    slope[(*place, *column)] += t_slope * force + t * force_slope;
                 }
             }
         }

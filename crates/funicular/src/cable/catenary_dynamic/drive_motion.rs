@@ -111,38 +111,56 @@ impl DriveAt {
         if motions.is_empty() {
             return;
         }
-        let rows = first..first + motions.len();
-        for (i, of) in rows.clone().zip(motions) {
-            for (s, axis) in axes.iter().enumerate() {
-                self.transfer[i][*axis] += motion.still[*of][0][s];
+        for (row, of) in self.transfer[first..].iter_mut().zip(motions) {
+            for (still, axis) in motion.still[*of][0].iter().zip(axes) {
+                row[axis] += *still;
             }
         }
 
+        let mut phi = vec![0.0; motions.len()];
         for (k, (pole, g)) in family.poles.iter().zip(&family.participation).enumerate() {
-            let phi = |i: usize| motion.modes[k][motions[i - first]][0];
+            phi.iter_mut().zip(motions).for_each(|(phi, of)| *phi = motion.modes[k][*of][0]);
             if left_out.contains(&k) {
                 // The mode is an unknown beside these motions: only its static response, which the flexibility
                 // contains, has to be taken out.
-                for i in rows.clone() {
-                    for j in rows.clone() {
-                        self.receptance[(i, j)] -= phi(i) * phi(j) / pole;
-                    }
-                }
+                self.add_receptance(first, &phi, (-1.0 / pole).into(), Complex::new(0.0, 0.0));
                 continue;
             }
-            let inverse = (*pole - x).inv();
+
             // x/(p − x), x/(p (p − x)) and their derivatives p/(p − x)², 1/(p − x)².
-            let (by_end, by_end_slope) = (x * inverse, *pole * inverse * inverse);
-            let (by_force, by_force_slope) = (x * inverse / *pole, inverse * inverse);
-            for i in rows.clone() {
-                for (s, axis) in axes.iter().enumerate() {
-                    self.transfer[i][*axis] += by_end * (phi(i) * g[s]);
-                    self.transfer_slope[i][*axis] += by_end_slope * (phi(i) * g[s]);
+            let inverse = (*pole - x).inv();
+            let square = inverse * inverse;
+            let (by_end, by_end_slope) = (x * inverse, square * *pole);
+            self.add_receptance(first, &phi, by_end / *pole, square);
+            let rows = self.transfer[first..].iter_mut().zip(&mut self.transfer_slope[first..]);
+            for ((row, slope), phi) in rows.zip(&phi) {
+                for (g, axis) in g.iter().zip(axes) {
+                    row[axis] += by_end * (phi * g);
+                    slope[axis] += by_end_slope * (phi * g);
                 }
-                for j in rows.clone() {
-                    self.receptance[(i, j)] += by_force * (phi(i) * phi(j));
-                    self.receptance_slope[(i, j)] += by_force_slope * (phi(i) * phi(j));
-                }
+            }
+        }
+        self.mirror_receptance(first..first + motions.len());
+    }
+
+    /// Adds a mode with the motions `phi`, which begin at the row `first`, to R and its derivative, with these factors.
+    /// R is symmetric: only the part on and below the diagonal is summed over the modes.
+    #[inline]
+    fn add_receptance(&mut self, first: usize, phi: &[f64], factor: Complex, slope: Complex) {
+        for (j, by) in phi.iter().enumerate() {
+            for (i, of) in phi.iter().enumerate().skip(j) {
+                self.receptance[(first + i, first + j)] += factor * (of * by);
+                self.receptance_slope[(first + i, first + j)] += slope * (of * by);
+            }
+        }
+    }
+
+    /// Copies the part of R below the diagonal, and of its derivative, to the part above it.
+    fn mirror_receptance(&mut self, rows: Range<usize>) {
+        for i in rows.clone() {
+            for j in rows.start..i {
+                self.receptance[(j, i)] = self.receptance[(i, j)];
+                self.receptance_slope[(j, i)] = self.receptance_slope[(i, j)];
             }
         }
     }
