@@ -295,7 +295,7 @@ fn requests() -> Vec<Value> {
                 "pose": [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
             })],
         ),
-        of("schema", &[("of", json!("request"))]),
+        of("schema", &[&json!({ "of": "request" })]),
         of("export", &[&robot, &state, &tensions, &json!({ "to": "vtk", "segments": 5, "modes_below_hz": 10.0 })]),
         of("validate", &[]),
     ]
