@@ -6,7 +6,7 @@ use funicular::robot::{PlatformMotion, Pose, Robot};
 use funicular_study::at_rest::refuse_orientation;
 use funicular_study::csv_lines::line_at;
 use funicular_study::request::RobotText;
-use funicular_study::request::written::number;
+use funicular_study::written::number;
 use std::fs;
 use std::path::Path;
 

@@ -12,6 +12,7 @@ use funicular_study::measurements::{self, FileOptions};
 use funicular_study::new_robot;
 use funicular_study::pages;
 use funicular_study::request::Request;
+use funicular_study::robot_file::schema;
 use funicular_study::wording::{Words, told, worded};
 use funicular_study::{Watch, at_rest, export, json, run};
 use pyo3::prelude::*;
@@ -115,7 +116,7 @@ pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(
                 let made = new_robot::run(of, Words::Python)?;
                 (made.text, made.warnings)
             }
-            Request::Schema(of) => (of.schema_text(), Vec::new()),
+            Request::Schema(of) => (schema::of_request(of), Vec::new()),
             other => anyhow::bail!("`{}` makes no text", other.command()),
         })
     })?

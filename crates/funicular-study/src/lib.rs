@@ -63,6 +63,7 @@ pub mod validation;
 pub mod values;
 mod watch;
 pub mod wording;
+pub mod written;
 
 pub use error::{Error, ErrorKind, NoSolution};
 pub use request::Request;

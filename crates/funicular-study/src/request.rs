@@ -19,7 +19,6 @@ mod statics;
 mod steps;
 mod uncertainty;
 mod vibration;
-pub mod written;
 
 pub use design::{ChangeValue, DesignRequest};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest};
@@ -29,12 +28,13 @@ pub use identify::{
     DEFAULT_DAMPING_NOISE, DEFAULT_FREQUENCY_NOISE, DEFAULT_RESPONSE_NOISE, DEFAULT_STARTS, Experiment, FitValue,
     IdentifyRequest,
 };
-pub use key::{Choice, Declared, Key, Kind, Range};
+pub use key::{Choice, Declared, Key, Kind, ProgramForm, Range};
 pub use pages::{LiveRequest, PaperRequest, ReportRequest, ValidateRequest};
 pub use parts::{
     Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, OneOrSeveral, Pose,
     ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
 };
+pub use shape::schema;
 pub use source_file::{MAX_BYTES, SourceFile};
 pub use statics::{
     CheckRequest, ParametersRequest, PayloadRequest, PoseErrorRequest, StaticsRequest, StiffnessRequest,

@@ -4,7 +4,7 @@ use anyhow::{Result, anyhow};
 use funicular_study::request::Request;
 use funicular_study::sweep::{Chunk, Plan, PreparedSweep, Values};
 use funicular_study::wording::Words;
-use funicular_study::{import, new_robot};
+use funicular_study::{import, new_robot, robot_file};
 use serde_json::{Map, Value, json};
 
 /// Content that a command would write to a file; `None` for a command whose results are data.
@@ -13,7 +13,7 @@ pub(crate) fn content(request: &Request) -> Option<Result<Vec<u8>>> {
         Request::Import(of) => import::run(of, Words::Json)
             .map(|found| json!({ "text": found.text, "assumed": found.assumed, "lost": found.lost })),
         Request::New(of) => new_robot::run(of, Words::Json).map(|found| json!({ "text": found.text })),
-        Request::Schema(of) => serde_json::from_str(&of.schema_text()).map_err(Into::into),
+        Request::Schema(of) => serde_json::from_str(&robot_file::schema::of_request(of)).map_err(Into::into),
         Request::Map(_) => rows(request),
         _ => return None,
     };

@@ -5,6 +5,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use funicular_study::request::{Key, Kind};
 use funicular_study::wording::{Words, worded};
+use funicular_study::written;
 use serde_json::{Map, Value};
 
 /// Gives a command its help. Groups of options that were added to it before have changed that.
@@ -27,7 +28,7 @@ pub(super) fn with_options(command: Command, keys: &[Key]) -> Command {
 
 /// Option of one key of a command.
 fn option(key: &Key, all: &[Key]) -> Arg {
-    let about = worded(&key.about, Words::Program);
+    let about = worded(&written::about(key), Words::Program);
     let otherwise = key.otherwise.map(|text| format!(" [default: {text}]")).unwrap_or_default();
     let short = about.split("\n\n").next().unwrap_or_default().to_owned() + &otherwise;
     let mut arg = Arg::new(key.name).long(key.option.clone()).help(short);
@@ -74,7 +75,7 @@ fn may_be_negative(kind: &Kind) -> bool {
 
 fn parser(key: &Key) -> ValueParser {
     let key = key.clone();
-    ValueParser::new(move |text: &str| key.read(text))
+    ValueParser::new(move |text: &str| written::read(&key, text))
 }
 
 /// Default in the form of the command line; `None` without one.

@@ -4,8 +4,8 @@
 use funicular_files::threads::{self, THREADS};
 use funicular_study::measurements::{NodePoint, ResponseName};
 use funicular_study::request::FitValue;
-use funicular_study::request::written::{number, point};
 use funicular_study::signals::{Input, Output};
+use funicular_study::written::{number, point};
 use funicular_study::{set_values, values};
 use std::num::NonZeroUsize;
 

@@ -6,13 +6,14 @@ use anyhow::Result;
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
 use funicular_study::request::SchemaRequest;
+use funicular_study::robot_file::schema;
 use std::path::Path;
 
 /// Writes the JSON Schema.
 pub(super) fn write(of: &SchemaRequest, guard: &mut Guard, path: &Path) -> Result<()> {
     let content = Content { name: "the schema", in_words: "a JSON Schema", fitting: &[Kind::Json] };
     let target = Target::open(Some(path), content, guard)?;
-    target.write(of.schema_text().as_bytes())?;
+    target.write(schema::of_request(of).as_bytes())?;
     if target.is_file() {
         errors::note(&format!("wrote {}", path.display()));
     }

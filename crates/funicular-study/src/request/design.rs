@@ -2,7 +2,6 @@
 
 use super::key::declared;
 use super::parts::{Model, RobotText, State, Tensions};
-use super::written;
 use crate::names::DesignGoal;
 use serde::{Deserialize, Serialize};
 
@@ -17,20 +16,20 @@ declared! {
         /// Value of the robot file to choose, with its bounds: around the present value, as in
         /// 'cables.*.attachment_m=±0.05' (or +-), or absolute, as in platform.mass_kg=80:120; * stands for any key, and a
         /// path to a table or vector for all numbers of it that the file gives (repeatable).
-        change: Vec<ChangeValue> = Vec::new() => (List(written::CHANGE)).form("PATH=±REACH|MIN:MAX").required();
+        change: Vec<ChangeValue> = Vec::new() => (List(ProgramForm::Change)).form("PATH=±REACH|MIN:MAX").required();
         /// Goal of the design.
         #[serde(with = "crate::names")]
         goal: DesignGoal = DesignGoal::default() => (name::<DesignGoal>()).form("GOAL");
         /// Poses: position [m] and roll, pitch, yaw [degrees].
         poses: Option<Vec<[f64; 6]>> = None => (Data(shape::poses)).otherwise("the pose of the state");
         /// Weights of the poses, for their mean instead of the worst pose.
-        weights: Option<Vec<f64>> = None => (Commas(written::POSITIVE)).form("W1,W2,…");
+        weights: Option<Vec<f64>> = None => (Commas(ProgramForm::Positive)).form("W1,W2,…");
         /// Demand: first natural frequency at every pose of at least HZ.
         min_frequency_hz: Option<f64> = None => (Number(Positive)).under("Demands");
         /// Demand: minimum stiffness at every pose of at least K, as `statics` prints it [N/m].
         min_stiffness_n_per_m: Option<f64> = None => (Number(Positive)).form("K").under("Demands");
         /// Demand: no natural frequency between two frequencies at any pose, as in 2.5:3.2 [Hz].
-        avoid_hz: Option<[f64; 2]> = None => (Written(written::BAND)).form("FROM:TO").under("Demands");
+        avoid_hz: Option<[f64; 2]> = None => (Written(ProgramForm::Band)).form("FROM:TO").under("Demands");
         /// Maximum number of iterations.
         max_iterations: usize = 50 => (Count(0..=u64::MAX));
         /// State and loads.

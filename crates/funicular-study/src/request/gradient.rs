@@ -2,7 +2,6 @@
 
 use super::key::declared;
 use super::parts::{Model, ResponsePoints, RobotText, State, Tensions};
-use super::written;
 use crate::names::Per;
 use funicular::gradient::Hold;
 
@@ -34,9 +33,9 @@ declared! {
         /// Frequency of the response [Hz].
         at_hz: Option<f64> = None => (Number(NotNegative));
         /// Input of the response, on the platform (see `frf`).
-        input: Option<String> = None => (Written(written::INPUT)).form("INPUT");
+        input: Option<String> = None => (Written(ProgramForm::Input)).form("INPUT");
         /// Output of the response, on the platform (see `frf`).
-        output: Option<String> = None => (Written(written::OUTPUT)).form("OUTPUT");
+        output: Option<String> = None => (Written(ProgramForm::Output)).form("OUTPUT");
         /// Points of the platform.
         #[serde(flatten)]
         points: ResponsePoints = ResponsePoints::default() => group;

@@ -2,7 +2,6 @@
 
 use super::key::declared;
 use super::parts::{Axis, EachPoint, RobotText};
-use super::written;
 
 declared! {
     /// Tensions, frequencies, stiffness over the workspace, with one row per pose.
@@ -11,7 +10,7 @@ declared! {
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Axis of the grid: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed values
         /// (repeatable); an axis that is not given keeps the value of the robot's state or of ⟪pose⟫.
-        grid: Vec<Axis> = Vec::new() => (List(written::GRID_AXIS)).form("AXIS=A:B:N|V,V,…");
+        grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…");
         /// List of poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
         poses: Option<Vec<[f64; 6]>> = None => (Data(shape::poses));
         /// Quantities and options of every point.
@@ -33,7 +32,7 @@ declared! {
         /// Number of the robot file that varies, with N values from A to B, or with listed values (repeatable: all
         /// combinations, the first fastest); `*` for any key moves all numbers that match together, as in
         /// cables.*.anchor_m.z.
-        vary: Vec<Axis> = Vec::new() => (List(written::VARIATION)).form("PATH=A:B:N|V,V,…").required();
+        vary: Vec<Axis> = Vec::new() => (List(ProgramForm::Variation)).form("PATH=A:B:N|V,V,…").required();
         /// Quantities and options of every point.
         #[serde(flatten)]
         point: EachPoint = EachPoint::default() => group;

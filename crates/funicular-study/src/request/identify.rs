@@ -1,9 +1,9 @@
 //! Request of `identify`: measurements in one or several states, and the values to find.
 
+use super::commands;
 use super::json_text;
 use super::key::declared;
 use super::parts::{Model, Pose, RobotText, State, Tensions};
-use super::{commands, written};
 use crate::measurements::{MeasuredFrequency, MeasuredResponse};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -32,7 +32,7 @@ declared! {
         /// Value of the robot file to identify, with optional bounds, as in platform.mass_kg=10:30; * stands for any key, as in
         /// 'materials.*.axial_stiffness_n', and a path to a table or vector for all numbers of it that the file gives
         /// (repeatable).
-        fit: Vec<FitValue> = Vec::new() => (List(written::FIT)).form("PATH[=MIN:MAX]").required();
+        fit: Vec<FitValue> = Vec::new() => (List(ProgramForm::Fit)).form("PATH[=MIN:MAX]").required();
         /// Measurements of the robot, each in a state of its own.
         experiments: Vec<Experiment> = Vec::new() => (Data(shape::experiments)).required();
         /// Maximum number of starts of the search. The first start has the values of the file, the others are spread by the

@@ -3,7 +3,6 @@
 //! A [`Key`] is said once, beside its field, and is everywhere: key of a request in JSON, option of the program with
 //! its help and its range, keyword in Python, row of the tables in the documentation.
 
-use super::written;
 use crate::names::Named;
 use crate::values::{MAX_MAGNITUDE, MIN_POSITIVE, finite, fraction, not_negative, positive};
 use serde_json::Value;
@@ -59,12 +58,30 @@ pub struct Choice {
 }
 
 /// Value that the program writes in a form of its own.
-#[derive(Debug, Clone, Copy)]
-pub struct Form {
-    /// Reads the text of the program's option as JSON, or says what is wrong with it.
-    pub read: fn(&str) -> Result<Value, String>,
-    /// JSON Schema of the value.
-    pub schema: fn() -> Value,
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ProgramForm {
+    /// Input signal.
+    Input,
+    /// Output signal.
+    Output,
+    /// Positive number.
+    Positive,
+    /// Number that is not negative.
+    NotNegative,
+    /// Name of a quantity of a map or sweep.
+    Quantity,
+    /// Masses in equal steps, `from:to:count`.
+    MassRange,
+    /// Axis of a grid, `x=-4:4:81`.
+    GridAxis,
+    /// Number of the robot file that varies, `platform.mass_kg=10:90:81`.
+    Variation,
+    /// Value to identify, `PATH` or `PATH=MIN:MAX`.
+    Fit,
+    /// Value to choose, `PATH=±REACH` or `PATH=MIN:MAX`.
+    Change,
+    /// Band of frequencies, `FROM:TO`.
+    Band,
 }
 
 /// Kind of value of an option.
@@ -91,13 +108,13 @@ pub enum Kind {
     /// Several texts; in the program separated by commas.
     Texts,
     /// Value that the program writes in a form of its own.
-    Written(Form),
+    Written(ProgramForm),
     /// List of such values; the option can be given several times.
-    List(Form),
+    List(ProgramForm),
     /// Such a value, or a list of them; the option can be given several times.
-    OneOrMore(Form),
+    OneOrMore(ProgramForm),
     /// List of such values, separated by commas.
-    Commas(Form),
+    Commas(ProgramForm),
     /// Data of this JSON Schema that the program reads from files, with options that it declares itself.
     Data(fn() -> Value),
 }
@@ -165,11 +182,6 @@ impl Key {
         Self { otherwise: Some(otherwise), ..self }
     }
 
-    /// Continues the meaning with a text that is not constant.
-    pub(crate) fn more(self, more: &str) -> Self {
-        Self { about: more.to_owned(), ..self }
-    }
-
     /// Sets the form of the value in help texts.
     pub(crate) fn form(self, form: &'static str) -> Self {
         Self { form, ..self }
@@ -198,7 +210,7 @@ impl Key {
     /// Completes the key with what stands beside its field.
     pub(crate) fn named(mut self, name: &'static str, about: &[&str], default: Option<&Value>) -> Self {
         self.name = name;
-        self.about.insert_str(0, &sentence(about));
+        self.about = sentence(about);
         if !self.required {
             self.default = default.cloned().unwrap_or_default();
         }
@@ -216,24 +228,6 @@ impl Key {
 
     /// Name of an option that the program does not have.
     pub(crate) const NOT_IN_PROGRAM: &'static str = "-";
-
-    /// Reads the text of the program's option as the JSON value of the key. Of a list it reads one element.
-    ///
-    /// # Errors
-    /// A message that says what is wrong with the text.
-    pub fn read(&self, text: &str) -> Result<Value, String> {
-        match &self.kind {
-            Kind::Switch => Ok(Value::Bool(true)),
-            Kind::Number(range) => Ok(range.check(written::number(text)?)?.into()),
-            Kind::Count(range) => written::count(text, range),
-            Kind::Numbers(range) => written::numbers(text, *range),
-            Kind::Vector => written::vector(text),
-            Kind::Pose => written::pose(text),
-            Kind::Tensor => written::tensor(text),
-            Kind::Name(_) | Kind::Text | Kind::Texts | Kind::Data(_) => Ok(text.into()),
-            Kind::Written(form) | Kind::List(form) | Kind::OneOrMore(form) | Kind::Commas(form) => (form.read)(text),
-        }
-    }
 }
 
 /// Kind of value for a choice by name.
@@ -334,7 +328,7 @@ macro_rules! declared {
 
             #[allow(unused_imports, unused_variables, reason = "not every group has every kind, or a key")]
             fn keys() -> Vec<crate::request::key::Key> {
-                use crate::request::key::{Kind::*, Range::*, name};
+                use crate::request::key::{Kind::*, ProgramForm, Range::*, name};
                 use crate::request::shape;
                 let defaults = serde_json::to_value(Self::default()).unwrap_or_default();
                 let keys: Vec<Vec<crate::request::key::Key>> = vec![

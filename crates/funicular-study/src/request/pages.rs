@@ -2,7 +2,6 @@
 
 use super::key::declared;
 use super::parts::{Model, ResponsePoints, RobotText, State, Tensions};
-use super::written;
 use funicular::modes::PLATFORM_SHARE;
 
 declared! {
@@ -14,10 +13,10 @@ declared! {
         below_hz: f64 = 20.0 => (Number(Positive));
         /// Input of the frequency response: fx … mz, or f:ux,uy,uz, m:ux,uy,uz, see `funicular frf`.
         input: Option<String> = None =>
-            (Written(written::INPUT)).form("INPUT").otherwise("fz; fx if the platform cannot move along z");
+            (Written(ProgramForm::Input)).form("INPUT").otherwise("fz; fx if the platform cannot move along z");
         /// Output of the frequency response: x … arz, or x:ux,uy,uz, v:…, a:…, see `funicular frf`.
         output: Option<String> = None =>
-            (Written(written::OUTPUT)).form("OUTPUT").otherwise("az; ax if the platform cannot move along z");
+            (Written(ProgramForm::Output)).form("OUTPUT").otherwise("az; ax if the platform cannot move along z");
         /// Points of the platform.
         #[serde(flatten)]
         points: ResponsePoints = ResponsePoints::default() => group;

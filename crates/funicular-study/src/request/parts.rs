@@ -2,9 +2,7 @@
 
 use super::key::declared;
 use super::steps::Steps;
-use super::written;
 use crate::names::{TensionRuleName, optional};
-use crate::sweep::Quantity;
 use crate::values::{finite, not_negative, positive};
 use anyhow::{Result, anyhow, bail};
 use funicular::cable::CableModel;
@@ -355,22 +353,12 @@ impl Axis {
 /// robot, and low enough that a search ends.
 pub const MAX_HZ: f64 = 1000.0;
 
-/// Names of all quantities, for the help.
-fn every_quantity() -> String {
-    let names: Vec<&str> = Quantity::names().collect();
-    format!(
-        ": {}. first-platform-frequency jumps between neighbouring points where a mode of the cables is near; for a \
-         smooth curve choose catenary-static as ⟪cable_model⟫",
-        names.join(", ")
-    )
-}
-
 declared! {
     /// Quantities and options of every point of a map or sweep.
     pub struct EachPoint {
         /// Quantities to compute at every point, described in docs/sweeps.md
         quantities: Vec<String> = vec!["tension-min".to_owned(), "tension-max".to_owned()] =>
-            (Commas(written::QUANTITY)).form("Q,Q,…").option("quantity").more(&every_quantity());
+            (Commas(ProgramForm::Quantity)).form("Q,Q,…").option("quantity");
         /// Upper limit of the search for natural frequencies [Hz].
         up_to_hz: f64 = MAX_HZ => (Number(Positive));
         /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform.

@@ -1,24 +1,12 @@
 //! JSON Schema of requests, made from the declaration of their keys.
 
-use super::key::{Declared, Key, Kind, Range};
-use super::{CommandInfo, Experiment, SCHEMA, SchemaRequest, commands};
-use crate::names::SchemaSubject;
-use crate::robot_file;
+use super::key::{Declared, Key, Kind, ProgramForm, Range};
+use super::{CommandInfo, Experiment, SCHEMA, commands};
 use crate::wording::{Words, worded};
 use serde_json::{Map, Value, json};
 
-impl SchemaRequest {
-    /// Text of the schema, with a line feed at the end.
-    pub fn schema_text(&self) -> String {
-        match self.of {
-            SchemaSubject::RobotFile => robot_file::schema::text(),
-            SchemaSubject::Request => format!("{:#}\n", schema()),
-        }
-    }
-}
-
 /// JSON Schema (draft 2020-12) of all requests: one form per command.
-fn schema() -> Value {
+pub fn schema() -> Value {
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Request of funicular",
@@ -73,12 +61,25 @@ fn of_kind(kind: &Kind) -> Value {
         Kind::Name(choices) => json!({ "enum": choices.iter().map(|choice| choice.name).collect::<Vec<_>>() }),
         Kind::Text => text(),
         Kind::Texts => texts(),
-        Kind::Written(form) => (form.schema)(),
-        Kind::List(form) => list((form.schema)()),
+        Kind::Written(form) => of_form(*form),
+        Kind::List(form) => list(of_form(*form)),
         Kind::OneOrMore(form) | Kind::Commas(form) => {
-            json!({ "anyOf": [(form.schema)(), list((form.schema)())] })
+            json!({ "anyOf": [of_form(*form), list(of_form(*form))] })
         }
         Kind::Data(schema) => schema(),
+    }
+}
+
+fn of_form(form: ProgramForm) -> Value {
+    match form {
+        ProgramForm::Input | ProgramForm::Output | ProgramForm::Quantity => text(),
+        ProgramForm::Positive => number(Range::Positive),
+        ProgramForm::NotNegative => number(Range::NotNegative),
+        ProgramForm::MassRange => mass_range(),
+        ProgramForm::GridAxis | ProgramForm::Variation => axis(),
+        ProgramForm::Fit => fit(),
+        ProgramForm::Change => change(),
+        ProgramForm::Band => numbers(Range::Positive, Some(2)),
     }
 }
 
@@ -103,13 +104,13 @@ pub(super) fn objects() -> Value {
     list(json!({ "type": "object" }))
 }
 
-pub(super) fn number(range: Range) -> Value {
+fn number(range: Range) -> Value {
     let (minimum, maximum) = range.ends();
     json!({ "type": "number", "minimum": minimum, "maximum": maximum })
 }
 
 /// Numbers in a range, as many as are given or this many.
-pub(super) fn numbers(range: Range, count: Option<usize>) -> Value {
+fn numbers(range: Range, count: Option<usize>) -> Value {
     let mut schema = list(number(range));
     if let (Some(count), Value::Object(schema)) = (count, &mut schema) {
         schema.insert("minItems".to_owned(), count.into());
@@ -136,26 +137,26 @@ pub(super) fn poses() -> Value {
     list(numbers(Range::Finite, Some(6)))
 }
 
-pub(super) fn mass_range() -> Value {
+fn mass_range() -> Value {
     let mass = number(Range::Positive);
     json!({ "type": "array", "prefixItems": [mass, mass, { "type": "integer", "minimum": 2 }], "items": false, "minItems": 3 })
 }
 
 /// Values along an axis of a grid or sweep.
-pub(super) fn axis() -> Value {
+fn axis() -> Value {
     let (number, count) = (number(Range::Finite), json!({ "type": "integer", "minimum": 2 }));
     let steps = json!({ "axis": text(), "from": number, "to": number, "count": count });
     let listed = json!({ "axis": text(), "values": list(number) });
     json!({ "anyOf": [object(&["axis", "from", "to", "count"], &steps), object(&["axis", "values"], &listed)] })
 }
 
-pub(super) fn fit() -> Value {
+fn fit() -> Value {
     let number = number(Range::Finite);
     let keys = json!({ "path": text(), "minimum": number, "maximum": number, "prior": number, "prior_std": number });
     object(&["path"], &keys)
 }
 
-pub(super) fn change() -> Value {
+fn change() -> Value {
     let number = number(Range::Finite);
     object(&["path"], &json!({ "path": text(), "minimum": number, "maximum": number, "plus_minus": number }))
 }

@@ -2,7 +2,6 @@
 
 use super::key::declared;
 use super::parts::{Model, Pose, RobotText, State, Tensions};
-use super::written;
 
 declared! {
     /// Read and check a robot file, and describe the robot.
@@ -116,7 +115,7 @@ declared! {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Platform masses [kg]: N masses from A to B in equal steps, as in 10:90:81.
-        mass_kg: (f64, f64, usize) = (0.0, 0.0, 0) => (Written(written::MASS_RANGE)).form("A:B:N").required();
+        mass_kg: (f64, f64, usize) = (0.0, 0.0, 0) => (Written(ProgramForm::MassRange)).form("A:B:N").required();
         /// Unstrained lengths [m], one per cable in the order of the file.
         lengths_m: Option<Vec<f64>> = None =>
             (Numbers(Positive)).form("L1,L2,…").excludes(&["pose"]).otherwise("from the robot file");

@@ -2,7 +2,6 @@
 
 use super::key::declared;
 use super::parts::{Model, ResponsePoints, RobotText, State, Tensions};
-use super::written;
 use crate::names::UncertaintyMethod;
 use funicular::gradient::Hold;
 use serde::{Deserialize, Deserializer};
@@ -36,11 +35,11 @@ declared! {
         below_hz: Option<f64> = None => (Number(Positive));
         /// Frequencies of the response [Hz], separated by commas.
         #[serde(deserialize_with = "one_or_several")]
-        at_hz: Option<Vec<f64>> = None => (Commas(written::NOT_NEGATIVE)).form("HZ");
+        at_hz: Option<Vec<f64>> = None => (Commas(ProgramForm::NotNegative)).form("HZ");
         /// Input of the response (see `frf`).
-        input: Option<String> = None => (Written(written::INPUT)).form("INPUT");
+        input: Option<String> = None => (Written(ProgramForm::Input)).form("INPUT");
         /// Output of the response (see `frf`); results are its magnitudes in decibels and its phases in degrees.
-        output: Option<String> = None => (Written(written::OUTPUT)).form("OUTPUT");
+        output: Option<String> = None => (Written(ProgramForm::Output)).form("OUTPUT");
         /// Points of the platform.
         #[serde(flatten)]
         points: ResponsePoints = ResponsePoints::default() => group;

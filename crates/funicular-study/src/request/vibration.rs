@@ -1,10 +1,10 @@
 //! Requests about vibration.
 
+use super::MAX_STATIONS;
 use super::key::{Key, declared};
 use super::parts::{
     FrequencyRange, Model, OneOrSeveral, ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
 };
-use super::{MAX_STATIONS, written};
 use crate::names::{ModelForm, optional};
 use funicular::cable::CableModel;
 use funicular::compare::TOLERANCE;
@@ -20,9 +20,9 @@ declared! {
         below_hz: Option<f64> = None =>
             (Number(Positive)).otherwise("slightly above the 20 lowest; with rigid cables above all");
         /// Input of a response (see `frf`): also show the contribution of each mode to this response; needs ⟪output⟫.
-        input: Option<String> = None => (Written(written::INPUT)).form("INPUT").needs("output");
+        input: Option<String> = None => (Written(ProgramForm::Input)).form("INPUT").needs("output");
         /// Output of that response; needs ⟪input⟫.
-        output: Option<String> = None => (Written(written::OUTPUT)).form("OUTPUT").needs("input");
+        output: Option<String> = None => (Written(ProgramForm::Output)).form("OUTPUT").needs("input");
         /// Points of the platform.
         #[serde(flatten)]
         points: ResponsePoints = ResponsePoints::default() => group;
@@ -71,12 +71,12 @@ declared! {
         /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; a force on
         /// a cable, as in cable:3@0.5:fz; the commanded length of a cable, length:3, a force of its motor or on its drum,
         /// motor:3, drum:3; a motion of the base, base-x to base-rz, or of an anchor, anchor:3:x (repeatable).
-        input: OneOrSeveral = OneOrSeveral::One(DEFAULT_INPUT.to_owned()) => (OneOrMore(written::INPUT)).form("INPUT");
+        input: OneOrSeveral = OneOrSeveral::One(DEFAULT_INPUT.to_owned()) => (OneOrMore(ProgramForm::Input)).form("INPUT");
         /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…,
         /// a:… along a direction, world axes; the motion of a point on a cable (name, fraction of its length from the
         /// platform), as in cable:3@0.5:az; the motion of a drum or motor, drum:3, motor:3, or the tension at the platform
         /// or at the drum, tension:3, drum-tension:3 (repeatable).
-        output: OneOrSeveral = OneOrSeveral::One(DEFAULT_OUTPUT.to_owned()) => (OneOrMore(written::OUTPUT)).form("OUTPUT");
+        output: OneOrSeveral = OneOrSeveral::One(DEFAULT_OUTPUT.to_owned()) => (OneOrMore(ProgramForm::Output)).form("OUTPUT");
         /// Points of the platform.
         #[serde(flatten)]
         signal_points: ResponsePoints = ResponsePoints::default() => group;
@@ -175,10 +175,10 @@ declared! {
         below_hz: f64 = 0.0 => (Number(Positive)).required();
         /// Input signal, see `frf` (repeatable).
         input: Vec<String> = Vec::new() =>
-            (List(written::INPUT)).form("INPUT").otherwise("all forces and moments on the platform");
+            (List(ProgramForm::Input)).form("INPUT").otherwise("all forces and moments on the platform");
         /// Output signal, see `frf` (repeatable).
         output: Vec<String> = Vec::new() =>
-            (List(written::OUTPUT)).form("OUTPUT").otherwise("all displacements and rotations of the platform");
+            (List(ProgramForm::Output)).form("OUTPUT").otherwise("all displacements and rotations of the platform");
         /// Points of the platform.
         #[serde(flatten)]
         points: ResponsePoints = ResponsePoints::default() => group;

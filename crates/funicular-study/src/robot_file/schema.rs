@@ -3,6 +3,8 @@
 //! The schema contains names, types, ranges and required keys. Conditions between keys, such as a minimum tension below
 //! the maximum, are left to the reader of the program.
 
+use crate::names::SchemaSubject;
+use crate::request::{self, SchemaRequest};
 use funicular::robot::parameters::Range;
 use funicular::robot::spec::key::{Absent, Key, KeyValue, Numeric, Shape, Table};
 use funicular::robot::spec::{TABLES, top_of_file};
@@ -24,6 +26,14 @@ const DRAFT: &str = "http://json-schema.org/draft-07/schema#";
 pub fn text() -> String {
     // The alternate form has one value per line; a JSON value always has a text.
     format!("{:#}\n", schema())
+}
+
+/// Text of the schema of a request: that of the robot file, or that of requests.
+pub fn of_request(request: &SchemaRequest) -> String {
+    match request.of {
+        SchemaSubject::RobotFile => text(),
+        SchemaSubject::Request => format!("{:#}\n", request::schema()),
+    }
 }
 
 /// Schema as a JSON value.

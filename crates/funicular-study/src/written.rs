@@ -1,13 +1,61 @@
-//! Forms of values on the command line. Each message contains the value and its permitted range.
+//! Forms of the values of options on the command line. Each message contains the value and its permitted range.
 
-use super::key::{Form, Range};
-use super::{ChangeValue, FitValue, shape};
+use crate::analyses::pose_error::MAX_MASSES;
+use crate::request::{Axis, ChangeValue, FitValue, Key, Kind, ProgramForm, Range};
 use crate::set_values;
 use crate::signals::{Input, Output};
 use crate::sweep::{self, Steps, ValueAxis};
 use crate::values;
 use serde_json::{Value, json};
 use std::ops::RangeInclusive;
+
+/// Reads the text of the program's option as the JSON value of its key. Of a list it reads one element.
+///
+/// # Errors
+/// A message that says what is wrong with the text.
+pub fn read(key: &Key, text: &str) -> Result<Value, String> {
+    match &key.kind {
+        Kind::Switch => Ok(Value::Bool(true)),
+        Kind::Number(range) => Ok(range.check(number(text)?)?.into()),
+        Kind::Count(range) => count(text, range),
+        Kind::Numbers(range) => numbers(text, *range),
+        Kind::Vector => vector(text),
+        Kind::Pose => pose(text),
+        Kind::Tensor => tensor(text),
+        Kind::Name(_) | Kind::Text | Kind::Texts | Kind::Data(_) => Ok(text.into()),
+        Kind::Written(form) | Kind::List(form) | Kind::OneOrMore(form) | Kind::Commas(form) => read_form(*form, text),
+    }
+}
+
+fn read_form(form: ProgramForm, text: &str) -> Result<Value, String> {
+    match form {
+        ProgramForm::Input => input(text),
+        ProgramForm::Output => output(text),
+        ProgramForm::Positive => positive(text),
+        ProgramForm::NotNegative => not_negative(text),
+        ProgramForm::Quantity => quantity(text),
+        ProgramForm::MassRange => mass_range(text),
+        ProgramForm::GridAxis => grid_axis(text),
+        ProgramForm::Variation => variation(text),
+        ProgramForm::Fit => fit(text),
+        ProgramForm::Change => change(text),
+        ProgramForm::Band => band(text),
+    }
+}
+
+/// Meaning of a key, with the names that its value can have if a table of the program knows them.
+pub fn about(key: &Key) -> String {
+    if !matches!(key.kind, Kind::Commas(ProgramForm::Quantity)) {
+        return key.about.clone();
+    }
+    let names: Vec<&str> = sweep::Quantity::names().collect();
+    format!(
+        "{}: {}. first-platform-frequency jumps between neighbouring points where a mode of the cables is near; for a \
+         smooth curve choose catenary-static as ⟪cable_model⟫",
+        key.about,
+        names.join(", ")
+    )
+}
 
 /// Reads a finite number.
 ///
@@ -23,7 +71,7 @@ fn list(text: &str) -> Result<Vec<f64>, String> {
 }
 
 /// Reads a whole number in a range.
-pub(super) fn count(text: &str, range: &RangeInclusive<u64>) -> Result<Value, String> {
+fn count(text: &str, range: &RangeInclusive<u64>) -> Result<Value, String> {
     let number = text.trim().parse::<u64>().ok().filter(|count| range.contains(count));
     let (first, last) = (range.start(), range.end());
     let limit = if *last == u64::MAX { format!("from {first} on") } else { format!("from {first} to {last}") };
@@ -31,7 +79,7 @@ pub(super) fn count(text: &str, range: &RangeInclusive<u64>) -> Result<Value, St
 }
 
 /// Reads `6.863,6.565,…`.
-pub(super) fn numbers(text: &str, range: Range) -> Result<Value, String> {
+fn numbers(text: &str, range: Range) -> Result<Value, String> {
     let values: Result<Vec<f64>, String> = text.split(',').map(|part| range.check(number(part)?)).collect();
     Ok(values?.into())
 }
@@ -48,12 +96,12 @@ pub fn point(text: &str) -> Result<[f64; 3], String> {
 }
 
 /// Reads `x,y,z` as JSON.
-pub(super) fn vector(text: &str) -> Result<Value, String> {
+fn vector(text: &str) -> Result<Value, String> {
     Ok(json!(point(text)?))
 }
 
 /// Reads `x,y,z` or `x,y,z,roll,pitch,yaw`.
-pub(super) fn pose(text: &str) -> Result<Value, String> {
+fn pose(text: &str) -> Result<Value, String> {
     match list(text)?[..] {
         [x, y, z] => Ok(json!([x, y, z, 0.0, 0.0, 0.0])),
         [x, y, z, roll, pitch, yaw] => Ok(json!([x, y, z, roll, pitch, yaw])),
@@ -62,7 +110,7 @@ pub(super) fn pose(text: &str) -> Result<Value, String> {
 }
 
 /// Reads `xx,yy,zz` or `xx,yy,zz,xy,xz,yz`, the entries of the tensor.
-pub(super) fn tensor(text: &str) -> Result<Value, String> {
+fn tensor(text: &str) -> Result<Value, String> {
     match list(text)?[..] {
         [xx, yy, zz] => Ok(json!([xx, yy, zz, 0.0, 0.0, 0.0])),
         [xx, yy, zz, xy, xz, yz] => Ok(json!([xx, yy, zz, xy, xz, yz])),
@@ -70,40 +118,25 @@ pub(super) fn tensor(text: &str) -> Result<Value, String> {
     }
 }
 
-/// The name of an input signal.
-pub(super) const INPUT: Form = Form { read: input, schema: shape::text };
-
 /// Reads the name of an input signal.
 fn input(text: &str) -> Result<Value, String> {
     Input::parse(text).map(|input| input.name.into()).map_err(|error| error.to_string())
 }
-
-/// The name of an output signal.
-pub(super) const OUTPUT: Form = Form { read: output, schema: shape::text };
 
 /// Reads the name of an output signal.
 fn output(text: &str) -> Result<Value, String> {
     Output::parse(text).map(|output| output.name.into()).map_err(|error| error.to_string())
 }
 
-/// A number that is not negative.
-pub(super) const NOT_NEGATIVE: Form = Form { read: not_negative, schema: || shape::number(Range::NotNegative) };
-
 /// Reads a number that is not negative.
 fn not_negative(text: &str) -> Result<Value, String> {
     Ok(values::not_negative(number(text)?)?.into())
 }
 
-/// A positive number.
-pub(super) const POSITIVE: Form = Form { read: positive, schema: || shape::number(Range::Positive) };
-
 /// Reads a positive number.
 fn positive(text: &str) -> Result<Value, String> {
     Ok(values::positive(number(text)?)?.into())
 }
-
-/// The name of a quantity of a sweep.
-pub(super) const QUANTITY: Form = Form { read: quantity, schema: shape::text };
 
 /// Reads the name of a quantity of a sweep.
 fn quantity(text: &str) -> Result<Value, String> {
@@ -111,12 +144,8 @@ fn quantity(text: &str) -> Result<Value, String> {
     Ok(quantity.name().into())
 }
 
-/// Masses in equal steps, `from:to:count`.
-pub(super) const MASS_RANGE: Form = Form { read: mass_range, schema: shape::mass_range };
-
 /// Reads masses in equal steps, `from:to:count`.
 fn mass_range(text: &str) -> Result<Value, String> {
-    const MAX_MASSES: usize = crate::analyses::pose_error::MAX_MASSES;
     let parts: Vec<&str> = text.split(':').collect();
     let [from, to, count] = parts[..] else {
         return Err("not a range: write from:to:count, as in 10:90:81".to_owned());
@@ -162,11 +191,8 @@ fn steps(text: &str) -> Result<Steps, String> {
 
 /// Axis of a grid or sweep as JSON.
 fn axis(name: &str, steps: &Steps) -> Result<Value, String> {
-    serde_json::to_value(super::Axis::new(name.to_owned(), steps)).map_err(|error| error.to_string())
+    serde_json::to_value(Axis::new(name.to_owned(), steps)).map_err(|error| error.to_string())
 }
-
-/// `x=-4:4:81`.
-pub(super) const GRID_AXIS: Form = Form { read: grid_axis, schema: shape::axis };
 
 /// Reads `x=-4:4:81`.
 fn grid_axis(text: &str) -> Result<Value, String> {
@@ -178,9 +204,6 @@ fn grid_axis(text: &str) -> Result<Value, String> {
     axis(name, &steps(values)?)
 }
 
-/// `platform.mass_kg=10:90:81`.
-pub(super) const VARIATION: Form = Form { read: variation, schema: shape::axis };
-
 /// Reads `platform.mass_kg=10:90:81`.
 fn variation(text: &str) -> Result<Value, String> {
     let form = "it has no `=`: write PATH=from:to:count, as in platform.mass_kg=10:90:81";
@@ -188,9 +211,6 @@ fn variation(text: &str) -> Result<Value, String> {
     let varied = ValueAxis::new(path, steps(values)?)?;
     axis(&varied.path.text, &varied.steps)
 }
-
-/// `PATH` or `PATH=MIN:MAX`; each bound may be left out.
-pub(super) const FIT: Form = Form { read: fit, schema: shape::fit };
 
 /// Reads `PATH` or `PATH=MIN:MAX`; each bound may be left out.
 fn fit(text: &str) -> Result<Value, String> {
@@ -203,9 +223,6 @@ fn fit(text: &str) -> Result<Value, String> {
         FitValue { path: path.trim().to_owned(), minimum: bound(low)?, maximum: bound(high)?, ..FitValue::default() };
     serde_json::to_value(fit).map_err(|error| error.to_string())
 }
-
-/// `PATH=±REACH` or `PATH=MIN:MAX`.
-pub(super) const CHANGE: Form = Form { read: change, schema: shape::change };
 
 /// Reads `PATH=±REACH` or `PATH=MIN:MAX`.
 fn change(text: &str) -> Result<Value, String> {
@@ -221,9 +238,6 @@ fn change(text: &str) -> Result<Value, String> {
     };
     serde_json::to_value(change).map_err(|error| error.to_string())
 }
-
-/// `FROM:TO`.
-pub(super) const BAND: Form = Form { read: band, schema: || shape::numbers(Range::Positive, Some(2)) };
 
 /// Reads `FROM:TO`.
 fn band(text: &str) -> Result<Value, String> {
