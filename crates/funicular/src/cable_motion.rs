@@ -100,13 +100,14 @@ impl CableStations {
         let term = dynamics.terms().iter().position(|term| term.cable() == i);
         let chord_w = state.chord_w();
 
-        let (model, axes) = match term.map(|at| (at, dynamics.terms()[at].form())) {
-            // Shallow spans with a drive have poles and residues, too, but no shape of the catenary.
-            Some(_) if dynamics.linearisation.cable_model == CableModel::ShallowDynamic => {
-                return Err(CableMotionError::Model(CableModel::ShallowDynamic));
-            }
-            Some((_, DynamicCable::ShallowDynamic(_))) => unreachable!("the model is shallow-dynamic"),
-            Some((term, DynamicCable::CatenaryDynamic(end))) => {
+        // Shallow spans with a drive have poles and residues, too, but no shape of the catenary.
+        let cable_model = dynamics.linearisation.cable_model;
+        if term.is_some() && cable_model.is_shallow() {
+            return Err(CableMotionError::Model(cable_model));
+        }
+
+        let (model, axes) = match term.and_then(|term| Some((term, dynamics.terms()[term].form().by_poles()?))) {
+            Some((term, end)) => {
                 let hanging = state.hanging.as_ref().expect("a catenary-dynamic cable hangs");
                 let (m, limit) = (end.mass_per_length, end.cable.limit);
                 let (mut cable, mut stations) = CatenaryDynamic::with_stations(
@@ -382,8 +383,8 @@ fn with_drive(
     omega: f64,
 ) -> InternalMotion {
     let form = dynamics.terms().iter().find(|term| term.cable() == i).map(DynamicCableAt::form);
-    match form {
-        Some(DynamicCable::CatenaryDynamic(form)) if form.has_drive_losses() => {
+    match form.and_then(DynamicCable::by_poles) {
+        Some(form) if form.has_drive_losses() => {
             let losses = form.beyond_undamped(omega.into(), 1.0);
             motion.with_drive(cable, &losses, dynamics.cable_square(i, omega))
         }

@@ -263,13 +263,8 @@ fn over(mut row: LinearisedFunction, limit: f64, scale: f64) -> LinearisedFuncti
 /// stiffness of its cables.
 pub(crate) fn linearisation_of_goal(request: &DesignRequest, model: StaticModel) -> Linearisation {
     let linearisation = at_rest::linearisation(&request.model, model);
-    match (request.goal, model) {
-        (DesignGoal::Platform, StaticModel::Catenary) => {
-            Linearisation { cable_model: CableModel::CatenaryStatic, ..linearisation }
-        }
-        (DesignGoal::Platform, StaticModel::Ideal | StaticModel::Spring) => {
-            Linearisation { cable_model: CableModel::Spring, ..linearisation }
-        }
+    match request.goal {
+        DesignGoal::Platform => Linearisation { cable_model: CableModel::static_about(model), ..linearisation },
         _ => linearisation,
     }
 }
