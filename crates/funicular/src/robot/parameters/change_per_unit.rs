@@ -339,9 +339,9 @@ fn pose_change(
 
 #[cfg(test)]
 mod tests {
-    use super::{Parameters, WITHOUT_DERIVATIVE, is_without_derivative};
-    use crate::robot::parameters::paths::key_of;
-    use crate::robot::spec::TABLES;
+    use super::{Parameter, Parameters, RobotPart, WITHOUT_DERIVATIVE, is_without_derivative};
+    use crate::robot::spec::key::Table;
+    use crate::robot::spec::{TABLES, TOP};
 
     /// Robot files that have every key with numbers: some keys exclude each other.
     const FILES: [&str; 2] = [
@@ -463,6 +463,14 @@ mod tests {
         "#,
     ];
 
+    fn is_in(table: &Table, parameter: &Parameter) -> bool {
+        let name = table.header.trim_matches(['[', ']']).trim_end_matches(".NAME");
+        match parameter.part {
+            RobotPart::Robot => table.header == TOP,
+            _ => parameter.keys[0] == name,
+        }
+    }
+
     #[test]
     fn every_number_of_the_file_has_a_direction_or_is_listed_without() {
         let files = FILES.map(|text| Parameters::from_toml(text).unwrap_or_else(|error| panic!("{error}")));
@@ -472,12 +480,10 @@ mod tests {
                 let label = format!("{} {}", table.header, key.name);
                 let mut of_key = Vec::new();
                 for parameters in &files {
-                    for (index, parameter) in parameters.list().iter().enumerate() {
-                        let path: Vec<&str> = parameter.keys.iter().map(String::as_str).collect();
-                        if key_of(&path).is_some_and(|(other, _)| std::ptr::eq(other, key)) && parameter.given {
-                            let zero = parameters.change(index).is_none_or(|change| change.dot(&change) == 0.0);
-                            of_key.push((is_without_derivative(parameter), zero));
-                        }
+                    let given = parameters.list().iter().enumerate().filter(|(_, parameter)| parameter.given);
+                    for (index, parameter) in given.filter(|(_, of)| of.key == key.name && is_in(table, of)) {
+                        let zero = parameters.change(index).is_none_or(|change| change.dot(&change) == 0.0);
+                        of_key.push((is_without_derivative(parameter), zero));
                     }
                 }
 
