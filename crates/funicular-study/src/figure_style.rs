@@ -1,6 +1,5 @@
 //! Widths, sizes of texts, colours and ticks of figures, for pages, for figures of papers and for front ends.
 
-use funicular::cable::CableModel;
 use funicular::modes::Kind;
 
 /// Widths of columns by journal [mm]: one column and two columns, as in the instructions for authors.
@@ -58,17 +57,6 @@ pub const fn rgb(hex: &str) -> [u8; 3] {
     let hex = hex.as_bytes();
     assert!(hex.len() == 7 && hex[0] == b'#', "a colour is #rrggbb");
     [16 * digit(hex[1]) + digit(hex[2]), 16 * digit(hex[3]) + digit(hex[4]), 16 * digit(hex[5]) + digit(hex[6])]
-}
-
-/// Colour of a cable model, equal in all figures.
-pub const fn model_colour(model: CableModel) -> &'static str {
-    match model {
-        CableModel::CatenaryDynamic => colour::BLACK,
-        CableModel::ShallowDynamic => colour::BLUE,
-        CableModel::ShallowStatic => colour::ORANGE,
-        CableModel::Spring => colour::GREEN,
-        CableModel::CatenaryStatic => colour::PURPLE,
-    }
 }
 
 /// Colour of a kind of mode on a page, whose marks are lines and symbols on white.

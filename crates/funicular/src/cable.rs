@@ -7,64 +7,22 @@
 
 pub mod catenary_dynamic;
 mod damping;
+mod model;
 pub mod shallow_dynamic;
 pub mod shallow_static;
 mod spring;
+
+pub use model::{CableModel, CableShape, MODELS, ModelEntry};
 
 use crate::catenary::space::HangingCable;
 use crate::drive::DriveChain;
 use crate::math::{Complex, Mat3, Vec3, any_normal};
 use crate::robot::{Damping, Robot, WinchMode};
 use crate::statics::CableState;
-use catenary_dynamic::{CatenaryDynamicEnd, EndDirections, MovingEnd, Shapes};
+use catenary_dynamic::{CarrierMotion, CatenaryDynamicEnd, EndDirections, MovingEnd, NearPole, Shapes};
 use shallow_dynamic::ShallowDynamic;
 use std::f64::consts::TAU;
-use std::fmt;
 use thiserror::Error;
-
-/// Model of the stiffness of a cable at its platform end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum CableModel {
-    /// Massless spring along the chord with stiffness EA/L₀; no stiffness in other directions.
-    Spring,
-    /// Irvine's static stiffness of a shallow sagging cable; independent of frequency.
-    ShallowStatic,
-    /// Exact static stiffness of the elastic catenary; independent of frequency.
-    CatenaryStatic,
-    /// Starossek's dynamic stiffness of a shallow sagging cable.
-    ShallowDynamic,
-    /// Linear vibration about the elastic catenary: any sag, axial inertia included.
-    #[default]
-    CatenaryDynamic,
-}
-
-impl CableModel {
-    /// All models, the simplest first.
-    pub const ALL: [Self; 5] =
-        [Self::Spring, Self::ShallowStatic, Self::CatenaryStatic, Self::ShallowDynamic, Self::CatenaryDynamic];
-
-    /// Name of the model in requests and results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Spring => "spring",
-            Self::ShallowStatic => "shallow-static",
-            Self::CatenaryStatic => "catenary-static",
-            Self::ShallowDynamic => "shallow-dynamic",
-            Self::CatenaryDynamic => "catenary-dynamic",
-        }
-    }
-
-    /// True if the stiffness depends on frequency, so that the cable has resonances of its own.
-    pub fn is_dynamic(self) -> bool {
-        matches!(self, Self::ShallowDynamic | Self::CatenaryDynamic)
-    }
-}
-
-impl fmt::Display for CableModel {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
 
 /// Local axes of a cable at its platform end; unit vectors in world axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -259,6 +217,22 @@ pub enum DynamicCable {
 }
 
 impl DynamicCable {
+    /// The cable by poles and residues; `None` for the closed form.
+    pub fn by_poles(&self) -> Option<&CatenaryDynamicEnd> {
+        match self {
+            Self::ShallowDynamic(_) => None,
+            Self::CatenaryDynamic(cable) => Some(cable),
+        }
+    }
+
+    /// The cable by poles and residues, to be changed; `None` for the closed form.
+    pub(crate) fn by_poles_mut(&mut self) -> Option<&mut CatenaryDynamicEnd> {
+        match self {
+            Self::ShallowDynamic(_) => None,
+            Self::CatenaryDynamic(cable) => Some(cable),
+        }
+    }
+
     /// Squares of the clamped frequencies below ω [rad²/s²], not sorted.
     pub(crate) fn poles_below(&self, omega: f64) -> Vec<f64> {
         match self {
@@ -288,6 +262,31 @@ impl DynamicCable {
         match self {
             Self::ShallowDynamic(cable) => cable.damped(omega),
             Self::CatenaryDynamic(cable) => cable.damped(omega),
+        }
+    }
+
+    /// Damped stiffness at the complex x = ω_c² without the poles in the relative distance `width` of the real part of
+    /// x, minus its derivative by x [kg], and those poles. The closed form has no poles to leave out.
+    pub(crate) fn complex_beside_poles(
+        &self,
+        x: Complex,
+        width: f64,
+    ) -> (LocalStiffness<Complex>, LocalStiffness<Complex>, Vec<NearPole>) {
+        match self {
+            Self::ShallowDynamic(cable) => {
+                let (stiffness, mass) = cable.at(x);
+                (stiffness, mass, Vec::new())
+            }
+            Self::CatenaryDynamic(cable) => cable.complex_beside_poles(x, width),
+        }
+    }
+
+    /// Force (e, n, b) on the platform end per motion of the carrier of the far end at ω [rad/s], the platform end
+    /// held [N].
+    pub(crate) fn force_by_carrier(&self, motion: &CarrierMotion, omega: f64) -> [Complex; 3] {
+        match self {
+            Self::ShallowDynamic(cable) => cable.force_by_far_end(&motion.displacement, omega),
+            Self::CatenaryDynamic(cable) => cable.force_by_carrier(motion, omega),
         }
     }
 
@@ -349,10 +348,7 @@ impl EndStiffness {
         let material = &robot.cables[i].material;
         let shallow_damping = material.damping.per_length_over(stretch_of(robot, i, state));
 
-        // All models with sag divide by the tension.
-        if sag.tension <= 0.0
-            && matches!(model, CableModel::ShallowStatic | CableModel::ShallowDynamic | CableModel::CatenaryDynamic)
-        {
+        if sag.tension <= 0.0 && model.entry().needs_tension {
             return Err(NoStiffness::NoTension);
         }
         let without_b =

@@ -10,8 +10,8 @@ pub use weighted::WeightedMotions;
 use crate::cable::catenary_dynamic::{
     CarrierMotion, CatenaryDynamic, CatenaryDynamicError, DriveSignal, InternalMotion, Stations,
 };
-use crate::cable::{CableModel, DynamicCable, LocalAxes};
-use crate::dynamics::{DynamicCableAt, Dynamics};
+use crate::cable::{CableModel, LocalAxes};
+use crate::dynamics::Dynamics;
 use crate::math::{CVec6, Complex, Vec3, Vec6};
 use crate::modes::Mode;
 use crate::robot::Robot;
@@ -100,40 +100,39 @@ impl CableStations {
         let term = dynamics.terms().iter().position(|term| term.cable() == i);
         let chord_w = state.chord_w();
 
-        let (model, axes) = match term.map(|at| (at, dynamics.terms()[at].form())) {
-            // Shallow spans with a drive have poles and residues, too, but no shape of the catenary.
-            Some(_) if dynamics.linearisation.cable_model == CableModel::ShallowDynamic => {
-                return Err(CableMotionError::Model(CableModel::ShallowDynamic));
-            }
-            Some((_, DynamicCable::ShallowDynamic(_))) => unreachable!("the model is shallow-dynamic"),
-            Some((term, DynamicCable::CatenaryDynamic(end))) => {
-                let hanging = state.hanging.as_ref().expect("a catenary-dynamic cable hangs");
-                let (m, limit) = (end.mass_per_length, end.cable.limit);
-                let (mut cable, mut stations) = CatenaryDynamic::with_stations(
-                    &hanging.catenary,
-                    end.cable.end.clone(),
-                    m,
-                    limit,
-                    &arc_lengths,
-                    loaded,
-                )
-                .map_err(|reason| {
-                    let cable = robot.cables[i].name.clone();
-                    CableMotionError::CatenaryDynamic { cable, reason }
-                })?;
-                if !loaded {
-                    // Take the cable of `dynamics`, with as many clamped modes as it has kept.
-                    if let Some(kept) = &end.kept {
-                        kept.compress(&mut stations.in_plane, &mut stations.out_of_plane, &mut stations.coupled);
-                    }
-                    cable = end.cable.clone();
+        // Shallow spans with a drive have poles and residues, too, but no shape of the catenary.
+        let cable_model = dynamics.linearisation.cable_model;
+        if term.is_some() && cable_model.is_shallow() {
+            return Err(CableMotionError::Model(cable_model));
+        }
+
+        let end = term.and_then(|term| Some((term, dynamics.terms()[term].form().by_poles()?)));
+        let (model, axes) = if let Some((term, end)) = end {
+            let hanging = state.hanging.as_ref().expect("a catenary-dynamic cable hangs");
+            let (m, limit) = (end.mass_per_length, end.cable.limit);
+            let (mut cable, mut stations) = CatenaryDynamic::with_stations(
+                &hanging.catenary,
+                end.cable.end.clone(),
+                m,
+                limit,
+                &arc_lengths,
+                loaded,
+            )
+            .map_err(|reason| {
+                let cable = robot.cables[i].name.clone();
+                CableMotionError::CatenaryDynamic { cable, reason }
+            })?;
+            if !loaded {
+                // Take the cable of `dynamics`, with as many clamped modes as it has kept.
+                if let Some(kept) = &end.kept {
+                    kept.compress(&mut stations.in_plane, &mut stations.out_of_plane, &mut stations.coupled);
                 }
-                (StationModel::CatenaryDynamic { cable: Box::new(cable), stations, term }, end.axes)
+                cable = end.cable.clone();
             }
-            None => {
-                let end_fractions = fractions.iter().map(|fraction| 1.0 - fraction).collect();
-                (StationModel::Straight(end_fractions), LocalAxes::of_cable(robot, i, state))
-            }
+            (StationModel::CatenaryDynamic { cable: Box::new(cable), stations, term }, end.axes)
+        } else {
+            let end_fractions = fractions.iter().map(|fraction| 1.0 - fraction).collect();
+            (StationModel::Straight(end_fractions), LocalAxes::of_cable(robot, i, state))
         };
 
         let points_w = fractions
@@ -175,7 +174,7 @@ impl CableStations {
                 if let Some((both, ends)) = carried {
                     motion_along.add_carrier(cable, both, ends.map(Complex::from), square.into());
                 }
-                let DynamicCable::CatenaryDynamic(end) = of.form() else { unreachable!("made of this term") };
+                let Some(end) = of.form().by_poles() else { unreachable!("made of this term") };
 
                 // Clamped modes whose poles lie near the frequency have their amplitudes in the mode.
                 for near in motion.near.iter().filter(|near| near.term == *term) {
@@ -242,9 +241,7 @@ impl CableStations {
             (StationModel::Straight(_), _) => self.still_by_far_end(at, direction_w, far_end_w).into(),
             (StationModel::CatenaryDynamic { .. }, None) => 0.0.into(),
             (StationModel::CatenaryDynamic { cable, stations, term }, Some(carrier)) => {
-                let DynamicCable::CatenaryDynamic(end) = dynamics.terms()[*term].form() else {
-                    unreachable!("made of this term")
-                };
+                let Some(end) = dynamics.terms()[*term].form().by_poles() else { unreachable!("made of this term") };
                 let moved = stations.displacement(at, &end.motion_by_carrier(cable, carrier, omega));
                 moved.iter().zip(self.local(direction_w)).map(|(u, component)| u * component).sum()
             }
@@ -262,9 +259,7 @@ impl CableStations {
         omega: f64,
     ) -> Complex {
         let StationModel::CatenaryDynamic { cable, stations, term } = &self.model else { return 0.0.into() };
-        let DynamicCable::CatenaryDynamic(end) = dynamics.terms()[*term].form() else {
-            unreachable!("made of this term")
-        };
+        let Some(end) = dynamics.terms()[*term].form().by_poles() else { unreachable!("made of this term") };
         let Some(motion) = end.motion_by_signal(cable, signal, omega) else { return 0.0.into() };
         let moved = stations.displacement(at, &motion);
         moved.iter().zip(self.local(direction_w)).map(|(u, component)| u * component).sum()
@@ -381,9 +376,9 @@ fn with_drive(
     motion: InternalMotion,
     omega: f64,
 ) -> InternalMotion {
-    let form = dynamics.terms().iter().find(|term| term.cable() == i).map(DynamicCableAt::form);
-    match form {
-        Some(DynamicCable::CatenaryDynamic(form)) if form.has_drive_losses() => {
+    let term = dynamics.terms().iter().find(|term| term.cable() == i);
+    match term.and_then(|term| term.form().by_poles()) {
+        Some(form) if form.has_drive_losses() => {
             let losses = form.beyond_undamped(omega.into(), 1.0);
             motion.with_drive(cable, &losses, dynamics.cable_square(i, omega))
         }

@@ -13,7 +13,7 @@ pub(crate) use blocks::{CableBlocks, CableRow, PlatformBlocks, SupportBlocks};
 pub use error::DynamicsError;
 pub(crate) use null_vectors::NullVector;
 
-use crate::cable::catenary_dynamic::{EndSignal, Shapes};
+use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, EndSignal, Shapes};
 use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, span_stiffness};
 use crate::math::{CMat6, CVec6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6, order};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
@@ -219,13 +219,13 @@ impl Dynamics {
     pub(crate) fn with_poles_below(&self, omega: f64, signals: &[(usize, EndSignal)]) -> Self {
         let mut cut = self.clone();
         for (t, term) in cut.terms.iter_mut().enumerate() {
-            if let DynamicCable::CatenaryDynamic(end) = &mut term.form {
+            if let Some(end) = term.form.by_poles_mut() {
                 let mut own: Vec<EndSignal> =
                     signals.iter().filter(|(cable, _)| *cable == term.cable).map(|(_, signal)| *signal).collect();
                 // A flexible support moves the far end, too.
                 let carrier = self.supports().and_then(|supports| supports.carrier_motions(t));
                 own.extend(carrier.into_iter().flat_map(|(_, motions)| motions).map(EndSignal::Carrier));
-                **end = end.with_poles_below(omega * omega, &own);
+                *end = end.with_poles_below(omega * omega, &own);
             }
         }
         if let Some(supports) = &mut cut.supports {
@@ -411,14 +411,14 @@ impl Dynamics {
 
     /// True if the control of a motor has a delay.
     pub(crate) fn has_delays(&self) -> bool {
-        self.terms.iter().any(|term| matches!(&term.form, DynamicCable::CatenaryDynamic(form) if form.has_delay()))
+        self.terms.iter().any(|term| term.form.by_poles().is_some_and(CatenaryDynamicEnd::has_delay))
     }
 
     /// True if a drive adds mass or losses to cable `i` that do not share the damping of the cable.
     pub(crate) fn has_drive_losses(&self, i: usize) -> bool {
-        self.terms.iter().any(|term| {
-            matches!(&term.form, DynamicCable::CatenaryDynamic(form) if term.cable == i && form.has_drive_losses())
-        })
+        self.terms
+            .iter()
+            .any(|term| term.cable == i && term.form.by_poles().is_some_and(CatenaryDynamicEnd::has_drive_losses))
     }
 
     /// Mass per length of cable `i` in its model [kg/m]: zero if its stiffness does not depend on frequency.
@@ -429,13 +429,10 @@ impl Dynamics {
     /// True if every catenary-dynamic cable is resolved up to ω [rad/s], with an estimated error of its clamped
     /// frequencies of at most 1e-9. Also true for the models that are not discretised.
     pub fn resolves(&self, omega: f64) -> bool {
-        self.terms.iter().all(|term| match &term.form {
-            DynamicCable::ShallowDynamic(_) => true,
-            // Conversions to Hz and back leave rounding errors of the limit.
-            DynamicCable::CatenaryDynamic(end) => {
-                omega <= end.cable.limit * (1.0 + 1e-12) && end.cable.error <= RESOLUTION
-            }
-        })
+        // Conversions to Hz and back leave rounding errors of the limit.
+        let is_resolved =
+            |end: &CatenaryDynamicEnd| omega <= end.cable.limit * (1.0 + 1e-12) && end.cable.error <= RESOLUTION;
+        self.terms.iter().all(|term| term.form.by_poles().is_none_or(is_resolved))
     }
 
     /// Clamped-clamped frequencies of all cables below ω [rad/s]: (frequency, cable), ascending, with multiplicity.

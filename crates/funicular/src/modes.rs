@@ -13,7 +13,7 @@ mod rigid_cables;
 pub mod tracking;
 
 pub use fundamental::{First, FirstError, first, lowest_by_count};
-pub use lowest::{LowestError, PlatformModeError, lowest, lowest_with_platform};
+pub use lowest::{LowestError, PlatformModeError, Search, Wanted, doubled, lowest, lowest_with_platform, until};
 pub use mac::mac;
 pub use rigid_cables::{RigidCablesError, with_rigid_cables};
 

@@ -27,7 +27,6 @@ pub use error::ReductionError;
 pub use selection::StateSpaceSize;
 
 use crate::cable::catenary_dynamic::{DriveSignal, InPowersOfS};
-use crate::cable::{CableModel, DynamicCable};
 use crate::dynamics::{CableBlocks, Dynamics};
 use crate::math::{CDMat, Complex, DMat};
 use crate::modes;
@@ -145,8 +144,8 @@ const MASSLESS: f64 = 1e-6;
 fn check_cables(robot: &Robot, dynamics: &Dynamics) -> Result<(), ReductionError> {
     let name = |cable: usize| robot.cables[cable].name.clone();
     for term in dynamics.terms() {
-        let DynamicCable::CatenaryDynamic(form) = term.form() else { return Err(ReductionError::Model) };
-        if dynamics.linearisation.cable_model == CableModel::ShallowDynamic {
+        let form = term.form().by_poles().ok_or(ReductionError::Model)?;
+        if dynamics.linearisation.cable_model.is_shallow() {
             return Err(ReductionError::Model);
         }
         let delay_s = form.delay();

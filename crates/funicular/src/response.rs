@@ -17,7 +17,6 @@ pub use frame_motion::{FrameInput, FrameMotion};
 pub use peaks::{Peak, peaks};
 pub use signals::{Port, Signal, about, along};
 
-use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::DriveSignal;
 use crate::cable_motion::CableStations;
 use crate::dynamics::Dynamics;
@@ -263,7 +262,7 @@ impl<'a> OwnResponse<'a> {
             Self::DriveByFrame { term, to, from } => from.of_drive(dynamics, *term, *to, omega),
             Self::PointByFrame { stations, to, from } => from.of_station(dynamics, stations, *to, omega),
             Self::Drive { term, to, from } => {
-                let DynamicCable::CatenaryDynamic(form) = dynamics.terms()[*term].form() else {
+                let Some(form) = dynamics.terms()[*term].form().by_poles() else {
                     unreachable!("ports of drives are on catenary-dynamic cables")
                 };
                 form.signal_response(*from, *to, omega).unwrap_or_default()

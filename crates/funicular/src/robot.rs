@@ -6,6 +6,7 @@
 
 mod anchor;
 mod change;
+mod constraint;
 mod friction;
 mod motion;
 pub mod parameters;
@@ -17,6 +18,7 @@ mod wind;
 
 pub use anchor::Anchor;
 pub use change::{CableChange, GuideWheelChange, PulleyChange, RobotChange, SupportChange, WinchChange};
+pub use constraint::Constraint;
 pub use friction::PulleyFriction;
 pub use motion::{OutOfPlane, Plane, PlatformMotion};
 pub(crate) use pulley::Wheel;

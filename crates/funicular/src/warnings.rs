@@ -129,8 +129,7 @@ impl DeepSag {
     /// Sag and error of cable `i` at an equilibrium, if it sags too deep for the model.
     pub fn of(robot: &Robot, i: usize, state: &CableState, model: CableModel) -> Option<Self> {
         let sag = Sag::of(robot, i, state);
-        let shallow = matches!(model, CableModel::ShallowStatic | CableModel::ShallowDynamic);
-        (shallow && sag.tension > 0.0 && sag.ratio() > SHALLOW_SAG_LIMIT).then(|| Self {
+        (model.is_shallow() && sag.tension > 0.0 && sag.ratio() > SHALLOW_SAG_LIMIT).then(|| Self {
             cable: robot.cables[i].name.clone(),
             ratio: sag.ratio(),
             error: measured(robot, i, state, sag, model),
@@ -141,7 +140,7 @@ impl DeepSag {
 /// Relative error of a shallow-sag model at one cable.
 fn measured(robot: &Robot, i: usize, state: &CableState, sag: Sag, model: CableModel) -> Option<f64> {
     let hanging = state.hanging.as_ref().filter(|hanging| hanging.catenary.rope().weight_per_length > 0.0)?;
-    if model == CableModel::ShallowStatic {
+    if !model.is_dynamic() {
         let e = hanging.chord_w().normalize();
         return Some(shallow_static::stiffness(&sag).axial / e.dot(&(hanging.tangent_w() * e)) - 1.0);
     }
@@ -280,7 +279,7 @@ fn unstable(directions: usize, min_stiffness: f64) -> String {
 
 /// Text about cables that sag too deep for a model.
 fn too_deep(cables: &[DeepSag], model: CableModel) -> String {
-    let what = if model == CableModel::ShallowStatic { "stiffness along the chord" } else { "first frequency" };
+    let what = if model.is_dynamic() { "first frequency" } else { "stiffness along the chord" };
     let one = |DeepSag { cable, ratio, error }: &DeepSag| {
         let error = error.map_or(String::new(), |error| format!(" ({what} off by {:+.1} %)", 100.0 * error));
         format!("\"{cable}\" sags by {ratio:.4} of its chord{error}")
@@ -432,6 +431,6 @@ fn axial_waves(
 ) -> Option<Warning> {
     let frequencies = cables.iter().map(|&i| (i, Sag::of(robot, i, &equilibrium.cables[i]).axial_frequency_hz()));
     let (i, axial_hz) = frequencies.min_by(|(_, one), (_, other)| one.total_cmp(other))?;
-    let matter = model != CableModel::CatenaryDynamic && below_hz > AXIAL_FRACTION * axial_hz;
+    let matter = !model.entry().has_axial_waves && below_hz > AXIAL_FRACTION * axial_hz;
     matter.then(|| Warning::AxialWaves { cable: robot.cables[i].name.clone(), axial_hz, below_hz })
 }

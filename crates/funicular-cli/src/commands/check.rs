@@ -2,11 +2,10 @@
 
 use crate::output::Printed;
 use crate::table::{self, Table, components, decimals_or_none, short, vector};
-use funicular::robot::PlatformMotion;
+use funicular::robot::{Constraint, PlatformMotion};
 use funicular_study::analyses::check::{
     Checked, CheckedCable, CheckedLimits, CheckedPlatform, CheckedRope, CheckedWinch,
 };
-use std::cmp::Ordering;
 use std::fmt::Write;
 
 impl Printed for Checked {
@@ -100,11 +99,10 @@ impl Printed for Checked {
 
 /// Number of cables beside that of degrees of freedom.
 fn redundancy(found: &Checked) -> String {
-    let (cables, dof) = (found.cables.len(), found.degrees_of_freedom);
-    match cables.cmp(&dof) {
-        Ordering::Less => format!("{} fewer than degrees of freedom", dof - cables),
-        Ordering::Equal => "as many as degrees of freedom".to_owned(),
-        Ordering::Greater => format!("{} more than degrees of freedom", cables - dof),
+    match Constraint::new(found.cables.len(), found.degrees_of_freedom) {
+        Constraint::Under(missing) => format!("{missing} fewer than degrees of freedom"),
+        Constraint::Fully => "as many as degrees of freedom".to_owned(),
+        Constraint::Redundantly(redundant) => format!("{redundant} more than degrees of freedom"),
     }
 }
 

@@ -431,10 +431,10 @@ fn state(robot: &Robot) -> (&'static str, Option<CheckedPose>) {
 }
 
 fn warnings(robot: &Robot) -> Vec<String> {
-    let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
     let mut warnings: Vec<String> = plausibility::of_robot(robot).iter().map(ToString::to_string).collect();
 
-    if cables < dof {
+    if robot.constraint().is_under() {
+        let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
         warnings.push(format!(
             "{cables} cables for {dof} degrees of freedom: for given lengths the platform hangs at a minimum of its \
              energy; if the cables cannot hold a given pose, statics finds the nearest pose that they can hold"

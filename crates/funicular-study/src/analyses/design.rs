@@ -143,8 +143,8 @@ pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
 
 /// Refuses a robot whose poses cannot be held.
 fn check_robot(robot: &Robot) -> Result<()> {
-    let (cables, degrees_of_freedom) = (robot.cables.len(), robot.platform.motion.count());
-    if cables < degrees_of_freedom {
+    if robot.constraint().is_under() {
+        let (cables, degrees_of_freedom) = (robot.cables.len(), robot.platform.motion.count());
         bail!(
             "a design needs as many cables as degrees of freedom or more, to hold its poses: the robot has {cables} \
              cables for {degrees_of_freedom} degrees of freedom"

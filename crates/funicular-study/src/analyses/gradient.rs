@@ -177,8 +177,8 @@ fn scale(derivatives: &mut [f64], parameters: &[GradientParameter], per: Per) {
 /// # Errors
 /// Fewer cables than degrees of freedom.
 pub(crate) fn check_hold(robot: &Robot, hold: Hold) -> Result<()> {
-    let (cables, degrees_of_freedom) = (robot.cables.len(), robot.platform.motion.count());
-    if hold != Hold::Lengths && cables < degrees_of_freedom {
+    if hold != Hold::Lengths && robot.constraint().is_under() {
+        let (cables, degrees_of_freedom) = (robot.cables.len(), robot.platform.motion.count());
         bail!(
             "⟪hold⟫ {}: {cables} cables cannot hold the pose of a platform with {degrees_of_freedom} degrees of freedom by \
              their lengths; give ⟪hold⟫ lengths",
@@ -202,7 +202,7 @@ pub(crate) fn held(at_rest: &AtRest, hold: Hold) -> Result<Gradients<'_>> {
             )
         }
         (Hold::Rule, Some(rule)) => Gradients::by_rule(robot, equilibrium, rule),
-        (Hold::Rule, None) if robot.cables.len() > robot.platform.motion.count() => {
+        (Hold::Rule, None) if robot.constraint().is_redundant() => {
             bail!(
                 "⟪hold⟫ rule needs tensions that a rule has chosen: give ⟪pose⟫, or the robot file a [state] with \
                  `position_m`"
@@ -216,7 +216,7 @@ pub(crate) fn held(at_rest: &AtRest, hold: Hold) -> Result<Gradients<'_>> {
 
 /// Sentence that says what is held, and by which rule the rest follows.
 pub(crate) fn meaning(at_rest: &AtRest, hold: Hold) -> &'static str {
-    let redundant = at_rest.robot.cables.len() > at_rest.robot.platform.motion.count();
+    let redundant = at_rest.robot.constraint().is_redundant();
     match (hold, &at_rest.rule) {
         (Hold::Lengths, _) => "the unstrained lengths are held, the pose follows",
         (Hold::Pose, _) if redundant => {

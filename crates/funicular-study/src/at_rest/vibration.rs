@@ -15,11 +15,7 @@ use funicular::statics::StaticModel;
 
 /// Cable model of a request. The default is the dynamic model with the same shape as the static model.
 pub fn cable_model(requested: Option<CableModel>, static_model: StaticModel) -> CableModel {
-    match (requested, static_model) {
-        (Some(model), _) => model,
-        (None, StaticModel::Catenary) => CableModel::CatenaryDynamic,
-        (None, StaticModel::Ideal | StaticModel::Spring) => CableModel::ShallowDynamic,
-    }
+    requested.unwrap_or_else(|| CableModel::dynamic_about(static_model))
 }
 
 /// Linearisation of a request.

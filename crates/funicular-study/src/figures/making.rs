@@ -4,13 +4,14 @@ use super::axis::ChartAxis;
 use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
 use super::space::{RobotShape, Space};
-use super::style::{self, GREY, Symbol};
+use super::style::{self, GREY, ModelStyle, Symbol};
 use super::{Figure, FigureChoice, FigureContent};
 use crate::Watch;
 use crate::analyses::modes::with_rigid_cables;
 use crate::analyses::{compare, frf, statics};
 use crate::at_rest::{self, AtRest, ModesBelow};
-use crate::figure_style::{MODE_TICKS, ModeTick, model_colour, rgb};
+use crate::figure_style::{MODE_TICKS, ModeTick, rgb};
+use crate::names::Named;
 use crate::request::{self, Request};
 use crate::text::{counted, decimals, significant};
 use anyhow::{Result, bail};
@@ -436,13 +437,6 @@ fn comparison(robot: Robot, of: &request::CompareRequest) -> Result<RequestFigur
 
 /// Symbol of a cable model, in its colour of all figures.
 fn of_model(name: &str) -> Symbol {
-    let model = CableModel::ALL.into_iter().find(|model| model.name() == name).unwrap_or(CableModel::CatenaryDynamic);
-    let shape = match model {
-        CableModel::ShallowDynamic => style::SymbolShape::Circle,
-        CableModel::ShallowStatic => style::SymbolShape::Square,
-        CableModel::Spring => style::SymbolShape::Triangle,
-        CableModel::CatenaryStatic => style::SymbolShape::Diamond,
-        CableModel::CatenaryDynamic => style::SymbolShape::HollowCircle,
-    };
-    Symbol { shape, colour: rgb(model_colour(model)) }
+    let style = ModelStyle::of(CableModel::from_name(name).unwrap_or_default());
+    Symbol { shape: style.shape, colour: rgb(style.colour) }
 }

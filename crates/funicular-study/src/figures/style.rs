@@ -5,6 +5,7 @@
 
 use super::drawing::{BLACK, Colour, Drawing, Frame, PaperPoint, Stroke, WHITE};
 use crate::figure_style::{colour, rgb};
+use funicular::cable::CableModel;
 
 pub(crate) const ORANGE: Colour = rgb(colour::ORANGE);
 pub(crate) const SKY: Colour = rgb(colour::SKY);
@@ -77,6 +78,30 @@ pub(crate) enum SymbolShape {
     Triangle,
     Diamond,
     Cross,
+}
+
+/// Marks of a cable model, equal in all figures.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ModelStyle {
+    /// Colour `#rrggbb`.
+    pub(crate) colour: &'static str,
+    /// Dash of its curves on a page.
+    pub(crate) dash: &'static str,
+    /// Shape of its symbols in a figure for a paper.
+    pub(crate) shape: SymbolShape,
+}
+
+impl ModelStyle {
+    pub(crate) const fn of(model: CableModel) -> Self {
+        let (colour, dash, shape) = match model {
+            CableModel::CatenaryDynamic => (colour::BLACK, "solid", SymbolShape::HollowCircle),
+            CableModel::ShallowDynamic => (colour::BLUE, "solid", SymbolShape::Circle),
+            CableModel::ShallowStatic => (colour::ORANGE, "dash", SymbolShape::Square),
+            CableModel::Spring => (colour::GREEN, "dot", SymbolShape::Triangle),
+            CableModel::CatenaryStatic => (colour::PURPLE, "dashdot", SymbolShape::Diamond),
+        };
+        Self { colour, dash, shape }
+    }
 }
 
 /// Symbol at a point.

@@ -9,7 +9,7 @@ use crate::signals::{Input, Output};
 use anyhow::{Result, anyhow, bail};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Vec3};
-use funicular::modes::{self, Mode, tracking::best_pairs};
+use funicular::modes::{self, Mode, Wanted, tracking::best_pairs};
 use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::{Robot, State};
 use funicular::statics::Equilibrium;
@@ -17,8 +17,8 @@ use funicular::statics::Equilibrium;
 /// Ratio of the limit of a list of modes to the highest measured frequency.
 const BEYOND: f64 = 1.3;
 
-/// Maximum number of times that this limit is doubled until the list has all numbered modes.
-const MAX_DOUBLINGS: usize = 8;
+/// Ratio of the highest limit to this one: the limit is doubled until the list has all numbered modes.
+const MAX_RAISE: f64 = 128.0;
 
 /// Response of an experiment with its signals.
 pub(super) struct ResponseOf {
@@ -200,17 +200,13 @@ impl<'a> Prepared<'a> {
             return Ok((enough(found.modes, needed)?, None));
         }
 
-        let mut limit = BEYOND * highest;
-        for _ in 0..MAX_DOUBLINGS {
+        let (wanted, first) = (Wanted::Count(needed), BEYOND * highest);
+        let found = modes::until(wanted, first, modes::doubled(MAX_RAISE * first), |limit| -> Result<_> {
             let dynamics = Dynamics::about(&at_rest.robot, &at_rest.equilibrium, linearisation, limit)?;
             modes::check_count(&dynamics, limit, modes::MAX_MODES)?;
-            let found = modes::below(&dynamics, limit);
-            if found.modes.len() >= needed {
-                return Ok((found.modes, Some(dynamics)));
-            }
-            limit *= 2.0;
-        }
-        Ok((enough(Vec::new(), needed)?, None))
+            Ok(dynamics)
+        })?;
+        Ok((enough(found.modes.modes, needed)?, Some(found.dynamics)))
     }
 
     /// Mode of each measured frequency: the numbered one, otherwise the one of the pairs with the smallest χ², in which

@@ -11,9 +11,7 @@ pub(crate) mod shapes;
 
 pub(crate) use crate::figure_style::{colour, kind_colour};
 
-use crate::figure_style::model_colour;
 use askama::Template;
-use funicular::cable::CableModel;
 use serde_json::{Value, json};
 
 /// Figure with a caption.
@@ -111,15 +109,4 @@ pub(crate) fn rounded(values: &[f64]) -> Vec<Option<f64>> {
 /// Text with escaped tags, because plotly interprets some HTML tags in every text.
 pub(crate) fn plain(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
-}
-
-/// Colour and dash of a cable model, equal in all figures.
-pub(crate) fn model_style(model: CableModel) -> (&'static str, &'static str) {
-    let dash = match model {
-        CableModel::CatenaryDynamic | CableModel::ShallowDynamic => "solid",
-        CableModel::ShallowStatic => "dash",
-        CableModel::Spring => "dot",
-        CableModel::CatenaryStatic => "dashdot",
-    };
-    (model_colour(model), dash)
 }

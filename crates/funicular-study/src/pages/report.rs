@@ -9,11 +9,12 @@ pub use of_request::{about, of_request};
 use super::Shell;
 use super::figure::response::{Marks, ResponseCurve};
 use super::figure::shapes::{self, Shapes};
-use super::figure::{PageFigure, model_style, response, robot as drawing};
+use super::figure::{PageFigure, response, robot as drawing};
 use super::table::{PageTable, fixed, significant};
 use crate::analyses::modes::FirstPlatformMode;
 use crate::analyses::shared::{LoadRow, WindRow};
 use crate::at_rest::{AtRest, ModesBelow};
+use crate::figures::style::ModelStyle;
 use crate::text::{counted, short};
 use anyhow::Context as _;
 use askama::Template;
@@ -320,7 +321,7 @@ fn response_part(
     let draw = |dynamics: &Dynamics, found: &Modes| {
         let model = dynamics.linearisation.cable_model;
         let at = (dynamics, below_hz, &found.modes[..]);
-        ResponseCurve::of(model.name(), model_style(model), at, u, &[*v], *quantity)
+        ResponseCurve::of(model.name(), ModelStyle::of(model), at, u, &[*v], *quantity)
     };
 
     let mut curves = vec![draw(dynamics, found)?];

@@ -9,8 +9,8 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::Hold;
 use funicular::modes::Kind;
 use funicular::pose_error::PoseDifference;
-use funicular::robot::Robot;
 use funicular::robot::parameters::Parameters;
+use funicular::robot::{Constraint, Robot};
 use funicular::statics::{
     self, Equilibrium, LimitAtCable, PayloadSide, RequestedPayload, Stability, StaticModel, TensionRule,
 };
@@ -61,8 +61,7 @@ impl<'a> PointEvaluation<'a> {
 
     /// Rule that chooses the tensions while the pose is held; `None` without a choice.
     pub(super) fn rule(&self) -> Option<&'a TensionRule> {
-        let redundant = self.robot.cables.len() > self.robot.platform.motion.count();
-        (self.hold != Hold::Lengths && redundant).then_some(&self.options.tension_rule)
+        (self.hold != Hold::Lengths && self.robot.constraint().is_redundant()).then_some(&self.options.tension_rule)
     }
 
     /// Linearisation, and upper limit of the search for natural frequencies [Hz].
@@ -157,7 +156,7 @@ impl PointEvaluation<'_> {
         let catenary = &self.rest.pose;
 
         let of_spring = spring.as_ref().map(|spring| distance(catenary, spring)).map_err(Clone::clone);
-        if has_ideal_pose(self.robot) {
+        if self.robot.constraint() == Constraint::Fully {
             let ideal = with(StaticModel::Ideal);
             let both = ideal.as_ref().and_then(|ideal| spring.as_ref().map(|spring| distance(ideal, spring)));
             let of_ideal = ideal.as_ref().map(|ideal| distance(ideal, catenary)).map_err(Clone::clone);
@@ -265,9 +264,4 @@ fn limit_text(robot: &Robot, of: &LimitAtCable) -> String {
 
 fn not_certified() -> Status {
     Status::new("not-certified", "the mode count does not confirm the lowest natural frequencies")
-}
-
-/// True if rigid cables of given lengths have a pose: only with as many cables as degrees of freedom.
-pub(super) fn has_ideal_pose(robot: &Robot) -> bool {
-    robot.cables.len() == robot.platform.motion.count()
 }

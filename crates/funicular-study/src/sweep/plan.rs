@@ -89,7 +89,7 @@ impl<'a> Plan<'a> {
             return Err(SweepError::TooFewCables { quantity: quantity.name(), cables, dof });
         }
 
-        let with_distance = robot.cables.len() < robot.platform.motion.count();
+        let with_distance = robot.constraint().is_under();
         let of_points = points.columns();
         let of_rows = row_columns(robot, quantities, with_distance);
         let width = of_rows.len();

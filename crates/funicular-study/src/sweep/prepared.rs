@@ -237,8 +237,8 @@ fn quantities_and_options(robot: &Robot, point: &mut EachPoint) -> Result<(Vec<Q
     point.quantities = quantities.iter().map(Quantity::name).collect();
 
     let rule = at_rest::rule(&point.tensions)?;
-    let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
     if rule.is_some() && !statics::leaves_choice(robot) {
+        let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
         return Err(StaticsError::NothingToChoose { cables, dof }.into());
     }
     let tension_rule = rule.unwrap_or_default();

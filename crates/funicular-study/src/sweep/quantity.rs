@@ -158,7 +158,7 @@ impl Quantity {
 
     /// True if it does not exist for a robot with so few cables.
     pub(super) fn needs_more_cables(&self, robot: &Robot) -> bool {
-        matches!(self.definition.needs, RequiredModel::HeldPose) && robot.cables.len() < robot.platform.motion.count()
+        matches!(self.definition.needs, RequiredModel::HeldPose) && robot.constraint().is_under()
     }
 
     /// Adds the values of the quantity at a point.

@@ -7,7 +7,7 @@ use super::{Bound, Case, Comparison, Section};
 use anyhow::{Result, anyhow};
 use funicular::drive::{CableAtRest, DriveFriction};
 use funicular::math::{Mat3, Vec3, rotation};
-use funicular::robot::{Anchor, Cable, Pulley, PulleyFriction, Robot, State};
+use funicular::robot::{Anchor, Cable, Constraint, Pulley, PulleyFriction, Robot, State};
 use funicular::statics::{self, CableState, Equilibrium, Held, Interval, StaticModel};
 use std::fmt::Write;
 
@@ -192,7 +192,7 @@ fn robot(row: &RobotWithWinches, source: &str) -> Result<Vec<Comparison>> {
         case.together("stiffness", row.stiffness_6x6.as_flattened(), stiffness.as_slice(), SOLVED, digits),
     ];
     // More cables than degrees of freedom have a choice.
-    if let (Ok(held), true) = (held, robot.cables.len() == robot.platform.motion.count()) {
+    if let (Ok(held), true) = (held, robot.constraint() == Constraint::Fully) {
         let back: Vec<f64> = held.cables.iter().map(|cable| cable.unstrained_length).collect();
         rows.push(case.absolute("lengths from the pose [m]", lengths, &back, 1e-11, Bound::Rounding));
     }

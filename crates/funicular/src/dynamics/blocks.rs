@@ -10,7 +10,6 @@
 //! ```
 
 use super::{DynamicCableAt, Dynamics, Supports};
-use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::{
     CarrierMotion, CatenaryDynamicEnd, DriveForm, DrivePart, DriveSignal, ENDS, InPowersOfS, PoleResidue,
 };
@@ -95,10 +94,7 @@ impl Dynamics {
 
     /// Matrices of every catenary-dynamic cable, not scaled, in the order of [`terms`](Self::terms).
     pub(crate) fn cable_blocks(&self) -> impl Iterator<Item = CableBlocks> {
-        self.terms.iter().enumerate().filter_map(|(t, term)| match &term.form {
-            DynamicCable::CatenaryDynamic(end) => Some(self.blocks_of(t, term, end)),
-            DynamicCable::ShallowDynamic(_) => None,
-        })
+        self.terms.iter().enumerate().filter_map(|(t, term)| Some(self.blocks_of(t, term, term.form.by_poles()?)))
     }
 
     /// Matrices of the flexible supports, not scaled; `None` on a rigid frame.
@@ -117,7 +113,7 @@ impl Dynamics {
 
     /// Row of a signal of the drive of a cable, given by its index among the terms. `None` if it has no such signal.
     pub(crate) fn drive_signal_row(&self, term: usize, signal: DriveSignal) -> Option<InPowersOfS<CableRow>> {
-        let DynamicCable::CatenaryDynamic(end) = &self.terms[term].form else { return None };
+        let end = self.terms[term].form.by_poles()?;
         let forms = end.signal_form(signal)?;
         Some(self.rows(term, forms, |carrier| end.direct_by_carrier(carrier, signal).unwrap_or_default()))
     }
@@ -129,14 +125,14 @@ impl Dynamics {
         input: DriveSignal,
         output: DriveSignal,
     ) -> Option<InPowersOfS<f64>> {
-        let DynamicCable::CatenaryDynamic(end) = &self.terms[term].form else { return None };
+        let end = self.terms[term].form.by_poles()?;
         end.direct_signal(input, output)
     }
 
     /// Row of a motion of the carrier of a cable's far end; the cable is given by its index among the terms. `None` if
     /// it is not catenary-dynamic.
     pub(crate) fn carrier_row(&self, term: usize, motion: &CarrierMotion) -> Option<InPowersOfS<CableRow>> {
-        let DynamicCable::CatenaryDynamic(end) = &self.terms[term].form else { return None };
+        let end = self.terms[term].form.by_poles()?;
         Some(self.rows(term, end.carrier_form(motion), |carrier| end.between_carriers(carrier, motion)))
     }
 
@@ -159,7 +155,7 @@ impl Dynamics {
     /// Motions (e, n, b) of the platform end and of the far end of a cable per unit of a signal of its drive; the cable
     /// is given by its index among the terms.
     pub(crate) fn ends_of_signal(&self, term: usize, signal: DriveSignal) -> [[f64; 3]; 2] {
-        let DynamicCable::CatenaryDynamic(end) = &self.terms[term].form else { return [[0.0; 3]; 2] };
+        let Some(end) = self.terms[term].form.by_poles() else { return [[0.0; 3]; 2] };
         end.ends_of_signal(signal)
     }
 
@@ -171,7 +167,7 @@ impl Dynamics {
         motion: &CarrierMotion,
         output: DriveSignal,
     ) -> Option<InPowersOfS<f64>> {
-        let DynamicCable::CatenaryDynamic(end) = &self.terms[term].form else { return None };
+        let end = self.terms[term].form.by_poles()?;
         end.direct_by_carrier(motion, output)
     }
 

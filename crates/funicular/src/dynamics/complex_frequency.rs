@@ -15,8 +15,8 @@
 
 use super::supports::{Supports, SupportsAt};
 use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
+use crate::cable::LocalStiffness;
 use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveAt, Family, NearPole, NearRanges};
-use crate::cable::{DynamicCable, LocalStiffness};
 use crate::math::{CDMat, CMat6, CVec6, Complex, Vec6, order};
 
 /// Dynamic stiffness at a complex frequency, bordered by near poles, and its derivative.
@@ -54,7 +54,7 @@ impl Dynamics {
         // Poles near ω, as the border has them.
         let mut near = Vec::new();
         for (t, term) in self.terms.iter().enumerate() {
-            let DynamicCable::CatenaryDynamic(form) = &term.form else { return None };
+            let form = term.form.by_poles()?;
             let (damping, mass_per_length) = self.damping[term.cable];
             let (square, _) = damping.square_with_slope(omega, mass_per_length);
             let (.., poles) = form.complex_beside_poles(square, NEAR_POLE_FRACTION);
@@ -82,7 +82,7 @@ impl Dynamics {
         let mut left = motion.clone();
         let mut first = first_drive;
         for term in &self.terms {
-            let DynamicCable::CatenaryDynamic(form) = &term.form else { continue };
+            let Some(form) = term.form.by_poles() else { continue };
             for (_, (delta, _)) in motions_with_losses(form, omega, 1.0) {
                 left[first] *= -delta;
                 first += 1;
@@ -207,13 +207,7 @@ impl<'d> BorderedParts<'d> {
         self.squares.push(square);
 
         // Stiffness without the poles near ω.
-        let (stiffness, mass, near) = match &term.form {
-            DynamicCable::ShallowDynamic(form) => {
-                let (stiffness, mass) = form.at(square.0);
-                (stiffness, mass, Vec::new())
-            }
-            DynamicCable::CatenaryDynamic(form) => form.complex_beside_poles(square.0, NEAR_POLE_FRACTION),
-        };
+        let (stiffness, mass, near) = term.form.complex_beside_poles(square.0, NEAR_POLE_FRACTION);
         add_scaled(&mut self.value, term, &stiffness, Complex::new(1.0, 0.0));
         add_scaled(&mut self.slope, term, &mass, -square.1);
 
@@ -239,7 +233,7 @@ impl<'d> BorderedParts<'d> {
     /// Rows of the drive of cable `t`, whose near poles follow those of the cables before; `None` without losses.
     fn drive_rows(&self, t: usize, (square, square_slope): (Complex, Complex), near: &[NearPole]) -> Option<DriveRows> {
         let term = &self.dynamics.terms[t];
-        let DynamicCable::CatenaryDynamic(form) = &term.form else { return None };
+        let form = term.form.by_poles()?;
         let (indices, loss): (Vec<usize>, Vec<(Complex, Complex)>) =
             motions_with_losses(form, self.omega, self.losses).into_iter().unzip();
         if indices.is_empty() {

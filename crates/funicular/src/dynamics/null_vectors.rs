@@ -13,7 +13,6 @@
 
 use super::supports::SupportRows;
 use super::{Dynamics, NEAR_POLE_FRACTION, add_local};
-use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::{Family, MotionsOfDrive, NearRanges};
 use crate::math::{DMat, Mat6, Vec6, order, symmetric};
 
@@ -56,7 +55,7 @@ pub(crate) struct NullVector {
 impl Dynamics {
     /// Natural motions at ω [rad/s]; `several` is their number.
     pub(crate) fn null_vectors(&self, omega: f64, several: usize) -> Vec<NullVector> {
-        if self.terms.iter().any(|term| matches!(term.form, DynamicCable::ShallowDynamic(_))) {
+        if self.terms.iter().any(|term| term.form.by_poles().is_none()) {
             self.null_vectors_of_shallow_dynamic(omega, several)
         } else {
             self.null_vectors_beside_poles(omega, several)
@@ -144,7 +143,7 @@ impl BorderedPencil {
 
         for (t, term) in dynamics.terms.iter().enumerate() {
             let mut moving = Mat6::zeros();
-            if let DynamicCable::CatenaryDynamic(form) = &term.form {
+            if let Some(form) = term.form.by_poles() {
                 let (regular, poles) = form.beside_poles(x, NEAR_POLE_FRACTION);
                 add_local(&mut stiffness, term, &regular, |k, product| k * product);
                 add_local(&mut moving, term, &form.effective_mass_beside_poles(x, NEAR_POLE_FRACTION), |m, product| {
@@ -272,7 +271,7 @@ impl NullVector {
     /// the drives to the damping. `total` is twice the kinetic energy over ω².
     fn part_drives(&mut self, dynamics: &Dynamics, omega: f64, total: f64) {
         for (t, term) in dynamics.terms.iter().enumerate() {
-            let DynamicCable::CatenaryDynamic(form) = &term.form else { continue };
+            let Some(form) = term.form.by_poles() else { continue };
             if !(form.has_drive_mass() || form.has_drive_losses()) {
                 continue;
             }

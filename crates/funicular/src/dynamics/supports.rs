@@ -155,7 +155,7 @@ impl<'a> SupportsBuilder<'a> {
     /// Adds cable `i`, whose stiffness depends on frequency.
     pub(super) fn add_dynamic(&mut self, i: usize, state: &CableState, form: &DynamicCable) {
         let found = self.robot.cables[i].anchor.support.zip(support_side(self.robot, i, state));
-        let (Some((support, side)), DynamicCable::CatenaryDynamic(end)) = (found, form) else {
+        let (Some((support, side)), Some(end)) = (found, form.by_poles()) else {
             self.supports.carried.push(None);
             return;
         };
@@ -204,7 +204,7 @@ impl Supports {
         };
 
         for ((term, carried), (square, slope)) in terms.iter().zip(&self.carried).zip(&at.squares) {
-            let (Some(carried), DynamicCable::CatenaryDynamic(form)) = (carried, &term.form) else { continue };
+            let (Some(carried), Some(form)) = (carried, term.form.by_poles()) else { continue };
             if at.width == 0.0 && *slope == Complex::new(0.0, 0.0) {
                 rows.add(term, carried, &carried.both.value_at(*square), Complex::new(1.0, 0.0), false);
                 continue;
@@ -225,7 +225,7 @@ impl Supports {
         omega: f64,
     ) {
         for ((term, carried), (square, _)) in terms.iter().zip(&self.carried).zip(squares) {
-            let (Some(carried), DynamicCable::CatenaryDynamic(form)) = (carried, &term.form) else { continue };
+            let (Some(carried), Some(form)) = (carried, term.form.by_poles()) else { continue };
             let all = NearRanges::default();
             let Some(motions) = form.drive_at(*square, &all).filter(|_| form.has_drive_losses()) else { continue };
             let delta = form.beyond_undamped(omega.into(), 1.0);
@@ -385,7 +385,7 @@ impl Supports {
     pub(super) fn with_cables(&self, terms: &[DynamicCableAt]) -> Self {
         let mut supports = self.clone();
         for (carried, term) in supports.carried.iter_mut().zip(terms) {
-            if let (Some(carried), DynamicCable::CatenaryDynamic(end)) = (carried, &term.form) {
+            if let (Some(carried), Some(end)) = (carried, term.form.by_poles()) {
                 carried.both = TwoEnded::new(end, carried.from_ground);
             }
         }
@@ -417,7 +417,7 @@ impl Supports {
         supports: &[f64],
     ) -> Vec<f64> {
         let of = |(t, term): (usize, &DynamicCableAt)| {
-            let (Some(carried), DynamicCable::CatenaryDynamic(form)) = (&self.carried[t], &term.form) else {
+            let (Some(carried), Some(form)) = (&self.carried[t], term.form.by_poles()) else {
                 return 0.0;
             };
             let x = at.squares[t].0;

@@ -14,7 +14,7 @@ use super::{GradientError, Hold};
 use crate::drive::derivatives::{DriveDerivatives, OuterRow, place};
 use crate::math::{DMat, DVec, Mat3, Mat6, Vec3, Vec6, inverse6};
 use crate::platform::Coordinates;
-use crate::robot::{Cable, CableChange, GuideWheelChange, PulleyChange, Robot, RobotChange, WinchChange};
+use crate::robot::{Cable, CableChange, Constraint, GuideWheelChange, PulleyChange, Robot, RobotChange, WinchChange};
 use crate::statics::derivatives::{
     CablePartials, DrivePartials, StaticDerivativeError, check_regular, jacobian_of, regular,
 };
@@ -98,12 +98,12 @@ impl<'a> Pullback<'a> {
         let follower = Follower::Pose(Mat6::zeros());
         let mut all = Self { robot, equilibrium, coordinates, cables, supports, follower };
         let (count, degrees_of_freedom) = (all.cables.len(), all.coordinates.count());
-        if hold == Hold::Rule && count > degrees_of_freedom {
+        if hold == Hold::Rule && robot.constraint().is_redundant() {
             let is_carried = |cable: &&Cable| cable.anchor.support.is_some();
             let cable = robot.cables.iter().find(is_carried).map_or_else(String::new, |cable| cable.name.clone());
             return Err(GradientError::RuleAndSupports { cable });
         }
-        if hold != Hold::Lengths && count < degrees_of_freedom {
+        if hold != Hold::Lengths && robot.constraint().is_under() {
             return Err(StaticDerivativeError::TooFewCables { cables: count, degrees_of_freedom }.into());
         }
 
@@ -121,7 +121,7 @@ impl<'a> Pullback<'a> {
         let of_supports: Vec<Followed> = units.map(|scalar| all.followed(&scalar, hold)).collect();
 
         // With redundant cables the change of the parallel tensions is minimum.
-        let tensions = if hold == Hold::Lengths || count == degrees_of_freedom {
+        let tensions = if hold == Hold::Lengths || robot.constraint() == Constraint::Fully {
             None
         } else {
             let states = equilibrium.cables.iter().zip(&all.cables).enumerate();
@@ -449,15 +449,16 @@ impl Follower {
         rule: Option<&TensionRule>,
     ) -> Result<Self, GradientError> {
         let (cables, degrees_of_freedom) = (partials.len(), coordinates.count());
-        if cables < degrees_of_freedom {
-            return Err(StaticDerivativeError::TooFewCables { cables, degrees_of_freedom }.into());
-        }
-        let tensions = if cables == degrees_of_freedom {
-            None
-        } else {
-            let states = equilibrium.cables.iter().zip(partials).enumerate();
-            let of = |(i, (state, partials))| ParallelTension::of(robot, i, state, partials);
-            Some(states.map(of).collect::<Result<Vec<_>, _>>()?)
+        let tensions = match robot.constraint() {
+            Constraint::Under(_) => {
+                return Err(StaticDerivativeError::TooFewCables { cables, degrees_of_freedom }.into());
+            }
+            Constraint::Fully => None,
+            Constraint::Redundantly(_) => {
+                let states = equilibrium.cables.iter().zip(partials).enumerate();
+                let of = |(i, (state, partials))| ParallelTension::of(robot, i, state, partials);
+                Some(states.map(of).collect::<Result<Vec<_>, _>>()?)
+            }
         };
 
         let mut wrenches = DMat::zeros(degrees_of_freedom, cables);

@@ -7,8 +7,8 @@ use super::drive_form::ControlAt;
 use super::end_form::EndAtRest;
 use super::scalar::{Field, Vector, add, add_times, cross, dot, symmetric_outer, times, vector};
 use super::support_form::{Carrier, SideForces, Sides, SupportForm};
+use crate::cable::CableModel;
 use crate::cable::catenary_dynamic::{DriveSignal, Family, MovingEnd};
-use crate::cable::{CableModel, DynamicCable};
 use crate::drive::derivatives::end;
 use crate::dynamics::{Assembly, Dynamics, Linearisation};
 use crate::math::Vec3;
@@ -108,12 +108,12 @@ impl RobotForm {
         for (i, state) in equilibrium.cables.iter().enumerate() {
             let cable = &settled.cables[i];
             let term = dynamics.terms().iter().position(|term| term.cable() == i);
-            cables.push(match (cable_model, term.map(|term| dynamics.terms()[term].form())) {
+            cables.push(match (cable_model, term.and_then(|term| dynamics.terms()[term].form().by_poles())) {
                 (CableModel::Spring, _) => AnyCable::Spring(Box::new(SpringForm::of(cable, state)?)),
                 (CableModel::CatenaryStatic, _) => {
                     AnyCable::Catenary(Box::new(CableForm::at_rest(&cable.anchor, state, false)?))
                 }
-                (CableModel::CatenaryDynamic, Some(DynamicCable::CatenaryDynamic(end))) => {
+                (CableModel::CatenaryDynamic, Some(end)) => {
                     servos[i] = end.cable.end.as_ref().and_then(MovingEnd::chain).and_then(|chain| chain.motor?.servo);
                     let both = dynamics.supports().and_then(|supports| supports.both_ends(term?));
                     AnyCable::Catenary(Box::new(CableForm::vibrating(cable, state, (end, both), winches, &mut rules)?))

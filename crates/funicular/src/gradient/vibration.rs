@@ -6,7 +6,6 @@ use super::drive_form::ControlAt;
 use super::robot_form::{At, Driven, FormMotion, NearAmplitude, RobotForm};
 use super::scalar::{Vector, add_times, cross, vector};
 use super::{GradientError, Gradients};
-use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::{DriveSignal, MovingEnd, NearRanges};
 use crate::dynamics::{DynamicCableAt, Dynamics};
 use crate::math::{CDMat, CMat6, CVec6, Complex, Vec3, Vec6};
@@ -158,7 +157,7 @@ impl<'g> VibrationGradients<'g> {
             })
             .collect();
         for term in self.dynamics.terms() {
-            let DynamicCable::CatenaryDynamic(form) = term.form() else { continue };
+            let Some(form) = term.form().by_poles() else { continue };
             let at = &mut cables[term.cable()];
             if let Some(motor) = form.cable.end.as_ref().and_then(MovingEnd::chain).and_then(|chain| chain.motor) {
                 at.control = ControlAt::at(motor.servo.as_ref(), motor.damping, omega);
@@ -403,7 +402,7 @@ impl SignalPlace {
     /// Forces of a drive's signal on the motions of its cable, with that cable.
     fn forces(&self, dynamics: &Dynamics, omega: f64) -> Option<(usize, Vec<Complex>)> {
         let Self::Drive { cable, term, signal, .. } = self else { return None };
-        let DynamicCable::CatenaryDynamic(form) = dynamics.terms()[*term].form() else { return None };
+        let form = dynamics.terms()[*term].form().by_poles()?;
         Some((*cable, form.signal_forces(*signal, omega)?))
     }
 

@@ -1,4 +1,5 @@
-//! Requested number of lowest natural frequencies, without a limit that has to be known beforehand.
+//! Lowest natural modes without a limit that has to be known beforehand: the limit is raised until the wanted modes lie
+//! below it.
 
 use super::{MAX_MODES, Modes, TooMany, below, check_count};
 use crate::cable::{CableModel, Sag};
@@ -51,6 +52,78 @@ pub enum PlatformModeError {
     TooMany(#[from] TooMany),
 }
 
+/// What a search for the lowest modes has to find below its limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Wanted {
+    /// This number of natural frequencies.
+    Count(usize),
+    /// A mode with at least this fraction of its kinetic energy in the platform.
+    PlatformShare(f64),
+}
+
+impl Wanted {
+    /// False if the count alone, which is much faster than the list, shows that the wanted modes are not below a limit.
+    /// The count includes unstable directions; only the list distinguishes them.
+    fn is_possible(self, dynamics: &Dynamics, limit_hz: f64) -> bool {
+        match self {
+            Self::Count(count) => dynamics.modes_below(limit_hz * TAU) >= count,
+            Self::PlatformShare(_) => true,
+        }
+    }
+
+    fn is_in(self, list: &Modes) -> bool {
+        match self {
+            Self::Count(count) => list.count_below >= count + list.unstable_directions,
+            Self::PlatformShare(share) => list.first_platform(share).is_some(),
+        }
+    }
+}
+
+/// Result of a search for the lowest modes.
+#[derive(Debug, Clone)]
+pub struct Search {
+    /// Linearisation at the last limit.
+    pub dynamics: Dynamics,
+    /// All modes below the last limit.
+    pub modes: Modes,
+    /// True if the wanted modes are among them; false if even the highest limit is too low.
+    pub complete: bool,
+}
+
+/// Searches the lowest modes: raises a limit [Hz] until the wanted modes lie below it. `next_hz` is the limit after a
+/// limit, `None` after the highest one. `dynamics_at` linearises the robot for all frequencies below a limit; it may
+/// refuse a limit below which there are too many modes.
+///
+/// # Errors
+/// The error of `dynamics_at`.
+pub fn until<E>(
+    wanted: Wanted,
+    first_hz: f64,
+    next_hz: impl Fn(f64) -> Option<f64>,
+    dynamics_at: impl Fn(f64) -> Result<Dynamics, E>,
+) -> Result<Search, E> {
+    let mut limit = first_hz;
+    loop {
+        let dynamics = dynamics_at(limit)?;
+        match next_hz(limit) {
+            Some(next) if !wanted.is_possible(&dynamics, limit) => limit = next,
+            next => {
+                let modes = below(&dynamics, limit);
+                let complete = wanted.is_in(&modes);
+                match next {
+                    Some(next) if !complete => limit = next,
+                    _ => return Ok(Search { dynamics, modes, complete }),
+                }
+            }
+        }
+    }
+}
+
+/// Limit after a limit [Hz]: twice as high, but at most `highest_hz`.
+pub fn doubled(highest_hz: f64) -> impl Fn(f64) -> Option<f64> {
+    move |limit| (limit < highest_hz).then(|| (2.0 * limit).min(highest_hz))
+}
+
 /// All natural modes below a limit that the search chooses: as low as possible, with at least `count` modes below it,
 /// and at most `highest_hz`.
 ///
@@ -77,25 +150,14 @@ pub fn lowest(
     count: usize,
     highest_hz: f64,
 ) -> Result<(Dynamics, Modes), LowestError> {
-    let mut limit = first_limit(robot, equilibrium, linearisation.cable_model).min(highest_hz);
-    loop {
-        let dynamics = Dynamics::about(robot, equilibrium, linearisation, limit)?;
-        let counted = dynamics.modes_below(limit * TAU);
-
-        // The count includes unstable directions; only the list distinguishes them.
-        if counted >= count || limit >= highest_hz {
-            let list = below(&dynamics, limit);
-            let unstable_directions = list.unstable_directions;
-            if counted >= count + unstable_directions {
-                return Ok((dynamics, list));
-            }
-            if limit >= highest_hz {
-                let found = list.modes.len();
-                return Err(LowestError::TooFew { requested: count, found, highest_hz, unstable_directions });
-            }
-        }
-        limit = (2.0 * limit).min(highest_hz);
+    let first = first_limit(robot, equilibrium, linearisation.cable_model).min(highest_hz);
+    let dynamics_at = |limit| Dynamics::about(robot, equilibrium, linearisation, limit);
+    let Search { dynamics, modes, complete } = until(Wanted::Count(count), first, doubled(highest_hz), dynamics_at)?;
+    if complete {
+        return Ok((dynamics, modes));
     }
+    let (found, unstable_directions) = (modes.modes.len(), modes.unstable_directions);
+    Err(LowestError::TooFew { requested: count, found, highest_hz, unstable_directions })
 }
 
 /// All natural modes below a limit that the search chooses, at most `highest_hz`, with at least one mode that has the
@@ -125,18 +187,17 @@ pub fn lowest_with_platform(
     share: f64,
     highest_hz: f64,
 ) -> Result<(Dynamics, Modes), PlatformModeError> {
-    let mut limit = first_limit(robot, equilibrium, linearisation.cable_model).min(highest_hz);
-    loop {
+    let first = first_limit(robot, equilibrium, linearisation.cable_model).min(highest_hz);
+    let wanted = Wanted::PlatformShare(share);
+    let found = until(wanted, first, doubled(highest_hz), |limit| -> Result<_, PlatformModeError> {
         let dynamics = Dynamics::about(robot, equilibrium, linearisation, limit)?;
         check_count(&dynamics, limit, MAX_MODES)?;
-        let list = below(&dynamics, limit);
-        if list.first_platform(share).is_some() {
-            return Ok((dynamics, list));
-        }
-        if limit >= highest_hz {
-            return Err(PlatformModeError::NoPlatformMode { share, highest_hz });
-        }
-        limit = (2.0 * limit).min(highest_hz);
+        Ok(dynamics)
+    })?;
+    if found.complete {
+        Ok((found.dynamics, found.modes))
+    } else {
+        Err(PlatformModeError::NoPlatformMode { share, highest_hz })
     }
 }
 

@@ -4,7 +4,7 @@
 //! docs/theory.md, equations (83) to (86).
 
 use crate::cable::catenary_dynamic::{ByTurn, CarrierMotion, DriveSignal};
-use crate::cable::{DynamicCable, EndStiffness, LocalAxes, span_stiffness};
+use crate::cable::{EndStiffness, LocalAxes, span_stiffness};
 use crate::cable_motion::{CableMotionError, CableStations};
 use crate::dynamics::{Dynamics, Supports};
 use crate::math::{CVec6, Complex, Mat3, Vec3, Vec6};
@@ -169,7 +169,7 @@ impl FrameMotion {
         let mut forces: Vec<Complex> = self.constant_on_supports.iter().map(|force| Complex::from(*force)).collect();
         supports.add_inertia_of_feet(&mut forces, &self.feet, omega);
         for moved in &self.cables {
-            if let DynamicCable::CatenaryDynamic(form) = dynamics.terms()[moved.term].form() {
+            if let Some(form) = dynamics.terms()[moved.term].form().by_poles() {
                 let square = dynamics.cable_square(dynamics.terms()[moved.term].cable(), omega);
                 supports.add_forces_by_carrier(&mut forces, (moved.term, form), &moved.motion, omega, square);
             }
@@ -182,10 +182,7 @@ impl FrameMotion {
         let mut total = self.constant.map(Complex::from);
         for moved in &self.cables {
             let form = dynamics.terms()[moved.term].form();
-            let force = match form {
-                DynamicCable::ShallowDynamic(cable) => cable.force_by_far_end(&moved.motion.displacement, omega),
-                DynamicCable::CatenaryDynamic(cable) => cable.force_by_carrier(&moved.motion, omega),
-            };
+            let force = form.force_by_carrier(&moved.motion, omega);
             let LocalAxes { e, n, b } = form.axes();
             for (axis, entry) in [e, n, b].into_iter().zip(force) {
                 total += wrench(axis, &moved.lever_w).map(|part| entry * part);
@@ -198,10 +195,8 @@ impl FrameMotion {
     /// tension, at ω [rad/s], the platform held.
     pub(super) fn of_drive(&self, dynamics: &Dynamics, term: usize, output: DriveSignal, omega: f64) -> Complex {
         let moved = self.cables.iter().find(|moved| moved.term == term);
-        match (moved, dynamics.terms()[term].form()) {
-            (Some(moved), DynamicCable::CatenaryDynamic(cable)) => {
-                cable.response_to_carrier(&moved.motion, output, omega).unwrap_or_default()
-            }
+        match (moved, dynamics.terms()[term].form().by_poles()) {
+            (Some(moved), Some(cable)) => cable.response_to_carrier(&moved.motion, output, omega).unwrap_or_default(),
             _ => Complex::new(0.0, 0.0),
         }
     }

@@ -1,7 +1,6 @@
 //! Places and directions of forces and measured motions, as data ([`Signal`]) and on a linearised robot ([`Port`]).
 
 use super::frame_motion::{FrameInput, FrameMotion};
-use crate::cable::DynamicCable;
 use crate::cable::catenary_dynamic::DriveSignal;
 use crate::cable_motion::{CableMotionError, CableStations};
 use crate::dynamics::Dynamics;
@@ -185,7 +184,7 @@ impl Port {
     /// Vector of a drive's signal about the platform origin at ω [rad/s]; `None` if the cable has no such signal.
     fn drive_vector(&self, dynamics: &Dynamics, omega: f64) -> Option<CVec6> {
         let Self::Drive { term, signal, lever_w } = self else { return None };
-        let DynamicCable::CatenaryDynamic(form) = dynamics.terms()[*term].form() else { return None };
+        let form = dynamics.terms()[*term].form().by_poles()?;
         let local = form.signal_vector(*signal, omega)?;
         let axes = [form.axes.e, form.axes.n, form.axes.b];
         let mut vector = CVec6::zeros();
@@ -209,8 +208,8 @@ impl Port {
             Self::Platform(_) => {}
             Self::Frame(motion) => return Some(motion.on_supports(dynamics, supports, omega)),
             Self::Drive { term, signal, .. } => {
-                let (DynamicCable::CatenaryDynamic(form), Some((first, motions))) =
-                    (dynamics.terms()[*term].form(), supports.carrier_motions(*term))
+                let (Some(form), Some((first, motions))) =
+                    (dynamics.terms()[*term].form().by_poles(), supports.carrier_motions(*term))
                 else {
                     return Some(forces);
                 };

@@ -1,155 +1,203 @@
 //! Direction of change of a robot: the rate of each of its numbers with respect to one parameter.
 
-use super::{Control, Damping, Pulley, Robot, State, Support, Winch};
+use super::{Cable, Control, Damping, GuideWheel, Pulley, Robot, State, Support, Winch};
 use crate::math::{Mat3, Vec3};
 
-/// Rates of change of a robot's numbers with respect to one parameter: a direction in the space of all robots with the
-/// same number of cables. Derivatives of results are taken along this direction. The units are those of the robot's
-/// fields divided by the unit of the parameter.
-///
-/// Also the gradient of a result, [`crate::gradient`]: every field is then the derivative of the result with respect to
-/// this number, and [`Self::dot`] with a direction the derivative along it.
-///
-/// # Example
-/// ```
-/// use funicular::robot::{Robot, RobotChange};
-///
-/// let robot = Robot::from_toml(funicular_robots::COGIRO)?;
-/// let heavier = robot.changed(&RobotChange::of_mass(&robot), 2.0);
-/// assert_eq!(heavier.platform.mass, robot.platform.mass + 2.0); // kg
-/// # Ok::<(), funicular::robot::spec::SpecError>(())
-/// ```
-#[derive(Debug, Clone, PartialEq)]
-pub struct RobotChange {
-    /// Acceleration of gravity, world axes.
-    pub gravity_w: Vec3,
-    /// Mass of the platform.
-    pub mass: f64,
-    /// Inertia tensor about the centre of mass, platform axes; symmetric.
-    pub inertia_p: Mat3,
-    /// Centre of mass, platform frame.
-    pub center_of_mass_p: Vec3,
-    /// Drag area of the platform.
-    pub drag_area: f64,
-    /// Force of the load, world axes.
-    pub force_w: Vec3,
-    /// Moment of the load, world axes.
-    pub moment_w: Vec3,
-    /// Point of the load, platform frame.
-    pub point_p: Vec3,
-    /// Velocity of the air, world axes.
-    pub wind_velocity_w: Vec3,
-    /// Density of the air.
-    pub air_density: f64,
-    /// Viscous damping of the platform's translation, platform axes.
-    pub translational_damping_p: Vec3,
-    /// Viscous damping of the platform's rotation, platform axes.
-    pub rotational_damping_p: Vec3,
-    /// Position of a pose that is given, world axes.
-    pub position_w: Vec3,
-    /// Rotation vector by which a pose that is given turns, world axes.
-    pub rotation_w: Vec3,
-    /// The cables, in file order.
-    pub cables: Vec<CableChange>,
-    /// The flexible supports, in the order of [`Robot::supports`]; none changes beyond the end of the list.
-    pub supports: Vec<SupportChange>,
+/// Product of one rate with another one; vectors and tensors have their own.
+trait Dot {
+    fn dot(&self, other: &Self) -> f64;
 }
 
-/// Rates of change of the numbers of a flexible support.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct SupportChange {
-    /// Stiffness against a displacement, world axes; symmetric.
-    pub stiffness_w: Mat3,
-    /// Mass that moves with its anchors.
-    pub mass: f64,
-    /// Damping ratio.
-    pub damping_ratio: f64,
+impl Dot for f64 {
+    fn dot(&self, other: &Self) -> f64 {
+        self * other
+    }
 }
 
-/// Rates of change of the numbers of one cable.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct CableChange {
-    /// Point of the anchor, world axes.
-    pub anchor_w: Vec3,
-    /// Attachment, platform frame.
-    pub attachment_p: Vec3,
-    /// Unstrained length.
-    pub unstrained_length: f64,
-    /// Axial stiffness EA.
-    pub axial_stiffness: f64,
-    /// Mass per unstrained length.
-    pub mass_per_length: f64,
-    /// Dead load per unstrained length besides the weight, world axes.
-    pub load_per_length_w: Vec3,
-    /// Drag coefficient times diameter.
-    pub drag_width: f64,
-    /// Damping: the ratio, or the viscous damping per length, whichever the rope has.
-    pub damping: f64,
-    /// Pulley at the anchor.
-    pub pulley: PulleyChange,
-    /// Winch behind the anchor.
-    pub winch: WinchChange,
-    /// Guide wheels of the winch, in its order; none changes beyond the end of the list.
-    pub guide_wheels: Vec<GuideWheelChange>,
+impl<T: Dot> Dot for Vec<T> {
+    fn dot(&self, other: &Self) -> f64 {
+        self.iter().zip(other).map(|(own, other)| own.dot(other)).sum()
+    }
 }
 
-/// Rates of change of the numbers of a guide wheel.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct GuideWheelChange {
-    /// Length of the cable from the entry point to the wheel.
-    pub distance: f64,
-    /// Mass that the wheel adds at the cable.
-    pub mass: f64,
+/// Declares the rates of change of the numbers of a part of the robot. After the arrow stands the place of the number in
+/// the part; without a place, the number changes in a way of its own.
+macro_rules! numbers {
+    (
+        $(#[$about_part:meta])*
+        pub struct $Change:ident of $Part:ty {
+            $($(#[$about:meta])* $rate:ident: $Rate:ty $(=> $($place:ident).+)?,)*
+        }
+    ) => {
+        $(#[$about_part])*
+        pub struct $Change {
+            $($(#[$about])* pub $rate: $Rate,)*
+        }
+
+        impl Dot for $Change {
+            fn dot(&self, other: &Self) -> f64 {
+                0.0 $(+ self.$rate.dot(&other.$rate))*
+            }
+        }
+
+        impl $Change {
+            /// Adds `step` units of the parameter to the numbers that have a place.
+            fn add_to(&self, part: &mut $Part, step: f64) {
+                $($(part.$($place).+ += self.$rate * step;)?)*
+            }
+        }
+    };
 }
 
-/// Rates of change of the numbers of the pulley of one cable.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct PulleyChange {
-    /// Radius.
-    pub radius: f64,
-    /// Direction of travel at the entry point, world axes; normal to the direction, which keeps its length.
-    pub entry_direction_w: Vec3,
-    /// Moment of inertia of the wheel.
-    pub inertia: f64,
-    /// Moment of inertia of all that swivels.
-    pub swivel_inertia: f64,
+numbers! {
+    /// Rates of change of a robot's numbers with respect to one parameter: a direction in the space of all robots with
+    /// the same number of cables. Derivatives of results are taken along this direction. The units are those of the
+    /// robot's fields divided by the unit of the parameter.
+    ///
+    /// Also the gradient of a result, [`crate::gradient`]: every field is then the derivative of the result with respect
+    /// to this number, and [`Self::dot`] with a direction the derivative along it.
+    ///
+    /// # Example
+    /// ```
+    /// use funicular::robot::{Robot, RobotChange};
+    ///
+    /// let robot = Robot::from_toml(funicular_robots::COGIRO)?;
+    /// let heavier = robot.changed(&RobotChange::of_mass(&robot), 2.0);
+    /// assert_eq!(heavier.platform.mass, robot.platform.mass + 2.0); // kg
+    /// # Ok::<(), funicular::robot::spec::SpecError>(())
+    /// ```
+    #[derive(Debug, Clone, PartialEq, Default)]
+    pub struct RobotChange of Robot {
+        /// Acceleration of gravity, world axes.
+        gravity_w: Vec3 => gravity_w,
+        /// Mass of the platform.
+        mass: f64 => platform.mass,
+        /// Inertia tensor about the centre of mass, platform axes; symmetric.
+        inertia_p: Mat3 => platform.inertia_p,
+        /// Centre of mass, platform frame.
+        center_of_mass_p: Vec3 => platform.center_of_mass_p,
+        /// Drag area of the platform.
+        drag_area: f64 => platform.drag_area,
+        /// Force of the load, world axes.
+        force_w: Vec3 => load.force_w,
+        /// Moment of the load, world axes.
+        moment_w: Vec3 => load.moment_w,
+        /// Point of the load, platform frame.
+        point_p: Vec3 => load.point_p,
+        /// Velocity of the air, world axes.
+        wind_velocity_w: Vec3 => wind.velocity_w,
+        /// Density of the air.
+        air_density: f64 => wind.air_density,
+        /// Viscous damping of the platform's translation, platform axes.
+        translational_damping_p: Vec3 => platform.translational_damping_p,
+        /// Viscous damping of the platform's rotation, platform axes.
+        rotational_damping_p: Vec3 => platform.rotational_damping_p,
+        /// Position of a pose that is given, world axes.
+        position_w: Vec3,
+        /// Rotation vector by which a pose that is given turns, world axes.
+        rotation_w: Vec3,
+        /// The cables, in file order.
+        cables: Vec<CableChange>,
+        /// The flexible supports, in the order of [`Robot::supports`]; none changes beyond the end of the list.
+        supports: Vec<SupportChange>,
+    }
 }
 
-/// Rates of change of the numbers of the winch of one cable, all at the cable.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct WinchChange {
-    /// Length from the drum to the entry point.
-    pub drum_side_length: f64,
-    /// Mechanical stiffness; without effect on a rigid winch.
-    pub stiffness: f64,
-    /// Mass of the drum.
-    pub drum_mass: f64,
-    /// Mass of the motor.
-    pub motor_mass: f64,
-    /// Viscous damping.
-    pub damping: f64,
-    /// Position gain of a position control.
-    pub position_gain: f64,
-    /// Speed gain of a position control.
-    pub speed_gain: f64,
-    /// Delay of a position control.
-    pub delay: f64,
+numbers! {
+    /// Rates of change of the numbers of a flexible support.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct SupportChange of Support {
+        /// Stiffness against a displacement, world axes; symmetric.
+        stiffness_w: Mat3 => stiffness_w,
+        /// Mass that moves with its anchors.
+        mass: f64 => mass,
+        /// Damping ratio.
+        damping_ratio: f64 => damping_ratio,
+    }
+}
+
+numbers! {
+    /// Rates of change of the numbers of one cable.
+    #[derive(Debug, Clone, PartialEq, Default)]
+    pub struct CableChange of Cable {
+        /// Point of the anchor, world axes.
+        anchor_w: Vec3 => anchor.point_w,
+        /// Attachment, platform frame.
+        attachment_p: Vec3 => attachment_p,
+        /// Unstrained length.
+        unstrained_length: f64,
+        /// Axial stiffness EA.
+        axial_stiffness: f64 => material.axial_stiffness,
+        /// Mass per unstrained length.
+        mass_per_length: f64 => material.mass_per_length,
+        /// Dead load per unstrained length besides the weight, world axes.
+        load_per_length_w: Vec3 => load_per_length_w,
+        /// Drag coefficient times diameter.
+        drag_width: f64,
+        /// Damping: the ratio, or the viscous damping per length, whichever the rope has.
+        damping: f64,
+        /// Pulley at the anchor.
+        pulley: PulleyChange,
+        /// Winch behind the anchor.
+        winch: WinchChange,
+        /// Guide wheels of the winch, in its order; none changes beyond the end of the list.
+        guide_wheels: Vec<GuideWheelChange>,
+    }
+}
+
+numbers! {
+    /// Rates of change of the numbers of a guide wheel.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct GuideWheelChange of GuideWheel {
+        /// Length of the cable from the entry point to the wheel.
+        distance: f64 => distance,
+        /// Mass that the wheel adds at the cable.
+        mass: f64 => mass,
+    }
+}
+
+numbers! {
+    /// Rates of change of the numbers of the pulley of one cable.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct PulleyChange of Pulley {
+        /// Radius.
+        radius: f64 => radius,
+        /// Direction of travel at the entry point, world axes; normal to the direction, which keeps its length.
+        entry_direction_w: Vec3,
+        /// Moment of inertia of the wheel.
+        inertia: f64 => inertia,
+        /// Moment of inertia of all that swivels.
+        swivel_inertia: f64 => swivel_inertia,
+    }
+}
+
+numbers! {
+    /// Rates of change of the numbers of the winch of one cable, all at the cable.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    pub struct WinchChange of Winch {
+        /// Length from the drum to the entry point.
+        drum_side_length: f64 => drum_side_length,
+        /// Mechanical stiffness; without effect on a rigid winch.
+        stiffness: f64 => stiffness,
+        /// Mass of the drum.
+        drum_mass: f64 => drum_mass,
+        /// Mass of the motor.
+        motor_mass: f64 => motor_mass,
+        /// Viscous damping.
+        damping: f64 => damping,
+        /// Position gain of a position control.
+        position_gain: f64,
+        /// Speed gain of a position control.
+        speed_gain: f64,
+        /// Delay of a position control.
+        delay: f64,
+    }
 }
 
 impl PulleyChange {
-    /// Sum of the products of all numbers with those of another one.
-    fn dot(&self, other: &Self) -> f64 {
-        self.radius * other.radius
-            + self.entry_direction_w.dot(&other.entry_direction_w)
-            + self.inertia * other.inertia
-            + self.swivel_inertia * other.swivel_inertia
-    }
-
     /// Changes a pulley by `step` units of the parameter.
     fn apply(&self, pulley: &mut Pulley, step: f64) {
-        pulley.radius += self.radius * step;
-        pulley.inertia += self.inertia * step;
-        pulley.swivel_inertia += self.swivel_inertia * step;
+        self.add_to(pulley, step);
         if self.entry_direction_w != Vec3::zeros() {
             pulley.entry_direction_w = (pulley.entry_direction_w + self.entry_direction_w * step).normalize();
         }
@@ -157,25 +205,9 @@ impl PulleyChange {
 }
 
 impl WinchChange {
-    /// Sum of the products of all numbers with those of another one.
-    fn dot(&self, other: &Self) -> f64 {
-        self.drum_side_length * other.drum_side_length
-            + self.stiffness * other.stiffness
-            + self.drum_mass * other.drum_mass
-            + self.motor_mass * other.motor_mass
-            + self.damping * other.damping
-            + self.position_gain * other.position_gain
-            + self.speed_gain * other.speed_gain
-            + self.delay * other.delay
-    }
-
     /// Changes a winch by `step` units of the parameter.
     fn apply(&self, winch: &mut Winch, step: f64) {
-        winch.drum_side_length += self.drum_side_length * step;
-        winch.stiffness += self.stiffness * step;
-        winch.drum_mass += self.drum_mass * step;
-        winch.motor_mass += self.motor_mass * step;
-        winch.damping += self.damping * step;
+        self.add_to(winch, step);
         if let Control::Position(servo) = &mut winch.control {
             servo.position_gain += self.position_gain * step;
             servo.speed_gain += self.speed_gain * step;
@@ -184,63 +216,32 @@ impl WinchChange {
     }
 }
 
-impl GuideWheelChange {
-    fn product((own, other): (&Self, &Self)) -> f64 {
-        own.distance * other.distance + own.mass * other.mass
-    }
-}
-
-impl SupportChange {
-    fn product((own, other): (&Self, &Self)) -> f64 {
-        own.stiffness_w.dot(&other.stiffness_w) + own.mass * other.mass + own.damping_ratio * other.damping_ratio
-    }
-
-    /// Changes a support by `step` units of the parameter.
-    fn apply(&self, support: &mut Support, step: f64) {
-        support.stiffness_w += self.stiffness_w * step;
-        support.mass += self.mass * step;
-        support.damping_ratio += self.damping_ratio * step;
-    }
-}
-
 impl CableChange {
-    /// Sum of the products of all numbers with those of another one.
-    fn dot(&self, other: &Self) -> f64 {
-        self.anchor_w.dot(&other.anchor_w)
-            + self.attachment_p.dot(&other.attachment_p)
-            + self.unstrained_length * other.unstrained_length
-            + self.axial_stiffness * other.axial_stiffness
-            + self.mass_per_length * other.mass_per_length
-            + self.load_per_length_w.dot(&other.load_per_length_w)
-            + self.drag_width * other.drag_width
-            + self.damping * other.damping
-            + self.pulley.dot(&other.pulley)
-            + self.winch.dot(&other.winch)
-            + self.guide_wheels.iter().zip(&other.guide_wheels).map(GuideWheelChange::product).sum::<f64>()
+    /// Changes a cable, apart from its unstrained length, by `step` units of the parameter.
+    fn apply(&self, cable: &mut Cable, step: f64) {
+        self.add_to(cable, step);
+        if self.drag_width != 0.0 {
+            *cable.material.drag_width.get_or_insert(0.0) += self.drag_width * step;
+        }
+        let (Damping::Ratio(value) | Damping::Viscous(value)) = &mut cable.material.damping;
+        *value += self.damping * step;
+
+        if let Some(pulley) = &mut cable.anchor.pulley {
+            self.pulley.apply(pulley, step);
+        }
+        if let Some(winch) = &mut cable.anchor.winch {
+            self.winch.apply(winch, step);
+            for (wheel, change) in winch.guide_wheels.iter_mut().zip(&self.guide_wheels) {
+                change.add_to(wheel, step);
+            }
+        }
     }
 }
 
 impl RobotChange {
     /// Zero change of a robot with this number of cables.
     pub fn none(cables: usize) -> Self {
-        Self {
-            gravity_w: Vec3::zeros(),
-            mass: 0.0,
-            inertia_p: Mat3::zeros(),
-            center_of_mass_p: Vec3::zeros(),
-            drag_area: 0.0,
-            force_w: Vec3::zeros(),
-            moment_w: Vec3::zeros(),
-            point_p: Vec3::zeros(),
-            wind_velocity_w: Vec3::zeros(),
-            air_density: 0.0,
-            translational_damping_p: Vec3::zeros(),
-            rotational_damping_p: Vec3::zeros(),
-            position_w: Vec3::zeros(),
-            rotation_w: Vec3::zeros(),
-            cables: vec![CableChange::default(); cables],
-            supports: Vec::new(),
-        }
+        Self { cables: vec![CableChange::default(); cables], ..Self::default() }
     }
 
     /// Unit change of the platform mass; inertia tensor and centre of mass stay.
@@ -251,24 +252,7 @@ impl RobotChange {
     /// Sum of the products of all numbers with those of another one: the derivative of a result along a direction, if
     /// one of the two is the gradient of the result. Both have the same number of cables.
     pub fn dot(&self, other: &Self) -> f64 {
-        let cables: f64 = self.cables.iter().zip(&other.cables).map(|(own, other)| own.dot(other)).sum();
-        let supports: f64 = self.supports.iter().zip(&other.supports).map(SupportChange::product).sum();
-        self.gravity_w.dot(&other.gravity_w)
-            + self.mass * other.mass
-            + self.inertia_p.dot(&other.inertia_p)
-            + self.center_of_mass_p.dot(&other.center_of_mass_p)
-            + self.drag_area * other.drag_area
-            + self.force_w.dot(&other.force_w)
-            + self.moment_w.dot(&other.moment_w)
-            + self.point_p.dot(&other.point_p)
-            + self.wind_velocity_w.dot(&other.wind_velocity_w)
-            + self.air_density * other.air_density
-            + self.translational_damping_p.dot(&other.translational_damping_p)
-            + self.rotational_damping_p.dot(&other.rotational_damping_p)
-            + self.position_w.dot(&other.position_w)
-            + self.rotation_w.dot(&other.rotation_w)
-            + cables
-            + supports
+        Dot::dot(self, other)
     }
 }
 
@@ -278,44 +262,12 @@ impl Robot {
     #[must_use]
     pub fn changed(&self, change: &RobotChange, step: f64) -> Self {
         let mut robot = self.clone();
-        robot.gravity_w += change.gravity_w * step;
-        robot.platform.mass += change.mass * step;
-        robot.platform.inertia_p += change.inertia_p * step;
-        robot.platform.center_of_mass_p += change.center_of_mass_p * step;
-        robot.platform.drag_area += change.drag_area * step;
-        robot.load.force_w += change.force_w * step;
-        robot.load.moment_w += change.moment_w * step;
-        robot.load.point_p += change.point_p * step;
-        robot.wind.velocity_w += change.wind_velocity_w * step;
-        robot.wind.air_density += change.air_density * step;
-        robot.platform.translational_damping_p += change.translational_damping_p * step;
-        robot.platform.rotational_damping_p += change.rotational_damping_p * step;
-
+        change.add_to(&mut robot, step);
         for (cable, change) in robot.cables.iter_mut().zip(&change.cables) {
-            cable.anchor.point_w += change.anchor_w * step;
-            cable.attachment_p += change.attachment_p * step;
-            cable.material.axial_stiffness += change.axial_stiffness * step;
-            cable.material.mass_per_length += change.mass_per_length * step;
-            cable.load_per_length_w += change.load_per_length_w * step;
-            if change.drag_width != 0.0 {
-                *cable.material.drag_width.get_or_insert(0.0) += change.drag_width * step;
-            }
-            let (Damping::Ratio(value) | Damping::Viscous(value)) = &mut cable.material.damping;
-            *value += change.damping * step;
-            if let Some(pulley) = &mut cable.anchor.pulley {
-                change.pulley.apply(pulley, step);
-            }
-            if let Some(winch) = &mut cable.anchor.winch {
-                change.winch.apply(winch, step);
-                for (wheel, change) in winch.guide_wheels.iter_mut().zip(&change.guide_wheels) {
-                    wheel.distance += change.distance * step;
-                    wheel.mass += change.mass * step;
-                }
-            }
+            change.apply(cable, step);
         }
-
         for (support, change) in robot.supports.iter_mut().zip(&change.supports) {
-            change.apply(support, step);
+            change.add_to(support, step);
         }
 
         match &mut robot.state {

@@ -12,7 +12,7 @@ use super::stiffness::assembled;
 use crate::drive::derivatives::{DriveDerivatives, OuterRow, place, straight_chord};
 use crate::math::{Mat3, Mat6, Vec3, Vec6, skew};
 use crate::platform::{Coordinates, wrench_of};
-use crate::robot::{CableChange, Control, Load, Robot, RobotChange};
+use crate::robot::{CableChange, Constraint, Control, Load, Robot, RobotChange};
 use thiserror::Error;
 
 /// Maximum ratio of the minimum to the maximum singular value of a matrix that counts as singular. Below it a
@@ -153,8 +153,8 @@ pub fn at_held_pose(
     change: &RobotChange,
 ) -> Result<EquilibriumDerivative, StaticDerivativeError> {
     let coordinates = Coordinates::of(robot);
-    let (cables, degrees_of_freedom) = (robot.cables.len(), coordinates.count());
-    if cables != degrees_of_freedom {
+    if robot.constraint() != Constraint::Fully {
+        let (cables, degrees_of_freedom) = (robot.cables.len(), coordinates.count());
         return Err(StaticDerivativeError::CableCount { cables, degrees_of_freedom });
     }
     let mut change = change.clone();

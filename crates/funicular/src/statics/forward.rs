@@ -48,8 +48,8 @@ pub fn forward(
     start: Option<&Pose>,
 ) -> Result<Equilibrium, StaticsError> {
     check_lengths(robot, lengths)?;
-    let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
-    if model == StaticModel::Ideal && cables > dof {
+    if model == StaticModel::Ideal && robot.constraint().is_redundant() {
+        let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
         return Err(StaticsError::CableCount { cables, dof });
     }
 
@@ -64,9 +64,11 @@ pub fn forward(
     }
 
     match model {
-        StaticModel::Ideal if cables < dof => ideal::forward_of_few(robot, lengths, pose, |lengths, start| {
-            descend_to_equilibrium(robot, lengths, StaticModel::Spring, start)
-        }),
+        StaticModel::Ideal if robot.constraint().is_under() => {
+            ideal::forward_of_few(robot, lengths, pose, |lengths, start| {
+                descend_to_equilibrium(robot, lengths, StaticModel::Spring, start)
+            })
+        }
         StaticModel::Ideal => ideal::forward(robot, lengths, pose),
         StaticModel::Spring | StaticModel::Catenary => descend_to_equilibrium(robot, lengths, model, pose),
     }

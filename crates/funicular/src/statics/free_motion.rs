@@ -58,8 +58,7 @@ impl SpannedWrenches {
 /// cables, and the load has no part along the motions that they leave free. With more cables than degrees of freedom
 /// it is always true.
 pub(super) fn has_choice(robot: &Robot, pose: &Pose, model: StaticModel) -> bool {
-    let coordinates = Coordinates::of(robot);
-    if robot.cables.len() > coordinates.count() {
+    if robot.constraint().is_redundant() {
         return true;
     }
     if robot.cables.iter().any(|cable| cable.chord_w(pose).norm() == 0.0) {
@@ -76,6 +75,7 @@ pub(super) fn has_choice(robot: &Robot, pose: &Pose, model: StaticModel) -> bool
         (cable.load.vector_w() * (0.5 * chord_w.norm()), lever_w)
     });
     let (wrench, scale) = balance(robot, pose, loads);
+    let coordinates = Coordinates::of(robot);
     let reduced = coordinates.reduce(&wrench);
     let along: Vec6 = free.iter().map(|free| free * free.dot(&reduced)).sum();
     let back = coordinates.expand(&along);

@@ -152,9 +152,9 @@ pub fn nearest_equilibrium(
         return Ok(found);
     }
 
-    let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
     if model == StaticModel::Ideal {
-        if cables > dof {
+        if robot.constraint().is_redundant() {
+            let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
             return Err(StaticsError::CableCount { cables, dof });
         }
         // Straight cables hold the same poses with the same tensions, whether they stretch or not.

@@ -9,8 +9,7 @@ use super::inverse::determinate;
 use super::model::StaticModel;
 use super::nearest_pose::{NearestEquilibrium, nearest_equilibrium};
 use super::tension::{TensionRule, distribute_tensions};
-use crate::robot::{Pose, Robot, State};
-use std::cmp::Ordering;
+use crate::robot::{Constraint, Pose, Robot, State};
 
 /// Equilibrium of a robot, with the way it was found.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,19 +81,19 @@ pub fn solve_at(
     match state {
         State::Unknown => Err(StaticsError::NoState),
         State::Lengths(lengths) => Ok(found(forward(robot, lengths, model, None)?)),
-        State::Pose(pose) => match Constraint::of(robot, pose, model) {
-            Constraint::Under => nearest(robot, pose, model, rule),
-            Constraint::Full => Ok(found(determinate(robot, pose, model)?)),
-            Constraint::Redundant => {
+        State::Pose(pose) => match ConstraintAtPose::of(robot, pose, model) {
+            ConstraintAtPose::Under => nearest(robot, pose, model, rule),
+            ConstraintAtPose::Full => Ok(found(determinate(robot, pose, model)?)),
+            ConstraintAtPose::Redundant => {
                 let equilibrium = match distribute_tensions(robot, pose, model, rule) {
                     // Directions that are dependent to rounding only.
-                    Err(StaticsError::Singular { .. }) if robot.cables.len() < robot.platform.motion.count() => {
+                    Err(StaticsError::Singular { .. }) if robot.constraint().is_under() => {
                         return nearest(robot, pose, model, rule);
                     }
                     tensions => tensions?,
                 };
                 // Fewer cables hold this pose itself.
-                let requested_pose = (robot.cables.len() < robot.platform.motion.count()).then_some((*pose, 0.0));
+                let requested_pose = robot.constraint().is_under().then_some((*pose, 0.0));
                 Ok(Solution { requested_pose, rule: Some(rule.clone()), ..found(equilibrium) })
             }
         },
@@ -191,16 +190,18 @@ pub fn solve_held_at(
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
-    match Constraint::of(robot, pose, model) {
-        Constraint::Full => determinate(robot, pose, model),
+    match ConstraintAtPose::of(robot, pose, model) {
+        ConstraintAtPose::Full => determinate(robot, pose, model),
         // Refuses fewer cables than degrees of freedom.
-        Constraint::Under | Constraint::Redundant => distribute_tensions(robot, pose, model, &TensionRule::default()),
+        ConstraintAtPose::Under | ConstraintAtPose::Redundant => {
+            distribute_tensions(robot, pose, model, &TensionRule::default())
+        }
     }
 }
 
 /// Ways in which cables constrain the platform at a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Constraint {
+enum ConstraintAtPose {
     /// Fewer cables than degrees of freedom: they hold only some poses.
     Under,
     /// As many cables as degrees of freedom: one set of tensions.
@@ -209,14 +210,14 @@ enum Constraint {
     Redundant,
 }
 
-impl Constraint {
+impl ConstraintAtPose {
     fn of(robot: &Robot, pose: &Pose, model: StaticModel) -> Self {
-        match robot.cables.len().cmp(&robot.platform.motion.count()) {
-            Ordering::Greater => Self::Redundant,
-            Ordering::Equal if ideal::is_determinate(robot, pose) => Self::Full,
+        match robot.constraint() {
+            Constraint::Redundantly(_) => Self::Redundant,
+            Constraint::Fully if ideal::is_determinate(robot, pose) => Self::Full,
             _ if has_choice(robot, pose, model) => Self::Redundant,
-            Ordering::Equal => Self::Full,
-            Ordering::Less => Self::Under,
+            Constraint::Fully => Self::Full,
+            Constraint::Under(_) => Self::Under,
         }
     }
 }

@@ -189,8 +189,8 @@ fn cables_at(
     model: StaticModel,
     rule: &TensionRule,
 ) -> Result<Vec<CableAtPose>, StaticsError> {
-    let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
-    if cables < dof && !has_choice(robot, pose, model) {
+    if robot.constraint().is_under() && !has_choice(robot, pose, model) {
+        let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
         return Err(StaticsError::InverseCableCount { cables, dof });
     }
 
@@ -203,7 +203,7 @@ fn cables_at(
 
     let coordinates = Coordinates::of(robot);
     let cables_at_pose: Vec<CableAtPose> =
-        (0..cables).map(|i| CableAtPose::new(robot, i, pose, model, coordinates)).collect();
+        (0..robot.cables.len()).map(|i| CableAtPose::new(robot, i, pose, model, coordinates)).collect();
     check(robot, model, rule, &cables_at_pose)?;
     Ok(cables_at_pose)
 }

@@ -269,5 +269,5 @@ fn the_row_of_a_cable_model_names_every_file_with_an_arm_for_one() {
             named += 1;
         }
     }
-    assert!(named > 5, "{named}");
+    assert!(named > 2, "{named}");
 }

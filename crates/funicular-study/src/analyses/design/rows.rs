@@ -10,7 +10,7 @@ use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::{Gradients, Hold, VibrationGradients};
 use funicular::math::max_min::{Evaluation, LinearisedFunction};
-use funicular::modes::{self, Mode};
+use funicular::modes::{self, Mode, Wanted};
 use funicular::robot::RobotChange;
 use funicular::statics::StaticModel;
 
@@ -201,16 +201,15 @@ impl PoseRows<'_> {
     /// Modes somewhat beyond the last frequency of a band, and at least `wanted` of them: a frequency that has to go
     /// below the band may be far above it.
     fn modes_beside_band(&self, last_hz: f64, wanted: usize) -> Result<(Dynamics, Vec<Mode>)> {
-        let mut limit = ABOVE_BAND * last_hz;
-        loop {
-            let (dynamics, _) = self.at_rest.dynamics_for_gradients(self.linearisation, limit)?;
+        let (robot, rest) = (&self.at_rest.robot, &self.at_rest.equilibrium);
+        // The limit rises little: every mode of the list has a row.
+        let next_hz = |limit: f64| (limit <= HIGHEST_HZ).then_some(ABOVE_BAND * limit);
+        let found = modes::until(Wanted::Count(wanted), ABOVE_BAND * last_hz, next_hz, |limit| -> Result<_> {
+            let dynamics = Dynamics::for_gradients(robot, rest, self.linearisation, limit)?;
             modes::check_count(&dynamics, limit, modes::MAX_MODES)?;
-            let list = modes::below(&dynamics, limit).modes;
-            if list.len() >= wanted || limit > HIGHEST_HZ {
-                return Ok((dynamics, list));
-            }
-            limit *= ABOVE_BAND;
-        }
+            Ok(dynamics)
+        })?;
+        Ok((found.dynamics, found.modes.modes))
     }
 
     /// Stiffnesses [N/m] with their derivatives, ascending.
@@ -264,13 +263,8 @@ fn over(mut row: LinearisedFunction, limit: f64, scale: f64) -> LinearisedFuncti
 /// stiffness of its cables.
 pub(crate) fn linearisation_of_goal(request: &DesignRequest, model: StaticModel) -> Linearisation {
     let linearisation = at_rest::linearisation(&request.model, model);
-    match (request.goal, model) {
-        (DesignGoal::Platform, StaticModel::Catenary) => {
-            Linearisation { cable_model: CableModel::CatenaryStatic, ..linearisation }
-        }
-        (DesignGoal::Platform, StaticModel::Ideal | StaticModel::Spring) => {
-            Linearisation { cable_model: CableModel::Spring, ..linearisation }
-        }
+    match request.goal {
+        DesignGoal::Platform => Linearisation { cable_model: CableModel::static_about(model), ..linearisation },
         _ => linearisation,
     }
 }

@@ -210,7 +210,7 @@ fn differentiate(rows: &mut [Row], gradients: &Gradients, modes: Option<&Nominal
 /// linear.
 fn test_tensions(rows: &mut [Row], robot: &Robot, gradients: &Gradients, along: &Along) {
     let rest = gradients.equilibrium();
-    let chosen = gradients.hold() != Hold::Lengths && robot.cables.len() > robot.platform.motion.count();
+    let chosen = gradients.hold() != Hold::Lengths && robot.constraint().is_redundant();
     for (i, (gradient, state)) in gradients.tensions_platform().iter().zip(&rest.cables).enumerate() {
         let Ok(derivatives) = along.of(gradient) else { return };
 

@@ -1,6 +1,7 @@
 //! Figure of the differences between the modes of each cable model and those of the reference.
 
-use super::{PageFigure, axis, colour, model_style, points, with};
+use super::{PageFigure, axis, colour, points, with};
+use crate::figures::style::ModelStyle;
 use funicular::compare::{Comparison, TOLERANCE};
 use serde_json::{Value, json};
 
@@ -23,7 +24,7 @@ pub(crate) fn figure(comparison: &Comparison) -> Option<PageFigure> {
     let others = comparison.models.iter().filter(|model| model.model != comparison.reference && model.modes.is_ok());
     let mut highest = LACKING;
     for result in others {
-        let (colour, _) = model_style(result.model);
+        let ModelStyle { colour, .. } = ModelStyle::of(result.model);
         let found: Vec<f64> = result.matches.iter().map(|of| of.reference_hz).collect();
         let differences: Vec<f64> =
             result.matches.iter().map(|of| (100.0 * of.relative_difference.abs()).max(MIN_DIFFERENCE)).collect();

@@ -1,6 +1,7 @@
 //! Figures over frequency: responses with phase and modes as ticks, and the kinds of modes.
 
 use super::{PageFigure, axis, colour, kind_colour, line, rounded, with};
+use crate::figures::style::ModelStyle;
 use funicular::dynamics::Dynamics;
 use funicular::math::{Complex, Vec6};
 use funicular::modes::{Kind, Mode, Modes};
@@ -18,8 +19,8 @@ const DRAWN: Resolution = Resolution { tolerance: 0.02, max_points: 30_000 };
 pub(crate) struct ResponseCurve {
     /// Name in the legend.
     pub(crate) name: String,
-    /// Colour and dash.
-    pub(crate) style: (&'static str, &'static str),
+    /// Colour and dash of its model.
+    pub(crate) style: ModelStyle,
     /// Frequencies [Hz].
     pub(crate) frequencies_hz: Vec<f64>,
     /// Response. A sum of the magnitudes of several outputs is real and has no phase.
@@ -35,7 +36,7 @@ impl ResponseCurve {
     /// A response that is not finite.
     pub(crate) fn of(
         name: impl Into<String>,
-        style: (&'static str, &'static str),
+        style: ModelStyle,
         (dynamics, below_hz, modes): (&Dynamics, f64, &[Mode]),
         input: &Vec6,
         outputs: &[Vec6],
@@ -148,7 +149,7 @@ pub(crate) fn figure(
             "domain": strip, "range": [-1, 1], "showticklabels": false, "ticks": "", "showgrid": false,
             "fixedrange": true,
         })),
-        "annotations": peak_labels(marks.peaks, below_hz, curves[0].style.0),
+        "annotations": peak_labels(marks.peaks, below_hz, curves[0].style.colour),
         "shapes": shapes,
     });
     if marks.phase {
@@ -163,12 +164,12 @@ pub(crate) fn figure(
 fn traces(curves: &[ResponseCurve], unit: &str, with_phase: bool) -> Vec<Value> {
     let mut data = Vec::new();
     for curve in curves {
-        let trace = line(&curve.name, &curve.frequencies_hz, &curve.magnitude(), curve.style.0, curve.style.1);
+        let trace = line(&curve.name, &curve.frequencies_hz, &curve.magnitude(), curve.style.colour, curve.style.dash);
         let hover = format!("%{{x:.3f}} Hz<br>%{{y:.3e}} {unit}");
         data.push(with(trace, json!({"hovertemplate": hover, "legendgroup": curve.name})));
         if with_phase {
             let (x, y) = curve.phase();
-            let trace = line(&curve.name, &x, &y, curve.style.0, curve.style.1);
+            let trace = line(&curve.name, &x, &y, curve.style.colour, curve.style.dash);
             data.push(with(
                 trace,
                 json!({

@@ -5,8 +5,9 @@ use super::fit::{Fit, Platform, fit};
 use super::matching::{Agreement, MAX_DIFFERENCE};
 use super::pose::lengths;
 use super::published::{DYNAMIC, EXPERIMENT, SPRING, STATIC_SAG};
+use crate::figures::style::ModelStyle;
+use crate::pages::figure::PageFigure;
 use crate::pages::figure::response::{Marks, ResponseCurve, figure};
-use crate::pages::figure::{PageFigure, model_style};
 use crate::pages::table::{PageTable, fixed, listed};
 use anyhow::Context as _;
 use funicular::cable::{CableModel, SHALLOW_SAG_LIMIT, Sag};
@@ -67,7 +68,7 @@ pub(crate) fn outcome(robot: &Robot) -> anyhow::Result<Outcome> {
         let at = (&dynamics, BELOW_HZ, &found.modes[..]);
         let curve = ResponseCurve::of(
             cable_model.name(),
-            model_style(cable_model),
+            ModelStyle::of(cable_model),
             at,
             &input,
             &outputs,

@@ -2,11 +2,10 @@
 
 use super::{Definition, Parameter, ParameterKind, Quantity, RequiredModel};
 use crate::sweep::columns::{Column, ColumnKind, Value};
-use crate::sweep::evaluation::has_ideal_pose;
 use crate::sweep::points::AXES;
 use funicular::cable::{CableModel, Sag};
 use funicular::math::rotation;
-use funicular::robot::Robot;
+use funicular::robot::{Constraint, Robot};
 use funicular::statics::{self, TensionRange};
 
 /// Every quantity, in the order of the documentation.
@@ -392,7 +391,7 @@ fn stiffness_columns(robot: &Robot) -> Vec<Column> {
 }
 
 fn pose_error_columns(robot: &Robot) -> Vec<Column> {
-    let pairs: &[&str] = if has_ideal_pose(robot) {
+    let pairs: &[&str] = if robot.constraint() == Constraint::Fully {
         &["spring_from_ideal", "catenary_from_ideal", "spring_from_catenary"]
     } else {
         &["spring_from_catenary"]

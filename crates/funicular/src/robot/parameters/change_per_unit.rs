@@ -6,6 +6,17 @@ use crate::robot::spec::key::{Component, Shape};
 use crate::robot::{GuideWheelChange, PlatformMotion, Pulley, Robot, RobotChange, RopeSection, SupportChange};
 use std::f64::consts::TAU;
 
+/// Keys of numbers without derivatives, with the table in which they stand. All other numbers have a direction.
+const WITHOUT_DERIVATIVE: [(&str, &[&str]); 4] = [
+    // Another plane means other coordinates of the platform.
+    ("platform", &["plane_normal", "plane_offset_m"]),
+    // Limits judge tensions or stop a rule, which keeps them as they are: a limit that is reached stays reached.
+    ("materials", &["minimum_tension_n", "maximum_tension_n", "breaking_load_n"]),
+    ("cables", &["minimum_tension_n", "maximum_tension_n"]),
+    // Results with derivatives are those without friction.
+    ("pulleys", &["friction_coefficient", "efficiency", "bearing_friction_coefficient", "bearing_radius_m"]),
+];
+
 impl Parameters {
     /// Change of the robot per unit of a parameter, in the unit of the file: the direction for derivatives of results
     /// with respect to the parameter. A value of a rope changes all its cables, an angle of the pose turns the
@@ -29,6 +40,9 @@ impl Parameters {
     /// by another pose.
     pub fn change_of(&self, index: usize, robot: &Robot) -> Option<RobotChange> {
         let parameter = self.list.get(index)?;
+        if is_without_derivative(parameter) {
+            return None;
+        }
         let mut change = RobotChange::none(robot.cables.len());
 
         let unit = || -> Option<Vec3> {
@@ -261,6 +275,11 @@ impl Parameters {
     }
 }
 
+fn is_without_derivative(parameter: &Parameter) -> bool {
+    let in_table = |table: &str| parameter.keys.first().is_some_and(|first| first == table);
+    WITHOUT_DERIVATIVE.iter().any(|(table, keys)| in_table(table) && keys.contains(&parameter.key))
+}
+
 /// Symmetric tensor whose entry with this name is 1.
 fn tensor_entry(component: Option<&str>) -> Option<Mat3> {
     let entry = Shape::Tensor.components().iter().find(|(name, _)| Some(*name) == component)?.1;
@@ -316,4 +335,167 @@ fn pose_change(
     let beyond = motion - robot.platform.motion.allowed(&motion);
     // Rounding of the axes is 1e-16.
     (beyond.norm() <= 1e-12 * motion.norm()).then_some(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Parameter, Parameters, RobotPart, WITHOUT_DERIVATIVE, is_without_derivative};
+    use crate::robot::spec::key::Table;
+    use crate::robot::spec::{TABLES, TOP};
+
+    /// Robot files that have every key with numbers: some keys exclude each other.
+    const FILES: [&str; 2] = [
+        r#"
+        name = "a number for most keys"
+        gravity_m_s2 = [0.0, 0.0, -9.81]
+        [platform]
+        mass_kg = 10.0
+        inertia_kg_m2 = [0.2, 0.3, 0.4]
+        center_of_mass_m = [0.0, 0.0, 0.1]
+        drag_area_m2 = 0.3
+        translational_damping_n_s_m = [1.0, 1.0, 1.0]
+        rotational_damping_n_m_s = [0.1, 0.1, 0.1]
+        [materials.rope]
+        youngs_modulus_pa = 100e9
+        diameter_m = 0.004
+        mass_kg_per_m = 0.07
+        damping_ratio = 0.003
+        minimum_tension_n = 1.0
+        maximum_tension_n = 5000.0
+        breaking_load_n = 9000.0
+        drag_coefficient = 1.2
+        drag_diameter_m = 0.005
+        load_n_per_m = [0.0, 0.1, 0.0]
+        [pulleys.wheel]
+        radius_m = 0.05
+        entry_direction = [0.0, 0.0, 1.0]
+        inertia_kg_m2 = 0.0002
+        swivel_inertia_kg_m2 = 0.001
+        friction_coefficient = 0.1
+        [winches.drum]
+        drum_side_length_m = 2.0
+        drum_radius_m = 0.06
+        stiffness_n_per_m = 1e5
+        drum_inertia_kg_m2 = 0.004
+        motor_inertia_kg_m2 = 0.001
+        gear_ratio = 5.0
+        damping_n_m_s_per_rad = 0.01
+        control = "position"
+        bandwidth_hz = 8.0
+        control_damping_ratio = 0.7
+        delay_s = 0.001
+        [guide_wheels.guide]
+        winch = "drum"
+        distance_m = 0.5
+        radius_m = 0.04
+        inertia_kg_m2 = 0.0001
+        [supports.post]
+        stiffness_n_per_m = 1e5
+        mass_kg = 20.0
+        damping_ratio = 0.01
+        [[cables]]
+        name = "1"
+        material = "rope"
+        anchor_m = [0.0, 0.0, 3.0]
+        attachment_m = [0.1, 0.0, 0.0]
+        pulley = "wheel"
+        winch = "drum"
+        support = "post"
+        minimum_tension_n = 2.0
+        maximum_tension_n = 4000.0
+        unstrained_length_m = 4.5
+        [loads]
+        force_n = [0.0, 0.0, -50.0]
+        moment_n_m = [0.0, 0.0, 2.0]
+        point_m = [0.0, 0.0, -0.1]
+        [wind]
+        velocity_m_s = [8.0, 0.0, 0.0]
+        air_density_kg_m3 = 1.2
+        "#,
+        r#"
+        name = "keys that exclude others"
+        [platform]
+        mass_kg = 10.0
+        motion = "planar"
+        plane_normal = [0.0, 1.0, 0.0]
+        plane_offset_m = 0.5
+        inertia_kg_m2 = 0.2
+        [materials.rope]
+        axial_stiffness_n = 1e6
+        mass_kg_per_m = 0.07
+        viscous_damping_n_s_m2 = 0.5
+        [materials.other]
+        youngs_modulus_pa = 100e9
+        area_m2 = 1e-5
+        mass_kg_per_m = 0.07
+        [pulleys.wheel]
+        radius_m = 0.05
+        efficiency = 0.96
+        [pulleys.journal]
+        radius_m = 0.05
+        bearing_friction_coefficient = 0.1
+        bearing_radius_m = 0.01
+        [winches.drum]
+        drum_radius_m = 0.06
+        shaft_stiffness_n_m_per_rad = 400.0
+        control = "position"
+        position_gain_n_m_per_rad = 100.0
+        speed_gain_n_m_s_per_rad = 5.0
+        [[cables]]
+        name = "1"
+        material = "rope"
+        anchor_m = [0.0, 0.5, 3.0]
+        attachment_m = [0.1, 0.0, 0.0]
+        pulley = "wheel"
+        winch = "drum"
+        entry_direction = [0.0, 0.0, 1.0]
+        load_n_per_m = [0.0, 0.0, -0.1]
+        [[cables]]
+        name = "2"
+        material = "other"
+        anchor_m = [1.0, 0.5, 3.0]
+        attachment_m = [0.1, 0.0, 0.0]
+        pulley = "journal"
+        entry_direction = [0.0, 0.0, 1.0]
+        [state]
+        position_m = [0.5, 0.5, 1.0]
+        roll_pitch_yaw_deg = [0.0, 10.0, 0.0]
+        "#,
+    ];
+
+    fn is_in(table: &Table, parameter: &Parameter) -> bool {
+        let name = table.header.trim_matches(['[', ']']).trim_end_matches(".NAME");
+        match parameter.part {
+            RobotPart::Robot => table.header == TOP,
+            _ => parameter.keys[0] == name,
+        }
+    }
+
+    #[test]
+    fn every_number_of_the_file_has_a_direction_or_is_listed_without() {
+        let files = FILES.map(|text| Parameters::from_toml(text).unwrap_or_else(|error| panic!("{error}")));
+        let mut listed = 0;
+        for table in TABLES {
+            for key in table.keys.iter().filter(|key| key.numeric_value().is_some()) {
+                let label = format!("{} {}", table.header, key.name);
+                let mut of_key = Vec::new();
+                for parameters in &files {
+                    let given = parameters.list().iter().enumerate().filter(|(_, parameter)| parameter.given);
+                    for (index, parameter) in given.filter(|(_, of)| of.key == key.name && is_in(table, of)) {
+                        let zero = parameters.change(index).is_none_or(|change| change.dot(&change) == 0.0);
+                        of_key.push((is_without_derivative(parameter), zero));
+                    }
+                }
+
+                assert!(!of_key.is_empty(), "no file of this test gives {label}");
+                if of_key.iter().any(|(is_listed, _)| *is_listed) {
+                    listed += 1;
+                    assert!(of_key.iter().all(|&both| both == (true, true)), "{label} has a derivative");
+                } else {
+                    assert!(of_key.iter().any(|(_, zero)| !zero), "{label} has neither a derivative nor a reason");
+                }
+            }
+        }
+        assert_eq!(listed, WITHOUT_DERIVATIVE.iter().map(|(_, keys)| keys.len()).sum::<usize>());
+    }
 }
