@@ -141,13 +141,7 @@ impl Named for CableModel {
     }
 
     fn about(self) -> &'static str {
-        match self {
-            Self::CatenaryDynamic => "Vibration about the elastic catenary: any sag, axial waves included",
-            Self::ShallowDynamic => "Dynamic stiffness of a shallow sagging cable (Starossek 1991)",
-            Self::ShallowStatic => "Static stiffness of a shallow sagging cable (Irvine 1981)",
-            Self::CatenaryStatic => "Exact static stiffness of the elastic catenary",
-            Self::Spring => "Massless spring along the chord",
-        }
+        CableModel::about(self)
     }
 }
 

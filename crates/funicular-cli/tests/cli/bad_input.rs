@@ -109,7 +109,7 @@ fn broken_command_lines_are_refused() {
         ("frf ROBOT --from-hz 0 --to-hz 1 --points 1 --input fz --output z", "from 2 to 1000000"),
         ("frf ROBOT --from-hz 0 --to-hz 1 --points 1000001 --input fz --output z", "from 2 to 1000000"),
         ("frf ROBOT --from-hz 0 --to-hz 1 --points -9 --input fz --output z", "error:"),
-        ("frf ROBOT --from-hz 0 --to-hz 1 --points 2.5 --input fz --output z", "invalid digit"),
+        ("frf ROBOT --from-hz 0 --to-hz 1 --points 2.5 --input fz --output z", "give a whole number"),
         ("frf ROBOT --from-hz 0 --to-hz 1 --points 9 --input f --output z", "not an input"),
         ("frf ROBOT --from-hz 0 --to-hz 1 --points 9 --input f:0,0,0 --output z", "a direction cannot be zero"),
         ("frf ROBOT --from-hz 0 --to-hz 1 --points 9 --input fz --output az2", "not an output"),
