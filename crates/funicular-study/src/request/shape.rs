@@ -62,9 +62,9 @@ fn of_kind(kind: &Kind) -> Value {
         Kind::Text => text(),
         Kind::Texts => texts(),
         Kind::Written(form) => of_form(*form),
-        Kind::List(form) => list(of_form(*form)),
+        Kind::List(form) => list(&of_form(*form)),
         Kind::OneOrMore(form) | Kind::Commas(form) => {
-            json!({ "anyOf": [of_form(*form), list(of_form(*form))] })
+            json!({ "anyOf": [of_form(*form), list(&of_form(*form))] })
         }
         Kind::Data(schema) => schema(),
     }
@@ -83,7 +83,7 @@ fn of_form(form: ProgramForm) -> Value {
     }
 }
 
-fn list(items: Value) -> Value {
+fn list(items: &Value) -> Value {
     json!({ "type": "array", "items": items })
 }
 
@@ -96,12 +96,12 @@ pub(super) fn text() -> Value {
 }
 
 pub(super) fn texts() -> Value {
-    list(text())
+    list(&text())
 }
 
 /// List of objects whose keys the reader of measurements checks.
 pub(super) fn objects() -> Value {
-    list(json!({ "type": "object" }))
+    list(&json!({ "type": "object" }))
 }
 
 fn number(range: Range) -> Value {
@@ -111,7 +111,7 @@ fn number(range: Range) -> Value {
 
 /// Numbers in a range, as many as are given or this many.
 fn numbers(range: Range, count: Option<usize>) -> Value {
-    let mut schema = list(number(range));
+    let mut schema = list(&number(range));
     if let (Some(count), Value::Object(schema)) = (count, &mut schema) {
         schema.insert("minItems".to_owned(), count.into());
         schema.insert("maxItems".to_owned(), count.into());
@@ -134,7 +134,7 @@ fn pose() -> Value {
 }
 
 pub(super) fn poses() -> Value {
-    list(numbers(Range::Finite, Some(6)))
+    list(&numbers(Range::Finite, Some(6)))
 }
 
 fn mass_range() -> Value {
@@ -146,7 +146,7 @@ fn mass_range() -> Value {
 fn axis() -> Value {
     let (number, count) = (number(Range::Finite), json!({ "type": "integer", "minimum": 2 }));
     let steps = json!({ "axis": text(), "from": number, "to": number, "count": count });
-    let listed = json!({ "axis": text(), "values": list(number) });
+    let listed = json!({ "axis": text(), "values": list(&number) });
     json!({ "anyOf": [object(&["axis", "from", "to", "count"], &steps), object(&["axis", "values"], &listed)] })
 }
 
@@ -164,7 +164,7 @@ fn change() -> Value {
 /// Text of a robot file with its changes.
 pub(super) fn robot() -> Value {
     let change = object(&["path", "value"], &json!({ "path": text(), "value": {} }));
-    object(&["text"], &json!({ "name": text(), "text": text(), "set": list(change) }))
+    object(&["text"], &json!({ "name": text(), "text": text(), "set": list(&change) }))
 }
 
 /// File of another program.
@@ -173,11 +173,11 @@ pub(super) fn file() -> Value {
 }
 
 pub(super) fn files() -> Value {
-    list(file())
+    list(&file())
 }
 
 pub(super) fn experiments() -> Value {
-    list(json!({
+    list(&json!({
         "type": "object",
         "properties": properties_of(&Experiment::keys()),
         "additionalProperties": false,
