@@ -137,7 +137,7 @@ fn with_files(name: &str, command: Command) -> Command {
     };
     match name {
         "new" => NewArgs::augment_args(command),
-        "schema" => FileArgs::augment_args(command),
+        "schema" | "export" => FileArgs::augment_args(command),
         "statics" | "frf" | "compare" => DrawArgs::augment_args(command),
         "modes" => DrawModesArgs::augment_args(command),
         "uncertainty" => UncertaintyArgs::augment_args(command),
@@ -151,7 +151,6 @@ fn with_files(name: &str, command: Command) -> Command {
         "report" | "live" => page(command, Some("Output")),
         "paper" => page(command, None),
         "import" => ImportArgs::augment_args(command),
-        "export" => FileArgs::augment_args(command),
         _ => OutputArgs::augment_args(command),
     }
 }
