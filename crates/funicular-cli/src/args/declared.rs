@@ -14,11 +14,9 @@ pub(super) fn described(command: Command, about: &str, examples: &[&str]) -> Com
     let short = about.split("\n\n").next().unwrap_or_default().to_owned();
     let long = (about != short).then_some(about);
     let head = if examples.len() == 1 { "Example" } else { "Examples" };
-    let examples: String = examples.iter().map(|example| format!("\n  {example}")).collect();
-    command
-        .about(short)
-        .long_about(Resettable::from(long.map(StyledStr::from)))
-        .after_help(format!("{head}:{examples}"))
+    let examples = examples.join("\n  ");
+    let long = Resettable::from(long.map(StyledStr::from));
+    command.about(short).long_about(long).after_help(format!("{head}:\n  {examples}"))
 }
 
 /// Adds the options of keys to a command.
