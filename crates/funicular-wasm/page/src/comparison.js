@@ -28,7 +28,9 @@ async function compare() {
     const text = await job.run(1, async ([worker]) => (await worker.call("answer", { request })).text);
     show(JSON.parse(text));
   } catch (error) {
-    $("compare").replaceChildren(element("p", { class: "soft" }, error instanceof Cancelled ? "Cancelled." : error.message));
+    $("compare").replaceChildren(
+      element("p", { class: "soft" }, error instanceof Cancelled ? "Cancelled." : error.message),
+    );
   }
   clearInterval(clock);
   put($("compare-state"), "");
@@ -37,21 +39,40 @@ async function compare() {
 }
 
 function show(found) {
-  const rows = found.models.map((model) => element("tr", {},
-    element("td", { class: "left" }, model.cable_model),
-    element("td", {}, short(model.modes[0]?.frequency_hz, 5)),
-    element("td", {}, String(model.missed ?? "")),
-    element("td", {}, short(100 * model.largest_difference, 3)),
-    element("td", {}, short(model.first_wrong_hz, 4))));
-  const heads = [["Model", "", "left"], ["First", "[Hz]"], ["Missed", "modes"], ["Largest error", "[%]"], ["Wrong from", "[Hz]"]];
+  const rows = found.models.map((model) =>
+    element(
+      "tr",
+      {},
+      element("td", { class: "left" }, model.cable_model),
+      element("td", {}, short(model.modes[0]?.frequency_hz, 5)),
+      element("td", {}, String(model.missed ?? "")),
+      element("td", {}, short(100 * model.largest_difference, 3)),
+      element("td", {}, short(model.first_wrong_hz, 4)),
+    ),
+  );
+  const heads = [
+    ["Model", "", "left"],
+    ["First", "[Hz]"],
+    ["Missed", "modes"],
+    ["Largest error", "[%]"],
+    ["Wrong from", "[Hz]"],
+  ];
   const head = heads.map(([text, unit, kind]) => element("th", { class: kind }, text, element("span", {}, unit)));
   $("compare").replaceChildren(
     element("p", { class: "advice" }, found.advice?.text ?? ""),
-    element("div", { class: "table" }, element("table", {}, element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...rows))));
+    element(
+      "div",
+      { class: "table" },
+      element("table", {}, element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...rows)),
+    ),
+  );
 }
 
 export function listen() {
-  on("empty", () => { job.cancel(); $("compare").replaceChildren(); });
+  on("empty", () => {
+    job.cancel();
+    $("compare").replaceChildren();
+  });
   on("outdated", () => {
     job.cancel();
     if ($("compare").childElementCount > 0) {

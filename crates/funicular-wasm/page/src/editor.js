@@ -21,7 +21,8 @@ const colors = HighlightStyle.define([
 function partOf(schema, keys) {
   let node = schema;
   for (const key of keys) {
-    const next = node.properties?.[key] ?? (typeof node.additionalProperties === "object" ? node.additionalProperties : null);
+    const next =
+      node.properties?.[key] ?? (typeof node.additionalProperties === "object" ? node.additionalProperties : null);
     if (!next) {
       return null;
     }
@@ -30,7 +31,10 @@ function partOf(schema, keys) {
   return node;
 }
 
-/** Names of tables after one bracket, or of lists of tables after two. After `materials.` follows a name of the user's choice. */
+/**
+ * Names of tables after one bracket, or of lists of tables after two. After `materials.` follows a name of the user's
+ * choice.
+ */
 function tablesOf(schema, brackets) {
   return Object.entries(schema.properties ?? {}).flatMap(([key, value]) => {
     const isList = Boolean(value.items?.properties);
@@ -43,9 +47,13 @@ function tablesOf(schema, brackets) {
 }
 
 /** Keys that a table may have, and their meaning; with the key and nothing else for a nested table. */
-const keysOf = (part) => Object.entries(part?.properties ?? {}).map(([label, { description, type }]) => ({
-  label, type: "property", info: description, apply: type === "object" ? label : `${label} = `,
-}));
+const keysOf = (part) =>
+  Object.entries(part?.properties ?? {}).map(([label, { description, type }]) => ({
+    label,
+    type: "property",
+    info: description,
+    apply: type === "object" ? label : `${label} = `,
+  }));
 
 /** Keys of the table header above a line, `[a.b]` or `[[a]]`; none at the top of the file. */
 function tableAbove(document, number) {
@@ -92,8 +100,15 @@ export class Editor {
       parent: place,
       state: EditorState.create({
         extensions: [
-          lineNumbers(), history(), drawSelection(), highlightActiveLine(), closeBrackets(), lintGutter(),
-          StreamLanguage.define(toml), syntaxHighlighting(colors), autocompletion({ override: [(context) => this.complete(context)], activateOnTyping: true }),
+          lineNumbers(),
+          history(),
+          drawSelection(),
+          highlightActiveLine(),
+          closeBrackets(),
+          lintGutter(),
+          StreamLanguage.define(toml),
+          syntaxHighlighting(colors),
+          autocompletion({ override: [(context) => this.complete(context)], activateOnTyping: true }),
           // Tab leaves the editor, for people who use the keyboard only.
           keymap.of([...completionKeymap, ...defaultKeymap, ...historyKeymap]),
           EditorView.contentAttributes.of({ "aria-label": "Robot file (TOML)" }),
@@ -122,7 +137,10 @@ export class Editor {
       from += 1;
     }
     let end = 0;
-    while (end < Math.min(old.length, text.length) - from && old[old.length - 1 - end] === text[text.length - 1 - end]) {
+    while (
+      end < Math.min(old.length, text.length) - from &&
+      old[old.length - 1 - end] === text[text.length - 1 - end]
+    ) {
       end += 1;
     }
     this.silent = true;

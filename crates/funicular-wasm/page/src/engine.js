@@ -39,7 +39,9 @@ export class Engine {
     this.#worker = new Worker(script);
     let run = null;
     /** Resolves when the worker has its script. */
-    this.running = new Promise((resolve) => { run = resolve; });
+    this.running = new Promise((resolve) => {
+      run = resolve;
+    });
     this.#worker.onmessage = ({ data }) => {
       if (data.running) {
         run();

@@ -5,12 +5,24 @@ const CABLE = 20;
 const MODE = 12;
 const KINDS = ["platform", "cable", "drive", "mixed"];
 const CABLE_KEYS = [
-  "length", "tension", "tensionAnchor", "tensionDrum", "chord", "sagRatio", "lambda2", "stringHz", "lowest", "highest",
-  "minimum", "maximum", "reached", "slack",
+  "length",
+  "tension",
+  "tensionAnchor",
+  "tensionDrum",
+  "chord",
+  "sagRatio",
+  "lambda2",
+  "stringHz",
+  "lowest",
+  "highest",
+  "minimum",
+  "maximum",
+  "reached",
+  "slack",
 ];
 
-// Relative distance by which a tension is beyond its limit. `reached` of the frame tells less: the tensions of most rules
-// are at a limit, and stay there when the lengths are held, to the accuracy of the search.
+// Relative distance by which a tension is beyond its limit. `reached` of the frame tells less: the tensions of most
+// rules are at a limit, and stay there when the lengths are held, to the accuracy of the search.
 const LIMIT_MARGIN = 1e-6;
 
 /** True if a tension is beyond its limits: reaching one is not enough. */

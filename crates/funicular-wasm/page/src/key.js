@@ -5,7 +5,14 @@ import { age, put } from "./messages.js";
 import { KINDS } from "./modes.js";
 import { on, page } from "./store.js";
 
-const NAMES = ["Highest tension", "Lowest tension", "First resonance", "First resonance of the platform", "Maximum payload", "Stiffness in the softest direction"];
+const NAMES = [
+  "Highest tension",
+  "Lowest tension",
+  "First resonance",
+  "First resonance of the platform",
+  "Maximum payload",
+  "Stiffness in the softest direction",
+];
 
 /** Tells a screen reader the results when the platform rests. */
 function speak() {
@@ -14,7 +21,11 @@ function speak() {
     const [x, y, z] = frame.position.map((value) => short(Number(value.toFixed(3)), 4));
     const first = frame.modes[frame.first?.index];
     const highest = Math.max(...frame.cables.map((cable) => cable.highest));
-    put($("spoken"), `Platform at x ${x}, y ${y}, z ${z} metres. Highest tension ${short(highest, 3)} newtons.${first ? ` First resonance of the platform ${short(first.hz, 3)} hertz.` : ""}`);
+    put(
+      $("spoken"),
+      `Platform at x ${x}, y ${y}, z ${z} metres. Highest tension ${short(highest, 3)} ` +
+        `newtons.${first ? ` First resonance of the platform ${short(first.hz, 3)} hertz.` : ""}`,
+    );
   }
 }
 
@@ -26,7 +37,13 @@ function platformFact(frame, delta) {
   if (own) {
     return [`${short(own.hz, 4)} Hz`, `mode ${frame.first.index + 1}${delta(before && first(before.frame)?.hz)}`];
   }
-  return frame.first ? ["–", frame.first.reason] : ["…", `above the ${frame.modes.length} lowest; ${page.view.dragging ? "searched when the platform rests" : "searching"}`];
+  return frame.first
+    ? ["–", frame.first.reason]
+    : [
+        "…",
+        `above the ${frame.modes.length} lowest; ` +
+          `${page.view.dragging ? "searched when the platform rests" : "searching"}`,
+      ];
 }
 
 function showKey() {
@@ -34,7 +51,11 @@ function showKey() {
   const facts = frame ? factsOf(frame) : NAMES.map(() => ["–", ""]);
   const place = $("key");
   if (place.children.length !== facts.length) {
-    place.replaceChildren(...NAMES.map((name) => element("div", {}, element("dt", {}, name), element("dd", {}, element("span"), element("small")))));
+    place.replaceChildren(
+      ...NAMES.map((name) =>
+        element("div", {}, element("dt", {}, name), element("dd", {}, element("span"), element("small"))),
+      ),
+    );
   }
   facts.forEach(([value, more], i) => {
     const fact = place.children[i].lastChild;
@@ -52,18 +73,38 @@ function factsOf(frame) {
   const top = frame.cables[highest];
   const [first] = frame.modes;
   const delta = (past) => (past ? ` (before ${short(past, 4)})` : "");
+  const isLimited = frame.limited && Number.isFinite(top.maximum);
+  const ofMaximum = isLimited ? `, ${short((100 * top.highest) / top.maximum, 3)} % of its maximum` : "";
+  const minimum = frame.limited ? `, minimum ${short(frame.cables[lowest].minimum, 3)} N` : "";
+  const past = before?.frame.cables;
   return [
-    [`${short(top.highest, 4)} N`, `cable ${names[highest]}${frame.limited && Number.isFinite(top.maximum) ? `, ${short((100 * top.highest) / top.maximum, 3)} % of its maximum` : ""}${delta(before && Math.max(...before.frame.cables.map((cable) => cable.highest)))}`],
-    [`${short(frame.cables[lowest].lowest, 4)} N`, `cable ${names[lowest]}${frame.limited ? `, minimum ${short(frame.cables[lowest].minimum, 3)} N` : ""}${delta(before && Math.min(...before.frame.cables.map((cable) => cable.lowest)))}`],
-    [first ? `${short(first.hz, 4)} Hz` : "–", first ? `of the ${KINDS[first.kind]}${delta(before?.frame.modes[0]?.hz)}` : ""],
+    [
+      `${short(top.highest, 4)} N`,
+      `cable ${names[highest]}${ofMaximum}${delta(past && Math.max(...past.map((cable) => cable.highest)))}`,
+    ],
+    [
+      `${short(frame.cables[lowest].lowest, 4)} N`,
+      `cable ${names[lowest]}${minimum}${delta(past && Math.min(...past.map((cable) => cable.lowest)))}`,
+    ],
+    [
+      first ? `${short(first.hz, 4)} Hz` : "–",
+      first ? `of the ${KINDS[first.kind]}${delta(before?.frame.modes[0]?.hz)}` : "",
+    ],
     platformFact(frame, delta),
     payloadFact(delta),
-    [frame.stable === undefined ? "rigid" : `${short(frame.minStiffness, 4)} N/m`, `${frame.stable === false ? "unstable" : ""}${delta(before?.frame.minStiffness)}`],
+    [
+      frame.stable === undefined ? "rigid" : `${short(frame.minStiffness, 4)} N/m`,
+      `${frame.stable === false ? "unstable" : ""}${delta(before?.frame.minStiffness)}`,
+    ],
   ];
 }
 
 function payloadFact(delta) {
-  const { before, settled: { payload }, view } = page;
+  const {
+    before,
+    settled: { payload },
+    view,
+  } = page;
   if (!payload || view.dragging) {
     return ["…", ""];
   }
@@ -73,7 +114,11 @@ function payloadFact(delta) {
   }
   const limiting = maximum.cables.filter((cable) => cable.limit_reached === "maximum").map((cable) => cable.name);
   const slack = maximum.cables.filter((cable) => cable.limit_reached === "minimum").map((cable) => cable.name);
-  const by = limiting.length ? `limited by cable ${limiting.join(", ")}` : slack.length ? `cable ${slack.join(", ")} reaches its minimum` : "";
+  const by = limiting.length
+    ? `limited by cable ${limiting.join(", ")}`
+    : slack.length
+      ? `cable ${slack.join(", ")} reaches its minimum`
+      : "";
   return [`${short(maximum.payload_kg, 4)} kg`, `${by}${delta(before?.payload?.maximum?.payload_kg)}`];
 }
 
@@ -81,7 +126,7 @@ function showWarnings() {
   const { frame, settled } = page;
   age("warnings", false);
   const none = frame ? "No remarks on this state." : "–";
-  const all = settled.reason ? [settled.reason] : settled.statics?.warnings ?? [];
+  const all = settled.reason ? [settled.reason] : (settled.statics?.warnings ?? []);
   $("warnings").replaceChildren(...(all.length ? all : [none]).map((text) => element("li", {}, text)));
 }
 
@@ -89,8 +134,15 @@ export function listen() {
   on("frame", showKey);
   on("platform", showKey);
   on("remember", showKey);
-  on("empty", () => { showKey(); showWarnings(); put($("spoken"), ""); });
-  on("outdated", () => { age("warnings", true); put($("spoken"), ""); });
+  on("empty", () => {
+    showKey();
+    showWarnings();
+    put($("spoken"), "");
+  });
+  on("outdated", () => {
+    age("warnings", true);
+    put($("spoken"), "");
+  });
   on("rested", speak);
   on("settled", showWarnings);
   on("settled", showKey);

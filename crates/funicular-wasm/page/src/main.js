@@ -64,7 +64,10 @@ function makeWorkspace() {
     request: () => ({ ...statics(), robot: content.robot }),
     state: () => page,
     here: pose.presentPose,
-    go: (to) => { pose.setPose(to); history.commit(); },
+    go: (to) => {
+      pose.setPose(to);
+      history.commit();
+    },
     rounded: pose.roundedLength,
     tell,
     cores: CORES,
@@ -114,22 +117,51 @@ async function start() {
 
   // The order of listeners is the order in which a frame is shown: the view first, whose colours the table takes.
   robot.listen();
-  const parts = [pose, tensions, modes, key, response, sliders, influence, release, history, link, embedded, saving, comparison];
+  const parts = [
+    pose,
+    tensions,
+    modes,
+    key,
+    response,
+    sliders,
+    influence,
+    release,
+    history,
+    link,
+    embedded,
+    saving,
+    comparison,
+  ];
   parts.forEach((part) => part.listen());
   on("frame", () => {
     if (performance.getEntriesByName("frame").length === 0) {
       performance.mark("frame");
     }
   });
-  ["frame", "empty"].forEach((event) => on(event, () => { if (event === "frame" || shown.refused || shown.broken) { $("loading")?.remove(); } }));
+  ["frame", "empty"].forEach((event) =>
+    on(event, () => {
+      if (event === "frame" || shown.refused || shown.broken) {
+        $("loading")?.remove();
+      }
+    }),
+  );
   // While a frame takes long, the figures are those of the state before.
   const ofFrame = (old) => ["key", "tensions", "modes"].forEach((id) => age(id, old));
-  on("outdated", () => { ofFrame(true); age("bode", true); });
+  on("outdated", () => {
+    ofFrame(true);
+    age("bode", true);
+  });
   ["frame", "empty"].forEach((event) => on(event, () => ofFrame(false)));
-  on("rested", () => { $("state").dataset.settled = String(Number($("state").dataset.settled ?? 0) + 1); });
+  on("rested", () => {
+    $("state").dataset.settled = String(Number($("state").dataset.settled ?? 0) + 1);
+  });
   $("remember").addEventListener("click", remember);
-  $("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ({ matches }) => setTheme(matches ? "dark" : "light"));
+  $("theme").addEventListener("click", () =>
+    setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"),
+  );
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ({ matches }) =>
+    setTheme(matches ? "dark" : "light"),
+  );
   performance.mark("ready");
   await firstRobot();
   performance.mark("complete");
@@ -137,15 +169,33 @@ async function start() {
 
 // For tests: the state and the numbers of the page, as data.
 window.funicular = {
-  get content() { return content; },
-  get frame() { return page.frame; },
-  get response() { return page.answered; },
-  get freedoms() { return page.about.degrees_of_freedom; },
-  get asked() { return { response: shown.response }; },
-  get times() { return page.times; },
-  get idle() { return isIdle(); },
-  get view() { return page.view; },
-  get engine() { return page.engine; },
+  get content() {
+    return content;
+  },
+  get frame() {
+    return page.frame;
+  },
+  get response() {
+    return page.answered;
+  },
+  get freedoms() {
+    return page.about.degrees_of_freedom;
+  },
+  get asked() {
+    return { response: shown.response };
+  },
+  get times() {
+    return page.times;
+  },
+  get idle() {
+    return isIdle();
+  },
+  get view() {
+    return page.view;
+  },
+  get engine() {
+    return page.engine;
+  },
   ask: async (request) => JSON.parse((await page.engine.call("answer", { request })).text),
   timeOfResponse: async () => {
     const { input, output, from, to, log } = shown.response;

@@ -8,7 +8,12 @@ import { emit, on, page, shown } from "./store.js";
 const MAX_MODES = 200;
 
 /** Words for the kinds of modes. */
-export const KINDS = { platform: "platform", cable: "cables", drive: "drives and supports", mixed: "platform and cables" };
+export const KINDS = {
+  platform: "platform",
+  cable: "cables",
+  drive: "drives and supports",
+  mixed: "platform and cables",
+};
 
 /** Modes of the table: the lowest ones, and the first of the platform above them. */
 function listedModes({ listed, first }) {
@@ -17,8 +22,20 @@ function listedModes({ listed, first }) {
 }
 
 function rowOf() {
-  const row = element("tr", { class: "pick" }, element("td", {}, element("button")), element("td"), element("td"), element("td", { class: "left" }),
-    element("td", { class: "left" }, element("span", { class: "share", title: "fraction of the kinetic energy in the platform" }, element("i"))), element("td", { class: "before", hidden: true }));
+  const row = element(
+    "tr",
+    { class: "pick" },
+    element("td", {}, element("button")),
+    element("td"),
+    element("td"),
+    element("td", { class: "left" }),
+    element(
+      "td",
+      { class: "left" },
+      element("span", { class: "share", title: "fraction of the kinetic energy in the platform" }, element("i")),
+    ),
+    element("td", { class: "before", hidden: true }),
+  );
   row.addEventListener("click", () => chooseMode(shown.mode === row.mode ? -1 : row.mode));
   return row;
 }
@@ -27,7 +44,9 @@ function showModes() {
   const { before, frame } = page;
   const listed = frame ? listedModes(frame) : [];
   const rows = rowsOf("modes", listed.length, rowOf);
-  document.querySelectorAll("#modes .before").forEach((cell) => { cell.hidden = before === null; });
+  document.querySelectorAll("#modes .before").forEach((cell) => {
+    cell.hidden = before === null;
+  });
   listed.forEach((i, at) => {
     const mode = frame.modes[i];
     const { cells } = rows[at];
@@ -90,7 +109,10 @@ export function listen() {
       view.draw();
     }
   });
-  $("amplitude").addEventListener("input", () => { view.amplitude = Number($("amplitude").value); view.draw(); });
+  $("amplitude").addEventListener("input", () => {
+    view.amplitude = Number($("amplitude").value);
+    view.draw();
+  });
   $("count").addEventListener("change", () => {
     const value = numberOf($("count").value);
     if (value === null || value < 1 || value > MAX_MODES || value % 1 !== 0) {

@@ -14,7 +14,8 @@ const REST_FRACTION = 0.02; // of the first displacement: the record may end
 const SLOW_HZ = 1; // on the screen, the slowest large mode has at most this frequency
 const LARGE = 0.1; // of the largest coordinate: a mode that decides the time scale
 const SAMPLES = 1500;
-const LINEAR_LIMIT = 0.1; // relative difference of the static displacement, above which more modes are taken, or the page warns
+// Relative difference of the static displacement, above which more modes are taken, or the page warns.
+const LINEAR_LIMIT = 0.1;
 const MAX_TAKEN = 320; // modes that are taken until they reach the static displacement; a frame has at most 500
 const job = new Job();
 let last = null; // last free response, also for “before”
@@ -27,7 +28,10 @@ function firstPayload() {
 
 async function release() {
   const payload = numberOf($("release-mass").value);
-  const { about: { check }, frame } = page;
+  const {
+    about: { check },
+    frame,
+  } = page;
   if (payload === null || payload <= 0 || payload > 1e9) {
     refuse($("release-mass"), `“${$("release-mass").value}” is not a payload: give a positive mass in kilograms`);
     return;
@@ -35,7 +39,11 @@ async function release() {
   accept($("release-mass"));
   const tell = (text) => $("release").replaceChildren(element("p", { class: "soft" }, text));
   if (!frame || frame.modes.length === 0 || frame.stable === false) {
-    tell(frame ? "A release needs a stable equilibrium with natural frequencies." : `There is nothing to release from: ${page.reason}.`);
+    tell(
+      frame
+        ? "A release needs a stable equilibrium with natural frequencies."
+        : `There is nothing to release from: ${page.reason}.`,
+    );
     return;
   }
 
@@ -53,7 +61,10 @@ async function release() {
     return;
   }
   const size = (i) => Math.abs(starts[i]) * Math.hypot(...frame.modes[i].shape.slice(0, 3));
-  const order = frame.modes.map((_, i) => i).sort((a, b) => size(b) - size(a)).slice(0, MAX_MODES);
+  const order = frame.modes
+    .map((_, i) => i)
+    .sort((a, b) => size(b) - size(a))
+    .slice(0, MAX_MODES);
   if (!(size(order[0]) > 0)) {
     tell("No mode moves the platform under this payload: without gravity it does nothing.");
     return;
@@ -71,7 +82,18 @@ async function release() {
   const along = modes.map(({ shape }, k) => own[k] * (shape[0] * up[0] + shape[1] * up[1] + shape[2] * up[2]));
   const at = (t) => along.reduce((sum, value, k) => sum + value * decay(modes[k], t), 0);
   const times = Float64Array.from({ length: SAMPLES }, (_, i) => (seconds * i) / (SAMPLES - 1));
-  last = { payload, seconds, times, values: times.map(at), slowdown: Math.max(1, slowest.hz / SLOW_HZ), start: summed(modes.map(({ shape }) => shape), own), note };
+  last = {
+    payload,
+    seconds,
+    times,
+    values: times.map(at),
+    slowdown: Math.max(1, slowest.hz / SLOW_HZ),
+    start: summed(
+      modes.map(({ shape }) => shape),
+      own,
+    ),
+    note,
+  };
 
   // Curves of the cables; a cable model that describes ends only has none, and straight lines follow the platform.
   let cables = null;
@@ -88,11 +110,18 @@ async function release() {
   }
   shown.released = true;
   page.view.setRelease({
-    seconds, slowdown: last.slowdown,
+    seconds,
+    slowdown: last.slowdown,
     start: { shape: last.start, cables: cables && summed(cables, own) },
     at: (t) => {
       const factors = modes.map((mode, k) => own[k] * decay(mode, t));
-      return { shape: summed(modes.map(({ shape }) => shape), factors), cables: cables && summed(cables, factors) };
+      return {
+        shape: summed(
+          modes.map(({ shape }) => shape),
+          factors,
+        ),
+        cables: cables && summed(cables, factors),
+      };
     },
   });
   page.view.mode.clock = moveClock;
@@ -100,13 +129,22 @@ async function release() {
   show();
 }
 
-/** Static displacement under a payload [m] by the complete, not linear model at the present lengths, or why there is none. */
+/**
+ * Static displacement under a payload [m] by the complete, not linear model at the present lengths, or why there is
+ * none.
+ */
 async function staticDisplacement(frame, payload, point) {
   const { pose: _, lengths_m: __, tension_rule: ___, ...rest } = statics();
   const { check } = page.about;
   const held = rest.force_n ?? check.load?.force_n ?? [0, 0, 0];
   const force = held.map((value, k) => value + payload * check.gravity_m_s2[k]);
-  const request = { command: "statics", ...rest, lengths_m: frame.cables.map((cable) => cable.length), force_n: force, load_point_m: point };
+  const request = {
+    command: "statics",
+    ...rest,
+    lengths_m: frame.cables.map((cable) => cable.length),
+    force_n: force,
+    load_point_m: point,
+  };
   try {
     const text = await job.run(1, async ([worker]) => (await worker.call("answer", { request })).text);
     return { complete: JSON.parse(text).pose.position_m.map((value, k) => value - frame.position[k]) };
@@ -125,7 +163,12 @@ async function staticDisplacement(frame, payload, point) {
 async function enoughModes(frame, wrench, complete) {
   const displacement = () => {
     const starts = startOf(frame.modes, wrench);
-    const linear = Array.from(summed(frame.modes.map(({ shape }) => shape), starts).subarray(0, 3));
+    const linear = Array.from(
+      summed(
+        frame.modes.map(({ shape }) => shape),
+        starts,
+      ).subarray(0, 3),
+    );
     const size = complete ? Math.max(Math.hypot(...complete), 1e-12) : 1;
     return { starts, linear, off: complete ? Math.hypot(...complete.map((value, k) => value - linear[k])) / size : 0 };
   };
@@ -147,8 +190,15 @@ function noteOf({ complete, reason, linear, off, count }) {
     return `The complete static model has no equilibrium with this payload at these lengths: ${reason}`;
   }
   const millimetres = (list) => `${short(1000 * Math.hypot(...list), 4)} mm`;
-  const apart = off > LINEAR_LIMIT ? ` They differ by ${short(100 * off, 2)} %: the payload is too large for small motions, or the platform has important modes above these.` : "";
-  return `The complete static model moves the platform by ${millimetres(complete)} under this payload, the listed modes by ${millimetres(linear)} (${count} modes).${apart}`;
+  const apart =
+    off > LINEAR_LIMIT
+      ? ` They differ by ${short(100 * off, 2)} %: the payload is too large for small motions, or the ` +
+        `platform has important modes above these.`
+      : "";
+  return (
+    `The complete static model moves the platform by ${millimetres(complete)} under this payload, the listed ` +
+    `modes by ${millimetres(linear)} (${count} modes).${apart}`
+  );
 }
 
 function show() {
@@ -159,12 +209,27 @@ function show() {
   if (page.before?.release) {
     curves.unshift({ ...page.before.release, kind: "past" });
   }
-  const figure = history({ curves, label: "displacement of the platform upwards [mm]", factor: 1000, width: Math.max(280, $("release").clientWidth) });
+  const figure = history({
+    curves,
+    label: "displacement of the platform upwards [mm]",
+    factor: 1000,
+    width: Math.max(280, $("release").clientWidth),
+  });
   const scale = page.view.releaseScale;
-  const motion = scale === 1 ? "the motion is to scale" : `the view shows the motion ${short(scale > 1 ? scale : 1 / scale, 3)} times ${scale > 1 ? "larger" : "smaller"}`;
+  const motion =
+    scale === 1
+      ? "the motion is to scale"
+      : `the view shows the motion ${short(scale > 1 ? scale : 1 / scale, 3)} times ` +
+        `${scale > 1 ? "larger" : "smaller"}`;
   $("release").innerHTML = figure;
-  $("release").append(element("p", { class: "soft" },
-    `Time runs ${last.slowdown > 1 ? `${short(last.slowdown, 2)} times slower` : "as it is"}; ${motion}. ${last.note ?? ""}`));
+  $("release").append(
+    element(
+      "p",
+      { class: "soft" },
+      `Time runs ${last.slowdown > 1 ? `${short(last.slowdown, 2)} times slower` : "as it is"}; ${motion}. ` +
+        `${last.note ?? ""}`,
+    ),
+  );
 }
 
 /** Moves the line of the present time in the figure. */
@@ -191,14 +256,26 @@ function stop() {
 
 /** Listens to the buttons, and ends the motion when the state changes. */
 export function listen() {
-  on("robot", (isNew) => { if (isNew) { $("release-mass").value = plain(firstPayload()); } });
-  ["outdated", "empty"].forEach((event) => on(event, () => {
-    job.cancel();
-    stop();
-    last = null;
-  }));
-  on("forget", () => { $("release-mass").value = ""; });
-  on("mode", () => { if (shown.mode >= 0) { stop(); } });
+  on("robot", (isNew) => {
+    if (isNew) {
+      $("release-mass").value = plain(firstPayload());
+    }
+  });
+  ["outdated", "empty"].forEach((event) =>
+    on(event, () => {
+      job.cancel();
+      stop();
+      last = null;
+    }),
+  );
+  on("forget", () => {
+    $("release-mass").value = "";
+  });
+  on("mode", () => {
+    if (shown.mode >= 0) {
+      stop();
+    }
+  });
   on("remember", () => {
     if (page.before) {
       page.before.release = last;
@@ -207,7 +284,11 @@ export function listen() {
   });
   $("release-form").addEventListener("submit", (event) => {
     event.preventDefault();
-    release().catch((error) => { if (!(error instanceof Cancelled)) { say(error.message); } });
+    release().catch((error) => {
+      if (!(error instanceof Cancelled)) {
+        say(error.message);
+      }
+    });
   });
   $("release-stop").addEventListener("click", stop);
   new ResizeObserver(show).observe($("release"));

@@ -13,11 +13,21 @@ function signals() {
   const axes = ["x", "y", "z"];
   const forces = axes.map((axis, k) => (k === out ? null : [`f${axis}`, `force along ${axis}`]));
   const moments = axes.map((axis, k) => (name === "rigid" || k === out ? [`m${axis}`, `moment about ${axis}`] : null));
-  const motions = ["", "v", "a"].flatMap((kind, j) => axes.map((axis, k) => (k === out ? null : [`${kind}${axis}`, `${["displacement", "velocity", "acceleration"][j]} along ${axis}`])));
+  const motions = ["", "v", "a"].flatMap((kind, j) =>
+    axes.map((axis, k) =>
+      k === out ? null : [`${kind}${axis}`, `${["displacement", "velocity", "acceleration"][j]} along ${axis}`],
+    ),
+  );
   const options = (list) => list.filter(Boolean).map(([value, text]) => element("option", { value }, text));
   $("input").replaceChildren(...options([...forces, ...moments]));
   $("output").replaceChildren(...options(motions));
-  shown.response ??= { input: out === 2 ? "fx" : "fz", output: out === 2 ? "ax" : "az", from: null, to: null, log: false };
+  shown.response ??= {
+    input: out === 2 ? "fx" : "fz",
+    output: out === 2 ? "ax" : "az",
+    from: null,
+    to: null,
+    log: false,
+  };
   showSignals();
 }
 
@@ -37,7 +47,7 @@ function chooseRange() {
   if (response && response.to === null && highest) {
     const top = 1.15 * highest;
     const unit = 10 ** Math.floor(Math.log10(top));
-    response.to = Number((Math.ceil((2 * top) / unit) * unit / 2).toPrecision(3));
+    response.to = Number(((Math.ceil((2 * top) / unit) * unit) / 2).toPrecision(3));
     response.from = Number((response.to / 200).toPrecision(2));
     showSignals();
   }
@@ -47,7 +57,11 @@ function setRange(key, field) {
   const value = numberOf(field.value);
   const next = { ...shown.response, [key]: value };
   if (value === null || value < 0 || !(next.from < next.to) || (next.log && !(next.from > 0))) {
-    refuse(field, "the range of the response needs two frequencies, the first below the second, and above zero if it is logarithmic");
+    refuse(
+      field,
+      "the range of the response needs two frequencies, the first below the second, and above zero if it is " +
+        "logarithmic",
+    );
     return;
   }
   [$("from"), $("to")].forEach(accept);
@@ -71,8 +85,13 @@ function showResponse() {
   const { input, output, log } = shown.response;
   const label = (id, value) => [...$(id).options].find((option) => option.value === value)?.textContent ?? value;
   $("bode").innerHTML = figure({
-    curves, peaks, modes: frame.modes.map((mode) => mode.hz), unit: answered.unit, log,
-    title: `${label("output", output)} per ${label("input", input)}`, width: Math.max(280, width || $("bode").clientWidth),
+    curves,
+    peaks,
+    modes: frame.modes.map((mode) => mode.hz),
+    unit: answered.unit,
+    log,
+    title: `${label("output", output)} per ${label("input", input)}`,
+    width: Math.max(280, width || $("bode").clientWidth),
   });
   put($("caveat"), answered.caveat ?? "");
 }
@@ -86,22 +105,32 @@ function showNone(text) {
 
 /** Listens to the choice of signals and range. */
 export function listen() {
-  on("robot", (isNew) => { if (isNew) { signals(); } });
+  on("robot", (isNew) => {
+    if (isNew) {
+      signals();
+    }
+  });
   on("frame", chooseRange);
   on("empty", () => showNone("–"));
   on("response", showResponse);
   on("remember", showResponse);
   on("response-refused", (error) => showNone(error.message));
-  ["input", "output"].forEach((id) => $(id).addEventListener("change", () => {
-    shown.response = { ...shown.response, [id]: $(id).value };
-    change({ response: true });
-  }));
+  ["input", "output"].forEach((id) =>
+    $(id).addEventListener("change", () => {
+      shown.response = { ...shown.response, [id]: $(id).value };
+      change({ response: true });
+    }),
+  );
   ["from", "to"].forEach((id) => $(id).addEventListener("change", () => setRange(id, $(id))));
   $("log").addEventListener("change", () => {
     if (!shown.response?.to) {
       return; // without a range, which the first response chooses
     }
-    shown.response = { ...shown.response, log: $("log").checked, from: shown.response.from || Number((shown.response.to / 200).toPrecision(2)) };
+    shown.response = {
+      ...shown.response,
+      log: $("log").checked,
+      from: shown.response.from || Number((shown.response.to / 200).toPrecision(2)),
+    };
     showSignals();
     change({ response: true });
   });

@@ -17,26 +17,48 @@ const FIGURES = {
   release: ["release", "There is no release yet: press “Release” below “Release of a payload” first."],
 };
 
-const fileName = () => `${(content.robot.name || page.about?.name || "robot").replace(/^.*[/\\]/, "").replace(/\.toml$/, "").replace(/[^\w.-]+/g, "-").toLowerCase()}.toml`;
+const fileName = () =>
+  `${(content.robot.name || page.about?.name || "robot")
+    .replace(/^.*[/\\]/, "")
+    .replace(/\.toml$/, "")
+    .replace(/[^\w.-]+/g, "-")
+    .toLowerCase()}.toml`;
 
 /** Derivatives of the chosen frequency, the last of their table; none if no frequency is chosen. */
 function gradientOf() {
   const mode = page.frame.modes[shown.mode];
-  return mode ? { belowHz: Number((1.0001 * mode.hz).toPrecision(7)), per: $("influence-per").value, hold: $("influence-hold").value } : null;
+  return mode
+    ? {
+        belowHz: Number((1.0001 * mode.hz).toPrecision(7)),
+        per: $("influence-per").value,
+        hold: $("influence-hold").value,
+      }
+    : null;
 }
 
 /** Empties the commands: the words would compute nothing. */
 function showNone() {
-  [$("commands"), $("python")].forEach((place) => { age(place.id, false); put(place, `There are no results: ${page.reason}.`); });
+  [$("commands"), $("python")].forEach((place) => {
+    age(place.id, false);
+    put(place, `There are no results: ${page.reason}.`);
+  });
 }
 
 function showWords() {
   ["commands", "python"].forEach((id) => age(id, false));
   const state = {
-    kind: content.hold, pose: content.pose, lengths: content.lengths, set: content.robot.set, rule: mayChoose() ? content.rule : "", more: content.more,
+    kind: content.hold,
+    pose: content.pose,
+    lengths: content.lengths,
+    set: content.robot.set,
+    rule: mayChoose() ? content.rule : "",
+    more: content.more,
   };
   const of = {
-    file: fileName(), state, model: content.model, belowHz: Number((page.frame.belowHz || 20).toPrecision(3)),
+    file: fileName(),
+    state,
+    model: content.model,
+    belowHz: Number((page.frame.belowHz || 20).toPrecision(3)),
     response: { ...(shown.response ?? {}), points: RESPONSE_POINTS },
     gradient: gradientOf(),
   };
@@ -92,8 +114,15 @@ function saveRobot(name) {
 function styled(figure) {
   const style = getComputedStyle(document.documentElement);
   const color = (name) => style.getPropertyValue(name).trim();
-  const rules = `.axis{stroke:${color("--soft")}}.frame{fill:none;stroke:${color("--soft")}}.here{fill:none;stroke:#d1249d;stroke-width:2.5}text{fill:${color("--soft")}}.grid{stroke:${color("--line")}}.mode{stroke:#777}.now{fill:none;stroke:${color("--accent")};stroke-width:1.6}.past{fill:none;stroke:#777;stroke-dasharray:4 3}.peak{fill:${color("--accent")}}svg{font:11px sans-serif}`;
-  return figure.replaceAll("var(--none)", color("--none")).replace(/>/, `><style>${rules}</style><rect width="100%" height="100%" fill="${color("--paper")}"/>`);
+  const [soft, line, accent] = ["--soft", "--line", "--accent"].map(color);
+  const rules = [
+    `.axis{stroke:${soft}}.frame{fill:none;stroke:${soft}}.here{fill:none;stroke:#d1249d;stroke-width:2.5}`,
+    `text{fill:${soft}}.grid{stroke:${line}}.mode{stroke:#777}.now{fill:none;stroke:${accent};stroke-width:1.6}`,
+    `.past{fill:none;stroke:#777;stroke-dasharray:4 3}.peak{fill:${accent}}svg{font:11px sans-serif}`,
+  ].join("");
+  return figure
+    .replaceAll("var(--none)", color("--none"))
+    .replace(/>/, `><style>${rules}</style><rect width="100%" height="100%" fill="${color("--paper")}"/>`);
 }
 
 /** Results of the program for the present state, in its JSON. */
@@ -104,10 +133,19 @@ async function results() {
   const done = busy("Computing the results for the file", () => job.cancel());
   try {
     return await job.run(1, async ([worker]) => {
-      const ask = async (command, more = {}) => JSON.parse((await worker.call("answer", { request: { command, ...state, ...more } })).text);
+      const ask = async (command, more = {}) =>
+        JSON.parse((await worker.call("answer", { request: { command, ...state, ...more } })).text);
       const own = { statics: await ask("statics"), modes: await ask("modes", { ...content.model, below_hz: belowHz }) };
       if (from !== null) {
-        own.frf = await ask("frf", { ...content.model, input, output, from_hz: from, to_hz: to, points: RESPONSE_POINTS, log });
+        own.frf = await ask("frf", {
+          ...content.model,
+          input,
+          output,
+          from_hz: from,
+          to_hz: to,
+          points: RESPONSE_POINTS,
+          log,
+        });
       }
       return own;
     });
@@ -117,14 +155,37 @@ async function results() {
 }
 
 function csv({ statics: rest, modes, frf }) {
-  const cell = (value) => (value === undefined ? "" : /[",\n]/.test(String(value)) ? `"${String(value).replaceAll('"', '""')}"` : String(value));
-  const table = (keys, rows) => [keys.join(","), ...rows.map((row) => keys.map((key) => cell(row[key])).join(","))].join("\n");
+  const cell = (value) =>
+    value === undefined
+      ? ""
+      : /[",\n]/.test(String(value))
+        ? `"${String(value).replaceAll('"', '""')}"`
+        : String(value);
+  const table = (keys, rows) =>
+    [keys.join(","), ...rows.map((row) => keys.map((key) => cell(row[key])).join(","))].join("\n");
   const parts = [
-    table(["name", "unstrained_length_m", "tension_platform_n", "tension_anchor_n", "sag_ratio", "lambda2", "minimum_tension_n", "maximum_tension_n"], rest.cables),
+    table(
+      [
+        "name",
+        "unstrained_length_m",
+        "tension_platform_n",
+        "tension_anchor_n",
+        "sag_ratio",
+        "lambda2",
+        "minimum_tension_n",
+        "maximum_tension_n",
+      ],
+      rest.cables,
+    ),
     table(["frequency_hz", "damping_ratio", "kind", "platform_energy_fraction"], modes.modes),
   ];
   if (frf) {
-    parts.push(table(["frequency_hz", "real", "imag"], frf.frequency_hz.map((hz, i) => ({ frequency_hz: hz, real: frf.real[i], imag: frf.imag[i] }))));
+    parts.push(
+      table(
+        ["frequency_hz", "real", "imag"],
+        frf.frequency_hz.map((hz, i) => ({ frequency_hz: hz, real: frf.real[i], imag: frf.imag[i] })),
+      ),
+    );
   }
   return `${parts.join("\n\n")}\n`;
 }
@@ -144,7 +205,9 @@ export async function copy(text, button) {
   const old = button.dataset.text ?? button.textContent;
   button.dataset.text = old;
   button.textContent = "Copied";
-  setTimeout(() => { button.textContent = old; }, 1500);
+  setTimeout(() => {
+    button.textContent = old;
+  }, 1500);
 }
 
 /** Listens to the menu of files and the buttons that copy. */
@@ -152,11 +215,21 @@ export function listen() {
   on("rest", showWords);
   on("empty", showNone);
   on("outdated", () => ["commands", "python"].forEach((id) => age(id, true)));
-  on("mode", () => { if (page.frame) { showWords(); } });
-  document.querySelectorAll("[data-save]").forEach((button) => button.addEventListener("click", () => saveAs(button.dataset.save).catch((error) => {
-    if (!(error instanceof Cancelled)) {
-      tell(error.message);
+  on("mode", () => {
+    if (page.frame) {
+      showWords();
     }
-  })));
-  document.querySelectorAll("[data-copy]").forEach((button) => button.addEventListener("click", () => copy($(button.dataset.copy).textContent, button)));
+  });
+  document.querySelectorAll("[data-save]").forEach((button) =>
+    button.addEventListener("click", () =>
+      saveAs(button.dataset.save).catch((error) => {
+        if (!(error instanceof Cancelled)) {
+          tell(error.message);
+        }
+      }),
+    ),
+  );
+  document
+    .querySelectorAll("[data-copy]")
+    .forEach((button) => button.addEventListener("click", () => copy($(button.dataset.copy).textContent, button)));
 }

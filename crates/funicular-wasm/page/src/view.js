@@ -1,9 +1,28 @@
 // The robot in space: cables with their sag, tension as colour, platform, handles to drag it.
 
 import {
-  AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, EdgesGeometry, GridHelper, Group, LineBasicMaterial,
-  LineDashedMaterial, LineSegments, Mesh, MeshLambertMaterial, Object3D, PerspectiveCamera, Points, PointsMaterial,
-  Quaternion, Scene, SphereGeometry, Vector3, WebGLRenderer,
+  AmbientLight,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DirectionalLight,
+  EdgesGeometry,
+  GridHelper,
+  Group,
+  LineBasicMaterial,
+  LineDashedMaterial,
+  LineSegments,
+  Mesh,
+  MeshLambertMaterial,
+  Object3D,
+  PerspectiveCamera,
+  Points,
+  PointsMaterial,
+  Quaternion,
+  Scene,
+  SphereGeometry,
+  Vector3,
+  WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
@@ -143,11 +162,14 @@ export class View {
     const [width, height] = this.pixels;
     this.labels.hidden = !this.frame;
     this.frame?.cables.forEach(({ attachment, anchor }, i) => {
-      const point = new Vector3(...[0, 1, 2].map((k) => anchor[k] + 0.3 * (attachment[k] - anchor[k]))).project(this.camera);
+      const point = new Vector3(...[0, 1, 2].map((k) => anchor[k] + 0.3 * (attachment[k] - anchor[k]))).project(
+        this.camera,
+      );
       const label = this.labels.children[i];
       if (label) {
         label.hidden = Math.abs(point.x) > 1 || Math.abs(point.y) > 1 || point.z > 1;
-        label.style.transform = `translate(${((point.x + 1) * width) / 2 + 4}px, ${((1 - point.y) * height) / 2 - 8}px)`;
+        const [left, top] = [((point.x + 1) * width) / 2 + 4, ((1 - point.y) * height) / 2 - 8];
+        label.style.transform = `translate(${left}px, ${top}px)`;
       }
     });
   }
@@ -170,7 +192,9 @@ export class View {
     this.mode = null;
     const { cables } = about.check;
     this.names = cables.map((cable) => cable.name);
-    this.labels.replaceChildren(...this.names.map((name) => Object.assign(document.createElement("span"), { textContent: name })));
+    this.labels.replaceChildren(
+      ...this.names.map((name) => Object.assign(document.createElement("span"), { textContent: name })),
+    );
     this.attachments = cables.map((cable) => new Vector3(...cable.attachment_m));
     this.motion = about.motion;
 
@@ -211,7 +235,11 @@ export class View {
     const cells = Math.ceil((1.3 * this.size) / step / 2) * 2;
     this.grid = new GridHelper(cells * step, cells);
     this.grid.rotation.x = Math.PI / 2;
-    this.grid.position.set(Math.round(this.center.x / step) * step, Math.round(this.center.y / step) * step, Math.min(0, low.z));
+    this.grid.position.set(
+      Math.round(this.center.x / step) * step,
+      Math.round(this.center.y / step) * step,
+      Math.min(0, low.z),
+    );
     this.grid.material.transparent = true;
     this.grid.material.opacity = 0.35;
     this.fixed.add(this.grid);
@@ -238,7 +266,9 @@ export class View {
       // Points in one plane get a thickness, so that every platform is a body.
       const along = this.motion.name === "planar" ? new Vector3(...this.motion.normal) : new Vector3(0, 0, 1);
       const flat = along.clone().multiplyScalar(0.25 * thin);
-      body = new ConvexGeometry(this.attachments.flatMap((point) => [point.clone().add(flat), point.clone().sub(flat)]));
+      body = new ConvexGeometry(
+        this.attachments.flatMap((point) => [point.clone().add(flat), point.clone().sub(flat)]),
+      );
     }
     this.body = new Mesh(body, this.platformMaterial);
     this.platform.add(this.body);
@@ -321,7 +351,8 @@ export class View {
   }
 
   /**
-   * Shows that there is no equilibrium: at a pose a pale platform with cables as grey straight lines, otherwise neither.
+   * Shows that there is no equilibrium: at a pose a pale platform with cables as grey straight lines, otherwise
+   * neither.
    * @param {?object} pose `position`, `quaternion`; null if it is not known
    */
   setBroken(pose) {
@@ -368,7 +399,11 @@ export class View {
   remember(frame) {
     this.remembered.clear();
     if (frame) {
-      const material = new LineDashedMaterial({ color: COLORS.slack, dashSize: 0.012 * this.size, gapSize: 0.008 * this.size });
+      const material = new LineDashedMaterial({
+        color: COLORS.slack,
+        dashSize: 0.012 * this.size,
+        gapSize: 0.008 * this.size,
+      });
       for (const { points } of frame.cables) {
         const pairs = [];
         for (let i = 0; i + 3 < points.length; i += 3) {
@@ -411,8 +446,8 @@ export class View {
 
   /**
    * Plays a free response; null ends it.
-   * @param {object} release `start` and `at(seconds)` with `shape` and `cables` (null: straight lines), `seconds` until the
-   *   record begins again, `slowdown` of the time
+   * @param {object} release `start` and `at(seconds)` with `shape` and `cables` (null: straight lines), `seconds` until
+   *   the record begins again, `slowdown` of the time
    */
   setRelease(release) {
     this.setMode(release && { ...release.start, release, playing: true });
@@ -429,12 +464,14 @@ export class View {
   /** Displacements of the points of the cables if their curves are unknown: straight lines that follow the platform. */
   straight(shape) {
     const [dx, dy, dz, rx, ry, rz] = shape;
-    return Float64Array.from(this.frame.cables.flatMap(({ attachment, points }) => {
-      const [x, y, z] = attachment.map((value, k) => value - this.frame.position[k]);
-      const end = [dx + ry * z - rz * y, dy + rz * x - rx * z, dz + rx * y - ry * x];
-      const last = points.length / 3 - 1;
-      return Array.from(points, (_, k) => end[k % 3] * (1 - Math.floor(k / 3) / last));
-    }));
+    return Float64Array.from(
+      this.frame.cables.flatMap(({ attachment, points }) => {
+        const [x, y, z] = attachment.map((value, k) => value - this.frame.position[k]);
+        const end = [dx + ry * z - rz * y, dy + rz * x - rx * z, dz + rx * y - ry * x];
+        const last = points.length / 3 - 1;
+        return Array.from(points, (_, k) => end[k % 3] * (1 - Math.floor(k / 3) / last));
+      }),
+    );
   }
 
   /** Displacements on the screen at a time of the screen [ms]. */
@@ -442,7 +479,7 @@ export class View {
     const { mode } = this;
     const { start, playing, release } = mode;
     if (release) {
-      const t = (((now - start) / 1000) / release.slowdown) % (1.15 * release.seconds);
+      const t = ((now - start) / 1000 / release.slowdown) % (1.15 * release.seconds);
       mode.clock?.(Math.min(t, release.seconds));
       const found = release.at(Math.max(0, Math.min(t, release.seconds)));
       return { ...found, cables: found.cables ?? this.straight(found.shape), factor: mode.scale * this.amplitude };
@@ -490,7 +527,10 @@ export class View {
   /** Looks from a named direction. */
   look(name) {
     const directions = {
-      oblique: [0.62, -1, 0.42], front: [0, -1, 0.0001], side: [1, 0, 0.0001], top: [0, -0.0001, 1],
+      oblique: [0.62, -1, 0.42],
+      front: [0, -1, 0.0001],
+      side: [1, 0, 0.0001],
+      top: [0, -0.0001, 1],
     };
     const direction = new Vector3(...directions[name]).normalize();
     const wide = Math.max(1, 1.25 / this.camera.aspect);
@@ -506,7 +546,9 @@ export class View {
 
   /** Position and target of the camera, for a link. */
   get camera6() {
-    return [...this.camera.position.toArray(), ...this.orbit.target.toArray()].map((value) => Number(value.toPrecision(5)));
+    return [...this.camera.position.toArray(), ...this.orbit.target.toArray()].map((value) =>
+      Number(value.toPrecision(5)),
+    );
   }
 
   set camera6(numbers) {

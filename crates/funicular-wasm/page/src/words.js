@@ -4,10 +4,13 @@ const quoted = (text) => (/^[\w./:,=+-]+$/.test(text) ? text : `'${text.replaceA
 const joined = (numbers) => numbers.map((value) => String(value)).join(",");
 
 /** Options of the program for keys of a request. A switch has no value; one that is off is left out. */
-const optionsOf = (keys) => Object.entries(keys).filter(([, value]) => value !== false).map(([key, value]) => {
-  const option = `--${key.replaceAll("_", "-")}`;
-  return value === true ? option : `${option} ${quoted(Array.isArray(value) ? joined(value) : String(value))}`;
-});
+const optionsOf = (keys) =>
+  Object.entries(keys)
+    .filter(([, value]) => value !== false)
+    .map(([key, value]) => {
+      const option = `--${key.replaceAll("_", "-")}`;
+      return value === true ? option : `${option} ${quoted(Array.isArray(value) ? joined(value) : String(value))}`;
+    });
 
 /** Value as Python writes it. */
 function literal(value) {
@@ -18,7 +21,10 @@ function literal(value) {
 }
 
 /** Keywords of Python for keys of a request. A switch that is off is left out. */
-const keywordsOf = (keys) => Object.entries(keys).filter(([, value]) => value !== false).map(([key, value]) => `${key}=${literal(value)}`);
+const keywordsOf = (keys) =>
+  Object.entries(keys)
+    .filter(([, value]) => value !== false)
+    .map(([key, value]) => `${key}=${literal(value)}`);
 
 /** Keys of a request for a state: pose or lengths, rule, and everything that the page was made with. */
 function keysOf({ kind, pose, lengths, rule, more }) {
@@ -28,7 +34,9 @@ function keysOf({ kind, pose, lengths, rule, more }) {
 
 /** Commands of the program for statics, modes and response. */
 export function commands({ file, state, model, belowHz, response, gradient }) {
-  const set = state.set.map(({ path, value }) => `--set ${quoted(`${path}=${Array.isArray(value) ? JSON.stringify(value) : value}`)}`);
+  const set = state.set.map(
+    ({ path, value }) => `--set ${quoted(`${path}=${Array.isArray(value) ? JSON.stringify(value) : value}`)}`,
+  );
   const rest = [...optionsOf(keysOf(state)), ...set];
   const command = (name, own) => [`funicular ${name} ${quoted(file)}`, ...rest, ...own].join(" \\\n  ");
   const models = optionsOf(model);
@@ -36,10 +44,24 @@ export function commands({ file, state, model, belowHz, response, gradient }) {
     command("statics", []),
     command("modes", [...models, `--below-hz ${belowHz}`]),
     command("frf", [
-      ...models, `--input ${response.input}`, `--output ${response.output}`, `--from-hz ${response.from}`, `--to-hz ${response.to}`,
-      `--points ${response.points}`, ...(response.log ? ["--log"] : []),
+      ...models,
+      `--input ${response.input}`,
+      `--output ${response.output}`,
+      `--from-hz ${response.from}`,
+      `--to-hz ${response.to}`,
+      `--points ${response.points}`,
+      ...(response.log ? ["--log"] : []),
     ]),
-    ...(gradient ? [command("gradient", [...models, `--below-hz ${gradient.belowHz}`, `--per ${gradient.per}`, `--hold ${gradient.hold}`])] : []),
+    ...(gradient
+      ? [
+          command("gradient", [
+            ...models,
+            `--below-hz ${gradient.belowHz}`,
+            `--per ${gradient.per}`,
+            `--hold ${gradient.hold}`,
+          ]),
+        ]
+      : []),
   ].join("\n\n");
 }
 
@@ -60,6 +82,14 @@ rest = robot.equilibrium(${keywordsOf(keysOf(state)).join(", ")})
 print(rest.tension_platform_n)
 print(rest.modes(${call(belowHz)}).frequency_hz)
 hz = np.${space}(${response.from}, ${response.to}, ${response.points})
-response = rest.frf(${call("hz", text(response.input), text(response.output))})${gradient ? `
-table = rest.gradient(${call(`below_hz=${gradient.belowHz}`, `per=${text(gradient.per)}`, `hold=${text(gradient.hold)}`)})` : ""}`;
+response = rest.frf(${call("hz", text(response.input), text(response.output))})${
+    gradient
+      ? `
+table = rest.gradient(${call(
+          `below_hz=${gradient.belowHz}`,
+          `per=${text(gradient.per)}`,
+          `hold=${text(gradient.hold)}`,
+        )})`
+      : ""
+  }`;
 }

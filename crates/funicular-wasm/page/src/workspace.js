@@ -28,7 +28,11 @@ export class Workspace {
     this.#page = page;
     $("quantity").replaceChildren(...QUANTITIES.map(([value, , text]) => element("option", { value }, text)));
     $("slice-run").addEventListener("click", () => (this.#running ? this.#job.cancel() : this.run()));
-    $("slice").addEventListener("change", () => { if (this.#result) { this.run(); } });
+    $("slice").addEventListener("change", () => {
+      if (this.#result) {
+        this.run();
+      }
+    });
     $("slice").addEventListener("submit", (event) => event.preventDefault());
     $("map").addEventListener("click", (event) => this.#go(event));
     new ResizeObserver(() => this.#draw()).observe($("map"));
@@ -42,8 +46,8 @@ export class Workspace {
   }
 
   /**
-   * The platform has moved: so does its cross in the figure. The figure is of an earlier state if anything else has changed
-   * than the position in its plane.
+   * The platform has moved: so does its cross in the figure. The figure is of an earlier state if anything else has
+   * changed than the position in its plane.
    */
   moved() {
     const cross = $("map").querySelector(".here");
@@ -107,7 +111,16 @@ export class Workspace {
     const [nu, nv] = counts(LEVELS.at(-1));
     const known = new Map();
     const request = this.#page.request();
-    const told = { axes: [plane[0], plane[1]], indices: axes, ranges, label, here, key: this.#keyOf(here, axes), cells: [], unit: "" };
+    const told = {
+      axes: [plane[0], plane[1]],
+      indices: axes,
+      ranges,
+      label,
+      here,
+      key: this.#keyOf(here, axes),
+      cells: [],
+      unit: "",
+    };
     this.#result = told;
     this.#show(true);
     try {
@@ -185,10 +198,18 @@ export class Workspace {
     const width = Math.max(260, $("map").clientWidth);
     const { svg, at, cross } = slice({ ...told, here, width });
     Object.assign(this, { at, cross });
-    const past = this.#before && this.#before !== told ? slice({ ...this.#before, here: null, label: `${this.#before.label}, before`, width }).svg : "";
+    const past =
+      this.#before && this.#before !== told
+        ? slice({ ...this.#before, here: null, label: `${this.#before.label}, before`, width }).svg
+        : "";
     $("map").innerHTML = svg + past;
-    const off = "xyz".split("").map((axis, k) => (told.indices.includes(k) ? null : `${axis} = ${short(told.here[k], 4)} m`)).find(Boolean);
-    this.told = `At ${off}, with the orientation of the platform. Grey: no equilibrium within the tension limits. A click moves the platform there.`;
+    const off = "xyz"
+      .split("")
+      .map((axis, k) => (told.indices.includes(k) ? null : `${axis} = ${short(told.here[k], 4)} m`))
+      .find(Boolean);
+    this.told =
+      `At ${off}, with the orientation of the platform. Grey: no equilibrium within the tension limits. A ` +
+      `click moves the platform there.`;
     this.note = element("p", { class: "soft" }, this.told);
     $("map").append(this.note);
     age("map", false);

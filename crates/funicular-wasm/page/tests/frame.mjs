@@ -14,7 +14,14 @@ function frame(lowest, highest, reached, limited) {
 }
 
 test("a tension is beyond a limit only if it has passed it by more than a millionth", () => {
-  const cases = [[100, 300, -1, false], [100 - 1e-5, 300, -1, false], [99, 300, -1, true], [200, 500, 1, false], [200, 501, 1, true], [200, 300, 0, false]];
+  const cases = [
+    [100, 300, -1, false],
+    [100 - 1e-5, 300, -1, false],
+    [99, 300, -1, true],
+    [200, 500, 1, false],
+    [200, 501, 1, true],
+    [200, 300, 0, false],
+  ];
   for (const [lowest, highest, reached, beyond] of cases) {
     assert.equal(frame(lowest, highest, reached, 1).beyond, beyond, `${lowest} to ${highest} N`);
   }

@@ -34,7 +34,13 @@ test("a mode decays as its equation of motion says, with little, critical and mu
 
 test("the modes of two masses give the static displacement under a force", () => {
   // Masses 1 and 3 kg along x and y, springs 400 and 500 N/m, coupled by 100 N/m: K = [[500, −100], [−100, 600]].
-  const [k, m] = [[[500, -100], [-100, 600]], [1, 3]];
+  const [k, m] = [
+    [
+      [500, -100],
+      [-100, 600],
+    ],
+    [1, 3],
+  ];
   const mean = (k[0][0] / m[0] + k[1][1] / m[1]) / 2;
   const root = Math.sqrt(((k[0][0] / m[0] - k[1][1] / m[1]) / 2) ** 2 + k[0][1] ** 2 / (m[0] * m[1]));
   const modes = [mean - root, mean + root].map((square) => {
@@ -42,9 +48,15 @@ test("the modes of two masses give the static displacement under a force", () =>
     return { hz: Math.sqrt(square) / (2 * Math.PI), mass: m[0] + m[1] * shape[1] ** 2, damping: 0, shape };
   });
   const force = [7, -2, 0, 0, 0, 0];
-  const found = summed(modes.map(({ shape }) => shape), startOf(modes, force));
+  const found = summed(
+    modes.map(({ shape }) => shape),
+    startOf(modes, force),
+  );
   const determinant = k[0][0] * k[1][1] - k[0][1] ** 2;
-  const expected = [(k[1][1] * force[0] - k[0][1] * force[1]) / determinant, (k[0][0] * force[1] - k[0][1] * force[0]) / determinant];
+  const expected = [
+    (k[1][1] * force[0] - k[0][1] * force[1]) / determinant,
+    (k[0][0] * force[1] - k[0][1] * force[0]) / determinant,
+  ];
   expected.forEach((value, i) => assert.ok(Math.abs(found[i] - value) < 1e-12, `${found[i]} and ${value}`));
 });
 

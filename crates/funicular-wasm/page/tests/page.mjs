@@ -16,7 +16,9 @@ const web = resolve(process.env.FUNICULAR_WEB);
 const program = resolve(process.env.FUNICULAR_PROGRAM);
 const address = pathToFileURL(join(web, "funicular.html")).href;
 const library = new URL("../../../../robots/", import.meta.url);
-const robots = readdirSync(library).filter((name) => name.endsWith(".toml") && name !== "Cargo.toml").map((name) => name.replace(".toml", ""));
+const robots = readdirSync(library)
+  .filter((name) => name.endsWith(".toml") && name !== "Cargo.toml")
+  .map((name) => name.replace(".toml", ""));
 const pictures = join(web, "screenshots");
 const folder = mkdtempSync(join(tmpdir(), "funicular-page-"));
 const PATIENCE_MS = 60_000;
@@ -29,7 +31,13 @@ before(async () => {
   browser = await chromium.launch({
     executablePath: process.env.FUNICULAR_BROWSER,
     // As on a computer without a graphics card: the 3D view is drawn by software, and the page itself without it.
-    args: ["--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--enable-unsafe-swiftshader", "--proxy-server=127.0.0.1:9"],
+    args: [
+      "--no-sandbox",
+      "--disable-dev-shm-usage",
+      "--disable-gpu",
+      "--enable-unsafe-swiftshader",
+      "--proxy-server=127.0.0.1:9",
+    ],
   });
   page = await opened(address);
 });
@@ -44,9 +52,17 @@ async function opened(url, options = {}) {
   context = await browser.newContext({ viewport: { width: 1440, height: 900 }, acceptDownloads: true, ...options });
   const made = await context.newPage();
   made.setDefaultTimeout(PATIENCE_MS);
-  made.on("console", (message) => { if (["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver/.test(message.text())) { faults.push(`console: ${message.text()}`); } });
+  made.on("console", (message) => {
+    if (["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver/.test(message.text())) {
+      faults.push(`console: ${message.text()}`);
+    }
+  });
   made.on("pageerror", (error) => faults.push(`exception: ${error.stack}`));
-  made.on("request", (request) => { if (!/^(blob:|data:)/.test(request.url()) && request.url().split("#")[0] !== url.split("#")[0]) { faults.push(`request: ${request.url()}`); } });
+  made.on("request", (request) => {
+    if (!/^(blob:|data:)/.test(request.url()) && request.url().split("#")[0] !== url.split("#")[0]) {
+      faults.push(`request: ${request.url()}`);
+    }
+  });
   await made.goto(url);
   await idle(made);
   return made;
@@ -59,20 +75,25 @@ async function idle(of = page) {
 
 /** Does something and waits for the frame that follows from it. */
 async function framed(work, of = page) {
-  const old = await of.evaluate(() => { window.funicular.old = window.funicular.frame; return true; });
+  const old = await of.evaluate(() => {
+    window.funicular.old = window.funicular.frame;
+    return true;
+  });
   assert.ok(old);
   await work();
   await of.waitForFunction(() => window.funicular.frame !== window.funicular.old && window.funicular.idle);
 }
 
-const frame = (of = page) => of.evaluate(() => {
-  const { frame: found } = window.funicular;
-  const plain = (cable) => ({ ...cable, points: undefined, attachment: undefined, anchor: undefined });
-  return { ...found, cables: found.cables.map(plain) };
-});
+const frame = (of = page) =>
+  of.evaluate(() => {
+    const { frame: found } = window.funicular;
+    const plain = (cable) => ({ ...cable, points: undefined, attachment: undefined, anchor: undefined });
+    return { ...found, cables: found.cables.map(plain) };
+  });
 const text = (selector, of = page) => of.locator(selector).innerText();
 const choose = (robot) => framed(() => page.selectOption("#library", robot));
-const near = (a, b, limit, what) => assert.ok(Math.abs(a - b) <= limit * Math.max(Math.abs(b), 1e-300), `${what}: ${a} in the page, ${b} natively`);
+const near = (a, b, limit, what) =>
+  assert.ok(Math.abs(a - b) <= limit * Math.max(Math.abs(b), 1e-300), `${what}: ${a} in the page, ${b} natively`);
 
 function native(request) {
   const file = join(folder, "request.json");
@@ -116,21 +137,31 @@ for (const robot of robots) {
     assert.ok(found.modes.length >= Math.min(20, modes.length), `${found.modes.length} modes`);
     found.modes.forEach((mode, i) => {
       compare(mode.hz, modes[i].frequency_hz, frequency, `frequency ${i + 1}`);
-      // The damping of a mode is the mean of that of its parts, weighed with its shape: of the first order in the error of
-      // the shape, which is the rounding divided by the distance to the next frequency.
+      // The damping of a mode is the mean of that of its parts, weighed with its shape: of the first order in the error
+      // of the shape, which is the rounding divided by the distance to the next frequency.
       near(mode.damping, modes[i].damping_ratio, 1e-6, `damping ${i + 1}`);
     });
     // Neighbours with close frequencies may share energy differently; their kinds are compared where they are apart.
     found.modes.forEach((mode, i) => {
-      const apart = Math.min(...[i - 1, i + 1].filter((k) => modes[k]).map((k) => Math.abs(modes[k].frequency_hz / mode.hz - 1)), 1);
+      const apart = Math.min(
+        ...[i - 1, i + 1].filter((k) => modes[k]).map((k) => Math.abs(modes[k].frequency_hz / mode.hz - 1)),
+        1,
+      );
       if (apart > 1e-4) {
         assert.equal(mode.kind, modes[i].kind, `kind of mode ${i + 1}`);
       }
     });
-    t.diagnostic(`largest differences ${Object.entries(most).map(([kind, value]) => `${kind} ${value.toExponential(1)}`).join(", ")}`);
+    t.diagnostic(
+      `largest differences ${Object.entries(most)
+        .map(([kind, value]) => `${kind} ${value.toExponential(1)}`)
+        .join(", ")}`,
+    );
 
     // The response of the page at its own range.
-    const shown = await page.evaluate(() => ({ ...window.funicular.asked, curve: Array.from(window.funicular.response?.numbers ?? []) }));
+    const shown = await page.evaluate(() => ({
+      ...window.funicular.asked,
+      curve: Array.from(window.funicular.response?.numbers ?? []),
+    }));
     assert.ok(shown.curve.length === 3000, `${shown.curve.length / 3} frequencies`);
     const { input, output, from, to, log } = shown.response;
     const curve = native({ command: "frf", ...whole, input, output, from_hz: from, to_hz: to, points: 1000, log });
@@ -187,7 +218,10 @@ test("a wrong value is refused at its place, and the state stays", async () => {
   assert.equal(await page.getAttribute("[data-pose='2']", "aria-invalid"), "true");
   assert.match(await text("#message"), /“abc” is not a number/);
   assert.deepEqual((await frame()).position, start.position);
-  await framed(async () => { await page.fill("[data-pose='2']", "1.2"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-pose='2']", "1.2");
+    await page.keyboard.press("Enter");
+  });
   assert.equal(await page.locator("#message").isVisible(), false);
   assert.equal((await frame()).position[2], 1.2);
 
@@ -218,19 +252,42 @@ async function nothingShown(of = page) {
   const found = await of.evaluate(() => {
     const text = (id) => document.getElementById(id).innerText.trim();
     const key = [...document.querySelectorAll("#key dd")].map((one) => one.innerText.trim());
-    const cells = [...document.querySelectorAll("#tensions tbody tr")].flatMap((row) => [...row.cells].slice(1).map((cell) => cell.innerText.trim()));
+    const cells = [...document.querySelectorAll("#tensions tbody tr")].flatMap((row) =>
+      [...row.cells].slice(1).map((cell) => cell.innerText.trim()),
+    );
     return {
-      key: key.filter((one) => one !== "–"), cells: cells.filter((one) => !["", "–"].includes(one)), modes: text("modes").split("\n").length > 2 ? document.querySelectorAll("#modes tbody tr").length : 0,
-      figures: document.querySelectorAll("#bode svg, #release svg, #influence .bars, #compare table").length, warnings: text("warnings"), influence: text("influence"),
-      legend: text("legend"), commands: document.getElementById("commands").textContent, python: document.getElementById("python").textContent,
-      moving: window.funicular.view.mode !== null, drawn: window.funicular.view.frame !== null, response: window.funicular.response,
-      play: document.getElementById("play").offsetParent !== null, first: document.getElementById("influence-first").disabled,
+      key: key.filter((one) => one !== "–"),
+      cells: cells.filter((one) => !["", "–"].includes(one)),
+      modes: text("modes").split("\n").length > 2 ? document.querySelectorAll("#modes tbody tr").length : 0,
+      figures: document.querySelectorAll("#bode svg, #release svg, #influence .bars, #compare table").length,
+      warnings: text("warnings"),
+      influence: text("influence"),
+      legend: text("legend"),
+      commands: document.getElementById("commands").textContent,
+      python: document.getElementById("python").textContent,
+      moving: window.funicular.view.mode !== null,
+      drawn: window.funicular.view.frame !== null,
+      response: window.funicular.response,
+      play: document.getElementById("play").offsetParent !== null,
+      first: document.getElementById("influence-first").disabled,
       names: [...document.querySelectorAll("#view .names span")].filter((one) => one.offsetParent !== null).length,
     };
   });
   const { commands, python, ...rest } = found;
   assert.deepEqual(rest, {
-    key: [], cells: [], modes: 0, figures: 0, warnings: "–", influence: "–", legend: "", moving: false, drawn: false, response: null, play: false, first: true, names: 0,
+    key: [],
+    cells: [],
+    modes: 0,
+    figures: 0,
+    warnings: "–",
+    influence: "–",
+    legend: "",
+    moving: false,
+    drawn: false,
+    response: null,
+    play: false,
+    first: true,
+    names: 0,
   });
   [commands, python].forEach((one) => assert.match(one, /^There are no results: /));
 }
@@ -247,8 +304,16 @@ async function openRefused(name, content) {
 
 test("a robot that is refused, or has no equilibrium, leaves nothing of the robot before", async () => {
   const cases = {
-    "no-equilibrium.toml": [OWN.replace("0.5, 3.0]", "0.5, 9.5]"), /^No equilibrium here/, "Hall crane, 6 cables, 20 m"],
-    "negative.toml": [OWN.replace("mass_kg = 250", "mass_kg = -250"), /^The robot file has an error: line 3: /, "negative.toml"],
+    "no-equilibrium.toml": [
+      OWN.replace("0.5, 3.0]", "0.5, 9.5]"),
+      /^No equilibrium here/,
+      "Hall crane, 6 cables, 20 m",
+    ],
+    "negative.toml": [
+      OWN.replace("mass_kg = 250", "mass_kg = -250"),
+      /^The robot file has an error: line 3: /,
+      "negative.toml",
+    ],
     "cut.toml": [OWN.slice(0, 300), /^The robot file has/, "cut.toml"],
     "empty.toml": ["", /^The robot file has/, "empty.toml"],
   };
@@ -290,7 +355,10 @@ test("a robot that is refused, or has no equilibrium, leaves nothing of the robo
       assert.equal(await page.locator("#tensions tbody tr").count(), 6);
       await page.screenshot({ path: join(pictures, "no-equilibrium.png") });
       // The platform can be moved to where there is one.
-      await framed(async () => { await page.fill("[data-pose='2']", "3"); await page.keyboard.press("Enter"); });
+      await framed(async () => {
+        await page.fill("[data-pose='2']", "3");
+        await page.keyboard.press("Enter");
+      });
       assert.equal((await frame()).cables.length, 6);
     }
   }
@@ -310,7 +378,10 @@ test("outside of the workspace nothing is shown, and everything comes back insid
   await page.screenshot({ path: join(pictures, "outside.png") });
   await framed(() => page.click("#undo"));
   await page.waitForFunction((before) => document.getElementById("key").innerText === before, shown);
-  await page.waitForFunction(() => window.funicular.view.mode && document.querySelector("#influence .bars") && document.querySelector("#bode svg"));
+  await page.waitForFunction(
+    () =>
+      window.funicular.view.mode && document.querySelector("#influence .bars") && document.querySelector("#bode svg"),
+  );
   await page.click("#modes tbody tr:nth-child(17) button");
 
   // A file that is typed by half, while it has an error.
@@ -327,7 +398,11 @@ test("outside of the workspace nothing is shown, and everything comes back insid
   assert.match(readFileSync(path, "utf8"), /\nmass = 3$/, "the file is saved as it was typed");
   await page.locator("#editor .cm-content").click();
   await page.keyboard.press("Control+End");
-  await framed(async () => { for (let i = 0; i < 9; i += 1) { await page.keyboard.press("Backspace"); } });
+  await framed(async () => {
+    for (let i = 0; i < 9; i += 1) {
+      await page.keyboard.press("Backspace");
+    }
+  });
   await page.click("#tab-values");
   assert.equal(await text("#key").then((found) => found.split("\n")[1]), shown.split("\n")[1]);
 });
@@ -337,12 +412,22 @@ test("a comparison and a slice of an earlier state are not taken for those of th
   await page.click("#compare-run");
   await page.waitForSelector("#compare tbody tr");
   await page.click("#slice-run");
-  await page.waitForFunction(() => document.getElementById("slice-run").textContent === "Compute" && document.querySelectorAll("#map svg rect").length > 1000);
+  await page.waitForFunction(
+    () =>
+      document.getElementById("slice-run").textContent === "Compute" &&
+      document.querySelectorAll("#map svg rect").length > 1000,
+  );
   // In the plane of the slice it stays; its cross moves.
-  await framed(async () => { await page.fill("[data-pose='0']", "1"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-pose='0']", "1");
+    await page.keyboard.press("Enter");
+  });
   assert.match(await text("#compare"), /The state has changed: compare again/);
-  assert.ok(!(await page.getAttribute("#map", "class") ?? "").includes("stale"));
-  await framed(async () => { await page.fill("[data-number='platform.mass_kg']", "150"); await page.keyboard.press("Enter"); });
+  assert.ok(!((await page.getAttribute("#map", "class")) ?? "").includes("stale"));
+  await framed(async () => {
+    await page.fill("[data-number='platform.mass_kg']", "150");
+    await page.keyboard.press("Enter");
+  });
   assert.match(await page.getAttribute("#map", "class"), /stale/);
   assert.match(await text("#map"), /of an earlier state: compute it again/);
   await page.click(".menu summary");
@@ -367,20 +452,29 @@ test("the first mode of the platform is found above the listed ones", async () =
   await page.screenshot({ path: join(pictures, "platform.png") });
 
   // While the platform moves, the list reaches it, and no search is needed.
-  await framed(async () => { await page.fill("[data-pose='0']", "0.9"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-pose='0']", "0.9");
+    await page.keyboard.press("Enter");
+  });
   const near27 = await frame();
   assert.ok(near27.first.index > 20 && near27.modes.length > near27.first.index, JSON.stringify(near27.first));
 
   // The release has the modes of the platform.
   await page.fill("#release-mass", "100");
   await page.click("#release-form button");
-  await page.waitForFunction(() => /The complete static model moves/.test(document.getElementById("release").textContent));
-  const [complete, linear] = /by ([\d.]+) mm under this payload, the listed modes by ([\d.]+) mm/.exec(await text("#release p")).slice(1).map(Number);
+  await page.waitForFunction(() =>
+    /The complete static model moves/.test(document.getElementById("release").textContent),
+  );
+  const [complete, linear] = /by ([\d.]+) mm under this payload, the listed modes by ([\d.]+) mm/
+    .exec(await text("#release p"))
+    .slice(1)
+    .map(Number);
   near(linear, complete, 0.1, "displacement under 100 kg");
 });
 
 // One gram in ropes of one kilogram per metre: up to 1000 Hz the ropes vibrate, and the platform goes with them.
-const SPECK = `
+const SPECK =
+  `
 name = "Speck on heavy ropes"
 [platform]
 motion = "point-mass"
@@ -392,11 +486,22 @@ minimum_tension_n = 1000
 maximum_tension_n = 9000
 [state]
 position_m = [0.0, 0.1, 1.0]
-` + [[2, 2, 3], [-2, 2, 3], [-2, -2, 3], [2, -2, 3], [0, 0, -2]].map((anchor, i) => `[[cables]]
+` +
+  [
+    [2, 2, 3],
+    [-2, 2, 3],
+    [-2, -2, 3],
+    [2, -2, 3],
+    [0, 0, -2],
+  ]
+    .map(
+      (anchor, i) => `[[cables]]
 name = "${i + 1}"
 material = "rope"
 anchor_m = [${anchor.map((value) => value.toFixed(1)).join(", ")}]
-`).join("");
+`,
+    )
+    .join("");
 
 test("a robot without a mode of the platform says so, and its button is disabled", async () => {
   const file = join(folder, "speck.toml");
@@ -405,14 +510,19 @@ test("a robot without a mode of the platform says so, and its button is disabled
   // Until the search ends, the figure is marked, and the button waits.
   assert.match(await text("#key"), /First resonance of the platform\s*…\s*above the 20 lowest; searching/);
   assert.ok(await page.isDisabled("#influence-first"));
-  await page.waitForFunction(() => /no mode below 1000 Hz has at least 50 %/.test(document.getElementById("key").innerText));
+  await page.waitForFunction(() =>
+    /no mode below 1000 Hz has at least 50 %/.test(document.getElementById("key").innerText),
+  );
   assert.match(await text("#key"), /First resonance of the platform\s*–\s*no mode/);
   assert.ok(await page.isDisabled("#influence-first"));
   assert.match(await page.getAttribute("#influence-first", "title"), /no mode below 1000 Hz/);
   assert.match(await text("#influence"), /There is no first one of the platform: no mode below 1000 Hz/);
 
   // A search that is given up is told.
-  await framed(async () => { await page.fill("[data-pose='0']", "0.1"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-pose='0']", "0.1");
+    await page.keyboard.press("Enter");
+  });
   await page.click("#busy p:has-text('Searching the first resonance') button");
   assert.match(await text("#key"), /the search was cancelled/);
 });
@@ -438,7 +548,10 @@ test("a file that is too large is refused at once, and a message is not hidden b
 test("sliders change values, and undo brings them back", async () => {
   await choose("cogiro");
   const start = await frame();
-  await framed(async () => { await page.fill("[data-number='platform.mass_kg']", "150"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-number='platform.mass_kg']", "150");
+    await page.keyboard.press("Enter");
+  });
   // The names are words with their unit, and the path is their tip.
   const label = page.locator("label[for='value-platform.mass_kg']");
   assert.equal(await label.innerText(), "mass of the platform [kg]");
@@ -448,17 +561,25 @@ test("sliders change values, and undo brings them back", async () => {
   assert.ok(heavy.cables[2].tension > 1.2 * start.cables[2].tension);
   const rest = native({
     command: "statics",
-    robot: { text: readFileSync(new URL("cogiro.toml", library), "utf8"), set: [{ path: "platform.mass_kg", value: 150 }] },
+    robot: {
+      text: readFileSync(new URL("cogiro.toml", library), "utf8"),
+      set: [{ path: "platform.mass_kg", value: 150 }],
+    },
   });
   near(heavy.cables[2].tension, rest.cables[2].tension_platform_n, STATICS, "tension with 150 kg");
-  await page.waitForFunction(() => document.getElementById("commands").textContent.includes("--set platform.mass_kg=150"));
+  await page.waitForFunction(() =>
+    document.getElementById("commands").textContent.includes("--set platform.mass_kg=150"),
+  );
   await framed(() => page.click("#undo"));
   near((await frame()).cables[2].tension, start.cables[2].tension, 1e-12, "undo");
   assert.equal(await page.inputValue("[data-number='platform.mass_kg']"), "91.058");
 
   // Lengths held: the platform sinks under a heavier mass.
   await framed(() => page.click("[data-hold=lengths]"));
-  await framed(async () => { await page.fill("[data-number='platform.mass_kg']", "300"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-number='platform.mass_kg']", "300");
+    await page.keyboard.press("Enter");
+  });
   const sunk = await frame();
   assert.ok(sunk.position[2] < start.position[2] - 1e-3, `${sunk.position[2]}`);
   sunk.cables.forEach((cable, i) => near(cable.length, start.cables[i].length, 1e-12, "held length"));
@@ -488,18 +609,31 @@ test("the message says which cable limits the payload, and the workspace is comp
   await choose("cogiro");
   await page.waitForFunction(() => /limited by cable/.test(document.getElementById("key").textContent));
   const rest = native({ command: "payload", robot: { text: readFileSync(new URL("cogiro.toml", library), "utf8") } });
-  assert.ok((await text("#key")).replace(/\s/g, "").includes(`${Math.round(rest.maximum.payload_kg)}kg`), await text("#key"));
+  assert.ok(
+    (await text("#key")).replace(/\s/g, "").includes(`${Math.round(rest.maximum.payload_kg)}kg`),
+    await text("#key"),
+  );
 
   // Cancelled by the next change, then complete.
   await page.click("#slice-run");
   await page.waitForSelector("#map svg");
-  await framed(async () => { await page.fill("[data-pose='2']", "1.4"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-pose='2']", "1.4");
+    await page.keyboard.press("Enter");
+  });
   await page.waitForFunction(() => document.getElementById("slice-run").textContent === "Compute");
   await page.click("#slice-run");
-  await page.waitForFunction(() => document.getElementById("slice-run").textContent === "Compute" && document.querySelectorAll("#map svg rect").length > 1000);
+  await page.waitForFunction(
+    () =>
+      document.getElementById("slice-run").textContent === "Compute" &&
+      document.querySelectorAll("#map svg rect").length > 1000,
+  );
   const cross = () => page.getAttribute("#map .here", "d");
   const there = await cross();
-  await framed(async () => { await page.fill("[data-pose='0']", "0.5"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-pose='0']", "0.5");
+    await page.keyboard.press("Enter");
+  });
   assert.notEqual(await cross(), there, "the cross follows the platform");
   assert.match(await page.getAttribute("#map svg", "aria-label"), /^Highest tension at \d+ poses/);
   await page.locator("#map").scrollIntoViewIfNeeded();
@@ -510,12 +644,18 @@ test("a mode is shown in motion, and “before” is compared", async () => {
   await choose("cogiro");
   await page.click("#modes tbody tr:nth-child(17) button");
   await page.waitForFunction(() => window.funicular.view.mode);
-  const picture = () => page.evaluate(() => window.funicular.view.lines[2].geometry.attributes.instanceStart.data.array.slice(0, 60).join());
+  const picture = () =>
+    page.evaluate(() =>
+      window.funicular.view.lines[2].geometry.attributes.instanceStart.data.array.slice(0, 60).join(),
+    );
   const first = await picture();
   await page.waitForTimeout(300);
   assert.notEqual(await picture(), first, "the cables do not move");
   await page.click("#remember");
-  await framed(async () => { await page.fill("[data-number='platform.mass_kg']", "120"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-number='platform.mass_kg']", "120");
+    await page.keyboard.press("Enter");
+  });
   assert.match(await page.locator("#modes tbody tr:nth-child(17) .before").innerText(), /^[+−]\d/);
   await page.waitForSelector("#bode .past");
   await page.screenshot({ path: join(pictures, "before.png") });
@@ -525,15 +665,25 @@ test("a mode is shown in motion, and “before” is compared", async () => {
 
 test("the commands in the page run as they stand", async () => {
   await choose("cogiro");
-  await framed(async () => { await page.fill("[data-number='platform.mass_kg']", "150"); await page.keyboard.press("Enter"); });
-  await framed(async () => { await page.fill("[data-pose='2']", "1.7"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-number='platform.mass_kg']", "150");
+    await page.keyboard.press("Enter");
+  });
+  await framed(async () => {
+    await page.fill("[data-pose='2']", "1.7");
+    await page.keyboard.press("Enter");
+  });
   await page.click("#modes tbody tr:nth-child(1) button");
   await page.waitForFunction(() => /funicular gradient/.test(document.getElementById("commands").textContent));
   const lines = (await page.locator("#commands").textContent()).split("\n\n");
   assert.equal(lines.length, 4);
   const shown = (await frame()).cables[0].tension;
   for (const line of lines) {
-    const done = spawnSync("sh", ["-c", line.replace(/^funicular/, `"$PROGRAM"`)], { encoding: "utf8", cwd: new URL(".", library), env: { ...process.env, PROGRAM: program } });
+    const done = spawnSync("sh", ["-c", line.replace(/^funicular/, `"$PROGRAM"`)], {
+      encoding: "utf8",
+      cwd: new URL(".", library),
+      env: { ...process.env, PROGRAM: program },
+    });
     assert.equal(done.status, 0, `${line}\n${done.stderr}`);
     if (line.startsWith("funicular statics")) {
       assert.ok(done.stdout.includes(shown.toFixed(3)), `${shown} is not in ${done.stdout}`);
@@ -546,13 +696,26 @@ test("the models are compared on demand", async () => {
   await choose("kntu-planar");
   await page.click("#compare-run");
   await page.waitForSelector("#compare tbody tr");
-  assert.equal(await page.locator("#compare tbody tr").count(), native({ command: "compare", below_hz: (await frame()).belowHz, robot: { text: readFileSync(new URL("kntu-planar.toml", library), "utf8") } }).models.length);
+  assert.equal(
+    await page.locator("#compare tbody tr").count(),
+    native({
+      command: "compare",
+      below_hz: (await frame()).belowHz,
+      robot: { text: readFileSync(new URL("kntu-planar.toml", library), "utf8") },
+    }).models.length,
+  );
 });
 
 test("a link has the robot and the state", async () => {
   await choose("ipanema2");
-  await framed(async () => { await page.fill("[data-number='platform.mass_kg']", "31"); await page.keyboard.press("Enter"); });
-  await framed(async () => { await page.fill("[data-pose='0']", "0.25"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-number='platform.mass_kg']", "31");
+    await page.keyboard.press("Enter");
+  });
+  await framed(async () => {
+    await page.fill("[data-pose='0']", "0.25");
+    await page.keyboard.press("Enter");
+  });
   await page.click("#share");
   await page.waitForFunction(() => location.hash.length > 20);
   const link = page.url();
@@ -566,16 +729,28 @@ test("a link has the robot and the state", async () => {
   await other.close();
   const broken = await opened(`${link.slice(0, -30)}`);
   await broken.waitForFunction(() => !document.getElementById("message").hidden);
-  assert.match(await text("#message", broken), /This link is damaged.* This is not its robot, but the first one of the library, CoGiRo/);
+  assert.match(
+    await text("#message", broken),
+    /This link is damaged.* This is not its robot, but the first one of the library, CoGiRo/,
+  );
   // Another link in the same window, without a part, and one that is none: the robot stays, and the page says so.
-  for (const [hash, words] of [[link.split("#")[1].slice(5), /damaged.*The robot on the page is still the one before, CoGiRo/], ["robot=cogiro", /“#robot=cogiro” at the end of the address is no link of this page.*still the one before/]]) {
-    await broken.evaluate((to) => { document.getElementById("message").textContent = ""; location.hash = to; }, hash);
+  for (const [hash, words] of [
+    [link.split("#")[1].slice(5), /damaged.*The robot on the page is still the one before, CoGiRo/],
+    ["robot=cogiro", /“#robot=cogiro” at the end of the address is no link of this page.*still the one before/],
+  ]) {
+    await broken.evaluate((to) => {
+      document.getElementById("message").textContent = "";
+      location.hash = to;
+    }, hash);
     await broken.waitForFunction(() => document.getElementById("message").textContent !== "");
     const told = await text("#message", broken);
     assert.ok(words.test(told) && !/atob|fetch|JSON|undefined/i.test(told), told);
   }
   // The link to the results at the beginning of the page is a place, and not a robot.
-  await broken.evaluate(() => { document.getElementById("message").textContent = ""; location.hash = "results"; });
+  await broken.evaluate(() => {
+    document.getElementById("message").textContent = "";
+    location.hash = "results";
+  });
   await broken.waitForTimeout(300);
   assert.equal(await broken.locator("#message").textContent(), "");
   await broken.close();
@@ -584,18 +759,29 @@ test("a link has the robot and the state", async () => {
 test("a page that `funicular live` has made begins with its robot and state", async () => {
   const text = readFileSync(new URL("caroca.toml", library), "utf8");
   const start = {
-    version: 1, robot: { name: "own.toml", text, set: [{ path: "platform.mass_kg", value: 300 }] }, hold: "pose", pose: [0.5, 0, 1, 0, 0, 0],
-    lengths: null, rule: "middle", more: { force_n: [0, 0, -200] }, model: { cable_model: "catenary-static" },
+    version: 1,
+    robot: { name: "own.toml", text, set: [{ path: "platform.mass_kg", value: 300 }] },
+    hold: "pose",
+    pose: [0.5, 0, 1, 0, 0, 0],
+    lengths: null,
+    rule: "middle",
+    more: { force_n: [0, 0, -200] },
+    model: { cable_model: "catenary-static" },
   };
   const place = '<script id="start" type="application/json">null</script>';
   const whole = readFileSync(join(web, "funicular.html"), "utf8");
   assert.equal(whole.split(place).length, 2, "the place where `funicular live` writes the robot");
   const file = join(folder, "live.html");
-  writeFileSync(file, whole.replace(place, () => place.replace("null", JSON.stringify(start).replaceAll("<", "\\u003c"))));
+  writeFileSync(
+    file,
+    whole.replace(place, () => place.replace("null", JSON.stringify(start).replaceAll("<", "\\u003c"))),
+  );
   const made = await opened(pathToFileURL(file).href);
   const found = await frame(made);
   const common = { robot: start.robot, pose: start.pose, force_n: [0, 0, -200], tension_rule: "middle" };
-  native({ command: "statics", ...common }).cables.forEach((cable, i) => near(found.cables[i].tension, cable.tension_platform_n, STATICS, cable.name));
+  native({ command: "statics", ...common }).cables.forEach((cable, i) =>
+    near(found.cables[i].tension, cable.tension_platform_n, STATICS, cable.name),
+  );
   const modes = native({ command: "modes", ...common, ...start.model, below_hz: found.belowHz }).modes;
   found.modes.forEach((mode, i) => near(mode.hz, modes[i].frequency_hz, FREQUENCY, `frequency ${i + 1}`));
   assert.equal(await made.inputValue("#rule"), "middle");
@@ -619,17 +805,25 @@ test("a robot file without a state starts between its anchors", async () => {
 
 test("files of other programs are imported, and files are saved", async () => {
   const moordyn = join(folder, "robot.txt");
-  const made = spawnSync(program, ["export", "robots/yuan2014-4mm.toml", "--to", "moordyn", "-o", moordyn], { encoding: "utf8", cwd: new URL("../../../../", import.meta.url) });
+  const made = spawnSync(program, ["export", "robots/yuan2014-4mm.toml", "--to", "moordyn", "-o", moordyn], {
+    encoding: "utf8",
+    cwd: new URL("../../../../", import.meta.url),
+  });
   assert.equal(made.status, 0, made.stderr);
   await framed(() => page.setInputFiles("#files", moordyn));
   assert.equal((await frame()).cables.length, 6);
   const bad = join(folder, "notes.txt");
   writeFileSync(bad, "no robot");
   await page.setInputFiles("#files", bad);
-  await page.waitForFunction(() => /notes\.txt: it is neither XML/.test(document.getElementById("message").textContent));
+  await page.waitForFunction(() =>
+    /notes\.txt: it is neither XML/.test(document.getElementById("message").textContent),
+  );
 
   await choose("cogiro");
-  await framed(async () => { await page.fill("[data-number='platform.mass_kg']", "150"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-number='platform.mass_kg']", "150");
+    await page.keyboard.press("Enter");
+  });
   const saved = async (kind) => {
     await page.click(".menu summary");
     const [download] = await Promise.all([page.waitForEvent("download"), page.click(`[data-save=${kind}]`)]);
@@ -663,9 +857,27 @@ test("the keyboard is enough", async () => {
   const reached = new Set();
   for (let i = 0; i < 90; i += 1) {
     await page.keyboard.press("Tab");
-    reached.add(await page.evaluate(() => { const { id, dataset, tagName } = document.activeElement; return id || Object.values(dataset).join() || tagName; }));
+    reached.add(
+      await page.evaluate(() => {
+        const { id, dataset, tagName } = document.activeElement;
+        return id || Object.values(dataset).join() || tagName;
+      }),
+    );
   }
-  for (const id of ["library", "open", "share", "tab-values", "reset", "count", "input", "output", "from", "slice-run", "compare-run", "home"]) {
+  for (const id of [
+    "library",
+    "open",
+    "share",
+    "tab-values",
+    "reset",
+    "count",
+    "input",
+    "output",
+    "from",
+    "slice-run",
+    "compare-run",
+    "home",
+  ]) {
     assert.ok(reached.has(id), `${id} is not reached: ${[...reached].join(" ")}`);
   }
 });
@@ -675,17 +887,38 @@ test("a screen reader is told the name of every control, and figures have a text
   await page.click("#tab-file");
   const tools = await page.context().newCDPSession(page);
   const { nodes } = await tools.send("Accessibility.getFullAXTree");
-  const controls = ["button", "textbox", "combobox", "slider", "spinbutton", "checkbox", "tab", "link", "image", "progressbar"];
+  const controls = [
+    "button",
+    "textbox",
+    "combobox",
+    "slider",
+    "spinbutton",
+    "checkbox",
+    "tab",
+    "link",
+    "image",
+    "progressbar",
+  ];
   const of = nodes.filter(({ ignored, role }) => !ignored && controls.includes(role?.value));
   assert.ok(of.length > 60, `${of.length} controls`);
   const nameless = of.filter(({ name }) => !name?.value?.trim());
-  assert.deepEqual(nameless.map(({ role, properties }) => `${role.value} ${JSON.stringify(properties)}`), []);
-  assert.ok(of.some(({ role, name }) => role.value === "image" && /^Frequency response\. Highest peak/.test(name.value)));
+  assert.deepEqual(
+    nameless.map(({ role, properties }) => `${role.value} ${JSON.stringify(properties)}`),
+    [],
+  );
+  assert.ok(
+    of.some(({ role, name }) => role.value === "image" && /^Frequency response\. Highest peak/.test(name.value)),
+  );
   await page.click("#tab-values");
 });
 
 test("on a phone everything is in one column", async () => {
-  const phone = await opened(address, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, colorScheme: "dark" });
+  const phone = await opened(address, {
+    viewport: { width: 390, height: 844 },
+    hasTouch: true,
+    isMobile: true,
+    colorScheme: "dark",
+  });
   const wide = await phone.evaluate(() => document.documentElement.scrollWidth);
   assert.ok(wide <= 390, `the page is ${wide} pixels wide`);
   await phone.screenshot({ path: join(pictures, "phone.png"), fullPage: true });
@@ -698,34 +931,62 @@ test("bars say which value moves a frequency most, as differences of the native 
   await page.selectOption("#influence-hold", "lengths");
   await page.waitForSelector("#influence .bars");
   const mode = await page.evaluate(() => Number(document.getElementById("influence").dataset.mode));
-  const bars = await page.evaluate(() => [...document.querySelectorAll("#influence li")].map((row) => ({ path: row.dataset.path, text: row.querySelector("b").textContent })));
+  const bars = await page.evaluate(() =>
+    [...document.querySelectorAll("#influence li")].map((row) => ({
+      path: row.dataset.path,
+      text: row.querySelector("b").textContent,
+    })),
+  );
   assert.equal(bars.length, 10);
   const { hz } = (await frame()).modes[mode];
   const original = readFileSync(new URL("cogiro.toml", library), "utf8");
   const values = native({ command: "parameters", robot: { text: original } }).parameters;
-  const nearest = (set) => native({ command: "modes", robot: { text: original, set }, below_hz: 1.1 * hz, damped: false }).modes
-    .map((found) => found.frequency_hz).reduce((a, b) => (Math.abs(b - hz) < Math.abs(a - hz) ? b : a));
+  const nearest = (set) =>
+    native({ command: "modes", robot: { text: original, set }, below_hz: 1.1 * hz, damped: false })
+      .modes.map((found) => found.frequency_hz)
+      .reduce((a, b) => (Math.abs(b - hz) < Math.abs(a - hz) ? b : a));
   for (const { path, text: shown } of bars.slice(0, 3)) {
     const { value } = values.find((one) => one.path === path);
     const [low, high] = [-1, 1].map((side) => nearest([{ path, value: value * (1 + side * 1e-5) }]));
-    const percent = ((high - low) / hz / 2e-5); // of the frequency, per 1 % of the value
+    const percent = (high - low) / hz / 2e-5; // of the frequency, per 1 % of the value
     // Three digits are printed; a difference over 2e-5 of the value has an error of about 1e-4.
     near(Number(shown.replace("−", "-").replace("+", "").replace(" %", "")), percent, 6e-3, path);
   }
   // At a held pose the bars follow the tension rule, as the sliders do.
-  await framed(async () => { await page.fill("[data-pose='2']", "2"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-pose='2']", "2");
+    await page.keyboard.press("Enter");
+  });
   await page.waitForFunction(() => /rule `lowest`/.test(document.getElementById("influence").textContent));
   assert.equal(await page.inputValue("#influence-hold"), "rule");
-  const own = await page.evaluate(() => [...document.querySelectorAll("#influence li")].map((row) => ({ path: row.dataset.path, text: row.querySelector("b").textContent })));
+  const own = await page.evaluate(() =>
+    [...document.querySelectorAll("#influence li")].map((row) => ({
+      path: row.dataset.path,
+      text: row.querySelector("b").textContent,
+    })),
+  );
   const { hz: there } = (await frame()).modes[mode];
   const { pose } = await page.evaluate(() => window.funicular.content);
   const { path, text: effect } = own[0];
   const { value } = values.find((one) => one.path === path);
-  const [low, high] = [-1, 1].map((side) => native({
-    command: "modes", robot: { text: original, set: [{ path, value: value + side * 1e-5 * Math.abs(value) }] }, below_hz: 1.1 * there, damped: false,
-    pose, tension_rule: "lowest",
-  }).modes.map((found) => found.frequency_hz).reduce((a, b) => (Math.abs(b - there) < Math.abs(a - there) ? b : a)));
-  near(Number(effect.replace("−", "-").replace("+", "").replace(" %", "")), (high - low) / there / 2e-5, 6e-3, `${path} by the rule`);
+  const [low, high] = [-1, 1].map((side) =>
+    native({
+      command: "modes",
+      robot: { text: original, set: [{ path, value: value + side * 1e-5 * Math.abs(value) }] },
+      below_hz: 1.1 * there,
+      damped: false,
+      pose,
+      tension_rule: "lowest",
+    })
+      .modes.map((found) => found.frequency_hz)
+      .reduce((a, b) => (Math.abs(b - there) < Math.abs(a - there) ? b : a)),
+  );
+  near(
+    Number(effect.replace("−", "-").replace("+", "").replace(" %", "")),
+    (high - low) / there / 2e-5,
+    6e-3,
+    `${path} by the rule`,
+  );
 
   // A bar adds its slider.
   await page.click("#influence li:first-child");
@@ -738,10 +999,16 @@ test("a released payload swings from the static displacement of the complete mod
     await choose(robot);
     await page.fill("#release-mass", "2");
     await page.click("#release-form button");
-    await page.waitForFunction(() => /The complete static model moves/.test(document.getElementById("release").textContent));
+    await page.waitForFunction(() =>
+      /The complete static model moves/.test(document.getElementById("release").textContent),
+    );
     const told = await text("#release p");
-    const [complete, linear] = /by ([\d.]+) mm under this payload, the listed modes by ([\d.]+) mm/.exec(told).slice(1).map(Number);
-    // Both models are different: nonlinear statics of held lengths, and a sum over twenty modes, whose rest moves little.
+    const [complete, linear] = /by ([\d.]+) mm under this payload, the listed modes by ([\d.]+) mm/
+      .exec(told)
+      .slice(1)
+      .map(Number);
+    // Both models are different: nonlinear statics of held lengths, and a sum over twenty modes, whose rest moves
+    // little.
     near(linear, complete, 0.02, robot);
     const place = () => page.evaluate(() => window.funicular.view.platform.position.toArray().join());
     const start = await place();
@@ -755,7 +1022,8 @@ test("a released payload swings from the static displacement of the complete mod
   assert.equal(await page.locator("#release svg").count(), 0);
 });
 
-const HALL = `
+const HALL =
+  `
 name = "Hall"
 [platform]
 motion = "point-mass"
@@ -779,14 +1047,24 @@ radius_m = 0.05
 [supports.post]
 stiffness_n_per_m = [40e3, 40e3, 5e6]
 mass_kg = 40
-` + [[10, 8, ' support = "post"'], [-10, 8, ""], [-10, -8, ""], [10, -8, ""]].map(([x, y, more], i) => `[[cables]]
+` +
+  [
+    [10, 8, ' support = "post"'],
+    [-10, 8, ""],
+    [-10, -8, ""],
+    [10, -8, ""],
+  ]
+    .map(
+      ([x, y, more], i) => `[[cables]]
 name = "${i + 1}"
 material = "rope"
 pulley = "top"
 winch = "ground"
 anchor_m = [${x}.0, ${y}.0, 6.0]
 ${more}
-`).join("");
+`,
+    )
+    .join("");
 
 test("pulleys, drums, guide wheels and supports stand where they are", async () => {
   const file = join(folder, "hall.toml");
@@ -804,8 +1082,11 @@ test("pulleys, drums, guide wheels and supports stand where they are", async () 
       const exit = at(frame.cables[i].anchor);
       const next = at(frame.cables[i].points.slice(-6, -3));
       return {
-        radius: center.distanceTo(exit), entry: center.distanceTo(own.place), plane: normal.dot(at(frame.cables[i].attachment).sub(own.place)),
-        tangent: exit.clone().sub(center).normalize().dot(next.sub(exit).normalize()), end: own.arc.geometry.getAttribute("position").array.slice(-3),
+        radius: center.distanceTo(exit),
+        entry: center.distanceTo(own.place),
+        plane: normal.dot(at(frame.cables[i].attachment).sub(own.place)),
+        tangent: exit.clone().sub(center).normalize().dot(next.sub(exit).normalize()),
+        end: own.arc.geometry.getAttribute("position").array.slice(-3),
         exit: exit.sub(own.place).toArray(),
       };
     });
@@ -813,8 +1094,14 @@ test("pulleys, drums, guide wheels and supports stand where they are", async () 
   found.forEach((wheel, i) => {
     // The anchor of cable 1 has moved with its support by some millimetres; wheels are drawn at the anchor of the file.
     const limit = i === 0 ? 5e-3 : 1e-9;
-    assert.ok(Math.abs(wheel.radius - 0.4) < limit, `cable ${i + 1} leaves its wheel at ${wheel.radius} m from the centre`);
-    assert.ok(Math.abs(wheel.entry - 0.4) < 1e-9 && Math.abs(wheel.plane) < 20 * limit, `${wheel.entry} ${wheel.plane}`);
+    assert.ok(
+      Math.abs(wheel.radius - 0.4) < limit,
+      `cable ${i + 1} leaves its wheel at ${wheel.radius} m from the centre`,
+    );
+    assert.ok(
+      Math.abs(wheel.entry - 0.4) < 1e-9 && Math.abs(wheel.plane) < 20 * limit,
+      `${wheel.entry} ${wheel.plane}`,
+    );
     // The cable leaves along the rim: the last of 32 pieces of the sagging curve is nearly a tangent.
     assert.ok(Math.abs(wheel.tangent) < (i === 0 ? 0.02 : 5e-3), `${wheel.tangent}`);
     wheel.exit.forEach((value, k) => assert.ok(Math.abs(value - wheel.end[k]) < Math.max(limit, 1e-6)));
@@ -826,7 +1113,9 @@ test("pulleys, drums, guide wheels and supports stand where they are", async () 
   assert.ok(drive >= 0, modes.join());
   await page.click(`#modes tbody tr:nth-child(${drive + 1}) button`);
   await page.waitForFunction(() => {
-    const [first, ...others] = window.funicular.view.drives.cables.map(({ body, place }) => body.position.distanceTo(place));
+    const [first, ...others] = window.funicular.view.drives.cables.map(({ body, place }) =>
+      body.position.distanceTo(place),
+    );
     return first > 1e-3 && others.every((distance) => distance === 0);
   });
   await page.screenshot({ path: join(pictures, "drives.png") });
@@ -906,14 +1195,19 @@ test("a long computation says so and can be cancelled", async () => {
   // The worker of frames is kept busy by a map of many poses.
   await page.evaluate(() => {
     const poses = Array.from({ length: 4000 }, (_, i) => [0.001 * i - 2, 0, 1.5, 0, 0, 0]);
-    window.funicular.ask({ command: "map", robot: window.funicular.content.robot, quantities: ["first-frequency"], poses }).catch(() => {});
+    window.funicular
+      .ask({ command: "map", robot: window.funicular.content.robot, quantities: ["first-frequency"], poses })
+      .catch(() => {});
   });
   await page.fill("[data-pose='2']", "1.3");
   await page.keyboard.press("Enter");
   await page.click("#busy button");
   await page.waitForFunction(() => /^Cancelled/.test(document.getElementById("message").textContent));
   await nothingShown();
-  await framed(async () => { await page.fill("[data-pose='2']", "1.4"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-pose='2']", "1.4");
+    await page.keyboard.press("Enter");
+  });
   assert.equal((await frame()).position[2], 1.4);
   assert.equal(await page.locator("#message").isVisible(), false);
 });
@@ -925,11 +1219,16 @@ test("a server needs no settings, and a missing module is told", async () => {
     const server = createServer((request, answer) => {
       const name = request.url.split("?")[0].slice(1);
       asked.push(name);
-      if (!["index.html", "page.js", "page.css", "funicular.wasm"].includes(name) || (name === "funicular.wasm" && !withModule)) {
+      if (
+        !["index.html", "page.js", "page.css", "funicular.wasm"].includes(name) ||
+        (name === "funicular.wasm" && !withModule)
+      ) {
         answer.writeHead(404).end();
         return;
       }
-      answer.writeHead(200, name.endsWith(".html") ? { "content-type": "text/html" } : {}).end(readFileSync(join(web, name)));
+      answer
+        .writeHead(200, name.endsWith(".html") ? { "content-type": "text/html" } : {})
+        .end(readFileSync(join(web, name)));
     });
     await new Promise((done) => server.listen(0, "127.0.0.1", done));
     const own = await browser.newContext().then((of) => of.newPage());
@@ -951,7 +1250,11 @@ test("a server needs no settings, and a missing module is told", async () => {
 test("a page around this one is told every change", async () => {
   const script = readFileSync(new URL("../../../funicular-py/python/funicular/_live.js", import.meta.url), "utf8");
   const outer = join(folder, "notebook.html");
-  writeFileSync(outer, `<!DOCTYPE html><div id="cell"></div><script type="module">${script.replace("export default { render };", "window.render = render;")}</script>`);
+  writeFileSync(
+    outer,
+    `<!DOCTYPE html><div id="cell"></div><script ` +
+      `type="module">${script.replace("export default { render };", "window.render = render;")}</script>`,
+  );
   const cell = await browser.newContext().then((of) => of.newPage());
   cell.setDefaultTimeout(PATIENCE_MS);
   await cell.goto(pathToFileURL(outer).href);
@@ -961,8 +1264,20 @@ test("a page around this one is told every change", async () => {
   await cell.evaluate(() => {
     const heard = {};
     const model = {
-      state: null, saved: 0, get: () => model.state, set: (_, value) => { model.state = value; }, save_changes: () => { model.saved += 1; },
-      on: (name, work) => { heard[name] = work; }, off: () => {}, send: async () => heard["msg:custom"]({ page: await window.pageOf() }),
+      state: null,
+      saved: 0,
+      get: () => model.state,
+      set: (_, value) => {
+        model.state = value;
+      },
+      save_changes: () => {
+        model.saved += 1;
+      },
+      on: (name, work) => {
+        heard[name] = work;
+      },
+      off: () => {},
+      send: async () => heard["msg:custom"]({ page: await window.pageOf() }),
     };
     window.model = model;
     window.render({ model, el: document.getElementById("cell") });
@@ -1007,9 +1322,15 @@ test("a mistake in the core is told, and the page lives on", async () => {
   await page.fill("[data-pose='0']", "0.1");
   await page.keyboard.press("Enter");
   await page.waitForFunction(() => /started again/.test(document.getElementById("message").textContent));
-  assert.match(await text("#message"), /mistake in funicular[\s\S]*please report it with the request[\s\S]*The page has started again with the last robot/);
+  assert.match(
+    await text("#message"),
+    /mistake in funicular[\s\S]*please report it with the request[\s\S]*The page has started again with the last robot/,
+  );
   await nothingShown();
-  await framed(async () => { await page.fill("[data-pose='0']", "0.2"); await page.keyboard.press("Enter"); });
+  await framed(async () => {
+    await page.fill("[data-pose='0']", "0.2");
+    await page.keyboard.press("Enter");
+  });
   assert.equal((await frame()).position[0], 0.2);
   assert.equal(await page.locator("#message").isVisible(), false);
 });
@@ -1020,7 +1341,10 @@ test("nothing failed on the console, and nothing was requested from a network", 
 
 test("the page is as small as promised", (t) => {
   const { all, served, servedWithoutEditor, file } = JSON.parse(readFileSync(join(web, "sizes.json"), "utf8"));
-  t.diagnostic(`compressed ${all} bytes with gzip, ${served} with Brotli, of it without the editor ${servedWithoutEditor}; funicular.html ${statSync(join(web, "funicular.html")).size}`);
+  t.diagnostic(
+    `compressed ${all} bytes with gzip, ${served} with Brotli, of it without the editor ` +
+      `${servedWithoutEditor}; funicular.html ${statSync(join(web, "funicular.html")).size}`,
+  );
   assert.equal(file, statSync(join(web, "funicular.html")).size);
   if (process.env.FUNICULAR_MEASURE) {
     assert.ok(all <= 2.2e6 && servedWithoutEditor <= 1.5e6);
@@ -1038,17 +1362,37 @@ test("the page loads fast enough", { skip: !process.env.FUNICULAR_MEASURE }, asy
     await tools.send("Performance.enable", { timeDomain: "threadTicks" });
     await made.goto(address, { waitUntil: "commit" });
     await made.waitForFunction(() => performance.getEntriesByName("complete").length > 0 && window.funicular.idle);
-    const marks = await made.evaluate(() => Object.fromEntries(performance.getEntriesByType("mark").map((mark) => [mark.name, mark.startTime])));
+    const marks = await made.evaluate(() =>
+      Object.fromEntries(performance.getEntriesByType("mark").map((mark) => [mark.name, mark.startTime])),
+    );
     const { metrics } = await tools.send("Performance.getMetrics");
     const of = (name) => metrics.find((one) => one.name === name)?.value ?? NaN;
     loads.push({ ...marks, thread: 1000 * of("TaskDuration"), process: 1000 * of("ProcessTime") });
     await own.close();
   }
   for (const name of ["ready", "frame", "complete"]) {
-    t.diagnostic(`${name}: median ${part(loads.map((one) => one[name]), 0.5).toFixed(0)} ms after the address was opened`);
+    t.diagnostic(
+      `${name}: median ${part(
+        loads.map((one) => one[name]),
+        0.5,
+      ).toFixed(0)} ms after the address was opened`,
+    );
   }
-  t.diagnostic(`processor time, median: main thread ${part(loads.map((one) => one.thread), 0.5).toFixed(0)} ms, all threads of the page ${part(loads.map((one) => one.process), 0.5).toFixed(0)} ms`);
-  assert.ok(part(loads.map((one) => one.frame), 0.5) <= 1500);
+  t.diagnostic(
+    `processor time, median: main thread ${part(
+      loads.map((one) => one.thread),
+      0.5,
+    ).toFixed(0)} ms, all threads of the page ${part(
+      loads.map((one) => one.process),
+      0.5,
+    ).toFixed(0)} ms`,
+  );
+  assert.ok(
+    part(
+      loads.map((one) => one.frame),
+      0.5,
+    ) <= 1500,
+  );
 });
 
 test("a frame is fast enough to drag", { skip: !process.env.FUNICULAR_MEASURE }, async (t) => {
@@ -1057,7 +1401,9 @@ test("a frame is fast enough to drag", { skip: !process.env.FUNICULAR_MEASURE },
   await tools.send("Performance.enable", { timeDomain: "threadTicks" });
   const used = async () => {
     const { metrics } = await tools.send("Performance.getMetrics");
-    return ["TaskDuration", "ProcessTime"].map((name) => 1000 * (metrics.find((one) => one.name === name)?.value ?? NaN));
+    return ["TaskDuration", "ProcessTime"].map(
+      (name) => 1000 * (metrics.find((one) => one.name === name)?.value ?? NaN),
+    );
   };
   const before = await used();
   const times = await own.evaluate(async () => {
@@ -1068,7 +1414,10 @@ test("a frame is fast enough to drag", { skip: !process.env.FUNICULAR_MEASURE },
     const frames = [];
     let last = performance.now();
     for (let i = 0; i < 300; i += 1) {
-      view.tell.drag([position[0] + 2 * Math.sin(i / 30), position[1] + Math.sin(i / 17), position[2] + 0.3 * Math.sin(i / 40)], quaternion);
+      view.tell.drag(
+        [position[0] + 2 * Math.sin(i / 30), position[1] + Math.sin(i / 17), position[2] + 0.3 * Math.sin(i / 40)],
+        quaternion,
+      );
       await new Promise((done) => requestAnimationFrame(done));
       frames.push(performance.now() - last);
       last = performance.now();
@@ -1081,9 +1430,15 @@ test("a frame is fast enough to drag", { skip: !process.env.FUNICULAR_MEASURE },
     return { frames, computed: [...window.funicular.times], responses };
   });
   const [thread, whole] = (await used()).map((value, i) => (value - before[i]) / times.computed.length);
-  t.diagnostic(`processor time per computed frame: main thread ${thread.toFixed(1)} ms, all threads of the page ${whole.toFixed(1)} ms`);
+  t.diagnostic(
+    `processor time per computed frame: main thread ${thread.toFixed(1)} ms, all threads of the page ` +
+      `${whole.toFixed(1)} ms`,
+  );
   for (const [name, list] of Object.entries(times)) {
-    t.diagnostic(`${name}: median ${part(list, 0.5).toFixed(1)} ms, 95th percentile ${part(list, 0.95).toFixed(1)} ms of ${list.length}`);
+    t.diagnostic(
+      `${name}: median ${part(list, 0.5).toFixed(1)} ms, 95th percentile ${part(list, 0.95).toFixed(1)} ms ` +
+        `of ${list.length}`,
+    );
   }
   assert.ok(part(times.computed, 0.5) <= 16 && part(times.computed, 0.95) <= 33);
   assert.ok(part(times.responses, 0.5) <= 30);
