@@ -1,6 +1,6 @@
 //! Results of requests: dictionaries from the JSON of the study, pages, and files.
 
-use crate::arrays::TextKeyed;
+use crate::arrays::{ResultsObject, TextKeyed};
 use crate::errors;
 use crate::interrupt::{check_signals, interruptible, interruptible_in_steps};
 use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
@@ -67,9 +67,9 @@ pub(crate) fn plain<'py, R: Found>(py: Python<'py>, results: &R) -> PyResult<Tex
 }
 
 /// Results with the keys of the program's JSON, in which lists of numbers are arrays.
-pub(crate) fn with_arrays<'py, R: Found>(py: Python<'py>, results: &R) -> PyResult<TextKeyed<'py>> {
+pub(crate) fn with_arrays<'py, R: Found>(py: Python<'py>, results: &R) -> PyResult<ResultsObject<'py>> {
     let plain = plain(py, results)?;
-    Ok(TextKeyed(py.import("funicular._results")?.call_method1("results", (plain.0,))?.cast_into()?))
+    Ok(ResultsObject(py.import("funicular._results")?.call_method1("results", (plain.0,))?.cast_into()?))
 }
 
 fn request(text: &str) -> PyResult<Request> {

@@ -121,6 +121,22 @@ impl<'py> FromPyObject<'_, 'py> for TextKeyed<'py> {
     }
 }
 
+/// `funicular.Results`: a dictionary with the keys of the program's JSON, which notebooks show as tables.
+pub(crate) struct ResultsObject<'py>(pub(crate) Bound<'py, PyDict>);
+
+impl<'py> IntoPyObject<'py> for ResultsObject<'py> {
+    type Target = PyDict;
+    type Output = Bound<'py, PyDict>;
+    type Error = Infallible;
+
+    const OUTPUT_TYPE: PyStaticExpr =
+        PyStaticExpr::Attribute { value: &PyStaticExpr::Name { id: "funicular._results" }, attr: "Results" };
+
+    fn into_pyobject(self, _: Python<'py>) -> Result<Self::Output, Self::Error> {
+        Ok(self.0)
+    }
+}
+
 /// Converts an array or a number of another library to Python's own numbers, booleans, text and lists of them, for a
 /// robot file; `None` for any other value.
 pub(crate) fn as_python<'py>(

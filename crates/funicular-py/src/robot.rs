@@ -7,7 +7,7 @@ mod uncertainty;
 
 use crate::analyses::PyAnalyses;
 use crate::answers;
-use crate::arrays::{Matrix, Number, PickleParts, TextKeyed, Vector};
+use crate::arrays::{Matrix, Number, PickleParts, ResultsObject, TextKeyed, Vector};
 use crate::dict_to_toml;
 use crate::errors;
 use crate::robot_text;
@@ -176,7 +176,7 @@ impl PyRobot {
     }
 
     /// Returns the robot as it was read, with the keys of the program's `check`; lists of numbers are arrays.
-    fn check<'py>(&self, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
+    fn check<'py>(&self, py: Python<'py>) -> PyResult<ResultsObject<'py>> {
         answers::with_arrays(py, &analyses::check::run((*self.robot).clone()))
     }
 

@@ -1,7 +1,7 @@
 //! Stiffness, modes and responses of a robot at an equilibrium.
 
 use crate::answers::{self, CtrlC};
-use crate::arrays::{ComplexNumbers, Count, Matrix, Number, Numbers, OwnedArray, Tensor, TextKeyed, Vector};
+use crate::arrays::{ComplexNumbers, Count, Matrix, Number, Numbers, OwnedArray, ResultsObject, Tensor, Vector};
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::interrupt::{interruptible, interruptible_in_steps};
@@ -158,7 +158,7 @@ pub(crate) fn gradient<'py>(
     py: Python<'py>,
     of: &PyEquilibrium,
     keywords: GradientKeywords<'_>,
-) -> PyResult<TextKeyed<'py>> {
+) -> PyResult<ResultsObject<'py>> {
     let request = request::GradientRequest {
         robot: of.of.get().source.clone(),
         of: not_empty(keywords.of, "of")?.unwrap_or_else(request::frequencies),
@@ -243,7 +243,7 @@ pub(crate) fn compare<'py>(
     py: Python<'py>,
     of: &PyEquilibrium,
     keywords: CompareKeywords<'_>,
-) -> PyResult<TextKeyed<'py>> {
+) -> PyResult<ResultsObject<'py>> {
     let request = request::CompareRequest {
         robot: of.of.get().source.clone(),
         below_hz: keywords.below_hz.value("below_hz")?,
@@ -267,7 +267,7 @@ pub(crate) fn cable<'py>(
     cable_model: Option<&str>,
     in_plane_only: bool,
     winches: &str,
-) -> PyResult<TextKeyed<'py>> {
+) -> PyResult<ResultsObject<'py>> {
     let (frequency_hz, _) = hz.frequencies()?;
     if frequency_hz.is_empty() {
         return Err(errors::input("`hz` is an empty list: give at least one frequency".to_owned()));

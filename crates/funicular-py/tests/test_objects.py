@@ -166,7 +166,7 @@ def test_what_has_no_answer_has_its_own_error(robot: funicular.Robot) -> None:
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        ({"platfrom.mass_kg": 3}, "did you mean `platform`"),
+        ({"platfrom.mass_kg": 3}, "did you mean `platform.mass_kg`"),
         ({"platform.mass_kg": -3}, "must be positive"),
         ({"platform.mass_kg": [1, 2]}, "mass_kg"),
         ({"platform": 3}, "names a table"),

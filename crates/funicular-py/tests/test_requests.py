@@ -23,6 +23,7 @@ WHOLE = "--cable-model catenary-dynamic --assembly consistent"
 RANGE = "--from-hz 0.5 --to-hz 8 --points 7"
 TENSIONS = "--pose 1,2,1.5,0,3,10 --tension-rule closest --target-tension-n 900 --min-tension-n 5 --max-tension-n 4000"
 MORE = [
+    "funicular schema --of request",
     f"funicular statics {ROBOT} --all",
     f"funicular statics {ROBOT} {LENGTHS} {STATE}",
     f"funicular statics robots/cogiro.toml {TENSIONS} --mass-kg 300 --static-model spring",
@@ -425,7 +426,7 @@ def test_every_comparison_of_the_validation_passes() -> None:
     ("request_", "told"),
     [
         ({"command": "statik"}, "there is no command `statik`; did you mean `statics`?"),
-        ({"command": "modes", "robot": {"text": "x"}}, "below_hz"),
+        ({"command": "compare", "robot": {"text": "x"}}, "below_hz"),
         ({"command": "statics", "robot": {"text": ""}, "poze": 1}, "has no key `poze`; did you mean `pose`"),
         ({"command": "merge", "parts": []}, "funicular.merge"),
         ({"command": "statics", "robot": {"text": ""}, "mass_kg": float("nan")}, "NaN is not a finite number"),

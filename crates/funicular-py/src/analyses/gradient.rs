@@ -1,7 +1,7 @@
 //! Derivatives of results.
 
 use super::PyAnalyses;
-use crate::arrays::{Number, Numbers, TextKeyed};
+use crate::arrays::{Number, Numbers, ResultsObject};
 use crate::texts::Texts;
 use crate::vibration::{self, GradientKeywords};
 use pyo3::prelude::*;
@@ -71,7 +71,7 @@ impl PyAnalyses {
         assembly: &str,
         in_plane_only: bool,
         winches: &str,
-    ) -> PyResult<TextKeyed<'py>> {
+    ) -> PyResult<ResultsObject<'py>> {
         let keywords = GradientKeywords {
             of,
             by,

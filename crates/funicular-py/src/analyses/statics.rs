@@ -2,7 +2,7 @@
 
 use super::PyAnalyses;
 use crate::answers;
-use crate::arrays::{Numbers, TextKeyed};
+use crate::arrays::{Numbers, ResultsObject};
 use crate::errors;
 use crate::interrupt::interruptible;
 use crate::vibration;
@@ -56,7 +56,7 @@ impl PyAnalyses {
     /// -------
     /// The keys of the program's JSON. `equilibria` lists the solutions, the lowest first, each with `pose`, `stable`,
     /// `energy_j`, `distance_m` and `tensions_platform_n`; `search` describes the search. Lists of numbers are arrays.
-    fn all_equilibria<'py>(slf: &Bound<'py, Self>, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
+    fn all_equilibria<'py>(slf: &Bound<'py, Self>, py: Python<'py>) -> PyResult<ResultsObject<'py>> {
         let at_rest = Self::at(slf, |rest| Ok(Arc::clone(&rest.at_rest)))?;
         let found =
             interruptible(py, move || analyses::statics::about(&at_rest, Extras { all: true, ..Extras::default() }))?;
@@ -81,7 +81,7 @@ impl PyAnalyses {
     ///     No cable runs over a pulley with friction.
     /// NoSolutionError
     ///     The equilibrium is indifferent.
-    fn friction_interval<'py>(slf: &Bound<'py, Self>, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
+    fn friction_interval<'py>(slf: &Bound<'py, Self>, py: Python<'py>) -> PyResult<ResultsObject<'py>> {
         let at_rest = Self::at(slf, |rest| Ok(Arc::clone(&rest.at_rest)))?;
         let extras = Extras { friction_interval: true, ..Extras::default() };
         let found = py.detach(|| analyses::statics::about(&at_rest, extras));

@@ -1,7 +1,7 @@
 //! Methods about vibration.
 
 use super::PyAnalyses;
-use crate::arrays::{Count, Number, Numbers, Tensor, TextKeyed};
+use crate::arrays::{Count, Number, Numbers, ResultsObject, Tensor};
 use crate::texts::Texts;
 use crate::vibration::{self, CompareKeywords, ModesKeywords, ModesObject, PairKeywords, Responses};
 use numpy::Complex64;
@@ -197,7 +197,7 @@ impl PyAnalyses {
         assembly: &str,
         in_plane_only: bool,
         winches: &str,
-    ) -> PyResult<TextKeyed<'py>> {
+    ) -> PyResult<ResultsObject<'py>> {
         let keywords =
             CompareKeywords { below_hz, platform, platform_share, tolerance, assembly, in_plane_only, winches };
         Self::at(slf, |rest| vibration::compare(py, rest, keywords))
@@ -228,7 +228,7 @@ impl PyAnalyses {
         cable_model: Option<&str>,
         in_plane_only: bool,
         winches: &str,
-    ) -> PyResult<TextKeyed<'py>> {
+    ) -> PyResult<ResultsObject<'py>> {
         Self::at(slf, |rest| vibration::cable(py, rest, name, hz, cable_model, in_plane_only, winches))
     }
 }

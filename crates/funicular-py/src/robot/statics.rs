@@ -2,7 +2,7 @@
 
 use super::PyRobot;
 use crate::answers::{self, CtrlC};
-use crate::arrays::{FirstLastCount, Number, Numbers, TextKeyed};
+use crate::arrays::{FirstLastCount, Number, Numbers, ResultsObject};
 use crate::batch;
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
@@ -200,7 +200,7 @@ impl PyRobot {
         cable_load_n_per_m: Option<Numbers>,
         hold_lengths_of_pose: bool,
         payload_center_m: Option<Numbers>,
-    ) -> PyResult<TextKeyed<'py>> {
+    ) -> PyResult<ResultsObject<'py>> {
         let state = StateKeywords {
             pose,
             lengths_m,
@@ -264,7 +264,7 @@ impl PyRobot {
         min_tension_n: Option<Number>,
         max_tension_n: Option<Number>,
         tolerance_mm: Option<Number>,
-    ) -> PyResult<TextKeyed<'py>> {
+    ) -> PyResult<ResultsObject<'py>> {
         let cables = self.names();
         let request = requests::PoseErrorRequest {
             robot: self.source.clone(),
