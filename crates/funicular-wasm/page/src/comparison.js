@@ -28,7 +28,8 @@ async function compare() {
     const text = await job.run(1, async ([worker]) => (await worker.call("answer", { request })).text);
     show(JSON.parse(text));
   } catch (error) {
-    $("compare").replaceChildren(element("p", { class: "soft" }, error instanceof Cancelled ? "Cancelled." : error.message));
+    const text = error instanceof Cancelled ? "Cancelled." : error.message;
+    $("compare").replaceChildren(element("p", { class: "soft" }, text));
   }
   clearInterval(clock);
   put($("compare-state"), "");
@@ -43,11 +44,19 @@ function show(found) {
     element("td", {}, String(model.missed ?? "")),
     element("td", {}, short(100 * model.largest_difference, 3)),
     element("td", {}, short(model.first_wrong_hz, 4))));
-  const heads = [["Model", "", "left"], ["First", "[Hz]"], ["Missed", "modes"], ["Largest error", "[%]"], ["Wrong from", "[Hz]"]];
+  const heads = [
+    ["Model", "", "left"],
+    ["First", "[Hz]"],
+    ["Missed", "modes"],
+    ["Largest error", "[%]"],
+    ["Wrong from", "[Hz]"],
+  ];
   const head = heads.map(([text, unit, kind]) => element("th", { class: kind }, text, element("span", {}, unit)));
   $("compare").replaceChildren(
     element("p", { class: "advice" }, found.advice?.text ?? ""),
-    element("div", { class: "table" }, element("table", {}, element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...rows))));
+    element("div", { class: "table" }, element("table", {},
+      element("thead", {}, element("tr", {}, ...head)),
+      element("tbody", {}, ...rows))));
 }
 
 export function listen() {

@@ -21,7 +21,8 @@ let stopped = false; // a person has cancelled a frame
 let running = null; // the computation that is at work
 
 /** True if every change so far has its frame, or the reason why it has none. */
-export const isIdle = () => running === null && (page.frame !== null || shown.broken || shown.refused) && page.pending === 0;
+export const isIdle = () =>
+  running === null && (page.frame !== null || shown.broken || shown.refused) && page.pending === 0;
 
 /** Notes what has changed and computes it; resolves when everything so far is shown. */
 export function change(what) {
@@ -108,7 +109,8 @@ export function statics() {
 }
 
 /** True if the state follows from the cable lengths. */
-export const holdsLengths = () => content.hold === "lengths" || (content.hold === "file" && page.about?.check.state === "lengths");
+export const holdsLengths = () =>
+  content.hold === "lengths" || (content.hold === "file" && page.about?.check.state === "lengths");
 
 /** True if the tensions at a pose leave a choice. */
 export const mayChoose = () =>
@@ -141,7 +143,8 @@ async function readRobot() {
     if (robots === page.robots && (stopped || !(error instanceof Cancelled))) {
       shown.refused = true;
       const refusal = content.robot.set.length ? "a value of the robot is refused" : "the robot file has an error";
-      empty(stopped ? "the reading of the robot file was cancelled" : error.status ? refusal : "the program for the computation does not run");
+      const failure = error.status ? refusal : "the program for the computation does not run";
+      empty(stopped ? "the reading of the robot file was cancelled" : failure);
       if (stopped) {
         tell("Cancelled: the robot file was not read.", true);
       } else {
@@ -158,19 +161,27 @@ function stateOf() {
     return { kind: 1, state: content.pose };
   }
   if (content.hold === "lengths") {
-    return content.start ? { kind: 3, state: [...content.start, ...content.lengths] } : { kind: 2, state: content.lengths };
+    return content.start
+      ? { kind: 3, state: [...content.start, ...content.lengths] }
+      : { kind: 2, state: content.lengths };
   }
   return { kind: 0, state: [] };
 }
 
-/** Ends what the worker of frames does for too long. The next change begins with a new worker, which reads the robot again. */
+/**
+ * Ends what the worker of frames does for too long. The next change begins with a new worker, which reads the robot
+ * again.
+ */
 export function stop() {
   page.engine.end();
   page.engine = new Engine();
   stopped = true;
 }
 
-/** Number of modes of the next frame: those of the table, the one in motion, and the first of the platform if it is near. */
+/**
+ * Number of modes of the next frame: those of the table, the one in motion, and the first of the platform if it is
+ * near.
+ */
 function wantedModes() {
   const first = page.last?.first?.index ?? -1;
   return Math.min(MAX_FRAME_MODES, Math.max(shown.modes, shown.mode + 1, first < MAX_FOLLOWED ? first + 2 : 0));
@@ -187,8 +198,11 @@ async function computeFrame() {
     }
     const frame = { ...frameOf(found.numbers), about: found.about };
     const index = frame.modes.findIndex(isOfPlatform);
-    // `first`: the first mode of the platform, as its index or as the reason why there is none; null until it is searched.
-    const first = index >= 0 ? { index } : frame.modes.length === 0 ? { reason: found.about.no_modes ?? "there are no natural frequencies" } : null;
+    // `first`: the first mode of the platform, as its index or as the reason why there is none; null until it is
+    // searched.
+    const none = { reason: found.about.no_modes ?? "there are no natural frequencies" };
+    const unlisted = frame.modes.length === 0 ? none : null;
+    const first = index >= 0 ? { index } : unlisted;
     Object.assign(frame, { first, listed: Math.min(shown.modes, frame.modes.length), inWorker: frame.modes.length });
     Object.assign(page, { frame, last: frame, reason: "" });
     tell(null);
@@ -201,8 +215,12 @@ async function computeFrame() {
   } catch (error) {
     if (robots === page.robots && (stopped || !(error instanceof Cancelled))) {
       shown.broken = true;
-      empty(stopped ? "the computation was cancelled" : error.status === 1 ? "there is no equilibrium at this state" : error.status ? "this state is refused" : "the computation has failed");
-      emit("frame-refused", stopped ? new Error("Cancelled: there are no results for this state. The next change computes again.") : error);
+      const failure = error.status ? "this state is refused" : "the computation has failed";
+      const reason = error.status === 1 ? "there is no equilibrium at this state" : failure;
+      empty(stopped ? "the computation was cancelled" : reason);
+      emit("frame-refused", stopped
+        ? new Error("Cancelled: there are no results for this state. The next change computes again.")
+        : error);
     }
   } finally {
     done();
@@ -215,8 +233,8 @@ const isOfPlatform = (mode) => mode.platformShare >= page.about.platform_share;
 let searched = { frame: null, done: null };
 
 /**
- * Searches the first mode of the platform above the list of a frame, in a worker of its own; resolves when `first` of the
- * frame says where it is, or why there is none, or when the state has changed.
+ * Searches the first mode of the platform above the list of a frame, in a worker of its own; resolves when `first` of
+ * the frame says where it is, or why there is none, or when the state has changed.
  */
 export function findFirst(frame) {
   if (frame.first) {
@@ -265,7 +283,8 @@ async function searchFirst(frame) {
 export async function listModes(count) {
   const { frame } = page;
   if (count > MAX_FRAME_MODES) {
-    throw new Error(`the motion of the cables is known for the ${MAX_FRAME_MODES} lowest modes only: the view shows that of the platform`);
+    throw new Error(`the motion of the cables is known for the ${MAX_FRAME_MODES} lowest modes only: `
+      + "the view shows that of the platform");
   }
   if (count > frame.inWorker) {
     const { numbers } = await page.engine.call("frame", { ...stateOf(), modes: count, points: 0 });
@@ -372,8 +391,12 @@ export function rest() {
           const own = { input, output, from_hz: from, to_hz: to, log, adaptive: true, ...content.model };
           const { frequency_hz: hz, real, imag, peaks, warnings } = JSON.parse((await run("frf", own)(worker)).text);
           if (page.answered && page.frame === frame) {
-            const numbers = Float64Array.from({ length: 3 * hz.length }, (_, k) => [hz, real, imag][k % 3][Math.floor(k / 3)]);
-            page.answered.exact = { numbers, peaks: peaks.map((peak) => ({ hz: peak.frequency_hz, magnitude: peak.magnitude })) };
+            const columns = [hz, real, imag];
+            const numbers = Float64Array.from({ length: 3 * hz.length }, (_, k) => columns[k % 3][Math.floor(k / 3)]);
+            page.answered.exact = {
+              numbers,
+              peaks: peaks.map((peak) => ({ hz: peak.frequency_hz, magnitude: peak.magnitude })),
+            };
             page.answered.caveat = warnings.filter((text) => !page.settled.statics.warnings.includes(text)).join(" ");
             emit("response");
           }

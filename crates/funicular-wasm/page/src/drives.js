@@ -1,8 +1,8 @@
 // Pulleys, drums and guide wheels behind the anchors, and supports, as bodies of the view.
 
 import {
-  BufferGeometry, CircleGeometry, DoubleSide, Group, Line, LineBasicMaterial, LineLoop, Mesh, MeshLambertMaterial, Quaternion,
-  SphereGeometry, Vector3,
+  BufferGeometry, CircleGeometry, DoubleSide, Group, Line, LineBasicMaterial, LineLoop, Mesh, MeshLambertMaterial,
+  Quaternion, SphereGeometry, Vector3,
 } from "three";
 
 const SEGMENTS = 48;
@@ -41,8 +41,10 @@ export class Drives {
     this.supports = supports.length;
     // Only what a robot has is named in its legend.
     this.kinds = {
-      pulleys: cables.some((cable) => cable.pulley), drums: cables.some((cable) => cable.winch?.drum_side_length_m > 0),
-      guides: cables.some((cable) => cable.winch?.guide_wheels?.length), supports: cables.some((cable) => cable.support),
+      pulleys: cables.some((cable) => cable.pulley),
+      drums: cables.some((cable) => cable.winch?.drum_side_length_m > 0),
+      guides: cables.some((cable) => cable.winch?.guide_wheels?.length),
+      supports: cables.some((cable) => cable.support),
     };
   }
 
@@ -66,7 +68,8 @@ export class Drives {
       body.add(own.wheel, own.arc);
     }
 
-    // The drum is where the cable comes from. Without a pulley the file does not say where that is: no drum side is drawn.
+    // The drum is where the cable comes from. Without a pulley the file does not say where that is: no drum side is
+    // drawn.
     const length = winch?.drum_side_length_m ?? 0;
     if (pulley && length > 0) {
       const drum = new Vector3().addScaledVector(own.direction, -length);
@@ -120,7 +123,9 @@ export class Drives {
       const angle = end < 0 ? end + 2 * Math.PI : end;
       const points = Array.from({ length: 25 }, (_, k) => {
         const at = (angle * k) / 24;
-        return center.clone().addScaledVector(side, -radius * Math.cos(at)).addScaledVector(direction, radius * Math.sin(at));
+        return center.clone()
+          .addScaledVector(side, -radius * Math.cos(at))
+          .addScaledVector(direction, radius * Math.sin(at));
       });
       own.arc.geometry.dispose();
       own.arc.geometry = new BufferGeometry().setFromPoints(points);
@@ -151,7 +156,8 @@ export class Drives {
     this.group.traverse((child) => {
       if (child.isLine) {
         const position = child.geometry.getAttribute("position");
-        const points = Array.from({ length: position.count }, (_, i) => new Vector3().fromBufferAttribute(position, i).applyMatrix4(child.matrixWorld).toArray());
+        const point = (i) => new Vector3().fromBufferAttribute(position, i).applyMatrix4(child.matrixWorld).toArray();
+        const points = Array.from({ length: position.count }, (_, i) => point(i));
         found.push(child.isLineLoop ? [...points, points[0]] : points);
       }
     });
@@ -163,7 +169,8 @@ export class Drives {
     const found = [];
     this.group.traverse((child) => {
       if (child.isMesh && child.geometry.type === "SphereGeometry") {
-        found.push({ place: child.getWorldPosition(new Vector3()).toArray(), color: `#${child.material.color.getHexString()}` });
+        const place = child.getWorldPosition(new Vector3()).toArray();
+        found.push({ place, color: `#${child.material.color.getHexString()}` });
       }
     });
     return found;

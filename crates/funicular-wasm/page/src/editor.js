@@ -21,7 +21,8 @@ const colors = HighlightStyle.define([
 function partOf(schema, keys) {
   let node = schema;
   for (const key of keys) {
-    const next = node.properties?.[key] ?? (typeof node.additionalProperties === "object" ? node.additionalProperties : null);
+    const others = typeof node.additionalProperties === "object" ? node.additionalProperties : null;
+    const next = node.properties?.[key] ?? others;
     if (!next) {
       return null;
     }
@@ -30,7 +31,10 @@ function partOf(schema, keys) {
   return node;
 }
 
-/** Names of tables after one bracket, or of lists of tables after two. After `materials.` follows a name of the user's choice. */
+/**
+ * Names of tables after one bracket, or of lists of tables after two. After `materials.` follows a name of the user's
+ * choice.
+ */
 function tablesOf(schema, brackets) {
   return Object.entries(schema.properties ?? {}).flatMap(([key, value]) => {
     const isList = Boolean(value.items?.properties);
@@ -93,7 +97,8 @@ export class Editor {
       state: EditorState.create({
         extensions: [
           lineNumbers(), history(), drawSelection(), highlightActiveLine(), closeBrackets(), lintGutter(),
-          StreamLanguage.define(toml), syntaxHighlighting(colors), autocompletion({ override: [(context) => this.complete(context)], activateOnTyping: true }),
+          StreamLanguage.define(toml), syntaxHighlighting(colors),
+          autocompletion({ override: [(context) => this.complete(context)], activateOnTyping: true }),
           // Tab leaves the editor, for people who use the keyboard only.
           keymap.of([...completionKeymap, ...defaultKeymap, ...historyKeymap]),
           EditorView.contentAttributes.of({ "aria-label": "Robot file (TOML)" }),
@@ -122,7 +127,8 @@ export class Editor {
       from += 1;
     }
     let end = 0;
-    while (end < Math.min(old.length, text.length) - from && old[old.length - 1 - end] === text[text.length - 1 - end]) {
+    const most = Math.min(old.length, text.length) - from;
+    while (end < most && old[old.length - 1 - end] === text[text.length - 1 - end]) {
       end += 1;
     }
     this.silent = true;

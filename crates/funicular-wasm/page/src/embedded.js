@@ -1,5 +1,5 @@
-// The page in a frame of another one, such as the cell of a notebook: it says that it is ready, and tells every change to
-// a page that answers.
+// The page in a frame of another one, such as the cell of a notebook: it says that it is ready, and tells every change
+// to a page that answers.
 
 import { $ } from "./format.js";
 import { told, restore } from "./link.js";

@@ -9,8 +9,8 @@ const CABLE_KEYS = [
   "minimum", "maximum", "reached", "slack",
 ];
 
-// Relative distance by which a tension is beyond its limit. `reached` of the frame tells less: the tensions of most rules
-// are at a limit, and stay there when the lengths are held, to the accuracy of the search.
+// Relative distance by which a tension is beyond its limit. `reached` of the frame tells less: the tensions of most
+// rules are at a limit, and stay there when the lengths are held, to the accuracy of the search.
 const LIMIT_MARGIN = 1e-6;
 
 /** True if a tension is beyond its limits: reaching one is not enough. */

@@ -1,5 +1,5 @@
-// Free response of the linear model after a payload is released: a sum of decaying modes. No part of the page, so that it
-// can be tested alone.
+// Free response of the linear model after a payload is released: a sum of decaying modes. No part of the page, so that
+// it can be tested alone.
 
 const TAU = 2 * Math.PI;
 
@@ -11,7 +11,10 @@ function rotated([w, x, y, z], v) {
   return v.map((value, k) => value + w * t[k] + u[k]);
 }
 
-/** Wrench (force, moment about the platform's origin, world axes) of a payload [kg] that hangs at a point of the platform. */
+/**
+ * Wrench (force, moment about the platform's origin, world axes) of a payload [kg] that hangs at a point of the
+ * platform.
+ */
 export function wrenchOf(payload, gravity, quaternion, point = [0, 0, 0]) {
   const force = gravity.map((value) => payload * value);
   const [x, y, z] = rotated(quaternion, point);

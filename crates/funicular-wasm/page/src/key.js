@@ -5,7 +5,14 @@ import { age, put } from "./messages.js";
 import { KINDS } from "./modes.js";
 import { on, page } from "./store.js";
 
-const NAMES = ["Highest tension", "Lowest tension", "First resonance", "First resonance of the platform", "Maximum payload", "Stiffness in the softest direction"];
+const NAMES = [
+  "Highest tension",
+  "Lowest tension",
+  "First resonance",
+  "First resonance of the platform",
+  "Maximum payload",
+  "Stiffness in the softest direction",
+];
 
 /** Tells a screen reader the results when the platform rests. */
 function speak() {
@@ -14,7 +21,9 @@ function speak() {
     const [x, y, z] = frame.position.map((value) => short(Number(value.toFixed(3)), 4));
     const first = frame.modes[frame.first?.index];
     const highest = Math.max(...frame.cables.map((cable) => cable.highest));
-    put($("spoken"), `Platform at x ${x}, y ${y}, z ${z} metres. Highest tension ${short(highest, 3)} newtons.${first ? ` First resonance of the platform ${short(first.hz, 3)} hertz.` : ""}`);
+    const resonance = first ? ` First resonance of the platform ${short(first.hz, 3)} hertz.` : "";
+    put($("spoken"), `Platform at x ${x}, y ${y}, z ${z} metres. `
+      + `Highest tension ${short(highest, 3)} newtons.${resonance}`);
   }
 }
 
@@ -26,7 +35,8 @@ function platformFact(frame, delta) {
   if (own) {
     return [`${short(own.hz, 4)} Hz`, `mode ${frame.first.index + 1}${delta(before && first(before.frame)?.hz)}`];
   }
-  return frame.first ? ["–", frame.first.reason] : ["…", `above the ${frame.modes.length} lowest; ${page.view.dragging ? "searched when the platform rests" : "searching"}`];
+  const now = page.view.dragging ? "searched when the platform rests" : "searching";
+  return frame.first ? ["–", frame.first.reason] : ["…", `above the ${frame.modes.length} lowest; ${now}`];
 }
 
 function showKey() {
@@ -34,7 +44,9 @@ function showKey() {
   const facts = frame ? factsOf(frame) : NAMES.map(() => ["–", ""]);
   const place = $("key");
   if (place.children.length !== facts.length) {
-    place.replaceChildren(...NAMES.map((name) => element("div", {}, element("dt", {}, name), element("dd", {}, element("span"), element("small")))));
+    place.replaceChildren(...NAMES.map((name) => element("div", {},
+      element("dt", {}, name),
+      element("dd", {}, element("span"), element("small")))));
   }
   facts.forEach(([value, more], i) => {
     const fact = place.children[i].lastChild;
@@ -50,15 +62,27 @@ function factsOf(frame) {
   const highest = frame.cables.reduce((best, cable, i) => (cable.highest > frame.cables[best].highest ? i : best), 0);
   const lowest = frame.cables.reduce((best, cable, i) => (cable.lowest < frame.cables[best].lowest ? i : best), 0);
   const top = frame.cables[highest];
+  const bottom = frame.cables[lowest];
   const [first] = frame.modes;
   const delta = (past) => (past ? ` (before ${short(past, 4)})` : "");
+  const ofMaximum = frame.limited && Number.isFinite(top.maximum)
+    ? `, ${short((100 * top.highest) / top.maximum, 3)} % of its maximum`
+    : "";
+  const ofMinimum = frame.limited ? `, minimum ${short(bottom.minimum, 3)} N` : "";
+  const highestBefore = before && Math.max(...before.frame.cables.map((cable) => cable.highest));
+  const lowestBefore = before && Math.min(...before.frame.cables.map((cable) => cable.lowest));
   return [
-    [`${short(top.highest, 4)} N`, `cable ${names[highest]}${frame.limited && Number.isFinite(top.maximum) ? `, ${short((100 * top.highest) / top.maximum, 3)} % of its maximum` : ""}${delta(before && Math.max(...before.frame.cables.map((cable) => cable.highest)))}`],
-    [`${short(frame.cables[lowest].lowest, 4)} N`, `cable ${names[lowest]}${frame.limited ? `, minimum ${short(frame.cables[lowest].minimum, 3)} N` : ""}${delta(before && Math.min(...before.frame.cables.map((cable) => cable.lowest)))}`],
-    [first ? `${short(first.hz, 4)} Hz` : "–", first ? `of the ${KINDS[first.kind]}${delta(before?.frame.modes[0]?.hz)}` : ""],
+    [`${short(top.highest, 4)} N`, `cable ${names[highest]}${ofMaximum}${delta(highestBefore)}`],
+    [`${short(bottom.lowest, 4)} N`, `cable ${names[lowest]}${ofMinimum}${delta(lowestBefore)}`],
+    first
+      ? [`${short(first.hz, 4)} Hz`, `of the ${KINDS[first.kind]}${delta(before?.frame.modes[0]?.hz)}`]
+      : ["–", ""],
     platformFact(frame, delta),
     payloadFact(delta),
-    [frame.stable === undefined ? "rigid" : `${short(frame.minStiffness, 4)} N/m`, `${frame.stable === false ? "unstable" : ""}${delta(before?.frame.minStiffness)}`],
+    [
+      frame.stable === undefined ? "rigid" : `${short(frame.minStiffness, 4)} N/m`,
+      `${frame.stable === false ? "unstable" : ""}${delta(before?.frame.minStiffness)}`,
+    ],
   ];
 }
 
@@ -73,7 +97,8 @@ function payloadFact(delta) {
   }
   const limiting = maximum.cables.filter((cable) => cable.limit_reached === "maximum").map((cable) => cable.name);
   const slack = maximum.cables.filter((cable) => cable.limit_reached === "minimum").map((cable) => cable.name);
-  const by = limiting.length ? `limited by cable ${limiting.join(", ")}` : slack.length ? `cable ${slack.join(", ")} reaches its minimum` : "";
+  const least = slack.length ? `cable ${slack.join(", ")} reaches its minimum` : "";
+  const by = limiting.length ? `limited by cable ${limiting.join(", ")}` : least;
   return [`${short(maximum.payload_kg, 4)} kg`, `${by}${delta(before?.payload?.maximum?.payload_kg)}`];
 }
 

@@ -114,22 +114,30 @@ async function start() {
 
   // The order of listeners is the order in which a frame is shown: the view first, whose colours the table takes.
   robot.listen();
-  const parts = [pose, tensions, modes, key, response, sliders, influence, release, history, link, embedded, saving, comparison];
+  const parts = [
+    pose, tensions, modes, key, response, sliders, influence, release, history, link, embedded, saving, comparison,
+  ];
   parts.forEach((part) => part.listen());
   on("frame", () => {
     if (performance.getEntriesByName("frame").length === 0) {
       performance.mark("frame");
     }
   });
-  ["frame", "empty"].forEach((event) => on(event, () => { if (event === "frame" || shown.refused || shown.broken) { $("loading")?.remove(); } }));
+  ["frame", "empty"].forEach((event) => on(event, () => {
+    if (event === "frame" || shown.refused || shown.broken) {
+      $("loading")?.remove();
+    }
+  }));
   // While a frame takes long, the figures are those of the state before.
   const ofFrame = (old) => ["key", "tensions", "modes"].forEach((id) => age(id, old));
   on("outdated", () => { ofFrame(true); age("bode", true); });
   ["frame", "empty"].forEach((event) => on(event, () => ofFrame(false)));
   on("rested", () => { $("state").dataset.settled = String(Number($("state").dataset.settled ?? 0) + 1); });
   $("remember").addEventListener("click", remember);
-  $("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ({ matches }) => setTheme(matches ? "dark" : "light"));
+  const { dataset } = document.documentElement;
+  $("theme").addEventListener("click", () => setTheme(dataset.theme === "dark" ? "light" : "dark"));
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  dark.addEventListener("change", ({ matches }) => setTheme(matches ? "dark" : "light"));
   performance.mark("ready");
   await firstRobot();
   performance.mark("complete");

@@ -8,7 +8,12 @@ import { emit, on, page, shown } from "./store.js";
 const MAX_MODES = 200;
 
 /** Words for the kinds of modes. */
-export const KINDS = { platform: "platform", cable: "cables", drive: "drives and supports", mixed: "platform and cables" };
+export const KINDS = {
+  platform: "platform",
+  cable: "cables",
+  drive: "drives and supports",
+  mixed: "platform and cables",
+};
 
 /** Modes of the table: the lowest ones, and the first of the platform above them. */
 function listedModes({ listed, first }) {
@@ -17,8 +22,14 @@ function listedModes({ listed, first }) {
 }
 
 function rowOf() {
-  const row = element("tr", { class: "pick" }, element("td", {}, element("button")), element("td"), element("td"), element("td", { class: "left" }),
-    element("td", { class: "left" }, element("span", { class: "share", title: "fraction of the kinetic energy in the platform" }, element("i"))), element("td", { class: "before", hidden: true }));
+  const share = { class: "share", title: "fraction of the kinetic energy in the platform" };
+  const row = element("tr", { class: "pick" },
+    element("td", {}, element("button")),
+    element("td"),
+    element("td"),
+    element("td", { class: "left" }),
+    element("td", { class: "left" }, element("span", share, element("i"))),
+    element("td", { class: "before", hidden: true }));
   row.addEventListener("click", () => chooseMode(shown.mode === row.mode ? -1 : row.mode));
   return row;
 }

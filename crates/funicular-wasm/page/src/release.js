@@ -14,7 +14,8 @@ const REST_FRACTION = 0.02; // of the first displacement: the record may end
 const SLOW_HZ = 1; // on the screen, the slowest large mode has at most this frequency
 const LARGE = 0.1; // of the largest coordinate: a mode that decides the time scale
 const SAMPLES = 1500;
-const LINEAR_LIMIT = 0.1; // relative difference of the static displacement, above which more modes are taken, or the page warns
+// Relative difference of the static displacement, above which more modes are taken, or the page warns.
+const LINEAR_LIMIT = 0.1;
 const MAX_TAKEN = 320; // modes that are taken until they reach the static displacement; a frame has at most 500
 const job = new Job();
 let last = null; // last free response, also for “before”
@@ -35,7 +36,9 @@ async function release() {
   accept($("release-mass"));
   const tell = (text) => $("release").replaceChildren(element("p", { class: "soft" }, text));
   if (!frame || frame.modes.length === 0 || frame.stable === false) {
-    tell(frame ? "A release needs a stable equilibrium with natural frequencies." : `There is nothing to release from: ${page.reason}.`);
+    tell(frame
+      ? "A release needs a stable equilibrium with natural frequencies."
+      : `There is nothing to release from: ${page.reason}.`);
     return;
   }
 
@@ -71,7 +74,15 @@ async function release() {
   const along = modes.map(({ shape }, k) => own[k] * (shape[0] * up[0] + shape[1] * up[1] + shape[2] * up[2]));
   const at = (t) => along.reduce((sum, value, k) => sum + value * decay(modes[k], t), 0);
   const times = Float64Array.from({ length: SAMPLES }, (_, i) => (seconds * i) / (SAMPLES - 1));
-  last = { payload, seconds, times, values: times.map(at), slowdown: Math.max(1, slowest.hz / SLOW_HZ), start: summed(modes.map(({ shape }) => shape), own), note };
+  last = {
+    payload,
+    seconds,
+    times,
+    values: times.map(at),
+    slowdown: Math.max(1, slowest.hz / SLOW_HZ),
+    start: summed(modes.map(({ shape }) => shape), own),
+    note,
+  };
 
   // Curves of the cables; a cable model that describes ends only has none, and straight lines follow the platform.
   let cables = null;
@@ -100,13 +111,17 @@ async function release() {
   show();
 }
 
-/** Static displacement under a payload [m] by the complete, not linear model at the present lengths, or why there is none. */
+/**
+ * Static displacement under a payload [m] by the complete, not linear model at the present lengths, or why there is
+ * none.
+ */
 async function staticDisplacement(frame, payload, point) {
   const { pose: _, lengths_m: __, tension_rule: ___, ...rest } = statics();
   const { check } = page.about;
   const held = rest.force_n ?? check.load?.force_n ?? [0, 0, 0];
   const force = held.map((value, k) => value + payload * check.gravity_m_s2[k]);
-  const request = { command: "statics", ...rest, lengths_m: frame.cables.map((cable) => cable.length), force_n: force, load_point_m: point };
+  const lengths = frame.cables.map((cable) => cable.length);
+  const request = { command: "statics", ...rest, lengths_m: lengths, force_n: force, load_point_m: point };
   try {
     const text = await job.run(1, async ([worker]) => (await worker.call("answer", { request })).text);
     return { complete: JSON.parse(text).pose.position_m.map((value, k) => value - frame.position[k]) };
@@ -147,8 +162,12 @@ function noteOf({ complete, reason, linear, off, count }) {
     return `The complete static model has no equilibrium with this payload at these lengths: ${reason}`;
   }
   const millimetres = (list) => `${short(1000 * Math.hypot(...list), 4)} mm`;
-  const apart = off > LINEAR_LIMIT ? ` They differ by ${short(100 * off, 2)} %: the payload is too large for small motions, or the platform has important modes above these.` : "";
-  return `The complete static model moves the platform by ${millimetres(complete)} under this payload, the listed modes by ${millimetres(linear)} (${count} modes).${apart}`;
+  const apart = off > LINEAR_LIMIT
+    ? ` They differ by ${short(100 * off, 2)} %: the payload is too large for small motions, or the platform has `
+      + "important modes above these."
+    : "";
+  return `The complete static model moves the platform by ${millimetres(complete)} under this payload, `
+    + `the listed modes by ${millimetres(linear)} (${count} modes).${apart}`;
 }
 
 function show() {
@@ -159,12 +178,18 @@ function show() {
   if (page.before?.release) {
     curves.unshift({ ...page.before.release, kind: "past" });
   }
-  const figure = history({ curves, label: "displacement of the platform upwards [mm]", factor: 1000, width: Math.max(280, $("release").clientWidth) });
+  const figure = history({
+    curves,
+    label: "displacement of the platform upwards [mm]",
+    factor: 1000,
+    width: Math.max(280, $("release").clientWidth),
+  });
   const scale = page.view.releaseScale;
-  const motion = scale === 1 ? "the motion is to scale" : `the view shows the motion ${short(scale > 1 ? scale : 1 / scale, 3)} times ${scale > 1 ? "larger" : "smaller"}`;
+  const times = `${short(scale > 1 ? scale : 1 / scale, 3)} times ${scale > 1 ? "larger" : "smaller"}`;
+  const motion = scale === 1 ? "the motion is to scale" : `the view shows the motion ${times}`;
   $("release").innerHTML = figure;
-  $("release").append(element("p", { class: "soft" },
-    `Time runs ${last.slowdown > 1 ? `${short(last.slowdown, 2)} times slower` : "as it is"}; ${motion}. ${last.note ?? ""}`));
+  const slowdown = last.slowdown > 1 ? `${short(last.slowdown, 2)} times slower` : "as it is";
+  $("release").append(element("p", { class: "soft" }, `Time runs ${slowdown}; ${motion}. ${last.note ?? ""}`));
 }
 
 /** Moves the line of the present time in the figure. */

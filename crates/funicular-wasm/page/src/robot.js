@@ -24,7 +24,18 @@ let typing = 0;
  */
 export async function setRobot(name, text, more = {}, display = {}) {
   clearTimeout(typing);
-  const next = { robot: { name, text, set: [] }, hold: "file", pose: null, lengths: null, start: null, rule: "", pinned: [], more: {}, model: {}, ...more };
+  const next = {
+    robot: { name, text, set: [] },
+    hold: "file",
+    pose: null,
+    lengths: null,
+    start: null,
+    rule: "",
+    pinned: [],
+    more: {},
+    model: {},
+    ...more,
+  };
   Object.assign(content, next);
   forget(display);
 
@@ -81,7 +92,13 @@ function showRobot(isNew) {
 function showRefusal(error) {
   const { issues } = error;
   const count = issues.length === 1 ? "an error" : `${issues.length} errors`;
-  tell(issues.length === 0 ? textOf(error) : content.robot.set.length ? `A value of the robot is refused: ${issues[0].message}` : `The robot file has ${count}: line ${issues[0].line}: ${issues[0].message}`);
+  if (issues.length === 0) {
+    tell(textOf(error));
+  } else if (content.robot.set.length) {
+    tell(`A value of the robot is refused: ${issues[0].message}`);
+  } else {
+    tell(`The robot file has ${count}: line ${issues[0].line}: ${issues[0].message}`);
+  }
   shown.issues = issues;
   showText(content.robot.set.length === 0 ? content.robot.text : null);
   $("issues").replaceChildren(...issues.map((issue) => element("li", {},
@@ -92,11 +109,18 @@ function showRefusal(error) {
 /** Number of times that files were opened; of several the last one counts. */
 let openings = 0;
 
-/** Why files are not read; null if they are. Robot files have some kilobytes, the largest of other programs some hundred. */
+/**
+ * Why files are not read; null if they are. Robot files have some kilobytes, the largest of other programs some
+ * hundred.
+ */
 function tooLarge(list) {
   const size = list.reduce((sum, file) => sum + file.size, 0);
   const [named, has] = list.length === 1 ? [list[0].name, "has"] : [`These ${list.length} files`, "have"];
-  return size > MAX_BYTES ? `${named} ${has} ${(size / 1e6).toFixed(1)} MB, which is more than the ${MAX_BYTES / 1e6} MB that a robot may have: choose the file of the robot. The robot on the page is the one before.` : null;
+  if (size <= MAX_BYTES) {
+    return null;
+  }
+  return `${named} ${has} ${(size / 1e6).toFixed(1)} MB, which is more than the ${MAX_BYTES / 1e6} MB that a robot may `
+    + "have: choose the file of the robot. The robot on the page is the one before.";
 }
 
 async function openFiles(list) {
@@ -112,7 +136,8 @@ async function openFiles(list) {
   }
   const done = busy(`Reading ${chosen.map(({ name }) => name).join(", ")}`, stop);
   try {
-    await read(await Promise.all(chosen.map(async (file) => ({ path: file.name, text: await file.text() }))), () => own === openings);
+    const files = chosen.map(async (file) => ({ path: file.name, text: await file.text() }));
+    await read(await Promise.all(files), () => own === openings);
   } catch (error) {
     const names = chosen.map(({ name }) => name).join(", ");
     if (own !== openings) {
@@ -121,7 +146,8 @@ async function openFiles(list) {
     if (error instanceof Cancelled) {
       tell(`Cancelled: ${names} was not read. The robot on the page is the one before.`, true);
     } else {
-      tell(`${error.message.startsWith(names) ? "" : `${names}: `}${importAdvice(error.message)}\nThe robot on the page is the one before.`);
+      const from = error.message.startsWith(names) ? "" : `${names}: `;
+      tell(`${from}${importAdvice(error.message)}\nThe robot on the page is the one before.`);
     }
   } finally {
     done();
@@ -130,7 +156,9 @@ async function openFiles(list) {
 
 /** Message of an import, with the way for values that the files lack: the page has no fields for them. */
 const importAdvice = (message) => (/`(mass_kg_per_m|youngs_modulus_pa|diameter_m|lengths_m|pose)`/.test(message)
-  ? `${message}\nThis page has no fields for these values: run \`funicular import\` with them as options, such as \`--mass-kg-per-m\`, and open the file that it writes.` : message);
+  ? `${message}\nThis page has no fields for these values: run \`funicular import\` with them as options, `
+    + "such as `--mass-kg-per-m`, and open the file that it writes."
+  : message);
 
 /** Shows the robot of files. `isLast()`: no others were opened meanwhile. */
 async function read(files, isLast) {
@@ -158,7 +186,8 @@ async function read(files, isLast) {
 /** Shows which robot of the library this is, or that it is another one. */
 export function showLibrary() {
   const own = ROBOTS[content.robot.name] !== undefined && ROBOTS[content.robot.name] === content.robot.text;
-  const options = Object.entries(ROBOTS).map(([name, text]) => element("option", { value: name }, /^name = "(.*)"/m.exec(text)?.[1] ?? name));
+  const title = (name, text) => /^name = "(.*)"/m.exec(text)?.[1] ?? name;
+  const options = Object.entries(ROBOTS).map(([name, text]) => element("option", { value: name }, title(name, text)));
   if (!own) {
     options.unshift(element("option", { value: "" }, content.robot.name || "own file"));
   }
@@ -191,7 +220,8 @@ async function openEditor() {
       commit();
     }, 300);
   });
-  showText(shown.issues.length && content.robot.set.length === 0 ? content.robot.text : page.about?.text ?? content.robot.text);
+  const isOfFile = shown.issues.length && content.robot.set.length === 0;
+  showText(isOfFile ? content.robot.text : page.about?.text ?? content.robot.text);
   editor.schema = JSON.parse((await page.engine.call("answer", { request: { command: "schema" } })).text);
 }
 
@@ -210,7 +240,9 @@ export function listen() {
   $("open").addEventListener("click", () => $("files").click());
   $("files").addEventListener("change", () => openFiles($("files").files).then(() => { $("files").value = ""; }));
   addEventListener("dragover", (event) => { event.preventDefault(); $("drop").hidden = false; });
-  addEventListener("dragleave", (event) => { $("drop").hidden = event.relatedTarget !== null ? $("drop").hidden : true; });
+  addEventListener("dragleave", (event) => {
+    $("drop").hidden = event.relatedTarget !== null ? $("drop").hidden : true;
+  });
   addEventListener("drop", (event) => {
     event.preventDefault();
     $("drop").hidden = true;

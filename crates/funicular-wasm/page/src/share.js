@@ -24,7 +24,8 @@ export async function packed(state) {
 export async function unpacked(fragment) {
   if (fragment.length < MIN_LINK) {
     const shown = fragment.length > MAX_SHOWN ? `${fragment.slice(0, MAX_SHOWN)}…` : fragment;
-    throw new LinkError(`“#${shown}” at the end of the address is no link of this page, or the rest of it is missing. The button “Copy link” makes links.`);
+    throw new LinkError(`“#${shown}” at the end of the address is no link of this page, or the rest of it is missing. `
+      + "The button “Copy link” makes links.");
   }
   let state = null;
   try {
@@ -45,7 +46,8 @@ const isText = (value) => typeof value === "string";
 const isObject = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
 const isList = (value, one) => Array.isArray(value) && value.every(one);
 const isCount = (low, high) => (value) => Number.isInteger(value) && value >= low && value <= high;
-const areNumbers = (count) => (value) => isList(value, Number.isFinite) && (count ? value.length === count : value.length > 0);
+const areNumbers = (count) => (value) =>
+  isList(value, Number.isFinite) && (count ? value.length === count : value.length > 0);
 const isLimit = (value) => value === null || Number.isFinite(value);
 
 /** Parts of a state, each of which may be missing. */
@@ -62,7 +64,8 @@ const PARTS = {
   modes: isCount(1, 200),
   exaggeration: (value) => Number.isFinite(value) && value >= 0 && value <= 1000,
   camera: areNumbers(6),
-  response: ({ input, output, from, to, log }) => isText(input) && isText(output) && isLimit(from) && isLimit(to) && typeof log === "boolean",
+  response: ({ input, output, from, to, log }) =>
+    isText(input) && isText(output) && isLimit(from) && isLimit(to) && typeof log === "boolean",
 };
 
 /**
@@ -77,8 +80,10 @@ export function checked(state) {
     throw new LinkError("This link is of another version of the page: open it with that one.");
   }
   const { name, text, set } = state.robot;
-  const robot = isText(name) && (text === undefined || isText(text)) && (set === undefined || isList(set, (one) => isObject(one) && isText(one.path)));
-  const parts = Object.entries(PARTS).every(([key, is]) => state[key] === undefined || state[key] === null || is(state[key]));
+  const areSet = set === undefined || isList(set, (one) => isObject(one) && isText(one.path));
+  const robot = isText(name) && (text === undefined || isText(text)) && areSet;
+  const isMissing = (key) => state[key] === undefined || state[key] === null;
+  const parts = Object.entries(PARTS).every(([key, is]) => isMissing(key) || is(state[key]));
   const held = { pose: state.pose, lengths: state.lengths };
   if (!robot || !parts || (state.hold in held && !held[state.hold])) {
     throw new LinkError(DAMAGED);

@@ -44,30 +44,45 @@ function setValue(path, value) {
 function rangeOf({ value, minimum, maximum, unit, path }) {
   const { size: robot } = page.view;
   const finite = (bound) => bound !== null && Number.isFinite(bound) && Math.abs(bound) < 1e300;
-  let [low, high] = value > 0 && finite(minimum) && minimum >= 0 ? [0.2 * value, 3 * value] : [value - Math.abs(value), value + Math.abs(value)];
+  let [low, high] = value > 0 && finite(minimum) && minimum >= 0
+    ? [0.2 * value, 3 * value]
+    : [value - Math.abs(value), value + Math.abs(value)];
   if (unit === "m" && !(finite(minimum) && minimum >= 0)) {
     [low, high] = [value - 0.15 * robot, value + 0.15 * robot];
   } else if (value === 0) {
     const size = { "m/s": 20, N: 500, "N m": 100 }[unit] ?? (/damping_ratio/.test(path) ? 0.1 : 1);
     [low, high] = [finite(minimum) && minimum >= 0 ? 0 : -size, size];
   }
-  return [finite(minimum) ? Math.max(low, minimum) : low, finite(maximum) ? Math.min(high, maximum * (1 - 1e-9)) : high];
+  return [
+    finite(minimum) ? Math.max(low, minimum) : low,
+    finite(maximum) ? Math.min(high, maximum * (1 - 1e-9)) : high,
+  ];
 }
 
 export function showSliders() {
   const none = page.parameters.length === 0 && content.pinned.length > 0;
-  $("sliders").replaceChildren(...(none ? [element("p", { class: "soft" }, "The values come back when the robot file can be read.")] : content.pinned.map(sliderOf)));
+  const note = () => element("p", { class: "soft" }, "The values come back when the robot file can be read.");
+  $("sliders").replaceChildren(...(none ? [note()] : content.pinned.map(sliderOf)));
 }
 
 function sliderOf(path) {
   const parameter = known(path);
   if (!parameter) {
-    return element("div", { class: "slider" }, `${path} is not in this robot file `, element("button", { onclick: () => unpin(path) }, "remove"));
+    const remove = element("button", { onclick: () => unpin(path) }, "remove");
+    return element("div", { class: "slider" }, `${path} is not in this robot file `, remove);
   }
   const id = `value-${path}`;
   const [low, high] = rangeOf(parameter);
   const value = valueOf(path);
-  const range = element("input", { type: "range", min: low, max: high, step: (high - low) / 400, value, "aria-label": parameter.label, "data-path": path });
+  const range = element("input", {
+    type: "range",
+    min: low,
+    max: high,
+    step: (high - low) / 400,
+    value,
+    "aria-label": parameter.label,
+    "data-path": path,
+  });
   const number = element("input", { id, value: plain(value), inputmode: "decimal", "data-number": path });
   const set = (next, done) => {
     setValue(path, next);
@@ -103,8 +118,16 @@ function sliderOf(path) {
     element("div", { class: "head" },
       element("label", { for: id, title: `${path}: ${parameter.meaning}` }, parameter.label),
       number,
-      element("button", { title: "Back to the value of the file", "aria-label": `${parameter.label} back to the value of the file`, onclick: back }, "↺"),
-      element("button", { title: "Remove this slider", "aria-label": `Remove the slider ${parameter.label}`, onclick: () => unpin(path) }, "×")),
+      element("button", {
+        title: "Back to the value of the file",
+        "aria-label": `${parameter.label} back to the value of the file`,
+        onclick: back,
+      }, "↺"),
+      element("button", {
+        title: "Remove this slider",
+        "aria-label": `Remove the slider ${parameter.label}`,
+        onclick: () => unpin(path),
+      }, "×")),
     range);
 }
 

@@ -1,5 +1,5 @@
-// State of the page: one object that undo restores, and everything that is computed from it. A change is told by an event,
-// so that each panel knows the state and no other panel.
+// State of the page: one object that undo restores, and everything that is computed from it. A change is told by an
+// event, so that each panel knows the state and no other panel.
 
 /** Part of the state that undo restores and that a link holds. */
 export const content = {

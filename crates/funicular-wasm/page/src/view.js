@@ -1,9 +1,9 @@
 // The robot in space: cables with their sag, tension as colour, platform, handles to drag it.
 
 import {
-  AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, EdgesGeometry, GridHelper, Group, LineBasicMaterial,
-  LineDashedMaterial, LineSegments, Mesh, MeshLambertMaterial, Object3D, PerspectiveCamera, Points, PointsMaterial,
-  Quaternion, Scene, SphereGeometry, Vector3, WebGLRenderer,
+  AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, EdgesGeometry, GridHelper, Group,
+  LineBasicMaterial, LineDashedMaterial, LineSegments, Mesh, MeshLambertMaterial, Object3D, PerspectiveCamera, Points,
+  PointsMaterial, Quaternion, Scene, SphereGeometry, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
@@ -143,11 +143,13 @@ export class View {
     const [width, height] = this.pixels;
     this.labels.hidden = !this.frame;
     this.frame?.cables.forEach(({ attachment, anchor }, i) => {
-      const point = new Vector3(...[0, 1, 2].map((k) => anchor[k] + 0.3 * (attachment[k] - anchor[k]))).project(this.camera);
+      const third = [0, 1, 2].map((k) => anchor[k] + 0.3 * (attachment[k] - anchor[k]));
+      const point = new Vector3(...third).project(this.camera);
       const label = this.labels.children[i];
       if (label) {
         label.hidden = Math.abs(point.x) > 1 || Math.abs(point.y) > 1 || point.z > 1;
-        label.style.transform = `translate(${((point.x + 1) * width) / 2 + 4}px, ${((1 - point.y) * height) / 2 - 8}px)`;
+        const [x, y] = [((point.x + 1) * width) / 2 + 4, ((1 - point.y) * height) / 2 - 8];
+        label.style.transform = `translate(${x}px, ${y}px)`;
       }
     });
   }
@@ -170,7 +172,8 @@ export class View {
     this.mode = null;
     const { cables } = about.check;
     this.names = cables.map((cable) => cable.name);
-    this.labels.replaceChildren(...this.names.map((name) => Object.assign(document.createElement("span"), { textContent: name })));
+    const label = (name) => Object.assign(document.createElement("span"), { textContent: name });
+    this.labels.replaceChildren(...this.names.map(label));
     this.attachments = cables.map((cable) => new Vector3(...cable.attachment_m));
     this.motion = about.motion;
 
@@ -211,7 +214,8 @@ export class View {
     const cells = Math.ceil((1.3 * this.size) / step / 2) * 2;
     this.grid = new GridHelper(cells * step, cells);
     this.grid.rotation.x = Math.PI / 2;
-    this.grid.position.set(Math.round(this.center.x / step) * step, Math.round(this.center.y / step) * step, Math.min(0, low.z));
+    const round = (value) => Math.round(value / step) * step;
+    this.grid.position.set(round(this.center.x), round(this.center.y), Math.min(0, low.z));
     this.grid.material.transparent = true;
     this.grid.material.opacity = 0.35;
     this.fixed.add(this.grid);
@@ -238,7 +242,8 @@ export class View {
       // Points in one plane get a thickness, so that every platform is a body.
       const along = this.motion.name === "planar" ? new Vector3(...this.motion.normal) : new Vector3(0, 0, 1);
       const flat = along.clone().multiplyScalar(0.25 * thin);
-      body = new ConvexGeometry(this.attachments.flatMap((point) => [point.clone().add(flat), point.clone().sub(flat)]));
+      const sides = this.attachments.flatMap((point) => [point.clone().add(flat), point.clone().sub(flat)]);
+      body = new ConvexGeometry(sides);
     }
     this.body = new Mesh(body, this.platformMaterial);
     this.platform.add(this.body);
@@ -321,7 +326,8 @@ export class View {
   }
 
   /**
-   * Shows that there is no equilibrium: at a pose a pale platform with cables as grey straight lines, otherwise neither.
+   * Shows that there is no equilibrium: at a pose a pale platform with cables as grey straight lines, otherwise
+   * neither.
    * @param {?object} pose `position`, `quaternion`; null if it is not known
    */
   setBroken(pose) {
@@ -368,7 +374,8 @@ export class View {
   remember(frame) {
     this.remembered.clear();
     if (frame) {
-      const material = new LineDashedMaterial({ color: COLORS.slack, dashSize: 0.012 * this.size, gapSize: 0.008 * this.size });
+      const [dashSize, gapSize] = [0.012 * this.size, 0.008 * this.size];
+      const material = new LineDashedMaterial({ color: COLORS.slack, dashSize, gapSize });
       for (const { points } of frame.cables) {
         const pairs = [];
         for (let i = 0; i + 3 < points.length; i += 3) {
@@ -411,8 +418,8 @@ export class View {
 
   /**
    * Plays a free response; null ends it.
-   * @param {object} release `start` and `at(seconds)` with `shape` and `cables` (null: straight lines), `seconds` until the
-   *   record begins again, `slowdown` of the time
+   * @param {object} release `start` and `at(seconds)` with `shape` and `cables` (null: straight lines), `seconds` until
+   *   the record begins again, `slowdown` of the time
    */
   setRelease(release) {
     this.setMode(release && { ...release.start, release, playing: true });
@@ -506,7 +513,8 @@ export class View {
 
   /** Position and target of the camera, for a link. */
   get camera6() {
-    return [...this.camera.position.toArray(), ...this.orbit.target.toArray()].map((value) => Number(value.toPrecision(5)));
+    const numbers = [...this.camera.position.toArray(), ...this.orbit.target.toArray()];
+    return numbers.map((value) => Number(value.toPrecision(5)));
   }
 
   set camera6(numbers) {

@@ -42,8 +42,8 @@ export class Workspace {
   }
 
   /**
-   * The platform has moved: so does its cross in the figure. The figure is of an earlier state if anything else has changed
-   * than the position in its plane.
+   * The platform has moved: so does its cross in the figure. The figure is of an earlier state if anything else has
+   * changed than the position in its plane.
    */
   moved() {
     const cross = $("map").querySelector(".here");
@@ -107,7 +107,16 @@ export class Workspace {
     const [nu, nv] = counts(LEVELS.at(-1));
     const known = new Map();
     const request = this.#page.request();
-    const told = { axes: [plane[0], plane[1]], indices: axes, ranges, label, here, key: this.#keyOf(here, axes), cells: [], unit: "" };
+    const told = {
+      axes: [plane[0], plane[1]],
+      indices: axes,
+      ranges,
+      label,
+      here,
+      key: this.#keyOf(here, axes),
+      cells: [],
+      unit: "",
+    };
     this.#result = told;
     this.#show(true);
     try {
@@ -185,10 +194,13 @@ export class Workspace {
     const width = Math.max(260, $("map").clientWidth);
     const { svg, at, cross } = slice({ ...told, here, width });
     Object.assign(this, { at, cross });
-    const past = this.#before && this.#before !== told ? slice({ ...this.#before, here: null, label: `${this.#before.label}, before`, width }).svg : "";
+    const before = this.#before && this.#before !== told ? this.#before : null;
+    const past = before ? slice({ ...before, here: null, label: `${before.label}, before`, width }).svg : "";
     $("map").innerHTML = svg + past;
-    const off = "xyz".split("").map((axis, k) => (told.indices.includes(k) ? null : `${axis} = ${short(told.here[k], 4)} m`)).find(Boolean);
-    this.told = `At ${off}, with the orientation of the platform. Grey: no equilibrium within the tension limits. A click moves the platform there.`;
+    const fixed = [0, 1, 2].find((k) => !told.indices.includes(k));
+    const off = `${"xyz"[fixed]} = ${short(told.here[fixed], 4)} m`;
+    this.told = `At ${off}, with the orientation of the platform. Grey: no equilibrium within the tension limits. `
+      + "A click moves the platform there.";
     this.note = element("p", { class: "soft" }, this.told);
     $("map").append(this.note);
     age("map", false);

@@ -1,12 +1,13 @@
-// Structure of the page's script: its modules import each other in no circle.
+// Structure of the page's script: its modules import each other in no circle, and no line is too wide to be read.
 
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
 
 const source = new URL("../src/", import.meta.url);
-const imports = new Map(readdirSync(source).map((file) => {
-  const text = readFileSync(new URL(file, source), "utf8");
+const MAX_COLUMNS = 120;
+const texts = new Map(readdirSync(source).map((file) => [file, readFileSync(new URL(file, source), "utf8")]));
+const imports = new Map([...texts].map(([file, text]) => {
   return [file, [...text.matchAll(/^(?:import|export)\b[^;]*?from "\.\/([\w-]+\.js)";/gm)].map((found) => found[1])];
 }));
 
@@ -33,4 +34,12 @@ test("every module is part of the page or of its worker", () => {
 
 test("the state of the page imports nothing, so that each module may use it", () => {
   assert.deepEqual(imports.get("store.js"), []);
+});
+
+test(`no line has more than ${MAX_COLUMNS} columns`, () => {
+  const wide = [...texts].flatMap(([file, text]) => text.split("\n").flatMap((line, i) => {
+    const columns = [...line].length; // characters, not the units of UTF-16
+    return columns > MAX_COLUMNS ? [`${file}:${i + 1}: ${columns} columns`] : [];
+  }));
+  assert.deepEqual(wide, [], "break these lines");
 });
