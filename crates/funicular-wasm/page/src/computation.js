@@ -306,7 +306,7 @@ async function computeMode() {
     return;
   }
   if (shown.mode < 0 || shown.mode >= frame.modes.length) {
-    view.setMode(null); // a mode of an earlier state, which may come again with the next search
+    view.playback.setMode(null); // a mode of an earlier state, which may come again with the next search
     return;
   }
   const { shape, hz } = frame.modes[shown.mode];
@@ -318,7 +318,7 @@ async function computeMode() {
     return null;
   });
   if (shown.mode >= 0 && page.frame === frame) {
-    view.setMode({ cables, shape, hz });
+    view.playback.setMode({ cables, shape, hz });
   }
 }
 

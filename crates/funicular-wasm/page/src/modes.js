@@ -68,7 +68,7 @@ export function chooseMode(index) {
   shown.mode = index;
   showModes();
   if (index < 0) {
-    page.view.setMode(null);
+    page.view.playback.setMode(null);
   } else {
     change({ mode: true });
   }
@@ -95,13 +95,17 @@ export function listen() {
     }
   });
   $("play").addEventListener("click", () => {
-    if (view.mode) {
-      view.mode.playing = !view.mode.playing;
-      $("play").textContent = view.mode.playing ? "Pause" : "Play";
+    const { mode } = view.playback;
+    if (mode) {
+      mode.playing = !mode.playing;
+      $("play").textContent = mode.playing ? "Pause" : "Play";
       view.draw();
     }
   });
-  $("amplitude").addEventListener("input", () => { view.amplitude = Number($("amplitude").value); view.draw(); });
+  $("amplitude").addEventListener("input", () => {
+    view.playback.amplitude = Number($("amplitude").value);
+    view.draw();
+  });
   $("count").addEventListener("change", () => {
     const value = numberOf($("count").value);
     if (value === null || value < 1 || value > MAX_MODES || value % 1 !== 0) {

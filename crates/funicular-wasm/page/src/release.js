@@ -98,15 +98,16 @@ async function release() {
     return;
   }
   shown.released = true;
-  page.view.setRelease({
-    seconds, slowdown: last.slowdown,
+  page.view.playback.setRelease({
+    seconds,
+    slowdown: last.slowdown,
+    clock: moveClock,
     start: { shape: last.start, cables: cables && summed(cables, own) },
     at: (t) => {
       const factors = modes.map((mode, k) => own[k] * decay(mode, t));
       return { shape: summed(modes.map(({ shape }) => shape), factors), cables: cables && summed(cables, factors) };
     },
   });
-  page.view.mode.clock = moveClock;
   $("release-stop").hidden = false;
   show();
 }
@@ -184,7 +185,7 @@ function show() {
     factor: 1000,
     width: Math.max(280, $("release").clientWidth),
   });
-  const scale = page.view.releaseScale;
+  const scale = page.view.playback.releaseScale;
   const times = `${short(scale > 1 ? scale : 1 / scale, 3)} times ${scale > 1 ? "larger" : "smaller"}`;
   const motion = scale === 1 ? "the motion is to scale" : `the view shows the motion ${times}`;
   $("release").innerHTML = figure;
@@ -208,7 +209,7 @@ function moveClock(t) {
 function stop() {
   if (shown.released) {
     shown.released = false;
-    page.view.setRelease(null);
+    page.view.playback.setRelease(null);
     $("release-stop").hidden = true;
   }
   $("release").replaceChildren();

@@ -223,7 +223,7 @@ async function nothingShown(of = page) {
       key: key.filter((one) => one !== "–"), cells: cells.filter((one) => !["", "–"].includes(one)), modes: text("modes").split("\n").length > 2 ? document.querySelectorAll("#modes tbody tr").length : 0,
       figures: document.querySelectorAll("#bode svg, #release svg, #influence .bars, #compare table").length, warnings: text("warnings"), influence: text("influence"),
       legend: text("legend"), commands: document.getElementById("commands").textContent, python: document.getElementById("python").textContent,
-      moving: window.funicular.view.mode !== null, drawn: window.funicular.view.frame !== null, response: window.funicular.response,
+      moving: window.funicular.view.playback.mode !== null, drawn: window.funicular.view.frame !== null, response: window.funicular.response,
       play: document.getElementById("play").offsetParent !== null, first: document.getElementById("influence-first").disabled,
       names: [...document.querySelectorAll("#view .names span")].filter((one) => one.offsetParent !== null).length,
     };
@@ -302,7 +302,7 @@ test("a robot that is refused, or has no equilibrium, leaves nothing of the robo
 test("outside of the workspace nothing is shown, and everything comes back inside", async () => {
   await choose("cogiro");
   await page.click("#modes tbody tr:nth-child(17) button");
-  await page.waitForFunction(() => window.funicular.view.mode);
+  await page.waitForFunction(() => window.funicular.view.playback.mode);
   const shown = await text("#key");
   await page.fill("[data-pose='0']", "30");
   await page.keyboard.press("Enter");
@@ -310,7 +310,7 @@ test("outside of the workspace nothing is shown, and everything comes back insid
   await page.screenshot({ path: join(pictures, "outside.png") });
   await framed(() => page.click("#undo"));
   await page.waitForFunction((before) => document.getElementById("key").innerText === before, shown);
-  await page.waitForFunction(() => window.funicular.view.mode && document.querySelector("#influence .bars") && document.querySelector("#bode svg"));
+  await page.waitForFunction(() => window.funicular.view.playback.mode && document.querySelector("#influence .bars") && document.querySelector("#bode svg"));
   await page.click("#modes tbody tr:nth-child(17) button");
 
   // A file that is typed by half, while it has an error.
@@ -363,7 +363,7 @@ test("the first mode of the platform is found above the listed ones", async () =
   await page.waitForSelector("#influence .bars");
   assert.match(await text("#influence"), /Change of 7\.0849 Hz/);
   assert.equal(await page.evaluate(() => document.getElementById("influence").dataset.mode), "26");
-  await page.waitForFunction(() => window.funicular.view.mode);
+  await page.waitForFunction(() => window.funicular.view.playback.mode);
   await page.screenshot({ path: join(pictures, "platform.png") });
 
   // While the platform moves, the list reaches it, and no search is needed.
@@ -509,7 +509,7 @@ test("the message says which cable limits the payload, and the workspace is comp
 test("a mode is shown in motion, and “before” is compared", async () => {
   await choose("cogiro");
   await page.click("#modes tbody tr:nth-child(17) button");
-  await page.waitForFunction(() => window.funicular.view.mode);
+  await page.waitForFunction(() => window.funicular.view.playback.mode);
   const picture = () => page.evaluate(() => window.funicular.view.lines[2].geometry.attributes.instanceStart.data.array.slice(0, 60).join());
   const first = await picture();
   await page.waitForTimeout(300);
