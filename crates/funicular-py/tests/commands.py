@@ -66,7 +66,7 @@ def steps(text: str) -> Any:
 def value(command: str, option: str, text: str) -> Any:
     if (command, option) == ("pose-error", "--mass-kg"):
         return steps(text)
-    if option in ("--of", "--by", "--tolerances", "--deviations"):
+    if option in ("--of", "--by", "--tolerances", "--deviations") and command != "schema":
         return text.split(",")
     if option in ("--weights", "--avoid-hz"):
         return [float(part) for part in text.replace(":", ",").split(",")]

@@ -7,18 +7,18 @@
 //! frame, so that no mode or response of another state is taken for one of it.
 //!
 //! The list begins with [`HEADER`] numbers. Then come, without gaps, [`CABLE`] numbers per cable, three coordinates per
-//! point of the cables, and [`MODE`] numbers per mode, followed by the energy fractions of the cables. docs/web.md
-//! lists the meaning of each number.
+//! point of the cables, and [`MODE`] numbers per mode, followed by the energy fractions of the cables. [`layout`]
+//! has the meaning of each number.
 
+use crate::layout;
 use anyhow::{Result, anyhow, bail};
-use funicular::cable::Sag;
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::math::{Vec3, rotation};
-use funicular::modes::{self, Kind, LowestError, Mode, Modes, PlatformModeError};
+use funicular::math::Vec3;
+use funicular::modes::{self, LowestError, Mode, Modes, PlatformModeError};
 use funicular::response;
-use funicular::robot::{self, PlatformMotion, Robot, State, TensionLimits};
-use funicular::statics::{self, CableState, Limit, Stability, TensionRange};
+use funicular::robot::{self, PlatformMotion, Robot, State};
+use funicular::statics;
 use funicular_study::analyses::{check, frf};
 use funicular_study::at_rest::{self, AtRest};
 use funicular_study::request::{self, FrfRequest, MAX_HZ, Pose, StiffnessRequest};
@@ -27,14 +27,7 @@ use funicular_study::wording::Words;
 use funicular_study::{NoSolution, Request, Silent};
 use serde_json::{Value, json};
 
-/// Number of numbers before the cables.
-pub const HEADER: usize = 24;
-
-/// Numbers per cable.
-pub const CABLE: usize = 20;
-
-/// Numbers per mode before the energy fractions of the cables.
-pub const MODE: usize = 12;
+pub use crate::layout::{CABLE, HEADER, MODE};
 
 /// Maximum number of modes per frame: with more, a frame takes too long for an animation.
 pub const MAX_MODES: usize = 500;
@@ -364,38 +357,15 @@ fn description(robot: &Robot, text: &str) -> Value {
 
 /// Numbers of a frame in the order that the documentation of this file gives.
 fn numbers(at_rest: &AtRest, modes: Option<&Modes>, size: FrameSize) -> Vec<f64> {
-    let AtRest { robot, equilibrium, rule, .. } = at_rest;
+    let AtRest { robot, equilibrium, .. } = at_rest;
     let cables = robot.cables.len();
     let shown = modes.map_or(0, |modes| modes.modes.len().min(size.modes));
     let mut numbers = Vec::with_capacity(HEADER + cables * (CABLE + 3 * size.points) + shown * (MODE + cables));
 
-    // Header.
-    let limited = rule.is_some() || robot.cables.iter().any(|cable| cable.limits() != TensionLimits::default());
-    let (stable, min_stiffness) = match equilibrium.stability {
-        Stability::Stable { min_stiffness } => (1.0, min_stiffness),
-        Stability::Unstable { min_stiffness, .. } => (0.0, min_stiffness),
-        Stability::Rigid => (-1.0, f64::NAN),
-    };
-    let pose = &equilibrium.pose;
-    numbers.extend([cables, size.points, shown].map(|count| count as f64));
-    numbers.extend(pose.position_w.iter());
-    numbers.extend(rotation::quaternion_wxyz(&pose.rot_wp));
-    numbers.extend(rotation::to_roll_pitch_yaw_deg(&pose.rot_wp));
-    numbers.extend([equilibrium.residual, equilibrium.iterations as f64, stable, min_stiffness]);
-    numbers.push(at_rest.requested_pose.map_or(f64::NAN, |(_, distance)| distance));
-    numbers.push(flag(limited));
-    numbers.push(flag(statics::is_unloaded(robot, equilibrium)));
-    numbers.extend(match modes {
-        Some(modes) => {
-            [modes.below_hz, modes.count_below as f64, flag(modes.certified), modes.unstable_directions as f64]
-        }
-        None => [0.0; 4],
-    });
-    assert_eq!(numbers.len(), HEADER);
-
-    // Cables.
+    let header = layout::Header { at_rest, modes, points: size.points, shown };
+    layout::write(&layout::header(), &header, &mut numbers);
     for (i, cable) in equilibrium.cables.iter().enumerate() {
-        numbers.extend(cable_numbers(robot, i, cable));
+        layout::write(&layout::cable(), &layout::Cable::new(robot, i, cable), &mut numbers);
     }
 
     // Points along the cables, from the platform.
@@ -417,57 +387,10 @@ fn numbers(at_rest: &AtRest, modes: Option<&Modes>, size: FrameSize) -> Vec<f64>
 
 /// Numbers of one mode.
 fn mode_numbers(mode: &Mode) -> Vec<f64> {
-    let kind = match mode.kind {
-        Kind::Platform => 0.0,
-        Kind::Cable => 1.0,
-        Kind::Drive => 2.0,
-        Kind::Mixed => 3.0,
-    };
-    let mut numbers = vec![mode.frequency_hz, mode.multiplicity as f64, mode.damping_ratio, kind];
-    // `+ 0.0` makes a negative zero positive.
-    numbers.extend([mode.platform_energy_fraction, mode.modal_mass].into_iter().chain(mode.shape.map(|x| x + 0.0)));
+    let mut numbers = Vec::with_capacity(MODE + mode.cable_energy_fractions.len());
+    layout::write(&layout::mode(), mode, &mut numbers);
     numbers.extend(&mode.cable_energy_fractions);
     numbers
-}
-
-/// Numbers of one cable.
-fn cable_numbers(robot: &Robot, i: usize, cable: &CableState) -> [f64; CABLE] {
-    let sag = Sag::of(robot, i, cable);
-    let taut = |value: f64| if sag.tension > 0.0 { value } else { f64::NAN };
-    let margin = TensionRange::of(robot, i, &cable.chord_w()).margin(cable);
-    let reached = match margin.reached() {
-        None => 0.0,
-        Some(Limit::Minimum) => -1.0,
-        Some(Limit::Maximum) => 1.0,
-    };
-    let anchor = cable.anchor_w;
-    let attachment = cable.attachment_w;
-    [
-        cable.unstrained_length,
-        cable.tension_platform,
-        cable.tension_anchor,
-        cable.tension_drum(),
-        cable.chord(),
-        taut(sag.ratio()),
-        taut(sag.lambda2),
-        taut(sag.string_frequency_hz()),
-        margin.min,
-        margin.max,
-        margin.range.minimum,
-        margin.range.maximum,
-        reached,
-        flag(cable.is_slack()),
-        attachment.x,
-        attachment.y,
-        attachment.z,
-        anchor.x,
-        anchor.y,
-        anchor.z,
-    ]
-}
-
-fn flag(fact: bool) -> f64 {
-    if fact { 1.0 } else { 0.0 }
 }
 
 /// Request of frames in JSON.

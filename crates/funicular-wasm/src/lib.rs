@@ -13,6 +13,7 @@
 //! to report it. The instance must not be used again: the caller makes a new one.
 
 pub mod frame;
+pub mod layout;
 mod page_answers;
 
 use anyhow::Result;

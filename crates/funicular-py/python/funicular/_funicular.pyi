@@ -9,7 +9,7 @@ from funicular._design import Designed
 from funicular._identify import Identified
 from funicular._live import Live
 from funicular._pages import Page
-from funicular._results import Equilibria, Modes, ReducedModel, StateSpaceModel
+from funicular._results import Equilibria, Modes, ReducedModel, Results, StateSpaceModel
 from funicular._sweeps import Sweep
 from funicular._uncertainty import Uncertainty
 from funicular._words import Assembly, CableModel, ExportFormat, Goal, Hold, Method, Per, Result, StaticModel, TensionRule, Winches
@@ -31,7 +31,7 @@ class Analyses:
 
     Those of `Robot` analyse the equilibrium in the state of the robot file, which every call computes again.
     """
-    def all_equilibria(self, /) -> dict[str, Any]:
+    def all_equilibria(self, /) -> Results:
         """
         Searches for all equilibria of the unstrained lengths of the equilibrium.
 
@@ -40,7 +40,7 @@ class Analyses:
         The keys of the program's JSON. `equilibria` lists the solutions, the lowest first, each with `pose`, `stable`,
         `energy_j`, `distance_m` and `tensions_platform_n`; `search` describes the search. Lists of numbers are arrays.
         """
-    def cable(self, /, name: str, hz: ArrayLike, *, cable_model: CableModel | None = None, in_plane_only: bool = False, winches: Winches = "as-given") -> dict[str, Any]:
+    def cable(self, /, name: str, hz: ArrayLike, *, cable_model: CableModel | None = None, in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
         """
         Computes the dynamic stiffness of the platform end of one cable with a fixed anchor.
 
@@ -59,7 +59,7 @@ class Analyses:
         normal in plane, out of plane [N/m]. `world` is (n, 3, 3), complex, in world axes. `clamped_frequencies_hz` are
         the natural frequencies of the cable with both ends fixed.
         """
-    def compare(self, /, below_hz: SupportsFloat | SupportsIndex, *, platform: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> dict[str, Any]:
+    def compare(self, /, below_hz: SupportsFloat | SupportsIndex, *, platform: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
         """
         Compares every cable model with the catenary-dynamic model: frequencies found, missed and wrong, and the
         recommended model.
@@ -150,7 +150,7 @@ class Analyses:
         ResponseWarning
             At least ten frequencies ascend, and peaks between them are read more than 5 % too low.
         """
-    def friction_interval(self, /) -> dict[str, Any]:
+    def friction_interval(self, /) -> Results:
         """
         Computes the interval in which friction of pulleys leaves pose and tensions.
 
@@ -171,7 +171,7 @@ class Analyses:
         NoSolutionError
             The equilibrium is indifferent.
         """
-    def gradient(self, /, of: Result | Sequence[Result] | None = None, *, by: str | Sequence[str] | None = None, hold: Hold = "lengths", per: Per = "unit", tolerances: Any | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> dict[str, Any]:
+    def gradient(self, /, of: Result | Sequence[Result] | None = None, *, by: str | Sequence[str] | None = None, hold: Hold = "lengths", per: Per = "unit", tolerances: Any | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
         """
         Computes derivatives of results by numbers of the robot file, without perturbing any.
 
@@ -717,7 +717,7 @@ class Robot(Analyses):
         """
         Names of the cables, in the order of the file, which every array with one entry per cable has.
         """
-    def check(self, /) -> dict[str, Any]:
+    def check(self, /) -> Results:
         """
         Returns the robot as it was read, with the keys of the program's `check`; lists of numbers are arrays.
         """
@@ -985,7 +985,7 @@ class Robot(Analyses):
         Returns every number of the robot file, with the keys of the program's `parameters`: `path`, `value`, `unit`,
         `range`, `minimum`, `maximum`, `meaning`, `label` (name in words with the unit) and `given`. `Robot.with_` and `vary=` use the same paths.
         """
-    def payload(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", tension_rule: TensionRule | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, payload_center_m: ArrayLike | None = None) -> dict[str, Any]:
+    def payload(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", tension_rule: TensionRule | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, payload_center_m: ArrayLike | None = None) -> Results:
         """
         Computes the minimum and the maximum payload at a pose, with the cables whose tension limits bind.
 
@@ -1009,7 +1009,7 @@ class Robot(Analyses):
         StaticsError
             No payload is held at this pose.
         """
-    def pose_error(self, /, mass_kg: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsIndex], *, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, tolerance_mm: SupportsFloat | SupportsIndex | None = None) -> dict[str, Any]:
+    def pose_error(self, /, mass_kg: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsIndex], *, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, tolerance_mm: SupportsFloat | SupportsIndex | None = None) -> Results:
         """
         Computes the distance of the poses of spring and catenary cables from those of ideal cables, over the platform
         mass.

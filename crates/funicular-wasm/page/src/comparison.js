@@ -28,9 +28,8 @@ async function compare() {
     const text = await job.run(1, async ([worker]) => (await worker.call("answer", { request })).text);
     show(JSON.parse(text));
   } catch (error) {
-    $("compare").replaceChildren(
-      element("p", { class: "soft" }, error instanceof Cancelled ? "Cancelled." : error.message),
-    );
+    const text = error instanceof Cancelled ? "Cancelled." : error.message;
+    $("compare").replaceChildren(element("p", { class: "soft" }, text));
   }
   clearInterval(clock);
   put($("compare-state"), "");

@@ -145,13 +145,8 @@ async function readRobot() {
     if (robots === page.robots && (stopped || !(error instanceof Cancelled))) {
       shown.refused = true;
       const refusal = content.robot.set.length ? "a value of the robot is refused" : "the robot file has an error";
-      empty(
-        stopped
-          ? "the reading of the robot file was cancelled"
-          : error.status
-            ? refusal
-            : "the program for the computation does not run",
-      );
+      const failure = error.status ? refusal : "the program for the computation does not run";
+      empty(stopped ? "the reading of the robot file was cancelled" : failure);
       if (stopped) {
         tell("Cancelled: the robot file was not read.", true);
       } else {
@@ -207,12 +202,9 @@ async function computeFrame() {
     const index = frame.modes.findIndex(isOfPlatform);
     // `first`: the first mode of the platform, as its index or as the reason why there is none; null until it is
     // searched.
-    const first =
-      index >= 0
-        ? { index }
-        : frame.modes.length === 0
-          ? { reason: found.about.no_modes ?? "there are no natural frequencies" }
-          : null;
+    const none = { reason: found.about.no_modes ?? "there are no natural frequencies" };
+    const unlisted = frame.modes.length === 0 ? none : null;
+    const first = index >= 0 ? { index } : unlisted;
     Object.assign(frame, { first, listed: Math.min(shown.modes, frame.modes.length), inWorker: frame.modes.length });
     Object.assign(page, { frame, last: frame, reason: "" });
     tell(null);
@@ -225,15 +217,9 @@ async function computeFrame() {
   } catch (error) {
     if (robots === page.robots && (stopped || !(error instanceof Cancelled))) {
       shown.broken = true;
-      empty(
-        stopped
-          ? "the computation was cancelled"
-          : error.status === 1
-            ? "there is no equilibrium at this state"
-            : error.status
-              ? "this state is refused"
-              : "the computation has failed",
-      );
+      const failure = error.status ? "this state is refused" : "the computation has failed";
+      const reason = error.status === 1 ? "there is no equilibrium at this state" : failure;
+      empty(stopped ? "the computation was cancelled" : reason);
       emit(
         "frame-refused",
         stopped ? new Error("Cancelled: there are no results for this state. The next change computes again.") : error,
@@ -301,8 +287,8 @@ export async function listModes(count) {
   const { frame } = page;
   if (count > MAX_FRAME_MODES) {
     throw new Error(
-      `the motion of the cables is known for the ${MAX_FRAME_MODES} lowest modes only: the view shows that ` +
-        `of the platform`,
+      `the motion of the cables is known for the ${MAX_FRAME_MODES} lowest modes only: ` +
+        "the view shows that of the platform",
     );
   }
   if (count > frame.inWorker) {
@@ -325,7 +311,7 @@ async function computeMode() {
     return;
   }
   if (shown.mode < 0 || shown.mode >= frame.modes.length) {
-    view.setMode(null); // a mode of an earlier state, which may come again with the next search
+    view.playback.setMode(null); // a mode of an earlier state, which may come again with the next search
     return;
   }
   const { shape, hz } = frame.modes[shown.mode];
@@ -337,7 +323,7 @@ async function computeMode() {
     return null;
   });
   if (shown.mode >= 0 && page.frame === frame) {
-    view.setMode({ cables, shape, hz });
+    view.playback.setMode({ cables, shape, hz });
   }
 }
 
@@ -413,10 +399,8 @@ export function rest() {
           const own = { input, output, from_hz: from, to_hz: to, log, adaptive: true, ...content.model };
           const { frequency_hz: hz, real, imag, peaks, warnings } = JSON.parse((await run("frf", own)(worker)).text);
           if (page.answered && page.frame === frame) {
-            const numbers = Float64Array.from(
-              { length: 3 * hz.length },
-              (_, k) => [hz, real, imag][k % 3][Math.floor(k / 3)],
-            );
+            const columns = [hz, real, imag];
+            const numbers = Float64Array.from({ length: 3 * hz.length }, (_, k) => columns[k % 3][Math.floor(k / 3)]);
             page.answered.exact = {
               numbers,
               peaks: peaks.map((peak) => ({ hz: peak.frequency_hz, magnitude: peak.magnitude })),

@@ -174,9 +174,8 @@ export class Drives {
     this.group.traverse((child) => {
       if (child.isLine) {
         const position = child.geometry.getAttribute("position");
-        const points = Array.from({ length: position.count }, (_, i) =>
-          new Vector3().fromBufferAttribute(position, i).applyMatrix4(child.matrixWorld).toArray(),
-        );
+        const point = (i) => new Vector3().fromBufferAttribute(position, i).applyMatrix4(child.matrixWorld).toArray();
+        const points = Array.from({ length: position.count }, (_, i) => point(i));
         found.push(child.isLineLoop ? [...points, points[0]] : points);
       }
     });
@@ -188,10 +187,8 @@ export class Drives {
     const found = [];
     this.group.traverse((child) => {
       if (child.isMesh && child.geometry.type === "SphereGeometry") {
-        found.push({
-          place: child.getWorldPosition(new Vector3()).toArray(),
-          color: `#${child.material.color.getHexString()}`,
-        });
+        const place = child.getWorldPosition(new Vector3()).toArray();
+        found.push({ place, color: `#${child.material.color.getHexString()}` });
       }
     });
     return found;

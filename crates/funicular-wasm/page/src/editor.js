@@ -21,8 +21,8 @@ const colors = HighlightStyle.define([
 function partOf(schema, keys) {
   let node = schema;
   for (const key of keys) {
-    const next =
-      node.properties?.[key] ?? (typeof node.additionalProperties === "object" ? node.additionalProperties : null);
+    const others = typeof node.additionalProperties === "object" ? node.additionalProperties : null;
+    const next = node.properties?.[key] ?? others;
     if (!next) {
       return null;
     }
@@ -137,10 +137,8 @@ export class Editor {
       from += 1;
     }
     let end = 0;
-    while (
-      end < Math.min(old.length, text.length) - from &&
-      old[old.length - 1 - end] === text[text.length - 1 - end]
-    ) {
+    const most = Math.min(old.length, text.length) - from;
+    while (end < most && old[old.length - 1 - end] === text[text.length - 1 - end]) {
       end += 1;
     }
     this.silent = true;

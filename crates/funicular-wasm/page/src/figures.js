@@ -8,12 +8,16 @@ export function ticks(low, high, count) {
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((factor) => factor * power).find((size) => size >= raw * 0.999);
   const first = Math.ceil(low / step - 1e-9);
-  return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, i) =>
-    Number(((first + i) * step).toPrecision(12)),
-  );
+  const length = Math.floor(high / step + 1e-9) - first + 1;
+  return Array.from({ length }, (_, i) => Number(((first + i) * step).toPrecision(12)));
 }
 
 const path = (points) => points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
+
+/** Figure of its parts. `told`: what a screen reader says; `data`: further attributes, each after a space. */
+const figure = ({ told, data = "", width, height, parts }) =>
+  `<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" aria-label="${escaped(told)}"${data}` +
+  ` width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">${parts.join("")}</svg>`;
 
 /**
  * Frequency response: magnitude (logarithmic) and phase.
@@ -55,10 +59,9 @@ export function response({ curves, peaks, modes, unit, title, log, width }) {
     parts.push(`<text x="${at.toFixed(1)}" y="${down.toFixed(1)}" text-anchor="${anchor}">${words}</text>`);
 
   // Axes.
+  const decades = Array.from({ length: 8 }, (_, k) => [1, 2, 5].map((factor) => factor * 10 ** (k - 4))).flat();
   const ofHz = log
-    ? Array.from({ length: 8 }, (_, k) => [1, 2, 5].map((factor) => factor * 10 ** (k - 4)))
-        .flat()
-        .filter((hz) => hz >= from * 0.999 && hz <= to * 1.001)
+    ? decades.filter((hz) => hz >= from * 0.999 && hz <= to * 1.001)
     : ticks(from, to, Math.max(3, Math.floor(inside / 60)));
   for (const hz of ofHz) {
     line(x(hz), top, x(hz), top + high, "grid");
@@ -107,11 +110,7 @@ export function response({ curves, peaks, modes, unit, title, log, width }) {
   const summary = highest.length
     ? `Highest peak ${short(highest[0].magnitude)} ${unit} at ${short(highest[0].hz)} hertz`
     : "No peak in this range";
-  return (
-    `<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" aria-label="Frequency response. ` +
-    `${escaped(summary)}" width="${width}" height="${height}" viewBox="0 0 ${width} ` +
-    `${height}">${parts.join("")}</svg>`
-  );
+  return figure({ told: `Frequency response. ${summary}`, width, height, parts });
 }
 
 /**
@@ -137,17 +136,17 @@ export function history({ curves, label, factor, width }) {
   const y = (value) => top + (high * (most - value)) / (2 * most);
   const parts = [];
   for (const t of ticks(0, end, Math.max(3, Math.floor(inside / 60)))) {
+    const at = x(t).toFixed(1);
     parts.push(
-      `<line class="grid" x1="${x(t).toFixed(1)}" y1="${top}" x2="${x(t).toFixed(1)}" ` +
-        `y2="${top + high}"/><text x="${x(t).toFixed(1)}" y="${top + high + 14}" ` +
-        `text-anchor="middle">${tick(t)}</text>`,
+      `<line class="grid" x1="${at}" y1="${top}" x2="${at}" y2="${top + high}"/>` +
+        `<text x="${at}" y="${top + high + 14}" text-anchor="middle">${tick(t)}</text>`,
     );
   }
   for (const value of ticks(-most, most, 5)) {
+    const at = y(value).toFixed(1);
     parts.push(
-      `<line class="grid" x1="${left}" y1="${y(value).toFixed(1)}" x2="${width - right}" ` +
-        `y2="${y(value).toFixed(1)}"/><text x="${left - 6}" y="${(y(value) + 4).toFixed(1)}" ` +
-        `text-anchor="end">${tick(value)}</text>`,
+      `<line class="grid" x1="${left}" y1="${at}" x2="${width - right}" y2="${at}"/>` +
+        `<text x="${left - 6}" y="${(y(value) + 4).toFixed(1)}" text-anchor="end">${tick(value)}</text>`,
     );
   }
   for (const { times, values, kind } of curves) {
@@ -155,16 +154,13 @@ export function history({ curves, label, factor, width }) {
   }
   const present = curves.at(-1);
   parts.push(
-    `<text x="${left}" y="10">${escaped(label)}</text><text x="${left + inside / 2}" y="${height - 4}" ` +
-      `text-anchor="middle">time [s]</text>`,
+    `<text x="${left}" y="10">${escaped(label)}</text>` +
+      `<text x="${left + inside / 2}" y="${height - 4}" text-anchor="middle">time [s]</text>`,
   );
   parts.push(`<line class="here" data-clock x1="${left}" x2="${left}" y1="${top}" y2="${top + high}"/>`);
   const told = `${label} from ${short(factor * present.values[0])} at the beginning, over ${short(end, 3)} seconds`;
-  return (
-    `<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" aria-label="${escaped(told)}" ` +
-    `data-left="${left}" data-inside="${inside}" data-end="${end}" width="${width}" height="${height}" ` +
-    `viewBox="0 0 ${width} ${height}">${parts.join("")}</svg>`
-  );
+  const data = ` data-left="${left}" data-inside="${inside}" data-end="${end}"`;
+  return figure({ told, data, width, height, parts });
 }
 
 /**
@@ -174,24 +170,23 @@ export function history({ curves, label, factor, width }) {
 export function bars({ rows, label, unit }) {
   const most = Math.max(...rows.flatMap(({ value, past }) => [Math.abs(value), Math.abs(past ?? 0)]));
   const row = ({ name, path, value, past }) => {
+    const place = (50 + (50 * past) / most).toFixed(1);
     const mark =
-      past === undefined
-        ? ""
-        : `<b class="past" title="before: ${short(past, 3)} ${unit}" ` +
-          `style="left:${(50 + (50 * past) / most).toFixed(1)}%"></b>`;
+      past === undefined ? "" : `<b class="past" title="before: ${short(past, 3)} ${unit}" style="left:${place}%"></b>`;
     const words = `${value < 0 ? "−" : "+"}${short(Math.abs(value), 3)} ${unit}`;
     const [from, wide] = [value < 0 ? 50 + (50 * value) / most : 50, (50 * Math.abs(value)) / most];
-    const shown = escaped(name).replaceAll(".", ".<wbr>").replaceAll("_", "_<wbr>");
+    const told = escaped(`${name}: ${words}. Add a slider`);
+    const breaking = escaped(name).replaceAll(".", ".<wbr>").replaceAll("_", "_<wbr>");
+    const extent = `left:${from.toFixed(1)}%;width:${wide.toFixed(1)}%`;
     return (
-      `<li data-path="${escaped(path)}" role="button" tabindex="0" ` +
-      `aria-label="${escaped(`${name}: ${words}. Add a slider`)}"><span>${shown}</span>` +
-      `<span class="bar-track"><i class="${value < 0 ? "less" : "more"}" ` +
-      `style="left:${from.toFixed(1)}%;width:${wide.toFixed(1)}%"></i>${mark}</span><b>${escaped(words)}</b></li>`
+      `<li data-path="${escaped(path)}" role="button" tabindex="0" aria-label="${told}"><span>${breaking}</span>` +
+      `<span class="bar-track"><i class="${value < 0 ? "less" : "more"}" style="${extent}"></i>${mark}</span>` +
+      `<b>${escaped(words)}</b></li>`
     );
   };
   return (
-    `<p class="soft">${escaped(label)}</p><ul class="bars" ` +
-    `aria-label="${escaped(label)}">${rows.map(row).join("")}</ul>`
+    `<p class="soft">${escaped(label)}</p>` +
+    `<ul class="bars" aria-label="${escaped(label)}">${rows.map(row).join("")}</ul>`
   );
 }
 
@@ -228,34 +223,33 @@ export function slice({ axes, ranges, cells, here, label, unit, width }) {
   const [least, most] = [finite(values, Math.min)[0], finite(values, Math.max)[0]];
   const parts = [];
   for (const { u, v, du, dv, value } of cells) {
-    const color = Number.isFinite(value)
-      ? mapColor(most > least ? (value - least) / (most - least) : 0.5)
-      : "var(--none)";
+    const fraction = most > least ? (value - least) / (most - least) : 0.5;
+    const color = Number.isFinite(value) ? mapColor(fraction) : "var(--none)";
     const [x0, x1] = [Math.max(u0, u - du / 2), Math.min(u1, u + du / 2)].map(x);
     const [y0, y1] = [Math.min(v1, v + dv / 2), Math.max(v0, v - dv / 2)].map(y);
     parts.push(
-      `<rect x="${x0.toFixed(2)}" y="${y0.toFixed(2)}" width="${(x1 - x0 + 0.3).toFixed(2)}" ` +
-        `height="${(y1 - y0 + 0.3).toFixed(2)}" fill="${color}" shape-rendering="crispEdges"/>`,
+      `<rect x="${x0.toFixed(2)}" y="${y0.toFixed(2)}" width="${(x1 - x0 + 0.3).toFixed(2)}"` +
+        ` height="${(y1 - y0 + 0.3).toFixed(2)}" fill="${color}" shape-rendering="crispEdges"/>`,
     );
   }
   for (const u of ticks(u0, u1, 6)) {
+    const at = x(u).toFixed(1);
     parts.push(
-      `<line class="axis" x1="${x(u).toFixed(1)}" y1="${top + high}" x2="${x(u).toFixed(1)}" ` +
-        `y2="${top + high + 4}"/><text x="${x(u).toFixed(1)}" y="${top + high + 16}" ` +
-        `text-anchor="middle">${tick(u)}</text>`,
+      `<line class="axis" x1="${at}" y1="${top + high}" x2="${at}" y2="${top + high + 4}"/>` +
+        `<text x="${at}" y="${top + high + 16}" text-anchor="middle">${tick(u)}</text>`,
     );
   }
   for (const v of ticks(v0, v1, 5)) {
+    const at = y(v).toFixed(1);
     parts.push(
-      `<line class="axis" x1="${left - 4}" y1="${y(v).toFixed(1)}" x2="${left}" ` +
-        `y2="${y(v).toFixed(1)}"/><text x="${left - 7}" y="${(y(v) + 4).toFixed(1)}" ` +
-        `text-anchor="end">${tick(v)}</text>`,
+      `<line class="axis" x1="${left - 4}" y1="${at}" x2="${left}" y2="${at}"/>` +
+        `<text x="${left - 7}" y="${(y(v) + 4).toFixed(1)}" text-anchor="end">${tick(v)}</text>`,
     );
   }
   parts.push(`<rect class="frame" x="${left}" y="${top}" width="${inside}" height="${high}"/>`);
   parts.push(
-    `<text x="${left + inside / 2}" y="${top + high + 31}" text-anchor="middle">${axes[0]} [m]</text><text ` +
-      `transform="translate(11 ${top + high / 2}) rotate(-90)" text-anchor="middle">${axes[1]} [m]</text>`,
+    `<text x="${left + inside / 2}" y="${top + high + 31}" text-anchor="middle">${axes[0]} [m]</text>` +
+      `<text transform="translate(11 ${top + high / 2}) rotate(-90)" text-anchor="middle">${axes[1]} [m]</text>`,
   );
   const cross = ([u, v]) => `M${x(u) - 7} ${y(v)}H${x(u) + 7}M${x(u)} ${y(v) - 7}V${y(v) + 7}`;
   if (here) {
@@ -265,25 +259,23 @@ export function slice({ axes, ranges, cells, here, label, unit, width }) {
   const bar = top + high + 42;
   for (let i = 0; i < 60; i += 1) {
     parts.push(
-      `<rect x="${(left + (inside * i) / 60).toFixed(1)}" y="${bar}" ` +
-        `width="${(inside / 60 + 0.4).toFixed(1)}" height="9" fill="${mapColor(i / 59)}"/>`,
+      `<rect x="${(left + (inside * i) / 60).toFixed(1)}" y="${bar}" width="${(inside / 60 + 0.4).toFixed(1)}"` +
+        ` height="9" fill="${mapColor(i / 59)}"/>`,
     );
   }
   const unitText = unit && unit !== "1" ? ` ${unit}` : "";
   if (values.length) {
+    const ofUnit = escaped(unitText);
     parts.push(
-      `<text x="${left}" y="${bar + 22}">${short(least)}${escaped(unitText)}</text><text ` +
-        `x="${left + inside}" y="${bar + 22}" text-anchor="end">${short(most)}${escaped(unitText)}</text>`,
+      `<text x="${left}" y="${bar + 22}">${short(least)}${ofUnit}</text>` +
+        `<text x="${left + inside}" y="${bar + 22}" text-anchor="end">${short(most)}${ofUnit}</text>`,
     );
   }
   parts.push(`<text x="${left + inside / 2}" y="${bar + 22}" text-anchor="middle">${escaped(label)}</text>`);
   const held = values.length;
-  const told =
-    `${label} at ${cells.length} poses; ${held} of them have a ` +
-    `value${held ? `, from ${short(least)} to ${short(most)}${unitText}` : ""}`;
-  const svg =
-    `<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" aria-label="${escaped(told)}" ` +
-    `width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">${parts.join("")}</svg>`;
+  const span = held ? `, from ${short(least)} to ${short(most)}${unitText}` : "";
+  const told = `${label} at ${cells.length} poses; ${held} of them have a value${span}`;
+  const svg = figure({ told, width, height, parts });
   const at = (px, py) => [u0 + ((px - left) / inside) * (u1 - u0), v1 - ((py - top) / high) * (v1 - v0)];
   return { svg, at, cross };
 }

@@ -1,25 +1,21 @@
-// Numbers of a frame as named values. The layout is in docs/web.md.
+// Numbers of a frame as named values.
 
-const HEADER = 24;
-const CABLE = 20;
-const MODE = 12;
-const KINDS = ["platform", "cable", "drive", "mixed"];
-const CABLE_KEYS = [
-  "length",
-  "tension",
-  "tensionAnchor",
-  "tensionDrum",
-  "chord",
-  "sagRatio",
-  "lambda2",
-  "stringHz",
-  "lowest",
-  "highest",
-  "minimum",
-  "maximum",
-  "reached",
-  "slack",
-];
+import { CABLE, HEADER, KINDS, MODE } from "./layout.js";
+
+const sizeOf = (parts) => parts.reduce((sum, [, count]) => sum + count, 0);
+const [HEADER_SIZE, CABLE_SIZE, MODE_SIZE] = [HEADER, CABLE, MODE].map(sizeOf);
+
+/** Named values of numbers in the order of a layout: one number, or several as a part of the list. */
+function named(parts, numbers) {
+  let at = 0;
+  return Object.fromEntries(
+    parts.map(([key, count]) => {
+      const value = count === 1 ? numbers[at] : numbers.subarray(at, at + count);
+      at += count;
+      return [key, value];
+    }),
+  );
+}
 
 // Relative distance by which a tension is beyond its limit. `reached` of the frame tells less: the tensions of most
 // rules are at a limit, and stay there when the lengths are held, to the accuracy of the search.
@@ -31,51 +27,41 @@ const isBeyond = ({ reached, lowest, highest, minimum, maximum }) =>
 
 /** Frame with named values. `numbers` are kept, because the points are parts of them. */
 export function frameOf(numbers) {
-  const [cables, points, modes] = numbers;
-  const atPoints = HEADER + cables * CABLE;
+  const { stability, ...head } = named(HEADER, numbers);
+  const { cables, pointsPerCable: points, modes } = head;
+  const atPoints = HEADER_SIZE + cables * CABLE_SIZE;
   const atModes = atPoints + 3 * cables * points;
-  const limited = numbers[18] === 1;
+  const limited = head.limited === 1;
   return {
-    position: Array.from(numbers.slice(3, 6)),
-    quaternion: Array.from(numbers.slice(6, 10)),
-    angles: Array.from(numbers.slice(10, 13)),
-    residual: numbers[13],
-    iterations: numbers[14],
-    stable: [undefined, false, true][numbers[15] + 1],
-    minStiffness: numbers[16],
-    distance: numbers[17],
+    ...head,
+    position: Array.from(head.position),
+    quaternion: Array.from(head.quaternion),
+    angles: Array.from(head.angles),
+    stable: [undefined, false, true][stability + 1],
     limited,
-    belowHz: numbers[20],
-    countBelow: numbers[21],
-    certified: numbers[22] === 1,
-    unstableDirections: numbers[23],
-    pointsPerCable: points,
+    unloaded: head.unloaded === 1,
+    certified: head.certified === 1,
     cables: Array.from({ length: cables }, (_, i) => {
-      const own = numbers.subarray(HEADER + i * CABLE, HEADER + (i + 1) * CABLE);
-      const cable = Object.fromEntries(CABLE_KEYS.map((key, k) => [key, own[k]]));
+      const cable = named(CABLE, numbers.subarray(HEADER_SIZE + i * CABLE_SIZE, HEADER_SIZE + (i + 1) * CABLE_SIZE));
       cable.beyond = limited && isBeyond(cable);
-      cable.attachment = own.subarray(14, 17);
-      cable.anchor = own.subarray(17, 20);
       cable.points = numbers.subarray(atPoints + 3 * points * i, atPoints + 3 * points * (i + 1));
       return cable;
     }),
-    modes: modesOf(numbers.subarray(atModes, atModes + modes * (MODE + cables)), cables),
+    modes: modesOf(numbers.subarray(atModes, atModes + modes * (MODE_SIZE + cables)), cables),
   };
 }
 
 /** Modes of their numbers, for a robot with this number of cables. */
 export function modesOf(numbers, cables) {
-  return Array.from({ length: numbers.length / (MODE + cables) }, (_, i) => {
-    const own = numbers.subarray(i * (MODE + cables), (i + 1) * (MODE + cables));
+  const size = MODE_SIZE + cables;
+  return Array.from({ length: numbers.length / size }, (_, i) => {
+    const own = numbers.subarray(i * size, (i + 1) * size);
+    const mode = named(MODE, own);
     return {
-      hz: own[0],
-      multiplicity: own[1],
-      damping: own[2],
-      kind: KINDS[own[3]],
-      platformShare: own[4],
-      mass: own[5],
-      shape: Array.from(own.subarray(6, 12)),
-      cableShares: Array.from(own.subarray(MODE)),
+      ...mode,
+      kind: KINDS[mode.kind],
+      shape: Array.from(mode.shape),
+      cableShares: Array.from(own.subarray(MODE_SIZE)),
     };
   });
 }

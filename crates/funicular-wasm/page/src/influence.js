@@ -67,8 +67,8 @@ async function compute() {
 /** Derivatives of the chosen frequency; a frequency that several modes share has none. */
 function derivatives() {
   const { table, mode } = found;
-  const nearest = (list) =>
-    list.reduce((best, one) => (Math.abs(one.value - mode.hz) < Math.abs(best.value - mode.hz) ? one : best), list[0]);
+  const distance = ({ value }) => Math.abs(value - mode.hz);
+  const nearest = (list) => list.reduce((best, one) => (distance(one) < distance(best) ? one : best), list[0]);
   const own = nearest(table.results);
   const refused = table.refused?.map(({ name, reason }) => `${name}: ${reason}`);
   if (!own || Math.abs(own.value / mode.hz - 1) > 1e-3) {
@@ -90,9 +90,8 @@ function show() {
   if (!found) {
     const { frame } = page;
     const none = frame?.first?.reason ? ` There is no first one of the platform: ${frame.first.reason}` : "";
-    place.replaceChildren(
-      element("p", { class: "soft" }, frame ? `Choose a natural frequency in the table above.${none}` : "–"),
-    );
+    const text = frame ? `Choose a natural frequency in the table above.${none}` : "–";
+    place.replaceChildren(element("p", { class: "soft" }, text));
     return;
   }
   const { result, reason } = found.reason ? found : derivatives();
@@ -117,39 +116,29 @@ function show() {
     place.replaceChildren(element("p", { class: "soft" }, "No value moves this frequency."));
     return;
   }
-  const step = ({ unit, tolerance }) =>
-    table.per === "tolerance" ? ` (${short(tolerance, 2)}${unit === "1" ? "" : ` ${unit}`})` : "";
+  const step = ({ unit, tolerance }) => {
+    const ofUnit = unit === "1" ? "" : ` ${unit}`;
+    return table.per === "tolerance" ? ` (${short(tolerance, 2)}${ofUnit})` : "";
+  };
   const label = `Change of ${short(result.value, 5)} Hz ${STEPS[table.per]}`;
   const past = pastOf(table);
-  const rows = bars({
-    rows: largest.map((one) => ({
-      name: `${one.path}${step(one)}`,
-      path: one.path,
-      value: one.effect,
-      past: past?.get(one.path),
-    })),
-    label,
-    unit: "%",
-  });
-  place.innerHTML = rows;
-  place.append(
-    element(
-      "p",
-      { class: "soft" },
-      `${table.held_means[0].toUpperCase()}${table.held_means.slice(1)}. A click on a bar adds a slider for the value.`,
-    ),
-  );
+  const rows = largest.map((one) => ({
+    name: `${one.path}${step(one)}`,
+    path: one.path,
+    value: one.effect,
+    past: past?.get(one.path),
+  }));
+  place.innerHTML = bars({ rows, label, unit: "%" });
+  const held = `${table.held_means[0].toUpperCase()}${table.held_means.slice(1)}`;
+  place.append(element("p", { class: "soft" }, `${held}. A click on a bar adds a slider for the value.`));
 }
 
 /** Effects of the remembered state on its mode of this number, by paths; none if it was of another kind. */
 function pastOf(table) {
   const before = page.before?.influence;
-  if (
-    !before?.table ||
-    before.index !== found.index ||
-    before.table.per !== table.per ||
-    before.table.held !== table.held
-  ) {
+  const isSame =
+    before?.table && before.index === found.index && before.table.per === table.per && before.table.held === table.held;
+  if (!isSame) {
     return null;
   }
   const { parameters } = before.table;
@@ -179,9 +168,8 @@ function showFirst() {
   const first = frame?.first;
   const button = $("influence-first");
   button.disabled = first?.index === undefined;
-  button.title = !frame
-    ? reason
-    : (first?.reason ?? (first ? "" : "The first mode of the platform is searched when the platform rests."));
+  const searching = first ? "" : "The first mode of the platform is searched when the platform rests.";
+  button.title = !frame ? reason : (first?.reason ?? searching);
 }
 
 function drop() {
@@ -199,10 +187,8 @@ export function listen() {
   on("remember", () => {
     if (page.before && found?.table) {
       const { result } = derivatives();
-      page.before.influence = result && {
-        ...found,
-        effects: result.derivatives.map((value) => (100 * value) / result.value),
-      };
+      const effects = result?.derivatives.map((value) => (100 * value) / result.value);
+      page.before.influence = result && { ...found, effects };
     }
     show();
   });

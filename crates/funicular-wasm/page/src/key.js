@@ -21,10 +21,10 @@ function speak() {
     const [x, y, z] = frame.position.map((value) => short(Number(value.toFixed(3)), 4));
     const first = frame.modes[frame.first?.index];
     const highest = Math.max(...frame.cables.map((cable) => cable.highest));
+    const resonance = first ? ` First resonance of the platform ${short(first.hz, 3)} hertz.` : "";
     put(
       $("spoken"),
-      `Platform at x ${x}, y ${y}, z ${z} metres. Highest tension ${short(highest, 3)} ` +
-        `newtons.${first ? ` First resonance of the platform ${short(first.hz, 3)} hertz.` : ""}`,
+      `Platform at x ${x}, y ${y}, z ${z} metres. ` + `Highest tension ${short(highest, 3)} newtons.${resonance}`,
     );
   }
 }
@@ -37,13 +37,8 @@ function platformFact(frame, delta) {
   if (own) {
     return [`${short(own.hz, 4)} Hz`, `mode ${frame.first.index + 1}${delta(before && first(before.frame)?.hz)}`];
   }
-  return frame.first
-    ? ["–", frame.first.reason]
-    : [
-        "…",
-        `above the ${frame.modes.length} lowest; ` +
-          `${page.view.dragging ? "searched when the platform rests" : "searching"}`,
-      ];
+  const now = page.view.dragging ? "searched when the platform rests" : "searching";
+  return frame.first ? ["–", frame.first.reason] : ["…", `above the ${frame.modes.length} lowest; ${now}`];
 }
 
 function showKey() {
@@ -71,25 +66,20 @@ function factsOf(frame) {
   const highest = frame.cables.reduce((best, cable, i) => (cable.highest > frame.cables[best].highest ? i : best), 0);
   const lowest = frame.cables.reduce((best, cable, i) => (cable.lowest < frame.cables[best].lowest ? i : best), 0);
   const top = frame.cables[highest];
+  const bottom = frame.cables[lowest];
   const [first] = frame.modes;
   const delta = (past) => (past ? ` (before ${short(past, 4)})` : "");
-  const isLimited = frame.limited && Number.isFinite(top.maximum);
-  const ofMaximum = isLimited ? `, ${short((100 * top.highest) / top.maximum, 3)} % of its maximum` : "";
-  const minimum = frame.limited ? `, minimum ${short(frame.cables[lowest].minimum, 3)} N` : "";
-  const past = before?.frame.cables;
+  const ofMaximum =
+    frame.limited && Number.isFinite(top.maximum)
+      ? `, ${short((100 * top.highest) / top.maximum, 3)} % of its maximum`
+      : "";
+  const ofMinimum = frame.limited ? `, minimum ${short(bottom.minimum, 3)} N` : "";
+  const highestBefore = before && Math.max(...before.frame.cables.map((cable) => cable.highest));
+  const lowestBefore = before && Math.min(...before.frame.cables.map((cable) => cable.lowest));
   return [
-    [
-      `${short(top.highest, 4)} N`,
-      `cable ${names[highest]}${ofMaximum}${delta(past && Math.max(...past.map((cable) => cable.highest)))}`,
-    ],
-    [
-      `${short(frame.cables[lowest].lowest, 4)} N`,
-      `cable ${names[lowest]}${minimum}${delta(past && Math.min(...past.map((cable) => cable.lowest)))}`,
-    ],
-    [
-      first ? `${short(first.hz, 4)} Hz` : "–",
-      first ? `of the ${KINDS[first.kind]}${delta(before?.frame.modes[0]?.hz)}` : "",
-    ],
+    [`${short(top.highest, 4)} N`, `cable ${names[highest]}${ofMaximum}${delta(highestBefore)}`],
+    [`${short(bottom.lowest, 4)} N`, `cable ${names[lowest]}${ofMinimum}${delta(lowestBefore)}`],
+    first ? [`${short(first.hz, 4)} Hz`, `of the ${KINDS[first.kind]}${delta(before?.frame.modes[0]?.hz)}`] : ["–", ""],
     platformFact(frame, delta),
     payloadFact(delta),
     [
@@ -114,11 +104,8 @@ function payloadFact(delta) {
   }
   const limiting = maximum.cables.filter((cable) => cable.limit_reached === "maximum").map((cable) => cable.name);
   const slack = maximum.cables.filter((cable) => cable.limit_reached === "minimum").map((cable) => cable.name);
-  const by = limiting.length
-    ? `limited by cable ${limiting.join(", ")}`
-    : slack.length
-      ? `cable ${slack.join(", ")} reaches its minimum`
-      : "";
+  const least = slack.length ? `cable ${slack.join(", ")} reaches its minimum` : "";
+  const by = limiting.length ? `limited by cable ${limiting.join(", ")}` : least;
   return [`${short(maximum.payload_kg, 4)} kg`, `${by}${delta(before?.payload?.maximum?.payload_kg)}`];
 }
 

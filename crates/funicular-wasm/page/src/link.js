@@ -12,23 +12,17 @@ import { content, page, shown } from "./store.js";
 function linkState() {
   const { robot, ...rest } = content;
   const own = ROBOTS[robot.name] === robot.text ? { ...robot, text: undefined } : robot;
-  return {
-    version: 1,
-    ...rest,
-    robot: own,
-    mode: shown.mode,
-    modes: shown.modes,
-    response: shown.response,
-    exaggeration: shown.exaggeration,
-    camera: page.view.camera6,
-  };
+  const { mode, modes, response, exaggeration } = shown;
+  return { version: 1, ...rest, robot: own, mode, modes, response, exaggeration, camera: page.view.camera6 };
 }
 
 /**
  * Everything for a page around this one: a link, with the text of the robot, and the tension rule only where it counts.
  */
-export const told = () =>
-  JSON.parse(JSON.stringify({ ...linkState(), robot: content.robot, rule: mayChoose() ? content.rule : "" }));
+export const told = () => {
+  const rule = mayChoose() ? content.rule : "";
+  return JSON.parse(JSON.stringify({ ...linkState(), robot: content.robot, rule }));
+};
 
 /**
  * Restores the state of a link.
@@ -60,22 +54,18 @@ export async function restore(state) {
   $("exaggeration").value = display.exaggeration;
   $("count").value = display.modes;
   $("rule").value = rule;
-  await setRobot(
-    state.robot.name,
-    text,
-    {
-      robot: { name: state.robot.name, text, set: state.robot.set ?? [] },
-      hold: hold ?? "file",
-      pose: pose ?? null,
-      lengths: lengths ?? null,
-      start,
-      rule,
-      pinned: pinned ?? [],
-      more: more ?? {},
-      model: model ?? {},
-    },
-    display,
-  );
+  const own = {
+    robot: { name: state.robot.name, text, set: state.robot.set ?? [] },
+    hold: hold ?? "file",
+    pose: pose ?? null,
+    lengths: lengths ?? null,
+    start,
+    rule,
+    pinned: pinned ?? [],
+    more: more ?? {},
+    model: model ?? {},
+  };
+  await setRobot(state.robot.name, text, own, display);
 }
 
 /** Link in the address; empty if there is none. The name of a place on the page is none. */
@@ -102,9 +92,8 @@ export function listen() {
       await restoreAddress();
       showLibrary();
     } catch (error) {
-      tell(
-        `${error.message} The robot on the page is still the one before, ${page.about?.name ?? content.robot.name}.`,
-      );
+      const name = page.about?.name ?? content.robot.name;
+      tell(`${error.message} The robot on the page is still the one before, ${name}.`);
     }
   });
 }

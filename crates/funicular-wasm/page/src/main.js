@@ -156,12 +156,10 @@ async function start() {
     $("state").dataset.settled = String(Number($("state").dataset.settled ?? 0) + 1);
   });
   $("remember").addEventListener("click", remember);
-  $("theme").addEventListener("click", () =>
-    setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"),
-  );
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ({ matches }) =>
-    setTheme(matches ? "dark" : "light"),
-  );
+  const { dataset } = document.documentElement;
+  $("theme").addEventListener("click", () => setTheme(dataset.theme === "dark" ? "light" : "dark"));
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  dark.addEventListener("change", ({ matches }) => setTheme(matches ? "dark" : "light"));
   performance.mark("ready");
   await firstRobot();
   performance.mark("complete");

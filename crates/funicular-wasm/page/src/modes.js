@@ -22,6 +22,7 @@ function listedModes({ listed, first }) {
 }
 
 function rowOf() {
+  const share = { class: "share", title: "fraction of the kinetic energy in the platform" };
   const row = element(
     "tr",
     { class: "pick" },
@@ -29,11 +30,7 @@ function rowOf() {
     element("td"),
     element("td"),
     element("td", { class: "left" }),
-    element(
-      "td",
-      { class: "left" },
-      element("span", { class: "share", title: "fraction of the kinetic energy in the platform" }, element("i")),
-    ),
+    element("td", { class: "left" }, element("span", share, element("i"))),
     element("td", { class: "before", hidden: true }),
   );
   row.addEventListener("click", () => chooseMode(shown.mode === row.mode ? -1 : row.mode));
@@ -76,7 +73,7 @@ export function chooseMode(index) {
   shown.mode = index;
   showModes();
   if (index < 0) {
-    page.view.setMode(null);
+    page.view.playback.setMode(null);
   } else {
     change({ mode: true });
   }
@@ -103,14 +100,15 @@ export function listen() {
     }
   });
   $("play").addEventListener("click", () => {
-    if (view.mode) {
-      view.mode.playing = !view.mode.playing;
-      $("play").textContent = view.mode.playing ? "Pause" : "Play";
+    const { mode } = view.playback;
+    if (mode) {
+      mode.playing = !mode.playing;
+      $("play").textContent = mode.playing ? "Pause" : "Play";
       view.draw();
     }
   });
   $("amplitude").addEventListener("input", () => {
-    view.amplitude = Number($("amplitude").value);
+    view.playback.amplitude = Number($("amplitude").value);
     view.draw();
   });
   $("count").addEventListener("change", () => {

@@ -70,9 +70,9 @@ export function setPose(pose) {
 
 function showHold() {
   const present = content.hold === "file" ? (holdsLengths() ? "lengths" : "pose") : content.hold;
-  document
-    .querySelectorAll("[data-hold]")
-    .forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.hold === present)));
+  document.querySelectorAll("[data-hold]").forEach((button) => {
+    button.setAttribute("aria-pressed", String(button.dataset.hold === present));
+  });
   $("rule").disabled = !mayChoose();
 }
 
@@ -130,19 +130,18 @@ function showFrame() {
   view.setFrame(frame, view.dragging);
   const under = Number.isFinite(frame.distance) && frame.distance > 0;
   showPose(content.hold === "pose" && !under ? content.pose : [...frame.position, ...frame.angles]);
+  const [x, y, z] = frame.position.map((value) => short(value));
   view.canvas.setAttribute(
     "aria-label",
-    `Robot with ${frame.cables.length} cables; platform at x ${short(frame.position[0])}, y ` +
-      `${short(frame.position[1])}, z ${short(frame.position[2])} metres. Arrow keys move the platform, Page ` +
-      `up and Page down lift it.`,
+    `Robot with ${frame.cables.length} cables; ` +
+      `platform at x ${x}, y ${y}, z ${z} metres. Arrow keys move the platform, Page up and Page down lift it.`,
   );
   const parts = [];
   if (holdsLengths()) {
     parts.push("The pose follows from the cable lengths.");
   } else if (under) {
-    parts.push(
-      `The cables cannot hold the requested pose: this is the nearest one, ${short(frame.distance, 3)} m away.`,
-    );
+    const away = `${short(frame.distance, 3)} m away`;
+    parts.push(`The cables cannot hold the requested pose: this is the nearest one, ${away}.`);
   } else {
     parts.push("The cable lengths follow from the pose.");
   }
@@ -209,17 +208,20 @@ export const handles = {
   turned: () => {},
 };
 
+/** Axis and direction in which a key moves the platform. */
+const KEYS = {
+  ArrowRight: [0, 1],
+  ArrowLeft: [0, -1],
+  ArrowUp: [1, 1],
+  ArrowDown: [1, -1],
+  PageUp: [2, 1],
+  PageDown: [2, -1],
+};
+
 let keys = 0;
 
 function onKey(event) {
-  const axis = {
-    ArrowRight: [0, 1],
-    ArrowLeft: [0, -1],
-    ArrowUp: [1, 1],
-    ArrowDown: [1, -1],
-    PageUp: [2, 1],
-    PageDown: [2, -1],
-  }[event.key];
+  const axis = KEYS[event.key];
   const pose = axis && presentPose();
   if (!pose) {
     return;
@@ -241,15 +243,15 @@ export function listen() {
   on("frame-refused", frameRefused);
   document.querySelectorAll("[data-handle]").forEach((button) =>
     button.addEventListener("click", () => {
-      document
-        .querySelectorAll("[data-handle]")
-        .forEach((other) => other.setAttribute("aria-pressed", String(other === button)));
+      document.querySelectorAll("[data-handle]").forEach((other) => {
+        other.setAttribute("aria-pressed", String(other === button));
+      });
       view.setHandles(button.dataset.handle);
     }),
   );
-  document
-    .querySelectorAll("[data-look]")
-    .forEach((button) => button.addEventListener("click", () => view.look(button.dataset.look)));
+  document.querySelectorAll("[data-look]").forEach((button) => {
+    button.addEventListener("click", () => view.look(button.dataset.look));
+  });
   $("exaggeration").addEventListener("input", () => {
     const value = numberOf($("exaggeration").value);
     if (value !== null && value >= 0 && value <= 1000) {
@@ -282,9 +284,9 @@ export function listen() {
     });
   });
   $("pose").addEventListener("submit", (event) => event.preventDefault());
-  document
-    .querySelectorAll("[data-hold]")
-    .forEach((button) => button.addEventListener("click", () => hold(button.dataset.hold)));
+  document.querySelectorAll("[data-hold]").forEach((button) => {
+    button.addEventListener("click", () => hold(button.dataset.hold));
+  });
   $("home").addEventListener("click", () => {
     Object.assign(content, { hold: "file", pose: null, lengths: null, start: null });
     change({ robot: true });

@@ -109,9 +109,10 @@ async function release() {
     return;
   }
   shown.released = true;
-  page.view.setRelease({
+  page.view.playback.setRelease({
     seconds,
     slowdown: last.slowdown,
+    clock: moveClock,
     start: { shape: last.start, cables: cables && summed(cables, own) },
     at: (t) => {
       const factors = modes.map((mode, k) => own[k] * decay(mode, t));
@@ -124,7 +125,6 @@ async function release() {
       };
     },
   });
-  page.view.mode.clock = moveClock;
   $("release-stop").hidden = false;
   show();
 }
@@ -138,13 +138,8 @@ async function staticDisplacement(frame, payload, point) {
   const { check } = page.about;
   const held = rest.force_n ?? check.load?.force_n ?? [0, 0, 0];
   const force = held.map((value, k) => value + payload * check.gravity_m_s2[k]);
-  const request = {
-    command: "statics",
-    ...rest,
-    lengths_m: frame.cables.map((cable) => cable.length),
-    force_n: force,
-    load_point_m: point,
-  };
+  const lengths = frame.cables.map((cable) => cable.length);
+  const request = { command: "statics", ...rest, lengths_m: lengths, force_n: force, load_point_m: point };
   try {
     const text = await job.run(1, async ([worker]) => (await worker.call("answer", { request })).text);
     return { complete: JSON.parse(text).pose.position_m.map((value, k) => value - frame.position[k]) };
@@ -192,12 +187,12 @@ function noteOf({ complete, reason, linear, off, count }) {
   const millimetres = (list) => `${short(1000 * Math.hypot(...list), 4)} mm`;
   const apart =
     off > LINEAR_LIMIT
-      ? ` They differ by ${short(100 * off, 2)} %: the payload is too large for small motions, or the ` +
-        `platform has important modes above these.`
+      ? ` They differ by ${short(100 * off, 2)} %: the payload is too large for small motions, or the platform has ` +
+        "important modes above these."
       : "";
   return (
-    `The complete static model moves the platform by ${millimetres(complete)} under this payload, the listed ` +
-    `modes by ${millimetres(linear)} (${count} modes).${apart}`
+    `The complete static model moves the platform by ${millimetres(complete)} under this payload, ` +
+    `the listed modes by ${millimetres(linear)} (${count} modes).${apart}`
   );
 }
 
@@ -215,21 +210,12 @@ function show() {
     factor: 1000,
     width: Math.max(280, $("release").clientWidth),
   });
-  const scale = page.view.releaseScale;
-  const motion =
-    scale === 1
-      ? "the motion is to scale"
-      : `the view shows the motion ${short(scale > 1 ? scale : 1 / scale, 3)} times ` +
-        `${scale > 1 ? "larger" : "smaller"}`;
+  const scale = page.view.playback.releaseScale;
+  const times = `${short(scale > 1 ? scale : 1 / scale, 3)} times ${scale > 1 ? "larger" : "smaller"}`;
+  const motion = scale === 1 ? "the motion is to scale" : `the view shows the motion ${times}`;
   $("release").innerHTML = figure;
-  $("release").append(
-    element(
-      "p",
-      { class: "soft" },
-      `Time runs ${last.slowdown > 1 ? `${short(last.slowdown, 2)} times slower` : "as it is"}; ${motion}. ` +
-        `${last.note ?? ""}`,
-    ),
-  );
+  const slowdown = last.slowdown > 1 ? `${short(last.slowdown, 2)} times slower` : "as it is";
+  $("release").append(element("p", { class: "soft" }, `Time runs ${slowdown}; ${motion}. ${last.note ?? ""}`));
 }
 
 /** Moves the line of the present time in the figure. */
@@ -248,7 +234,7 @@ function moveClock(t) {
 function stop() {
   if (shown.released) {
     shown.released = false;
-    page.view.setRelease(null);
+    page.view.playback.setRelease(null);
     $("release-stop").hidden = true;
   }
   $("release").replaceChildren();

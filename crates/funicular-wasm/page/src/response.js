@@ -13,21 +13,19 @@ function signals() {
   const axes = ["x", "y", "z"];
   const forces = axes.map((axis, k) => (k === out ? null : [`f${axis}`, `force along ${axis}`]));
   const moments = axes.map((axis, k) => (name === "rigid" || k === out ? [`m${axis}`, `moment about ${axis}`] : null));
-  const motions = ["", "v", "a"].flatMap((kind, j) =>
-    axes.map((axis, k) =>
-      k === out ? null : [`${kind}${axis}`, `${["displacement", "velocity", "acceleration"][j]} along ${axis}`],
-    ),
+  const kinds = [
+    ["", "displacement"],
+    ["v", "velocity"],
+    ["a", "acceleration"],
+  ];
+  const motions = kinds.flatMap(([kind, word]) =>
+    axes.map((axis, k) => (k === out ? null : [`${kind}${axis}`, `${word} along ${axis}`])),
   );
   const options = (list) => list.filter(Boolean).map(([value, text]) => element("option", { value }, text));
   $("input").replaceChildren(...options([...forces, ...moments]));
   $("output").replaceChildren(...options(motions));
-  shown.response ??= {
-    input: out === 2 ? "fx" : "fz",
-    output: out === 2 ? "ax" : "az",
-    from: null,
-    to: null,
-    log: false,
-  };
+  const [input, output] = out === 2 ? ["fx", "ax"] : ["fz", "az"];
+  shown.response ??= { input, output, from: null, to: null, log: false };
   showSignals();
 }
 
@@ -59,8 +57,8 @@ function setRange(key, field) {
   if (value === null || value < 0 || !(next.from < next.to) || (next.log && !(next.from > 0))) {
     refuse(
       field,
-      "the range of the response needs two frequencies, the first below the second, and above zero if it is " +
-        "logarithmic",
+      "the range of the response needs two frequencies, the first below the second, " +
+        "and above zero if it is logarithmic",
     );
     return;
   }
@@ -126,11 +124,8 @@ export function listen() {
     if (!shown.response?.to) {
       return; // without a range, which the first response chooses
     }
-    shown.response = {
-      ...shown.response,
-      log: $("log").checked,
-      from: shown.response.from || Number((shown.response.to / 200).toPrecision(2)),
-    };
+    const from = shown.response.from || Number((shown.response.to / 200).toPrecision(2));
+    shown.response = { ...shown.response, log: $("log").checked, from };
     showSignals();
     change({ response: true });
   });

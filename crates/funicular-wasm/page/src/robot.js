@@ -92,13 +92,13 @@ function showRobot(isNew) {
 function showRefusal(error) {
   const { issues } = error;
   const count = issues.length === 1 ? "an error" : `${issues.length} errors`;
-  tell(
-    issues.length === 0
-      ? textOf(error)
-      : content.robot.set.length
-        ? `A value of the robot is refused: ${issues[0].message}`
-        : `The robot file has ${count}: line ${issues[0].line}: ${issues[0].message}`,
-  );
+  if (issues.length === 0) {
+    tell(textOf(error));
+  } else if (content.robot.set.length) {
+    tell(`A value of the robot is refused: ${issues[0].message}`);
+  } else {
+    tell(`The robot file has ${count}: line ${issues[0].line}: ${issues[0].message}`);
+  }
   shown.issues = issues;
   showText(content.robot.set.length === 0 ? content.robot.text : null);
   $("issues").replaceChildren(
@@ -127,10 +127,13 @@ let openings = 0;
 function tooLarge(list) {
   const size = list.reduce((sum, file) => sum + file.size, 0);
   const [named, has] = list.length === 1 ? [list[0].name, "has"] : [`These ${list.length} files`, "have"];
-  return size > MAX_BYTES
-    ? `${named} ${has} ${(size / 1e6).toFixed(1)} MB, which is more than the ${MAX_BYTES / 1e6} MB that a ` +
-        `robot may have: choose the file of the robot. The robot on the page is the one before.`
-    : null;
+  if (size <= MAX_BYTES) {
+    return null;
+  }
+  return (
+    `${named} ${has} ${(size / 1e6).toFixed(1)} MB, which is more than the ${MAX_BYTES / 1e6} MB that a robot may ` +
+    "have: choose the file of the robot. The robot on the page is the one before."
+  );
 }
 
 async function openFiles(list) {
@@ -146,10 +149,8 @@ async function openFiles(list) {
   }
   const done = busy(`Reading ${chosen.map(({ name }) => name).join(", ")}`, stop);
   try {
-    await read(
-      await Promise.all(chosen.map(async (file) => ({ path: file.name, text: await file.text() }))),
-      () => own === openings,
-    );
+    const files = chosen.map(async (file) => ({ path: file.name, text: await file.text() }));
+    await read(await Promise.all(files), () => own === openings);
   } catch (error) {
     const names = chosen.map(({ name }) => name).join(", ");
     if (own !== openings) {
@@ -158,10 +159,8 @@ async function openFiles(list) {
     if (error instanceof Cancelled) {
       tell(`Cancelled: ${names} was not read. The robot on the page is the one before.`, true);
     } else {
-      tell(
-        `${error.message.startsWith(names) ? "" : `${names}: `}${importAdvice(error.message)}\nThe robot on ` +
-          `the page is the one before.`,
-      );
+      const from = error.message.startsWith(names) ? "" : `${names}: `;
+      tell(`${from}${importAdvice(error.message)}\nThe robot on the page is the one before.`);
     }
   } finally {
     done();
@@ -172,7 +171,7 @@ async function openFiles(list) {
 const importAdvice = (message) =>
   /`(mass_kg_per_m|youngs_modulus_pa|diameter_m|lengths_m|pose)`/.test(message)
     ? `${message}\nThis page has no fields for these values: run \`funicular import\` with them as options, ` +
-      `such as \`--mass-kg-per-m\`, and open the file that it writes.`
+      "such as `--mass-kg-per-m`, and open the file that it writes."
     : message;
 
 /** Shows the robot of files. `isLast()`: no others were opened meanwhile. */
@@ -201,9 +200,8 @@ async function read(files, isLast) {
 /** Shows which robot of the library this is, or that it is another one. */
 export function showLibrary() {
   const own = ROBOTS[content.robot.name] !== undefined && ROBOTS[content.robot.name] === content.robot.text;
-  const options = Object.entries(ROBOTS).map(([name, text]) =>
-    element("option", { value: name }, /^name = "(.*)"/m.exec(text)?.[1] ?? name),
-  );
+  const title = (name, text) => /^name = "(.*)"/m.exec(text)?.[1] ?? name;
+  const options = Object.entries(ROBOTS).map(([name, text]) => element("option", { value: name }, title(name, text)));
   if (!own) {
     options.unshift(element("option", { value: "" }, content.robot.name || "own file"));
   }
@@ -236,11 +234,8 @@ async function openEditor() {
       commit();
     }, 300);
   });
-  showText(
-    shown.issues.length && content.robot.set.length === 0
-      ? content.robot.text
-      : (page.about?.text ?? content.robot.text),
-  );
+  const isOfFile = shown.issues.length && content.robot.set.length === 0;
+  showText(isOfFile ? content.robot.text : (page.about?.text ?? content.robot.text));
   editor.schema = JSON.parse((await page.engine.call("answer", { request: { command: "schema" } })).text);
 }
 

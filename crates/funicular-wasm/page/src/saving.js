@@ -17,23 +17,19 @@ const FIGURES = {
   release: ["release", "There is no release yet: press “Release” below “Release of a payload” first."],
 };
 
-const fileName = () =>
-  `${(content.robot.name || page.about?.name || "robot")
-    .replace(/^.*[/\\]/, "")
-    .replace(/\.toml$/, "")
-    .replace(/[^\w.-]+/g, "-")
-    .toLowerCase()}.toml`;
+function fileName() {
+  const name = (content.robot.name || page.about?.name || "robot").replace(/^.*[/\\]/, "").replace(/\.toml$/, "");
+  return `${name.replace(/[^\w.-]+/g, "-").toLowerCase()}.toml`;
+}
 
 /** Derivatives of the chosen frequency, the last of their table; none if no frequency is chosen. */
 function gradientOf() {
   const mode = page.frame.modes[shown.mode];
-  return mode
-    ? {
-        belowHz: Number((1.0001 * mode.hz).toPrecision(7)),
-        per: $("influence-per").value,
-        hold: $("influence-hold").value,
-      }
-    : null;
+  if (!mode) {
+    return null;
+  }
+  const belowHz = Number((1.0001 * mode.hz).toPrecision(7));
+  return { belowHz, per: $("influence-per").value, hold: $("influence-hold").value };
 }
 
 /** Empties the commands: the words would compute nothing. */
@@ -114,15 +110,20 @@ function saveRobot(name) {
 function styled(figure) {
   const style = getComputedStyle(document.documentElement);
   const color = (name) => style.getPropertyValue(name).trim();
-  const [soft, line, accent] = ["--soft", "--line", "--accent"].map(color);
   const rules = [
-    `.axis{stroke:${soft}}.frame{fill:none;stroke:${soft}}.here{fill:none;stroke:#d1249d;stroke-width:2.5}`,
-    `text{fill:${soft}}.grid{stroke:${line}}.mode{stroke:#777}.now{fill:none;stroke:${accent};stroke-width:1.6}`,
-    `.past{fill:none;stroke:#777;stroke-dasharray:4 3}.peak{fill:${accent}}svg{font:11px sans-serif}`,
+    `.axis{stroke:${color("--soft")}}`,
+    `.frame{fill:none;stroke:${color("--soft")}}`,
+    ".here{fill:none;stroke:#d1249d;stroke-width:2.5}",
+    `text{fill:${color("--soft")}}`,
+    `.grid{stroke:${color("--line")}}`,
+    ".mode{stroke:#777}",
+    `.now{fill:none;stroke:${color("--accent")};stroke-width:1.6}`,
+    ".past{fill:none;stroke:#777;stroke-dasharray:4 3}",
+    `.peak{fill:${color("--accent")}}`,
+    "svg{font:11px sans-serif}",
   ].join("");
-  return figure
-    .replaceAll("var(--none)", color("--none"))
-    .replace(/>/, `><style>${rules}</style><rect width="100%" height="100%" fill="${color("--paper")}"/>`);
+  const paper = `<rect width="100%" height="100%" fill="${color("--paper")}"/>`;
+  return figure.replaceAll("var(--none)", color("--none")).replace(/>/, `><style>${rules}</style>${paper}`);
 }
 
 /** Results of the program for the present state, in its JSON. */
@@ -133,19 +134,14 @@ async function results() {
   const done = busy("Computing the results for the file", () => job.cancel());
   try {
     return await job.run(1, async ([worker]) => {
-      const ask = async (command, more = {}) =>
-        JSON.parse((await worker.call("answer", { request: { command, ...state, ...more } })).text);
+      const ask = async (command, more = {}) => {
+        const request = { command, ...state, ...more };
+        return JSON.parse((await worker.call("answer", { request })).text);
+      };
       const own = { statics: await ask("statics"), modes: await ask("modes", { ...content.model, below_hz: belowHz }) };
       if (from !== null) {
-        own.frf = await ask("frf", {
-          ...content.model,
-          input,
-          output,
-          from_hz: from,
-          to_hz: to,
-          points: RESPONSE_POINTS,
-          log,
-        });
+        const range = { from_hz: from, to_hz: to, points: RESPONSE_POINTS, log };
+        own.frf = await ask("frf", { ...content.model, input, output, ...range });
       }
       return own;
     });
@@ -155,14 +151,12 @@ async function results() {
 }
 
 function csv({ statics: rest, modes, frf }) {
-  const cell = (value) =>
-    value === undefined
-      ? ""
-      : /[",\n]/.test(String(value))
-        ? `"${String(value).replaceAll('"', '""')}"`
-        : String(value);
-  const table = (keys, rows) =>
-    [keys.join(","), ...rows.map((row) => keys.map((key) => cell(row[key])).join(","))].join("\n");
+  const cell = (value) => {
+    const text = value === undefined ? "" : String(value);
+    return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  };
+  const line = (keys, row) => keys.map((key) => cell(row[key])).join(",");
+  const table = (keys, rows) => [keys.join(","), ...rows.map((row) => line(keys, row))].join("\n");
   const parts = [
     table(
       [
@@ -180,12 +174,8 @@ function csv({ statics: rest, modes, frf }) {
     table(["frequency_hz", "damping_ratio", "kind", "platform_energy_fraction"], modes.modes),
   ];
   if (frf) {
-    parts.push(
-      table(
-        ["frequency_hz", "real", "imag"],
-        frf.frequency_hz.map((hz, i) => ({ frequency_hz: hz, real: frf.real[i], imag: frf.imag[i] })),
-      ),
-    );
+    const rows = frf.frequency_hz.map((hz, i) => ({ frequency_hz: hz, real: frf.real[i], imag: frf.imag[i] }));
+    parts.push(table(["frequency_hz", "real", "imag"], rows));
   }
   return `${parts.join("\n\n")}\n`;
 }
@@ -220,16 +210,16 @@ export function listen() {
       showWords();
     }
   });
-  document.querySelectorAll("[data-save]").forEach((button) =>
-    button.addEventListener("click", () =>
-      saveAs(button.dataset.save).catch((error) => {
-        if (!(error instanceof Cancelled)) {
-          tell(error.message);
-        }
-      }),
-    ),
-  );
-  document
-    .querySelectorAll("[data-copy]")
-    .forEach((button) => button.addEventListener("click", () => copy($(button.dataset.copy).textContent, button)));
+  const save = (kind) =>
+    saveAs(kind).catch((error) => {
+      if (!(error instanceof Cancelled)) {
+        tell(error.message);
+      }
+    });
+  document.querySelectorAll("[data-save]").forEach((button) => {
+    button.addEventListener("click", () => save(button.dataset.save));
+  });
+  document.querySelectorAll("[data-copy]").forEach((button) => {
+    button.addEventListener("click", () => copy($(button.dataset.copy).textContent, button));
+  });
 }

@@ -25,8 +25,8 @@ export async function unpacked(fragment) {
   if (fragment.length < MIN_LINK) {
     const shown = fragment.length > MAX_SHOWN ? `${fragment.slice(0, MAX_SHOWN)}…` : fragment;
     throw new LinkError(
-      `“#${shown}” at the end of the address is no link of this page, or the rest of it is missing. The ` +
-        `button “Copy link” makes links.`,
+      `“#${shown}” at the end of the address is no link of this page, or the rest of it is missing. ` +
+        "The button “Copy link” makes links.",
     );
   }
   let state = null;
@@ -82,13 +82,10 @@ export function checked(state) {
     throw new LinkError("This link is of another version of the page: open it with that one.");
   }
   const { name, text, set } = state.robot;
-  const robot =
-    isText(name) &&
-    (text === undefined || isText(text)) &&
-    (set === undefined || isList(set, (one) => isObject(one) && isText(one.path)));
-  const parts = Object.entries(PARTS).every(
-    ([key, is]) => state[key] === undefined || state[key] === null || is(state[key]),
-  );
+  const areSet = set === undefined || isList(set, (one) => isObject(one) && isText(one.path));
+  const robot = isText(name) && (text === undefined || isText(text)) && areSet;
+  const isMissing = (key) => state[key] === undefined || state[key] === null;
+  const parts = Object.entries(PARTS).every(([key, is]) => isMissing(key) || is(state[key]));
   const held = { pose: state.pose, lengths: state.lengths };
   if (!robot || !parts || (state.hold in held && !held[state.hold])) {
     throw new LinkError(DAMAGED);

@@ -63,22 +63,15 @@ function rangeOf({ value, minimum, maximum, unit, path }) {
 
 export function showSliders() {
   const none = page.parameters.length === 0 && content.pinned.length > 0;
-  $("sliders").replaceChildren(
-    ...(none
-      ? [element("p", { class: "soft" }, "The values come back when the robot file can be read.")]
-      : content.pinned.map(sliderOf)),
-  );
+  const note = () => element("p", { class: "soft" }, "The values come back when the robot file can be read.");
+  $("sliders").replaceChildren(...(none ? [note()] : content.pinned.map(sliderOf)));
 }
 
 function sliderOf(path) {
   const parameter = known(path);
   if (!parameter) {
-    return element(
-      "div",
-      { class: "slider" },
-      `${path} is not in this robot file `,
-      element("button", { onclick: () => unpin(path) }, "remove"),
-    );
+    const remove = element("button", { onclick: () => unpin(path) }, "remove");
+    return element("div", { class: "slider" }, `${path} is not in this robot file `, remove);
   }
   const id = `value-${path}`;
   const [low, high] = rangeOf(parameter);

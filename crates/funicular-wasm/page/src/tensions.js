@@ -22,31 +22,27 @@ function showLegend() {
     return;
   }
   $("legend").dataset.key = key;
+  const swatch = (color, words) => `<span><i class="one" style="background:${color}"></i>${words}</span>`;
   $("legend").innerHTML =
     `<span>Tension: ${low}<i style="background:linear-gradient(90deg,${scale})"></i>${high}</span>` +
-    `<span><i class="one" style="background:${COLORS.slack}"></i>slack</span><span><i class="one" ` +
-    `style="background:${COLORS.beyond}"></i>beyond a limit</span>` +
+    swatch(COLORS.slack, "slack") +
+    swatch(COLORS.beyond, "beyond a limit") +
     (kinds.drums ? '<span><i class="dot drum"></i>drum</span>' : "") +
     (kinds.pulleys ? `<span><i class="dot wheel"></i>pulley${kinds.guides ? ", guide wheel" : ""}</span>` : "") +
     (kinds.supports ? '<span><i class="dot support"></i>flexible support</span>' : "");
 }
 
 function rowOf(i) {
-  const length = element("input", {
-    "aria-label": `Unstrained length of cable ${i + 1} in metres`,
-    inputmode: "decimal",
-  });
+  const label = `Unstrained length of cable ${i + 1} in metres`;
+  const length = element("input", { "aria-label": label, inputmode: "decimal" });
   length.addEventListener("change", () => setLength(i, length));
+  const track = element("span", { class: "track", role: "img" }, element("i"), element("b", { class: "past" }));
   return element(
     "tr",
     {},
     element("td", { class: "left name" }),
     element("td"),
-    element(
-      "td",
-      { class: "left" },
-      element("span", { class: "track", role: "img" }, element("i"), element("b", { class: "past" })),
-    ),
+    element("td", { class: "left" }, track),
     element("td"),
     element("td"),
     element("td", { class: "lengths" }, length, element("span")),
@@ -86,27 +82,20 @@ function showTensions() {
   }
   const rows = rowsOf("tensions", frame.cables.length, rowOf);
   const free = content.hold === "lengths";
-  const top = Math.max(
-    ...frame.cables.map((cable) =>
-      frame.limited && Number.isFinite(cable.maximum) ? cable.maximum : 1.1 * cable.highest,
-    ),
-  );
+  const isLimited = (cable) => frame.limited && Number.isFinite(cable.maximum);
+  const top = Math.max(...frame.cables.map((cable) => (isLimited(cable) ? cable.maximum : 1.1 * cable.highest)));
   frame.cables.forEach((cable, i) => {
     const { cells } = rows[i];
     put(cells[0], about.check.cables[i].name);
     put(cells[1], short(cable.tension, 5));
-    const most = frame.limited && Number.isFinite(cable.maximum) ? cable.maximum : top;
+    const most = isLimited(cable) ? cable.maximum : top;
     const track = cells[2].firstChild;
     const part = Math.max(0, Math.min(1, cable.highest / most));
     const own = view.lines[i]?.material.color.getHexString();
     track.firstChild.style.cssText = `width:${(100 * part).toFixed(1)}%;background:#${own}`;
-    track.setAttribute(
-      "aria-label",
-      `${short(cable.tension, 4)} of ${short(cable.minimum, 3)} to ${short(cable.maximum, 4)} newtons`,
-    );
-    track.title = frame.limited
-      ? `${short(cable.minimum, 3)} to ${Number.isFinite(cable.maximum) ? short(cable.maximum, 4) : "∞"} N`
-      : "";
+    const [lowest, highest] = [short(cable.minimum, 3), short(cable.maximum, 4)];
+    track.setAttribute("aria-label", `${short(cable.tension, 4)} of ${lowest} to ${highest} newtons`);
+    track.title = frame.limited ? `${lowest} to ${Number.isFinite(cable.maximum) ? highest : "∞"} N` : "";
     const past = before?.frame.cables[i] ? Math.min(1, before.frame.cables[i].highest / most) : null;
     track.lastChild.style.cssText = past === null ? "display:none" : `left:${(100 * past).toFixed(1)}%`;
     put(cells[3], short(100 * cable.sagRatio, 3));
@@ -126,10 +115,8 @@ function setLength(i, field) {
   const { about, last } = page;
   const value = numberOf(field.value);
   if (value === null || value <= 0) {
-    refuse(
-      field,
-      `cable “${about.check.cables[i].name}”: “${field.value}” is not a length; give a positive number of metres`,
-    );
+    const name = about.check.cables[i].name;
+    refuse(field, `cable “${name}”: “${field.value}” is not a length; give a positive number of metres`);
     return;
   }
   accept(field);

@@ -18,7 +18,6 @@ import {
   PerspectiveCamera,
   Points,
   PointsMaterial,
-  Quaternion,
   Scene,
   SphereGeometry,
   Vector3,
@@ -32,13 +31,17 @@ import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { Drives } from "./drives.js";
 import { rotation } from "./frame.js";
+import { Playback } from "./motion.js";
 
 /** Colours of tension from low to high, readable with any colour vision and on both backgrounds. */
 const SCALE = ["#3b6fb6", "#4aa3c8", "#62b78f", "#c9a227", "#d9772b", "#c23b22"].map((hex) => new Color(hex));
 /** Colours of states. */
 export const COLORS = { slack: "#8a8f98", beyond: "#d1249d" };
 const FIELD_OF_VIEW = 35;
-const PERIOD_S = 1.6; // of a mode on the screen
+const VIEW_HALF = 0.44; // of the size of the robot: half of what the view shows of it at first
+const NAME_AT = 0.3; // of the length of a cable from its anchor: place of its name
+const OPACITY = 0.82; // of the platform, so that cables behind it are seen
+const OPACITY_BROKEN = 0.3; // of the platform at a pose without an equilibrium
 
 /** Colour of a fraction from 0 to 1. */
 export function colorOf(fraction) {
@@ -73,10 +76,8 @@ export class View {
     this.place = place;
     this.tell = tell;
     this.exaggeration = 1;
-    this.amplitude = 1;
-    this.mode = null;
+    this.playback = new Playback(this);
     this.lines = [];
-    this.before = null;
     this.canDrag = false; // until there is a pose
     this.pixels = [1, 1];
 
@@ -146,30 +147,27 @@ export class View {
   draw() {
     this.waiting ??= requestAnimationFrame((now) => {
       this.waiting = null;
-      if (this.mode) {
-        this.showMode(now);
-      }
+      this.playback.show(now);
       this.renderer.render(this.scene, this.camera);
       this.placeLabels();
-      if (this.mode?.playing) {
+      if (this.playback.mode?.playing) {
         this.draw();
       }
     });
   }
 
-  /** Puts the names of the cables beside them, at a third of their length from the anchor. */
+  /** Puts the names of the cables beside them, nearer to the anchors, where they are apart. */
   placeLabels() {
     const [width, height] = this.pixels;
     this.labels.hidden = !this.frame;
     this.frame?.cables.forEach(({ attachment, anchor }, i) => {
-      const point = new Vector3(...[0, 1, 2].map((k) => anchor[k] + 0.3 * (attachment[k] - anchor[k]))).project(
-        this.camera,
-      );
+      const place = [0, 1, 2].map((k) => anchor[k] + NAME_AT * (attachment[k] - anchor[k]));
+      const point = new Vector3(...place).project(this.camera);
       const label = this.labels.children[i];
       if (label) {
         label.hidden = Math.abs(point.x) > 1 || Math.abs(point.y) > 1 || point.z > 1;
-        const [left, top] = [((point.x + 1) * width) / 2 + 4, ((1 - point.y) * height) / 2 - 8];
-        label.style.transform = `translate(${left}px, ${top}px)`;
+        const [x, y] = [((point.x + 1) * width) / 2 + 4, ((1 - point.y) * height) / 2 - 8];
+        label.style.transform = `translate(${x}px, ${y}px)`;
       }
     });
   }
@@ -177,7 +175,8 @@ export class View {
   /** Takes the robot away. */
   clear() {
     [this.platform, this.fixed, this.cables, this.remembered].forEach((group) => group.clear());
-    Object.assign(this, { lines: [], frame: null, mode: null, names: [], attachments: [] });
+    Object.assign(this, { lines: [], frame: null, names: [], attachments: [] });
+    this.playback.mode = null;
     this.labels.replaceChildren();
     this.#allowDrag(false);
     this.canvas.setAttribute("aria-label", "View without a robot");
@@ -188,13 +187,11 @@ export class View {
   setRobot(about, frame, keepView) {
     [this.platform, this.fixed, this.cables].forEach((group) => group.clear());
     this.lines = [];
-    this.frame = null;
-    this.mode = null;
+    this.frame = this.playback.mode = null;
     const { cables } = about.check;
     this.names = cables.map((cable) => cable.name);
-    this.labels.replaceChildren(
-      ...this.names.map((name) => Object.assign(document.createElement("span"), { textContent: name })),
-    );
+    const label = (name) => Object.assign(document.createElement("span"), { textContent: name });
+    this.labels.replaceChildren(...this.names.map(label));
     this.attachments = cables.map((cable) => new Vector3(...cable.attachment_m));
     this.motion = about.motion;
 
@@ -231,15 +228,12 @@ export class View {
 
   addFixed(anchors, low) {
     // A ground of about twenty cells below everything.
-    const step = 10 ** Math.floor(Math.log10(this.size / 8)) * 1;
+    const step = 10 ** Math.floor(Math.log10(this.size / 8));
     const cells = Math.ceil((1.3 * this.size) / step / 2) * 2;
     this.grid = new GridHelper(cells * step, cells);
     this.grid.rotation.x = Math.PI / 2;
-    this.grid.position.set(
-      Math.round(this.center.x / step) * step,
-      Math.round(this.center.y / step) * step,
-      Math.min(0, low.z),
-    );
+    const round = (value) => Math.round(value / step) * step;
+    this.grid.position.set(round(this.center.x), round(this.center.y), Math.min(0, low.z));
     this.grid.material.transparent = true;
     this.grid.material.opacity = 0.35;
     this.fixed.add(this.grid);
@@ -257,7 +251,7 @@ export class View {
   addPlatform() {
     const radius = Math.max(...this.attachments.map((point) => point.length()), 0);
     const thin = Math.max(0.02 * this.size, 0.08 * radius);
-    this.platformMaterial = new MeshLambertMaterial({ transparent: true, opacity: 0.82 });
+    this.platformMaterial = new MeshLambertMaterial({ transparent: true, opacity: OPACITY });
     this.edgeMaterial = new LineBasicMaterial();
     let body;
     if (this.motion.name === "point-mass" || radius === 0) {
@@ -266,9 +260,8 @@ export class View {
       // Points in one plane get a thickness, so that every platform is a body.
       const along = this.motion.name === "planar" ? new Vector3(...this.motion.normal) : new Vector3(0, 0, 1);
       const flat = along.clone().multiplyScalar(0.25 * thin);
-      body = new ConvexGeometry(
-        this.attachments.flatMap((point) => [point.clone().add(flat), point.clone().sub(flat)]),
-      );
+      const sides = this.attachments.flatMap((point) => [point.clone().add(flat), point.clone().sub(flat)]);
+      body = new ConvexGeometry(sides);
     }
     this.body = new Mesh(body, this.platformMaterial);
     this.platform.add(this.body);
@@ -331,7 +324,7 @@ export class View {
       this.handle.position.copy(this.platform.position);
       this.handle.quaternion.copy(this.platform.quaternion);
     }
-    this.platformMaterial.opacity = 0.82;
+    this.platformMaterial.opacity = OPACITY;
     this.drives.setFrame(frame);
     this.moveSupports(() => new Vector3());
     const top = Math.max(...frame.cables.map((cable) => cable.highest), 1e-9);
@@ -356,7 +349,7 @@ export class View {
    * @param {?object} pose `position`, `quaternion`; null if it is not known
    */
   setBroken(pose) {
-    this.frame = this.mode = null;
+    this.frame = this.playback.mode = null;
     this.platform.visible = this.cables.visible = pose !== null;
     this.drives?.setUnknown();
     this.#allowDrag(pose !== null);
@@ -376,7 +369,7 @@ export class View {
         line.material.dashed = false;
       });
       if (this.lines.length) {
-        this.platformMaterial.opacity = 0.3;
+        this.platformMaterial.opacity = OPACITY_BROKEN;
       }
     }
     this.draw();
@@ -399,11 +392,8 @@ export class View {
   remember(frame) {
     this.remembered.clear();
     if (frame) {
-      const material = new LineDashedMaterial({
-        color: COLORS.slack,
-        dashSize: 0.012 * this.size,
-        gapSize: 0.008 * this.size,
-      });
+      const [dashSize, gapSize] = [0.012 * this.size, 0.008 * this.size];
+      const material = new LineDashedMaterial({ color: COLORS.slack, dashSize, gapSize });
       for (const { points } of frame.cables) {
         const pairs = [];
         for (let i = 0; i + 3 < points.length; i += 3) {
@@ -417,75 +407,6 @@ export class View {
       }
     }
     this.draw();
-  }
-
-  /** Plays a mode: displacements of the points of the cables and motion of the platform; null ends it. */
-  setMode(mode) {
-    const playing = this.mode?.playing ?? !matchMedia("(prefers-reduced-motion: reduce)").matches;
-    this.mode = mode && { ...mode, playing: mode.playing ?? playing, start: this.mode?.start ?? performance.now() };
-    if (this.mode) {
-      // The largest displacement is a fixed fraction of the robot.
-      this.mode.cables ??= this.straight(this.mode.shape);
-      const { cables, shape } = this.mode;
-      let largest = 1e-30;
-      for (let i = 0; i < cables.length; i += 3) {
-        largest = Math.max(largest, Math.hypot(cables[i], cables[i + 1], cables[i + 2]));
-      }
-      const turned = Math.hypot(...shape.slice(3)) * Math.max(...this.attachments.map((point) => point.length()), 0);
-      largest = Math.max(largest, Math.hypot(...shape.slice(0, 3)), turned);
-      this.mode.scale = (0.035 * this.size) / largest;
-      if (mode.release && this.mode.scale < 1) {
-        // A release that can be seen without magnification is shown as it is, unless it leaves the robot.
-        this.mode.scale = Math.min(1, (0.3 * this.size) / largest);
-      }
-    } else if (this.frame) {
-      this.setFrame(this.frame, this.dragging);
-    }
-    this.draw();
-  }
-
-  /**
-   * Plays a free response; null ends it.
-   * @param {object} release `start` and `at(seconds)` with `shape` and `cables` (null: straight lines), `seconds` until
-   *   the record begins again, `slowdown` of the time
-   */
-  setRelease(release) {
-    this.setMode(release && { ...release.start, release, playing: true });
-    if (this.mode) {
-      this.mode.start = performance.now();
-    }
-  }
-
-  /** Factor by which the motion of the release is larger than it is. */
-  get releaseScale() {
-    return this.mode?.release ? this.mode.scale * this.amplitude : 1;
-  }
-
-  /** Displacements of the points of the cables if their curves are unknown: straight lines that follow the platform. */
-  straight(shape) {
-    const [dx, dy, dz, rx, ry, rz] = shape;
-    return Float64Array.from(
-      this.frame.cables.flatMap(({ attachment, points }) => {
-        const [x, y, z] = attachment.map((value, k) => value - this.frame.position[k]);
-        const end = [dx + ry * z - rz * y, dy + rz * x - rx * z, dz + rx * y - ry * x];
-        const last = points.length / 3 - 1;
-        return Array.from(points, (_, k) => end[k % 3] * (1 - Math.floor(k / 3) / last));
-      }),
-    );
-  }
-
-  /** Displacements on the screen at a time of the screen [ms]. */
-  motionAt(now) {
-    const { mode } = this;
-    const { start, playing, release } = mode;
-    if (release) {
-      const t = ((now - start) / 1000 / release.slowdown) % (1.15 * release.seconds);
-      mode.clock?.(Math.min(t, release.seconds));
-      const found = release.at(Math.max(0, Math.min(t, release.seconds)));
-      return { ...found, cables: found.cables ?? this.straight(found.shape), factor: mode.scale * this.amplitude };
-    }
-    const phase = playing ? Math.sin((2 * Math.PI * (now - start)) / (1000 * PERIOD_S)) : 1;
-    return { ...mode, factor: phase * mode.scale * this.amplitude };
   }
 
   /** Moves anchors and posts on flexible supports. `moved(i)`: displacement of the anchor of cable i on the screen. */
@@ -505,25 +426,6 @@ export class View {
     points.needsUpdate = posts.needsUpdate = true;
   }
 
-  showMode(now) {
-    const { cables, shape, factor } = this.motionAt(now);
-    const perCable = cables.length / this.frame.cables.length;
-    this.moveSupports((i) => new Vector3(...[3, 2, 1].map((k) => factor * cables[(i + 1) * perCable - k])));
-    let at = 0;
-    this.frame.cables.forEach((cable, i) => {
-      const own = this.exaggerated(cable);
-      const moved = Float64Array.from(own, (value, k) => value + factor * cables[at + k]);
-      at += own.length;
-      this.lines[i].geometry.setPositions(moved);
-    });
-    const [w, x, y, z] = this.frame.quaternion;
-    this.platform.position.set(...this.frame.position.map((value, k) => value + factor * shape[k]));
-    const turn = new Vector3(shape[3], shape[4], shape[5]).multiplyScalar(factor);
-    const angle = turn.length();
-    const extra = new Quaternion().setFromAxisAngle(angle > 0 ? turn.normalize() : new Vector3(0, 0, 1), angle);
-    this.platform.quaternion.copy(extra.multiply(new Quaternion(x, y, z, w)));
-  }
-
   /** Looks from a named direction. */
   look(name) {
     const directions = {
@@ -534,7 +436,7 @@ export class View {
     };
     const direction = new Vector3(...directions[name]).normalize();
     const wide = Math.max(1, 1.25 / this.camera.aspect);
-    const distance = (0.44 * this.size * wide) / Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
+    const distance = (VIEW_HALF * this.size * wide) / Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
     this.camera.near = distance / 200;
     this.camera.far = distance * 20;
     this.camera.updateProjectionMatrix();
@@ -546,9 +448,8 @@ export class View {
 
   /** Position and target of the camera, for a link. */
   get camera6() {
-    return [...this.camera.position.toArray(), ...this.orbit.target.toArray()].map((value) =>
-      Number(value.toPrecision(5)),
-    );
+    const numbers = [...this.camera.position.toArray(), ...this.orbit.target.toArray()];
+    return numbers.map((value) => Number(value.toPrecision(5)));
   }
 
   set camera6(numbers) {

@@ -34,13 +34,12 @@ function keysOf({ kind, pose, lengths, rule, more }) {
 
 /** Commands of the program for statics, modes and response. */
 export function commands({ file, state, model, belowHz, response, gradient }) {
-  const set = state.set.map(
-    ({ path, value }) => `--set ${quoted(`${path}=${Array.isArray(value) ? JSON.stringify(value) : value}`)}`,
-  );
+  const textOf = (value) => (Array.isArray(value) ? JSON.stringify(value) : value);
+  const set = state.set.map(({ path, value }) => `--set ${quoted(`${path}=${textOf(value)}`)}`);
   const rest = [...optionsOf(keysOf(state)), ...set];
   const command = (name, own) => [`funicular ${name} ${quoted(file)}`, ...rest, ...own].join(" \\\n  ");
   const models = optionsOf(model);
-  return [
+  const list = [
     command("statics", []),
     command("modes", [...models, `--below-hz ${belowHz}`]),
     command("frf", [
@@ -52,17 +51,12 @@ export function commands({ file, state, model, belowHz, response, gradient }) {
       `--points ${response.points}`,
       ...(response.log ? ["--log"] : []),
     ]),
-    ...(gradient
-      ? [
-          command("gradient", [
-            ...models,
-            `--below-hz ${gradient.belowHz}`,
-            `--per ${gradient.per}`,
-            `--hold ${gradient.hold}`,
-          ]),
-        ]
-      : []),
-  ].join("\n\n");
+  ];
+  if (gradient) {
+    const { per, hold } = gradient;
+    list.push(command("gradient", [...models, `--below-hz ${gradient.belowHz}`, `--per ${per}`, `--hold ${hold}`]));
+  }
+  return list.join("\n\n");
 }
 
 /** Script in Python for the same. */
@@ -74,6 +68,8 @@ export function python({ file, state, model, belowHz, response, gradient }) {
   const models = keywordsOf(model);
   const call = (...own) => [...own, ...models].join(", ");
   const space = response.log ? "geomspace" : "linspace";
+  const own = gradient && [`below_hz=${gradient.belowHz}`, `per=${text(gradient.per)}`, `hold=${text(gradient.hold)}`];
+  const table = gradient ? `\ntable = rest.gradient(${call(...own)})` : "";
   return `import funicular
 import numpy as np
 
@@ -82,14 +78,5 @@ rest = robot.equilibrium(${keywordsOf(keysOf(state)).join(", ")})
 print(rest.tension_platform_n)
 print(rest.modes(${call(belowHz)}).frequency_hz)
 hz = np.${space}(${response.from}, ${response.to}, ${response.points})
-response = rest.frf(${call("hz", text(response.input), text(response.output))})${
-    gradient
-      ? `
-table = rest.gradient(${call(
-          `below_hz=${gradient.belowHz}`,
-          `per=${text(gradient.per)}`,
-          `hold=${text(gradient.hold)}`,
-        )})`
-      : ""
-  }`;
+response = rest.frf(${call("hz", text(response.input), text(response.output))})${table}`;
 }

@@ -198,18 +198,14 @@ export class Workspace {
     const width = Math.max(260, $("map").clientWidth);
     const { svg, at, cross } = slice({ ...told, here, width });
     Object.assign(this, { at, cross });
-    const past =
-      this.#before && this.#before !== told
-        ? slice({ ...this.#before, here: null, label: `${this.#before.label}, before`, width }).svg
-        : "";
+    const before = this.#before && this.#before !== told ? this.#before : null;
+    const past = before ? slice({ ...before, here: null, label: `${before.label}, before`, width }).svg : "";
     $("map").innerHTML = svg + past;
-    const off = "xyz"
-      .split("")
-      .map((axis, k) => (told.indices.includes(k) ? null : `${axis} = ${short(told.here[k], 4)} m`))
-      .find(Boolean);
+    const fixed = [0, 1, 2].find((k) => !told.indices.includes(k));
+    const off = `${"xyz"[fixed]} = ${short(told.here[fixed], 4)} m`;
     this.told =
-      `At ${off}, with the orientation of the platform. Grey: no equilibrium within the tension limits. A ` +
-      `click moves the platform there.`;
+      `At ${off}, with the orientation of the platform. Grey: no equilibrium within the tension limits. ` +
+      "A click moves the platform there.";
     this.note = element("p", { class: "soft" }, this.told);
     $("map").append(this.note);
     age("map", false);

@@ -137,8 +137,8 @@ for (const robot of robots) {
     assert.ok(found.modes.length >= Math.min(20, modes.length), `${found.modes.length} modes`);
     found.modes.forEach((mode, i) => {
       compare(mode.hz, modes[i].frequency_hz, frequency, `frequency ${i + 1}`);
-      // The damping of a mode is the mean of that of its parts, weighed with its shape: of the first order in the error
-      // of the shape, which is the rounding divided by the distance to the next frequency.
+      // The damping of a mode is the mean of that of its parts, weighed with its shape: of the first order in the error of
+      // the shape, which is the rounding divided by the distance to the next frequency.
       near(mode.damping, modes[i].damping_ratio, 1e-6, `damping ${i + 1}`);
     });
     // Neighbours with close frequencies may share energy differently; their kinds are compared where they are apart.
@@ -265,7 +265,7 @@ async function nothingShown(of = page) {
       legend: text("legend"),
       commands: document.getElementById("commands").textContent,
       python: document.getElementById("python").textContent,
-      moving: window.funicular.view.mode !== null,
+      moving: window.funicular.view.playback.mode !== null,
       drawn: window.funicular.view.frame !== null,
       response: window.funicular.response,
       play: document.getElementById("play").offsetParent !== null,
@@ -370,7 +370,7 @@ test("a robot that is refused, or has no equilibrium, leaves nothing of the robo
 test("outside of the workspace nothing is shown, and everything comes back inside", async () => {
   await choose("cogiro");
   await page.click("#modes tbody tr:nth-child(17) button");
-  await page.waitForFunction(() => window.funicular.view.mode);
+  await page.waitForFunction(() => window.funicular.view.playback.mode);
   const shown = await text("#key");
   await page.fill("[data-pose='0']", "30");
   await page.keyboard.press("Enter");
@@ -380,7 +380,9 @@ test("outside of the workspace nothing is shown, and everything comes back insid
   await page.waitForFunction((before) => document.getElementById("key").innerText === before, shown);
   await page.waitForFunction(
     () =>
-      window.funicular.view.mode && document.querySelector("#influence .bars") && document.querySelector("#bode svg"),
+      window.funicular.view.playback.mode &&
+      document.querySelector("#influence .bars") &&
+      document.querySelector("#bode svg"),
   );
   await page.click("#modes tbody tr:nth-child(17) button");
 
@@ -448,7 +450,7 @@ test("the first mode of the platform is found above the listed ones", async () =
   await page.waitForSelector("#influence .bars");
   assert.match(await text("#influence"), /Change of 7\.0849 Hz/);
   assert.equal(await page.evaluate(() => document.getElementById("influence").dataset.mode), "26");
-  await page.waitForFunction(() => window.funicular.view.mode);
+  await page.waitForFunction(() => window.funicular.view.playback.mode);
   await page.screenshot({ path: join(pictures, "platform.png") });
 
   // While the platform moves, the list reaches it, and no search is needed.
@@ -643,7 +645,7 @@ test("the message says which cable limits the payload, and the workspace is comp
 test("a mode is shown in motion, and “before” is compared", async () => {
   await choose("cogiro");
   await page.click("#modes tbody tr:nth-child(17) button");
-  await page.waitForFunction(() => window.funicular.view.mode);
+  await page.waitForFunction(() => window.funicular.view.playback.mode);
   const picture = () =>
     page.evaluate(() =>
       window.funicular.view.lines[2].geometry.attributes.instanceStart.data.array.slice(0, 60).join(),
@@ -1007,8 +1009,7 @@ test("a released payload swings from the static displacement of the complete mod
       .exec(told)
       .slice(1)
       .map(Number);
-    // Both models are different: nonlinear statics of held lengths, and a sum over twenty modes, whose rest moves
-    // little.
+    // Both models are different: nonlinear statics of held lengths, and a sum over twenty modes, whose rest moves little.
     near(linear, complete, 0.02, robot);
     const place = () => page.evaluate(() => window.funicular.view.platform.position.toArray().join());
     const start = await place();
@@ -1252,8 +1253,7 @@ test("a page around this one is told every change", async () => {
   const outer = join(folder, "notebook.html");
   writeFileSync(
     outer,
-    `<!DOCTYPE html><div id="cell"></div><script ` +
-      `type="module">${script.replace("export default { render };", "window.render = render;")}</script>`,
+    `<!DOCTYPE html><div id="cell"></div><script type="module">${script.replace("export default { render };", "window.render = render;")}</script>`,
   );
   const cell = await browser.newContext().then((of) => of.newPage());
   cell.setDefaultTimeout(PATIENCE_MS);
@@ -1342,8 +1342,7 @@ test("nothing failed on the console, and nothing was requested from a network", 
 test("the page is as small as promised", (t) => {
   const { all, served, servedWithoutEditor, file } = JSON.parse(readFileSync(join(web, "sizes.json"), "utf8"));
   t.diagnostic(
-    `compressed ${all} bytes with gzip, ${served} with Brotli, of it without the editor ` +
-      `${servedWithoutEditor}; funicular.html ${statSync(join(web, "funicular.html")).size}`,
+    `compressed ${all} bytes with gzip, ${served} with Brotli, of it without the editor ${servedWithoutEditor}; funicular.html ${statSync(join(web, "funicular.html")).size}`,
   );
   assert.equal(file, statSync(join(web, "funicular.html")).size);
   if (process.env.FUNICULAR_MEASURE) {
@@ -1431,13 +1430,11 @@ test("a frame is fast enough to drag", { skip: !process.env.FUNICULAR_MEASURE },
   });
   const [thread, whole] = (await used()).map((value, i) => (value - before[i]) / times.computed.length);
   t.diagnostic(
-    `processor time per computed frame: main thread ${thread.toFixed(1)} ms, all threads of the page ` +
-      `${whole.toFixed(1)} ms`,
+    `processor time per computed frame: main thread ${thread.toFixed(1)} ms, all threads of the page ${whole.toFixed(1)} ms`,
   );
   for (const [name, list] of Object.entries(times)) {
     t.diagnostic(
-      `${name}: median ${part(list, 0.5).toFixed(1)} ms, 95th percentile ${part(list, 0.95).toFixed(1)} ms ` +
-        `of ${list.length}`,
+      `${name}: median ${part(list, 0.5).toFixed(1)} ms, 95th percentile ${part(list, 0.95).toFixed(1)} ms of ${list.length}`,
     );
   }
   assert.ok(part(times.computed, 0.5) <= 16 && part(times.computed, 0.95) <= 33);

@@ -1,5 +1,4 @@
-// Links of the page: every damaged one is told from a whole one, and no part of a state has another form than the page
-// needs.
+// Links of the page: every damaged one is told from a whole one, and no part of a state has another form than the page needs.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";

@@ -65,14 +65,12 @@ test("the script has the same as keywords", () => {
   const script = python(made).split("\n");
   assert.ok(
     script.includes(
-      'robot = funicular.Robot.from_file("cogiro.toml")' +
-        '.with_({"platform.motion": "point-mass", "loads.force_n": [1, 0, -5]})',
+      'robot = funicular.Robot.from_file("cogiro.toml").with_({"platform.motion": "point-mass", "loads.force_n": [1, 0, -5]})',
     ),
   );
   assert.ok(
     script.includes(
-      'rest = robot.equilibrium(pose=[1, -2, 1.5, 0, 0, 30], tension_rule="middle", hold_lengths_of_pose=True, ' +
-        'mass_kg=250, static_model="spring", ' +
+      'rest = robot.equilibrium(pose=[1, -2, 1.5, 0, 0, 30], tension_rule="middle", hold_lengths_of_pose=True, mass_kg=250, static_model="spring", ' +
         "force_n=[0, 0, -200.5], target_tension_n=[700], max_tension_n=5000)",
     ),
   );
