@@ -190,7 +190,9 @@ def ours(line: str) -> dict[str, Any]:
         if "from_csv" in keywords:
             keywords["from_csv"] = json.loads(funicular._study.source_file(Path(keywords["from_csv"])))
         return funicular._study.request(command, None, (), keywords)
-    if command in ("paper", "schema", "validate"):
+    if command == "schema":
+        return funicular._study.complete({"command": command, **keywords})
+    if command in ("paper", "validate"):
         return funicular._study.request(command, None, (), keywords)
     return commands.robot_of(files, changes).request(command, **keywords)
 
