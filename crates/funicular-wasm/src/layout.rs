@@ -55,7 +55,7 @@ pub fn write<S>(parts: &[Part<S>], of: &S, to: &mut Vec<f64>) {
     }
 }
 
-/// What the numbers before the cables are taken from.
+/// Source of the numbers before the cables.
 pub struct Header<'a> {
     /// Equilibrium of the frame.
     pub at_rest: &'a AtRest,
@@ -121,7 +121,7 @@ pub const fn header<'a>() -> [Part<Header<'a>>; 17] {
     ]
 }
 
-/// What the numbers of a cable are taken from.
+/// Source of the numbers of a cable.
 pub struct Cable<'a> {
     state: &'a CableState,
     sag: Sag,

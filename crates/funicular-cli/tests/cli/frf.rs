@@ -35,7 +35,7 @@ fn without_options_the_response_is_vertical_and_contains_the_first_resonances() 
     assert!(first == 0.0 && last >= number(&modes["below_hz"]) && last >= 1.5 * platform, "{first} {last} {platform}");
     assert!(!found["peaks"].as_array().unwrap().is_empty());
 
-    // What was chosen is printed, and gives the same response.
+    // The chosen limits are printed, and give the same response.
     let text = succeed(&["frf", "ROBOT"]);
     assert!(text.contains("response of az at") && text.contains("to fz at"), "{text}");
     assert!(text.contains(&format!("frequencies from 0 to {last} Hz, chosen so that every peak")), "{text}");

@@ -132,7 +132,7 @@ pub struct Key {
     pub required: bool,
     /// Value of a request that does not give it; null without one.
     pub default: Value,
-    /// What stands for the value if it is not given, in words.
+    /// Substitute for a value that is not given, in words.
     pub otherwise: Option<&'static str>,
     /// Form of the value in help texts.
     pub form: &'static str,

@@ -52,7 +52,7 @@ pub enum PlatformModeError {
     TooMany(#[from] TooMany),
 }
 
-/// What a search for the lowest modes has to find below its limit.
+/// Goal of a search for the lowest modes below a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Wanted {
     /// This number of natural frequencies.
