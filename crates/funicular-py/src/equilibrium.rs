@@ -283,7 +283,7 @@ impl PyEquilibrium {
         let py = slf.py();
         let Self { of, state, tensions, .. } = slf.get();
         // The keys of a request are the keywords of `Robot.equilibrium`.
-        let keywords = joined(&[&serde_json::to_value(state), &serde_json::to_value(tensions)])?;
+        let keywords = joined(state, tensions)?;
         let rebuild = py.import("funicular._rebuild")?.getattr("equilibrium")?;
         Ok((rebuild, (of.clone_ref(py), keywords)))
     }

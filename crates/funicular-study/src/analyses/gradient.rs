@@ -19,6 +19,7 @@ use funicular::statics::TensionRule;
 use funicular::statics::derivatives::StaticDerivativeError;
 use rows::GradientRows;
 use serde::Serialize;
+use serde_json::Value;
 
 /// Results of `gradient`: derivatives of results by numbers of the robot file.
 #[derive(Serialize)]
@@ -63,6 +64,8 @@ pub struct GradientParameter {
 pub struct GradientResult {
     /// Name, such as `frequency 3` or `tension of cable "2" at the anchor`.
     pub name: String,
+    /// What it is, as data: `kind`, and the cable, mode or frequency to which it belongs.
+    pub measure: Value,
     pub unit: String,
     pub value: f64,
     /// Entry of the block of modes that share a frequency: numbers of the two modes in the list, from 1. Along a
@@ -77,6 +80,8 @@ pub struct GradientResult {
 #[derive(Serialize)]
 pub struct RefusedResult {
     pub name: String,
+    /// What it is, as data.
+    pub measure: Value,
     pub reason: String,
 }
 
@@ -126,7 +131,7 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
     let GradientColumns { parameters, changes, without_derivative } = columns;
     let gradients = held(at_rest, request.hold)?;
 
-    let mut rows = GradientRows { changes: &changes, results: Vec::new(), refused: Vec::new() };
+    let mut rows = GradientRows { robot, changes: &changes, results: Vec::new(), refused: Vec::new() };
     rows.statics(robot, &gradients, &groups);
 
     let limit = request.below_hz.into_iter().chain(request.at_hz).fold(0.0, f64::max);
