@@ -10,6 +10,7 @@ from pathlib import Path
 
 from sphinx.cmd.build import main as sphinx
 
+import gallery
 import links
 import messages
 import notebooks
@@ -63,6 +64,7 @@ def main() -> int:
             **beside(target),
         }
         pages.write(sources, generated)
+        gallery.write(program, sources)
         notebooks.write(os.environ["FUNICULAR_PYTHON"], sources / "notebooks")
     except (pages.DeadLink, RuntimeError) as error:
         print(error, file=sys.stderr)
