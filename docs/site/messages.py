@@ -133,6 +133,6 @@ def page() -> str:
     for room in made:
         out += [f"## {room.title}", room.about]
         for row in room.rows:
-            listed = "\n".join(f"- ``{message.shown()}``" for message in row.messages)
+            listed = "\n".join(f"- `` {message.shown()} ``" for message in row.messages)
             out += [f"### {row.title}", f"**Cause.** {row.cause}", f"**Cure.** {row.cure}", listed]
     return "\n\n".join(part for part in out if part) + "\n"
