@@ -21,7 +21,7 @@ def _kernel(python: str, folder: Path) -> None:
     """Kernel of a Python, in a folder that Jupyter searches."""
     made = folder / "kernels/funicular"
     made.mkdir(parents=True)
-    arguments = [python, "-m", "ipykernel_launcher", "-f", "{connection_file}"]
+    arguments = [python, "-m", "ipykernel_launcher", "-f", "{connection_file}", "--log-level=40"]
     (made / "kernel.json").write_text(json.dumps({"argv": arguments, "display_name": "funicular", "language": "python"}))
 
 
