@@ -2,8 +2,10 @@
 one shows as many pictures as its metadata say. The site shows them with their outputs."""
 
 import json
+import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import nbformat
@@ -15,6 +17,10 @@ from pages import ROOT
 FOLDER = ROOT / "docs/notebooks"
 PATIENCE_S = 300
 WIDGET = "application/vnd.jupyter.widget-view+json"
+IN_PLACE_OF_WIDGET = (
+    "<p>In a notebook the page is here, and what you change comes back to Python. "
+    '<a href="../live.html">The page in this site</a> runs without a notebook.</p>'
+)
 
 
 def _kernel(python: str, folder: Path) -> None:
@@ -36,14 +42,12 @@ def _without_widgets(notebook: nbformat.NotebookNode) -> None:
     notebook.metadata.pop("widgets", None)
     for cell in notebook.cells:
         for output in cell.get("outputs", []):
-            output.get("data", {}).pop(WIDGET, None)
+            if output.get("data", {}).pop(WIDGET, None):
+                output["data"]["text/html"] = IN_PLACE_OF_WIDGET
 
 
 def write(python: str, to: Path) -> None:
     """Runs all notebooks and writes them with their outputs."""
-    import os
-    import tempfile
-
     to.mkdir(parents=True, exist_ok=True)
     version = subprocess.run([python, "-c", "import funicular; print(funicular.__version__)"], capture_output=True, text=True, check=False)
     if version.returncode != 0:
@@ -58,7 +62,7 @@ def write(python: str, to: Path) -> None:
                 client.execute()
             except CellExecutionError as error:
                 raise RuntimeError(f"{path.name}: {error}") from error
-            wanted = path_pictures(notebook)
+            wanted = promised(notebook)
             if pictures(notebook) != wanted:
                 raise RuntimeError(f"{path.name}: {pictures(notebook)} pictures, its metadata say {wanted}")
             _without_widgets(notebook)
@@ -66,6 +70,6 @@ def write(python: str, to: Path) -> None:
             print(f"{path.name}: {wanted} pictures", file=sys.stderr)
 
 
-def path_pictures(notebook: nbformat.NotebookNode) -> int:
+def promised(notebook: nbformat.NotebookNode) -> int:
     """Number of pictures that a notebook promises."""
     return int(notebook.metadata["funicular"]["pictures"])

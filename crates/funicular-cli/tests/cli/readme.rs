@@ -40,7 +40,8 @@ fn same(a: &str, b: &str) -> bool {
 
 /// Pages of a folder of docs/ and how many console blocks they show.
 fn shown_in(folder: &str) -> Vec<(String, usize)> {
-    let mut names: Vec<PathBuf> = fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut names: Vec<PathBuf> =
+        fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path()).collect();
     names.retain(|path| path.extension().is_some_and(|ending| ending == "md"));
     names.sort();
     let pages = names.iter().map(|path| format!("{folder}/{}", path.file_name().unwrap().to_str().unwrap()));
