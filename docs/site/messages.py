@@ -32,6 +32,22 @@ MIN_WORDS = 4
 PART = (",", ";", ":", "(", " ", ")")
 
 
+
+def _program_names() -> dict[str, str]:
+    """Options whose name on the command line is not that of their key."""
+    source = (ROOT / "crates/funicular-study/src/wording.rs").read_text(encoding="utf-8")
+    table = source.partition("const PROGRAM_NAMES")[2].partition(";\n\n")[0]
+    return dict(re.findall(r'\("(\w+)", "([^"]+)"\)', table))
+
+
+NAMES = _program_names()
+
+
+def _option(key: str) -> str:
+    """Option of the command line, as the program shows it in a message."""
+    return "…" if "{" in key else NAMES.get(key) or "--" + key.replace("_", "-")
+
+
 @dataclass(frozen=True)
 class Message:
     """Message of the program."""
@@ -41,7 +57,7 @@ class Message:
 
     def shown(self) -> str:
         """Message as the page shows it: what differs from case to case is an ellipsis."""
-        text = re.sub(r"⟪([^⟫]*)⟫", lambda found: found[1] if "{" not in found[1] else "…", self.text)
+        text = re.sub(r"⟪([^⟫]*)⟫", lambda found: _option(found[1]), self.text)
         text = re.sub(r"\{\{|\}\}", "'", re.sub(r"(?<!\{)\{[^{}]*\}", "…", text))
         return re.sub(r"\s+", " ", text).strip()
 
@@ -125,7 +141,7 @@ def page() -> str:
     out = [
         "# Messages: cause and cure",
         f"Every refusal and warning of the program, {count} in all, read from its sources. `…` stands for your names and "
-        "numbers. Type three or four words of a message into the search, or into the search of your browser (Ctrl-F).",
+        "numbers; options are as on the command line, and in Python and JSON `--mass-kg` is `mass_kg`. Type three or four words of a message into the search, or into the search of your browser (Ctrl-F).",
         "A message names the place, the value, the limit and what to do. This page says in addition why the "
         "program refuses, and what usually helps. "
         "Exit code 2: the input has to change. Exit code 1: the input is right, but there is no such solution.",
