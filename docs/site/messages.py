@@ -16,7 +16,8 @@ CRATES = ["funicular", "funicular-study", "funicular-files", "funicular-cli", "f
 # Macros, calls and attributes that make errors, and what plausibility calls its findings.
 CALLS = {
     "Err", "EditError", "Implausible", "NoSolution", "Odd", "Parts", "Unfit", "anyhow!", "bail!", "context", "error",
-    "help", "input", "issue", "map_err", "ok_or", "ok_or_else", "refuse", "with_context",
+    "help", "input", "issue", "let message", "let reason", "let sentence", "map_err", "ok_or", "ok_or_else", "refuse",
+    "with_context",
 }
 # Texts in these are for developers: they mean a mistake in the program.
 INSIDE = {"assert!", "assert_eq!", "debug_assert!", "declared!", "expect", "panic!", "unreachable!"}
@@ -27,8 +28,9 @@ WHOLE = re.compile(
 )
 # The reference numbers and the tests have no messages for users.
 OUTSIDE = re.compile(r"/validation|tests\.rs$|/tests/")
-# Words that a text needs to be a message and not a part of one, and marks with which only a part begins.
-MIN_WORDS = 4
+# Words that a text needs to be a message and not a part of one, names and numbers of the user included; words without
+# those; and marks with which only a part begins.
+MIN_WORDS, MIN_OWN_WORDS = 3, 2
 PART = (",", ";", ":", "(", " ", ")")
 
 
@@ -76,9 +78,11 @@ def collected() -> Iterator[Message]:
                 if around & INSIDE or not (whole or around & CALLS):
                     continue
                 message = Message(text.text, file)
-                if len(message.shown().split()) >= MIN_WORDS and not message.shown().startswith(PART):
-                    if not message.text.startswith(" "):
-                        yield message
+                shown = message.shown()
+                own = len(re.findall(r"[a-z]{2,}", shown))
+                is_part = shown.startswith(PART) or message.text.startswith(" ")
+                if len(shown.split()) >= MIN_WORDS and own >= MIN_OWN_WORDS and not is_part:
+                    yield message
 
 
 @dataclass

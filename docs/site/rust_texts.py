@@ -26,7 +26,8 @@ class Text:
     text: str
     line: int
     around: tuple[str, ...]
-    """What stands before each open bracket, the outermost first: names of macros, calls, types, functions."""
+    """What stands before each open bracket, the outermost first: names of macros, calls, types, functions; `let NAME` if
+    the text is part of the value of a variable."""
 
 
 def _plain(inner: str) -> str:
@@ -41,22 +42,30 @@ def texts(source: str) -> Iterator[Text]:
     source = re.sub(r"#\[cfg\(test\)\]\s*(pub\(crate\) )?mod \w+ \{.*?\n\}\n", "\n", source, flags=re.DOTALL)
     stack: list[str] = []
     before = ""
+    # The variables whose values are being written, each with the number of open brackets at its `let`.
+    bound: list[tuple[str, int]] = []
     for token in _TOKEN.finditer(source):
-        kind = token.lastgroup
         if token["comment"]:
             continue
         if token["raw"] or token["text"]:
             text = token["raw_text"] if token["raw"] else _plain(token["inner"])
-            yield Text(text, source.count("\n", 0, token.start()) + 1, tuple(stack))
+            line = source.count("\n", 0, token.start()) + 1
+            yield Text(text, line, (*stack, *(f"let {name}" for name, _ in bound)))
             before = ""
-        elif kind == "open":
+        elif token["open"]:
             stack.append(before)
             before = ""
-        elif kind == "close":
+        elif token["close"]:
             if stack:
                 stack.pop()
+            bound = [one for one in bound if one[1] <= len(stack)]
             before = ""
-        elif kind == "name":
-            before = token["name"]
+        elif token["name"]:
+            if before in ("let", "let mut") and token["name"] != "mut":
+                bound.append((token["name"], len(stack)))
+            before = "let mut" if before == "let" and token["name"] == "mut" else token["name"]
+        elif token[0] == ";":
+            bound = [one for one in bound if one[1] < len(stack)]
+            before = ""
         elif token[0] not in ":<>&'":
             before = token[0] if token[0] == "#" else ""
