@@ -237,7 +237,7 @@ impl fmt::Display for Obstacle {
                         in_words(rotation_w)
                     )
                 };
-                write!(f, "no cable can {motion}, so that {:.2} % of the load stay unbalanced", 100.0 * unbalanced)?;
+                write!(f, "no cable can {motion}: {:.2} % of the load cannot be balanced", 100.0 * unbalanced)?;
                 match (nearest.is_empty(), opposed.is_empty()) {
                     (true, _) => Ok(()),
                     (false, true) => write!(f, "; {} nearest to it", cables(nearest, "comes", "come")),
