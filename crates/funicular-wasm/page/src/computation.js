@@ -12,6 +12,7 @@ const SLOW_MS = 30; // a response that takes longer waits until the platform res
 const REST_MS = 250; // without a change: the long computations begin
 const MAX_TIMES = 1000;
 const MAX_FRAME_MODES = 500; // of a frame: the limit of the core
+const MORE_FOLLOWED = 10; // modes by which the list grows while the first one of the platform is not among them
 const MAX_FOLLOWED = 60; // so many modes are listed while the platform is dragged, if its own first one is among them
 
 const details = new Job();
@@ -64,6 +65,7 @@ export function empty(reason) {
 /** Forgets the robot, because another one comes; `display`: what is shown of that. */
 export function forget(display = {}) {
   page.robots += 1;
+  followed = 0;
   Object.assign(shown, { mode: -1, newRobot: true, response: null, refused: false, broken: false, ...display });
   Object.assign(page, { about: null, last: null, before: null, parameters: [] });
   tell(null);
@@ -185,13 +187,21 @@ export function stop() {
   stopped = true;
 }
 
-/**
- * Number of modes of the next frame: those of the table, the one in motion, and the first of the platform if it is
- * near.
- */
+let followed = 0; // modes of the next frame, so that the first one of the platform is among them
+
+/** Follows the first mode of the platform from frame to frame: where it is not listed, the next list is longer. */
+function follow(frame) {
+  const index = frame.first?.index;
+  if (index === undefined) {
+    followed = frame.modes.length < MAX_FOLLOWED ? frame.modes.length + MORE_FOLLOWED : 0;
+  } else {
+    followed = index < MAX_FOLLOWED ? index + 2 : 0;
+  }
+}
+
+/** Number of modes of the next frame: those of the table, the one in motion, and the first of the platform if near. */
 function wantedModes() {
-  const first = page.last?.first?.index ?? -1;
-  return Math.min(MAX_FRAME_MODES, Math.max(shown.modes, shown.mode + 1, first < MAX_FOLLOWED ? first + 2 : 0));
+  return Math.min(MAX_FRAME_MODES, Math.max(shown.modes, shown.mode + 1, followed));
 }
 
 /** Everything that a frame depends on: values and rule, and the state. */
@@ -256,6 +266,7 @@ async function computeFrame() {
     const unlisted = frame.modes.length === 0 ? none : null;
     const first = index >= 0 ? { index } : unlisted;
     Object.assign(frame, { first, listed: Math.min(shown.modes, frame.modes.length), inWorker: frame.modes.length });
+    follow(frame);
     Object.assign(page, { frame, last: frame, reason: "" });
     tell(null);
     shown.broken = false;
@@ -322,6 +333,9 @@ async function searchFirst(frame) {
     });
     frame.modes = [...frame.modes, ...modesOf(numbers, frame.cables.length).slice(frame.modes.length)];
     told({ index: about.index });
+    if (page.frame === frame) {
+      follow(frame);
+    }
     if (page.frame === frame && shown.mode >= frame.inWorker) {
       change({ mode: true });
     }

@@ -13,6 +13,21 @@ const job = new Job();
 /** Oblique parallel projection: x to the right, y into the picture, z up. */
 const projected = ([x, y, z]) => [x + 0.45 * y, -z - 0.28 * y];
 
+/** Corners of the outline of points in a plane. */
+function hullOf(points) {
+  const sorted = [...points].sort(([ax, ay], [bx, by]) => ax - bx || ay - by);
+  const side = ([ax, ay], [bx, by], [cx, cy]) => (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+  const half = (list) =>
+    list.reduce((hull, point) => {
+      while (hull.length > 1 && side(hull.at(-2), hull.at(-1), point) <= 0) {
+        hull.pop();
+      }
+      return [...hull, point];
+    }, []);
+  const [low, high] = [half(sorted), half(sorted.reverse())];
+  return [...low.slice(0, -1), ...high.slice(0, -1)];
+}
+
 /** Picture of a robot at rest as SVG. */
 function picture({ cables, position }, about) {
   const curves = cables.map(({ points }) =>
@@ -28,13 +43,13 @@ function picture({ cables, position }, about) {
   const [dx, dy] = [(WIDTH - scale * (right - left)) / 2, (HEIGHT - scale * (bottom - top)) / 2];
   const at = ([x, y]) => `${(dx + scale * (x - left)).toFixed(1)} ${(dy + scale * (y - top)).toFixed(1)}`;
   const path = (points, kind) => `<path class="${kind}" d="M${points.map(at).join("L")}"/>`;
-  const body = cables.map(({ attachment }) => projected(attachment));
-  const hull = body.map(at).join("L");
+  const body = hullOf(cables.map(({ attachment }) => projected(attachment)));
   const [x, y] = at(projected(position)).split(" ");
+  const isBody = body.some(([u, v]) => Math.hypot(u - body[0][0], v - body[0][1]) > 0);
+  const platform = isBody ? path([...body, body[0]], "body") : `<circle class="body" cx="${x}" cy="${y}" r="4"/>`;
   return (
     `<svg viewBox="0 0 ${WIDTH} ${HEIGHT}" aria-hidden="true">${posts.map((post) => path(post, "post")).join("")}` +
-    `${curves.map((curve) => path(curve, "cable")).join("")}<path class="body" d="M${hull}Z"/>` +
-    `<circle class="body" cx="${x}" cy="${y}" r="3"/></svg>`
+    `${curves.map((curve) => path(curve, "cable")).join("")}${platform}</svg>`
   );
 }
 

@@ -18,7 +18,7 @@ const NAMES = [
 
 /** Those of them that are shown over the view, with short names: what a person watches while the platform moves. */
 const OVER_VIEW = [
-  [3, "Platform’s first resonance"],
+  [3, "Platform resonance"],
   [0, "Highest tension"],
   [4, "Maximum payload"],
   [5, "Softest stiffness"],
@@ -78,6 +78,11 @@ function fill(place, names, facts) {
   });
 }
 
+const KILO_FROM = 1e4; // N/m, above which a stiffness is shown in kN/m
+
+const stiffnessText = (value) =>
+  Math.abs(value) >= KILO_FROM ? `${short(value / 1000, 4)} kN/m` : `${short(value, 4)} N/m`;
+
 /** Values of the key figures and what is told about them. */
 function factsOf(frame) {
   const { about, before } = page;
@@ -102,7 +107,7 @@ function factsOf(frame) {
     platformFact(frame, delta),
     payloadFact(delta),
     [
-      frame.stable === undefined ? "rigid" : `${short(frame.minStiffness, 4)} N/m`,
+      frame.stable === undefined ? "rigid" : stiffnessText(frame.minStiffness),
       `${frame.stable === false ? "unstable" : ""}${delta(before?.frame.minStiffness)}`,
     ],
   ];

@@ -189,6 +189,9 @@ window.funicular = {
   get frame() {
     return page.frame;
   },
+  get border() {
+    return page.border && { pose: page.border.pose, message: page.border.error.message };
+  },
   get response() {
     return page.answered;
   },

@@ -8,6 +8,7 @@ const TOP = 18,
   LEFT = 40,
   GAP = 14,
   HIGH = 86;
+const TICKS = 4; // of the values
 
 /** Path through points, broken where a value is missing. */
 function pathOf(points) {
@@ -42,8 +43,8 @@ export function rangeOfValues(panels) {
 /**
  * Curves side by side, as the text of an SVG.
  * @param {object} of `label`, `unit`, `width`, `columns`, `panels`: list of `title`, `points` (list of [place, value],
- *   NaN where there is none; null if they are not known), `range` of the places, `here` ([place, value] or null),
- *   `waiting` (words instead of points)
+ *   NaN where there is none; null if they are not known), `gaps` (true: poses without a value are grey), `range` of the
+ *   places, `here` ([place, value] or null), `waiting` (words instead of points)
  */
 export function panels({ label, unit, width, columns, panels: list }) {
   const range = rangeOfValues(list);
@@ -66,11 +67,11 @@ export function panels({ label, unit, width, columns, panels: list }) {
   );
 }
 
-function drawPanel(parts, text, { title, points, range, here, waiting, left, top, wide, values, isFirst }) {
+function drawPanel(parts, text, { title, points, gaps, range, here, waiting, left, top, wide, values, isFirst }) {
   const x = (at) => left + (wide * (at - range[0])) / (range[1] - range[0] || 1);
   const y = (value) => (values ? top + (HIGH * (values[1] - value)) / (values[1] - values[0]) : NaN);
   text(left, top - 6, title, "start");
-  if (points) {
+  if (points && gaps) {
     // Where there is no equilibrium, the ground is grey, half a step around each pose.
     const step = points.length > 1 ? (points[1][0] - points[0][0]) / 2 : 0;
     points
@@ -82,7 +83,7 @@ function drawPanel(parts, text, { title, points, range, here, waiting, left, top
       });
   }
   if (values) {
-    for (const value of ticks(values[0], values[1], 3)) {
+    for (const value of ticks(values[0], values[1], TICKS)) {
       const at = y(value).toFixed(1);
       parts.push(`<line class="grid" x1="${left}" y1="${at}" x2="${(left + wide).toFixed(1)}" y2="${at}"/>`);
       if (isFirst) {

@@ -6,7 +6,7 @@ import { Cancelled, CORES, Job } from "./engine.js";
 import { mapNumbers } from "./figures.js";
 import { $, element, short } from "./format.js";
 import { freeAxes, keyOf, measureOf, MEASURES, rangeOf, sampleGrid, valuesAt } from "./measures.js";
-import { tell } from "./messages.js";
+import { put, tell } from "./messages.js";
 import { panels } from "./panels.js";
 import { presentPose } from "./pose.js";
 import { content, on, page } from "./store.js";
@@ -71,6 +71,7 @@ function show() {
     return {
       title: `along ${"xyz"[k]} [m]`,
       points: known?.points ?? null,
+      gaps: true,
       range: [Math.min(range[0], here[k]), Math.max(range[1], here[k])],
       here: [frame.position[k], dot],
       waiting: view.dragging ? "" : "…",
@@ -85,14 +86,13 @@ function show() {
   };
   const width = Math.max(280, $("curves").clientWidth || 600);
   const of = { label: measure.label, unit: measure.unit, width, columns: width < NARROW ? 2 : along.length + 1 };
-  $("curves").innerHTML =
-    `<p class="soft">${measure.label} [${measure.unit}]${heldNote()}</p>` +
-    panels({ ...of, panels: [wayPanel, ...along] });
+  $("curves").innerHTML = panels({ ...of, panels: [wayPanel, ...along] });
+  put($("curves-note"), heldNote());
   const isOwn = floor?.grid && floor.key === keyOf(asked, here, floor.axes) && floor.measure === measure;
   showFloor(isOwn ? floor : null);
 }
 
-const heldNote = () => (holdsLengths() ? ": curves and floor are of poses with their tension rule" : "");
+const heldNote = () => (holdsLengths() ? "of poses with their tension rule, not of the held lengths" : "");
 
 let shownFloor = null;
 
@@ -205,7 +205,7 @@ function forget() {
 
 /** Listens to the choice of the measure and to the platform. */
 export function listen() {
-  const options = MEASURES.map(({ name, label }) => element("option", { value: name }, label));
+  const options = MEASURES.map(({ name, label, unit }) => element("option", { value: name }, `${label} [${unit}]`));
   $("measure").replaceChildren(...options, element("option", { value: "" }, "nothing"));
   $("measure").addEventListener("change", () => {
     job.cancel();

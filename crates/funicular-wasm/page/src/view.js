@@ -31,6 +31,7 @@ import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { canvasOf } from "./canvas.js";
 import { colorOf, COLORS, isLimited, limitingCable } from "./colors.js";
+import { setCurve } from "./curve.js";
 import { Drives } from "./drives.js";
 import { rotation } from "./frame.js";
 import { Grab } from "./grab.js";
@@ -321,7 +322,7 @@ export class View {
     this.markLimiting(limitingCable(frame));
     frame.cables.forEach((cable, i) => {
       const line = this.lines[i];
-      line.geometry.setPositions(this.exaggerated(cable));
+      setCurve(line, this.exaggerated(cable));
       const part = isLimited(frame, cable)
         ? (cable.highest - cable.minimum) / (cable.maximum - cable.minimum)
         : cable.highest / top;
@@ -357,7 +358,7 @@ export class View {
       this.lines.forEach((line, i) => {
         const own = this.attachments[i].toArray();
         const at = r.map((row, k) => position[k] + row.reduce((sum, value, j) => sum + value * own[j], 0));
-        line.geometry.setPositions([...at, ...this.anchors[i].toArray()]);
+        setCurve(line, [...at, ...this.anchors[i].toArray()]);
         line.material.color.set(COLORS.slack);
         line.material.dashed = false;
       });

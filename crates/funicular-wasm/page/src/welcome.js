@@ -1,7 +1,7 @@
 // The first ten seconds: what this is, and three things to see.
 
 import { findFirst } from "./computation.js";
-import { $ } from "./format.js";
+import { $, short } from "./format.js";
 import { commit } from "./history.js";
 import { rangeOf, freeAxes } from "./measures.js";
 import { put, tell } from "./messages.js";
@@ -12,8 +12,9 @@ import { cableName } from "./border.js";
 
 const STEPS = 60; // of the way to the edge of the workspace
 const PAUSE_MS = 16; // between them, so that the platform is seen to move
-const SLACK_M = 0.05; // by which a cable is lengthened at a time until it is slack
-const SLACK_TRIES = 8;
+const SLACK = 0.002; // of its length, by which a cable is made longer at a time until it hangs
+const SLACK_TRIES = 12;
+const SAG = 0.05; // of its chord: sag from which a cable is seen to hang
 
 let running = 0; // number of the presentation: another one, or a change of the robot, ends it
 
@@ -37,25 +38,30 @@ async function edge() {
   }
 }
 
-/** Holds the lengths and lengthens the cable with the lowest tension until it is slack. */
+const hangs = ({ slack, sagRatio }) => slack === 1 || sagRatio >= SAG;
+
+/** Holds the lengths, and makes the cable with the lowest tension longer until it hangs. */
 async function slack() {
   const own = running;
   const { cables } = page.frame;
   const i = cables.reduce((best, cable, at) => (cable.lowest < cables[best].lowest ? at : best), 0);
   await holdLengths();
-  for (let k = 0; own === running && k < SLACK_TRIES && page.frame && page.frame.cables[i].slack !== 1; k += 1) {
-    await setLengths(content.lengths.map((length, at) => (at === i ? length + SLACK_M : length)));
+  const before = content.lengths[i];
+  for (let k = 0; own === running && k < SLACK_TRIES && page.frame && !hangs(page.frame.cables[i]); k += 1) {
+    await setLengths(content.lengths.map((length, at) => (at === i ? length * (1 + SLACK) : length)));
+    await pause();
   }
   if (own !== running) {
     return;
   }
   commit();
+  const cable = page.frame?.cables[i];
   const name = cableName(page.about.check.cables[i].name);
-  const isSlack = page.frame?.cables[i].slack === 1;
-  const words = isSlack
-    ? `slack: ${name} hangs, and the other cables hold the platform.`
-    : "still taut: the platform has followed it.";
-  tell(`${name[0].toUpperCase()}${name.slice(1)} was lengthened and is ${words}`, true);
+  const more = short(100 * (content.lengths[i] - before), 2);
+  const longer = `${name[0].toUpperCase()}${name.slice(1)} is ${more} cm longer`;
+  const seen = cable && hangs(cable);
+  const held = `and hangs with ${short(cable?.tension, 2)} N: the other cables hold the platform.`;
+  tell(`${longer} ${seen ? held : "and still in tension: the platform has followed it."}`, true);
 }
 
 /** Shows the first mode of the platform, or the lowest one, in motion. */
