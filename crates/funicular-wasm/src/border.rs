@@ -12,7 +12,7 @@ pub(crate) fn of(error: &anyhow::Error) -> Value {
     let obstacle = error.obstacle();
     let opposed = match obstacle {
         Some(Obstacle::NotSpanned { opposed, .. }) => opposed.clone(),
-        _ => Vec::new(),
+        Some(Obstacle::OneSided { .. }) | None => Vec::new(),
     };
     let negative = match error {
         StaticsError::NegativeTension { cable, .. } | StaticsError::NotFound { cable, .. } if obstacle.is_none() => {
@@ -23,10 +23,11 @@ pub(crate) fn of(error: &anyhow::Error) -> Value {
     let [minimum, maximum] = violation(error).map_or_else(Default::default, |miss| {
         if obstacle.is_some() { Default::default() } else { [&miss.minimum_of, &miss.maximum_of].map(Clone::clone) }
     });
+    let push = [opposed, negative].concat();
     json!({
         "code": error.code(),
         "one_sided": matches!(obstacle, Some(Obstacle::OneSided { .. })),
-        "push": [opposed, negative].concat(),
+        "push": push,
         "minimum": minimum,
         "maximum": maximum,
     })

@@ -12,7 +12,6 @@ const SLOW_MS = 30; // a response that takes longer waits until the platform res
 const REST_MS = 250; // without a change: the long computations begin
 const MAX_TIMES = 1000;
 const MAX_FRAME_MODES = 500; // of a frame: the limit of the core
-const MORE_FOLLOWED = 10; // modes by which the list grows while the first one of the platform is not among them
 const MAX_FOLLOWED = 60; // so many modes are listed while the platform is dragged, if its own first one is among them
 
 const details = new Job();
@@ -193,7 +192,7 @@ let followed = 0; // modes of the next frame, so that the first one of the platf
 function follow(frame) {
   const index = frame.first?.index;
   if (index === undefined) {
-    followed = frame.modes.length < MAX_FOLLOWED ? frame.modes.length + MORE_FOLLOWED : 0;
+    followed = frame.modes.length < MAX_FOLLOWED ? Math.min(MAX_FOLLOWED, 2 * frame.modes.length) : 0;
   } else {
     followed = index < MAX_FOLLOWED ? index + 2 : 0;
   }

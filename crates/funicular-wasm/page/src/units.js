@@ -42,8 +42,21 @@ export function unitOf({ path, unit, value }) {
   return { factor, name: name === "1" ? "" : name };
 }
 
+/** Short words for the values of ropes, which most people change first; the core's words explain them. */
+const SHORT = {
+  youngs_modulus_pa: "Young's modulus",
+  area_m2: "metal area",
+  axial_stiffness_n: "axial stiffness EA",
+  mass_kg_per_m: "mass per length",
+  diameter_m: "diameter",
+};
+
 /** What a number is, in words without its unit: “Young's modulus of wire-rope-4mm”. */
 export function wordsOf({ label, path }) {
+  const [, rope, key] = /^materials\.(?:'([^']*)'|"[^"]*"|[^.]*)\.(\w+)$/.exec(path) ?? [];
+  if (SHORT[key]) {
+    return `${SHORT[key]} of ${rope ?? path.split(".")[1].replaceAll('"', "")}`;
+  }
   const bare = (label ?? path).replace(/ \[[^\]]*\]$/, "");
   const of = /^(.*) \((.*)\)(, [^()]*)?$/.exec(bare);
   if (!of) {

@@ -27,6 +27,13 @@ test("names are words, and values have the units of engineers", () => {
   assert.equal(wordsOf({ label: undefined, path: "a.b" }), "a.b");
 });
 
+test("ropes have the words of engineers, whatever the name of the rope is", () => {
+  const rope = (name) => wordsOf({ ...modulus, path: `materials.${name}.youngs_modulus_pa` });
+  assert.equal(rope("'steel 4.0 mm'"), "Young's modulus of steel 4.0 mm");
+  assert.equal(rope("r"), "Young's modulus of r");
+  assert.equal(wordsOf({ path: "materials.r.breaking_load_n", label: "breaking load (r) [N]" }), "breaking load of r");
+});
+
 test("a value keeps its digits through the unit", () => {
   for (const value of [8.2051e-6, 1.7e-5, 3.3333e-6]) {
     const unit = unitOf({ ...area, value });
