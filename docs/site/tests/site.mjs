@@ -25,7 +25,13 @@ before(async () => {
   mkdirSync(pictures, { recursive: true });
   browser = await chromium.launch({
     executablePath: process.env.FUNICULAR_BROWSER,
-    args: ["--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--enable-unsafe-swiftshader", "--proxy-server=127.0.0.1:9"],
+    args: [
+      "--no-sandbox",
+      "--disable-dev-shm-usage",
+      "--disable-gpu",
+      "--enable-unsafe-swiftshader",
+      "--proxy-server=127.0.0.1:9",
+    ],
   });
 });
 
@@ -89,7 +95,9 @@ test("equations are typeset by the fonts of the site", async () => {
   await page.evaluate(() => document.fonts.ready);
   const seen = await page.evaluate(() => ({
     equations: document.querySelectorAll(".katex-display").length,
-    numbered: [...document.querySelectorAll(".katex-display .katex-html")].some((one) => one.textContent.includes("(4)")),
+    numbered: [...document.querySelectorAll(".katex-display .katex-html")].some((one) =>
+      one.textContent.includes("(4)"),
+    ),
     left: document.body.innerText.match(/\\(frac|begin|mathrm|tfrac)/g),
     fonts: [...document.fonts].filter((font) => font.family.startsWith("KaTeX") && font.status === "loaded").length,
   }));
@@ -106,20 +114,36 @@ test("figures and notebooks show their pictures", async () => {
   }
   for (const [name, least] of Object.entries(wanted)) {
     const page = await opened(name);
-    const sizes = await page
-      .locator("article img")
-      .evaluateAll((all) =>
-        Promise.all(all.map((one) => ((one.loading = "eager"), one.decode().then(() => one.naturalWidth, () => 0)))),
-      );
+    const sizes = await page.locator("article img").evaluateAll((all) =>
+      Promise.all(
+        all.map(
+          (one) => (
+            (one.loading = "eager"),
+            one.decode().then(
+              () => one.naturalWidth,
+              () => 0,
+            )
+          ),
+        ),
+      ),
+    );
     assert.ok(sizes.length >= least, `${name}: ${sizes.length} pictures, expected ${least}`);
-    assert.ok(sizes.every((width) => width > 0), `${name}: ${sizes}`);
+    assert.ok(
+      sizes.every((width) => width > 0),
+      `${name}: ${sizes}`,
+    );
     await closed(page);
   }
 });
 
 test("pages fit a phone, in light and dark", async () => {
   const names = ["index.html", "first-result.html", "conventions.html", "theory/7-natural-frequencies.html"];
-  names.push("reference/messages.html", "reference/commands/modes.html", "notebooks/paper.html", "tutorials/drawing.html");
+  names.push(
+    "reference/messages.html",
+    "reference/commands/modes.html",
+    "notebooks/paper.html",
+    "tutorials/drawing.html",
+  );
   for (const colorScheme of ["light", "dark"]) {
     for (const name of names) {
       const page = await opened(name, { viewport: PHONE, colorScheme });
@@ -129,8 +153,13 @@ test("pages fit a phone, in light and dark", async () => {
       }));
       assert.ok(seen.wide <= 1, `${name} is ${seen.wide} pixels wider than a phone`);
       const [red] = seen.background.match(/\d+/g).map(Number);
-      assert.ok(colorScheme === "dark" ? red < 80 : red > 200, `${name}: ${colorScheme} has the background ${seen.background}`);
-      await page.screenshot({ path: join(pictures, `${name.replaceAll("/", "-").replace(".html", "")}-phone-${colorScheme}.png`) });
+      assert.ok(
+        colorScheme === "dark" ? red < 80 : red > 200,
+        `${name}: ${colorScheme} has the background ${seen.background}`,
+      );
+      await page.screenshot({
+        path: join(pictures, `${name.replaceAll("/", "-").replace(".html", "")}-phone-${colorScheme}.png`),
+      });
       await closed(page);
     }
     const page = await opened("index.html", { colorScheme });
@@ -143,7 +172,12 @@ test("the live page runs inside the site where it was built", async () => {
   const page = await opened("live.html");
   if (existsSync(join(site, "_static/live.html"))) {
     const frame = page.frameLocator("iframe.live");
-    await frame.locator("table td").first().waitFor();
+    await frame.locator("select option").nth(3).waitFor({ state: "attached" });
+    await frame.getByText("Loading the program").waitFor({ state: "hidden" });
+    await frame
+      .locator("td", { hasText: /^\d+\.\d+$/ })
+      .first()
+      .waitFor();
   } else {
     assert.match(await page.locator("article").innerText(), /scripts\/web/);
   }
