@@ -45,7 +45,7 @@ macro_rules! about {
     ($slf:ident, $Command:ident $name:literal, $given:ident, |$rest:ident, $request:ident| $analyse:expr) => {{
         let keywords = Keywords::read($name, $given, &[])?;
         Self::at($slf, |$rest| {
-            let Request::$Command($request) = keywords.request_about($rest)? else {
+            let Request::$Command($request) = $rest.request(keywords)? else {
                 unreachable!("the request is of {}", $name)
             };
             $analyse
@@ -65,7 +65,7 @@ impl PyAnalyses {
     ) -> PyResult<TextKeyed<'py>> {
         let keywords = Keywords::read(command, given, &[])?;
         Self::at(slf, |rest| {
-            let request = keywords.request_about(rest)?;
+            let request = rest.request(keywords)?;
             let at_rest = Arc::clone(&rest.at_rest);
             let found = interruptible_in_steps(py, move |watch| {
                 let found = run_at(&request, &at_rest, watch).map_err(|error| errors::study(&error))?;

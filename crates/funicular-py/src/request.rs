@@ -1,7 +1,6 @@
 //! Keywords of a call, which become the request of a command or a part of one. `funicular_study` checks their
 //! combination.
 
-use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::reading;
 use funicular_study::request::{Request, RobotText, State, Tensions, keys_of};
@@ -46,9 +45,9 @@ impl Keywords {
         Request::from_value(Value::Object(self.0)).map_err(|error| errors::study(&error.into()))
     }
 
-    /// Request about an equilibrium.
-    pub(crate) fn request_about(self, rest: &PyEquilibrium) -> PyResult<Request> {
-        self.with(&rest.state)?.with(&rest.tensions)?.request(&rest.of.get().source)
+    /// Request about an equilibrium of a robot, with the state that gave it.
+    pub(crate) fn request_at(self, robot: &RobotText, state: &State, tensions: &Tensions) -> PyResult<Request> {
+        self.with(state)?.with(tensions)?.request(robot)
     }
 }
 
