@@ -22,6 +22,7 @@ export function makeSearch(choose) {
     chosen = Math.max(0, Math.min(options().length - 1, index));
     options().forEach((option, i) => option.setAttribute("aria-selected", String(i === chosen)));
     const own = options()[chosen];
+    field.removeAttribute("aria-activedescendant");
     if (own) {
       field.setAttribute("aria-activedescendant", own.id);
       own.scrollIntoView({ block: "nearest" });

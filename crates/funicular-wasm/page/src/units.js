@@ -63,7 +63,7 @@ export function wordsOf({ label, path }) {
     return bare;
   }
   const owner = /^cables\./.test(path) ? `cable ${of[2]}` : of[2];
-  return `${of[1]} of ${owner}${of[3] ?? ""}`;
+  return `${of[1].replace(/ of the (cable|rope)$/, "")} of ${owner}${of[3] ?? ""}`;
 }
 
 /** Words with the unit in which the value is shown. */
