@@ -21,6 +21,8 @@ OTHERS = {
 }
 # Pages that are too long for one: a chapter begins at each `## `.
 DIVIDED = ["docs/theory.md", "docs/validation.md"]
+# Files that people read at GitHub, in place of which the site has a page that is made from them.
+MADE_FROM = {"docs/site/messages.toml": "reference/messages.md"}
 # Folders of docs/ that are no pages.
 NO_PAGES = ("docs/site/",)
 
@@ -125,7 +127,7 @@ class Site:
                     raise DeadLink(f"{page.source}: there is no heading #{anchor} in {source}")
             staged = "" if found[0] is page and anchor else os.path.relpath(found[0].staged, here)
             return f"{staged}#{anchor}" if anchor else staged
-        inside = source.removeprefix("docs/")
+        inside = MADE_FROM.get(source, source.removeprefix("docs/"))
         if inside in self.generated:
             return os.path.relpath(inside, here) + (f"#{anchor}" if anchor else "")
         if not (ROOT / source).exists():
