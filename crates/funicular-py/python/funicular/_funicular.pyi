@@ -177,7 +177,7 @@ class Analyses:
         ResponseWarning
             At least ten frequencies ascend, and peaks between them are read more than 5 % too low.
         """
-    def gradient(self, /, of: Result | Sequence[Result] | None = None, *, by: str | Sequence[str] | None = None, hold: Hold = "lengths", per: Per = "unit", tolerances: str | Sequence[str] | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
+    def gradient(self, /, of: Result | Sequence[Result] | None = None, *, by: str | Sequence[str] | None = None, hold: Hold = "lengths", per: Per = "unit", tolerances: Any = None, below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
         """
         Computes derivatives of results by numbers of the robot file, without perturbing any.
 

@@ -4,11 +4,11 @@ import functools
 import inspect
 import re
 from collections.abc import Callable, Mapping
-from types import MethodDescriptorType
+from types import ClassMethodDescriptorType, MethodDescriptorType
 from typing import Any, ParamSpec, TypeVar
 
 from funicular._errors import InputError
-from funicular._funicular import Analyses, Equilibrium, Pose, Robot, suggested
+from funicular._funicular import Analyses, Catenary, Equilibrium, Pose, Robot, suggested
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -57,8 +57,20 @@ def in_words(given: Mapping[str, Any], error: TypeError) -> InputError | None:
     return InputError(f"`{named[1]}` is {f'{shown}, ' if is_short else ''}of type {type(value).__name__}: {wanted}")
 
 
+def _hinted_class_method(method: ClassMethodDescriptorType) -> Any:
+    """Class method with hints in the errors of its call."""
+
+    @functools.wraps(method)
+    def call(of: type, /, *arguments: Any, **keywords: Any) -> Any:
+        return hinted(method.__get__(None, of))(*arguments, **keywords)
+
+    return classmethod(call)
+
+
 # Assigned here and not written into the classes, which are compiled.
-for _class in (Analyses, Robot, Equilibrium, Pose):
+for _class in (Analyses, Catenary, Robot, Equilibrium, Pose):
     for _name, _method in list(vars(_class).items()):
         if isinstance(_method, MethodDescriptorType) and not _name.startswith("_"):
             setattr(_class, _name, hinted(_method))
+        elif isinstance(_method, ClassMethodDescriptorType):
+            setattr(_class, _name, _hinted_class_method(_method))
