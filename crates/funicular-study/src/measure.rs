@@ -112,7 +112,7 @@ impl Measure {
         }
     }
 
-    /// What it is, as data: `kind`, and the cable, mode or frequency to which it belongs. Modes count from 1.
+    /// Identity as data: `kind`, and the cable, mode or frequency to which the result belongs. Modes count from 1.
     pub(crate) fn identity(self, robot: &Robot) -> Value {
         let cable = |i: usize| &robot.cables[i].name;
         match self {

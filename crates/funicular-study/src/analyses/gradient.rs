@@ -64,7 +64,7 @@ pub struct GradientParameter {
 pub struct GradientResult {
     /// Name, such as `frequency 3` or `tension of cable "2" at the anchor`.
     pub name: String,
-    /// What it is, as data: `kind`, and the cable, mode or frequency to which it belongs.
+    /// Identity as data: `kind`, and the cable, mode or frequency to which the result belongs.
     pub measure: Value,
     pub unit: String,
     pub value: f64,
@@ -80,7 +80,7 @@ pub struct GradientResult {
 #[derive(Serialize)]
 pub struct RefusedResult {
     pub name: String,
-    /// What it is, as data.
+    /// Identity as data, as in [`GradientResult`].
     pub measure: Value,
     pub reason: String,
 }
