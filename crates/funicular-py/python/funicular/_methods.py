@@ -242,93 +242,94 @@ def uncertainty(
     return deviations_of(of._uncertainty(given, samples_file, resume, discard, threads, progress))
 
 
-@declared(Robot, "map", positional=("grid", "quantities"), others=_AS_BOTH)
-def map(
-    of: Any,
-    given: Given,
-    file: File | None = None,
-    resume: bool = False,
-    discard: bool = False,
-    part: str | None = None,
-    threads: SupportsIndex | None = None,
-    executor: Executor | Callable[[], Executor] | None = None,
-    chunks_per_task: SupportsIndex | None = None,
-    progress: Callable[[int, int], object] | None = None,
-) -> Sweep:
-    """Computes quantities over poses, one row per pose.
+def _of_rows(command: str, text: str) -> Callable[..., Sweep]:
+    """Function of `map` or `sweep`, whose rows are computed and written in the same way; `text` is its documentation."""
 
-    The rows are those of the program's `map`, bit for bit, with any number of threads or workers. A pose without
-    equilibrium is a row with its reason, never an exception.
+    def rows(
+        of: Any,
+        given: Given,
+        file: File | None = None,
+        resume: bool = False,
+        discard: bool = False,
+        part: str | None = None,
+        threads: SupportsIndex | None = None,
+        executor: Executor | Callable[[], Executor] | None = None,
+        chunks_per_task: SupportsIndex | None = None,
+        progress: Callable[[int, int], object] | None = None,
+    ) -> Sweep:
+        found: Sweep = of._rows(command, given, part, file, resume, discard, threads, executor, chunks_per_task, progress)
+        return found
 
-    Parameters
-    ----------
-    grid
-        Axes of a grid of poses: x, y, z [m], roll, pitch, yaw [degrees], as in `{"x": (-4, 4, 81), "z": [0.5, 1,
-        2]}`. A tuple is the first value, the last value and their number; anything else is values. x varies
-        fastest, then y.
-    quantities
-        What is computed at every point; docs/sweeps.md has the list; `tension-min` and `tension-max` if not given.
-    poses
-        Poses instead of a grid, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
-    file
-        File of the rows: .parquet, .csv or .vti. It is written when all rows are there; until then FILE.partial
-        holds them, also after a crash. The rows of a Parquet file are read into memory at their first use.
-    resume, discard
-        Continue with the rows of the same sweep in FILE.partial, or delete them.
-    part
-        Part k of n, as in "3/8"; each part has its own Parquet `file`, and `funicular.merge` joins them.
-    threads
-        Number of threads of this process; one per processor if not given.
-    executor
-        Executor whose workers compute (`concurrent.futures`, Dask's `Client.get_executor()`, mpi4py's
-        `MPIPoolExecutor`), or a function that makes an executor and is called again when the executor breaks.
-    chunks_per_task
-        Number of chunks of rows that a worker gets at once; chosen from measured times if not given.
-    progress
-        Function that is called with the number of finished rows and the number of all rows.
-
-    Raises
-    ------
-    InputError
-        An argument is wrong; the message says which and what to give.
-    FileError
-        The file cannot be written, or belongs to another sweep.
-    ExecutorError
-        The executor's workers died; `resume` of the exception continues.
-
-    Warns
-    -----
-    RobotWarning
-        The robot has a value that no usual robot has; once per call, before the rows are computed.
-    """
-    rows: Sweep = of._rows("map", given, part, file, resume, discard, threads, executor, chunks_per_task, progress)
+    rows.__name__, rows.__doc__ = command, text
     return rows
 
 
-@declared(Robot, "sweep", positional=("vary", "quantities"), others="The other parameters are those of `map`.")
-def sweep(
-    of: Any,
-    given: Given,
-    file: File | None = None,
-    resume: bool = False,
-    discard: bool = False,
-    part: str | None = None,
-    threads: SupportsIndex | None = None,
-    executor: Executor | Callable[[], Executor] | None = None,
-    chunks_per_task: SupportsIndex | None = None,
-    progress: Callable[[int, int], object] | None = None,
-) -> Sweep:
-    """Computes quantities over values of the robot file, one row per combination, as the program's `sweep`.
+declared(Robot, "map", positional=("grid", "quantities"), others=_AS_BOTH)(
+    _of_rows(
+        "map",
+        """Computes quantities over poses, one row per pose.
 
-    Parameters
-    ----------
-    vary
-        Values of the robot file that vary, by their paths as in `with_`: `{"platform.mass_kg": (10, 90, 81)}`. A
-        tuple is the first value, the last value and their number; anything else is values. The first path varies
-        fastest. `*` for any key moves all numbers that match together: `{"cables.*.anchor_m.z": (5, 6, 3)}`.
-    """
-    rows: Sweep = of._rows("sweep", given, part, file, resume, discard, threads, executor, chunks_per_task, progress)
-    return rows
+        The rows are those of the program's `map`, bit for bit, with any number of threads or workers. A pose without
+        equilibrium is a row with its reason, never an exception.
+
+        Parameters
+        ----------
+        grid
+            Axes of a grid of poses: x, y, z [m], roll, pitch, yaw [degrees], as in `{"x": (-4, 4, 81), "z": [0.5, 1,
+            2]}`. A tuple is the first value, the last value and their number; anything else is values. x varies
+            fastest, then y.
+        quantities
+            What is computed at every point; docs/sweeps.md has the list; `tension-min` and `tension-max` if not given.
+        poses
+            Poses instead of a grid, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
+        file
+            File of the rows: .parquet, .csv or .vti. It is written when all rows are there; until then FILE.partial
+            holds them, also after a crash. The rows of a Parquet file are read into memory at their first use.
+        resume, discard
+            Continue with the rows of the same sweep in FILE.partial, or delete them.
+        part
+            Part k of n, as in "3/8"; each part has its own Parquet `file`, and `funicular.merge` joins them.
+        threads
+            Number of threads of this process; one per processor if not given.
+        executor
+            Executor whose workers compute (`concurrent.futures`, Dask's `Client.get_executor()`, mpi4py's
+            `MPIPoolExecutor`), or a function that makes an executor and is called again when the executor breaks.
+        chunks_per_task
+            Number of chunks of rows that a worker gets at once; chosen from measured times if not given.
+        progress
+            Function that is called with the number of finished rows and the number of all rows.
+
+        Raises
+        ------
+        InputError
+            An argument is wrong; the message says which and what to give.
+        FileError
+            The file cannot be written, or belongs to another sweep.
+        ExecutorError
+            The executor's workers died; `resume` of the exception continues.
+
+        Warns
+        -----
+        RobotWarning
+            The robot has a value that no usual robot has; once per call, before the rows are computed.
+        """,
+    )
+)
+
+declared(Robot, "sweep", positional=("vary", "quantities"), others="The other parameters are those of `map`.")(
+    _of_rows(
+        "sweep",
+        """Computes quantities over values of the robot file, one row per combination, as the program's `sweep`.
+
+        Parameters
+        ----------
+        vary
+            Values of the robot file that vary, by their paths as in `with_`: `{"platform.mass_kg": (10, 90, 81)}`. A
+            tuple is the first value, the last value and their number; anything else is values. The first path varies
+            fastest. `*` for any key moves all numbers that match together: `{"cables.*.anchor_m.z": (5, 6, 3)}`.
+        """,
+    )
+)
 
 
 @declared(Analyses, "stiffness", positional=("at_hz",), headings=REST)
