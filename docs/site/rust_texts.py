@@ -26,7 +26,7 @@ class Text:
     text: str
     line: int
     around: tuple[str, ...]
-    """What stands before each open bracket, the outermost first: names of macros, calls, types, functions; `let NAME` if
+    """Names before the open brackets, the outermost first: of macros, calls, types, functions; `let NAME` if
     the text is part of the value of a variable."""
 
 

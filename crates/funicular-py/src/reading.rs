@@ -135,7 +135,7 @@ impl Kind {
 #[pyfunction]
 pub(crate) fn declarations() -> String {
     let key = |key: &'static Key| {
-        let (names, whats) = match &key.kind {
+        let (names, meanings) = match &key.kind {
             request::Kind::Name(_, choices) => {
                 choices.iter().map(|of| (of.name, told(of.about, Words::Python))).unzip()
             }
@@ -150,7 +150,7 @@ pub(crate) fn declarations() -> String {
             "heading": key.heading,
             "required": key.required,
             "names": names,
-            "meanings": whats,
+            "meanings": meanings,
         })
     };
     let all = commands().iter().map(|of| (of.name.to_owned(), of.keys.iter().map(key).collect::<Json>()));
