@@ -6,7 +6,7 @@ import { Cancelled, CORES, Job } from "./engine.js";
 import { mapNumbers } from "./figures.js";
 import { $, element, short } from "./format.js";
 import { freeAxes, keyOf, measureOf, MEASURES, rangeOf, sampleGrid, valuesAt } from "./measures.js";
-import { put, tell } from "./messages.js";
+import { age, put, tell } from "./messages.js";
 import { panels } from "./panels.js";
 import { presentPose } from "./pose.js";
 import { content, on, page } from "./store.js";
@@ -14,6 +14,7 @@ import { content, on, page } from "./store.js";
 const AXIS_POINTS = 25; // per curve
 const LEVELS = [6, 12, 24]; // intervals of the floor along its longer axis
 const MAX_WAY = 400; // points of the way; with more, every second one goes
+const DRAWN_MS = 100; // between two drawings while the platform is dragged
 const NARROW = 480; // pixels: two curves side by side instead of four
 
 const job = new Job();
@@ -56,6 +57,7 @@ function startWay() {
 
 /** Shows the curves and the floor that belong to the state; the others are hidden. */
 function show() {
+  age("curves", false);
   const { about, frame, view } = page;
   const here = frame && presentPose();
   if (!here || !measure) {
@@ -133,6 +135,17 @@ function showFloor(of) {
     ),
     element("span", {}, "no colour: no equilibrium"),
   );
+}
+
+let waiting = 0;
+
+/** Draws within a tenth of a second: each picture of a drag has no time for it. Meanwhile the figures are pale. */
+function showSoon() {
+  age("curves", true);
+  waiting ||= setTimeout(() => {
+    waiting = 0;
+    show();
+  }, DRAWN_MS);
 }
 
 /** Computes what is missing for the present state: first the curves, then the floor. */
@@ -225,7 +238,11 @@ export function listen() {
   on("drag-begin", startWay);
   on("frame", () => {
     extendWay();
-    show();
+    if (page.view.dragging) {
+      showSoon();
+    } else {
+      show();
+    }
   });
   on("platform", () => {
     extendWay();
