@@ -6,7 +6,7 @@ mod rows;
 pub(crate) use columns::{GradientColumns, Tolerance, refuse_replaced, value_at};
 
 use super::found;
-use super::result_groups::{missing_option, refuse_unused, result_groups};
+use super::result_groups::{missing_option, nothing_below, refuse_unused, result_groups};
 use super::shared::Models;
 use crate::at_rest::{self, AtRest};
 use crate::error::NoSolution;
@@ -141,7 +141,10 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
         warnings = found;
         let vibration = gradients.vibration(&dynamics)?;
         if groups.contains(&"frequencies") || groups.contains(&"damping") {
-            rows.modes(&dynamics, &vibration, &groups, request.below_hz.unwrap_or(limit));
+            let below_hz = request.below_hz.unwrap_or(limit);
+            if rows.modes(&dynamics, &vibration, &groups, below_hz) == 0 {
+                warnings.push(nothing_below(below_hz));
+            }
         }
         if groups.contains(&"response") {
             rows.response(robot, &vibration, request)?;

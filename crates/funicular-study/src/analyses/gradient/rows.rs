@@ -49,14 +49,15 @@ impl GradientRows<'_> {
         }
     }
 
-    /// Adds the natural frequencies and damping ratios below a limit [Hz] that a request names.
+    /// Adds the natural frequencies and damping ratios below a limit [Hz] that a request names; returns the number of
+    /// modes there.
     pub(super) fn modes(
         &mut self,
         dynamics: &Dynamics,
         vibration: &VibrationGradients,
         groups: &[&str],
         below_hz: f64,
-    ) {
+    ) -> usize {
         let found = modes::below(dynamics, below_hz);
         if groups.contains(&"frequencies") {
             self.frequencies(&found.modes, vibration);
@@ -68,6 +69,7 @@ impl GradientRows<'_> {
                 self.push(Measure::Damping(k), mode.damping_ratio(), gradient);
             }
         }
+        found.modes.len()
     }
 
     fn push(&mut self, measure: Measure, value: f64, gradient: Result<RobotChange, GradientError>) {

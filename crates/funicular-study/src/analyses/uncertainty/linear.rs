@@ -7,6 +7,7 @@ use super::responses::{RequestedResponse, Responses};
 use super::results::{NominalModes, of_groups};
 use super::row::{Along, Row};
 use crate::analyses::gradient::{check_hold, held};
+use crate::analyses::result_groups::nothing_below;
 use crate::at_rest::{self, AtRest};
 use crate::error::NoSolution;
 use crate::measure::{Measure, ResponsePart};
@@ -87,7 +88,9 @@ impl LinearPose {
             }
         }
 
-        let warnings = modes.map_or_else(|| at_rest.warnings(None), |modes| modes.warnings);
+        let lacking = below_hz.filter(|_| modes.as_ref().is_some_and(|modes| modes.count == 0)).map(nothing_below);
+        let mut warnings = modes.map_or_else(|| at_rest.warnings(None), |modes| modes.warnings);
+        warnings.extend(lacking);
         let rule = match (request.hold, &at_rest.rule) {
             (Hold::Rule, Some(rule)) => rule.clone(),
             _ => held_tensions(&at_rest),
