@@ -1,12 +1,8 @@
 """Reference pages of the commands, made from what the program says: schema of requests, help, and columns of its tables."""
 
-import csv
-import io
 import json
-import os
 import re
 import subprocess
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -78,19 +74,14 @@ def examples() -> dict[str, str]:
     return dict(re.findall(r"^\| `([a-z-]+)` \|.*\| `funicular (.*)` \|$", text, re.MULTILINE))
 
 
-def columns(program: str, line: str) -> list[str]:
-    """Columns that a command prints as CSV; none if it prints no table."""
-    words = line.split(" ")
-    with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run(
-            [program, *words, "--format", "csv", "-o", f"{folder}/table.csv"],
-            cwd=ROOT, capture_output=True, text=True, check=False, env={**os.environ, "COLUMNS": "100"},
-        )
-        table = Path(folder) / "table.csv"
-        if done.returncode != 0 or not table.is_file():
-            return []
-        lines = table.read_text(encoding="utf-8").splitlines()
-    return next(csv.reader(io.StringIO(lines[0]))) if lines else []
+def columns(tables: list[dict[str, Any]]) -> str:
+    """Tables of the columns of a command's CSV, each with its case if there are several."""
+    parts = []
+    for table in tables:
+        rows = [f"| `{cell(of['name'])}` | {cell(of['unit'])} | {cell(of['about'])} |" for of in table["columns"]]
+        parts += [f"With {table['with']}:"] if table["with"] else []
+        parts += ["| Column | Unit | Meaning |\n|---|---|---|\n" + "\n".join(rows)]
+    return "\n\n".join(parts)
 
 
 def _without_paths(text: str, program: str) -> str:
@@ -102,6 +93,7 @@ def pages(program: str) -> dict[str, str]:
     """A page for every command, and the page that lists them."""
     schema = json.loads(run(program, "schema", "--of", "request"))
     of_schema = {one["properties"]["command"]["const"]: one for one in schema["oneOf"]}
+    of_columns = json.loads(run(program, "schema", "--of", "columns"))
     made = {}
     listed = []
     for name, example in examples().items():
@@ -117,9 +109,13 @@ def pages(program: str) -> dict[str, str]:
                 "`-` in place of `_`: `mass_kg` is `--mass-kg`.",
                 options(command),
             ]
-        found = columns(program, example) if command else []
-        if found:
-            parts += ["## Columns", "`--format csv` prints these columns for the example:", ", ".join(f"`{one}`" for one in found)]
+        if name in of_columns:
+            parts += [
+                "## Columns",
+                "`--format csv` and `to_pandas` of Python give these columns. `NAME` stands for a name of the robot file. "
+                "Columns of parts that a robot does not have are left out.",
+                columns(of_columns[name]),
+            ]
         parts += ["## Help", f"```text\n{help_text.rstrip()}\n```"]
         made[f"reference/commands/{name}.md"] = "\n\n".join(parts) + "\n"
         listed.append(f"| [`{name}`]({name}.md) | {cell(summary)} |")

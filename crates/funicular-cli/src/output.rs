@@ -7,6 +7,7 @@ use funicular_files::Guard;
 use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::endings::{self, Kind};
 use funicular_study::analyses::Found;
+use funicular_study::columns::Tabled;
 use funicular_study::figures::{Figure, Size};
 use funicular_study::wording::{Words, told};
 use funicular_study::{NoSolution, json};
@@ -15,7 +16,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Results in the forms that the program prints.
-pub(crate) trait Printed: Found {
+pub(crate) trait Printed: Found + Tabled {
     /// Name of the command, for results that several commands share.
     fn command(&self) -> &'static str {
         Self::COMMAND
@@ -23,9 +24,6 @@ pub(crate) trait Printed: Found {
 
     /// Rounded tables for reading.
     fn text(&self) -> String;
-
-    /// Rectangular table with a header.
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()>;
 
     /// Universal File, for results that such a file can hold.
     ///
@@ -239,7 +237,7 @@ impl Sink {
                     }
                 } else {
                     let mut table = csv::Writer::from_writer(bytes);
-                    results.csv(&mut table)?;
+                    results.table().write(&mut table)?;
                     bytes = table.into_inner().map_err(|error| anyhow!("{}", error.error()))?;
                 }
             }

@@ -1,9 +1,9 @@
 //! Aligned text tables.
 
 use comfy_table::{CellAlignment, ContentArrangement, presets};
-pub(crate) use funicular_study::text::{
-    NONE, counted, decimals, decimals_or_none, digits_for, short, significant, vector,
-};
+use funicular_study::columns::{COMPONENTS, Columns, Heading, Style};
+pub(crate) use funicular_study::text::{NONE, counted, decimals, decimals_or_none, short, significant, vector};
+use std::borrow::Borrow;
 use std::fmt;
 
 /// Minimum width of a component of a vector in a table.
@@ -12,19 +12,10 @@ const COMPONENT_WIDTH: usize = 10;
 /// Minimum number of spaces before a component of a vector.
 const COMPONENT_GAP: usize = 2;
 
-/// Mark between the components of a vector in a cell, until the table knows how wide they are.
-const COMPONENTS: char = '\u{1f}';
-
 /// Table with a header. Columns from the second on hold numbers and are aligned to the right.
 pub(crate) struct Table {
     inner: comfy_table::Table,
     rows: Vec<Vec<String>>,
-}
-
-/// Cell with the components of a vector, which the table puts below each other.
-pub(crate) fn components(values: &[f64], count: usize) -> String {
-    let texts: Vec<String> = values.iter().map(|value| decimals(*value, count)).collect();
-    texts.join(&COMPONENTS.to_string())
 }
 
 impl Table {
@@ -36,6 +27,16 @@ impl Table {
         for index in 1..header.len() {
             table.align(index, CellAlignment::Right);
         }
+        table
+    }
+
+    /// Table of rows with the columns of their kind.
+    pub(crate) fn of<R>(columns: &Columns<R>, rows: impl IntoIterator<Item: Borrow<R>>) -> Self {
+        let headings = columns.headings(Style::Plain);
+        let names: Vec<String> = headings.iter().map(Heading::with_unit).collect();
+        let texts: Vec<usize> = (0..headings.len()).filter(|index| headings[*index].is_text).collect();
+        let mut table = Self::new(&names.iter().map(String::as_str).collect::<Vec<_>>()).text_columns(&texts);
+        rows.into_iter().for_each(|row| table.row(columns.texts(row.borrow(), Style::Plain)));
         table
     }
 
@@ -107,7 +108,7 @@ mod tests {
     fn components_of_vectors_never_touch_and_stand_below_each_other() {
         let mut table = Table::new(&["cable", "anchor [m]", "n"]);
         for (name, anchor) in [("1", [17_500.0, 11_000.0, -123_456.5]), ("2", [-4.0, 3.0, 5.0])] {
-            table.row(vec![name.to_owned(), components(&anchor, 4), "7".to_owned()]);
+            table.row(vec![name.to_owned(), Style::Plain.components(&anchor, 4), "7".to_owned()]);
         }
         table.row(vec!["3".to_owned(), NONE.to_owned(), "7".to_owned()]);
         let text = table.to_string();

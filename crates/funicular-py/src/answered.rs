@@ -2,11 +2,14 @@
 
 use crate::errors;
 use crate::interrupt::interruptible_in_steps;
+use funicular_study::columns::{Cell, ResultTable};
 use funicular_study::pages;
 use funicular_study::request::Request;
 use funicular_study::wording::{Words, worded};
 use funicular_study::{Results, run};
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
+use pyo3::types::PyList;
 use std::sync::OnceLock;
 
 /// Results of a request, from which their page is made.
@@ -34,6 +37,17 @@ impl PyAnswered {
     }
 }
 
+/// Value of a cell; `None` for one that the row does not have.
+fn object(py: Python<'_>, cell: Cell) -> PyResult<Py<PyAny>> {
+    Ok(match cell {
+        Cell::Number(value) => value.into_py_any(py)?,
+        Cell::Count(count) => count.into_py_any(py)?,
+        Cell::Flag(is) => is.into_py_any(py)?,
+        Cell::Text(text) => text.into_py_any(py)?,
+        Cell::Missing(_) => py.None(),
+    })
+}
+
 #[pymethods]
 impl PyAnswered {
     /// Takes a request in JSON, whose results are computed when they are wanted.
@@ -53,6 +67,19 @@ impl PyAnswered {
     fn json(&self, py: Python<'_>) -> PyResult<String> {
         let bytes = self.found(py)?.to_json(Words::Python).map_err(|error| errors::study(&error.into()))?;
         String::from_utf8(bytes).map_err(|error| errors::input(error.to_string()))
+    }
+
+    /// Returns name, unit and values of every column of the program's CSV.
+    fn table<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, String, Bound<'py, PyList>)>> {
+        let ResultTable { columns, rows } = self.found(py)?.table();
+        let mut values: Vec<Vec<Py<PyAny>>> = columns.iter().map(|_| Vec::new()).collect();
+        for row in rows {
+            for (value, cell) in values.iter_mut().zip(row) {
+                value.push(object(py, cell)?);
+            }
+        }
+        let lists = columns.into_iter().zip(values);
+        lists.map(|(column, values)| Ok((column.name, column.unit.into_owned(), PyList::new(py, values)?))).collect()
     }
 
     /// Makes the page in HTML; `call` is the code that makes it again.

@@ -32,6 +32,7 @@
 pub mod analyses;
 pub mod at_rest;
 mod chosen_numbers;
+pub mod columns;
 pub mod csv_lines;
 mod error;
 pub mod export;

@@ -548,16 +548,19 @@ pub enum SchemaSubject {
     RobotFile,
     /// Request of any command.
     Request,
+    /// Columns of the results of any command.
+    Columns,
 }
 
 impl Named for SchemaSubject {
     const WHAT: &'static str = "subject of a schema";
-    const ALL: &'static [Self] = &[Self::RobotFile, Self::Request];
+    const ALL: &'static [Self] = &[Self::RobotFile, Self::Request, Self::Columns];
 
     fn name(self) -> &'static str {
         match self {
             Self::RobotFile => "robot-file",
             Self::Request => "request",
+            Self::Columns => "columns",
         }
     }
 
@@ -565,6 +568,7 @@ impl Named for SchemaSubject {
         match self {
             Self::RobotFile => "Robot files (TOML), for editors",
             Self::Request => "Requests (JSON) of all commands, for programs that write them",
+            Self::Columns => "Columns (CSV) of all results with units and meanings, for programs that read them",
         }
     }
 }

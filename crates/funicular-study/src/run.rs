@@ -1,6 +1,7 @@
 //! Execution of a request.
 
 use crate::analyses::{
+    Found,
     cable::{self, CableResult},
     check::{self, Checked},
     compare::{self, Compared},
@@ -18,9 +19,11 @@ use crate::analyses::{
     uncertainty::{self, Uncertainties},
 };
 use crate::at_rest::AtRest;
+use crate::columns::{ResultTable, Tabled};
 use crate::error::Error;
 use crate::json;
 use crate::request::{Request, RobotText};
+use crate::sweep::Column;
 #[cfg(feature = "validation")]
 use crate::validation::{self, Validated};
 use crate::watch::Watch;
@@ -45,6 +48,18 @@ macro_rules! answers {
         }
 
         impl Results {
+            /// Name of every command, with the columns of its tables in files as [`Tabled::tables`] gives them.
+            pub fn tables() -> Vec<(&'static str, Vec<(&'static str, Vec<Column>)>)> {
+                vec![$($(#[$meta])* (<$Found as Found>::COMMAND, <$Found as Tabled>::tables()),)*]
+            }
+
+            /// Table of the results in files.
+            pub fn table(&self) -> ResultTable<'_> {
+                match self {
+                    $($(#[$meta])* Self::$Variant(found) => found.table(),)*
+                }
+            }
+
             /// Results as JSON, with the warnings worded for a front end.
             ///
             /// # Errors

@@ -76,6 +76,16 @@ pub enum DifferenceKind {
     Relative,
 }
 
+impl DifferenceKind {
+    /// Name in tables, as in JSON.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Absolute => "absolute",
+            Self::Relative => "relative",
+        }
+    }
+}
+
 /// Cause that bounds a difference.
 #[derive(Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(into = "&'static str")]

@@ -60,21 +60,4 @@ impl Printed for CableResult {
             self.frequency_hz.len()
         )
     }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        // The matrix is symmetric, so only its upper half is written.
-        const UPPER: [(usize, usize, &str); 6] =
-            [(0, 0, "xx"), (0, 1, "xy"), (0, 2, "xz"), (1, 1, "yy"), (1, 2, "yz"), (2, 2, "zz")];
-        let names = ["a", "b", "c", "o"].into_iter().chain(UPPER.map(|(_, _, name)| name));
-        let columns = names.flat_map(|name| ["real", "imag"].map(|part| format!("k_{name}_{part}_n_per_m")));
-        out.write_record(std::iter::once("frequency_hz".to_owned()).chain(columns))?;
-        let Local { k_a, k_b, k_c, k_o } = &self.local;
-        for (i, frequency) in self.frequency_hz.iter().enumerate() {
-            let local = [k_a, k_b, k_c, k_o].map(|k| (k.real[i], k.imag[i]));
-            let world =
-                UPPER.map(|(row, column, _)| (self.world.real[i][row][column], self.world.imag[i][row][column]));
-            out.serialize((frequency, local, world))?;
-        }
-        Ok(())
-    }
 }

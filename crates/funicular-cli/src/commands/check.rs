@@ -1,11 +1,9 @@
 //! `check`: text and CSV.
 
 use crate::output::Printed;
-use crate::table::{self, Table, components, decimals_or_none, short, vector};
+use crate::table::{self, Table, decimals_or_none, short, vector};
 use funicular::robot::{Constraint, PlatformMotion};
-use funicular_study::analyses::check::{
-    Checked, CheckedCable, CheckedLimits, CheckedPlatform, CheckedRope, CheckedWinch,
-};
+use funicular_study::analyses::check::{Checked, CheckedCable, CheckedPlatform, CheckedRope, CheckedWinch};
 use std::fmt::Write;
 
 impl Printed for Checked {
@@ -58,42 +56,15 @@ impl Printed for Checked {
         };
         say(format!("  state       {state}"));
         out += &("\n".to_owned()
-            + &rope_table(self)
+            + &Table::of(&CheckedRope::columns(&self.materials), &self.materials).to_string()
             + "\n"
-            + &cable_table(self)
+            + &Table::of(&CheckedCable::columns(&self.cables), &self.cables).to_string()
             + &drive_table(self)
             + &support_table(self));
         for note in &self.notes {
             let _ = write!(out, "\nNote: {note}.\n");
         }
         out
-    }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        out.write_record([
-            "name",
-            "material",
-            "anchor_x_m",
-            "anchor_y_m",
-            "anchor_z_m",
-            "attachment_x_m",
-            "attachment_y_m",
-            "attachment_z_m",
-            "unstrained_length_m",
-            "minimum_tension_n",
-            "maximum_tension_n",
-            "load_x_n_per_m",
-            "load_y_n_per_m",
-            "load_z_n_per_m",
-        ])?;
-
-        for c in &self.cables {
-            let CheckedLimits { minimum_tension_n, maximum_tension_n } = c.limits;
-            let limits = (minimum_tension_n, maximum_tension_n);
-            let load = c.load_n_per_m.unwrap_or_default();
-            out.serialize((&c.name, &c.material, c.anchor_m, c.attachment_m, c.unstrained_length_m, limits, load))?;
-        }
-        Ok(())
     }
 }
 
@@ -204,82 +175,4 @@ fn length_table(found: &Checked) -> String {
         "\n{rows}\nUnstrained lengths count from the drum. A length that was measured from the anchor point to the \
          attachment needs the last column added.\n"
     )
-}
-
-fn rope_table(found: &Checked) -> String {
-    let limited = |rope: &CheckedRope| limit_cells(&rope.limits).iter().any(|cell| cell != table::NONE);
-    let limited = found.materials.iter().any(|rope| limited(rope) || rope.breaking_load_n.is_some());
-    let header = [
-        "rope",
-        "EA [N]",
-        "mass [kg/m]",
-        "damping ratio",
-        "viscous damping [N s/m²]",
-        "min T [N]",
-        "max T [N]",
-        "breaks at [N]",
-        "drag width [m]",
-    ];
-    let dragged = found.materials.iter().any(|rope| rope.drag_width_m.is_some());
-    let mut columns = header[..if limited { 8 } else { 5 }].to_vec();
-    columns.extend(dragged.then_some(header[8]));
-
-    let mut ropes = Table::new(&columns);
-    for rope in &found.materials {
-        let mut row = vec![
-            rope.name.clone(),
-            short(rope.axial_stiffness_n, 6),
-            short(rope.mass_kg_per_m, 5),
-            or_none(rope.damping_ratio),
-            or_none(rope.viscous_damping_n_s_m2),
-        ];
-        if limited {
-            row.extend(limit_cells(&rope.limits));
-            row.push(or_none(rope.breaking_load_n));
-        }
-        if dragged {
-            row.push(or_none(rope.drag_width_m));
-        }
-        ropes.row(row);
-    }
-
-    ropes.to_string()
-}
-
-fn cable_table(found: &Checked) -> String {
-    let limited = found.cables.iter().any(|cable| limit_cells(&cable.limits).iter().any(|cell| cell != table::NONE));
-    let header = ["cable", "rope", "anchor [m]", "attachment [m]", "unstrained [m]", "min T [N]", "max T [N]"];
-    let loaded = found.cables.iter().any(|cable| cable.load_n_per_m.is_some());
-    let mut columns = header[..if limited { 7 } else { 5 }].to_vec();
-    columns.extend(loaded.then_some("load [N/m]"));
-
-    let mut cables = Table::new(&columns).text_columns(&[1]);
-    for cable in &found.cables {
-        let point = |values: &[f64; 3]| components(values, 4);
-        let mut row = vec![
-            cable.name.clone(),
-            cable.material.clone(),
-            point(&cable.anchor_m),
-            point(&cable.attachment_m),
-            decimals_or_none(cable.unstrained_length_m, 4),
-        ];
-        if limited {
-            row.extend(limit_cells(&cable.limits));
-        }
-        if loaded {
-            row.push(cable.load_n_per_m.as_ref().map_or_else(|| table::NONE.to_owned(), point));
-        }
-        cables.row(row);
-    }
-
-    cables.to_string()
-}
-
-/// Minimum and maximum tension as two cells of a table.
-fn limit_cells(limits: &CheckedLimits) -> [String; 2] {
-    [or_none(limits.minimum_tension_n), or_none(limits.maximum_tension_n)]
-}
-
-fn or_none(value: Option<f64>) -> String {
-    value.map_or_else(|| table::NONE.to_owned(), |value| short(value, 4))
 }

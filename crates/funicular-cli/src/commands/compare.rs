@@ -65,36 +65,6 @@ impl Printed for Compared {
         let table = if self.compared.is_empty() { String::new() } else { format!("{table}\n") };
         format!("{head}{table}{}\n\n{}\n{frozen}", lines.join("\n"), self.advice.text)
     }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        out.write_record([
-            "cable_model",
-            "frequency_hz",
-            "kind",
-            "platform_energy_fraction",
-            "reference_hz",
-            "relative_difference",
-            "correlation",
-        ])?;
-
-        for model in &self.models {
-            // Matches are in the order of the modes. A mode with the platform at rest has no match.
-            let mut matches = model.matches.iter().peekable();
-            for mode in &model.modes {
-                let found = matches.next_if(|m| m.frequency_hz.to_bits() == mode.frequency_hz.to_bits());
-                out.serialize((
-                    model.cable_model,
-                    mode.frequency_hz,
-                    mode.kind,
-                    mode.platform_energy_fraction,
-                    found.map(|m| m.reference_hz),
-                    found.map(|m| m.relative_difference),
-                    found.map(|m| m.correlation),
-                ))?;
-            }
-        }
-        Ok(())
-    }
 }
 
 /// Agreement of one model on the modes of the platform.

@@ -3,13 +3,12 @@
 use super::result_files::ResultFiles;
 use crate::args::{Cli, DesignArgs};
 use crate::output::Printed;
-use crate::progress::TerminalProgress;
-
 use crate::pose_csv;
+use crate::progress::TerminalProgress;
 use crate::table::{Table, counted, significant};
 use anyhow::Result;
 use funicular_files::Guard;
-use funicular_study::analyses::design::{self, Designed};
+use funicular_study::analyses::design::{self, ChosenValue, DemandRow, Designed};
 use funicular_study::request::{DesignRequest, Request};
 use funicular_study::wording::{Words, worded};
 use serde_json::{Map, Value};
@@ -62,21 +61,10 @@ impl Printed for Designed {
 
         let _ = write!(text, "\n{}", poses(self));
         if !self.demands.is_empty() {
-            let _ = write!(text, "\n{}", demands(self));
+            let _ = write!(text, "\n{}", Table::of(&DemandRow::columns(), &self.demands));
         }
-        let _ = write!(text, "\n{}", values(self));
+        let _ = write!(text, "\n{}", Table::of(&ChosenValue::columns(), &self.values));
         text
-    }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        out.write_record(["path", "unit", "start", "value", "minimum", "maximum", "at_bound", "gain_per_unit"])?;
-        for row in &self.values {
-            out.serialize((
-                (&row.path, row.unit, row.start, row.value),
-                (row.minimum, row.maximum, row.at_bound, row.gain_per_unit),
-            ))?;
-        }
-        Ok(())
     }
 }
 
@@ -97,25 +85,6 @@ fn poses(found: &Designed) -> Table {
         cells.extend(row.position_m.iter().chain(&row.roll_pitch_yaw_deg).map(|value| short(*value)));
         cells.extend([significant(row.before, 5), significant(row.after, 5), format!("{:.3}", row.share)]);
         table.row(cells);
-    }
-    table
-}
-
-/// Table of the demands with their limits.
-fn demands(found: &Designed) -> Table {
-    let mut table = Table::new(&["demand", "limit", "before", "after", "unit", "at pose"]).text_columns(&[0, 4]);
-    for row in &found.demands {
-        table.row(row.cells(significant).to_vec());
-    }
-    table
-}
-
-/// Table of the chosen values.
-fn values(found: &Designed) -> Table {
-    let mut table =
-        Table::new(&["value", "unit", "before", "after", "minimum", "maximum", ""]).text_columns(&[0, 1, 6]);
-    for row in &found.values {
-        table.row(row.cells(significant).to_vec());
     }
     table
 }

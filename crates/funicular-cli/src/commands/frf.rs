@@ -31,23 +31,6 @@ impl Printed for Frf {
         format!("{robot}: {count}\n{models}\n\n{range}\n\n{several}The whole curves: --format csv or --format json.\n")
     }
 
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        let columns = ["frequency_hz", "real", "imag", "magnitude", "phase_deg"];
-        let one = self.responses.len() == 1;
-        out.write_record(["input", "output"].iter().filter(|_| !one).chain(&columns))?;
-        for pair in &self.responses {
-            for ((frequency, re), im) in self.frequency_hz.iter().zip(&pair.real).zip(&pair.imag) {
-                let row = (frequency, re, im, re.hypot(*im), im.atan2(*re).to_degrees());
-                if one {
-                    out.serialize(row)?;
-                } else {
-                    out.serialize((&pair.input, &pair.output, row))?;
-                }
-            }
-        }
-        Ok(())
-    }
-
     fn uff(&self) -> anyhow::Result<Vec<u8>> {
         frf_file(self)
     }

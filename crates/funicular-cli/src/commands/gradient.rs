@@ -40,32 +40,6 @@ impl Printed for GradientTable {
         }
         out
     }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        out.write_record([
-            "result",
-            "result_value",
-            "result_unit",
-            "path",
-            "path_value",
-            "path_unit",
-            "tolerance",
-            "held",
-            "per",
-            "derivative",
-        ])?;
-
-        for result in &self.results {
-            for (parameter, derivative) in self.parameters.iter().zip(&result.derivatives) {
-                out.serialize((
-                    (&result.name, result.value, &result.unit),
-                    (&parameter.path, parameter.value, parameter.unit, parameter.tolerance),
-                    (self.held, self.per, derivative),
-                ))?;
-            }
-        }
-        Ok(())
-    }
 }
 
 /// Table of the derivatives with the largest effect over the tolerances of the numbers.

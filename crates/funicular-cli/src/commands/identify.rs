@@ -10,7 +10,7 @@ use anyhow::{Context, Result, bail};
 use std::fmt::Write as _;
 
 use funicular_files::Guard;
-use funicular_study::analyses::identify::{self, Identified, OpenEnd};
+use funicular_study::analyses::identify::{self, FittedValue, Identified, OpenEnd, StaticRow};
 use funicular_study::measurements::{self, FileOptions};
 use funicular_study::request::{Experiment, FitValue, IdentifyRequest, Request, ResponsePoints};
 use funicular_study::wording::{Words, worded};
@@ -134,7 +134,7 @@ impl Printed for Identified {
             self.robot,
             counted(self.values.len(), "value"),
             counted(self.residuals, "residual"),
-            values(self),
+            Table::of(&FittedValue::columns(), FittedValue::all(self)),
             significant(self.chi2, 4),
             counted(self.degrees_of_freedom, "degree"),
             significant(self.chi2_per_degree, 3),
@@ -163,57 +163,9 @@ impl Printed for Identified {
             let _ = write!(text, "\n{}\n", responses(self));
         }
         if !self.statics.is_empty() {
-            let _ = write!(text, "\n{}\n", statics(self));
+            let _ = write!(text, "\n{}\n", Table::of(&StaticRow::columns(), &self.statics));
         }
         text
-    }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        out.write_record([
-            "path",
-            "unit",
-            "start",
-            "value",
-            "deviation",
-            "interval_95_from",
-            "interval_95_to",
-            "prior",
-            "prior_deviation",
-            "at_bound",
-            "profile_95_from",
-            "profile_95_to",
-            "second_best",
-            "is_assignment_determined",
-            "modes",
-            "second_best_modes",
-            "chi2_per_degree",
-            "second_best_chi2_per_degree",
-            "random_chi2_per_degree",
-        ])?;
-
-        let assignment = self.assignment.as_ref();
-        let second = assignment.and_then(|assignment| assignment.second_best.as_ref());
-        let listed = |numbers: &mut dyn Iterator<Item = usize>| {
-            numbers.map(|number| number.to_string()).collect::<Vec<_>>().join(" ")
-        };
-        let modes = listed(&mut self.frequencies.iter().map(|row| row.number));
-        let second_modes = second.map(|second| listed(&mut second.numbers.iter().copied()));
-        for (k, row) in self.values.iter().enumerate() {
-            out.serialize((
-                (&row.path, row.unit, row.start, row.value),
-                row.deviation,
-                (row.interval_95.map(|interval| interval[0]), row.interval_95.map(|interval| interval[1])),
-                (row.prior, row.prior_deviation, row.at_bound),
-                row.profile.as_ref().map_or([None; 2], |profile| [profile.from, profile.to]),
-                (second.map(|second| second.values[k]), assignment.map(|assignment| assignment.determined)),
-                (&modes, &second_modes, self.chi2_per_degree),
-                (
-                    second.map(|second| second.chi2_per_degree),
-                    assignment.and_then(|assignment| assignment.random_chi2_per_degree),
-                ),
-            ))?;
-        }
-        Ok(())
     }
 }
 
@@ -241,19 +193,6 @@ fn assignment(found: &Identified) -> String {
     text
 }
 
-/// Table of the values.
-fn values(found: &Identified) -> Table {
-    let mut table = Table::new(&["value", "unit", "start", "identified", "deviation", "95 % from", "to", ""])
-        .text_columns(&[0, 1, 7]);
-    for row in &found.values {
-        let prior = row.prior_text(significant);
-        let notes = [if prior.is_empty() { prior } else { format!("prior {prior}") }, row.remark()];
-        let notes: Vec<String> = notes.into_iter().filter(|note| !note.is_empty()).collect();
-        table.row(row.cells(significant).into_iter().chain([notes.join(", ")]).collect());
-    }
-    table
-}
-
 /// Table of the responses with their residuals.
 fn responses(found: &Identified) -> Table {
     let mut table = Table::new(&["response", "lines", "residual [deviations]"]).text_columns(&[0]);
@@ -264,22 +203,6 @@ fn responses(found: &Identified) -> Table {
             response.name.clone()
         };
         table.row(vec![name, response.frequency_hz.len().to_string(), significant(response.residual_rms, 3)]);
-    }
-    table
-}
-
-/// Table of measured and fitted poses, tensions and lengths.
-fn statics(found: &Identified) -> Table {
-    let mut table =
-        Table::new(&["experiment", "quantity", "measured", "fitted", "difference [deviations]"]).text_columns(&[0, 1]);
-    for row in &found.statics {
-        table.row(vec![
-            row.experiment.clone(),
-            row.quantity.clone(),
-            significant(row.measured, 6),
-            significant(row.fitted, 6),
-            significant(row.difference(), 3),
-        ]);
     }
     table
 }

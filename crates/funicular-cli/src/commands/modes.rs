@@ -1,30 +1,13 @@
 //! `modes`: text and CSV.
 
 use crate::output::Printed;
-use crate::table::{self, Table, counted, decimals, short, significant};
-use funicular_study::analyses::modes::{Modes, Participation, RIGID, strongest};
-use funicular_study::analyses::shared::ModeRow;
+use crate::table::{Table, counted, decimals, short};
+use funicular_study::analyses::modes::{Modes, Participation, RIGID};
 use funicular_study::uff_writing::modes_file;
 
 impl Printed for Modes {
     fn text(&self) -> String {
-        let peak = self.participation.as_ref().map(|of| format!("peak [{}]", of.peak_unit));
-        let mut heads = vec!["f [Hz]", "damping [%]"];
-        heads.extend(peak.as_deref());
-        heads.extend(["platform [%]", "x", "y", "z", "rx [1/m]", "ry [1/m]", "rz [1/m]", "kind", "cables"]);
-        let mut table = Table::new(&heads).text_columns(&[heads.len() - 2, heads.len() - 1]);
-
-        for mode in &self.modes {
-            let mut row = vec![decimals(mode.frequency_hz, 4), significant(100.0 * mode.damping_ratio, 3)];
-            if self.participation.is_some() {
-                row.push(mode.peak.map_or(table::NONE.to_owned(), |peak| significant(peak, 3)));
-            }
-            row.push(decimals(100.0 * mode.platform_energy_fraction, 1));
-            row.extend(mode.shape.iter().map(|x| decimals(*x, 2)));
-            row.extend([mode.kind.to_owned(), strongest_cables(self, mode)]);
-            table.row(row);
-        }
-
+        let table = Table::of(&self.columns(), &self.modes);
         let pair = match &self.participation {
             None => String::new(),
             Some(Participation { input, output, .. }) => {
@@ -44,45 +27,6 @@ impl Printed for Modes {
             certificate(self),
             first_platform(self)
         )
-    }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        let fixed = [
-            "frequency_hz",
-            "multiplicity",
-            "damping_ratio",
-            "kind",
-            "platform_energy_fraction",
-            "shape_x",
-            "shape_y",
-            "shape_z",
-            "shape_rx_per_m",
-            "shape_ry_per_m",
-            "shape_rz_per_m",
-            "residual",
-            "modal_mass_kg",
-            "residue_per_kg",
-            "peak",
-        ];
-        let cables = self.cable_names.iter().map(|name| format!("energy_fraction_cable_{name}"));
-        let drives_move = self.modes.iter().any(|mode| !mode.drive_energy_fractions.is_empty());
-        let drives =
-            self.cable_names.iter().filter(|_| drives_move).map(|name| format!("energy_fraction_drive_{name}"));
-        let supports = self.support_names.iter().map(|name| format!("energy_fraction_support_{name}"));
-        out.write_record(fixed.into_iter().map(str::to_owned).chain(cables).chain(drives).chain(supports))?;
-
-        for mode in &self.modes {
-            out.serialize((
-                (mode.frequency_hz, mode.multiplicity, mode.damping_ratio, mode.kind, mode.platform_energy_fraction),
-                mode.shape,
-                (mode.residual, mode.modal_mass_kg, mode.residue_per_kg, mode.peak),
-                &mode.cable_energy_fractions,
-                &mode.drive_energy_fractions,
-                &mode.support_energy_fractions,
-            ))?;
-        }
-
-        Ok(())
     }
 
     fn uff(&self) -> anyhow::Result<Vec<u8>> {
@@ -135,15 +79,4 @@ fn first_platform(found: &Modes) -> String {
             found.below_hz
         ),
     }
-}
-
-/// Cables with the most energy, with their fractions of it.
-fn strongest_cables(found: &Modes, mode: &ModeRow) -> String {
-    let supports = (&found.support_names[..], &mode.support_energy_fractions[..]);
-    let of_cables = (&mode.cable_energy_fractions, &mode.drive_energy_fractions);
-    let shown: Vec<String> = strongest(&found.cable_names, of_cables.0, of_cables.1, supports)
-        .iter()
-        .map(|(name, share)| format!("{name} {}%", decimals(100.0 * share, 0)))
-        .collect();
-    if shown.is_empty() { table::NONE.to_owned() } else { shown.join(", ") }
 }

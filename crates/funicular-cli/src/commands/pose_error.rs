@@ -2,7 +2,7 @@
 
 use crate::output::Printed;
 use crate::table::{self, Table, decimals, decimals_or_none, short, significant, vector};
-use funicular_study::analyses::pose_error::{PoseDifferenceRow, PoseErrors, ThresholdRow};
+use funicular_study::analyses::pose_error::{PoseErrors, ThresholdRow};
 
 impl Printed for PoseErrors {
     fn text(&self) -> String {
@@ -30,28 +30,6 @@ impl Printed for PoseErrors {
             held_line(self),
             threshold_line(self)
         )
-    }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        let columns = ["spring_from_ideal", "catenary_from_ideal", "spring_from_catenary"]
-            .into_iter()
-            .flat_map(|pair| ["x_m", "y_m", "z_m", "distance_m", "angle_deg"].map(|part| format!("{pair}_{part}")));
-        out.write_record(std::iter::once("mass_kg".to_owned()).chain(columns))?;
-        for point in &self.points {
-            let pairs = [point.spring_from_ideal, point.catenary_from_ideal, point.spring_from_catenary];
-            let cells = pairs.map(|pair| {
-                let part = |of: fn(&PoseDifferenceRow) -> f64| pair.as_ref().map(of);
-                [
-                    part(|d| d.translation_m[0]),
-                    part(|d| d.translation_m[1]),
-                    part(|d| d.translation_m[2]),
-                    part(|d| d.distance_m),
-                    part(|d| d.angle_deg),
-                ]
-            });
-            out.serialize((point.mass_kg, cells))?;
-        }
-        Ok(())
     }
 }
 

@@ -11,7 +11,7 @@ use funicular_files::endings::Kind;
 use funicular_files::mat::{self, Value, Variable};
 use funicular_files::{Guard, atomic_file};
 use funicular_study::analyses::Found;
-use funicular_study::analyses::control_model::ControlStateSpace;
+use funicular_study::analyses::control_model::{ControlStateSpace, StatesRow, percent};
 use funicular_study::analyses::reduce::{self, ChannelRow, Reduced, ReducedForm};
 use funicular_study::json;
 use funicular_study::request::ReduceRequest;
@@ -43,15 +43,8 @@ pub(super) fn print(of: &ReduceRequest, output: &OutputArgs, matrices: Option<&P
 impl Printed for ReducedForm {
     fn text(&self) -> String {
         match self {
-            Self::StateSpace(found) => found.text(),
-            Self::SecondOrder(found) => found.text(),
-        }
-    }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        match self {
-            Self::StateSpace(found) => found.csv(out),
-            Self::SecondOrder(found) => found.csv(out),
+            Self::StateSpace(found) => state_space_text(found),
+            Self::SecondOrder(found) => second_order_text(found),
         }
     }
 }
@@ -63,36 +56,6 @@ const NOT_WRITTEN: &str =
 /// Names and units of inputs or outputs.
 fn names(channels: &[ChannelRow]) -> String {
     channels.iter().map(|of| format!("{} [{}]", of.name, of.unit)).collect::<Vec<_>>().join(", ")
-}
-
-/// Fraction in percent, with three digits.
-fn percent(fraction: f64) -> String {
-    let value = 100.0 * fraction;
-    if value >= 99.95 || value == 0.0 {
-        format!("{value:.0}")
-    } else {
-        let digits = (2 - value.log10().floor() as i32).clamp(0, 12) as usize;
-        format!("{value:.digits$}")
-    }
-}
-
-/// Modes of a state space, with the numbers of their states from 1.
-fn modes_table(found: &ControlStateSpace) -> Table {
-    let mut modes = Table::new(&["states", "frequency [Hz]", "damping ratio [%]", "kind", "part in a response [%]"])
-        .text_columns(&[0, 3]);
-    for of in &found.states {
-        let states =
-            if of.states == 1 { format!("{}", of.first + 1) } else { format!("{}, {}", of.first + 1, of.first + 2) };
-        modes.row(vec![
-            states,
-            decimals(of.frequency_hz, 4),
-            decimals(100.0 * of.damping_ratio, 4),
-            of.kind.to_owned(),
-            percent(of.contribution),
-        ]);
-    }
-
-    modes
 }
 
 /// Peaks and errors of the responses, and the number of pairs that are not coupled.
@@ -118,117 +81,82 @@ fn errors_table(found: &ControlStateSpace) -> String {
     format!("{errors}{none}")
 }
 
-impl Printed for ControlStateSpace {
-    fn text(&self) -> String {
-        let (modes, errors) = (modes_table(self), errors_table(self));
-        let damping = if self.damping_error == 0.0 {
-            String::new()
-        } else {
-            format!("; with all modes {} % would remain", percent(self.damping_error))
-        };
-        let pointwise = format!(
-            "relative to the response at the same frequency: up to {} % ({}/{} at {} Hz, where the response is {} % of \
+/// Text of a state space.
+fn state_space_text(found: &ControlStateSpace) -> String {
+    let (modes, errors) = (Table::of(&StatesRow::columns(), &found.states), errors_table(found));
+    let damping = if found.damping_error == 0.0 {
+        String::new()
+    } else {
+        format!("; with all modes {} % would remain", percent(found.damping_error))
+    };
+    let pointwise = format!(
+        "relative to the response at the same frequency: up to {} % ({}/{} at {} Hz, where the response is {} % of \
              its peak)",
-            percent(self.pointwise_error.error),
-            self.pointwise_error.output,
-            self.pointwise_error.input,
-            decimals(self.pointwise_error.frequency_hz, 4),
-            percent(self.pointwise_error.response_over_peak),
-        );
-        let written = match &self.matrices_file {
-            None => NOT_WRITTEN.to_owned(),
-            Some(path) => format!("{path}: A, B, C, D of x' = A x + B f, y = C x + D f; description"),
-        };
+        percent(found.pointwise_error.error),
+        found.pointwise_error.output,
+        found.pointwise_error.input,
+        decimals(found.pointwise_error.frequency_hz, 4),
+        percent(found.pointwise_error.response_over_peak),
+    );
+    let written = match &found.matrices_file {
+        None => NOT_WRITTEN.to_owned(),
+        Some(path) => format!("{path}: A, B, C, D of x' = A x + B f, y = C x + D f; description"),
+    };
 
-        format!(
-            "{}: state space for frequencies below {} Hz\n{}\n\n{}; the complete model has {}, the robot {} below the \
+    format!(
+        "{}: state space for frequencies below {} Hz\n{}\n\n{}; the complete model has {}, the robot {} below the \
              limit\ninputs: {}\noutputs: {}\ndamping: {}\n\n{modes}\nerror: at most {} % of the peak of each \
              response{damping}\n{errors}{pointwise}\n\n{written}\n",
-            self.robot,
-            self.below_hz,
-            self.models.line(),
-            counted(self.order, "state"),
-            self.complete_order,
-            counted(self.modes_below, "mode"),
-            names(&self.inputs),
-            names(&self.outputs),
-            self.damping,
-            percent(self.error),
-        )
-    }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        out.write_record([
-            "first_state",
-            "states",
-            "frequency_hz",
-            "damping_ratio",
-            "kind",
-            "platform_energy_fraction",
-            "contribution",
-        ])?;
-
-        for of in &self.states {
-            out.serialize((
-                of.first,
-                of.states,
-                of.frequency_hz,
-                of.damping_ratio,
-                of.kind,
-                of.platform_energy_fraction,
-                of.contribution,
-            ))?;
-        }
-        Ok(())
-    }
+        found.robot,
+        found.below_hz,
+        found.models.line(),
+        counted(found.order, "state"),
+        found.complete_order,
+        counted(found.modes_below, "mode"),
+        names(&found.inputs),
+        names(&found.outputs),
+        found.damping,
+        percent(found.error),
+    )
 }
 
-impl Printed for Reduced {
-    fn text(&self) -> String {
-        let mut errors = Table::new(&["", "max relative error"]);
-        let mut row = |what: &str, error: Option<f64>| {
-            errors.row(vec![what.to_owned(), error.map_or("no response: undamped".to_owned(), |e| format!("{e:.1e}"))]);
-        };
-        row("natural frequencies", Some(self.frequency_error));
-        row("responses, due to omitted modes", self.truncation_error);
-        row("responses, due to viscous damping", self.damping_error);
+/// Text of a second-order model.
+fn second_order_text(found: &Reduced) -> String {
+    let mut errors = Table::new(&["", "max relative error"]);
+    let mut row = |what: &str, error: Option<f64>| {
+        errors.row(vec![what.to_owned(), error.map_or("no response: undamped".to_owned(), |e| format!("{e:.1e}"))]);
+    };
+    row("natural frequencies", Some(found.frequency_error));
+    row("responses, due to omitted modes", found.truncation_error);
+    row("responses, due to viscous damping", found.damping_error);
 
-        let highest = self.coordinates.iter().filter_map(|of| of.clamped_frequency_hz).fold(0.0, f64::max);
-        let clamped = self.coordinates.iter().filter(|of| of.clamped_frequency_hz.is_some()).count();
-        let kept = match clamped {
-            0 => String::new(),
-            n => format!(" and {} of cables up to {} Hz", counted(n, "clamped mode"), decimals(highest, 2)),
-        };
+    let highest = found.coordinates.iter().filter_map(|of| of.clamped_frequency_hz).fold(0.0, f64::max);
+    let clamped = found.coordinates.iter().filter(|of| of.clamped_frequency_hz.is_some()).count();
+    let kept = match clamped {
+        0 => String::new(),
+        n => format!(" and {} of cables up to {} Hz", counted(n, "clamped mode"), decimals(highest, 2)),
+    };
 
-        let written = match &self.matrices_file {
-            None => NOT_WRITTEN.to_owned(),
-            Some(path) => format!(
-                "{path}: M, C, K, B, L of M x'' + C x' + K x = B f, y = L x; ss_A, ss_B, ss_C, ss_D of its state \
+    let written = match &found.matrices_file {
+        None => NOT_WRITTEN.to_owned(),
+        Some(path) => format!(
+            "{path}: M, C, K, B, L of M x'' + C x' + K x = B f, y = L x; ss_A, ss_B, ss_C, ss_D of its state \
                  space; the description"
-            ),
-        };
+        ),
+    };
 
-        format!(
-            "{}: second-order model for frequencies below {} Hz\n{}\n\n{} coordinates: the platform's {}{kept}\n\
+    format!(
+        "{}: second-order model for frequencies below {} Hz\n{}\n\n{} coordinates: the platform's {}{kept}\n\
              inputs: {}\noutputs: {}\ndamping: {}\n\n{errors}\n{written}\n",
-            self.robot,
-            self.below_hz,
-            self.models.line(),
-            self.order,
-            self.order - clamped,
-            names(&self.inputs),
-            names(&self.outputs),
-            self.damping,
-        )
-    }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        out.write_record(["coordinate", "unit", "clamped_frequency_hz"])?;
-        for of in &self.coordinates {
-            out.serialize((&of.name, of.unit, of.clamped_frequency_hz))?;
-        }
-        Ok(())
-    }
+        found.robot,
+        found.below_hz,
+        found.models.line(),
+        found.order,
+        found.order - clamped,
+        names(&found.inputs),
+        names(&found.outputs),
+        found.damping,
+    )
 }
 
 /// Matrices in a file of NumPy.

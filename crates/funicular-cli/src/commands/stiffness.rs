@@ -2,20 +2,7 @@
 
 use crate::output::Printed;
 use crate::table::{Table, significant};
-use funicular_study::analyses::stiffness::Stiffness;
-
-/// Wrench components and motions, in the order of rows and columns.
-const WRENCH: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
-const MOTION: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
-
-fn unit(row: usize, column: usize) -> &'static str {
-    match (row < 3, column < 3) {
-        (true, true) => "N/m",
-        (true, false) => "N/rad",
-        (false, true) => "N m/m",
-        (false, false) => "N m/rad",
-    }
-}
+use funicular_study::analyses::stiffness::{Stiffness, WRENCH};
 
 /// Rounding of an entry over the stiffness of its row and column. Sums over some ten cables leave 1e-15; the observed
 /// rounding is 1e-16.
@@ -75,15 +62,5 @@ impl Printed for Stiffness {
         }
 
         out
-    }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        out.write_record(["row", "column", "unit", "real", "imag"])?;
-        for (i, row) in WRENCH.iter().enumerate() {
-            for (j, column) in MOTION.iter().enumerate() {
-                out.serialize((row, column, unit(i, j), self.real[i][j], self.imag[i][j]))?;
-            }
-        }
-        Ok(())
     }
 }

@@ -6,20 +6,17 @@ use crate::interrupt::{STOPPED, stop_at_next_row};
 use crate::output::{Content, Printed, Sink, Target};
 use crate::pose_csv;
 use crate::progress::Progress;
-use crate::table::{NONE, Table, counted, digits_for, significant};
+use crate::table::{Table, counted, significant};
 use anyhow::{Result, bail};
 use funicular_files::endings::Kind;
 use funicular_files::{Begin, Guard, UncertaintyOutcome, UncertaintyRun, threads};
-use funicular_study::analyses::uncertainty::{PoseUncertainty, UncertainResult, Uncertainties, UncertaintyStudy};
+use funicular_study::analyses::uncertainty::{PoseUncertainty, ResultAtPose, Uncertainties, UncertaintyStudy};
 use funicular_study::request::{Request, UncertaintyRequest};
 use funicular_study::wording::{Words, worded};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;
 use std::path::Path;
-
-/// Number of contributions that the text shows for each result.
-const SHOWN: usize = 3;
 
 /// Request of `uncertainty`. Errors of its poses name the line in the file of poses.
 pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
@@ -129,59 +126,6 @@ impl Printed for Uncertainties {
         }
         out
     }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        let mut header: Vec<String> = [
-            "pose",
-            "x_m",
-            "y_m",
-            "z_m",
-            "roll_deg",
-            "pitch_deg",
-            "yaw_deg",
-            "result",
-            "unit",
-            "value",
-            "deviation",
-            "interval_95_from",
-            "interval_95_to",
-            "method",
-            "linear_deviation",
-            "worst_linear",
-            "worst_down",
-            "worst_up",
-            "sampling_reason",
-        ]
-        .map(str::to_owned)
-        .to_vec();
-        header.extend(self.groups.iter().map(|group| format!("share of {}", group.name)));
-        out.write_record(&header)?;
-
-        for (i, pose) in self.poses.iter().enumerate() {
-            for result in &pose.results {
-                let number = |value: Option<f64>| value.map_or_else(String::new, |value| value.to_string());
-                let place = pose.position_m.iter().chain(&pose.roll_pitch_yaw_deg).flatten();
-                let mut row = vec![(i + 1).to_string()];
-                row.extend(place.map(f64::to_string));
-                row.extend([result.name.clone(), result.unit.to_owned(), result.value.to_string()]);
-                row.extend([
-                    number(result.deviation),
-                    number(result.interval_95.map(|interval| interval[0])),
-                    number(result.interval_95.map(|interval| interval[1])),
-                    result.method.to_owned(),
-                    number(result.linear_deviation),
-                    number(result.worst.map(|worst| worst.linear)),
-                    number(result.worst.and_then(|worst| worst.down)),
-                    number(result.worst.and_then(|worst| worst.up)),
-                    result.sampling_reason.clone().unwrap_or_default(),
-                ]);
-                let shares = (0..self.groups.len()).map(|g| number(result.group_shares.as_ref().map(|all| all[g])));
-                row.extend(shares);
-                out.write_record(&row)?;
-            }
-        }
-        Ok(())
-    }
 }
 
 /// Text about the results at one pose: their table, and doubts.
@@ -201,7 +145,8 @@ fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
         return out;
     }
 
-    let _ = write!(out, "\n{}", results(of, pose));
+    let columns = ResultAtPose::columns(&of.groups, pose.results.iter().any(|result| result.worst.is_some()));
+    let _ = write!(out, "\n{}", Table::of(&columns, ResultAtPose::all(of, i, 1)));
 
     // Each reason once.
     let mut reasons: Vec<&str> = Vec::new();
@@ -221,54 +166,4 @@ fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
             writeln!(out, "{} without results; the first: {}.", counted(failed.count, "sampled robot"), failed.reason);
     }
     out
-}
-
-/// Rows of the results, with the largest contributions to each.
-fn results(of: &Uncertainties, pose: &PoseUncertainty) -> Table {
-    let has_worst = pose.results.iter().any(|result| result.worst.is_some());
-    let mut header = vec!["result", "unit", "value", "deviation", "95 % from", "to", "method"];
-    if has_worst {
-        header.extend(["corner down", "up"]);
-    }
-    header.push("largest shares");
-    let last = header.len() - 1;
-    let mut table = Table::new(&header).text_columns(&[0, 1, 6, last]);
-
-    for result in &pose.results {
-        let digits = digits_for(result.value, result.deviation);
-        let number = |value: Option<f64>, digits: usize| {
-            value.map_or_else(|| NONE.to_owned(), |value| significant(value, digits))
-        };
-        let mut row = vec![
-            result.name.clone(),
-            result.unit.to_owned(),
-            significant(result.value, digits),
-            number(result.deviation, 3),
-            number(result.interval_95.map(|interval| interval[0]), digits),
-            number(result.interval_95.map(|interval| interval[1]), digits),
-            result.method.to_owned(),
-        ];
-        if has_worst {
-            row.push(number(result.worst.and_then(|worst| worst.down), 3));
-            row.push(number(result.worst.and_then(|worst| worst.up), 3));
-        }
-        row.push(shares(of, result));
-        table.row(row);
-    }
-    table
-}
-
-/// Largest contributions to a result: single numbers, or groups where only these are known.
-fn shares(of: &Uncertainties, result: &UncertainResult) -> String {
-    let percent = |share: f64| format!("{} %", significant(100.0 * share, 2));
-    let mut parts: Vec<(f64, &str)> =
-        result.largest.iter().map(|largest| (largest.share, largest.path.as_str())).collect();
-    if result.method == "sampled"
-        && let Some(shares) = &result.group_shares
-    {
-        parts = shares.iter().copied().zip(of.groups.iter().map(|group| group.name.as_str())).collect();
-        parts.sort_by(|a, b| b.0.total_cmp(&a.0));
-    }
-    let shown = parts.iter().take(SHOWN).filter(|(share, _)| *share > 0.0);
-    shown.map(|(share, name)| format!("{name} {}", percent(*share))).collect::<Vec<_>>().join(", ")
 }

@@ -6,6 +6,7 @@ use crate::output::Printed;
 use crate::table::{Table, counted, short, significant};
 use anyhow::Result;
 use funicular_study::analyses::Found;
+use funicular_study::columns::{Columns, ResultTable, Tabled, column};
 use funicular_study::sweep::{CODES, Chunk, Column, ColumnKind, Values};
 use serde::Serialize;
 
@@ -51,6 +52,16 @@ struct Range {
     min_at: Vec<f64>,
     max: f64,
     max_at: Vec<f64>,
+}
+
+impl Range {
+    fn columns() -> Columns<Self> {
+        Columns::new([
+            column("column", "", "column of the rows", |range: &Self| range.column.clone()),
+            column("min", "", "smallest value of the feasible rows", |range: &Self| range.min),
+            column("max", "", "largest value of the feasible rows", |range: &Self| range.max),
+        ])
+    }
 }
 
 impl Summary {
@@ -155,6 +166,16 @@ impl Found for Summary {
     }
 }
 
+impl Tabled for Summary {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", Range::columns().described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(Range::columns(), &self.ranges)
+    }
+}
+
 impl Printed for Summary {
     fn command(&self) -> &'static str {
         self.command
@@ -198,10 +219,5 @@ impl Printed for Summary {
         }
 
         text
-    }
-
-    fn csv(&self, out: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-        out.write_record(["column", "min", "max"])?;
-        self.ranges.iter().try_for_each(|range| out.serialize((&range.column, range.min, range.max)))
     }
 }

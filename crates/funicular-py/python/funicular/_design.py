@@ -3,19 +3,17 @@
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from os import PathLike
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from funicular._funicular import Answered, Robot
-from funicular._pages import Page, page_of_result
-from funicular._results import ArrayFields, with_arrays
+from funicular._pages import Answer
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Designed(ArrayFields):
+class Designed(Answer):
     """Values chosen by `Robot.design`, in the manner of `scipy.optimize`."""
 
     names: tuple[str, ...]
@@ -55,7 +53,7 @@ class Designed(ArrayFields):
     details: dict[str, Any]
     """All keys of the program's JSON: `values`, `poses`, `demands`, `limits`, `history`, …"""
     _answered: Answered = field(compare=False)
-    """Request and results in the compiled half, for `page`."""
+    """Request and results in the compiled half, for `page` and `to_pandas`."""
 
     @property
     def limits(self) -> tuple[str, ...]:
@@ -72,15 +70,6 @@ class Designed(ArrayFields):
     def robot(self) -> Robot:
         """Robot with the values."""
         return Robot.from_toml(self.robot_file)
-
-    def page(self, path: str | PathLike[str] | None = None) -> Page:
-        """Makes a page in HTML about the design, which notebooks show, and writes it if a path is given."""
-        return page_of_result(self._answered, path)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Keys of the program's JSON, with arrays for lists of numbers."""
-        found: dict[str, Any] = with_arrays(self.details)
-        return found
 
     def __repr__(self) -> str:
         goal = f"{self.details['goal_means']} {self.fun_before:.5g} → {self.fun:.5g} {self.unit}"

@@ -13,15 +13,14 @@ from numpy.typing import ArrayLike, NDArray
 from funicular._errors import InputError
 from funicular._funicular import Answered, Robot, measurements_of_file
 from funicular._hints import hinted
-from funicular._pages import Page, page_of_result
+from funicular._pages import Answer
 from funicular._reading import read
-from funicular._results import ArrayFields, with_arrays
 
 File = str | PathLike[str]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Identified(ArrayFields):
+class Identified(Answer):
     """Values that fit measurements best, in the manner of `scipy.optimize`."""
 
     names: tuple[str, ...]
@@ -45,7 +44,7 @@ class Identified(ArrayFields):
     details: dict[str, Any]
     """All keys of the program's JSON: `values`, `starts`, `frequencies`, `responses`, `statics`, …"""
     _answered: Answered = field(compare=False)
-    """Request and results in the compiled half, for `page`."""
+    """Request and results in the compiled half, for `page` and `to_pandas`."""
 
     @property
     def covariance(self) -> NDArray[np.float64]:
@@ -79,15 +78,6 @@ class Identified(ArrayFields):
     def robot(self) -> Robot:
         """Robot with the values."""
         return Robot.from_toml(self.robot_file)
-
-    def page(self, path: File | None = None) -> Page:
-        """Makes a page in HTML about the fit, which notebooks show, and writes it if a path is given."""
-        return page_of_result(self._answered, path)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Keys of the program's JSON, with arrays for lists of numbers."""
-        found: dict[str, Any] = with_arrays(self.details)
-        return found
 
     def __repr__(self) -> str:
         values = ", ".join(f"{name}={value:.6g}" for name, value in zip(self.names, self.x, strict=True))

@@ -5,9 +5,12 @@ from dataclasses import dataclass
 from html import escape
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
+from funicular import _show
 from funicular._errors import InputError
 from funicular._funicular import Answered, write_file
+from funicular._results import ArrayFields, with_arrays
 
 
 @dataclass(frozen=True, repr=False)
@@ -53,6 +56,26 @@ def page_of_result(answered: Answered, path: str | PathLike[str] | None) -> Page
     measured = ["experiments"] if own.pop("experiments", None) else []
     call = f"robot.{command}({', '.join(filter(None, [*measured, _keywords(own)]))}).page()"
     return page(answered.page(call), [], path)
+
+
+class Answer(ArrayFields):
+    """Results that the compiled half holds with their request: keys, table and page follow from it."""
+
+    details: dict[str, Any]
+    _answered: Answered
+
+    def page(self, path: str | PathLike[str] | None = None) -> Page:
+        """Makes a page in HTML about the results, which notebooks show, and writes it if a path is given."""
+        return page_of_result(self._answered, path)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Keys of the program's JSON, with arrays for lists of numbers."""
+        found: dict[str, Any] = with_arrays(self.details)
+        return found
+
+    def to_pandas(self) -> Any:
+        """Makes a table of pandas with the columns of the program's CSV, and their units in `attrs`; pandas has to be installed."""
+        return _show.table(self)
 
 
 def report_call(state: str, request: str) -> str:

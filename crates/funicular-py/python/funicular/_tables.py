@@ -7,6 +7,7 @@ import numpy as np
 from funicular import _show
 from funicular._errors import needs
 from funicular._funicular import Equilibrium
+from funicular._pages import Answer
 from funicular._results import Equilibria, Modes
 from funicular._sweeps import Sweep
 
@@ -90,6 +91,14 @@ def _equilibria(of: Equilibria) -> Any:
         "nearest_pose_distance_m": of.nearest_pose_distance_m,
     }
     return _pandas().DataFrame(columns)
+
+
+@_show.table.register
+def _answer(of: Answer) -> Any:
+    columns = of._answered.table()
+    table = _pandas().DataFrame({name: values for name, _, values in columns})
+    table.attrs["units"] = {name: unit for name, unit, _ in columns if unit}
+    return table
 
 
 @_show.table.register

@@ -2,19 +2,17 @@
 
 import json
 from dataclasses import dataclass, field
-from os import PathLike
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from funicular._funicular import Answered
-from funicular._pages import Page, page_of_result
-from funicular._results import ArrayFields, with_arrays
+from funicular._pages import Answer
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Uncertainty(ArrayFields):
+class Uncertainty(Answer):
     """Results with their deviations. Arrays have one entry per result; with several poses one row per pose."""
 
     names: tuple[str, ...]
@@ -44,16 +42,7 @@ class Uncertainty(ArrayFields):
     details: dict[str, Any]
     """All keys of the program's JSON: `inputs`, `groups`, `poses`, …"""
     _answered: Answered = field(compare=False)
-    """Request and results in the compiled half, for `page`."""
-
-    def page(self, path: str | PathLike[str] | None = None) -> Page:
-        """Makes a page in HTML about the deviations, which notebooks show, and writes it if a path is given."""
-        return page_of_result(self._answered, path)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Keys of the program's JSON, with arrays for lists of numbers."""
-        found: dict[str, Any] = with_arrays(self.details)
-        return found
+    """Request and results in the compiled half, for `page` and `to_pandas`."""
 
     def __getitem__(self, name: str) -> tuple[Any, Any]:
         """Value and deviation of the result with this name; arrays over the poses if there are several."""

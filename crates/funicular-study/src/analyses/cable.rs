@@ -3,9 +3,11 @@
 use super::found;
 use super::shared::{Axes, Origin, SagNumbers};
 use crate::at_rest::{self, AtRest};
+use crate::columns::{Columns, ResultTable, Tabled, column, parts};
 use crate::error::{Cancelled, NoSolution};
 use crate::names::suggestion;
 use crate::request;
+use crate::sweep::Column;
 use crate::watch::Watch;
 use anyhow::{Result, bail};
 use funicular::cable::{CableModel, EndStiffness, LocalAxes, LocalStiffness, Sag};
@@ -244,6 +246,64 @@ fn clamped(stiffness: &EndStiffness, from_hz: f64, to_hz: f64) -> Result<Option<
     }
     let all = form.clamped_frequencies_below(limit).into_iter().map(|omega| omega / TAU);
     Ok(Some(all.filter(|f| *f >= from_hz).collect()))
+}
+
+/// Stiffness of a cable at a frequency.
+struct StiffnessAt<'a> {
+    found: &'a CableResult,
+    index: usize,
+}
+
+impl StiffnessAt<'_> {
+    fn columns() -> Columns<Self> {
+        /// The matrix is symmetric: its upper half is written.
+        const UPPER: [(usize, usize, &str); 6] =
+            [(0, 0, "xx"), (0, 1, "xy"), (0, 2, "xz"), (1, 1, "yy"), (1, 2, "yz"), (2, 2, "zz")];
+        type Part = fn(&Local) -> &ComplexValues;
+        const LOCAL: [(&str, &str, Part); 4] = [
+            ("a", "along the chord", |local| &local.k_a),
+            ("b", "coupling of chord and normal", |local| &local.k_b),
+            ("c", "normal in plane", |local| &local.k_c),
+            ("o", "out of plane", |local| &local.k_o),
+        ];
+        let frequency = column("frequency_hz", "Hz", "frequency", |row: &Self| row.found.frequency_hz[row.index]);
+        let local = LOCAL.into_iter().map(|(name, about, of)| {
+            parts(
+                &format!("k_{name}_{{}}_n_per_m"),
+                ["real", "imag"],
+                "N/m",
+                &format!("stiffness {about}, {{}}"),
+                move |row: &Self| {
+                    let values = of(&row.found.local);
+                    [values.real[row.index], values.imag[row.index]]
+                },
+            )
+        });
+        let world = UPPER.into_iter().map(|(i, j, name)| {
+            parts(
+                &format!("k_{name}_{{}}_n_per_m"),
+                ["real", "imag"],
+                "N/m",
+                &format!("stiffness {name} in world axes, {{}}"),
+                move |row: &Self| {
+                    let World { real, imag } = &row.found.world;
+                    [real[row.index][i][j], imag[row.index][i][j]]
+                },
+            )
+        });
+        Columns::new(std::iter::once(frequency).chain(local).chain(world))
+    }
+}
+
+impl Tabled for CableResult {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", StiffnessAt::columns().described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        let rows = (0..self.frequency_hz.len()).map(|index| StiffnessAt { found: self, index });
+        ResultTable::new(StiffnessAt::columns(), rows)
+    }
 }
 
 found!(CableResult, "cable");

@@ -2,6 +2,9 @@
 
 use super::found;
 use super::shared::{LoadRow, WindRow};
+use crate::columns::{Columns, Field, ResultTable, Tabled, column, only_read, parts};
+use crate::sweep::Column;
+use crate::text::NONE;
 use crate::text::short;
 use funicular::math::rotation;
 use funicular::robot::{
@@ -468,6 +471,100 @@ fn warnings(robot: &Robot) -> Vec<String> {
         }
     }
     warnings
+}
+
+impl CheckedLimits {
+    /// Fields of the limits; tables for reading have them if there are any.
+    fn fields<R>(of: impl Fn(&R) -> &Self + Copy + 'static, are_given: bool) -> [Field<R>; 2] {
+        [
+            column("minimum_tension_n", "N", "minimum tension that is allowed", move |row| of(row).minimum_tension_n)
+                .short("min T", "N", 4)
+                .read_if(are_given),
+            column("maximum_tension_n", "N", "maximum tension that is allowed", move |row| of(row).maximum_tension_n)
+                .short("max T", "N", 4)
+                .read_if(are_given),
+        ]
+    }
+
+    fn are_given(&self) -> bool {
+        self.minimum_tension_n.is_some() || self.maximum_tension_n.is_some()
+    }
+}
+
+impl CheckedRope {
+    /// Columns of the ropes.
+    pub fn columns(ropes: &[Self]) -> Columns<Self> {
+        let limited = ropes.iter().any(|rope| rope.limits.are_given() || rope.breaking_load_n.is_some());
+        let dragged = ropes.iter().any(|rope| rope.drag_width_m.is_some());
+        let own = [
+            column("name", "", "name of the rope", |rope: &Self| rope.name.clone()).plain("rope"),
+            column("axial_stiffness_n", "N", "axial stiffness EA", |rope: &Self| rope.axial_stiffness_n)
+                .short("EA", "N", 6),
+            column("mass_kg_per_m", "kg/m", "mass per length", |rope: &Self| rope.mass_kg_per_m)
+                .short("mass", "kg/m", 5),
+            column("damping_ratio", "1", "damping ratio", |rope: &Self| rope.damping_ratio).short(
+                "damping ratio",
+                "",
+                4,
+            ),
+            column("viscous_damping_n_s_m2", "N s/m²", "viscous damping per length", |rope: &Self| {
+                rope.viscous_damping_n_s_m2
+            })
+            .short("viscous damping", "N s/m²", 4),
+        ];
+        let further = [
+            column("breaking_load_n", "N", "breaking load", |rope: &Self| rope.breaking_load_n)
+                .short("breaks at", "N", 4)
+                .read_if(limited),
+            column("drag_width_m", "m", "drag coefficient times diameter", |rope: &Self| rope.drag_width_m)
+                .short("drag width", "m", 4)
+                .read_if(dragged),
+        ];
+        Columns::new(own.into_iter().chain(CheckedLimits::fields(|rope: &Self| &rope.limits, limited)).chain(further))
+    }
+}
+
+impl CheckedCable {
+    /// Columns of the cables.
+    pub fn columns(cables: &[Self]) -> Columns<Self> {
+        const AXES: [&str; 3] = ["x", "y", "z"];
+        let limited = cables.iter().any(|cable| cable.limits.are_given());
+        let loaded = cables.iter().any(|cable| cable.load_n_per_m.is_some());
+        let own = [
+            column("name", "", "name of the cable", |cable: &Self| cable.name.clone()).plain("cable"),
+            column("material", "", "name of its rope", |cable: &Self| cable.material.clone()).plain("rope"),
+            parts("anchor_{}_m", AXES, "m", "anchor, world axes, {}", |cable: &Self| cable.anchor_m)
+                .components("anchor", "m", 4),
+            parts("attachment_{}_m", AXES, "m", "attachment, platform axes, {}", |cable: &Self| cable.attachment_m)
+                .components("attachment", "m", 4),
+            column("unstrained_length_m", "m", "unstrained length of the file", |cable: &Self| {
+                cable.unstrained_length_m
+            })
+            .decimals("unstrained", "m", 4),
+        ];
+        let load = [
+            parts("load_{}_n_per_m", AXES, "N/m", "load per length besides weight and wind, {}", |cable: &Self| {
+                cable.load_n_per_m.unwrap_or_default()
+            }),
+            only_read()
+                .shown("load", "N/m", |cable: &Self, style| {
+                    cable.load_n_per_m.map_or_else(|| NONE.to_owned(), |load| style.components(&load, 4))
+                })
+                .aligned(false)
+                .only_if(loaded),
+        ];
+        Columns::new(own.into_iter().chain(CheckedLimits::fields(|cable: &Self| &cable.limits, limited)).chain(load))
+    }
+}
+
+impl Tabled for Checked {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", CheckedCable::columns(&[]).described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(CheckedCable::columns(&self.cables), &self.cables)
+    }
 }
 
 found!(Checked, "check");

@@ -3,7 +3,9 @@
 use super::found;
 use super::shared::{ModeRow, Origin};
 use crate::at_rest::{self, AtRest};
+use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::request;
+use crate::sweep::Column;
 use anyhow::Result;
 use funicular::cable::CableModel;
 use funicular::compare::{self, Comparison, Criterion, FrozenSag, ModelResult};
@@ -192,6 +194,54 @@ impl From<ModelResult> for ModelRow {
             largest_difference: result.largest_difference,
             first_wrong_hz: result.first_wrong_hz,
         }
+    }
+}
+
+/// Mode of one cable model beside its counterpart.
+struct Matched<'a> {
+    cable_model: &'static str,
+    mode: &'a ModeRow,
+    counterpart: Option<&'a MatchRow>,
+}
+
+impl<'a> Matched<'a> {
+    fn columns() -> Columns<Self> {
+        Columns::new([
+            column("cable_model", "", "cable model", |row: &Self| row.cable_model),
+            column("frequency_hz", "Hz", "natural frequency with this model", |row: &Self| row.mode.frequency_hz),
+            column("kind", "", "where most of the kinetic energy is", |row: &Self| row.mode.kind),
+            column("platform_energy_fraction", "1", "share of the platform in the kinetic energy", |row: &Self| {
+                row.mode.platform_energy_fraction
+            }),
+            column("reference_hz", "Hz", "frequency of the counterpart in the reference", |row: &Self| {
+                row.counterpart.map(|of| of.reference_hz)
+            }),
+            column("relative_difference", "1", "difference from the counterpart, divided by it", |row: &Self| {
+                row.counterpart.map(|of| of.relative_difference)
+            }),
+            column("correlation", "1", "correlation of the two motions of the platform", |row: &Self| {
+                row.counterpart.map(|of| of.correlation)
+            }),
+        ])
+    }
+
+    fn of(model: &'a ModelRow) -> impl Iterator<Item = Self> {
+        // Matches are in the order of the modes. A mode with the platform at rest has no match.
+        let mut matches = model.matches.iter().peekable();
+        model.modes.iter().map(move |mode| {
+            let counterpart = matches.next_if(|of| of.frequency_hz.to_bits() == mode.frequency_hz.to_bits());
+            Self { cable_model: model.cable_model, mode, counterpart }
+        })
+    }
+}
+
+impl Tabled for Compared {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", Matched::columns().described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(Matched::columns(), self.models.iter().flat_map(Matched::of))
     }
 }
 

@@ -12,9 +12,11 @@ pub use report::{ChosenValue, DemandRow, DesignPose};
 use super::found;
 use super::shared::Models;
 use crate::Watch;
+use crate::columns::{ResultTable, Tabled};
 use crate::error::{Cancelled, NoSolution};
 use crate::names::{DesignGoal, Named};
 use crate::request::{self, DesignRequest};
+use crate::sweep::Column;
 use crate::text::counted;
 use anyhow::{Result, anyhow, bail};
 use at_poses::RobotAtPoses;
@@ -75,6 +77,16 @@ pub struct Designed {
     pub robot_file: String,
     #[serde(skip)]
     pub warnings: Vec<String>,
+}
+
+impl Tabled for Designed {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", ChosenValue::columns().described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(ChosenValue::columns(), &self.values)
+    }
 }
 
 found!(Designed, "design");

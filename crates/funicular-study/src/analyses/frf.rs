@@ -3,9 +3,11 @@
 use super::found;
 use super::shared::Models;
 use crate::at_rest::{self, AtRest};
+use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::Cancelled;
 use crate::request::{self, FrequencyRange, ResponseRange};
 use crate::signals::{Input, Output, SignalLists, response_unit};
+use crate::sweep::Column;
 use crate::text::{counted, significant};
 use crate::{Silent, Watch};
 use anyhow::{Result, bail};
@@ -493,6 +495,43 @@ fn input_place<S: Serializer>(place: &PlaceRow, to: S) -> Result<S::Ok, S::Error
 
 fn output_place<S: Serializer>(place: &PlaceRow, to: S) -> Result<S::Ok, S::Error> {
     place.serialize(["output_point_m", "output_point_w_m"], to)
+}
+
+/// Value of a response at a frequency.
+struct ValueAt<'a> {
+    pair: &'a PairRow,
+    hz: f64,
+    re: f64,
+    im: f64,
+}
+
+impl ValueAt<'_> {
+    /// Columns; those of several responses begin with input and output.
+    fn columns(several: bool) -> Columns<Self> {
+        Columns::new([
+            column("input", "", "input signal", |row: &Self| row.pair.input.clone()).only_if(several),
+            column("output", "", "output signal", |row: &Self| row.pair.output.clone()).only_if(several),
+            column("frequency_hz", "Hz", "frequency", |row: &Self| row.hz),
+            column("real", "", "real part of the response, in the unit of output over input", |row: &Self| row.re),
+            column("imag", "", "imaginary part", |row: &Self| row.im),
+            column("magnitude", "", "magnitude", |row: &Self| row.re.hypot(row.im)),
+            column("phase_deg", "deg", "phase", |row: &Self| row.im.atan2(row.re).to_degrees()),
+        ])
+    }
+}
+
+impl Tabled for Frf {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("one response", ValueAt::columns(false).described()), ("several", ValueAt::columns(true).described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        let rows = self.responses.iter().flat_map(|pair| {
+            let values = self.frequency_hz.iter().zip(&pair.real).zip(&pair.imag);
+            values.map(move |((hz, re), im)| ValueAt { pair, hz: *hz, re: *re, im: *im })
+        });
+        ResultTable::new(ValueAt::columns(self.responses.len() > 1), rows)
+    }
 }
 
 found!(Frf, "frf");

@@ -9,9 +9,11 @@ use super::found;
 use super::result_groups::{missing_option, nothing_below, refuse_unused, result_groups};
 use super::shared::Models;
 use crate::at_rest::{self, AtRest};
+use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::NoSolution;
 use crate::names::{Named, Per};
 use crate::request::{self, GradientRequest, RobotText};
+use crate::sweep::Column;
 use anyhow::{Result, bail};
 use funicular::gradient::{GradientError, Gradients, Hold};
 use funicular::robot::Robot;
@@ -83,6 +85,50 @@ pub struct RefusedResult {
     /// Identity as data, as in [`GradientResult`].
     pub measure: Value,
     pub reason: String,
+}
+
+/// Derivative of a result by a number.
+struct Derivative<'a> {
+    table: &'a GradientTable,
+    result: &'a GradientResult,
+    parameter: &'a GradientParameter,
+    value: f64,
+}
+
+impl<'a> Derivative<'a> {
+    fn columns() -> Columns<Self> {
+        Columns::new([
+            column("result", "", "name of the result", |row: &Self| row.result.name.clone()),
+            column("result_value", "", "value of the result", |row: &Self| row.result.value),
+            column("result_unit", "", "unit of the result", |row: &Self| row.result.unit.clone()),
+            column("path", "", "path of the number of the robot file", |row: &Self| row.parameter.path.clone()),
+            column("path_value", "", "value of the number", |row: &Self| row.parameter.value),
+            column("path_unit", "", "unit of the number", |row: &Self| row.parameter.unit),
+            column("tolerance", "", "tolerance of the number, in its unit", |row: &Self| row.parameter.tolerance),
+            column("held", "", "what is held while the number changes", |row: &Self| row.table.held),
+            column("per", "", "step to which the derivative belongs: unit, percent or tolerance", |row: &Self| {
+                row.table.per
+            }),
+            column("derivative", "", "derivative, in the unit of the result per step", |row: &Self| row.value),
+        ])
+    }
+
+    fn all(table: &'a GradientTable) -> impl Iterator<Item = Self> {
+        table.results.iter().flat_map(move |result| {
+            let numbers = table.parameters.iter().zip(&result.derivatives);
+            numbers.map(move |(parameter, value)| Self { table, result, parameter, value: *value })
+        })
+    }
+}
+
+impl Tabled for GradientTable {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", Derivative::columns().described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(Derivative::columns(), Derivative::all(self))
+    }
 }
 
 found!(GradientTable, "gradient");

@@ -9,13 +9,15 @@ pub use tables::{FittedResponse, FrequencyRow, StaticRow};
 use super::found;
 use crate::Watch;
 use crate::chosen_numbers::at_bound;
+use crate::columns::{Columns, ResultTable, Style, Tabled, column, only_read, parts};
 use crate::identification::{
     Assigning, IdentifiedModel, LIMIT as NORMAL_95, Profiled, StartRow, Unknown, judge, profiles, search, unknowns,
     unresolved_peaks,
 };
 use crate::parameter_pattern::ParameterPattern;
 use crate::request::{self, Experiment, IdentifyRequest};
-use crate::text::{NONE, counted, digits_for, significant};
+use crate::sweep::Column;
+use crate::text::{counted, digits_for, significant};
 use anyhow::{Result, bail};
 use funicular::math::least_squares::{LeastSquaresEnding, Minimum};
 use funicular::robot::parameters::Parameters;
@@ -190,30 +192,16 @@ impl ValueRow {
         digits_for(self.value, self.deviation)
     }
 
-    /// Cells of a row in a table: path, unit, start, value, deviation, and the ends of the interval. `number` writes a
-    /// number with a count of significant digits.
-    pub fn cells(&self, number: impl Fn(f64, usize) -> String) -> [String; 7] {
-        let known = |value: Option<f64>, digits| value.map_or_else(|| NONE.to_owned(), |value| number(value, digits));
-        let end = |k: usize| self.interval_95.map(|interval| interval[k]);
-        [
-            self.path.clone(),
-            self.unit.to_owned(),
-            number(self.start, 6),
-            number(self.value, self.digits()),
-            known(self.deviation, 2),
-            known(end(0), self.digits()),
-            known(end(1), self.digits()),
-        ]
-    }
-
     /// Prior knowledge of the value, as `value ± deviation`; empty without it.
-    pub fn prior_text(&self, number: impl Fn(f64, usize) -> String) -> String {
+    fn prior_text(&self, style: Style) -> String {
         let prior = self.prior.zip(self.prior_deviation);
-        prior.map_or_else(String::new, |(value, deviation)| format!("{} ± {}", number(value, 4), number(deviation, 2)))
+        let text =
+            |(value, deviation)| format!("{} ± {}", style.significant(value, 4), style.significant(deviation, 2));
+        prior.map_or_else(String::new, text)
     }
 
     /// Remark: the bound at which the value is, and whether the measurements determine it.
-    pub fn remark(&self) -> String {
+    fn remark(&self) -> String {
         let bound = self.at_bound.map(|bound| format!("at its {bound}"));
         let moves = (!self.moves_with.is_empty()).then(|| format!("moves with {}", self.moves_with.join(", ")));
         let undetermined = (self.deviation.is_none() && moves.is_none()).then(|| "not determined".to_owned());
@@ -454,6 +442,114 @@ fn value_row(unknown: &Unknown, value: f64, deviation: Option<f64>) -> ValueRow 
         moves_with: Vec::new(),
         parabola_95: interval,
         profile: None,
+    }
+}
+
+/// Value with the fit to which it belongs.
+pub struct FittedValue<'a> {
+    fit: &'a Identified,
+    index: usize,
+    row: &'a ValueRow,
+}
+
+impl<'a> FittedValue<'a> {
+    /// All values of a fit.
+    pub fn all(fit: &'a Identified) -> impl Iterator<Item = Self> {
+        fit.values.iter().enumerate().map(move |(index, row)| Self { fit, index, row })
+    }
+
+    fn assignment(&self) -> Option<&'a ModeAssignment> {
+        self.fit.assignment.as_ref()
+    }
+
+    fn second_best(&self) -> Option<&'a SecondBest> {
+        self.assignment().and_then(|assignment| assignment.second_best.as_ref())
+    }
+
+    /// Columns of the values.
+    pub fn columns() -> Columns<Self> {
+        let listed = |numbers: &mut dyn Iterator<Item = usize>| {
+            numbers.map(|number| number.to_string()).collect::<Vec<_>>().join(" ")
+        };
+        let end = |of: &Self, k: usize| of.row.interval_95.map(|interval| interval[k]);
+        let profile = |of: &Self| of.row.profile.as_ref().map_or([None; 2], |profile| [profile.from, profile.to]);
+        let notes = |of: &Self, style| {
+            let prior = of.row.prior_text(style);
+            let notes = [if prior.is_empty() { prior } else { format!("prior {prior}") }, of.row.remark()];
+            notes.into_iter().filter(|note| !note.is_empty()).collect::<Vec<_>>().join(", ")
+        };
+
+        let values = [
+            column("path", "", "path of the number", |of: &Self| of.row.path.clone()).plain("value"),
+            column("unit", "", "unit of the number", |of: &Self| of.row.unit).plain("unit"),
+            column("start", "", "value of the file", |of: &Self| of.row.start).significant("start", "", 6),
+            column("value", "", "identified value", |of: &Self| of.row.value)
+                .shown("identified", "", |of, style| style.significant(of.row.value, of.row.digits())),
+            column(
+                "deviation",
+                "",
+                "standard deviation; empty if the measurements do not determine the value",
+                |of: &Self| of.row.deviation,
+            )
+            .significant("deviation", "", 2),
+            column(
+                "interval_95_from",
+                "",
+                "lower end of the interval that holds the value with 95 %",
+                move |of: &Self| end(of, 0),
+            )
+            .shown("95 % from", "", move |of, style| style.significant(end(of, 0), of.row.digits())),
+            column("interval_95_to", "", "upper end of this interval", move |of: &Self| end(of, 1)).shown(
+                "to",
+                "",
+                move |of, style| style.significant(end(of, 1), of.row.digits()),
+            ),
+            column("prior", "", "value that was known beforehand", |of: &Self| of.row.prior)
+                .shown("prior", "", |of, style| of.row.prior_text(style))
+                .aligned(true)
+                .only_in(Style::Typeset),
+            column("prior_deviation", "", "its standard deviation", |of: &Self| of.row.prior_deviation),
+            column("at_bound", "", "bound at which the value is", |of: &Self| of.row.at_bound)
+                .shown("remark", "", |of, _| of.row.remark())
+                .only_in(Style::Typeset),
+            only_read().shown("", "", notes).only_in(Style::Plain),
+            parts("profile_95_{}", ["from", "to"], "", "end of the interval of the profile: {}", profile),
+        ];
+        let of_fit = [
+            column("second_best", "", "value with the second best modes", |of: &Self| {
+                of.second_best().map(|second| second.values[of.index])
+            }),
+            column(
+                "is_assignment_determined",
+                "",
+                "the best modes are better than others by more than chance",
+                |of: &Self| of.assignment().map(|assignment| assignment.determined),
+            ),
+            column("modes", "", "numbers of the modes of the measured frequencies", move |of: &Self| {
+                listed(&mut of.fit.frequencies.iter().map(|row| row.number))
+            }),
+            column("second_best_modes", "", "numbers of the second best modes", move |of: &Self| {
+                of.second_best().map(|second| listed(&mut second.numbers.iter().copied()))
+            }),
+            column("chi2_per_degree", "1", "χ² per degree of freedom", |of: &Self| of.fit.chi2_per_degree),
+            column("second_best_chi2_per_degree", "1", "the same with the second best modes", |of: &Self| {
+                of.second_best().map(|second| second.chi2_per_degree)
+            }),
+            column("random_chi2_per_degree", "1", "the same of fits to random frequencies", |of: &Self| {
+                of.assignment().and_then(|assignment| assignment.random_chi2_per_degree)
+            }),
+        ];
+        Columns::new(values.into_iter().chain(of_fit))
+    }
+}
+
+impl Tabled for Identified {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", FittedValue::columns().described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(FittedValue::columns(), FittedValue::all(self))
     }
 }
 

@@ -3,8 +3,11 @@
 use super::found;
 use super::shared::{Axes, ModeRow, Models};
 use crate::at_rest::{self, AtRest, ModesBelow};
+use crate::columns::{Columns, ResultTable, Style, Tabled, any, column, only_read, parts};
 use crate::request::{self, Model, Terms};
 use crate::signals::{Input, Output, response_unit};
+use crate::sweep::Column;
+use crate::text::NONE;
 use anyhow::{Result, anyhow, bail};
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
@@ -14,6 +17,9 @@ use funicular::response::Signal;
 use funicular::robot::{Robot, WinchMode};
 use serde::Serialize;
 use std::f64::consts::TAU;
+
+/// Headings of the components of a shape.
+const MOTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// Results of `modes`: every natural frequency below a limit.
 #[derive(Serialize)]
@@ -326,6 +332,113 @@ pub fn strongest(
     all.retain(|(_, share)| *share >= MIN_SHARE);
     all.truncate(SHOWN);
     all
+}
+
+impl Modes {
+    /// Columns of the table of modes.
+    pub fn columns(&self) -> Columns<ModeRow> {
+        let drives_move = self.modes.iter().any(|mode| !mode.drive_energy_fractions.is_empty());
+        let drives = if drives_move { &self.cable_names[..] } else { &[] };
+        let peak_unit = self.participation.as_ref().map(|of| &of.peak_unit[..]);
+        ModeRow::columns(&self.cable_names, drives, &self.support_names, peak_unit)
+    }
+}
+
+impl ModeRow {
+    /// Columns of the modes of a robot with these cables, drives and supports.
+    fn columns(cables: &[String], drives: &[String], supports: &[String], peak_unit: Option<&str>) -> Columns<Self> {
+        let names = (cables.to_vec(), supports.to_vec());
+        let strongest = move |mode: &Self, style: Style| {
+            let of_supports = (&names.1[..], &mode.support_energy_fractions[..]);
+            let (of_cables, of_drives) = (&mode.cable_energy_fractions, &mode.drive_energy_fractions);
+            let shown: Vec<String> = strongest(&names.0, of_cables, of_drives, of_supports)
+                .iter()
+                .map(|(name, share)| format!("{name} {}%", style.decimals(100.0 * share, 0)))
+                .collect();
+            if shown.is_empty() { NONE.to_owned() } else { shown.join(", ") }
+        };
+        let shape = (0..6).map(|i| {
+            let unit = ["", "1/m"][i / 3];
+            only_read()
+                .shown(MOTIONS[i], unit, move |mode: &Self, style| style.decimals(mode.shape[i], 2))
+                .aligned(false)
+        });
+
+        let first = [
+            column("frequency_hz", "Hz", "undamped natural frequency", |mode: &Self| mode.frequency_hz)
+                .decimals("f", "Hz", 4),
+            column("multiplicity", "1", "number of modes with this frequency", |mode: &Self| mode.multiplicity),
+            column("damping_ratio", "1", "damping ratio", |mode: &Self| mode.damping_ratio).shown(
+                "damping",
+                "%",
+                |mode, style| style.significant(100.0 * mode.damping_ratio, 3),
+            ),
+            only_read()
+                .shown("peak", "", |mode: &Self, style| style.significant(mode.peak, 3))
+                .with_unit(peak_unit.unwrap_or_default().to_owned())
+                .aligned(false)
+                .only_if(peak_unit.is_some()),
+            column(
+                "kind",
+                "",
+                "where most of the kinetic energy is: platform, cable, drive or mixed",
+                |mode: &Self| mode.kind,
+            ),
+            column("platform_energy_fraction", "1", "share of the platform in the kinetic energy", |mode: &Self| {
+                mode.platform_energy_fraction
+            })
+            .shown("platform", "%", |mode, style| style.decimals(100.0 * mode.platform_energy_fraction, 1)),
+        ];
+        let in_files = [
+            parts(
+                "shape_{}",
+                ["x", "y", "z"],
+                "m",
+                "motion of the platform origin along {}, world axes",
+                |mode: &Self| [mode.shape[0], mode.shape[1], mode.shape[2]],
+            ),
+            parts(
+                "shape_{}_per_m",
+                ["rx", "ry", "rz"],
+                "1/m",
+                "rotation of the platform, {}, in the same scale",
+                |mode: &Self| [mode.shape[3], mode.shape[4], mode.shape[5]],
+            ),
+            column("residual", "1", "residual of the eigenvalue problem", |mode: &Self| mode.residual),
+            column("modal_mass_kg", "kg", "modal mass of the shape", |mode: &Self| mode.modal_mass_kg),
+            column(
+                "residue_per_kg",
+                "1/kg",
+                "product of the shape at input and output, over the modal mass",
+                |mode: &Self| mode.residue_per_kg,
+            ),
+            column("peak", "", "contribution of the mode alone to the response at its frequency", |mode: &Self| {
+                mode.peak
+            }),
+            parts("energy_fraction_cable_{}", cables, "1", "share of cable {} in the kinetic energy", |mode: &Self| {
+                mode.cable_energy_fractions.clone()
+            }),
+            parts("energy_fraction_drive_{}", drives, "1", "share of the drive of cable {}", |mode: &Self| {
+                mode.drive_energy_fractions.clone()
+            }),
+            parts("energy_fraction_support_{}", supports, "1", "share of the flexible support {}", |mode: &Self| {
+                mode.support_energy_fractions.clone()
+            }),
+            only_read().shown("kind", "", |mode: &Self, _| mode.kind.to_owned()),
+            only_read().shown("cables", "", strongest),
+        ];
+        Columns::new(first.into_iter().chain(shape).chain(in_files))
+    }
+}
+
+impl Tabled for Modes {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", ModeRow::columns(&any(), &any(), &any(), None).described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(self.columns(), &self.modes)
+    }
 }
 
 found!(Modes, "modes");

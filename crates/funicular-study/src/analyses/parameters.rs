@@ -1,10 +1,15 @@
 //! `parameters`: all numbers of a robot file.
 
 use super::found;
+use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::request::RobotText;
+use crate::sweep::Column;
 use anyhow::{Result, anyhow};
 use funicular::robot::parameters::{Parameter, Parameters};
 use serde::Serialize;
+
+/// Magnitude from which a value is shown with an exponent.
+const LONG: f64 = 1e7;
 
 /// Results of `parameters`: the numbers of a robot.
 #[derive(Serialize)]
@@ -44,6 +49,43 @@ impl ParameterRow {
         let (minimum, maximum) = (range.minimum(), range.maximum());
         let (path, label) = (parameter.path(), parameter.label());
         Self { path, label, value, unit, range: range.to_string(), minimum, maximum, meaning: about, given }
+    }
+}
+
+impl ParameterRow {
+    /// Columns of the numbers.
+    pub fn columns() -> Columns<Self> {
+        Columns::new([
+            column("path", "", "path of the number for `set`, `vary` and `fit`", |row: &Self| row.path.clone())
+                .plain("path"),
+            column("value", "", "value, in the unit of the row", |row: &Self| row.value).shown(
+                "value",
+                "",
+                |row, _| {
+                    if row.value.abs() < LONG { format!("{}", row.value) } else { format!("{:e}", row.value) }
+                },
+            ),
+            column("unit", "", "unit; `1` for a ratio", |row: &Self| row.unit).plain("unit"),
+            column("range", "", "range that is allowed, in words", |row: &Self| row.range.clone()).plain("range"),
+            column("minimum", "", "lower end of the range", |row: &Self| row.minimum),
+            column("maximum", "", "upper end of the range", |row: &Self| row.maximum),
+            column("meaning", "", "meaning of the number", |row: &Self| row.meaning).shown("meaning", "", |row, _| {
+                if row.given { row.meaning.to_owned() } else { format!("{} (default)", row.meaning) }
+            }),
+            column("given", "", "the file gives the number; otherwise the value is the default", |row: &Self| {
+                row.given
+            }),
+        ])
+    }
+}
+
+impl Tabled for ParameterList {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", ParameterRow::columns().described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(ParameterRow::columns(), &self.parameters)
     }
 }
 

@@ -3,8 +3,11 @@
 use super::found;
 use super::shared::{LimitNumbers, PoseRow};
 use crate::at_rest::{self, AtRest};
+use crate::columns::{Columns, Field, ResultTable, Tabled, column, parts};
 use crate::error::NoSolution;
 use crate::request;
+use crate::sweep::Column;
+use crate::text::NONE;
 use crate::text::significant;
 use anyhow::Result;
 use funicular::math::Vec3;
@@ -159,6 +162,75 @@ impl BoundRow {
             limit_place: bound.limits.iter().find(|of| of.cable == i).map(|of| of.place.name()),
         });
         Self { payload_kg: bound.mass, excluded_from_kg: bound.excluded_from, cables: cables.collect() }
+    }
+}
+
+/// Cable with the minimum or the maximum payload.
+struct BoundedRow<'a> {
+    name: &'static str,
+    bound: &'a BoundRow,
+    cable: &'a LoadedRow,
+}
+
+impl LoadedRow {
+    /// Columns of the tensions with a payload, for reading.
+    pub fn columns() -> Columns<Self> {
+        Columns::new(Self::fields(|row: &Self| row))
+    }
+
+    fn fields<R>(of: impl Fn(&R) -> &Self + Copy + 'static) -> [Field<R>; 6] {
+        [
+            column("name", "", "name of the cable", move |row| of(row).name.clone()).plain("cable"),
+            column("tension_platform_n", "N", "tension at the platform", move |row| of(row).tension_platform_n)
+                .decimals("T platform", "N", 3),
+            column("tension_anchor_n", "N", "tension at the anchor", move |row| of(row).tension_anchor_n)
+                .decimals("T anchor", "N", 3),
+            parts("{}_tension_n", ["minimum", "maximum"], "N", "{} tension that is allowed", move |row| {
+                [Some(of(row).limits.minimum_tension_n), of(row).limits.maximum_tension_n]
+            })
+            .shown("limits", "N", move |row, style| of(row).limits.range(style)),
+            column("tension_margin_n", "N", "distance of the tension from the nearer limit", move |row| {
+                of(row).limits.tension_margin_n
+            }),
+            parts("limit_{}", ["reached", "place"], "", "limit that the tension has reached: {}", move |row| {
+                [of(row).limits.limit_reached, of(row).limit_place]
+            })
+            .shown("at its limit", "", move |row, _| {
+                let reached = of(row).limits.limit_reached.zip(of(row).limit_place);
+                reached.map_or_else(|| NONE.to_owned(), |(limit, place)| format!("{limit}, {place}"))
+            }),
+        ]
+    }
+}
+
+impl<'a> BoundedRow<'a> {
+    fn columns() -> Columns<Self> {
+        let of_bound = [
+            column("bound", "", "minimum or maximum payload", |row: &Self| row.name),
+            column("payload_kg", "kg", "payload", |row: &Self| row.bound.payload_kg),
+            column("excluded_from_kg", "kg", "mass that is proved to be too much", |row: &Self| {
+                row.bound.excluded_from_kg
+            }),
+        ];
+        Columns::new(of_bound.into_iter().chain(LoadedRow::fields(|row: &Self| row.cable)))
+    }
+
+    fn all(found: &'a Payload) -> impl Iterator<Item = Self> {
+        let bounds = [("minimum", Some(&found.minimum)), ("maximum", found.maximum.as_ref())];
+        bounds
+            .into_iter()
+            .filter_map(|(name, bound)| Some((name, bound?)))
+            .flat_map(|(name, bound)| bound.cables.iter().map(move |cable| Self { name, bound, cable }))
+    }
+}
+
+impl Tabled for Payload {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", BoundedRow::columns().described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(BoundedRow::columns(), BoundedRow::all(self))
     }
 }
 

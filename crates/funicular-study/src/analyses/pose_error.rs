@@ -4,8 +4,10 @@ use super::found;
 use super::shared::PoseRow;
 use crate::Watch;
 use crate::at_rest;
+use crate::columns::{Columns, ResultTable, Tabled, column, parts};
 use crate::error::{Cancelled, NoSolution, with_warnings};
 use crate::request::{self, PoseErrorRequest};
+use crate::sweep::Column;
 use crate::text::counted;
 use crate::values::positive;
 use anyhow::{Result, anyhow, bail};
@@ -199,6 +201,52 @@ fn warnings(points: &[PoseErrorPoint]) -> Vec<String> {
         }
     }
     warnings
+}
+
+impl PoseErrorRow {
+    fn columns() -> Columns<Self> {
+        type Pair = fn(&PoseErrorRow) -> Option<&PoseDifferenceRow>;
+        let pairs: [(&str, &str, Pair); 3] = [
+            ("spring_from_ideal", "pose with springs, from that with ideal cables", |row| {
+                row.spring_from_ideal.as_ref()
+            }),
+            ("catenary_from_ideal", "pose with catenaries, from that with ideal cables", |row| {
+                row.catenary_from_ideal.as_ref()
+            }),
+            ("spring_from_catenary", "pose with springs, from that with catenaries", |row| {
+                row.spring_from_catenary.as_ref()
+            }),
+        ];
+        let mass = column("mass_kg", "kg", "mass of the platform", |row: &Self| row.mass_kg);
+        let of_pairs = pairs.into_iter().flat_map(|(name, about, of)| {
+            [
+                parts(
+                    &format!("{name}_{{}}_m"),
+                    ["x", "y", "z"],
+                    "m",
+                    &format!("{about}: translation, {{}}"),
+                    move |row| of(row).map_or([None; 3], |pair| pair.translation_m.map(Some)),
+                ),
+                parts(&format!("{name}_{{}}_m"), ["distance"], "m", &format!("{about}: distance"), move |row| {
+                    [of(row).map(|pair| pair.distance_m)]
+                }),
+                parts(&format!("{name}_{{}}_deg"), ["angle"], "deg", &format!("{about}: angle"), move |row| {
+                    [of(row).map(|pair| pair.angle_deg)]
+                }),
+            ]
+        });
+        Columns::new(std::iter::once(mass).chain(of_pairs))
+    }
+}
+
+impl Tabled for PoseErrors {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", PoseErrorRow::columns().described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(PoseErrorRow::columns(), &self.points)
+    }
 }
 
 found!(PoseErrors, "pose-error");

@@ -6,13 +6,15 @@ use super::shared::Models;
 use super::{Found, found};
 use crate::Watch;
 use crate::at_rest::{self, AtRest};
+use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::Cancelled;
 use crate::names::{ModelForm, Named};
 use crate::request;
 use crate::signals::{Input, Output, SignalLists};
+use crate::sweep::Column;
 use crate::text::significant;
 use anyhow::{Result, bail};
-use control_model::ControlStateSpace;
+use control_model::{ControlStateSpace, StatesRow};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes;
@@ -326,6 +328,37 @@ impl CoordinateRow {
                 unit: "m",
                 clamped_frequency_hz: None,
             },
+        }
+    }
+}
+
+impl CoordinateRow {
+    fn columns() -> Columns<Self> {
+        Columns::new([
+            column("coordinate", "", "name of the coordinate", |row: &Self| row.name.clone()),
+            column("unit", "", "unit of the coordinate", |row: &Self| row.unit),
+            column(
+                "clamped_frequency_hz",
+                "Hz",
+                "frequency of a mode of a cable with both ends fixed",
+                |row: &Self| row.clamped_frequency_hz,
+            ),
+        ])
+    }
+}
+
+impl Tabled for ReducedForm {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![
+            ("`form` state-space", StatesRow::columns().described()),
+            ("`form` second-order", CoordinateRow::columns().described()),
+        ]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        match self {
+            Self::StateSpace(found) => ResultTable::new(StatesRow::columns(), &found.states),
+            Self::SecondOrder(found) => ResultTable::new(CoordinateRow::columns(), &found.coordinates),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Rows that several commands share.
 
 use crate::at_rest::AtRest;
+use crate::columns::Style;
 use crate::text::{short, vector};
 use funicular::cable::{LocalAxes, Sag};
 use funicular::dynamics::Linearisation;
@@ -193,6 +194,20 @@ pub struct LimitNumbers {
 }
 
 impl LimitNumbers {
+    /// Minimum and maximum of the tension as a text.
+    pub fn range(&self, style: Style) -> String {
+        let maximum = self.maximum_tension_n.map_or_else(|| "∞".to_owned(), |maximum| style.short(maximum, 4));
+        format!("{} to {maximum}", style.short(self.minimum_tension_n, 4))
+    }
+
+    /// Distance from the nearer limit as a text; its name if the tension is there.
+    pub fn margin(&self, style: Style) -> String {
+        match self.limit_reached {
+            Some(limit) if self.tension_margin_n.abs() <= 1e-6 * self.minimum_tension_n.max(1.0) => limit.to_owned(),
+            _ => style.decimals(self.tension_margin_n, 1),
+        }
+    }
+
     pub fn of(margin: &TensionMargin) -> Self {
         let TensionRange { minimum, maximum } = margin.range;
         Self {

@@ -3,7 +3,9 @@
 use super::found;
 use super::shared::{LimitNumbers, LoadRow, PoseDifferenceRow, PoseRow, SagNumbers, WindRow};
 use crate::at_rest::{self, AtRest};
+use crate::columns::{Columns, Field, ResultTable, Style, Tabled, any, column, only_read, parts};
 use crate::request;
+use crate::sweep::Column;
 use crate::text::short;
 use anyhow::Result;
 use funicular::cable::Sag;
@@ -14,6 +16,10 @@ use funicular::statics::{
     MotionInterval, TensionRange,
 };
 use serde::Serialize;
+use std::fmt::Display;
+
+/// Names of the components of a vector.
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Results of `statics`: an equilibrium.
 #[derive(Serialize)]
@@ -130,6 +136,30 @@ impl EquilibriumRow {
     }
 }
 
+impl EquilibriumRow {
+    /// Columns of the equilibria of a robot with these cables.
+    fn columns(cables: impl IntoIterator<Item = impl Display>) -> Columns<Self> {
+        let pose = |row: &Self| row.pose.position_m;
+        let angles = |row: &Self| row.pose.roll_pitch_yaw_deg;
+        Columns::new([
+            column("stable", "", "the equilibrium is stable", |row: &Self| row.stable),
+            column("falling_directions", "1", "number of directions in which the energy falls", |row: &Self| {
+                row.falling_directions
+            }),
+            column("indifferent_directions", "1", "number of directions in which it stays", |row: &Self| {
+                row.indifferent_directions
+            }),
+            column("energy_j", "J", "energy above the lowest equilibrium", |row: &Self| row.energy_j),
+            column("distance_m", "m", "distance from the first equilibrium", |row: &Self| row.distance_m),
+            parts("{}_m", AXES, "m", "position of the platform origin, {}", pose),
+            parts("{}_deg", ["roll", "pitch", "yaw"], "deg", "{} of the platform", angles),
+            parts("tension_platform_{}_n", cables, "N", "tension of cable {} at the platform", |row: &Self| {
+                row.tensions_platform_n.clone()
+            }),
+        ])
+    }
+}
+
 /// Statistics of a search for all equilibria.
 #[derive(Serialize)]
 pub struct Search {
@@ -226,6 +256,47 @@ impl FrictionMotionRow {
 }
 
 impl FrictionCableRow {
+    /// Fields of a row with an interval of friction, or none. The tensions of the free span vary only if the lengths are
+    /// held.
+    fn fields<R>(of: impl Fn(&R) -> Option<&Self> + Copy + 'static, lengths_held: bool) -> [Field<R>; 5] {
+        let range = |name: &str, about: &str, value: fn(&Self) -> [f64; 2]| {
+            let unit = if name.ends_with("_m") { "m" } else { "N" };
+            parts(name, ["min", "max"], unit, about, move |row| of(row).map_or([None; 2], |row| value(row).map(Some)))
+        };
+        let tension = |name: &str, about: &str, heading: &'static str, value: fn(&Self) -> [f64; 2]| {
+            range(name, about, value).shown(heading, "N", move |row, style| {
+                of(row).map_or_else(String::new, |row| style.range(value(row), 3))
+            })
+        };
+        [
+            column("friction_exponent", "1", "friction exponent of the pulley", move |row| {
+                of(row).map(|f| f.friction_exponent)
+            })
+            .decimals("exponent", "", 4),
+            range("excess_length_{}_m", "{}imum change of the unstrained length beyond the exit point", |f| {
+                f.excess_length_m
+            })
+            .shown("beyond exit", "mm", move |row, style| {
+                of(row).map_or_else(String::new, |row| style.range(row.excess_length_m.map(|metres| 1e3 * metres), 3))
+            }),
+            tension("tension_platform_{}_n", "{}imum tension at the platform with friction", "T platform", |f| {
+                f.tension_platform_n
+            })
+            .read_if(lengths_held),
+            tension("tension_anchor_{}_n", "{}imum tension at the anchor with friction", "T anchor", |f| {
+                f.tension_anchor_n
+            })
+            .read_if(lengths_held),
+            tension("tension_drum_{}_n", "{}imum tension at the drum with friction", "T drum", |f| f.tension_drum_n),
+        ]
+    }
+
+    /// Columns of the table of friction.
+    pub fn columns(lengths_held: bool) -> Columns<Self> {
+        let name = column("name", "", "name of the cable", |row: &Self| row.name.clone()).plain("cable");
+        Columns::new(std::iter::once(name).chain(Self::fields(|row| Some(row), lengths_held)))
+    }
+
     fn of(name: &str, found: &CableFriction) -> Self {
         Self {
             name: name.to_owned(),
@@ -243,10 +314,41 @@ fn pair(interval: Interval) -> [f64; 2] {
     [interval.min, interval.max]
 }
 
+/// Cable at the equilibrium, with what friction permits.
+struct CableWithFriction<'a> {
+    cable: &'a CableRow,
+    friction: Option<&'a FrictionCableRow>,
+}
+
+impl<'a> CableWithFriction<'a> {
+    /// Rows of all cables.
+    fn all(found: &'a Statics) -> impl Iterator<Item = Self> {
+        let friction = found.friction_interval.as_ref();
+        let row = move |(i, cable)| Self { cable, friction: friction.map(|of| &of.cables[i]) };
+        found.cables.iter().enumerate().map(row)
+    }
+
+    /// Columns of the cables, with those of pulleys and winches, and those of friction.
+    fn columns(drives: bool, friction: bool) -> Columns<Self> {
+        let of_cables = CableRow::fields(|row: &Self| row.cable, false);
+        let of_drives = DriveRow::fields(|row: &Self| row.cable.drive.as_ref());
+        let of_friction = FrictionCableRow::fields(|row: &Self| row.friction, true);
+        Columns::new(
+            of_cables
+                .into_iter()
+                .chain(of_drives.map(|field| field.only_if(drives)))
+                .chain(of_friction.map(|field| field.only_if(friction))),
+        )
+    }
+}
+
 /// Cable at the equilibrium.
 #[derive(Serialize)]
 pub struct CableRow {
     pub name: String,
+    /// Name of its rope.
+    #[serde(skip)]
+    pub rope: String,
     pub unstrained_length_m: f64,
     pub tension_platform_n: f64,
     pub tension_anchor_n: f64,
@@ -285,6 +387,36 @@ pub struct DriveRow {
 }
 
 impl DriveRow {
+    /// Fields of a row that has a pulley or winch, or none.
+    fn fields<R>(of: impl Fn(&R) -> Option<&Self> + Copy + 'static) -> [Field<R>; 7] {
+        let number =
+            |name, unit, about: &str, value: fn(&Self) -> f64| column(name, unit, about, move |row| of(row).map(value));
+        [
+            parts("exit_{}_m", AXES, "m", "point at which the cable leaves its pulley, {}", move |row| {
+                of(row).map_or([None; 3], |drive| drive.exit_m.map(Some))
+            })
+            .decimals("exit point", "m", 4),
+            column("wrap_deg", "deg", "angle over which the cable touches its wheel", move |row| {
+                of(row).and_then(|d| d.wrap_deg)
+            })
+            .decimals("wrap", "°", 2),
+            number("tension_drum_n", "N", "tension at the drum", |drive| drive.tension_drum_n)
+                .decimals("T drum", "N", 3),
+            number("free_length_m", "m", "unstrained length of the free span", |drive| drive.free_length_m)
+                .decimals("free", "m", 4),
+            number("arc_length_m", "m", "unstrained length on the wheel", |drive| drive.arc_length_m)
+                .decimals("on wheel", "m", 4),
+            number("drum_side_length_m", "m", "unstrained length from the pulley to the drum", |drive| {
+                drive.drum_side_length_m
+            })
+            .decimals("to drum", "m", 4),
+            number("winch_yield_m", "m", "length that the winch pays out because it yields", |drive| {
+                drive.winch_yield_m
+            })
+            .shown("yield", "mm", move |row, style| style.decimals(of(row).map(|drive| 1e3 * drive.winch_yield_m), 3)),
+        ]
+    }
+
     fn of(state: &CableState) -> Option<Self> {
         let drive = state.drive.as_deref()?;
         Some(Self {
@@ -297,6 +429,65 @@ impl DriveRow {
             drum_side_length_m: drive.drum_side_length,
             winch_yield_m: drive.winch_yield,
         })
+    }
+}
+
+impl CableRow {
+    /// Columns of the table of lengths, tensions and sag; with the limits if a cable has any.
+    pub fn columns(cables: &[Self]) -> Columns<Self> {
+        Columns::new(Self::fields(|row| row, cables.iter().any(|cable| cable.limits.is_some())))
+    }
+
+    /// Fields of a row with a cable; tables for reading have the limits if there are any.
+    fn fields<R>(of: impl Fn(&R) -> &Self + Copy + 'static, limited: bool) -> [Field<R>; 14] {
+        let limit = move |row: &R, text: fn(&LimitNumbers, Style) -> String, style| {
+            of(row).limits.as_ref().map_or_else(String::new, |limits| text(limits, style))
+        };
+        [
+            column("name", "", "name of the cable", move |row| of(row).name.clone()).plain("cable"),
+            only_read().shown("rope", "", move |row, _| of(row).rope.clone()).only_in(Style::Typeset),
+            column("unstrained_length_m", "m", "length without tension", move |row| of(row).unstrained_length_m)
+                .decimals("unstrained", "m", 4),
+            only_read().shown("chord", "m", move |row, style| style.decimals(of(row).chord_m, 4)).aligned(false),
+            column("tension_platform_n", "N", "tension at the platform", move |row| of(row).tension_platform_n)
+                .decimals("T platform", "N", 3),
+            column("tension_anchor_n", "N", "tension at the anchor", move |row| of(row).tension_anchor_n)
+                .decimals("T anchor", "N", 3),
+            column("chord_m", "m", "distance between the ends of the free span", move |row| of(row).chord_m),
+            column("sag_ratio", "1", "sag divided by the chord", move |row| of(row).sag.sag_ratio).decimals(
+                "sag/chord",
+                "",
+                5,
+            ),
+            column("lambda2", "1", "Irvine's parameter", move |row| of(row).sag.lambda2).significant("λ²", "", 4),
+            column("string_frequency_hz", "Hz", "first natural frequency of the taut cable alone", move |row| {
+                of(row).sag.string_frequency_hz
+            })
+            .decimals("string", "Hz", 3),
+            parts("force_on_platform_{}_n", AXES, "N", "force of the cable on the platform, {}", move |row| {
+                of(row).force_on_platform_n
+            }),
+            parts("{}_tension_n", ["minimum", "maximum"], "N", "{} tension that is allowed", move |row| {
+                let limits = of(row).limits.as_ref();
+                limits.map_or([None; 2], |limits| [Some(limits.minimum_tension_n), limits.maximum_tension_n])
+            })
+            .shown("limits", "N", move |row, style| limit(row, LimitNumbers::range, style))
+            .read_if(limited),
+            column("tension_margin_n", "N", "distance of the tension from the nearer limit", move |row| {
+                of(row).limits.as_ref().map(|limits| limits.tension_margin_n)
+            })
+            .shown("margin", "N", move |row, style| limit(row, LimitNumbers::margin, style))
+            .read_if(limited),
+            column("limit_reached", "", "limit that the tension has reached", move |row| {
+                of(row).limits.as_ref().and_then(|limits| limits.limit_reached)
+            }),
+        ]
+    }
+
+    /// Columns of the table of pulleys and winches.
+    pub fn drive_columns() -> Columns<Self> {
+        let name = column("name", "", "name of the cable", |row: &Self| row.name.clone()).plain("cable");
+        Columns::new(std::iter::once(name).chain(DriveRow::fields(|row: &Self| row.drive.as_ref())))
     }
 }
 
@@ -318,6 +509,29 @@ impl SupportRow {
             force_n: (support.stiffness_w * displacement_w).into(),
         };
         robot.supports.iter().zip(equilibrium.support_displacements(robot)).map(row).collect()
+    }
+}
+
+impl Tabled for Statics {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![
+            ("", CableWithFriction::columns(true, true).described()),
+            ("`all`", EquilibriumRow::columns(any()).described()),
+        ]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        match &self.equilibria {
+            Some(equilibria) => {
+                let cables = equilibria.first().map_or(0, |row| row.tensions_platform_n.len());
+                ResultTable::new(EquilibriumRow::columns(1..=cables), equilibria)
+            }
+            None => {
+                let drives = self.cables.iter().any(|cable| cable.drive.is_some());
+                let columns = CableWithFriction::columns(drives, self.friction_interval.is_some());
+                ResultTable::new(columns, CableWithFriction::all(self))
+            }
+        }
     }
 }
 
@@ -351,6 +565,7 @@ pub fn cable_rows(at_rest: &AtRest) -> Vec<CableRow> {
         .enumerate()
         .map(|(i, cable)| CableRow {
             name: robot.cables[i].name.clone(),
+            rope: robot.cables[i].material.name.clone(),
             unstrained_length_m: cable.unstrained_length,
             tension_platform_n: cable.tension_platform,
             tension_anchor_n: cable.tension_anchor,

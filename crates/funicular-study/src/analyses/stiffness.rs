@@ -4,8 +4,10 @@ use super::cable::STEP;
 use super::found;
 use super::shared::Models;
 use crate::at_rest::{self, AtRest};
+use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::Cancelled;
 use crate::request::{self, Model};
+use crate::sweep::Column;
 use crate::watch::Watch;
 use anyhow::Result;
 use funicular::cable::CableModel;
@@ -15,6 +17,11 @@ use funicular::robot::{Robot, WinchMode};
 use funicular::statics::{self, StaticModel};
 use serde::Serialize;
 use std::f64::consts::TAU;
+
+/// Components of a wrench, in the order of the rows of a stiffness.
+pub const WRENCH: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+/// Components of a motion, in the order of its columns.
+pub const MOTION: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// Results of `stiffness`: 6×6 matrix about the platform origin, world axes.
 #[derive(Serialize)]
@@ -149,6 +156,46 @@ fn refuse_rigid(linearisation: Linearisation, static_model: StaticModel) -> Resu
         return Err(DynamicsError::Rigid);
     }
     Ok(())
+}
+
+/// Entry of a stiffness.
+struct Entry {
+    row: usize,
+    column: usize,
+    value: Complex,
+}
+
+impl Entry {
+    fn columns() -> Columns<Self> {
+        Columns::new([
+            column("row", "", "component of the wrench", |of: &Self| WRENCH[of.row]),
+            column("column", "", "component of the motion", |of: &Self| MOTION[of.column]),
+            column("unit", "", "unit of the entry", |of: &Self| match (of.row < 3, of.column < 3) {
+                (true, true) => "N/m",
+                (true, false) => "N/rad",
+                (false, true) => "N m/m",
+                (false, false) => "N m/rad",
+            }),
+            column("real", "", "real part of the entry", |of: &Self| of.value.re),
+            column("imag", "", "imaginary part of the entry", |of: &Self| of.value.im),
+        ])
+    }
+}
+
+impl Tabled for Stiffness {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", Entry::columns().described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        let entries = (0..6).flat_map(|row| (0..6).map(move |column| (row, column)));
+        let entry = |(row, column): (usize, usize)| Entry {
+            row,
+            column,
+            value: Complex::new(self.real[row][column], self.imag[row][column]),
+        };
+        ResultTable::new(Entry::columns(), entries.map(entry))
+    }
 }
 
 found!(Stiffness, "stiffness");

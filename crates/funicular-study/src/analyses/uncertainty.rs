@@ -20,8 +20,8 @@ mod sampling;
 mod statistics;
 
 pub use output::{
-    FailedSamples, InputGroup, PoseUncertainty, ShareOfInput, UncertainInput, UncertainResponse, UncertainResult,
-    Uncertainties, WorstCase,
+    FailedSamples, InputGroup, PoseUncertainty, ResultAtPose, ShareOfInput, UncertainInput, UncertainResponse,
+    UncertainResult, Uncertainties, WorstCase,
 };
 pub(crate) use statistics::Statistics;
 

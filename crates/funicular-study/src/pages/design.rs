@@ -3,7 +3,7 @@
 use super::Shell;
 use super::figure::{PageFigure, axis, colour, line, plain, points, with};
 use super::table::{PageTable, fixed, significant};
-use crate::analyses::design::{ChosenValue, Designed};
+use crate::analyses::design::{ChosenValue, DemandRow, Designed};
 use anyhow::Context as _;
 use askama::Template;
 use serde_json::{Value, json};
@@ -102,15 +102,8 @@ fn poses(found: &Designed) -> PageTable {
 }
 
 fn demands(found: &Designed) -> PageTable {
-    let mut table = PageTable::new(
-        "table-demands",
-        "Demands, each at the pose where it is met least.",
-        &["<demand", "limit", "before", "after", "<unit", "pose"],
-    );
-    for row in &found.demands {
-        table.row(row.cells(significant).to_vec());
-    }
-    table
+    let caption = "Demands, each at the pose where it is met least.";
+    PageTable::of("table-demands", caption, &DemandRow::columns(), &found.demands)
 }
 
 /// Components x, y, z of a point of a cable that has changed: start and value.
@@ -214,16 +207,9 @@ fn room(found: &Designed) -> PageFigure {
 }
 
 fn values(found: &Designed) -> PageTable {
-    let mut table = PageTable::new(
-        "table-values",
-        "Chosen values with their bounds. The gain is per unit of the value by which its bound moves outwards.",
-        &["<value", "<unit", "before", "after", "minimum", "maximum", "<remark", "gain per unit"],
-    );
-    for row in &found.values {
-        let gain = if row.at_bound.is_some() { significant(row.gain_per_unit, 3) } else { String::new() };
-        table.row(row.cells(significant).into_iter().chain([gain]).collect());
-    }
-    table
+    let caption =
+        "Chosen values with their bounds. The gain is per unit of the value by which its bound moves outwards.";
+    PageTable::of("table-values", caption, &ChosenValue::columns(), &found.values)
 }
 
 /// Figure of the goal after every iteration.

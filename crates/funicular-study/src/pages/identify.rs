@@ -3,7 +3,7 @@
 use super::Shell;
 use super::figure::{PageFigure, axis, colour, line, plain, points, with};
 use super::table::{PageTable, fixed, significant};
-use crate::analyses::identify::{FittedResponse, Identified, ValueRow};
+use crate::analyses::identify::{FittedResponse, FittedValue, Identified, StaticRow, ValueRow};
 use crate::identification::LIMIT;
 use crate::text;
 use anyhow::Context as _;
@@ -60,18 +60,8 @@ pub fn page(found: &Identified, command_line: String) -> anyhow::Result<String> 
 }
 
 fn values(found: &Identified) -> PageTable {
-    let mut table = PageTable::new(
-        "table-values",
-        "Identified values with standard deviations and the intervals that hold them with 95 %.",
-        &["<value", "<unit", "start", "identified", "deviation", "95 % from", "to", "<prior", "<remark"],
-    );
-
-    for row in &found.values {
-        let notes = [row.prior_text(significant), row.remark()];
-        table.row(row.cells(significant).into_iter().chain(notes).collect());
-    }
-
-    table
+    let caption = "Identified values with standard deviations and the intervals that hold them with 95 %.";
+    PageTable::of("table-values", caption, &FittedValue::columns(), FittedValue::all(found))
 }
 
 /// Figure of a measured response, the response before the fit and the fitted one: magnitude, and phase below.
@@ -206,21 +196,8 @@ fn frequencies(found: &Identified) -> PageTable {
 }
 
 fn statics(found: &Identified) -> PageTable {
-    let mut table = PageTable::new(
-        "table-statics",
-        "Poses (differences from the measured pose), tensions and lengths.",
-        &["<experiment", "<quantity", "measured", "fitted", "difference|deviations"],
-    );
-    for row in &found.statics {
-        table.row(vec![
-            row.experiment.clone(),
-            row.quantity.clone(),
-            significant(row.measured, 6),
-            significant(row.fitted, 6),
-            fixed(row.difference(), 2),
-        ]);
-    }
-    table
+    let caption = "Poses (differences from the measured pose), tensions and lengths.";
+    PageTable::of("table-statics", caption, &StaticRow::columns(), &found.statics)
 }
 
 /// Figure of the rise of χ² on both sides of a value, if its profile was computed.

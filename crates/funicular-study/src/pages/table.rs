@@ -1,7 +1,9 @@
 //! Tables of pages with units in their heads, and formatting of numbers.
 
+use crate::columns::{Columns, Style};
 use crate::text;
 use askama::Template;
+use std::borrow::Borrow;
 
 /// Table of a page, with a caption.
 #[derive(Template)]
@@ -48,6 +50,38 @@ impl PageTable {
             })
             .collect();
         Self { id, caption: caption.into(), columns, rows: Vec::new(), tall: false }
+    }
+
+    /// Table of rows with the columns of their kind.
+    pub(crate) fn of<R>(
+        id: &'static str,
+        caption: impl Into<String>,
+        columns: &Columns<R>,
+        rows: impl IntoIterator<Item: Borrow<R>>,
+    ) -> Self {
+        Self::marked(id, caption, columns, rows, |_| "")
+    }
+
+    /// Table of rows, each with the class of the style sheet that `class` gives.
+    pub(crate) fn marked<R>(
+        id: &'static str,
+        caption: impl Into<String>,
+        columns: &Columns<R>,
+        rows: impl IntoIterator<Item: Borrow<R>>,
+        class: impl Fn(&R) -> &'static str,
+    ) -> Self {
+        let columns_of_page = columns.headings(Style::Typeset).into_iter().map(|heading| TableColumn {
+            name: heading.name.to_owned(),
+            unit: heading.unit.to_owned(),
+            class: if heading.is_text { "left" } else { "" },
+        });
+        let columns_of_page = columns_of_page.collect();
+        let mut table = Self { id, caption: caption.into(), columns: columns_of_page, rows: Vec::new(), tall: false };
+        for row in rows {
+            let row = row.borrow();
+            table.marked_row(class(row), columns.texts(row, Style::Typeset));
+        }
+        table
     }
 
     /// Adds a row.

@@ -2,9 +2,8 @@
 
 use super::Shell;
 use super::figure::{PageFigure, axis, colour, plain, rounded};
-use super::table::{PageTable, significant};
-use crate::analyses::uncertainty::{PoseUncertainty, UncertainResult, Uncertainties};
-use crate::text::{self, short};
+use super::table::PageTable;
+use crate::analyses::uncertainty::{PoseUncertainty, ResultAtPose, UncertainInput, UncertainResult, Uncertainties};
 use anyhow::Context as _;
 use askama::Template;
 use serde_json::{Value, json};
@@ -274,70 +273,12 @@ fn abscissa(found: &Uncertainties) -> (&'static str, impl Fn(usize, &PoseUncerta
 }
 
 fn results(found: &Uncertainties) -> PageTable {
-    let mut table = PageTable::new(
-        "table-results",
-        "Results with standard deviations and the intervals that hold 95 % of all robots; corners of the tolerances as \
-         changes of the result.",
-        &[
-            "pose",
-            "<result",
-            "<unit",
-            "value",
-            "deviation",
-            "95 % from",
-            "to",
-            "<method",
-            "corner down",
-            "up",
-            "<<largest shares",
-        ],
-    );
-
-    let number = |value: Option<f64>, digits| value.map_or_else(|| text::NONE.to_owned(), |v| significant(v, digits));
-
-    for (i, pose) in found.poses.iter().enumerate() {
-        for result in &pose.results {
-            let shares: Vec<String> = (result.largest.iter().take(3))
-                .map(|of| format!("{} {} %", of.path, text::significant(100.0 * of.share, 2)))
-                .collect();
-
-            let digits = text::digits_for(result.value, result.deviation);
-            table.row(vec![
-                (i + 1).to_string(),
-                result.name.clone(),
-                result.unit.to_owned(),
-                significant(result.value, digits),
-                number(result.deviation, 3),
-                number(result.interval_95.map(|interval| interval[0]), digits),
-                number(result.interval_95.map(|interval| interval[1]), digits),
-                result.method.to_owned(),
-                number(result.worst.and_then(|worst| worst.down), 3),
-                number(result.worst.and_then(|worst| worst.up), 3),
-                shares.join(", "),
-            ]);
-        }
-    }
-
-    table
+    let caption = "Results with standard deviations and the intervals that hold 95 % of all robots; corners of the tolerances \
+                   as changes of the result.";
+    let columns = ResultAtPose::columns(&found.groups, true);
+    PageTable::of("table-results", caption, &columns, ResultAtPose::all(found, 0, found.poses.len()))
 }
 
 fn numbers(found: &Uncertainties) -> PageTable {
-    let mut table = PageTable::new(
-        "table-numbers",
-        "Numbers that deviate.",
-        &["<number", "<unit", "value", "<distribution", "deviation", "tolerance", "<group"],
-    );
-    let number = |value: Option<f64>| value.map_or_else(|| text::NONE.to_owned(), |value| short(value, 6));
-    for input in &found.inputs {
-        table.row(vec![
-            input.path.clone(),
-            input.unit.to_owned(),
-            number(input.value),
-            input.distribution.to_owned(),
-            number(input.deviation),
-            number(input.tolerance),
-            found.groups[input.group].name.clone(),
-        ]);
-    }
-    table
+    PageTable::of("table-numbers", "Numbers that deviate.", &UncertainInput::columns(&found.groups), &found.inputs)
 }

@@ -52,7 +52,8 @@ declared! {
 }
 
 declared! {
-    /// Write the JSON Schema of the robot file, with which editors complete and check it, or that of requests.
+    /// Write the JSON Schema of the robot file, with which editors complete and check it, that of requests, or the columns of
+    /// results.
     ///
     /// The first line `#:schema ./robot.schema.json` of a robot file names the schema to Even Better TOML in VS Code and to
     /// other editors with Taplo.
@@ -64,6 +65,7 @@ declared! {
     examples {
         "funicular schema -o robot.schema.json",
         "funicular schema --of request -o request.schema.json",
+        "funicular schema --of columns",
     }
 }
 

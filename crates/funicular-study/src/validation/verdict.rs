@@ -1,8 +1,10 @@
 //! `validate`: all comparisons of docs/validation.md.
 
-use super::{Section, sections};
+use super::{Comparison, Section, sections};
 use crate::analyses::Found;
+use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::NoSolution;
+use crate::sweep::Column;
 use crate::text::counted;
 use anyhow::Result;
 use serde::Serialize;
@@ -42,6 +44,42 @@ impl Validated {
             "{failed} of {} not within tolerance, first: {}, {}: difference {:.1e}, tolerance {:.1e}",
             self.comparisons, first.case, first.quantity, first.difference, first.tolerance
         )))
+    }
+}
+
+/// Comparison with the section to which it belongs.
+struct CompareRow<'a> {
+    section: &'a Section,
+    row: &'a Comparison,
+}
+
+impl CompareRow<'_> {
+    fn columns() -> Columns<Self> {
+        Columns::new([
+            column("section", "", "section of the comparisons", |of: &Self| of.section.title),
+            column("case", "", "robot or cable, and its state", |of: &Self| of.row.case.clone()),
+            column("quantity", "", "compared quantity", |of: &Self| of.row.quantity.clone()),
+            column("difference", "", "largest difference", |of: &Self| of.row.difference),
+            column("kind", "", "absolute or relative", |of: &Self| of.row.kind.name()),
+            column("tolerance", "", "largest difference that passes", |of: &Self| of.row.tolerance),
+            column("bounded_by", "", "reason for the size of the tolerance", |of: &Self| {
+                <&str>::from(of.row.bounded_by)
+            }),
+            column("pass", "", "the difference is within the tolerance", |of: &Self| of.row.pass),
+            column("source", "", "source of the reference numbers", |of: &Self| of.row.source.clone()),
+        ])
+    }
+}
+
+impl Tabled for Validated {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", CompareRow::columns().described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        let rows =
+            self.sections.iter().flat_map(|section| section.rows.iter().map(move |row| CompareRow { section, row }));
+        ResultTable::new(CompareRow::columns(), rows)
     }
 }
 

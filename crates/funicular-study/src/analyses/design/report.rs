@@ -6,6 +6,7 @@ use super::rows::{DemandKind, Evaluated, PoseValues};
 use super::search::{RELEVANT, TOLERANCE, Tried};
 use super::variables::Variable;
 use crate::chosen_numbers::at_bound;
+use crate::columns::{Columns, Style, column, only_read};
 use crate::request::DesignRequest;
 use crate::text::{counted, significant};
 use anyhow::Result;
@@ -66,18 +67,31 @@ pub struct ChosenValue {
 }
 
 impl ChosenValue {
-    /// Cells of a row in a table: path, unit, value before and after, minimum, maximum, and the bound at which it is.
-    /// `number` writes a number with a count of significant digits.
-    pub fn cells(&self, number: impl Fn(f64, usize) -> String) -> [String; 7] {
-        [
-            self.path.clone(),
-            self.unit.to_owned(),
-            number(self.start, 6),
-            number(self.value, 6),
-            number(self.minimum, 6),
-            number(self.maximum, 6),
-            self.at_bound.map_or_else(String::new, |bound| format!("at its {bound}")),
-        ]
+    fn remark(&self) -> String {
+        self.at_bound.map_or_else(String::new, |bound| format!("at its {bound}"))
+    }
+
+    /// Columns of the chosen values.
+    pub fn columns() -> Columns<Self> {
+        Columns::new([
+            column("path", "", "path of the number", |row: &Self| row.path.clone()).plain("value"),
+            column("unit", "", "unit of the number", |row: &Self| row.unit).plain("unit"),
+            column("start", "", "value of the file", |row: &Self| row.start).significant("before", "", 6),
+            column("value", "", "chosen value", |row: &Self| row.value).significant("after", "", 6),
+            column("minimum", "", "lower bound", |row: &Self| row.minimum).significant("minimum", "", 6),
+            column("maximum", "", "upper bound", |row: &Self| row.maximum).significant("maximum", "", 6),
+            column("at_bound", "", "bound at which the value is", |row: &Self| row.at_bound)
+                .shown("remark", "", |row, _| row.remark())
+                .only_in(Style::Typeset),
+            only_read().shown("", "", |row: &Self, _| row.remark()).only_in(Style::Plain),
+            column("gain_per_unit", "", "gain of the goal per unit by which the bound moves outwards", |row: &Self| {
+                row.gain_per_unit
+            })
+            .shown("gain per unit", "", |row, style| {
+                row.at_bound.map_or_else(String::new, |_| style.significant(row.gain_per_unit, 3))
+            })
+            .only_in(Style::Typeset),
+        ])
     }
 }
 
@@ -96,17 +110,17 @@ pub struct DemandRow {
 }
 
 impl DemandRow {
-    /// Cells of a row in a table: demand, limit, value before and after, unit, and number of the pose. `number` writes a
-    /// number with a count of significant digits.
-    pub fn cells(&self, number: impl Fn(f64, usize) -> String) -> [String; 6] {
-        [
-            self.name.clone(),
-            number(self.limit, 5),
-            number(self.before, 5),
-            number(self.after, 5),
-            self.unit.to_owned(),
-            self.pose.to_string(),
-        ]
+    /// Columns of the demands.
+    pub fn columns() -> Columns<Self> {
+        Columns::new([
+            column("name", "", "demand", |row: &Self| row.name.clone()).plain("demand"),
+            column("limit", "", "limit", |row: &Self| row.limit).significant("limit", "", 5),
+            column("before", "", "value with the numbers of the file", |row: &Self| row.before)
+                .significant("before", "", 5),
+            column("after", "", "value with the chosen numbers", |row: &Self| row.after).significant("after", "", 5),
+            column("unit", "", "unit", |row: &Self| row.unit).plain("unit"),
+            column("pose", "1", "number of the pose, from 1", |row: &Self| row.pose).plain("at pose"),
+        ])
     }
 }
 

@@ -1,5 +1,6 @@
 //! Tables of measured and fitted numbers.
 
+use crate::columns::{Columns, column};
 use crate::identification::{IdentifiedModel, Observation, Subject};
 use crate::measurements::MeasuredResponse;
 use crate::request::{self, Experiment};
@@ -66,6 +67,23 @@ impl StaticRow {
     /// Difference of the fitted from the measured number in deviations.
     pub fn difference(&self) -> f64 {
         (self.fitted - self.measured) / self.deviation
+    }
+}
+
+impl StaticRow {
+    /// Columns of measured and fitted poses, tensions and lengths.
+    pub fn columns() -> Columns<Self> {
+        Columns::new([
+            column("experiment", "", "experiment", |row: &Self| row.experiment.clone()).plain("experiment"),
+            column("quantity", "", "quantity with its unit", |row: &Self| row.quantity.clone()).plain("quantity"),
+            column("measured", "", "measured value", |row: &Self| row.measured).significant("measured", "", 6),
+            column("fitted", "", "value of the fit", |row: &Self| row.fitted).significant("fitted", "", 6),
+            column("difference", "1", "difference in deviations", Self::difference).significant(
+                "difference",
+                "deviations",
+                3,
+            ),
+        ])
     }
 }
 

@@ -8,6 +8,7 @@ use crate::Watch;
 use crate::analyses::found;
 use crate::analyses::shared::Models;
 use crate::at_rest::AtRest;
+use crate::columns::{Columns, column, only_read};
 use crate::names::{ModelForm, Named};
 use crate::request;
 use crate::signals::response_unit;
@@ -170,6 +171,48 @@ impl StatesRow {
 
 fn rows(matrix: &DMat) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+}
+
+impl StatesRow {
+    /// Columns of the modes of a state space.
+    pub fn columns() -> Columns<Self> {
+        Columns::new([
+            column("first_state", "1", "number of the first state of the mode, from 0", |of: &Self| of.first),
+            column("states", "1", "number of its states", |of: &Self| of.states),
+            only_read().shown("states", "", |of: &Self, _| {
+                if of.states == 1 { format!("{}", of.first + 1) } else { format!("{}, {}", of.first + 1, of.first + 2) }
+            }),
+            column("frequency_hz", "Hz", "natural frequency", |of: &Self| of.frequency_hz).decimals(
+                "frequency",
+                "Hz",
+                4,
+            ),
+            column("damping_ratio", "1", "damping ratio", |of: &Self| of.damping_ratio).shown(
+                "damping ratio",
+                "%",
+                |of, style| style.decimals(100.0 * of.damping_ratio, 4),
+            ),
+            column("kind", "", "kind of the mode", |of: &Self| of.kind).plain("kind"),
+            column("platform_energy_fraction", "1", "share of the platform in the kinetic energy", |of: &Self| {
+                of.platform_energy_fraction
+            }),
+            column("contribution", "1", "largest part of the mode in a response, over its peak", |of: &Self| {
+                of.contribution
+            })
+            .shown("part in a response", "%", |of, _| percent(of.contribution)),
+        ])
+    }
+}
+
+/// Fraction in percent, with three digits.
+pub fn percent(fraction: f64) -> String {
+    let value = 100.0 * fraction;
+    if value >= 99.95 || value == 0.0 {
+        format!("{value:.0}")
+    } else {
+        let digits = (2 - value.log10().floor() as i32).clamp(0, 12) as usize;
+        format!("{value:.digits$}")
+    }
 }
 
 found!(ControlStateSpace, "reduce");

@@ -1,6 +1,9 @@
 //! Results of `uncertainty` as data.
 
 use crate::analyses::shared::Models;
+use crate::columns::{Columns, ResultTable, Style, Tabled, any, column, only_read, parts};
+use crate::sweep::Column;
+use crate::text::{digits_for, significant};
 use serde::Serialize;
 
 /// Results of `uncertainty`.
@@ -157,4 +160,143 @@ pub struct WorstCase {
     /// Change at the opposite corner, where the linear result is largest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub up: Option<f64>,
+}
+
+/// Number of contributions that a table for reading shows for each result.
+const SHOWN: usize = 3;
+
+/// Result with the pose to which it belongs.
+pub struct ResultAtPose<'a> {
+    found: &'a Uncertainties,
+    index: usize,
+    pose: &'a PoseUncertainty,
+    result: &'a UncertainResult,
+}
+
+impl<'a> ResultAtPose<'a> {
+    /// Results at the poses from `first` on, `count` of them.
+    pub fn all(found: &'a Uncertainties, first: usize, count: usize) -> impl Iterator<Item = Self> {
+        let poses = found.poses.iter().enumerate().skip(first).take(count);
+        poses.flat_map(move |(index, pose)| pose.results.iter().map(move |result| Self { found, index, pose, result }))
+    }
+
+    /// Largest contributions to the result: single numbers, or groups where only these are known.
+    fn largest(&self) -> String {
+        let Self { found, result, .. } = self;
+        let mut parts: Vec<(f64, &str)> = result.largest.iter().map(|of| (of.share, of.path.as_str())).collect();
+        if result.method == "sampled"
+            && let Some(shares) = &result.group_shares
+        {
+            parts = shares.iter().copied().zip(found.groups.iter().map(|group| group.name.as_str())).collect();
+            parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        }
+        let shown = parts.iter().take(SHOWN).filter(|(share, _)| *share > 0.0);
+        shown.map(|(share, name)| format!("{name} {} %", significant(100.0 * share, 2))).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Columns of the results of a robot whose numbers deviate in these groups; tables for reading have the corners of
+    /// the tolerances if there are any.
+    pub fn columns(groups: &[InputGroup], has_worst: bool) -> Columns<Self> {
+        let digits = |of: &Self| digits_for(of.result.value, of.result.deviation);
+        let end = |of: &Self, k: usize| of.result.interval_95.map(|interval| interval[k]);
+        let worst = |of: &Self, side: fn(&WorstCase) -> Option<f64>| of.result.worst.as_ref().and_then(side);
+
+        let place = [
+            column("pose", "1", "number of the pose, from 1", |of: &Self| of.index + 1)
+                .plain("pose")
+                .only_in(Style::Typeset),
+            parts("{}_m", ["x", "y", "z"], "m", "position of the platform origin, {}", |of: &Self| {
+                of.pose.position_m.map_or([None; 3], |position| position.map(Some))
+            }),
+            parts("{}_deg", ["roll", "pitch", "yaw"], "deg", "{} of the platform", |of: &Self| {
+                of.pose.roll_pitch_yaw_deg.map_or([None; 3], |angles| angles.map(Some))
+            }),
+        ];
+        let values = [
+            column("result", "", "name of the result", |of: &Self| of.result.name.clone()).plain("result"),
+            column("unit", "", "unit of the result", |of: &Self| of.result.unit).plain("unit"),
+            column("value", "", "value of the undisturbed robot", |of: &Self| of.result.value).shown(
+                "value",
+                "",
+                move |of, style| style.significant(of.result.value, digits(of)),
+            ),
+            column("deviation", "", "standard deviation", |of: &Self| of.result.deviation).significant(
+                "deviation",
+                "",
+                3,
+            ),
+            column(
+                "interval_95_from",
+                "",
+                "lower end of the interval that holds 95 % of the robots",
+                move |of: &Self| end(of, 0),
+            )
+            .shown("95 % from", "", move |of, style| style.significant(end(of, 0), digits(of))),
+            column("interval_95_to", "", "upper end of this interval", move |of: &Self| end(of, 1)).shown(
+                "to",
+                "",
+                move |of, style| style.significant(end(of, 1), digits(of)),
+            ),
+            column("method", "", "method: linear or sampled", |of: &Self| of.result.method).plain("method"),
+            column("linear_deviation", "", "standard deviation by the gradient", |of: &Self| {
+                of.result.linear_deviation
+            }),
+            column("worst_linear", "", "sum of the absolute linear changes over the tolerances", |of: &Self| {
+                of.result.worst.map(|worst| worst.linear)
+            }),
+            column(
+                "worst_down",
+                "",
+                "change at the corner of the tolerances with the smallest linear result",
+                move |of: &Self| worst(of, |case| case.down),
+            )
+            .significant("corner down", "", 3)
+            .read_if(has_worst),
+            column("worst_up", "", "change at the opposite corner", move |of: &Self| worst(of, |case| case.up))
+                .significant("up", "", 3)
+                .read_if(has_worst),
+            column("sampling_reason", "", "reason for sampling", |of: &Self| {
+                of.result.sampling_reason.clone().unwrap_or_default()
+            }),
+        ];
+        let shares = [
+            parts("share of {}", groups.iter().map(|group| &group.name), "1", "share of {} in the variance", {
+                let count = groups.len();
+                move |of: &Self| {
+                    let shares = of.result.group_shares.as_ref();
+                    shares.map_or_else(|| vec![None; count], |all| all.iter().copied().map(Some).collect())
+                }
+            }),
+            only_read().shown("largest shares", "", |of: &Self, _| of.largest()),
+        ];
+        Columns::new(place.into_iter().chain(values).chain(shares))
+    }
+}
+
+impl Tabled for Uncertainties {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        let groups = any().into_iter().map(|name| InputGroup { name, count: 1 }).collect::<Vec<_>>();
+        vec![("", ResultAtPose::columns(&groups, true).described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(ResultAtPose::columns(&self.groups, true), ResultAtPose::all(self, 0, usize::MAX))
+    }
+}
+
+impl UncertainInput {
+    /// Columns of the numbers that deviate in these groups.
+    pub fn columns(groups: &[InputGroup]) -> Columns<Self> {
+        let names: Vec<String> = groups.iter().map(|group| group.name.clone()).collect();
+        Columns::new([
+            column("path", "", "path of the number", |of: &Self| of.path.clone()).plain("number"),
+            column("unit", "", "unit of the number", |of: &Self| of.unit).plain("unit"),
+            column("value", "", "value; empty if it changes from pose to pose", |of: &Self| of.value)
+                .short("value", "", 6),
+            column("distribution", "", "distribution", |of: &Self| of.distribution).plain("distribution"),
+            column("deviation", "", "standard deviation", |of: &Self| of.deviation).short("deviation", "", 6),
+            column("tolerance", "", "half width of the tolerance", |of: &Self| of.tolerance).short("tolerance", "", 6),
+            column("group", "", "group of the number", move |of: &Self| names[of.group].clone()).plain("group"),
+        ])
+    }
 }

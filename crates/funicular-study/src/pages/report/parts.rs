@@ -1,11 +1,10 @@
 //! Tables and bar charts of a report.
 
 use super::prose;
-use crate::analyses::shared::LimitNumbers;
 use crate::analyses::{modes, statics};
 use crate::at_rest::AtRest;
 use crate::pages::figure::{self, PageFigure, axis, colour, plain, rounded};
-use crate::pages::table::{PageTable, fixed, listed, significant};
+use crate::pages::table::{PageTable, fixed, listed};
 use crate::text::NONE;
 use funicular::cable::{SHALLOW_SAG_LIMIT, Sag};
 use funicular::compare::{self, Comparison, Criterion};
@@ -25,53 +24,22 @@ fn sags(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Sag> {
 
 /// Table of lengths, tensions and sag of every cable.
 pub(crate) fn tension_table(at_rest: &AtRest) -> PageTable {
-    let AtRest { robot, equilibrium, .. } = at_rest;
-    let limits: Vec<Option<LimitNumbers>> = statics::cable_rows(at_rest).into_iter().map(|row| row.limits).collect();
-    let limited = limits.iter().any(Option::is_some);
-
-    let columns = [
-        "<cable",
-        "<rope",
-        "unstrained length|m",
-        "chord|m",
-        "tension, platform|N",
-        "tension, anchor|N",
-        "sag d/l|–",
-        "λ²|–",
-        "string frequency|Hz",
-        "minimum|N",
-        "maximum|N",
-        "margin|N",
-    ];
+    let rows = statics::cable_rows(at_rest);
+    let columns = statics::CableRow::columns(&rows);
     let caption = format!(
-        "Cables at equilibrium. d/l: sag divided by chord; the shallow models hold up to 0.05, tinted rows are beyond. \
-         λ²: Irvine's parameter, which compares the stiffness of the sag with that of the rope. String frequency: \
-         √(τ/m)/(2l), the first natural frequency of the taut cable alone.{}",
-        if limited { " Margin: distance of the tension from its nearest limit; negative beyond it." } else { "" }
-    );
-    let mut table = PageTable::new("table-tensions", caption, &columns[..if limited { 12 } else { 9 }]);
-    let straight = equilibrium.model != StaticModel::Catenary;
-    let cables = robot.cables.iter().zip(&equilibrium.cables);
-    for (((cable, state), sag), limits) in cables.zip(sags(robot, equilibrium)).zip(&limits) {
-        let class = if sag.ratio() > SHALLOW_SAG_LIMIT && !straight { "flag" } else { "" };
-        let mut cells = vec![
-            cable.name.clone(),
-            cable.material.name.clone(),
-            fixed(state.unstrained_length, 4),
-            fixed(state.chord(), 4),
-            fixed(state.tension_platform, 3),
-            fixed(state.tension_anchor, 3),
-            fixed(sag.ratio(), 5),
-            significant(sag.lambda2, 4),
-            significant(sag.string_frequency_hz(), 4),
-        ];
-        if let Some(limits) = limits {
-            let maximum = limits.maximum_tension_n.map_or_else(|| NONE.to_owned(), |value| significant(value, 4));
-            cells.extend([significant(limits.minimum_tension_n, 4), maximum, fixed(limits.tension_margin_n, 1)]);
+        "Cables at equilibrium. Sag/chord: the shallow models hold up to 0.05, tinted rows are beyond. λ²: Irvine's \
+         parameter, which compares the stiffness of the sag with that of the rope. String: √(τ/m)/(2l), the first natural \
+         frequency of the taut cable alone.{}",
+        if rows.iter().any(|row| row.limits.is_some()) {
+            " Margin: distance of the tension from its nearest limit; negative beyond it."
+        } else {
+            ""
         }
-        table.marked_row(class, cells);
-    }
-    table
+    );
+    let straight = at_rest.equilibrium.model != StaticModel::Catenary;
+    PageTable::marked("table-tensions", caption, &columns, &rows, |row| {
+        if row.sag.sag_ratio.is_some_and(|ratio| ratio > SHALLOW_SAG_LIMIT) && !straight { "flag" } else { "" }
+    })
 }
 
 /// Table of the interval in which friction of pulleys leaves pose and tensions; `None` without friction, and if
@@ -97,20 +65,8 @@ pub(crate) fn friction_table(at_rest: &AtRest) -> Option<PageTable> {
          drum. {motion} All other results leave friction out."
     );
 
-    let columns = ["<cable", "friction exponent|–", "beyond exit|mm", "tension, drum|N", "tension, platform|N"];
-    let mut table = PageTable::new("table-friction", caption, &columns);
-
-    for cable in &found.cables {
-        table.row(vec![
-            cable.name.clone(),
-            fixed(cable.friction_exponent, 4),
-            range(cable.excess_length_m.map(|metres| 1e3 * metres), 3),
-            range(cable.tension_drum_n, 3),
-            range(cable.tension_platform_n, 3),
-        ]);
-    }
-
-    Some(table)
+    let columns = statics::FrictionCableRow::columns(found.motion.is_some());
+    Some(PageTable::of("table-friction", caption, &columns, &found.cables))
 }
 
 /// Table of pulleys and winches at equilibrium; `None` if all cables end at fixed points.

@@ -1,0 +1,479 @@
+//! Tables of results. The columns of each kind of rows stand once: CSV, tables for reading, pages, Python and the
+//! documentation follow from them.
+
+use crate::sweep::{Column, ColumnKind};
+use crate::text::{self, NONE};
+use serde::Serialize;
+use std::borrow::{Borrow, Cow};
+use std::fmt::Display;
+
+/// Digits of a number that is shown as it is.
+const MAX_DIGITS: usize = 12;
+
+/// Mark between the components of a vector in a cell, until the table of a terminal knows how wide they are.
+pub const COMPONENTS: &str = "\u{1f}";
+
+/// Value of a column in a row.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Cell {
+    /// Number with its unit.
+    Number(f64),
+    /// Count or index.
+    Count(usize),
+    /// Yes or no.
+    Flag(bool),
+    /// Word, name or sentence.
+    Text(String),
+    /// Value that the row does not have.
+    Missing(Option<()>),
+}
+
+/// Value that can stand in a row.
+pub trait ToCell {
+    /// Kind of its column.
+    const KIND: ColumnKind;
+
+    /// The value as a cell.
+    fn cell(self) -> Cell;
+}
+
+impl ToCell for f64 {
+    const KIND: ColumnKind = ColumnKind::Real;
+
+    fn cell(self) -> Cell {
+        Cell::Number(self)
+    }
+}
+
+impl ToCell for usize {
+    const KIND: ColumnKind = ColumnKind::Real;
+
+    fn cell(self) -> Cell {
+        Cell::Count(self)
+    }
+}
+
+impl ToCell for bool {
+    const KIND: ColumnKind = ColumnKind::Flag;
+
+    fn cell(self) -> Cell {
+        Cell::Flag(self)
+    }
+}
+
+impl ToCell for &str {
+    const KIND: ColumnKind = ColumnKind::Text;
+
+    fn cell(self) -> Cell {
+        Cell::Text(self.to_owned())
+    }
+}
+
+impl ToCell for String {
+    const KIND: ColumnKind = ColumnKind::Text;
+
+    fn cell(self) -> Cell {
+        Cell::Text(self)
+    }
+}
+
+impl<V: ToCell> ToCell for Option<V> {
+    const KIND: ColumnKind = V::KIND;
+
+    fn cell(self) -> Cell {
+        self.map_or(Cell::Missing(None), ToCell::cell)
+    }
+}
+
+/// Writing of numbers: with a hyphen on a terminal, with a minus sign on a page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Style {
+    /// Terminal.
+    Plain,
+    /// Page.
+    Typeset,
+}
+
+impl Style {
+    fn set(self, value: f64, text: impl FnOnce() -> String) -> String {
+        match self {
+            _ if !value.is_finite() => NONE.to_owned(),
+            Self::Plain => text(),
+            Self::Typeset => text().replace('-', "−"),
+        }
+    }
+
+    /// Number with `count` decimals; a dash without a number.
+    pub fn decimals(self, value: impl Into<Option<f64>>, count: usize) -> String {
+        let value = value.into().unwrap_or(f64::NAN);
+        self.set(value, || text::decimals(value, count))
+    }
+
+    /// Number with `digits` significant digits; a dash without a number.
+    pub fn significant(self, value: impl Into<Option<f64>>, digits: usize) -> String {
+        let value = value.into().unwrap_or(f64::NAN);
+        self.set(value, || text::significant(value, digits))
+    }
+
+    /// Number with at most `digits` significant digits, without zeros at the end; a dash without a number.
+    pub fn short(self, value: impl Into<Option<f64>>, digits: usize) -> String {
+        let value = value.into().unwrap_or(f64::NAN);
+        self.set(value, || text::short(value, digits))
+    }
+
+    /// Numbers with `count` decimals each, separated by commas.
+    pub fn vector(self, values: &[f64], count: usize) -> String {
+        values.iter().map(|value| self.decimals(*value, count)).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Components of a vector with `count` decimals each, which a terminal shows below each other.
+    pub fn components(self, values: &[f64], count: usize) -> String {
+        let texts: Vec<String> = values.iter().map(|value| self.decimals(*value, count)).collect();
+        texts.join(if self == Self::Plain { COMPONENTS } else { ", " })
+    }
+
+    /// Interval, `1.0 to 2.0`.
+    pub fn range(self, [from, to]: [f64; 2], count: usize) -> String {
+        format!("{} to {}", self.decimals(from, count), self.decimals(to, count))
+    }
+}
+
+/// Text of a field in tables for reading.
+enum Form<R> {
+    /// Numbers with this many decimals.
+    Decimals(usize),
+    /// Numbers with this many significant digits.
+    Significant(usize),
+    /// Numbers with at most this many significant digits, without zeros at the end.
+    Short(usize),
+    /// Components of a vector with this many decimals, which a terminal shows below each other.
+    Components(usize),
+    /// Text made of the row.
+    Own(Box<dyn Fn(&R, Style) -> String>),
+}
+
+/// Column of a table for reading.
+struct Reading<R> {
+    heading: Cow<'static, str>,
+    unit: Cow<'static, str>,
+    is_text: bool,
+    /// Style of the tables that have it; `None` for all.
+    style: Option<Style>,
+    form: Form<R>,
+}
+
+impl<R> Reading<R> {
+    fn is_in(&self, style: Style) -> bool {
+        self.style.is_none_or(|own| own == style)
+    }
+}
+
+/// What a row says of one quantity: its numbers in files, one text in tables for reading.
+pub struct Field<R> {
+    columns: Vec<Column>,
+    values: Box<dyn Fn(&R, &mut Vec<Cell>)>,
+    reading: Option<Reading<R>>,
+    is_there: bool,
+}
+
+/// Field with one column.
+pub fn column<R, V: ToCell>(
+    name: &'static str,
+    unit: &'static str,
+    about: impl Into<String>,
+    value: impl Fn(&R) -> V + 'static,
+) -> Field<R> {
+    Field {
+        columns: vec![Column { name: name.to_owned(), unit: unit.into(), about: about.into(), kind: V::KIND }],
+        values: Box::new(move |row, cells| cells.push(value(row).cell())),
+        reading: None,
+        is_there: true,
+    }
+}
+
+/// Field with a column for each part, whose name stands in place of `{}` in `name` and `about`.
+pub fn parts<R, I: IntoIterator<Item: ToCell>>(
+    name: &str,
+    of: impl IntoIterator<Item = impl Display>,
+    unit: &'static str,
+    about: &str,
+    values: impl Fn(&R) -> I + 'static,
+) -> Field<R> {
+    let columns = of.into_iter().map(|part| {
+        let part = part.to_string();
+        let [name, about] = [name, about].map(|pattern| pattern.replace("{}", &part));
+        Column { name, unit: unit.into(), about, kind: I::Item::KIND }
+    });
+    Field {
+        columns: columns.collect(),
+        values: Box::new(move |row, cells| cells.extend(values(row).into_iter().map(ToCell::cell))),
+        reading: None,
+        is_there: true,
+    }
+}
+
+/// Field that stands in tables for reading only.
+pub fn only_read<R>() -> Field<R> {
+    Field { columns: Vec::new(), values: Box::new(|_, _| ()), reading: None, is_there: true }
+}
+
+impl<R> Field<R> {
+    /// The table has this field if the condition holds.
+    #[must_use]
+    pub fn only_if(mut self, is_there: bool) -> Self {
+        self.is_there = is_there;
+        self
+    }
+
+    fn reading(mut self, heading: Cow<'static, str>, unit: &'static str, form: Form<R>) -> Self {
+        let is_text = self.columns.first().is_none_or(|column| column.kind == ColumnKind::Text);
+        self.reading = Some(Reading { heading, unit: unit.into(), is_text, style: None, form });
+        self
+    }
+
+    /// Shows the values as they are under a heading.
+    #[must_use]
+    pub fn plain(self, heading: impl Into<Cow<'static, str>>) -> Self {
+        self.reading(heading.into(), "", Form::Short(MAX_DIGITS))
+    }
+
+    /// Shows the numbers with `count` decimals.
+    #[must_use]
+    pub fn decimals(self, heading: impl Into<Cow<'static, str>>, unit: &'static str, count: usize) -> Self {
+        self.reading(heading.into(), unit, Form::Decimals(count))
+    }
+
+    /// Shows the numbers with `digits` significant digits.
+    #[must_use]
+    pub fn significant(self, heading: impl Into<Cow<'static, str>>, unit: &'static str, digits: usize) -> Self {
+        self.reading(heading.into(), unit, Form::Significant(digits))
+    }
+
+    /// Shows the numbers with at most `digits` significant digits, without zeros at the end.
+    #[must_use]
+    pub fn short(self, heading: impl Into<Cow<'static, str>>, unit: &'static str, digits: usize) -> Self {
+        self.reading(heading.into(), unit, Form::Short(digits))
+    }
+
+    /// Shows the components of a vector with `count` decimals, below each other on a terminal.
+    #[must_use]
+    pub fn components(self, heading: impl Into<Cow<'static, str>>, unit: &'static str, count: usize) -> Self {
+        self.reading(heading.into(), unit, Form::Components(count)).aligned(false)
+    }
+
+    /// Shows a text that is made of the row.
+    #[must_use]
+    pub fn shown(
+        self,
+        heading: impl Into<Cow<'static, str>>,
+        unit: &'static str,
+        text: impl Fn(&R, Style) -> String + 'static,
+    ) -> Self {
+        self.reading(heading.into(), unit, Form::Own(Box::new(text)))
+    }
+
+    /// Tables for reading have this field if the condition holds; files have it anyway.
+    #[must_use]
+    pub fn read_if(mut self, is_read: bool) -> Self {
+        self.reading = self.reading.filter(|_| is_read);
+        self
+    }
+
+    /// Only the tables of one style have this field.
+    #[must_use]
+    pub fn only_in(mut self, style: Style) -> Self {
+        if let Some(reading) = &mut self.reading {
+            reading.style = Some(style);
+        }
+        self
+    }
+
+    /// Shows the field with a unit that depends on the results.
+    #[must_use]
+    pub fn with_unit(mut self, unit: String) -> Self {
+        if let Some(reading) = &mut self.reading {
+            reading.unit = unit.into();
+        }
+        self
+    }
+
+    /// Shows the field aligned to the right, as numbers are, or to the left.
+    #[must_use]
+    pub fn aligned(mut self, is_text: bool) -> Self {
+        if let Some(reading) = &mut self.reading {
+            reading.is_text = is_text;
+        }
+        self
+    }
+}
+
+impl<R> Field<R> {
+    /// Text of a row; `None` for a field that is not shown.
+    fn text(&self, row: &R, style: Style) -> Option<String> {
+        let form = &self.reading.as_ref().filter(|reading| reading.is_in(style))?.form;
+        if let Form::Own(text) = form {
+            return Some(text(row, style));
+        }
+        let mut cells = Vec::new();
+        (self.values)(row, &mut cells);
+        let texts = cells.into_iter().map(|cell| match (cell, form) {
+            (Cell::Number(value), Form::Decimals(count) | Form::Components(count)) => style.decimals(value, *count),
+            (Cell::Number(value), Form::Significant(digits)) => style.significant(value, *digits),
+            (Cell::Number(value), Form::Short(digits)) => style.short(value, *digits),
+            (Cell::Count(count), _) => count.to_string(),
+            (Cell::Text(text), _) => text,
+            (Cell::Flag(is), _) => if is { "yes" } else { "no" }.to_owned(),
+            (Cell::Missing(_) | Cell::Number(_), _) => NONE.to_owned(),
+        });
+        let separator = match (form, style) {
+            (Form::Components(_), Style::Plain) => COMPONENTS,
+            _ => ", ",
+        };
+        Some(texts.collect::<Vec<_>>().join(separator))
+    }
+}
+
+/// Columns of a kind of rows.
+pub struct Columns<R>(Vec<Field<R>>);
+
+/// Heading of a column in a table for reading.
+pub struct Heading<'a> {
+    /// Name of the quantity.
+    pub name: &'a str,
+    /// Unit; empty without one.
+    pub unit: &'a str,
+    /// True for a column of texts, which are aligned to the left.
+    pub is_text: bool,
+}
+
+impl Heading<'_> {
+    /// Name with the unit in brackets.
+    pub fn with_unit(&self) -> String {
+        if self.unit.is_empty() { self.name.to_owned() } else { format!("{} [{}]", self.name, self.unit) }
+    }
+}
+
+impl<R> Columns<R> {
+    /// Columns of the fields that the table has.
+    pub fn new(fields: impl IntoIterator<Item = Field<R>>) -> Self {
+        Self(fields.into_iter().filter(|field| field.is_there).collect())
+    }
+
+    /// What the columns in files mean.
+    pub fn described(&self) -> Vec<Column> {
+        self.0.iter().flat_map(|field| field.columns.iter().cloned()).collect()
+    }
+
+    /// Cells of a row in files.
+    pub fn cells(&self, row: &R) -> Vec<Cell> {
+        let mut cells = Vec::with_capacity(self.0.len());
+        for field in &self.0 {
+            (field.values)(row, &mut cells);
+        }
+        cells
+    }
+
+    /// Headings of the table for reading.
+    pub fn headings(&self, style: Style) -> Vec<Heading<'_>> {
+        let shown = self.0.iter().filter_map(|field| field.reading.as_ref()).filter(|reading| reading.is_in(style));
+        shown.map(|of| Heading { name: &of.heading, unit: &of.unit, is_text: of.is_text }).collect()
+    }
+
+    /// Texts of a row in the table for reading.
+    pub fn texts(&self, row: &R, style: Style) -> Vec<String> {
+        self.0.iter().filter_map(|field| field.text(row, style)).collect()
+    }
+}
+
+/// Rows of results with their columns.
+pub struct ResultTable<'a> {
+    /// Columns.
+    pub columns: Vec<Column>,
+    /// Cells of every row, one per column.
+    pub rows: Box<dyn Iterator<Item = Vec<Cell>> + 'a>,
+}
+
+impl<'a> ResultTable<'a> {
+    /// Table of rows with the columns of their kind.
+    pub fn new<R: 'a>(columns: Columns<R>, rows: impl IntoIterator<Item: Borrow<R>, IntoIter: 'a>) -> Self {
+        let rows = rows.into_iter();
+        Self { columns: columns.described(), rows: Box::new(rows.map(move |row| columns.cells(row.borrow()))) }
+    }
+
+    /// Writes the table as CSV.
+    ///
+    /// # Errors
+    /// A destination that cannot be written.
+    pub fn write<W: std::io::Write>(self, out: &mut csv::Writer<W>) -> csv::Result<()> {
+        out.write_record(self.columns.iter().map(|column| &column.name))?;
+        self.rows.into_iter().try_for_each(|row| out.serialize(row))
+    }
+}
+
+/// Results that are a table in files.
+pub trait Tabled {
+    /// Every table that such results can be: when it is that one, in words that follow "with", and its columns. The parts
+    /// of a robot have the name `NAME`.
+    fn tables() -> Vec<(&'static str, Vec<Column>)>
+    where
+        Self: Sized;
+
+    /// Table of the results.
+    fn table(&self) -> ResultTable<'_>;
+}
+
+impl<T: Tabled> Tabled for Box<T> {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        T::tables()
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        (**self).table()
+    }
+}
+
+/// Name of a part of any robot in [`Tabled::tables`].
+pub(crate) fn any() -> Vec<String> {
+    vec!["NAME".to_owned()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Row {
+        name: &'static str,
+        force: [f64; 2],
+        margin: Option<f64>,
+    }
+
+    fn of_rows(has_margin: bool) -> Columns<Row> {
+        Columns::new([
+            column("name", "", "name", |row: &Row| row.name).plain("cable"),
+            parts("force_{}_n", ["x", "y"], "N", "force, {}", |row: &Row| row.force).decimals("force", "N", 1),
+            column("margin_n", "N", "margin", |row: &Row| row.margin).only_if(has_margin).short("margin", "N", 3),
+        ])
+    }
+
+    #[test]
+    fn files_have_every_number_and_tables_for_reading_one_text_per_quantity() {
+        let row = Row { name: "a", force: [-1.0, 2.25], margin: None };
+        let columns = of_rows(true);
+        let headings: Vec<String> = columns.headings(Style::Plain).iter().map(Heading::with_unit).collect();
+        assert_eq!(headings, ["cable", "force [N]", "margin [N]"]);
+        assert_eq!(columns.texts(&row, Style::Plain), ["a", "-1.0, 2.2", NONE]);
+        assert_eq!(columns.texts(&row, Style::Typeset), ["a", "−1.0, 2.2", NONE]);
+
+        let mut out = csv::Writer::from_writer(Vec::new());
+        ResultTable::new(columns, [row]).write(&mut out).expect("memory takes everything");
+        let bytes = out.into_inner().expect("memory takes everything");
+        assert_eq!(String::from_utf8_lossy(&bytes), "name,force_x_n,force_y_n,margin_n\na,-1.0,2.25,\n");
+    }
+
+    #[test]
+    fn a_table_has_the_fields_that_it_asks_for() {
+        assert_eq!(of_rows(false).described().len(), 3);
+        assert_eq!(of_rows(true).described()[2].about, "force, y");
+    }
+}
