@@ -1,9 +1,12 @@
 """`Robot.uncertainty` and `Modes.gradient`."""
 
+import subprocess
+from io import StringIO
 from pathlib import Path
 
 import funicular
 import numpy as np
+import pandas
 import pytest
 
 
@@ -22,6 +25,16 @@ def test_deviations_of_tensions_are_arrays_with_names_and_units() -> None:
     # A list of texts is the same request.
     again = robot.uncertainty(["platform.mass_kg=1%", "cables.*.anchor_m=0.0002"], of=["tensions"])
     assert again.details == found.details
+
+
+def test_the_table_has_the_columns_of_the_csv_with_units(executable: str) -> None:
+    found = funicular.Robot.example().uncertainty(["platform.mass_kg=1%"], of=["tensions"])
+    table = found.to_pandas()
+    line = [executable, "uncertainty", "--deviations", "platform.mass_kg=1%", "--of", "tensions", "--format", "csv"]
+    csv = pandas.read_csv(StringIO(subprocess.run(line, capture_output=True, text=True, check=True).stdout))
+    assert list(table.columns) == list(csv.columns) and len(table) == 12
+    assert np.array_equal(table["deviation"], csv["deviation"]) and np.array_equal(table["value"], found.value)
+    assert table.attrs["units"]["x_m"] == "m" and "result" not in table.attrs["units"]
 
 
 def test_several_poses_have_one_row_each() -> None:

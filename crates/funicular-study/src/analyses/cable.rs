@@ -272,7 +272,7 @@ impl StiffnessAt<'_> {
                 &format!("k_{name}_{{}}_n_per_m"),
                 ["real", "imag"],
                 "N/m",
-                &format!("stiffness {about}, {{}}"),
+                &format!("stiffness {about}, {{}} part"),
                 move |row: &Self| {
                     let values = of(&row.found.local);
                     [values.real[row.index], values.imag[row.index]]
@@ -284,7 +284,7 @@ impl StiffnessAt<'_> {
                 &format!("k_{name}_{{}}_n_per_m"),
                 ["real", "imag"],
                 "N/m",
-                &format!("stiffness {name} in world axes, {{}}"),
+                &format!("stiffness {name} in world axes, {{}} part"),
                 move |row: &Self| {
                     let World { real, imag } = &row.found.world;
                     [real[row.index][i][j], imag[row.index][i][j]]
