@@ -7,8 +7,7 @@
 //! no decisions themselves.
 //!
 //! This crate uses no disk and no threads, and it compiles for WebAssembly. Besides the analyses it contains [`import`]
-//! and [`export`] of other programs' files, [`pages`] in HTML and [`figures`] as SVG and PDF (feature `pages`), and
-//! [`validation`].
+//! and [`export`] of other programs' files, and [`validation`].
 //!
 //! # Example
 //! ```
@@ -35,9 +34,6 @@ mod chosen_numbers;
 pub mod csv_lines;
 mod error;
 pub mod export;
-pub mod figure_style;
-#[cfg(feature = "pages")]
-pub mod figures;
 pub mod frequency_range;
 mod identification;
 pub mod import;
@@ -47,8 +43,6 @@ pub mod measurements;
 pub mod names;
 pub mod new_robot;
 mod normal;
-#[cfg(feature = "pages")]
-pub mod pages;
 mod parameter_pattern;
 mod refused;
 pub mod request;
@@ -66,7 +60,7 @@ mod watch;
 pub mod wording;
 pub mod written;
 
-pub use error::{Error, ErrorKind, NoSolution};
+pub use error::{Cancelled, Error, ErrorKind, NoSolution};
 pub use request::Request;
 pub use run::{Results, run, run_at, run_on};
 pub use watch::{Silent, Watch};

@@ -250,7 +250,7 @@ fn parsed<T: DeserializeOwned>(given: &Map<String, Value>) -> anyhow::Result<T> 
 ///
 /// # Errors
 /// A name that is not a signal; the message names the key.
-pub(crate) fn input(name: &str) -> anyhow::Result<Input> {
+pub fn input(name: &str) -> anyhow::Result<Input> {
     Input::parse(name).map_err(|reason| anyhow!("⟪input⟫ {name}: {reason}"))
 }
 
@@ -258,7 +258,7 @@ pub(crate) fn input(name: &str) -> anyhow::Result<Input> {
 ///
 /// # Errors
 /// A name that is not a signal; the message names the key.
-pub(crate) fn output(name: &str) -> anyhow::Result<Output> {
+pub fn output(name: &str) -> anyhow::Result<Output> {
     Output::parse(name).map_err(|reason| anyhow!("⟪output⟫ {name}: {reason}"))
 }
 

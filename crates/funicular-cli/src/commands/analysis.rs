@@ -8,7 +8,7 @@ use anyhow::{Context, Result};
 use funicular::robot::Robot;
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
-use funicular_study::figures;
+use funicular_pages::figures;
 use funicular_study::request::{Request, RobotText};
 use funicular_study::{Results, run_on};
 

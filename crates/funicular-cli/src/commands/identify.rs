@@ -31,7 +31,7 @@ pub(super) fn run(of: &IdentifyRequest, args: &IdentifyArgs, guard: &mut Guard) 
     let found = identify::run(of, &mut watch)?;
     drop(watch);
     files.write(&found, &found.robot_file, || {
-        let page = funicular_study::pages::identify::page(&found, super::page::command_line()?)?;
+        let page = funicular_pages::pages::identify::page(&found, super::page::command_line()?)?;
         Ok(worded(&page, Words::Program))
     })
 }

@@ -208,7 +208,7 @@ impl FrictionRow {
     ///
     /// # Errors
     /// [`funicular::statics::FrictionError`].
-    pub(crate) fn of(at_rest: &AtRest) -> Result<Self> {
+    pub fn of(at_rest: &AtRest) -> Result<Self> {
         let AtRest { robot, equilibrium, held_pose, .. } = at_rest;
         let lengths_held = held_pose.is_some() || matches!(robot.state, State::Lengths(_));
         let (held, name) = if lengths_held { (Held::Lengths, "lengths") } else { (Held::Pose, "pose") };
