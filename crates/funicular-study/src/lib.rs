@@ -7,7 +7,7 @@
 //! no decisions themselves.
 //!
 //! This crate uses no disk and no threads, and it compiles for WebAssembly. Besides the analyses it contains [`import`]
-//! and [`export`] of other programs' files, and [`validation`].
+//! and [`export`] of other programs' files.
 //!
 //! # Example
 //! ```
@@ -53,8 +53,6 @@ pub mod signals;
 pub mod sweep;
 pub mod text;
 pub mod uff_writing;
-#[cfg(feature = "validation")]
-pub mod validation;
 pub mod values;
 mod watch;
 pub mod wording;

@@ -5,7 +5,7 @@ use crate::figures::chart::{Chart, Entry, Layer, Panel, Sample};
 use crate::figures::drawing::{BLACK, Stroke};
 use crate::figures::style::{BLUE, GREEN, GREY, Symbol, SymbolShape, VERMILION};
 use crate::figures::{Figure, FigureContent, Size};
-use funicular_study::validation::{Comparison, sections};
+use funicular_validation::{Comparison, sections};
 
 /// Highest frequency of the figure [Hz].
 const HIGHEST_HZ: f64 = 4.0;

@@ -29,7 +29,7 @@ pub(super) fn section(published: &Published) -> Result<Section> {
         case.relative("ε", &[printed.epsilon], &[sag.epsilon], 0.03, conflict),
         case.absolute("L_e/l", &[printed.effective_length_over_chord], &[length(&sag)], 5e-5, four),
     ]);
-    let heavy = crate::text::significant(cable.mass_of_published_lambda2_kg_per_m, 4);
+    let heavy = funicular_study::text::significant(cable.mass_of_published_lambda2_kg_per_m, 4);
     let case = Case { name: format!("Fig. 2, {heavy} kg/m"), ..case };
     let three = Bound::Digits("three decimals");
     rows.extend([

@@ -58,8 +58,9 @@ fn roots(published: &Published) -> Vec<Comparison> {
 
     let table = &published.irvine_caughey;
     let rows = table.rows.iter().map(|row| {
-        let name =
-            row.lambda2.map_or_else(|| "inextensible".to_owned(), |l| format!("λ² = {}", crate::text::short(l, 8)));
+        let name = row
+            .lambda2
+            .map_or_else(|| "inextensible".to_owned(), |l| format!("λ² = {}", funicular_study::text::short(l, 8)));
 
         let mut cable = fig2(&published.fig2_cable, true, Damping::Ratio(0.0));
         cable.sag.lambda2 = row.lambda2.unwrap_or(INEXTENSIBLE);

@@ -1,7 +1,7 @@
 //! Tests of each section: every comparison passes and has a source.
 
 use super::*;
-use crate::validation::reference::{self, damped, drives, exact, independent, published};
+use crate::reference::{self, damped, drives, exact, independent, published};
 
 /// Fails with the rows that do not pass, in the form of docs/validation.md.
 fn check(section: Result<Section>) {
@@ -70,12 +70,12 @@ fn cables_over_pulleys_and_on_winches_rest_as_in_other_programs() {
 
 #[test]
 fn a_robot_with_few_cables_swings_as_its_makers_computed_and_measured() {
-    check(super::measured::section(&crate::validation::reference::measured().unwrap().grab));
+    check(super::measured::section(&crate::reference::measured().unwrap().grab));
 }
 
 #[test]
 fn values_are_identified_as_the_measurements_have_them_and_as_others_did() {
-    let poses = crate::validation::reference::measured().unwrap().grab;
+    let poses = crate::reference::measured().unwrap().grab;
     check(identification::section(&reference::identification().unwrap(), &poses));
 }
 

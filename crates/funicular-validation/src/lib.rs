@@ -1,6 +1,6 @@
 //! Comparisons of the core with numbers that others published or computed: the rows of docs/validation.md.
 //!
-//! The numbers are in crates/funicular-study/reference, each table with its source. They are compared only here: the
+//! The numbers are in crates/funicular-validation/reference, each table with its source. They are compared only here: the
 //! core's own tests use limits, identities and other algorithms. There is one file per section, with a test.
 
 mod catenary;
@@ -199,3 +199,8 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
 fn largest(values: &[f64]) -> f64 {
     worst(values.iter().map(|value| value.abs()))
 }
+
+/// Example of README.md, which is tested like those of the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,4 +1,4 @@
-//! Contents of the files in crates/funicular-study/reference.
+//! Contents of the files in crates/funicular-validation/reference.
 
 mod damped;
 mod drives;

@@ -1,10 +1,10 @@
 //! `validate`: all comparisons of docs/validation.md.
 
 use super::{Section, sections};
-use crate::analyses::Found;
-use crate::error::NoSolution;
-use crate::text::counted;
 use anyhow::Result;
+use funicular_study::NoSolution;
+use funicular_study::analyses::Found;
+use funicular_study::text::counted;
 use serde::Serialize;
 
 /// Results of `validate`: comparisons with numbers that others published or computed.

@@ -1,7 +1,7 @@
 //! Text of docs/validation.md. Numbers are rounded to the claimed digits, so that every machine makes the same text.
 
 use super::{Bound, Comparison, DifferenceKind, Section};
-use crate::text::{counted, decimals, significant};
+use funicular_study::text::{counted, decimals, significant};
 use std::fmt::Write;
 
 /// Number of digits in a row. The last digit is far above rounding errors.
@@ -38,7 +38,7 @@ const INTRODUCTION: &str = "\
 
 Every reference number here was published by others or computed by other means. The program computes the same case and
 reports the difference. This file is generated: `funicular validate -o docs/validation.md`. `funicular validate --format
-json` gives every digit. The reference numbers, each with its source, are in `crates/funicular-study/reference/`.
+json` gives every digit. The reference numbers, each with its source, are in `crates/funicular-validation/reference/`.
 
 | column | meaning |
 |:---|:---|
@@ -149,7 +149,7 @@ fn cell(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::validation::{Case, sections};
+    use crate::{Case, sections};
 
     #[test]
     fn the_committed_file_is_the_generated_one() {
@@ -162,7 +162,7 @@ mod tests {
         assert!(
             generated == committed,
             "docs/validation.md differs from what the program computes now; if the change is intended, regenerate it \
-             with `UPDATE_DOCS=1 cargo test -p funicular-study validation`"
+             with `UPDATE_DOCS=1 cargo test -p funicular-validation`"
         );
     }
 

@@ -76,7 +76,7 @@ fn hang(of: &HungBetween) -> Result<Catenary, CatenaryError> {
 }
 
 fn describe(of: &HungBetween) -> String {
-    let short = |value: f64| crate::text::short(value, 6);
+    let short = |value: f64| funicular_study::text::short(value, 6);
     format!("span {} m, rise {} m, length {} m", short(of.span_m), short(of.rise_m), short(of.unstrained_length_m))
 }
 

@@ -1,10 +1,10 @@
 //! Linear deviations of results, compared with those of sampled robots.
 
 use super::{Bound, Case, Comparison, DifferenceKind, Section};
-use crate::analyses::uncertainty::{Statistics, Uncertainties, UncertaintyStudy};
-use crate::request::Request;
-use crate::sweep::Values;
 use anyhow::{Context, Result, anyhow, bail};
+use funicular_study::analyses::uncertainty::{Uncertainties, UncertaintyStudy};
+use funicular_study::request::Request;
+use funicular_study::sweep::Values;
 use serde_json::json;
 
 /// Number of sampled robots.
@@ -64,11 +64,11 @@ fn compare(name: &str, text: &str, tolerance: &str, rows: &mut Vec<Comparison>) 
             if result.method != "linear" {
                 bail!("{name}, {}: {}", result.name, result.sampling_reason.as_deref().unwrap_or_default());
             }
-            let found = Statistics::of(values.iter().copied()).context("no sample")?;
+            let found = deviation_of(values).context("no sample")?;
             let deviation = result.deviation.context("no deviation")?;
-            let difference = (deviation / found.deviation - 1.0).abs();
+            let difference = (deviation / found - 1.0).abs();
             if difference >= farthest.0 {
-                farthest = (difference, found.deviation, deviation);
+                farthest = (difference, found, deviation);
             }
             let [from, to] = result.interval_95.context("no interval")?;
             let inside =
@@ -85,6 +85,16 @@ fn compare(name: &str, text: &str, tolerance: &str, rows: &mut Vec<Comparison>) 
         rows.push(case.absolute(&share, &[0.95], &[coverage.1], COVERAGE, Bound::Digits("number of robots")));
     }
     Ok(())
+}
+
+/// Standard deviation of a sample, summed in ascending order; `None` for fewer than two values.
+fn deviation_of(values: &[f64]) -> Option<f64> {
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let count = sorted.len() as f64;
+    let mean = sorted.iter().sum::<f64>() / count;
+    let squares: f64 = sorted.iter().map(|value| (value - mean).powi(2)).sum();
+    (sorted.len() > 1).then(|| (squares / (count - 1.0)).sqrt())
 }
 
 fn study(request: &str) -> Result<UncertaintyStudy> {

@@ -2,13 +2,13 @@
 
 use super::reference::{IdentificationReference, MeasuredPose, MeasuredResponses, PlatformOfMakers, ReferenceTable};
 use super::{Bound, Case, Comparison, DifferenceKind, Section, worst};
-use crate::analyses::identify::{self, Identified};
-use crate::measurements::{MeasuredFrequency, MeasuredResponse};
-use crate::request::{Experiment, Pose, State};
-use crate::{Request, Silent};
 use anyhow::{Result, ensure};
 use funicular::math::{Rotation, Vec3, rotation};
 use funicular::statics::StaticModel;
+use funicular_study::analyses::identify::{self, Identified};
+use funicular_study::measurements::{MeasuredFrequency, MeasuredResponse};
+use funicular_study::request::{Experiment, Pose, State};
+use funicular_study::{Request, Silent};
 use serde_json::json;
 
 /// Deviations within which ten values lie: the largest of ten is beyond 3 once in 37 repetitions.
