@@ -12,7 +12,9 @@ from pathlib import Path
 from pages import ROOT
 from rust_texts import texts
 
-CRATES = ["funicular", "funicular-study", "funicular-pages", "funicular-files", "funicular-cli", "funicular-py"]
+CRATES = [
+    "funicular", "funicular-study", "funicular-formats", "funicular-pages", "funicular-files", "funicular-cli", "funicular-py",
+]
 # Macros, calls and attributes that make errors, and what plausibility calls its findings.
 CALLS = {
     "Err", "EditError", "Implausible", "NoSolution", "Odd", "Parts", "Unfit", "anyhow!", "bail!", "context", "error",

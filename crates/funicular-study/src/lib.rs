@@ -6,8 +6,8 @@
 //! ends (program, Python package, browser) convert their input to a request and the results to their output. They make
 //! no decisions themselves.
 //!
-//! This crate uses no disk and no threads, and it compiles for WebAssembly. Besides the analyses it contains [`import`]
-//! and [`export`] of other programs' files.
+//! This crate uses no disk and no threads, and it compiles for WebAssembly. Files of other programs are read and written
+//! by the crate `funicular-formats`, pages and figures are made by `funicular-pages`.
 //!
 //! # Example
 //! ```
@@ -31,17 +31,13 @@
 pub mod analyses;
 pub mod at_rest;
 mod chosen_numbers;
-pub mod csv_lines;
 mod error;
-pub mod export;
 pub mod frequency_range;
 mod identification;
-pub mod import;
 pub mod json;
 mod measure;
 pub mod measurements;
 pub mod names;
-pub mod new_robot;
 mod normal;
 mod parameter_pattern;
 mod refused;
@@ -52,7 +48,6 @@ pub mod set_values;
 pub mod signals;
 pub mod sweep;
 pub mod text;
-pub mod uff_writing;
 pub mod values;
 mod watch;
 pub mod wording;

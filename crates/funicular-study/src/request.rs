@@ -46,7 +46,8 @@ pub use vibration::{
     CableRequest, CompareRequest, DEFAULT_INPUT, DEFAULT_OUTPUT, FrfRequest, ModesRequest, ReduceRequest,
 };
 
-pub(crate) use parts::{check, check_vector};
+pub use parts::check;
+pub(crate) use parts::check_vector;
 
 use crate::error::Error;
 use crate::names::suggestion;

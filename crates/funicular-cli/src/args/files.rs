@@ -2,7 +2,7 @@
 
 use super::values;
 use clap::{Args, ValueEnum};
-use funicular_study::measurements::{NodePoint, ResponseName};
+use funicular_formats::measurements::{NodePoint, ResponseName};
 use funicular_study::request::{Change, FitValue};
 use funicular_study::sweep::Part;
 use std::num::NonZeroUsize;

@@ -10,8 +10,8 @@ use anyhow::{Context, Result, bail};
 use std::fmt::Write as _;
 
 use funicular_files::Guard;
+use funicular_formats::measurements::{self, FileOptions};
 use funicular_study::analyses::identify::{self, Identified, OpenEnd};
-use funicular_study::measurements::{self, FileOptions};
 use funicular_study::request::{Experiment, FitValue, IdentifyRequest, Request, ResponsePoints};
 use funicular_study::wording::{Words, worded};
 use serde_json::{Map, Value};

@@ -2,9 +2,9 @@
 
 use crate::output::Printed;
 use crate::table::{self, Table, counted, decimals, short, significant};
+use funicular_formats::uff_writing::modes_file;
 use funicular_study::analyses::modes::{Modes, Participation, RIGID, strongest};
 use funicular_study::analyses::shared::ModeRow;
-use funicular_study::uff_writing::modes_file;
 
 impl Printed for Modes {
     fn text(&self) -> String {

@@ -34,9 +34,10 @@ const ALLOWED: [(&str, &[&str], &str); 1] = [(
 )];
 
 /// Crates whose sources are read.
-const CRATES: [&str; 7] = [
+const CRATES: [&str; 8] = [
     "funicular",
     "funicular-study",
+    "funicular-formats",
     "funicular-validation",
     "funicular-pages",
     "funicular-files",
