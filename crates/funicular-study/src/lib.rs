@@ -47,6 +47,7 @@ mod run;
 pub mod set_values;
 pub mod signals;
 pub mod sweep;
+pub mod table;
 pub mod text;
 pub mod values;
 mod watch;

@@ -4,7 +4,7 @@ use super::{Bound, Case, Comparison, DifferenceKind, Section};
 use anyhow::{Context, Result, anyhow, bail};
 use funicular_study::analyses::uncertainty::{Uncertainties, UncertaintyStudy};
 use funicular_study::request::Request;
-use funicular_study::sweep::Values;
+use funicular_study::table::Values;
 use serde_json::json;
 
 /// Number of sampled robots.

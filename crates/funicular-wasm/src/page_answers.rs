@@ -4,7 +4,8 @@ use anyhow::{Result, anyhow};
 use funicular_formats::{import, new_robot};
 use funicular_study::request::Request;
 use funicular_study::robot_file;
-use funicular_study::sweep::{Chunk, Plan, PreparedSweep, Values};
+use funicular_study::sweep::{Plan, PreparedSweep};
+use funicular_study::table::{Chunk, Values};
 use funicular_study::wording::Words;
 use serde_json::{Map, Value, json};
 

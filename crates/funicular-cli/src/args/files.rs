@@ -4,7 +4,7 @@ use super::values;
 use clap::{Args, ValueEnum};
 use funicular_formats::measurements::{NodePoint, ResponseName};
 use funicular_study::request::{Change, FitValue};
-use funicular_study::sweep::Part;
+use funicular_study::table::Part;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 

@@ -8,7 +8,8 @@ use crate::figures::map::{ColourBar, ColourScale, Map, limits};
 use crate::figures::{Figure, FigureContent, style};
 use anyhow::{Result, anyhow, bail};
 use funicular::robot::Robot;
-use funicular_study::sweep::{Quantity, SweepRows};
+use funicular_study::sweep::Quantity;
+use funicular_study::table::SweepRows;
 
 /// Choice of what the figure of a map or sweep shows.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -2,7 +2,8 @@
 //! hold.
 
 use anyhow::{Context as _, Result, bail};
-use funicular_study::sweep::{CODES, Chunk, Column, ColumnKind, MAX_POINTS, Record, Steps, SweepRows, Values, axes_of};
+use funicular_study::sweep::{CODES, MAX_POINTS, Steps};
+use funicular_study::table::{Chunk, Column, ColumnKind, Record, SweepRows, Values, axes_of};
 use serde_json::Value;
 
 /// Maximum number of packed values of a grid on a page: about two megabytes.

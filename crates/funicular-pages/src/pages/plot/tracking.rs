@@ -4,7 +4,8 @@ use super::Tracking;
 use funicular::modes::Mode;
 use funicular::modes::tracking::{Tracked, track};
 use funicular_study::Watch;
-use funicular_study::sweep::{PreparedSweep, Quantity, Record, SweepRows, lowest_modes};
+use funicular_study::sweep::{PreparedSweep, Quantity, lowest_modes};
+use funicular_study::table::{Record, SweepRows};
 use funicular_study::text::counted;
 
 /// Maximum number of rows whose modes are computed again for tracking: about a minute of work.

@@ -79,7 +79,7 @@ impl Values {
     ///
     /// # Panics
     /// If the value has another kind than the column.
-    pub(super) fn push(&mut self, value: Value) {
+    pub(crate) fn push(&mut self, value: Value) {
         match (self, value) {
             (Self::Real(values), Value::Real(value)) => values.push(Some(value)),
             (Self::Flag(values), Value::Flag(value)) => values.push(value),
@@ -93,7 +93,7 @@ impl Values {
 
 /// Single value of a column.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Value {
+pub(crate) enum Value {
     Real(f64),
     Flag(bool),
     Text(Cow<'static, str>),
@@ -102,7 +102,7 @@ pub(super) enum Value {
 
 impl Value {
     /// Number; nothing if it is absent or not finite.
-    pub(super) fn real(value: Option<f64>) -> Self {
+    pub(crate) fn real(value: Option<f64>) -> Self {
         match value {
             // `+ 0.0` makes a negative zero positive.
             Some(value) if value.is_finite() => Self::Real(value + 0.0),
@@ -116,7 +116,7 @@ impl Value {
 pub struct Chunk {
     /// Index of the chunk in the plan, from 0.
     pub index: usize,
-    /// Columns in the order of [`Plan::columns`](super::Plan::columns), all of the same length.
+    /// Columns in the order of [`Plan::columns`](crate::sweep::Plan::columns), all of the same length.
     pub columns: Vec<Values>,
 }
 

@@ -1,7 +1,7 @@
 //! Description of a file of rows: robot, plan, columns. Files belong to the same sweep if their descriptions are equal.
 
+use super::columns::{Chunk, Column, ColumnKind, Values};
 use crate::request::Axis;
-use crate::sweep::{Chunk, Column, ColumnKind, Values};
 use serde_json::{Map, Value, json};
 use std::fmt;
 use std::io;
