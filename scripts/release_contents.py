@@ -22,7 +22,7 @@ WANTED = {"Summary": 1, "Keywords": 1, "License-Expression": 1, "Requires-Python
 SOURCES = re.compile(
     r"PKG-INFO|Cargo\.(toml|lock)|pyproject\.toml|README\.md|LICENSE-\w+"
     r"|(robots|crates/funicular(-\w+)?)/(Cargo\.toml|README\.md|LICENSE-\w+|build\.rs|src/.*\.rs)"
-    r"|robots/(lib\.rs|[\w-]+\.toml)|crates/funicular-study/(reference|templates)/[\w-]+\.\w+"
+    r"|robots/(lib\.rs|[\w-]+\.toml)|crates/funicular-(formats|pages|validation)/(reference|templates)/[\w-]+\.\w+"
 )
 
 

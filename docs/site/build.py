@@ -33,7 +33,8 @@ def beside(target: Path) -> dict[str, str]:
     return {
         "live.md": "# Drag the platform\n\nA robot in your browser: drag the platform, change numbers, see tensions and modes. "
         f"Nothing is sent anywhere. [The page](web.md) explains it.\n\n{shown}\n",
-        "reference/rust.md": "# Rust\n\nThe physics is the crate `funicular`, the analyses are `funicular-study`. "
+        "reference/rust.md": "# Rust\n\nThe physics is the crate `funicular`, the analyses are `funicular-study`, files of other programs "
+        "`funicular-formats`, pages and figures `funicular-pages`, the reference numbers `funicular-validation`. "
         "[Architecture](../project/architecture.md) says what is where.\n\n"
         + (f"```{{raw}} html\n<p>{rust}</p>\n```\n" if has_rust else f"{NO_RUST}\n"),
     }

@@ -12,7 +12,9 @@ from pathlib import Path
 from pages import ROOT
 from rust_texts import texts
 
-CRATES = ["funicular", "funicular-study", "funicular-files", "funicular-cli", "funicular-py"]
+CRATES = [
+    "funicular", "funicular-study", "funicular-formats", "funicular-pages", "funicular-files", "funicular-cli", "funicular-py",
+]
 # Macros, calls and attributes that make errors, and what plausibility calls its findings.
 CALLS = {
     "Err", "EditError", "Implausible", "NoSolution", "Odd", "Parts", "Unfit", "anyhow!", "bail!", "context", "error",
@@ -26,8 +28,8 @@ WHOLE = re.compile(
     r"/warnings(/|\.rs)|/statics/(obstacle|error)\.rs|/dynamics/error\.rs|/reduced_model/error\.rs|/sweep/error\.rs"
     r"|/modes/certificate\.rs|/identify/caveats\.rs"
 )
-# The reference numbers and the tests have no messages for users.
-OUTSIDE = re.compile(r"/validation|tests\.rs$|/tests/")
+# Tests have no messages for users; neither have the reference numbers, whose crate is not in the list.
+OUTSIDE = re.compile(r"tests\.rs$|/tests/")
 # Words that a text needs to be a message and not a part of one, names and numbers of the user included; words without
 # those; and marks with which only a part begins.
 MIN_WORDS, MIN_OWN_WORDS = 3, 2

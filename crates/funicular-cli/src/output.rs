@@ -6,9 +6,9 @@ use funicular::suggest::visible;
 use funicular_files::Guard;
 use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::endings::{self, Kind};
+use funicular_pages::figures::{Figure, Size};
 use funicular_study::analyses::Found;
-use funicular_study::columns::Tabled;
-use funicular_study::figures::{Figure, Size};
+use funicular_study::columns::{ResultTable, Tabled};
 use funicular_study::wording::{Words, told};
 use funicular_study::{NoSolution, json};
 use std::fs;
@@ -237,7 +237,9 @@ impl Sink {
                     }
                 } else {
                     let mut table = csv::Writer::from_writer(bytes);
-                    results.table().write(&mut table)?;
+                    let ResultTable { columns, mut rows } = results.table();
+                    table.write_record(columns.iter().map(|column| &column.name))?;
+                    rows.try_for_each(|row| table.serialize(row))?;
                     bytes = table.into_inner().map_err(|error| anyhow!("{}", error.error()))?;
                 }
             }

@@ -3,8 +3,8 @@
 use crate::errors;
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::robot::{PlatformMotion, Pose, Robot};
+use funicular_formats::csv_lines::line_at;
 use funicular_study::at_rest::refuse_orientation;
-use funicular_study::csv_lines::line_at;
 use funicular_study::request::RobotText;
 use funicular_study::written::number;
 use std::fs;

@@ -3,7 +3,7 @@
 use arrow_array::builder::{BooleanBuilder, Float64Builder, StringBuilder};
 use arrow_array::{Array, ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray};
 use arrow_schema::{ArrowError, DataType, Field, Schema};
-use funicular_study::sweep::{Chunk, Column, ColumnKind, Record, Values};
+use funicular_study::table::{Chunk, Column, ColumnKind, Record, Values};
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;

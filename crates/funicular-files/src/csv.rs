@@ -1,7 +1,7 @@
 //! Rows as CSV: a header, all digits, an empty field for a missing value.
 
 use crate::Rows;
-use funicular_study::sweep::{Chunk, Column, Record, Values};
+use funicular_study::table::{Chunk, Column, Record, Values};
 use std::io::{self, Write};
 
 /// Writer of chunks as CSV.

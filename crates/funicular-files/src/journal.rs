@@ -5,7 +5,7 @@
 //! order.
 
 use crate::{FilesError, Rows};
-use funicular_study::sweep::{Chunk, ColumnKind, Part, Record, RecordDifference, Values};
+use funicular_study::table::{Chunk, ColumnKind, Part, Record, RecordDifference, Values};
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::fs::{File, OpenOptions, TryLockError};

@@ -1,6 +1,6 @@
 //! Files of funicular: the results of maps and sweeps.
 //!
-//! A [`Job`] takes the [chunks](funicular_study::sweep::Chunk) of a [plan](funicular_study::sweep::Plan) in order and
+//! A [`Job`] takes the [chunks](funicular_study::table::Chunk) of a [plan](funicular_study::sweep::Plan) in order and
 //! appends them to a [journal](Job) beside the file. A run that was interrupted, killed or lost its power can therefore
 //! be continued. The file itself is written from the journal when all chunks are there, and appears only when it is
 //! complete. Parquet, CSV and VTK files hold the same rows.
@@ -42,7 +42,7 @@ pub use threads::Outcome;
 pub use uncertainty::{UncertaintyOutcome, UncertaintyRun};
 
 use endings::Kind;
-use funicular_study::sweep::{Chunk, Record, RecordDifference};
+use funicular_study::table::{Chunk, Record, RecordDifference};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;

@@ -2,7 +2,7 @@
 
 use crate::parquet::ParquetFile;
 use crate::{FilesError, Format, Guard, Rows, behind_link, resumable_writer, write_complete};
-use funicular_study::sweep::{Chunk, Column, ColumnKind, Part, Record, SCHEMA};
+use funicular_study::table::{Chunk, Column, ColumnKind, Part, Record, SCHEMA};
 use serde_json::Value;
 use std::collections::HashSet;
 use std::io;

@@ -12,7 +12,7 @@ use ::parquet::file::properties::{EnabledStatistics, WriterProperties};
 use ::parquet::file::reader::{FileReader, SerializedFileReader};
 use ::parquet::file::writer::SerializedFileWriter;
 use ::parquet::schema::types::ColumnPath;
-use funicular_study::sweep::{Chunk, Column, ColumnKind, Part, Record, Values};
+use funicular_study::table::{Chunk, Column, ColumnKind, Part, Record, Values};
 use serde_json::Value;
 use std::fs::File;
 use std::io::{self, Write};

@@ -3,7 +3,7 @@
 use crate::FilesError;
 use crate::merge::record_of;
 use crate::parquet::ParquetFile;
-use funicular_study::sweep::{Chunk, Record, SweepRows};
+use funicular_study::table::{Chunk, Record, SweepRows};
 use std::path::Path;
 
 /// Parquet file of a sweep, opened for reading.

@@ -4,7 +4,7 @@ use crate::atomic_file::{TemporaryFile, is_regular_or_new};
 use crate::journal::{self, Found, Journal};
 use crate::parquet::ParquetFile;
 use crate::{FilesError, Format, Rows, behind_link, vti, with_ending, write_complete};
-use funicular_study::sweep::{Chunk, Record, RecordDifference};
+use funicular_study::table::{Chunk, Record, RecordDifference};
 use std::fs;
 use std::path::{Path, PathBuf};
 

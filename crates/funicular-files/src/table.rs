@@ -5,7 +5,7 @@ use crate::parquet::ParquetFile;
 use crate::{FilesError, Format, GROUP_ROWS, Rows, journal, merge, write_complete};
 use arrow_array::RecordBatch;
 use arrow_schema::{ArrowError, Schema};
-use funicular_study::sweep::{Chunk, Record, Values};
+use funicular_study::table::{Chunk, Record, Values};
 use std::io;
 use std::path::Path;
 use std::sync::Arc;

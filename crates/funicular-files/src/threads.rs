@@ -1,6 +1,7 @@
 //! Parallel work on several threads with results delivered in order; limits on the number of threads.
 
-use funicular_study::sweep::{Chunk, Plan};
+use funicular_study::sweep::Plan;
+use funicular_study::table::Chunk;
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::ops::{Range, RangeInclusive};

@@ -4,7 +4,7 @@ use crate::parquet::ParquetFile;
 use crate::threads::{Outcome, in_order};
 use crate::{Begin, FilesError, Job, Opened, SweepFile};
 use funicular_study::analyses::uncertainty::{SamplePlan, Samples, Uncertainties, UncertaintyStudy};
-use funicular_study::sweep::Record;
+use funicular_study::table::Record;
 use std::convert::Infallible;
 use std::num::NonZeroUsize;
 use std::path::Path;

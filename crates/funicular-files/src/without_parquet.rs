@@ -3,7 +3,7 @@
 //! The names are those of `parquet.rs`, so that the rest of the crate is the same in both builds.
 
 use crate::{FilesError, Rows};
-use funicular_study::sweep::{Chunk, Part, Record};
+use funicular_study::table::{Chunk, Part, Record};
 use serde_json::Value;
 use std::convert::Infallible;
 use std::io::{self, Write};

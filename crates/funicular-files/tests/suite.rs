@@ -4,7 +4,8 @@
 use funicular::robot::Robot;
 use funicular_files::{Begin, FilesError, Job, Opened, Outcome, SweepFile, Table, merge, threads};
 use funicular_study::request::Axis;
-use funicular_study::sweep::{Chunk, Options, Part, Plan, Poses, Quantity, Record, Steps, Values};
+use funicular_study::sweep::{Options, Plan, Poses, Quantity, Steps};
+use funicular_study::table::{Chunk, Part, Record, Values};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use serde_json::{Map, json};

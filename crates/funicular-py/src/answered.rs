@@ -2,8 +2,8 @@
 
 use crate::errors;
 use crate::interrupt::interruptible_in_steps;
+use funicular_pages::pages;
 use funicular_study::columns::{Cell, ResultTable};
-use funicular_study::pages;
 use funicular_study::request::Request;
 use funicular_study::wording::{Words, worded};
 use funicular_study::{Results, run};

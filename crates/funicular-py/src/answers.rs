@@ -5,16 +5,17 @@ use crate::errors;
 use crate::interrupt::{check_signals, interruptible, interruptible_in_steps};
 use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::{SweepFile, merge};
+use funicular_formats::export;
+use funicular_formats::import::{self, SourceFile};
+use funicular_formats::measurements::{self, FileOptions};
+use funicular_formats::new_robot;
+use funicular_pages::figures;
+use funicular_pages::pages;
 use funicular_study::analyses::Found;
-use funicular_study::figures;
-use funicular_study::import::{self, SourceFile};
-use funicular_study::measurements::{self, FileOptions};
-use funicular_study::new_robot;
-use funicular_study::pages;
 use funicular_study::request::Request;
 use funicular_study::robot_file::schema;
 use funicular_study::wording::{Words, told, worded};
-use funicular_study::{Watch, at_rest, export, json, run};
+use funicular_study::{Error, Watch, at_rest, json, run};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::fs;
@@ -87,10 +88,16 @@ pub(crate) fn complete_request(request: &str) -> PyResult<String> {
 pub(crate) fn answer(py: Python<'_>, request: &str) -> PyResult<String> {
     let request = self::request(request)?;
     let bytes = interruptible_in_steps(py, move |watch| {
-        let results = run(&request, watch).map_err(|error| errors::study(&error.into()))?;
-        results.to_json(Words::Python).map_err(|error| errors::study(&error.into()))
+        json_of(&request, watch).map_err(|error| errors::study(&error.into()))
     })??;
     String::from_utf8(bytes).map_err(|error| errors::input(error.to_string()))
+}
+
+fn json_of(request: &Request, watch: &mut dyn Watch) -> Result<Vec<u8>, Error> {
+    match request {
+        Request::Validate(_) => json::of_results(&funicular_validation::run()?, Words::Python),
+        _ => run(request, watch)?.to_json(Words::Python),
+    }
 }
 
 /// Computes text and caveats of a request of `report`, `live`, `paper`, `export`, `new` or `schema`; `call` is the code

@@ -40,7 +40,7 @@ pub struct AtRest {
 
 impl AtRest {
     /// Robot at this equilibrium whose supports are rigid where they have settled; `None` on a rigid frame.
-    pub(crate) fn with_rigid_supports(&self) -> Option<Self> {
+    pub fn with_rigid_supports(&self) -> Option<Self> {
         self.robot.has_supports().then(|| Self {
             robot: self.equilibrium.settled(&self.robot).into_owned(),
             equilibrium: self.equilibrium.clone(),

@@ -1,7 +1,7 @@
 //! Tables of results. The columns of each kind of rows stand once: CSV, tables for reading, pages, Python and the
 //! documentation follow from them.
 
-use crate::sweep::{Column, ColumnKind};
+use crate::table::{Column, ColumnKind};
 use crate::text::{self, NONE};
 use serde::Serialize;
 use std::borrow::{Borrow, Cow};
@@ -400,15 +400,6 @@ impl<'a> ResultTable<'a> {
         let rows = rows.into_iter();
         Self { columns: columns.described(), rows: Box::new(rows.map(move |row| columns.cells(row.borrow()))) }
     }
-
-    /// Writes the table as CSV.
-    ///
-    /// # Errors
-    /// A destination that cannot be written.
-    pub fn write<W: std::io::Write>(self, out: &mut csv::Writer<W>) -> csv::Result<()> {
-        out.write_record(self.columns.iter().map(|column| &column.name))?;
-        self.rows.into_iter().try_for_each(|row| out.serialize(row))
-    }
 }
 
 /// Results that are a table in files.
@@ -465,10 +456,12 @@ mod tests {
         assert_eq!(columns.texts(&row, Style::Plain), ["a", "-1.0, 2.2", NONE]);
         assert_eq!(columns.texts(&row, Style::Typeset), ["a", "−1.0, 2.2", NONE]);
 
-        let mut out = csv::Writer::from_writer(Vec::new());
-        ResultTable::new(columns, [row]).write(&mut out).expect("memory takes everything");
-        let bytes = out.into_inner().expect("memory takes everything");
-        assert_eq!(String::from_utf8_lossy(&bytes), "name,force_x_n,force_y_n,margin_n\na,-1.0,2.25,\n");
+        let table = ResultTable::new(columns, [row]);
+        let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
+        assert_eq!(names, ["name", "force_x_n", "force_y_n", "margin_n"]);
+        let cells: Vec<Vec<Cell>> = table.rows.collect();
+        let expected = [Cell::Text("a".to_owned()), Cell::Number(-1.0), Cell::Number(2.25), Cell::Missing(None)];
+        assert_eq!(cells, [expected]);
     }
 
     #[test]

@@ -17,7 +17,7 @@ pub enum ErrorKind {
     Input,
     /// Valid request for a robot that has no such solution.
     NoSolution,
-    /// Error of work that was stopped from outside.
+    /// Error of work that was stopped from outside, by its [`Watch`](crate::Watch).
     Cancelled,
 }
 
@@ -36,7 +36,7 @@ pub struct NoSolution(pub String);
 /// Error of work that was stopped from outside.
 #[derive(Debug, thiserror::Error)]
 #[error("stopped before the end")]
-pub(crate) struct Cancelled;
+pub struct Cancelled;
 
 /// Error of statics together with the warnings about the robot, which may be its cause; without warnings, and for a
 /// request that is wrong itself, the error alone. Its type stays known.

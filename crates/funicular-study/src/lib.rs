@@ -6,9 +6,8 @@
 //! ends (program, Python package, browser) convert their input to a request and the results to their output. They make
 //! no decisions themselves.
 //!
-//! This crate uses no disk and no threads, and it compiles for WebAssembly. Besides the analyses it contains [`import`]
-//! and [`export`] of other programs' files, [`pages`] in HTML and [`figures`] as SVG and PDF (feature `pages`), and
-//! [`validation`].
+//! This crate uses no disk and no threads, and it compiles for WebAssembly. Files of other programs are read and written
+//! by the crate `funicular-formats`, pages and figures are made by `funicular-pages`.
 //!
 //! # Example
 //! ```
@@ -33,23 +32,14 @@ pub mod analyses;
 pub mod at_rest;
 mod chosen_numbers;
 pub mod columns;
-pub mod csv_lines;
 mod error;
-pub mod export;
-pub mod figure_style;
-#[cfg(feature = "pages")]
-pub mod figures;
 pub mod frequency_range;
 mod identification;
-pub mod import;
 pub mod json;
 mod measure;
 pub mod measurements;
 pub mod names;
-pub mod new_robot;
 mod normal;
-#[cfg(feature = "pages")]
-pub mod pages;
 mod parameter_pattern;
 mod refused;
 pub mod request;
@@ -58,16 +48,14 @@ mod run;
 pub mod set_values;
 pub mod signals;
 pub mod sweep;
+pub mod table;
 pub mod text;
-pub mod uff_writing;
-#[cfg(feature = "validation")]
-pub mod validation;
 pub mod values;
 mod watch;
 pub mod wording;
 pub mod written;
 
-pub use error::{Error, ErrorKind, NoSolution};
+pub use error::{Cancelled, Error, ErrorKind, NoSolution};
 pub use request::Request;
 pub use run::{Results, run, run_at, run_on};
 pub use watch::{Silent, Watch};

@@ -475,7 +475,7 @@ pub enum LengthUnit {
 
 impl LengthUnit {
     /// Factor that makes metres of a number.
-    pub(crate) fn metres(self) -> f64 {
+    pub fn metres(self) -> f64 {
         match self {
             Self::Metre => 1.0,
             Self::Millimetre => 1e-3,

@@ -46,7 +46,8 @@ pub use vibration::{
     CableRequest, CompareRequest, DEFAULT_INPUT, DEFAULT_OUTPUT, FrfRequest, ModesRequest, ReduceRequest,
 };
 
-pub(crate) use parts::{check, check_vector};
+pub use parts::check;
+pub(crate) use parts::check_vector;
 
 use crate::error::Error;
 use crate::names::suggestion;
@@ -250,7 +251,7 @@ fn parsed<T: DeserializeOwned>(given: &Map<String, Value>) -> anyhow::Result<T> 
 ///
 /// # Errors
 /// A name that is not a signal; the message names the key.
-pub(crate) fn input(name: &str) -> anyhow::Result<Input> {
+pub fn input(name: &str) -> anyhow::Result<Input> {
     Input::parse(name).map_err(|reason| anyhow!("⟪input⟫ {name}: {reason}"))
 }
 
@@ -258,7 +259,7 @@ pub(crate) fn input(name: &str) -> anyhow::Result<Input> {
 ///
 /// # Errors
 /// A name that is not a signal; the message names the key.
-pub(crate) fn output(name: &str) -> anyhow::Result<Output> {
+pub fn output(name: &str) -> anyhow::Result<Output> {
     Output::parse(name).map_err(|reason| anyhow!("⟪output⟫ {name}: {reason}"))
 }
 

@@ -23,9 +23,7 @@ use crate::columns::{ResultTable, Tabled};
 use crate::error::Error;
 use crate::json;
 use crate::request::{Request, RobotText};
-use crate::sweep::Column;
-#[cfg(feature = "validation")]
-use crate::validation::{self, Validated};
+use crate::table::Column;
 use crate::watch::Watch;
 use crate::wording::Words;
 use anyhow::{Result, anyhow};
@@ -37,26 +35,26 @@ use serde::Serialize;
 macro_rules! answers {
     (
         ($robot:ident, $watch:ident)
-        $($(#[$meta:meta])* $Variant:ident($Found:ty): $of:pat => $run:expr $(, at $at_rest:ident => $about:expr)?;)*
+        $($Variant:ident($Found:ty): $of:pat => $run:expr $(, at $at_rest:ident => $about:expr)?;)*
     ) => {
         /// Results of any command that needs nothing but its request.
         #[derive(Serialize)]
         #[serde(untagged)]
         #[expect(missing_docs, reason = "each variant is named after its command and holds its results")]
         pub enum Results {
-            $($(#[$meta])* $Variant($Found),)*
+            $($Variant($Found),)*
         }
 
         impl Results {
             /// Name of every command, with the columns of its tables in files as [`Tabled::tables`] gives them.
             pub fn tables() -> Vec<(&'static str, Vec<(&'static str, Vec<Column>)>)> {
-                vec![$($(#[$meta])* (<$Found as Found>::COMMAND, <$Found as Tabled>::tables()),)*]
+                vec![$((<$Found as Found>::COMMAND, <$Found as Tabled>::tables()),)*]
             }
 
             /// Table of the results in files.
             pub fn table(&self) -> ResultTable<'_> {
                 match self {
-                    $($(#[$meta])* Self::$Variant(found) => found.table(),)*
+                    $(Self::$Variant(found) => found.table(),)*
                 }
             }
 
@@ -67,7 +65,7 @@ macro_rules! answers {
             /// [`NoSolution`](crate::ErrorKind).
             pub fn to_json(&self, words: Words) -> Result<Vec<u8>, Error> {
                 match self {
-                    $($(#[$meta])* Self::$Variant(found) => json::of_results(found, words),)*
+                    $(Self::$Variant(found) => json::of_results(found, words),)*
                 }
             }
         }
@@ -79,8 +77,8 @@ macro_rules! answers {
         pub fn run_on(request: &Request, robot: Option<Robot>, $watch: &mut dyn Watch) -> Result<Results> {
             let $robot = || robot.ok_or_else(|| anyhow!("`{}` needs a robot", request.command()));
             Ok(match request {
-                $($(#[$meta])* Request::$Variant($of) => Results::$Variant($run),)*
-                #[cfg(not(feature = "validation"))]
+                $(Request::$Variant($of) => Results::$Variant($run),)*
+                // A front end that has the crate `funicular-validation` runs it instead.
                 Request::Validate(_) => {
                     return Err(anyhow!(
                         "`validate` needs the reference numbers, which this build leaves out: run it with the program \
@@ -127,8 +125,6 @@ answers! {
     Reduce(ReducedForm): of => reduce::run(robot()?, of, watch)?, at at_rest => reduce::about(at_rest, of, watch)?;
     Identify(Box<Identified>): of => Box::new(identify::run(of, watch)?);
     Design(Box<Designed>): of => Box::new(design::run(of, watch)?);
-    #[cfg(feature = "validation")]
-    Validate(Validated): _ => validation::run()?;
 }
 
 /// Runs a request.

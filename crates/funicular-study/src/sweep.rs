@@ -1,10 +1,9 @@
-//! Maps and sweeps: preparation of a request, description of its file, and rows for a page.
+//! Maps and sweeps: preparation of a request, and its rows.
 //!
 //! A request becomes a [`PreparedSweep`] and then a [`Plan`] of points, quantities and options. Its rows come in
-//! chunks. A front end runs the chunks on its own threads and keeps them in its own files, which a [`Record`]
-//! describes.
+//! chunks. A front end runs the chunks on its own threads and keeps them in its own files, which a
+//! [`Record`](crate::table::Record) describes.
 
-mod columns;
 mod digest;
 mod error;
 mod evaluation;
@@ -14,14 +13,11 @@ mod plan;
 mod points;
 mod prepared;
 mod quantity;
-mod record;
 mod robot_values;
 mod row;
 mod sensitivity;
 mod status;
-mod stored;
 
-pub use columns::{Chunk, Column, ColumnKind, Values};
 pub use error::{MAX_POINTS, SweepError};
 pub use frequency::{PointModes, lowest_modes, no_platform_mode};
 pub use options::Options;
@@ -30,9 +26,7 @@ pub use points::{AXES, Point, Points, Poses};
 pub use prepared::PreparedSweep;
 pub(crate) use prepared::{check_poses, check_poses_alone};
 pub use quantity::{MAX_FREQUENCIES, Quantity, UnknownQuantity};
-pub use record::{Part, Record, RecordDifference, SCHEMA, axes_of, kind_name};
 pub use robot_values::{RobotValues, ValueAxis};
 pub use status::CODES;
-pub use stored::SweepRows;
 
 pub use crate::request::{MAX_HZ, Steps, digits};

@@ -60,7 +60,7 @@ pub fn vector(values: &[f64], count: usize) -> String {
 pub use funicular::counted;
 
 /// Text of a file made fit for names and comments: one line, no hidden characters, limited length.
-pub(crate) fn clean(text: &str) -> String {
+pub fn clean(text: &str) -> String {
     const MAX_LENGTH: usize = 200;
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
     line.chars().filter(|c| !is_hidden(*c)).take(MAX_LENGTH).collect()

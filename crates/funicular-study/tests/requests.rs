@@ -378,7 +378,8 @@ fn no_reference_robot_is_implausible() {
     use funicular::statics::{self, StaticModel};
     use funicular::warnings;
 
-    let reference: Value = serde_json::from_str(include_str!("../reference/independent.json")).unwrap();
+    let reference: Value =
+        serde_json::from_str(include_str!("../../funicular-validation/reference/independent.json")).unwrap();
     let cases = reference["cases"].as_array().unwrap();
     assert!(cases.len() > 10);
     for case in cases {

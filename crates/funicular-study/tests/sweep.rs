@@ -7,9 +7,8 @@ use funicular::modes;
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{self, Stability, StaticModel};
 use funicular_study::request::Request;
-use funicular_study::sweep::{
-    CODES, Chunk, ColumnKind, Options, Plan, Poses, PreparedSweep, Quantity, Steps, SweepError, Values,
-};
+use funicular_study::sweep::{CODES, Options, Plan, Poses, PreparedSweep, Quantity, Steps, SweepError};
+use funicular_study::table::{Chunk, ColumnKind, Values};
 
 fn yuan() -> Robot {
     Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap()
@@ -303,7 +302,7 @@ fn payload_and_first_platform_mode_of_a_row_are_those_of_the_core() {
 }
 
 /// Rows of a request of `sweep` or `map`: values of each column.
-fn rows_of(request: &serde_json::Value) -> (Vec<funicular_study::sweep::Column>, Vec<Chunk>) {
+fn rows_of(request: &serde_json::Value) -> (Vec<funicular_study::table::Column>, Vec<Chunk>) {
     let prepared = PreparedSweep::new(&Request::from_json(&request.to_string()).unwrap()).unwrap();
     let plan = prepared.plan().unwrap();
     (plan.columns().to_vec(), chunks(&plan))

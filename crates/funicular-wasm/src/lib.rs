@@ -240,6 +240,11 @@ fn results(request: Vec<u8>) -> Result<Vec<u8>, (u32, String)> {
     if let Some(content) = page_answers::content(&request) {
         return content.map_err(|error| told(error.into()));
     }
+    #[cfg(feature = "validation")]
+    if matches!(request, Request::Validate(_)) {
+        let found = funicular_validation::run().map_err(|error| told(error.into()))?;
+        return funicular_study::json::of_results(&found, Words::Json).map_err(told);
+    }
     run(&request, &mut Silent).and_then(|results| results.to_json(Words::Json)).map_err(told)
 }
 

@@ -1,10 +1,12 @@
 //! Commands that write files elsewhere. Here their content is the answer, in JSON.
 
 use anyhow::{Result, anyhow};
+use funicular_formats::{import, new_robot};
 use funicular_study::request::Request;
-use funicular_study::sweep::{Chunk, Plan, PreparedSweep, Values};
+use funicular_study::robot_file;
+use funicular_study::sweep::{Plan, PreparedSweep};
+use funicular_study::table::{Chunk, Values};
 use funicular_study::wording::Words;
-use funicular_study::{import, new_robot, robot_file};
 use serde_json::{Map, Value, json};
 
 /// Content that a command would write to a file; `None` for a command whose results are data.

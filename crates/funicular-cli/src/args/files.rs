@@ -2,9 +2,9 @@
 
 use super::values;
 use clap::{Args, ValueEnum};
-use funicular_study::measurements::{NodePoint, ResponseName};
+use funicular_formats::measurements::{NodePoint, ResponseName};
 use funicular_study::request::{Change, FitValue};
-use funicular_study::sweep::Part;
+use funicular_study::table::Part;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -69,7 +69,7 @@ pub(crate) struct FigureArgs {
     /// Width of the figure in FILE.svg or FILE.pdf [mm], or the column of a journal: ieee-single (88.9), ieee-double
     /// (181), elsevier-single (90), elsevier-double (190), springer-single (84), springer-double (174) [default:
     /// ieee-single]
-    #[arg(long, value_name = "MM|COLUMN", value_parser = funicular_study::figures::width_mm, allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM|COLUMN", value_parser = funicular_pages::figures::width_mm, allow_hyphen_values = true)]
     pub(crate) figure_width_mm: Option<f64>,
 
     /// Size of the texts in the figure [pt] [default: 8]

@@ -2,7 +2,7 @@
 //! permitted range.
 
 use funicular_files::threads::{self, THREADS};
-use funicular_study::measurements::{NodePoint, ResponseName};
+use funicular_formats::measurements::{NodePoint, ResponseName};
 use funicular_study::request::FitValue;
 use funicular_study::signals::{Input, Output};
 use funicular_study::written::{number, point};

@@ -1,5 +1,6 @@
 //! Commands whose results are printed or drawn: how they run. Their text and CSV are in the file of each command.
 
+use super::validate;
 use crate::args::{FigureArgs, OutputArgs};
 use crate::errors;
 use crate::output::{FigureSink, Sink, refuse_without_figure};
@@ -8,7 +9,7 @@ use anyhow::{Context, Result};
 use funicular::robot::Robot;
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
-use funicular_study::figures;
+use funicular_pages::figures;
 use funicular_study::request::{Request, RobotText};
 use funicular_study::{Results, run_on};
 
@@ -51,6 +52,9 @@ pub(super) fn print(request: &Request, output: &OutputArgs, mut guard: Guard) ->
 }
 
 fn print_results(request: &Request, robot: Option<Robot>, sink: &Sink) -> Result<()> {
+    if matches!(request, Request::Validate(_)) {
+        return validate::print(sink);
+    }
     let mut watch = TerminalProgress::new();
     let waiting = matches!(request, Request::Statics(_)).then(|| WaitingSpinner::for_("the equilibrium"));
     let results = run_on(request, robot, &mut watch)?;
@@ -72,9 +76,5 @@ fn print_results(request: &Request, robot: Option<Robot>, sink: &Sink) -> Result
         Results::Reduce(found) => sink.write(found),
         Results::Identify(found) => sink.write(&**found),
         Results::Design(found) => sink.write(&**found),
-        Results::Validate(found) => {
-            sink.write(found)?;
-            Ok(found.verdict()?)
-        }
     }
 }

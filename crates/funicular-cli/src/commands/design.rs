@@ -35,7 +35,7 @@ pub(super) fn run(of: &DesignRequest, args: &DesignArgs, guard: &mut Guard) -> R
     let found = design::run(of, &mut watch)?;
     drop(watch);
     files.write(&found, &found.robot_file, || {
-        let page = funicular_study::pages::design::page(&found, super::page::command_line()?)?;
+        let page = funicular_pages::pages::design::page(&found, super::page::command_line()?)?;
         Ok(worded(&page, Words::Program))
     })
 }

@@ -6,8 +6,8 @@ use anyhow::Result;
 use funicular::robot::Robot;
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
+use funicular_formats::export::{self, ExportFormat};
 use funicular_study::at_rest;
-use funicular_study::export::{self, ExportFormat};
 use funicular_study::request::ExportRequest;
 use std::path::Path;
 

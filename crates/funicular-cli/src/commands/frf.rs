@@ -2,8 +2,8 @@
 
 use crate::output::Printed;
 use crate::table::{Table, counted, decimals, significant, vector};
+use funicular_formats::uff_writing::frf_file;
 use funicular_study::analyses::frf::{Frf, PairRow, PlaceRow};
-use funicular_study::uff_writing::frf_file;
 
 impl Printed for Frf {
     fn text(&self) -> String {

@@ -10,8 +10,8 @@ use anyhow::{Context, Result, bail};
 use std::fmt::Write as _;
 
 use funicular_files::Guard;
+use funicular_formats::measurements::{self, FileOptions};
 use funicular_study::analyses::identify::{self, FittedValue, Identified, OpenEnd, StaticRow};
-use funicular_study::measurements::{self, FileOptions};
 use funicular_study::request::{Experiment, FitValue, IdentifyRequest, Request, ResponsePoints};
 use funicular_study::wording::{Words, worded};
 use serde_json::{Map, Value};
@@ -31,7 +31,7 @@ pub(super) fn run(of: &IdentifyRequest, args: &IdentifyArgs, guard: &mut Guard) 
     let found = identify::run(of, &mut watch)?;
     drop(watch);
     files.write(&found, &found.robot_file, || {
-        let page = funicular_study::pages::identify::page(&found, super::page::command_line()?)?;
+        let page = funicular_pages::pages::identify::page(&found, super::page::command_line()?)?;
         Ok(worded(&page, Words::Program))
     })
 }

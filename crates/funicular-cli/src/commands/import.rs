@@ -6,7 +6,7 @@ use crate::output::{Content, Target};
 use anyhow::{Context, Result, bail};
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
-use funicular_study::import::{self, SourceFile};
+use funicular_formats::import::{self, SourceFile};
 use funicular_study::request::{ImportRequest, Request};
 use funicular_study::wording::Words;
 use serde_json::{Map, Value};

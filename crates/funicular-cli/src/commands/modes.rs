@@ -2,8 +2,8 @@
 
 use crate::output::Printed;
 use crate::table::{Table, counted, decimals, short};
+use funicular_formats::uff_writing::modes_file;
 use funicular_study::analyses::modes::{Modes, Participation, RIGID};
-use funicular_study::uff_writing::modes_file;
 
 impl Printed for Modes {
     fn text(&self) -> String {

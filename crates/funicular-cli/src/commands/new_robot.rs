@@ -7,7 +7,7 @@ use crate::output::{Content, Target};
 use anyhow::{Result, bail};
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
-use funicular_study::new_robot;
+use funicular_formats::new_robot;
 use funicular_study::request::{NewRequest, Request};
 use funicular_study::wording::Words;
 use serde_json::{Map, Value};

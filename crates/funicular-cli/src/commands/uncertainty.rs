@@ -57,7 +57,7 @@ pub(super) fn run(of: &UncertaintyRequest, args: &UncertaintyArgs, guard: &mut G
     let found = compute(of, args.threads, args.samples_file.as_deref().map(|path| (path, begin)))?;
     sink.write(&found)?;
     if let Some((target, path)) = page {
-        let page = funicular_study::pages::uncertainty::page(&found, super::page::command_line()?)?;
+        let page = funicular_pages::pages::uncertainty::page(&found, super::page::command_line()?)?;
         target.write(worded(&page, Words::Program).as_bytes())?;
         errors::note(&format!("wrote {}", path.display()));
     }

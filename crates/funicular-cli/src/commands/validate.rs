@@ -1,11 +1,21 @@
-//! `validate`: text and CSV.
+//! `validate`: its run, text and CSV.
 
-use crate::output::Printed;
-use funicular_study::validation;
-use funicular_study::validation::Validated;
+use crate::interrupt;
+use crate::output::{Printed, Sink};
+use anyhow::Result;
+use funicular_validation::{Validated, markdown, run};
+
+/// Makes all comparisons and prints them. One out of tolerance is an error.
+pub(super) fn print(sink: &Sink) -> Result<()> {
+    let computes = interrupt::stop_analysis();
+    let found = run()?;
+    drop(computes);
+    sink.write(&found)?;
+    Ok(found.verdict()?)
+}
 
 impl Printed for Validated {
     fn text(&self) -> String {
-        validation::markdown(&self.sections)
+        markdown(&self.sections)
     }
 }

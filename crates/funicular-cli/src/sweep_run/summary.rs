@@ -7,7 +7,8 @@ use crate::table::{Table, counted, short, significant};
 use anyhow::Result;
 use funicular_study::analyses::Found;
 use funicular_study::columns::{Columns, ResultTable, Tabled, column};
-use funicular_study::sweep::{CODES, Chunk, Column, ColumnKind, Values};
+use funicular_study::sweep::CODES;
+use funicular_study::table::{Chunk, Column, ColumnKind, Values};
 use serde::Serialize;
 
 /// Counts and ranges of the rows seen so far.

@@ -219,7 +219,7 @@ fn the_mode_shapes_of_a_page_are_those_of_the_library_and_fit_the_platform() {
 fn a_live_page_contains_the_robot_or_says_how_to_build_with_the_page() {
     let line = ["live", &robot("cogiro.toml"), "--pose", "1,2,1.5", "--set", "platform.mass_kg=150", "-o", "-"];
     let output = run(&line);
-    if funicular_study::pages::live::is_built() {
+    if funicular_pages::pages::live::is_built() {
         let page = stdout(&output);
         assert!(page.contains("\"pose\":[1.0,2.0,1.5,0.0,0.0,0.0]") && page.contains("platform.mass_kg"));
     } else {

@@ -9,7 +9,7 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flatbuffers::{FlatBufferBuilder, TableFinishedWIPOffset, VOffsetT, WIPOffset};
-use funicular_study::sweep::{Column, ColumnKind};
+use funicular_study::table::{Column, ColumnKind};
 
 /// Key of the schema in the file's metadata.
 pub(super) const KEY: &str = "ARROW:schema";

@@ -6,7 +6,7 @@ use ::parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleT
 use ::parquet::errors::{ParquetError, Result};
 use ::parquet::file::writer::SerializedColumnWriter;
 use ::parquet::schema::types::{Type, TypePtr};
-use funicular_study::sweep::{Column, ColumnKind, Values};
+use funicular_study::table::{Column, ColumnKind, Values};
 use std::borrow::Cow;
 use std::sync::Arc;
 

@@ -3,7 +3,8 @@
 use crate::errors;
 use crate::interrupt::on_threads;
 use funicular_study::request::Request;
-use funicular_study::sweep::{Chunk, Part, PreparedSweep, Record};
+use funicular_study::sweep::PreparedSweep;
+use funicular_study::table::{Chunk, Part, Record};
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
 use std::ops::Range;

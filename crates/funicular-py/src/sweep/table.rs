@@ -5,7 +5,7 @@ use crate::errors;
 use arrow_array::RecordBatchIterator;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use funicular_files::Table;
-use funicular_study::sweep::Values;
+use funicular_study::table::Values;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;

@@ -20,7 +20,7 @@ enum RowStore {
 }
 
 impl RowStore {
-    fn add(&mut self, chunk: &funicular_study::sweep::Chunk) -> PyResult<()> {
+    fn add(&mut self, chunk: &funicular_study::table::Chunk) -> PyResult<()> {
         match self {
             Self::Memory(rows) => rows.add(chunk).map_err(|error| PyRuntimeError::new_err(error.to_string())),
             Self::File(job, _) => job.add(chunk).map_err(|error| errors::files(&error)),
@@ -125,7 +125,7 @@ impl PyWork {
 
         py.detach(|| {
             let report = &report;
-            let take = |chunk: funicular_study::sweep::Chunk| {
+            let take = |chunk: funicular_study::table::Chunk| {
                 store.add(&chunk)?;
                 done.store(chunk.index + 1, Ordering::Relaxed);
                 Ok(())

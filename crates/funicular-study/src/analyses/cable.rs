@@ -7,7 +7,7 @@ use crate::columns::{Columns, ResultTable, Tabled, column, parts};
 use crate::error::{Cancelled, NoSolution};
 use crate::names::suggestion;
 use crate::request;
-use crate::sweep::Column;
+use crate::table::Column;
 use crate::watch::Watch;
 use anyhow::{Result, bail};
 use funicular::cable::{CableModel, EndStiffness, LocalAxes, LocalStiffness, Sag};

@@ -3,7 +3,7 @@
 use super::found;
 use super::shared::{LoadRow, WindRow};
 use crate::columns::{Columns, Field, ResultTable, Tabled, column, only_read, parts};
-use crate::sweep::Column;
+use crate::table::Column;
 use crate::text::NONE;
 use crate::text::short;
 use funicular::math::rotation;

@@ -5,7 +5,7 @@ use super::shared::{ModeRow, Origin};
 use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::request;
-use crate::sweep::Column;
+use crate::table::Column;
 use anyhow::Result;
 use funicular::cable::CableModel;
 use funicular::compare::{self, Comparison, Criterion, FrozenSag, ModelResult};

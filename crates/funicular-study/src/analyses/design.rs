@@ -16,7 +16,7 @@ use crate::columns::{ResultTable, Tabled};
 use crate::error::{Cancelled, NoSolution};
 use crate::names::{DesignGoal, Named};
 use crate::request::{self, DesignRequest};
-use crate::sweep::Column;
+use crate::table::Column;
 use crate::text::counted;
 use anyhow::{Result, anyhow, bail};
 use at_poses::RobotAtPoses;

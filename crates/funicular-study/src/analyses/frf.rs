@@ -7,7 +7,7 @@ use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::Cancelled;
 use crate::request::{self, FrequencyRange, ResponseRange};
 use crate::signals::{Input, Output, SignalLists, response_unit};
-use crate::sweep::Column;
+use crate::table::Column;
 use crate::text::{counted, significant};
 use crate::{Silent, Watch};
 use anyhow::{Result, bail};

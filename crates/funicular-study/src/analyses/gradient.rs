@@ -3,7 +3,8 @@
 mod columns;
 mod rows;
 
-pub(crate) use columns::{GradientColumns, Tolerance, refuse_replaced, value_at};
+pub use columns::GradientColumns;
+pub(crate) use columns::{Tolerance, refuse_replaced, value_at};
 
 use super::found;
 use super::result_groups::{missing_option, nothing_below, refuse_unused, result_groups};
@@ -13,7 +14,7 @@ use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::NoSolution;
 use crate::names::{Named, Per};
 use crate::request::{self, GradientRequest, RobotText};
-use crate::sweep::Column;
+use crate::table::Column;
 use anyhow::{Result, bail};
 use funicular::gradient::{GradientError, Gradients, Hold};
 use funicular::robot::Robot;
@@ -268,8 +269,8 @@ pub(crate) fn held(at_rest: &AtRest, hold: Hold) -> Result<Gradients<'_>> {
     gradients.map_err(no_solution)
 }
 
-/// Sentence that says what is held, and by which rule the rest follows.
-pub(crate) fn meaning(at_rest: &AtRest, hold: Hold) -> &'static str {
+/// Part of a sentence that says what is held while a number of the robot file changes, and by which rule the rest follows.
+pub fn meaning(at_rest: &AtRest, hold: Hold) -> &'static str {
     let redundant = at_rest.robot.constraint().is_redundant();
     match (hold, &at_rest.rule) {
         (Hold::Lengths, _) => "the unstrained lengths are held, the pose follows",

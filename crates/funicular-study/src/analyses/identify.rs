@@ -16,7 +16,7 @@ use crate::identification::{
 };
 use crate::parameter_pattern::ParameterPattern;
 use crate::request::{self, Experiment, IdentifyRequest};
-use crate::sweep::Column;
+use crate::table::Column;
 use crate::text::{counted, digits_for, significant};
 use anyhow::{Result, bail};
 use funicular::math::least_squares::{LeastSquaresEnding, Minimum};

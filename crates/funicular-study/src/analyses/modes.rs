@@ -6,7 +6,7 @@ use crate::at_rest::{self, AtRest, ModesBelow};
 use crate::columns::{Columns, ResultTable, Style, Tabled, any, column, only_read, parts};
 use crate::request::{self, Model, Terms};
 use crate::signals::{Input, Output, response_unit};
-use crate::sweep::Column;
+use crate::table::Column;
 use crate::text::NONE;
 use anyhow::{Result, anyhow, bail};
 use funicular::cable_motion::CableStations;

@@ -3,7 +3,7 @@
 use super::found;
 use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::request::RobotText;
-use crate::sweep::Column;
+use crate::table::Column;
 use anyhow::{Result, anyhow};
 use funicular::robot::parameters::{Parameter, Parameters};
 use serde::Serialize;

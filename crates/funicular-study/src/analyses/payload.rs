@@ -6,7 +6,7 @@ use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, Field, ResultTable, Tabled, column, parts};
 use crate::error::NoSolution;
 use crate::request;
-use crate::sweep::Column;
+use crate::table::Column;
 use crate::text::NONE;
 use crate::text::significant;
 use anyhow::Result;

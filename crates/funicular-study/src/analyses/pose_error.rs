@@ -7,7 +7,7 @@ use crate::at_rest;
 use crate::columns::{Columns, ResultTable, Tabled, column, parts};
 use crate::error::{Cancelled, NoSolution, with_warnings};
 use crate::request::{self, PoseErrorRequest};
-use crate::sweep::Column;
+use crate::table::Column;
 use crate::text::counted;
 use crate::values::positive;
 use anyhow::{Result, anyhow, bail};

@@ -11,7 +11,7 @@ use crate::error::Cancelled;
 use crate::names::{ModelForm, Named};
 use crate::request;
 use crate::signals::{Input, Output, SignalLists};
-use crate::sweep::Column;
+use crate::table::Column;
 use crate::text::significant;
 use anyhow::{Result, bail};
 use control_model::{ControlStateSpace, StatesRow};

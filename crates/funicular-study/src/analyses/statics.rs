@@ -5,7 +5,7 @@ use super::shared::{LimitNumbers, LoadRow, PoseDifferenceRow, PoseRow, SagNumber
 use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, Field, ResultTable, Style, Tabled, any, column, only_read, parts};
 use crate::request;
-use crate::sweep::Column;
+use crate::table::Column;
 use crate::text::short;
 use anyhow::Result;
 use funicular::cable::Sag;
@@ -238,7 +238,7 @@ impl FrictionRow {
     ///
     /// # Errors
     /// [`funicular::statics::FrictionError`].
-    pub(crate) fn of(at_rest: &AtRest) -> Result<Self> {
+    pub fn of(at_rest: &AtRest) -> Result<Self> {
         let AtRest { robot, equilibrium, held_pose, .. } = at_rest;
         let lengths_held = held_pose.is_some() || matches!(robot.state, State::Lengths(_));
         let (held, name) = if lengths_held { (Held::Lengths, "lengths") } else { (Held::Pose, "pose") };

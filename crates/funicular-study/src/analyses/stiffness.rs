@@ -7,7 +7,7 @@ use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::Cancelled;
 use crate::request::{self, Model};
-use crate::sweep::Column;
+use crate::table::Column;
 use crate::watch::Watch;
 use anyhow::Result;
 use funicular::cable::CableModel;

@@ -32,7 +32,7 @@ use crate::at_rest::{self, AtRest};
 use crate::error::{Cancelled, NoSolution};
 use crate::names::UncertaintyMethod;
 use crate::request::{Pose, Request, UncertaintyRequest};
-use crate::sweep::{Chunk, Record};
+use crate::table::{Chunk, Record};
 use crate::text::counted;
 use crate::watch::Watch;
 use anyhow::{Result, bail};

@@ -89,6 +89,11 @@ pub struct Profile {
     pub falls: bool,
 }
 
+impl Profile {
+    /// Rise of χ² at the ends of an interval of 95 %.
+    pub const RISE_95: f64 = LIMIT * LIMIT;
+}
+
 /// Fit with one value held.
 #[derive(Debug, Clone)]
 pub(super) struct HeldFit {

@@ -2,6 +2,8 @@
 
 use super::key::declared;
 use super::parts::{Model, ResponsePoints, RobotText, State, Tensions};
+use super::{check_fraction, check_positive};
+use anyhow::Result;
 use funicular::modes::PLATFORM_SHARE;
 
 declared! {
@@ -36,6 +38,17 @@ declared! {
         "funicular report",
         "funicular report robots/cogiro.toml -o cogiro.html",
         "funicular report robots/yuan2014-4mm.toml --pose 0,0,0.5 --below-hz 10 --input f:1,0,1 --output x",
+    }
+}
+
+impl ReportRequest {
+    /// Checks the limit of the frequencies and the share of a mode of the platform.
+    ///
+    /// # Errors
+    /// A limit that is not positive, or a share that is not a fraction.
+    pub fn check(&self) -> Result<()> {
+        check_positive("below_hz", self.below_hz)?;
+        check_fraction("platform_share", self.platform_share)
     }
 }
 

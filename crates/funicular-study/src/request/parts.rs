@@ -414,7 +414,10 @@ declared! {
 }
 
 /// Checks a number if it is given; the message names its key.
-pub(crate) fn check(key: &str, value: Option<f64>, rule: fn(f64) -> Result<f64, String>) -> Result<()> {
+///
+/// # Errors
+/// The reason of the rule, as those of [`values`](crate::values) give it.
+pub fn check(key: &str, value: Option<f64>, rule: fn(f64) -> Result<f64, String>) -> Result<()> {
     value.map_or(Ok(()), |value| rule(value).map(drop).map_err(|reason| anyhow!("⟪{key}⟫: {reason}")))
 }
 
@@ -460,7 +463,10 @@ impl Tensions {
 
 impl ImportRopes {
     /// Checks the numbers.
-    pub(crate) fn check(&self) -> Result<()> {
+    ///
+    /// # Errors
+    /// A number out of its range, or an axial stiffness that is given twice.
+    pub fn check(&self) -> Result<()> {
         check("mass_kg_per_m", self.mass_kg_per_m, not_negative)?;
         check("axial_stiffness_n", self.axial_stiffness_n, positive)?;
         check("youngs_modulus_pa", self.youngs_modulus_pa, positive)?;
@@ -476,7 +482,10 @@ impl ImportRopes {
 
 impl ImportPlatform {
     /// Checks the numbers.
-    pub(crate) fn check(&self) -> Result<()> {
+    ///
+    /// # Errors
+    /// A number out of its range.
+    pub fn check(&self) -> Result<()> {
         check("mass_kg", self.mass_kg, positive)?;
         self.inertia_kg_m2.iter().flatten().try_for_each(|value| check("inertia_kg_m2", Some(*value), finite))?;
         check_vector("center_of_mass_m", self.center_of_mass_m)

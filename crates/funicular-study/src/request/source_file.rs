@@ -60,19 +60,19 @@ impl SourceFile {
     }
 
     /// File name without folders, for use in the robot file.
-    pub(crate) fn name(&self) -> String {
+    pub fn name(&self) -> String {
         let name = Path::new(&self.path).file_name().map_or(self.path.clone().into(), std::ffi::OsStr::to_string_lossy);
         clean(&name)
     }
 
     /// File name without folders and ending.
-    pub(crate) fn stem(&self) -> String {
+    pub fn stem(&self) -> String {
         let name = self.name();
         Path::new(&name).file_stem().map_or_else(|| name.clone(), |stem| stem.to_string_lossy().into_owned())
     }
 
     /// Note on a guessed encoding, if there was one.
-    pub(crate) fn caveat(&self) -> Option<String> {
+    pub fn caveat(&self) -> Option<String> {
         self.guessed_encoding.as_ref().map(|name| {
             format!("{} is not UTF-8 and declares no encoding that fits; it was read as {name}", self.name())
         })

@@ -6,7 +6,7 @@
 use crate::Results;
 use crate::names::SchemaSubject;
 use crate::request::{self, SchemaRequest};
-use crate::sweep::Column;
+use crate::table::Column;
 use funicular::robot::parameters::Range;
 use funicular::robot::spec::key::{Absent, Key, KeyValue, Numeric, Shape, Table};
 use funicular::robot::spec::{TABLES, top_of_file};

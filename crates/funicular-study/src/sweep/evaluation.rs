@@ -1,9 +1,9 @@
 //! Equilibrium of one point with the results that several quantities share.
 
-use super::columns::Value;
 use super::frequency::{self, Lowest};
 use super::options::Options;
 use super::status::Status;
+use crate::table::Value;
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::Hold;

@@ -6,13 +6,13 @@
 //! A point without an equilibrium has a row too, with a [code](super::CODES) and a reason. A value that does not exist
 //! is `None`, never NaN.
 
-use super::columns::{Chunk, Column, ColumnKind, Value, Values};
 use super::error::{MAX_POINTS, SweepError};
 use super::options::Options;
 use super::points::Points;
 use super::quantity::Quantity;
 use super::row;
 use super::status::Status;
+use crate::table::{Chunk, Column, ColumnKind, Value, Values};
 use funicular::robot::Robot;
 use std::borrow::Cow;
 
@@ -47,7 +47,8 @@ impl<'a> Plan<'a> {
     /// # Example
     /// ```
     /// use funicular::robot::Robot;
-    /// use funicular_study::sweep::{Options, Plan, Poses, Quantity, Steps, Values};
+    /// use funicular_study::sweep::{Options, Plan, Poses, Quantity, Steps};
+    /// use funicular_study::table::Values;
     ///
     /// let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
     /// let axes = [("x", Steps::range(-5.0, 5.0, 11)?), ("y", Steps::List(vec![0.0])), ("z", Steps::List(vec![0.5]))];

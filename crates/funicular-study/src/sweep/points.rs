@@ -1,9 +1,9 @@
 //! Points of a sweep: grids and lists of poses, or robots that the caller supplies.
 
-use super::columns::{Column, ColumnKind};
 use super::error::SweepError;
 use super::options::Options;
 use crate::request::{Steps, digits};
+use crate::table::{Column, ColumnKind};
 use funicular::math::rotation;
 use funicular::robot::parameters::Parameters;
 use funicular::robot::{PlatformMotion, Pose, Robot, State};

@@ -1,12 +1,11 @@
 //! Preparation of a map or sweep: its request becomes points, quantities and options.
 
-use super::{
-    AXES, Options, Part, Plan, Points, Poses, Quantity, Record, RobotValues, Steps, SweepError, ValueAxis, digest,
-};
+use super::{AXES, Options, Plan, Points, Poses, Quantity, RobotValues, Steps, SweepError, ValueAxis, digest};
 use crate::at_rest::{self, refuse_no_state};
 use crate::names::TensionRuleName;
 use crate::request::{Axis, EachPoint, MapRequest, Request, RobotText, SweepRequest, check_fraction};
 use crate::robot_file::RobotFile;
+use crate::table::{Part, Record};
 use crate::values::positive;
 use anyhow::{Context as _, Result, anyhow, bail};
 use funicular::math::rotation;

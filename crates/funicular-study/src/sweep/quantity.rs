@@ -6,10 +6,10 @@
 
 mod table;
 
-use super::columns::{Column, Value};
 use super::evaluation::PointEvaluation;
 use super::sensitivity::Sensitivity;
 use crate::set_values;
+use crate::table::{Column, Value};
 use crate::wording::{Words, worded};
 use funicular::cable::CableModel;
 use funicular::robot::Robot;

@@ -2,7 +2,8 @@
 
 use crate::parameter_pattern::ParameterPattern;
 use crate::set_values::{self, Assignment, ValuePath};
-use crate::sweep::{Column, ColumnKind, Point, Points, Steps, digits};
+use crate::sweep::{Point, Points, Steps, digits};
+use crate::table::{Column, ColumnKind};
 use funicular::robot::Robot;
 use funicular::robot::parameters::Parameters;
 use std::borrow::Cow;

@@ -1,11 +1,11 @@
 //! Evaluation of one point: its equilibrium and the requested quantities.
 
-use super::columns::Value;
 use super::evaluation::{PointEvaluation, ReadParameters};
 use super::options::Options;
 use super::points::Point;
 use super::quantity::Quantity;
 use super::status::Status;
+use crate::table::Value;
 use funicular::gradient::Hold;
 use funicular::robot::{Robot, State};
 use funicular::statics::{Equilibrium, Solution};

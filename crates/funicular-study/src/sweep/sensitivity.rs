@@ -1,10 +1,10 @@
 //! Derivatives of quantities by a number of the robot file, as quantities of maps and sweeps.
 
-use super::columns::{Column, Value};
 use super::evaluation::PointEvaluation;
 use super::status::Status;
 use crate::measure::{Measure, TensionPlace};
 use crate::set_values::{self, ValuePath};
+use crate::table::{Column, Value};
 use funicular::gradient::{GradientError, Gradients};
 use funicular::modes;
 use funicular::robot::{Robot, RobotChange};

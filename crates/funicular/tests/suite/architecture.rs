@@ -139,7 +139,7 @@ fn core_and_files_name_no_option() {
 /// them.
 #[test]
 fn core_and_study_have_no_disk_no_threads_and_no_clock() {
-    for name in ["funicular", "funicular-study"] {
+    for name in ["funicular", "funicular-study", "funicular-formats", "funicular-validation", "funicular-pages"] {
         for (path, text) in texts(name) {
             for module in ["fs", "thread", "time", "process", "net", "env"] {
                 let named = [format!("std::{module}::"), format!("std::{module};"), format!("std::{{{module}")];

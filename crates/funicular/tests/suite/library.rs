@@ -32,7 +32,8 @@ pub(crate) fn library() -> Vec<(String, Robot, Equilibrium)> {
 /// Robots of reference/independent.json by their ids. Their numbers are compared in the validation; here they are used
 /// like other robots.
 fn independent() -> impl Iterator<Item = (String, Robot)> {
-    let all: Value = serde_json::from_str(include_str!("../../../funicular-study/reference/independent.json")).unwrap();
+    let all: Value =
+        serde_json::from_str(include_str!("../../../funicular-validation/reference/independent.json")).unwrap();
     let Value::Array(cases) = all["cases"].clone() else { panic!("a list of cases") };
     cases.into_iter().map(|case| {
         let text = |key: &str| case[key].as_str().unwrap().to_owned();

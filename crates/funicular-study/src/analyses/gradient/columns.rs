@@ -17,20 +17,22 @@ const RELATIVE_TOLERANCE: f64 = 0.01;
 
 /// Numbers of the robot file by which results are differentiated.
 #[derive(Default)]
-pub(crate) struct GradientColumns {
-    pub(crate) parameters: Vec<GradientParameter>,
+pub struct GradientColumns {
+    /// Path, value, unit and tolerance of each number.
+    pub parameters: Vec<GradientParameter>,
     /// Change of the robot per unit of each number.
-    pub(crate) changes: Vec<RobotChange>,
+    pub changes: Vec<RobotChange>,
     /// Paths of chosen numbers without derivatives.
     pub(super) without_derivative: Vec<String>,
 }
 
 impl GradientColumns {
-    /// Numbers of the `text` of a robot file at the paths of `by`, or all, with their tolerances.
+    /// Numbers of the `text` of a robot file at the paths of `by`, or all, with the tolerances `given` as PATH=VALUE or
+    /// PATH=PERCENT%, or else the usual ones.
     ///
     /// # Errors
     /// A path that no number has, or numbers that all lack derivatives.
-    pub(crate) fn of(at_rest: &AtRest, text: &str, by: &[String], given: &[String]) -> Result<Self> {
+    pub fn of(at_rest: &AtRest, text: &str, by: &[String], given: &[String]) -> Result<Self> {
         let all = Parameters::from_toml(text).map_err(|error| anyhow!("{error}"))?;
         let patterns = by.iter().map(|text| ParameterPattern::parse("by", text, &all)).collect::<Result<Vec<_>>>()?;
         let tolerances =

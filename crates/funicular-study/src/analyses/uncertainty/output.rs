@@ -2,7 +2,7 @@
 
 use crate::analyses::shared::Models;
 use crate::columns::{Columns, ResultTable, Style, Tabled, any, column, only_read, parts};
-use crate::sweep::Column;
+use crate::table::Column;
 use crate::text::{digits_for, significant};
 use serde::Serialize;
 

@@ -7,7 +7,7 @@ use super::results;
 use super::statistics::total_share;
 use crate::measure::Measure;
 use crate::request::UncertaintyRequest;
-use crate::sweep::{Chunk, Column, ColumnKind, Values};
+use crate::table::{Chunk, Column, ColumnKind, Values};
 use anyhow::{Result, bail};
 use funicular::gradient::Hold;
 use funicular::math::Vec3;

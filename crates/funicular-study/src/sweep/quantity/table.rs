@@ -2,9 +2,9 @@
 
 use super::{Definition, Parameter, ParameterKind, Quantity, RequiredModel};
 use crate::measure::{Measure, TensionPlace};
-use crate::sweep::columns::{Column, ColumnKind, Value};
 use crate::sweep::evaluation::PointEvaluation;
 use crate::sweep::points::AXES;
+use crate::table::{Column, ColumnKind, Value};
 use funicular::cable::{CableModel, Sag};
 use funicular::math::rotation;
 use funicular::robot::{Constraint, Robot};

@@ -1,0 +1,111 @@
+//! Export of a robot at equilibrium to files of other programs; docs/export.md describes the content of each file.
+
+pub(crate) mod chain;
+pub(crate) mod moordyn;
+pub(crate) mod opensees;
+pub(crate) mod support;
+pub(crate) mod vtk;
+
+use anyhow::{Result, bail};
+use funicular::cable::CableModel;
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::modes::{self, LowestError, Modes};
+use funicular::statics::StaticModel;
+use funicular_study::at_rest::AtRest;
+use funicular_study::names::Named;
+use funicular_study::request;
+use funicular_study::values::positive;
+
+pub use funicular_study::names::ExportFormat;
+
+/// Maximum number of modes in a file: each mode is a field of the whole robot, or a row of a table.
+const MAX_MODES: usize = 500;
+
+/// File for another program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Exported {
+    /// Text of the file.
+    pub text: String,
+    /// Caveats about the file, one sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// Maximum number of elements per cable.
+pub const MAX_SEGMENTS: usize = 1000;
+
+/// Writes the robot at equilibrium as a file of another program.
+///
+/// # Errors
+/// A request that the file format cannot hold, a slack cable, or no equilibrium with catenaries.
+pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exported> {
+    let request::ExportRequest { to, segments, modes_below_hz, .. } = *request;
+    refuse(request)?;
+    let mut warnings = Vec::new();
+    let rigid = at_rest.with_rigid_supports();
+    if rigid.is_some() {
+        warnings.push(format!(
+            "files of {} have no flexible supports: anchors are fixed where they are at rest",
+            to.name()
+        ));
+    }
+    let at_rest = rigid.as_ref().unwrap_or(at_rest);
+    let text = match to {
+        ExportFormat::Opensees => opensees::script(at_rest, segments, modes_below_hz, &mut warnings)?,
+        ExportFormat::Moordyn => moordyn::input(at_rest, segments, &mut warnings)?,
+        ExportFormat::Vtk => vtk::poly_data(at_rest, segments, modes_below_hz, &mut warnings)?,
+    };
+    warnings.extend(at_rest.warnings(None));
+    Ok(Exported { text, warnings })
+}
+
+/// Refuses a request that no file can hold, before any computation.
+///
+/// # Errors
+/// The option to leave out or to change.
+pub fn refuse(request: &request::ExportRequest) -> Result<()> {
+    if request.state.static_model != StaticModel::Catenary {
+        bail!("export writes cables with the catenary model only: leave out ⟪static_model⟫");
+    }
+    if request.to == ExportFormat::Moordyn && request.modes_below_hz.is_some() {
+        bail!("MoorDyn has no modes: leave out ⟪modes_below_hz⟫");
+    }
+    if !(1..=MAX_SEGMENTS).contains(&request.segments) {
+        bail!("⟪segments⟫: {} is not a number of elements from 1 to {MAX_SEGMENTS}", request.segments);
+    }
+    request::check("modes_below_hz", request.modes_below_hz, positive)
+}
+
+/// Finds all modes with the model catenary-dynamic below a frequency [Hz].
+fn modes_below(at_rest: &AtRest, below_hz: f64, warnings: &mut Vec<String>) -> Result<(Dynamics, Modes)> {
+    let linearisation = Linearisation { cable_model: CableModel::CatenaryDynamic, ..Linearisation::default() };
+    let dynamics = Dynamics::about(&at_rest.robot, &at_rest.equilibrium, linearisation, below_hz)?;
+    modes::check_count(&dynamics, below_hz, MAX_MODES)?;
+    let found = modes::below(&dynamics, below_hz);
+    warnings.extend(found.caveat());
+    Ok((dynamics, found))
+}
+
+/// Finds the lowest natural frequencies with the model catenary-dynamic [Hz]: `count` of them, or fewer if there are
+/// fewer.
+fn first_frequencies(at_rest: &AtRest, count: usize, warnings: &mut Vec<String>) -> Result<Vec<f64>> {
+    // Upper limit of the search. A robot has fewer modes than requested only if its cables are massless; the modes that
+    // it does have are far below this limit.
+    const MAX_HZ: f64 = 1e4;
+    let lowest = |count| {
+        let AtRest { robot, equilibrium, .. } = at_rest;
+        modes::lowest(robot, equilibrium, Linearisation::default(), count, MAX_HZ)
+    };
+    let (_, list) = match lowest(count) {
+        // A cable without tension keeps its own error, which reports that there is no solution.
+        Err(LowestError::Dynamics(error)) => return Err(error.into()),
+        Err(LowestError::TooFew { found, .. }) => lowest(found)?,
+        Ok(found) => found,
+    };
+    warnings.extend(list.caveat());
+    Ok(list.modes.iter().take(count).map(|mode| mode.frequency_hz).collect())
+}
+
+/// Puts a text of the user on one line, for titles and comments.
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

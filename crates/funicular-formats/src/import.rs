@@ -1,0 +1,279 @@
+//! Import of files of other programs into a `Draft` of a robot file.
+//!
+//! A reader takes over only facts from the source. It names the line of an error and lists the facts that a robot file
+//! cannot hold. docs/import.md explains every element that is read.
+
+pub(crate) mod caspr;
+pub(crate) mod draft;
+pub(crate) mod moordyn;
+pub(crate) mod text;
+pub(crate) mod wirex;
+pub(crate) mod xml;
+
+pub use funicular_study::request::{MAX_BYTES, SourceFile};
+
+use anyhow::{Result, bail};
+use draft::Draft;
+use funicular_study::request;
+use funicular_study::wording::{Words, told, worded};
+use xml::Xml;
+
+/// Robot file made from files of another program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Imported {
+    /// Text of the robot file.
+    pub text: String,
+    /// Assumptions made where the sources are not clear.
+    pub assumed: Vec<String>,
+    /// Facts of the sources that a robot file cannot hold.
+    pub lost: Vec<String>,
+}
+
+/// Makes a robot file from the files of a request. `words` names the options in messages as the front end writes them.
+///
+/// # Errors
+/// The file, the line, the value and the next step; or the reason why a robot file cannot hold the robot.
+pub fn run(request: &request::ImportRequest, words: Words) -> Result<Imported> {
+    let mut draft = read(&request.files, &ReadOptions { cable_set: request.cable_set.as_deref() })?;
+    draft.complete(&request.ropes, &request.platform)?;
+    let text = worded(&draft.to_toml()?, words);
+    let in_words = |texts: &[String]| texts.iter().map(|text| told(text, words)).collect();
+    Ok(Imported { text, assumed: in_words(&draft.assumed), lost: in_words(&draft.lost) })
+}
+
+/// Options of a request besides the files.
+pub(crate) struct ReadOptions<'a> {
+    /// Name of the cable set to read from a CASPR file.
+    pub(crate) cable_set: Option<&'a str>,
+}
+
+/// Reads the files of one robot. The content of the files, not their names, tells which program wrote them.
+///
+/// # Errors
+///
+/// The file, the line, the value and the next step; or the reason why a robot file cannot hold the robot.
+pub(crate) fn read(files: &[SourceFile], options: &ReadOptions) -> Result<Draft> {
+    let mut sources = Sources::default();
+    for file in files {
+        sources.add_file(file)?;
+    }
+    let mut draft = sources.read(options)?;
+    draft.assumed.splice(0..0, files.iter().filter_map(SourceFile::caveat));
+    Ok(draft)
+}
+
+/// Files sorted by program and content.
+#[derive(Default)]
+struct Sources<'a> {
+    bodies: Vec<Xml<'a>>,
+    cables: Vec<Xml<'a>>,
+    wirex: Vec<Xml<'a>>,
+    moordyn: Vec<&'a SourceFile>,
+    /// Files of CASPR that do not describe the robot itself.
+    aside: Vec<String>,
+}
+
+impl<'a> Sources<'a> {
+    fn add_file(&mut self, file: &'a SourceFile) -> Result<()> {
+        if !file.text.trim_start().starts_with('<') {
+            if !moordyn::is_input(&file.text) {
+                bail!(
+                    "{}: it is neither XML (CASPR, WireX) nor a MoorDyn input file, which has sections such as \
+                     `--- LINE TYPES ---`",
+                    file.path
+                );
+            }
+            self.moordyn.push(file);
+            return Ok(());
+        }
+
+        let xml = Xml::parse(file)?;
+        match xml.root().tag_name().name() {
+            "bodies_system" | "links" => self.bodies.push(xml),
+            "cables" => self.cables.push(xml),
+            "models" => self.wirex.push(xml),
+            "trajectories" | "operational_spaces" => {
+                self.aside.push(format!("{} (`{}`)", file.name(), xml.root_name()));
+            }
+            other => bail!(
+                "{}: the outermost element is <{other}>; CASPR files have <bodies_system> or <cables>, WireX files \
+                 <models>",
+                xml.place(xml.root())
+            ),
+        }
+
+        Ok(())
+    }
+
+    fn read(self, options: &ReadOptions) -> Result<Draft> {
+        let Self { bodies, cables, wirex, moordyn, aside } = self;
+        let is_caspr = !bodies.is_empty() || !cables.is_empty() || !aside.is_empty();
+        if [is_caspr, !wirex.is_empty(), !moordyn.is_empty()].into_iter().filter(|given| *given).count() > 1 {
+            bail!("the files belong to more than one program; give the files of one robot");
+        }
+        if !is_caspr && options.cable_set.is_some() {
+            bail!("⟪cable_set⟫ chooses among the sets of a CASPR cables file, and no such file is given; leave it out");
+        }
+
+        if is_caspr {
+            let bodies = only_file(&bodies, "CASPR bodies file (<bodies_system>)")?;
+            let cables = only_file(&cables, "CASPR cables file (<cables>)")?;
+            let mut draft = caspr::read(bodies, cables, options.cable_set)?;
+            draft.lost.extend(aside.into_iter().map(|file| format!("{file}: it does not describe the robot")));
+            return Ok(draft);
+        }
+
+        if !wirex.is_empty() {
+            return wirex::read(only_file(&wirex, "WireX file (<models>)")?);
+        }
+
+        match moordyn[..] {
+            [file] => moordyn::read(file),
+            _ => bail!("{} MoorDyn input files are given; give the file of one robot", moordyn.len()),
+        }
+    }
+}
+
+/// Returns the only file of a kind.
+fn only_file<'f, 'a>(files: &'f [Xml<'a>], kind: &str) -> Result<&'f Xml<'a>> {
+    match files {
+        [file] => Ok(file),
+        [] => bail!("there is no {kind} among the files; a CASPR robot needs a bodies file and a cables file"),
+        [first, second, ..] => {
+            bail!("{} and {} are both a {kind}; give the files of one robot", first.path(), second.path())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use funicular_study::request::{ImportPlatform, ImportRopes};
+    use std::path::Path;
+    use std::sync::LazyLock;
+
+    /// Example robot in every format: names and texts of its files.
+    static EXAMPLES: LazyLock<[Vec<(&str, &str)>; 3]> = LazyLock::new(|| {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/import");
+        [&["tripod_bodies.xml", "tripod_cables.xml"][..], &["tripod.wcrfx"], &["tripod.txt"]].map(|names| {
+            let text = |name| &*std::fs::read_to_string(folder.join(name)).expect("the repository has the file").leak();
+            names.iter().map(|name| (*name, text(name))).collect()
+        })
+    });
+
+    fn imported(files: &[(&str, &str)]) -> Result<String> {
+        let files = files
+            .iter()
+            .map(|(name, text)| SourceFile::decode((*name).to_owned(), text.as_bytes()))
+            .collect::<Result<Vec<_>>>()?;
+        let mut draft = read(&files, &ReadOptions { cable_set: None })?;
+        let ropes = ImportRopes { mass_kg_per_m: Some(0.05), axial_stiffness_n: Some(1e6), ..ImportRopes::default() };
+        let platform = ImportPlatform::default();
+        draft.complete(&ropes, &platform)?;
+        draft.to_toml()
+    }
+
+    /// Imports an example with one file's text replaced. True if the result is a robot, false if it is a one-line
+    /// message.
+    fn with(files: &[(&str, &str)], which: usize, text: &str) -> bool {
+        let mut files = files.to_vec();
+        files[which].1 = text;
+        match imported(&files) {
+            Ok(_) => true,
+            Err(error) => {
+                let message = format!("{error:#}");
+                assert!(!message.is_empty() && !message.contains('\n'), "{message}");
+                false
+            }
+        }
+    }
+
+    #[test]
+    fn a_file_that_ends_anywhere_is_read_or_refused() {
+        for files in EXAMPLES.iter() {
+            imported(files).unwrap();
+            for (which, (name, text)) in files.iter().enumerate() {
+                let read =
+                    (0..text.len()).filter(|end| text.is_char_boundary(*end) && with(files, which, &text[..*end]));
+                // Truncated XML is not XML; the end of a MoorDyn file holds little.
+                let is_xml = text.starts_with('<');
+                assert!(read.count() < if is_xml { 3 } else { text.len() / 3 }, "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_bad_value_in_a_file_makes_a_reader_panic() {
+        const BAD: [&str; 14] = [
+            "",
+            "nan",
+            "-inf",
+            "1e999",
+            "1e-320",
+            "1e13",
+            "-1",
+            "0",
+            "1,5",
+            "<",
+            "&a;",
+            "\u{0}",
+            "é",
+            "99999999999999999999",
+        ];
+
+        for files in EXAMPLES.iter() {
+            for (which, (name, text)) in files.iter().enumerate() {
+                let mut at = 0;
+                while let Some(begin) = text[at..].find(|c: char| c.is_ascii_digit()).map(|i| at + i) {
+                    let rest = &text[begin..];
+                    let end = begin + rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+                    for bad in BAD {
+                        with(files, which, &[&text[..begin], bad, &text[end..]].concat());
+                    }
+                    at = end;
+                }
+                assert!(at > text.len() / 2, "{name} has numbers to its end");
+            }
+        }
+    }
+
+    #[test]
+    fn no_missing_or_doubled_line_makes_a_reader_panic() {
+        for files in EXAMPLES.iter() {
+            for (which, (_, text)) in files.iter().enumerate() {
+                let lines: Vec<&str> = text.lines().collect();
+                for i in 0..lines.len() {
+                    let doubled = [&lines[..=i], &lines[i..]].concat().join("\n");
+                    let without = [&lines[..i], &lines[i + 1..]].concat().join("\n");
+                    with(files, which, &doubled);
+                    with(files, which, &without);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn line_ends_and_byte_order_marks_change_nothing() {
+        for files in EXAMPLES.iter() {
+            let windows: Vec<(&str, String)> =
+                files.iter().map(|(name, text)| (*name, format!("\u{feff}{}", text.replace('\n', "\r\n")))).collect();
+            let windows: Vec<(&str, &str)> = windows.iter().map(|(name, text)| (*name, text.as_str())).collect();
+            assert_eq!(imported(&windows).unwrap(), imported(files).unwrap());
+        }
+    }
+
+    #[test]
+    fn xml_that_is_a_bomb_is_refused_at_once() {
+        let entities: String = (1..60)
+            .map(|i| format!("<!ENTITY a{i} \"{}\">", format!("&a{};", i - 1).repeat(10)))
+            .chain(["<!ENTITY a0 \"0123456789\">".to_owned()])
+            .collect();
+        let bomb = format!("<!DOCTYPE models [{entities}]><models>&a59;</models>");
+        let deep = "<models>".repeat(1_000_000);
+        let wide = format!("<models>{}</models>", "<a/>".repeat(2_000_000));
+        for text in [&bomb, &deep, &wide] {
+            let error = imported(&[("a.wcrfx", text)]).unwrap_err().to_string();
+            assert!(error.contains("not well-formed XML"), "{error}");
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! Files of other programs, read and written in memory.
+//!
+//! [`import`] makes a robot file of their descriptions of a robot, and [`new_robot`] one to start from. [`export`] writes
+//! the robot at rest for them. [`measurements`] reads measured responses and frequencies for `identify`, and
+//! [`uff_writing`] writes computed ones in the same format. Requests and results are those of [`funicular_study`].
+
+pub mod csv_lines;
+pub mod export;
+pub mod import;
+pub mod measurements;
+pub mod new_robot;
+pub mod uff_writing;
+
+/// Example of README.md, which is tested like those of the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,164 @@
+//! Figures as files: what their SVG and PDF contain.
+
+use super::drawing::{Drawing, Item};
+use super::{Figure, FigureChoice, FigureContent, RequestFigure, Size, of_request, style::Type, width_mm};
+use funicular::robot::Robot;
+use funicular_study::{Request, Silent};
+use serde_json::json;
+
+mod measured;
+
+fn made(request: serde_json::Value, mode: Option<usize>) -> RequestFigure {
+    let mut request = request;
+    request["robot"] = json!({"name": "robot.toml", "text": funicular_robots::YUAN2014_4MM});
+    let request = Request::from_json(&request.to_string()).unwrap();
+    let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
+    of_request(&request, robot, &FigureChoice { mode }, &mut Silent).unwrap()
+}
+
+fn response() -> Figure {
+    let request = json!({
+        "command": "frf", "from_hz": 0.1, "to_hz": 10.0, "points": 1200, "input": "fz", "output": "az",
+    });
+    made(request, None).figure
+}
+
+fn all() -> Vec<(&'static str, Figure)> {
+    vec![
+        ("statics", made(json!({"command": "statics"}), None).figure),
+        ("modes", made(json!({"command": "modes", "below_hz": 6.0}), None).figure),
+        ("shape", made(json!({"command": "modes", "below_hz": 2.0}), Some(2)).figure),
+        ("frf", response()),
+        ("compare", made(json!({"command": "compare", "below_hz": 3.0}), None).figure),
+    ]
+}
+
+fn size(width_mm: f64, font_size_pt: f64) -> Size {
+    Size::new(Some(width_mm), Some(font_size_pt)).unwrap()
+}
+
+/// Box of every text on the page: left, top, right, bottom, and the text.
+fn boxes(drawing: &Drawing) -> Vec<([f64; 4], String)> {
+    let texts = drawing.items.iter().filter_map(|item| match item {
+        Item::Text(text) => Some(text),
+        Item::Path(_) => None,
+    });
+    texts
+        .map(|text| {
+            let (sin, cos) = text.angle.to_radians().sin_cos();
+            let width = drawing.width_of(&text.label, text.size);
+            let height = drawing.font.capital_height() * text.size;
+            let corner =
+                |along: f64, up: f64| [text.at[0] + along * cos - up * sin, text.at[1] - along * sin - up * cos];
+            let corners = [corner(0.0, 0.0), corner(width, 0.0), corner(0.0, height), corner(width, height)];
+            let low = |k: usize| corners.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+            let high = |k: usize| corners.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
+            let words = text.label.0.iter().map(|run| run.0.as_str()).collect();
+            ([low(0), low(1), high(0), high(1)], words)
+        })
+        .collect()
+}
+
+#[test]
+fn charts_have_no_overlapping_texts_and_none_beyond_the_page() {
+    for (name, figure) in all() {
+        let FigureContent::Chart(chart) = &figure.0 else { continue };
+        for (width, font) in [(40.0, 6.0), (84.0, 8.0), (88.0, 8.0), (88.0, 10.0), (181.0, 8.0), (190.0, 10.0)] {
+            let points = width * super::POINTS;
+            let drawing = chart.draw(points, &Type::new(font));
+            let texts = boxes(&drawing);
+            assert!(texts.len() > 8, "{name}");
+            for (i, (a, one)) in texts.iter().enumerate() {
+                let inside = a[0] > -0.5 && a[1] > -0.5 && a[2] < points + 0.5 && a[3] < drawing.height + 0.5;
+                assert!(inside, "{name} at {width} mm, {font} pt: \"{one}\" at {a:?} leaves the page");
+                for (b, other) in &texts[..i] {
+                    let apart = a[2] <= b[0] || b[2] <= a[0] || a[3] <= b[1] || b[3] <= a[1];
+                    assert!(apart, "{name} at {width} mm, {font} pt: \"{one}\" {a:?} covers \"{other}\" {b:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn an_svg_has_its_size_and_its_texts_and_is_xml() {
+    for (name, figure) in all() {
+        let svg = figure.svg(size(88.0, 8.0));
+        let tree = roxmltree::Document::parse(&svg).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let root = tree.root_element();
+        assert_eq!(root.attribute("width"), Some("88mm"), "{name}");
+        let of = |tag: &str| root.descendants().filter(|node| node.has_tag_name(tag)).count();
+        assert!(of("path") > 3 && of("text") > 8, "{name}");
+        assert_eq!(of("image"), 0, "{name}: only lines and texts");
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
+        assert_eq!(svg, figure.svg(size(88.0, 8.0)), "the same bytes again");
+    }
+    let text = response().svg(size(88.0, 8.0));
+    for part in ["frequency [Hz]", "magnitude [(m/s²)/N]", "phase [°]", "az / fz", "cable mode"] {
+        assert!(text.contains(&format!(">{part}</text>")), "{part}");
+    }
+}
+
+#[test]
+fn the_drawn_response_has_the_peak_where_the_result_has_it() {
+    let figure = response();
+    let FigureContent::Chart(chart) = &figure.0 else { panic!("a chart") };
+    let drawing = chart.draw(250.0, &Type::new(8.0));
+    // The highest peak has a number: 9.37 Hz, as in the table of `frf`. It stands above the top of the curve.
+    let texts = boxes(&drawing);
+    let (label, _) = texts.iter().find(|(_, text)| text == "9.37").expect("the number of the highest peak");
+    let curve = drawing.items.iter().filter_map(|item| match item {
+        Item::Path(path) if path.stroke.as_ref() == Some(&super::style::curve(0)) => Some(&path.lines),
+        _ => None,
+    });
+    // The second path is the curve; the first is the sample in the legend.
+    let top = curve.skip(1).flatten().flatten().copied().min_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
+    let middle = 0.5 * (label[0] + label[2]);
+    assert!((middle - top[0]).abs() < 0.5, "the number at {middle} stands over the peak at {}", top[0]);
+    assert!(label[3] < top[1], "above the peak");
+}
+
+#[test]
+fn a_pdf_is_one_page_with_an_embedded_font() {
+    for (name, figure) in all() {
+        let pdf = figure.pdf(size(88.9, 8.0));
+        let text = String::from_utf8_lossy(&pdf);
+        assert!(text.starts_with("%PDF-1.7") && text.trim_end().ends_with("%%EOF"), "{name}");
+        for part in ["/FontFile2", "/Identity-H", "/ToUnicode", "+NotoSans", "/Count 1"] {
+            assert!(text.contains(part), "{name}: {part}");
+        }
+        assert!(text.contains("/MediaBox [0 0 252 "), "{name}: 88.9 mm are 252 pt");
+        assert!(pdf.len() < 60_000, "{name}: {} bytes", pdf.len());
+        assert_eq!(pdf, figure.pdf(size(88.9, 8.0)), "the same bytes again");
+    }
+}
+
+#[test]
+fn columns_of_journals_have_names_and_sizes_have_limits() {
+    assert_eq!(width_mm("ieee-single"), Ok(88.9));
+    assert_eq!(width_mm(" 120.5"), Ok(120.5));
+    assert!(width_mm("ieee").unwrap_err().contains("ieee-single (88.9)"));
+    assert!(width_mm("NaN").is_err());
+    for (width, font, says) in [
+        (Some(30.0), None, "40 to 1000 mm"),
+        (Some(f64::NAN), None, "figure_width_mm"),
+        (Some(-3.0), None, "not positive"),
+        (None, Some(2.0), "4 to 40 pt"),
+        (Some(88.0), Some(30.0), "at most 15 pt"),
+    ] {
+        let said = Size::new(width, font).unwrap_err().to_string();
+        assert!(said.contains(says), "{said}");
+    }
+}
+
+#[test]
+fn a_mode_that_is_not_in_the_list_is_refused() {
+    let mut request = json!({"command": "modes", "below_hz": 2.0});
+    request["robot"] = json!({"name": "robot.toml", "text": funicular_robots::YUAN2014_4MM});
+    let request = Request::from_json(&request.to_string()).unwrap();
+    let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
+    for mode in [0, 99] {
+        let said = of_request(&request, robot.clone(), &FigureChoice { mode: Some(mode) }, &mut Silent).err().unwrap();
+        assert!(said.to_string().contains("give 1 to 8"), "{said}");
+    }
+}

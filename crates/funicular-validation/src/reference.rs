@@ -1,0 +1,58 @@
+//! Contents of the files in crates/funicular-validation/reference.
+
+mod damped;
+mod drives;
+mod exact;
+mod gradients;
+mod identification;
+mod independent;
+mod measured;
+mod published;
+
+use anyhow::{Result, anyhow};
+use funicular::robot::{Robot, State};
+use serde::Deserialize;
+
+pub(super) use damped::{
+    Damped, DampedRobot, ModeShape, PointRobot, ReferencePoint, RopeDamping, ShapesOfRobot, damped,
+};
+pub(super) use drives::{
+    CableToWinch, DriveParts, DrivenCable, DrivenRobot, Drives, FrictionCorner, FrictionHalfWidths, RobotWithWinches,
+    SaggingOverPulley, ServoDamped, StraightOverPulley, drives,
+};
+pub(super) use exact::{ExactCable, ExactReference, ExactRobot, exact};
+pub(super) use gradients::{GradientReference, GradientRobot, GradientRow, gradients};
+pub(super) use identification::{IdentificationReference, MeasuredResponses, PlatformOfMakers, identification};
+pub(super) use independent::{
+    ComplexMatrix, IndependentReference, IndependentRobot, Matrix, ModeList, ReferenceResponse, independent,
+};
+pub(super) use measured::{MeasuredPose, measured};
+pub(super) use published::{
+    BesselRow, ClosedFormRow, Cube, CubeRow, Fig2, FiniteElementRow, HungBetween, IsolatedCable, Published, published,
+};
+
+/// Table of a reference file: a source and rows.
+#[derive(Deserialize)]
+pub(super) struct ReferenceTable<R> {
+    pub(super) source: String,
+    pub(super) rows: Vec<R>,
+}
+
+/// Reads a robot and its unstrained lengths.
+pub(super) fn robot(text: &str) -> Result<(Robot, Vec<f64>)> {
+    let robot = Robot::from_toml(text)?;
+    match robot.state.clone() {
+        State::Lengths(lengths) => Ok((robot, lengths)),
+        State::Pose(_) | State::Unknown => Err(anyhow!("{} gives no unstrained lengths", robot.name)),
+    }
+}
+
+/// Reads a robot of the library by the name of its file.
+pub(super) fn library(name: &str) -> Result<(Robot, Vec<f64>)> {
+    robot(match name {
+        "yuan2014-4mm" => funicular_robots::YUAN2014_4MM,
+        "yuan2014-8mm" => funicular_robots::YUAN2014_8MM,
+        "sap2000-8-cable-point-mass" => funicular_robots::SAP2000_8_CABLE_POINT_MASS,
+        other => return Err(anyhow!("the comparisons use no robot {other}")),
+    })
+}
