@@ -44,7 +44,8 @@ fn texts(name: &str) -> Vec<(PathBuf, String)> {
         let shown = path.strip_prefix(&crates).unwrap().to_owned();
         (shown, text.split("#[cfg(test)]").next().unwrap_or_default().to_owned())
     };
-    files.into_iter().map(read).collect()
+    let is_of_tests = |shown: &Path| shown.ends_with("tests.rs") || shown.iter().any(|folder| folder == "tests");
+    files.into_iter().map(read).filter(|(shown, _)| !is_of_tests(shown)).collect()
 }
 
 /// The first option as a command line has it, `--word`, in a text.
