@@ -139,6 +139,12 @@ impl Style {
     }
 }
 
+/// Text of a row.
+type Text<R> = dyn Fn(&R, Style) -> String;
+
+/// What adds the cells of a row.
+type Values<R> = dyn Fn(&R, &mut Vec<Cell>);
+
 /// Text of a field in tables for reading.
 enum Form<R> {
     /// Numbers with this many decimals.
@@ -150,7 +156,7 @@ enum Form<R> {
     /// Components of a vector with this many decimals, which a terminal shows below each other.
     Components(usize),
     /// Text made of the row.
-    Own(Box<dyn Fn(&R, Style) -> String>),
+    Own(Box<Text<R>>),
 }
 
 /// Column of a table for reading.
@@ -172,7 +178,7 @@ impl<R> Reading<R> {
 /// What a row says of one quantity: its numbers in files, one text in tables for reading.
 pub struct Field<R> {
     columns: Vec<Column>,
-    values: Box<dyn Fn(&R, &mut Vec<Cell>)>,
+    values: Box<Values<R>>,
     reading: Option<Reading<R>>,
     is_there: bool,
 }

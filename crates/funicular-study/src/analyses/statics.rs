@@ -521,17 +521,13 @@ impl Tabled for Statics {
     }
 
     fn table(&self) -> ResultTable<'_> {
-        match &self.equilibria {
-            Some(equilibria) => {
-                let cables = equilibria.first().map_or(0, |row| row.tensions_platform_n.len());
-                ResultTable::new(EquilibriumRow::columns(1..=cables), equilibria)
-            }
-            None => {
-                let drives = self.cables.iter().any(|cable| cable.drive.is_some());
-                let columns = CableWithFriction::columns(drives, self.friction_interval.is_some());
-                ResultTable::new(columns, CableWithFriction::all(self))
-            }
+        if let Some(equilibria) = &self.equilibria {
+            let cables = equilibria.first().map_or(0, |row| row.tensions_platform_n.len());
+            return ResultTable::new(EquilibriumRow::columns(1..=cables), equilibria);
         }
+        let drives = self.cables.iter().any(|cable| cable.drive.is_some());
+        let columns = CableWithFriction::columns(drives, self.friction_interval.is_some());
+        ResultTable::new(columns, CableWithFriction::all(self))
     }
 }
 
