@@ -34,7 +34,6 @@ mod chosen_numbers;
 pub mod columns;
 mod error;
 pub mod frequency_range;
-mod identification;
 pub mod json;
 mod measure;
 pub mod measurements;

@@ -1,29 +1,53 @@
-//! `identify`: values of the robot file that fit measurements best, with their deviations.
+//! `identify`: the values of a robot file that fit measurements best, and how well the measurements determine them.
+//!
+//! docs/theory.md, section 18a, has the equations.
 
+mod assignment;
 mod caveats;
+mod chi2;
+mod derivatives;
+mod draws;
+mod experiment;
+mod lists;
+mod model;
+mod observations;
+mod precision;
+mod profile;
+mod reading;
+mod resolution;
+mod ridge;
+mod search;
+mod starts;
 mod tables;
+mod unknowns;
 
-pub use crate::identification::{OpenEnd, Profile};
+pub use profile::{OpenEnd, Profile};
 pub use tables::{FittedResponse, FrequencyRow, StaticRow};
 
 use super::found;
 use crate::Watch;
 use crate::chosen_numbers::at_bound;
 use crate::columns::{Columns, ResultTable, Style, Tabled, column, only_read, parts};
-use crate::identification::{
-    Assigning, IdentifiedModel, LIMIT as NORMAL_95, Profiled, StartRow, Unknown, judge, profiles, search, unknowns,
-    unresolved_peaks,
-};
 use crate::parameter_pattern::ParameterPattern;
 use crate::request::{self, Experiment, IdentifyRequest};
 use crate::table::Column;
 use crate::text::{counted, digits_for, significant};
 use anyhow::{Result, bail};
+use assignment::Assigning;
 use funicular::math::least_squares::{LeastSquaresEnding, Minimum};
 use funicular::robot::parameters::Parameters;
+use model::IdentifiedModel;
+use observations::{Observation, Subject};
+use precision::judge;
+use profile::LIMIT as NORMAL_95;
+use resolution::unresolved_peaks;
+use ridge::{Profiled, profiles};
+use search::search;
 use serde::Serialize;
+use starts::StartRow;
 use std::cell::RefCell;
 use tables::Tables;
+use unknowns::{Unknown, unknowns};
 
 /// Maximum number of starts.
 const MAX_STARTS: usize = 1000;

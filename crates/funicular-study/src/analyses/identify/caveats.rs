@@ -1,8 +1,8 @@
 //! Sentences that a user should know before trusting a fit.
 
+use super::IdentifiedModel;
 use super::ValueRow;
 use super::tables::FittedResponse;
-use crate::identification::IdentifiedModel;
 use crate::request::IdentifyRequest;
 use crate::text::{counted, significant};
 use funicular::warnings::plausibility::usual::DAMPING_RATIO;

@@ -1,7 +1,7 @@
 //! Tables of measured and fitted numbers.
 
+use super::{IdentifiedModel, Observation, Subject};
 use crate::columns::{Columns, column};
-use crate::identification::{IdentifiedModel, Observation, Subject};
 use crate::measurements::MeasuredResponse;
 use crate::request::{self, Experiment};
 use funicular::math::Complex;
