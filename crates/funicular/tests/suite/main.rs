@@ -1,5 +1,5 @@
 //! One test binary: limits, identities, properties and broken robot files, each module's in the file of its name
-//! (CONTRIBUTING.md). Comparisons with other programs' and published numbers are in `funicular_study::validation`.
+//! (CONTRIBUTING.md). Comparisons with other programs' and published numbers are in `funicular_validation`.
 #![allow(missing_docs)]
 // Published values keep their digits.
 #![allow(clippy::excessive_precision, clippy::unreadable_literal, clippy::approx_constant)]
