@@ -89,6 +89,10 @@ pub struct Mode {
     /// Fraction of the kinetic energy that each flexible support has, in the order of the robot. Empty on a rigid
     /// frame.
     pub support_energy_fractions: Vec<f64>,
+    /// Share of the stretch of each cable in the energy of deformation: its loss factor η adds half of η times this share
+    /// to the damping ratio. What the shares of all cables leave is geometric stiffness: tensions, sag and lever arms.
+    /// Empty unless the strains are known: for ropes with loss, and by [`Dynamics::with_strains`].
+    pub stretching_shares: Vec<f64>,
     /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1. Zero
     /// if the platform is at rest.
     pub shape: [f64; 6],
@@ -318,6 +322,7 @@ impl List<'_> {
             cable_energy_fractions: cable_energies.clone(),
             drive_energy_fractions: drive_energies.clone(),
             support_energy_fractions: support_energies.clone(),
+            stretching_shares: motion.stretching.clone(),
             shape,
             modal_mass,
             residual,
@@ -352,6 +357,7 @@ impl List<'_> {
                 platform_energy: 0.0,
                 cable_energies,
                 drive_energies: Vec::new(),
+                stretching: Vec::new(),
                 drive_damping: 0.0,
                 residual: 0.0,
             };

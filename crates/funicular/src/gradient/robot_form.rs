@@ -2,7 +2,7 @@
 
 use super::GradientError;
 use super::adjoint::{Adjoint, CableAdjoint};
-use super::cable_form::{CableAt, CableForm, CableMotion, GaussRules};
+use super::cable_form::{CableAt, CableForm, CableMotion, GaussRules, StretchAt};
 use super::drive_form::ControlAt;
 use super::end_form::EndAtRest;
 use super::scalar::{Field, Vector, add, add_times, cross, dot, symmetric_outer, times, vector};
@@ -250,7 +250,8 @@ impl RobotForm {
                 }
                 (AnyCable::Spring(spring), ..) => {
                     let carriers = [a, b].map(|of| self.supports.as_ref()?.carrier(i, &of.supports));
-                    spring.add(of_cable, (&a.v, &a.theta), (&b.v, &b.theta), &carriers, factor)
+                    let stretch = at.cables[i].stretch.as_ref();
+                    spring.add(of_cable, (&a.v, &a.theta), (&b.v, &b.theta), (&carriers, stretch), factor)
                 }
                 _ => unreachable!("every catenary has its motion"),
             };
@@ -319,7 +320,7 @@ impl SpringForm {
         sum: &mut CableAdjoint<T>,
         a: (&Vector<T>, &Vector<T>),
         b: (&Vector<T>, &Vector<T>),
-        carriers: &[Option<Carrier<T>>; 2],
+        (carriers, stretch): (&[Option<Carrier<T>>; 2], Option<&StretchAt<T>>),
         factor: T,
     ) -> SideForces<T> {
         let (chord, lever) = (vector(&self.chord_w), vector(&self.lever_w));
@@ -336,13 +337,19 @@ impl SpringForm {
         let squared = self.chord_w.norm_squared();
         let per_stiffness = 1.0 / (self.length * squared);
         let [along_a, along_b] = [dot(&u_a, &chord), dot(&u_b, &chord)];
-        let size = factor * (self.axial_stiffness * per_stiffness);
+        let mut stretched = factor;
+        if let Some(stretch) = stretch {
+            let by_factor = factor * along_a * along_b * (self.axial_stiffness * per_stiffness);
+            sum.stretch_loss.iter_mut().zip(stretch.by_values).for_each(|(sum, by)| *sum += by_factor * by);
+            stretched = factor * stretch.factor;
+        }
+        let size = stretched * (self.axial_stiffness * per_stiffness);
         let mut by_chord = add(&times(&u_a, along_b), &times(&u_b, along_a));
         add_times(&mut by_chord, &chord, -(along_a * along_b * (2.0 / squared)));
         add_times(&mut sum.chord, &by_chord, size);
         let by_end = add(&times(&cross(&chord, a.1), along_b), &times(&cross(&chord, b.1), along_a));
         add_times(&mut sum.lever, &by_end, size);
-        sum.stiffness += factor * along_a * along_b * per_stiffness;
+        sum.stiffness += stretched * along_a * along_b * per_stiffness;
         sum.free_length += -(size * along_a * along_b * (1.0 / self.length));
 
         let mut on_side = [T::default(); 2];

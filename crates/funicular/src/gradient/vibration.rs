@@ -1,7 +1,7 @@
 //! Gradients of natural frequencies, damped frequencies, damping ratios and responses.
 
 use super::adjoint::Adjoint;
-use super::cable_form::{CableAt, CableMotion, LossesAt};
+use super::cable_form::{CableAt, CableMotion, LossesAt, StretchAt};
 use super::drive_form::ControlAt;
 use super::robot_form::{At, Driven, FormMotion, NearAmplitude, RobotForm};
 use super::scalar::{Vector, add_times, cross, vector};
@@ -153,7 +153,8 @@ impl<'g> VibrationGradients<'g> {
         let mut cables: Vec<CableAt<Complex>> = (0..self.cables())
             .map(|i| {
                 let (square, by_damping) = self.dynamics.square_by_damping(i, omega);
-                CableAt { square, by_damping, ..CableAt::default() }
+                let loss = self.gradients.robot().cables[i].material.stretch_loss;
+                CableAt { square, by_damping, stretch: StretchAt::at(loss, omega), ..CableAt::default() }
             })
             .collect();
         for term in self.dynamics.terms() {
