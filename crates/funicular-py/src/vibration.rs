@@ -11,6 +11,7 @@ use crate::texts::{Texts, not_empty};
 use funicular::compare::TOLERANCE;
 use funicular::gradient::Hold;
 use funicular::math::CMat6;
+use funicular::modes::damped::DECAY_PERCENT;
 use funicular::response;
 use funicular_study::analyses::{self, cable, frf};
 use funicular_study::at_rest;
@@ -120,6 +121,7 @@ pub(crate) struct ModesKeywords<'a> {
     pub(crate) in_plane_only: bool,
     pub(crate) winches: &'a str,
     pub(crate) platform_share: Option<Number>,
+    pub(crate) decay_percent: Option<Number>,
     pub(crate) damped: bool,
     pub(crate) rigid_cables: bool,
 }
@@ -194,6 +196,7 @@ impl ModesKeywords<'_> {
             points: points(self.input_point_m, self.output_point_m)?,
             stations: self.stations.map(stations).transpose()?,
             platform_share: share(self.platform_share)?,
+            decay_percent: self.decay_percent.map_or(Ok(DECAY_PERCENT), |percent| percent.value("decay_percent"))?,
             damped: self.damped,
             rigid_cables: self.rigid_cables,
             state: of.state.clone(),

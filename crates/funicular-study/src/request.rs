@@ -44,6 +44,7 @@ pub use uncertainty::{DEFAULT_SAMPLES, UncertaintyRequest, pose_and_tensions};
 
 pub use vibration::{
     CableRequest, CompareRequest, DEFAULT_INPUT, DEFAULT_OUTPUT, FrfRequest, ModesRequest, ReduceRequest,
+    SettleRequest,
 };
 
 pub(crate) use parts::{check, check_vector};
@@ -141,6 +142,7 @@ commands! {
     Stiffness(StiffnessRequest) "stiffness" Needed robot;
     Modes(ModesRequest) "modes" Needed robot;
     Frf(FrfRequest) "frf" Needed robot;
+    Settle(SettleRequest) "settle" Needed robot;
     Compare(CompareRequest) "compare" Needed robot;
     Gradient(GradientRequest) "gradient" Needed robot;
     Uncertainty(UncertaintyRequest) "uncertainty" Needed robot;

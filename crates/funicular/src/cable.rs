@@ -394,8 +394,8 @@ impl EndStiffness {
             }
             CableModel::ShallowStatic => shallow_at_rest()?,
             CableModel::CatenaryStatic => hanging_at_rest(state.hanging.as_ref().ok_or(NoStiffness::Rigid)?)?,
-            // A cable by poles and residues makes all of them such cables.
-            CableModel::ShallowDynamic if robot.has_moving_ends() || robot.has_stretch_loss() || has_strains => {
+            // One cable by poles and residues makes all of them such cables.
+            CableModel::ShallowDynamic if robot.has_moving_ends() || robot.has_stretch_loss() => {
                 let end = moving_end(robot, i, state, &axes, winches, limit);
                 let of_rope = (shallow_damping, loss, has_strains);
                 match shallow_span(state, (&sag, axes), end, of_rope, in_plane_only, limit)? {

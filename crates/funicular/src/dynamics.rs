@@ -156,8 +156,9 @@ impl Dynamics {
         Self::with_shapes(robot, equilibrium, linearisation, up_to_hz, Shapes::Kept)
     }
 
-    /// Robot linearised as by [`about`](Self::about), with the strains of all cables, of which
-    /// [`Mode::stretching_shares`](crate::modes::Mode::stretching_shares) need them. They cost a little time.
+    /// Robot linearised as by [`about`](Self::about), with the strains of all cables, which
+    /// [`Mode::stretching_shares`](crate::modes::Mode::stretching_shares) need. They cost a little time. The
+    /// shallow-dynamic model has none in its closed form.
     ///
     /// # Errors
     /// The errors of [`about`](Self::about).

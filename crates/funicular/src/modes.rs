@@ -9,13 +9,17 @@ pub mod damped;
 mod fundamental;
 mod lowest;
 mod mac;
+mod release;
 mod rigid_cables;
+mod stretch;
 pub mod tracking;
 
 pub use fundamental::{First, FirstError, first, lowest_by_count};
 pub use lowest::{LowestError, PlatformModeError, Search, Wanted, doubled, lowest, lowest_with_platform, until};
 pub use mac::mac;
+pub use release::{DecayingMotion, Release, ReleaseError};
 pub use rigid_cables::{RigidCablesError, with_rigid_cables};
+pub use stretch::caveat_of_stretch;
 
 pub use certificate::{MAX_MODES, TooMany, check_count, damped_partners};
 

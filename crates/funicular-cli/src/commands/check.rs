@@ -221,7 +221,11 @@ fn rope_table(found: &Checked) -> String {
         "drag width [m]",
     ];
     let dragged = found.materials.iter().any(|rope| rope.drag_width_m.is_some());
-    let mut columns = header[..if limited { 8 } else { 5 }].to_vec();
+    let is_lossy = |rope: &CheckedRope| rope.axial_loss_factor.is_some() || rope.axial_damping_time_s.is_some();
+    let lossy = found.materials.iter().any(is_lossy);
+    let mut columns = header[..5].to_vec();
+    columns.extend(if lossy { &["loss factor", "damping time [s]"][..] } else { &[] });
+    columns.extend(if limited { &header[5..8] } else { &[] });
     columns.extend(dragged.then_some(header[8]));
 
     let mut ropes = Table::new(&columns);
@@ -233,6 +237,9 @@ fn rope_table(found: &Checked) -> String {
             or_none(rope.damping_ratio),
             or_none(rope.viscous_damping_n_s_m2),
         ];
+        if lossy {
+            row.extend([or_none(rope.axial_loss_factor), or_none(rope.axial_damping_time_s)]);
+        }
         if limited {
             row.extend(limit_cells(&rope.limits));
             row.push(or_none(rope.breaking_load_n));

@@ -9,13 +9,23 @@ use funicular_study::uff_writing::modes_file;
 impl Printed for Modes {
     fn text(&self) -> String {
         let peak = self.participation.as_ref().map(|of| format!("peak [{}]", of.peak_unit));
+        let decay = self.decay_percent.map(|percent| format!("to {} % [s]", short(percent, 4)));
+        let stretches = self.modes.iter().any(|mode| !mode.stretching_share.is_empty());
         let mut heads = vec!["f [Hz]", "damping [%]"];
+        heads.extend(decay.as_deref());
+        heads.extend(stretches.then_some("stretch [%]"));
         heads.extend(peak.as_deref());
         heads.extend(["platform [%]", "x", "y", "z", "rx [1/m]", "ry [1/m]", "rz [1/m]", "kind", "cables"]);
         let mut table = Table::new(&heads).text_columns(&[heads.len() - 2, heads.len() - 1]);
 
         for mode in &self.modes {
             let mut row = vec![decimals(mode.frequency_hz, 4), significant(100.0 * mode.damping_ratio, 3)];
+            if decay.is_some() {
+                row.push(mode.decay_time_s.map_or(table::NONE.to_owned(), |time| significant(time, 3)));
+            }
+            if stretches {
+                row.push(decimals(100.0 * mode.stretching_share.iter().sum::<f64>(), 1));
+            }
             if self.participation.is_some() {
                 row.push(mode.peak.map_or(table::NONE.to_owned(), |peak| significant(peak, 3)));
             }
@@ -63,22 +73,27 @@ impl Printed for Modes {
             "modal_mass_kg",
             "residue_per_kg",
             "peak",
+            "decay_time_s",
         ];
         let cables = self.cable_names.iter().map(|name| format!("energy_fraction_cable_{name}"));
         let drives_move = self.modes.iter().any(|mode| !mode.drive_energy_fractions.is_empty());
         let drives =
             self.cable_names.iter().filter(|_| drives_move).map(|name| format!("energy_fraction_drive_{name}"));
         let supports = self.support_names.iter().map(|name| format!("energy_fraction_support_{name}"));
-        out.write_record(fixed.into_iter().map(str::to_owned).chain(cables).chain(drives).chain(supports))?;
+        let stretches = self.modes.iter().any(|mode| !mode.stretching_share.is_empty());
+        let stretch = self.cable_names.iter().filter(|_| stretches).map(|name| format!("stretching_share_cable_{name}"));
+        let fixed = fixed.into_iter().map(str::to_owned);
+        out.write_record(fixed.chain(cables).chain(drives).chain(supports).chain(stretch))?;
 
         for mode in &self.modes {
             out.serialize((
                 (mode.frequency_hz, mode.multiplicity, mode.damping_ratio, mode.kind, mode.platform_energy_fraction),
                 mode.shape,
-                (mode.residual, mode.modal_mass_kg, mode.residue_per_kg, mode.peak),
+                (mode.residual, mode.modal_mass_kg, mode.residue_per_kg, mode.peak, mode.decay_time_s),
                 &mode.cable_energy_fractions,
                 &mode.drive_energy_fractions,
                 &mode.support_energy_fractions,
+                &mode.stretching_share,
             ))?;
         }
 

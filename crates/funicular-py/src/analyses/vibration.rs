@@ -26,6 +26,8 @@ impl PyAnalyses {
     /// platform_share
     ///     Minimum fraction of the kinetic energy in the platform for `first_platform_index`, the first mode of the
     ///     platform; 0.5 if not given.
+    /// decay_percent
+    ///     Percentage of its amplitude to which a mode decays in `decay_time_s`; 5 if not given.
     /// damped
     ///     Seek the damped partner of every mode. False is faster; damping ratios are then of first order in the
     ///     damping, and there are no eigenvalues.
@@ -34,8 +36,8 @@ impl PyAnalyses {
     ///     The equilibrium has the static model `ideal` or `spring`.
     #[pyo3(signature = (
         below_hz=None, *, input=None, output=None, input_point_m=None, output_point_m=None, stations=None, cable_model=None,
-        assembly="consistent", in_plane_only=false, winches="as-given", platform_share=None, damped=true,
-        rigid_cables=false
+        assembly="consistent", in_plane_only=false, winches="as-given", platform_share=None, decay_percent=None,
+        damped=true, rigid_cables=false
     ))]
     #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
     fn modes(
@@ -52,6 +54,7 @@ impl PyAnalyses {
         in_plane_only: bool,
         winches: &str,
         platform_share: Option<Number>,
+        decay_percent: Option<Number>,
         damped: bool,
         rigid_cables: bool,
     ) -> PyResult<ModesObject> {
@@ -67,6 +70,7 @@ impl PyAnalyses {
             in_plane_only,
             winches,
             platform_share,
+            decay_percent,
             damped,
             rigid_cables,
         };

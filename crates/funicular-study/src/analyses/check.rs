@@ -69,6 +69,11 @@ pub struct CheckedRope {
     pub damping_ratio: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub viscous_damping_n_s_m2: Option<f64>,
+    /// Loss factor and damping time of the stretch; absent if zero.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axial_loss_factor: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axial_damping_time_s: Option<f64>,
     #[serde(flatten)]
     pub limits: CheckedLimits,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -374,6 +379,8 @@ fn ropes(robot: &Robot) -> Vec<CheckedRope> {
             mass_kg_per_m: rope.mass_per_length,
             damping_ratio,
             viscous_damping_n_s_m2,
+            axial_loss_factor: not_zero(rope.stretch_loss.factor),
+            axial_damping_time_s: not_zero(rope.stretch_loss.time),
             limits: CheckedLimits::of(rope.tension_limits),
             breaking_load_n: rope.breaking_load,
             drag_width_m: rope.drag_width,
@@ -384,6 +391,10 @@ fn ropes(robot: &Robot) -> Vec<CheckedRope> {
         }
     }
     ropes
+}
+
+fn not_zero(value: f64) -> Option<f64> {
+    (value != 0.0).then_some(value)
 }
 
 /// Cables in the order of the file.

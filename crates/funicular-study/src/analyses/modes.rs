@@ -9,7 +9,7 @@ use anyhow::{Result, anyhow, bail};
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::Rotation;
-use funicular::modes;
+use funicular::modes::{self, damped};
 use funicular::response::Signal;
 use funicular::robot::{Robot, WinchMode};
 use serde::Serialize;
@@ -36,6 +36,9 @@ pub struct Modes {
     /// True if a count proves that every mode has its damped mode; absent if damping ratios are of first order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damped_certified: Option<bool>,
+    /// Percentage of the amplitude to which modes decay in `decay_time_s`; absent for rigid cables.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decay_percent: Option<f64>,
     /// Minimum fraction of the kinetic energy in the platform for `first_platform_mode`.
     pub platform_share: f64,
     /// First mode of the platform; absent if none lies below the limit.
@@ -171,6 +174,7 @@ fn about_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> Resu
         unstable_directions: found.unstable_directions,
         is_indifferent: at_rest.equilibrium.stability.is_indifferent(),
         damped_certified: None,
+        decay_percent: None,
         platform_share: request.platform_share,
         first_platform_mode: FirstPlatformMode::of(&found, request.platform_share),
         cable_names: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
@@ -191,21 +195,24 @@ fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<Si
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
     let limit = at_rest.modes_limit(request.below_hz, linearisation)?;
     let ModesBelow { dynamics, modes: found, mut warnings } =
-        at_rest.modes_below(linearisation, limit, modes::MAX_MODES)?;
+        at_rest.modes_with_strains(linearisation, limit, modes::MAX_MODES)?;
     let AtRest { robot, .. } = at_rest;
     warnings.extend(funicular::warnings::of_damping(robot).map(|warning| warning.to_string()));
 
     // Damping, and the peaks that depend on it.
     let mut rows: Vec<ModeRow> = found.modes.iter().cloned().map(ModeRow::from).collect();
-    let (damped, caveat) = if request.damped { modes::damped_partners(&dynamics, &found) } else { (None, None) };
+    let (partners, caveat) = if request.damped { modes::damped_partners(&dynamics, &found) } else { (None, None) };
     warnings.extend(caveat);
-    if let Some(damped) = &damped {
-        for (row, mode) in rows.iter_mut().zip(&damped.modes) {
+    if let Some(partners) = &partners {
+        for (row, mode) in rows.iter_mut().zip(&partners.modes) {
             let eigenvalue = mode.eigenvalue();
             row.damping_ratio = mode.damping_ratio();
             row.eigenvalue_per_s = Some([eigenvalue.re, eigenvalue.im]);
         }
     }
+    let ratios: Vec<f64> = rows.iter().map(|row| row.damping_ratio).collect();
+    warnings.extend(modes::caveat_of_stretch(robot, &found.modes, &ratios, request.platform_share));
+    set_decay_times(&mut rows, request.decay_percent);
     let participation = pair.map(|pair| participate(&mut rows, at_rest, &dynamics, &found, &pair)).transpose()?;
 
     let stations = request.stations.map_or(Ok(Vec::new()), |count| stations(at_rest, &dynamics, count))?;
@@ -222,7 +229,8 @@ fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<Si
         certified: found.certified,
         unstable_directions: found.unstable_directions,
         is_indifferent: at_rest.equilibrium.stability.is_indifferent(),
-        damped_certified: damped.map(|damped| damped.certified),
+        damped_certified: partners.map(|partners| partners.certified),
+        decay_percent: Some(request.decay_percent),
         platform_share: request.platform_share,
         first_platform_mode: FirstPlatformMode::of(&found, request.platform_share),
         cable_names: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
@@ -233,6 +241,18 @@ fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<Si
         outline: Outline::of(at_rest),
         warnings,
     })
+}
+
+/// Writes the times of decay to a percentage of the amplitude into the rows of the modes.
+fn set_decay_times(rows: &mut [ModeRow], percent: f64) {
+    for row in rows {
+        let rate = match row.eigenvalue_per_s {
+            Some([re, _]) => -re,
+            None => row.damping_ratio * row.frequency_hz * TAU,
+        };
+        let time = damped::decay_time(rate, 0.01 * percent);
+        row.decay_time_s = time.is_finite().then_some(time);
+    }
 }
 
 /// Writes residues and peaks of a response into the rows of the modes; names the response.
@@ -276,6 +296,7 @@ struct SignalPair {
 fn checked(robot: &Robot, request: &request::ModesRequest) -> Result<Option<SignalPair>> {
     request.below_hz.map_or(Ok(()), |limit| request::check_positive("below_hz", limit))?;
     request::check_fraction("platform_share", request.platform_share)?;
+    check_percent(request.decay_percent)?;
     match (&request.input, &request.output) {
         (Some(input), Some(output)) => {
             let (input, output) = (request::input(input)?, request::output(output)?);
@@ -286,6 +307,14 @@ fn checked(robot: &Robot, request: &request::ModesRequest) -> Result<Option<Sign
         (Some(_), None) => bail!("⟪input⟫ is given without ⟪output⟫: a response needs both"),
         (None, Some(_)) => bail!("⟪output⟫ is given without ⟪input⟫: a response needs both"),
     }
+}
+
+/// Refuses a percentage of the amplitude to which nothing decays.
+fn check_percent(percent: f64) -> Result<()> {
+    if percent > 0.0 && percent < 100.0 {
+        return Ok(());
+    }
+    bail!("⟪decay_percent⟫ is {percent}: give the percentage of the amplitude that is left, between 0 and 100, as 5")
 }
 
 /// Stations at equal steps along every cable.

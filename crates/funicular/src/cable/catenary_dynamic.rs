@@ -53,7 +53,6 @@ use crate::robot::{Damping, StretchLoss};
 use families::{Families, StationPositions};
 use mesh::Mesh;
 use std::ops::Range;
-use stretch::MOMENTS;
 use thiserror::Error;
 
 /// Dynamic stiffness of both ends of a cable as poles and residues, in plane and out of plane.
@@ -217,7 +216,9 @@ impl CatenaryDynamicEnd {
         if in_plane_only && end.as_ref().is_some_and(MovingEnd::couples) {
             return Err(CatenaryDynamicError::Skew);
         }
-        let moments = if shapes.has_strains(stretch_loss) { MOMENTS } else { 0 };
+        let rope = hanging.catenary.rope();
+        let has_strains = shapes.has_strains(stretch_loss);
+        let moments = if has_strains { stretch::moments(&rope, mass_per_length, limit) } else { 0 };
         let (cable, stations) = CatenaryDynamic::condensed(
             &hanging.catenary,
             end,

@@ -87,10 +87,11 @@ impl StretchLoss {
         self.factor > 0.0 || self.time > 0.0
     }
 
-    /// Loss `h − 1 = iη + iωτ` at a complex ω of positive real part, and its derivative by ω.
+    /// Loss `h − 1 = iη + iωτ` at a complex ω of positive real part, and its derivative by ω; zero at rest.
     pub(crate) fn at(self, omega: Complex) -> (Complex, Complex) {
-        let i = Complex::i();
-        (i * (self.factor + omega * self.time), i * self.time)
+        let (i, is_at_rest) = (Complex::i(), omega == Complex::new(0.0, 0.0));
+        let factor = if is_at_rest { 0.0 } else { self.factor };
+        (i * (factor + omega * self.time), i * self.time)
     }
 
     /// Derivatives of the loss `h − 1` at a complex ω by the loss factor and by the damping time.
