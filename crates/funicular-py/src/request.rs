@@ -19,7 +19,7 @@ fn number(value: Option<Number>, keyword: &str) -> PyResult<Option<f64>> {
     value.map(|value| value.value(keyword)).transpose()
 }
 
-fn three(value: Option<Numbers>, keyword: &str) -> PyResult<Option<[f64; 3]>> {
+pub(crate) fn three(value: Option<Numbers>, keyword: &str) -> PyResult<Option<[f64; 3]>> {
     value.map(|numbers| numbers.three(keyword)).transpose()
 }
 

@@ -6,7 +6,7 @@ use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::interrupt::{interruptible, interruptible_in_steps};
 use crate::reading::sizes;
-use crate::request::{model, named, points, share, terms};
+use crate::request::{model, named, points, share, terms, three};
 use crate::texts::{Texts, not_empty};
 use funicular::compare::TOLERANCE;
 use funicular::gradient::Hold;
@@ -259,6 +259,42 @@ pub(crate) fn compare<'py>(
     };
     let at_rest = Arc::clone(&of.at_rest);
     let found = interruptible(py, move || analyses::compare::about(&at_rest, &request))?;
+    answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
+}
+
+/// Keywords of `settle`.
+pub(crate) struct SettleKeywords<'a> {
+    pub(crate) release_n: Option<Numbers>,
+    pub(crate) release_n_m: Option<Numbers>,
+    pub(crate) input_point_m: Option<Numbers>,
+    pub(crate) output_point_m: Option<Numbers>,
+    pub(crate) tolerance_m: Option<Number>,
+    pub(crate) below_hz: Option<Number>,
+    pub(crate) cable_model: Option<&'a str>,
+    pub(crate) assembly: &'a str,
+    pub(crate) in_plane_only: bool,
+    pub(crate) winches: &'a str,
+}
+
+pub(crate) fn settle<'py>(
+    py: Python<'py>,
+    of: &PyEquilibrium,
+    keywords: SettleKeywords<'_>,
+) -> PyResult<ResultsObject<'py>> {
+    let tolerance = |given: Number| given.value("tolerance_m");
+    let request = request::SettleRequest {
+        robot: of.of.get().source.clone(),
+        release_n: three(keywords.release_n, "release_n")?,
+        release_n_m: three(keywords.release_n_m, "release_n_m")?,
+        points: points(keywords.input_point_m, keywords.output_point_m)?,
+        tolerance_m: keywords.tolerance_m.map_or(Ok(request::SETTLED_WITHIN), tolerance)?,
+        below_hz: keywords.below_hz.map(|hz| hz.value("below_hz")).transpose()?,
+        state: of.state.clone(),
+        tensions: of.tensions.clone(),
+        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
+    };
+    let at_rest = Arc::clone(&of.at_rest);
+    let found = interruptible(py, move || analyses::settle::about(&at_rest, &request))?;
     answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
 }
 

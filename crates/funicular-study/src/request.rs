@@ -44,7 +44,7 @@ pub use uncertainty::{DEFAULT_SAMPLES, UncertaintyRequest, pose_and_tensions};
 
 pub use vibration::{
     CableRequest, CompareRequest, DEFAULT_INPUT, DEFAULT_OUTPUT, FrfRequest, ModesRequest, ReduceRequest,
-    SettleRequest,
+    SETTLED_WITHIN, SettleRequest,
 };
 
 pub(crate) use parts::{check, check_vector};

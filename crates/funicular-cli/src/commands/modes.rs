@@ -81,7 +81,8 @@ impl Printed for Modes {
             self.cable_names.iter().filter(|_| drives_move).map(|name| format!("energy_fraction_drive_{name}"));
         let supports = self.support_names.iter().map(|name| format!("energy_fraction_support_{name}"));
         let stretches = self.modes.iter().any(|mode| !mode.stretching_share.is_empty());
-        let stretch = self.cable_names.iter().filter(|_| stretches).map(|name| format!("stretching_share_cable_{name}"));
+        let stretch =
+            self.cable_names.iter().filter(|_| stretches).map(|name| format!("stretching_share_cable_{name}"));
         let fixed = fixed.into_iter().map(str::to_owned);
         out.write_record(fixed.chain(cables).chain(drives).chain(supports).chain(stretch))?;
 

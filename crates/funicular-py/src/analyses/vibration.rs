@@ -3,7 +3,7 @@
 use super::PyAnalyses;
 use crate::arrays::{Count, Number, Numbers, ResultsObject, Tensor};
 use crate::texts::Texts;
-use crate::vibration::{self, CompareKeywords, ModesKeywords, ModesObject, PairKeywords, Responses};
+use crate::vibration::{self, CompareKeywords, ModesKeywords, ModesObject, PairKeywords, Responses, SettleKeywords};
 use numpy::Complex64;
 use pyo3::prelude::*;
 
@@ -166,6 +166,60 @@ impl PyAnalyses {
         winches: &str,
     ) -> PyResult<Tensor<Complex64>> {
         Self::at(slf, |rest| vibration::receptance(py, rest, hz, cable_model, assembly, in_plane_only, winches))
+    }
+
+    /// Computes how a point of the platform swings after a force or moment on it is released, and when it has settled.
+    ///
+    /// The motion is linear about the equilibrium without the force, in closed form over the damped modes.
+    ///
+    /// Parameters
+    /// ----------
+    /// release_n, release_n_m
+    ///     Force [N] and moment [N m] on the platform that are released, world axes.
+    /// input_point_m, output_point_m
+    ///     Point of the force and point whose motion is wanted, platform frame [m]; the origin if not given.
+    /// tolerance_m
+    ///     Distance from its rest within which the point has settled [m]; 0.001 if not given.
+    /// below_hz
+    ///     Limit of the frequencies of the modes that take part [Hz].
+    /// cable_model, assembly, in_plane_only, winches
+    ///     Models, as in `stiffness`.
+    ///
+    /// Returns
+    /// -------
+    /// The keys of the program's JSON; lists of numbers are arrays.
+    #[pyo3(signature = (
+        release_n=None, *, release_n_m=None, input_point_m=None, output_point_m=None, tolerance_m=None, below_hz=None,
+        cable_model=None, assembly="consistent", in_plane_only=false, winches="as-given"
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "Python's keywords")]
+    fn settle<'py>(
+        slf: &Bound<'py, Self>,
+        py: Python<'py>,
+        release_n: Option<Numbers>,
+        release_n_m: Option<Numbers>,
+        input_point_m: Option<Numbers>,
+        output_point_m: Option<Numbers>,
+        tolerance_m: Option<Number>,
+        below_hz: Option<Number>,
+        cable_model: Option<&str>,
+        assembly: &str,
+        in_plane_only: bool,
+        winches: &str,
+    ) -> PyResult<ResultsObject<'py>> {
+        let keywords = SettleKeywords {
+            release_n,
+            release_n_m,
+            input_point_m,
+            output_point_m,
+            tolerance_m,
+            below_hz,
+            cable_model,
+            assembly,
+            in_plane_only,
+            winches,
+        };
+        Self::at(slf, |rest| vibration::settle(py, rest, keywords))
     }
 
     /// Compares every cable model with the catenary-dynamic model: frequencies found, missed and wrong, and the

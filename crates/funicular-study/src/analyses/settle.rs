@@ -99,7 +99,8 @@ pub fn about(at_rest: &AtRest, request: &SettleRequest) -> Result<Settled> {
 
     let arm_w = |point: Option<[f64; 3]>| at_rest.equilibrium.pose.rot_wp * Vec3::from(point.unwrap_or_default());
     let force = Vec3::from(request.release_n.unwrap_or_default());
-    let moment = arm_w(request.points.input_point_m).cross(&force) + Vec3::from(request.release_n_m.unwrap_or_default());
+    let moment =
+        arm_w(request.points.input_point_m).cross(&force) + Vec3::from(request.release_n_m.unwrap_or_default());
     let wrench = Vec6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
     let release = Release::of(&dynamics, &found, &damped, &wrench, &arm_w(request.points.output_point_m))?;
 

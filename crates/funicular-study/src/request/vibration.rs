@@ -139,7 +139,7 @@ declared! {
 }
 
 /// Default of the distance within which a point has settled [m].
-const SETTLED_WITHIN: f64 = 1e-3;
+pub const SETTLED_WITHIN: f64 = 1e-3;
 
 declared! {
     /// Comparison of all cable models, and the simplest model that is good enough.

@@ -89,7 +89,8 @@ fn of_robot(source: &str, of: &LossyRobot) -> Result<Vec<Comparison>> {
     let first = &listed.first().ok_or_else(|| anyhow!("no mode"))?.stretching_shares;
     let with_frequencies = |list: &[DampedMode], hz: &[f64], zeta: &[f64]| -> Result<Vec<f64>> {
         let of_pair = |(hz, zeta): (&f64, &f64)| {
-            let distance = |mode: &DampedMode| (mode.frequency_hz() / hz - 1.0).abs() + (mode.damping_ratio() - zeta).abs();
+            let distance =
+                |mode: &DampedMode| (mode.frequency_hz() / hz - 1.0).abs() + (mode.damping_ratio() - zeta).abs();
             Ok(nearest(list, distance)?.damping_ratio())
         };
         hz.iter().zip(zeta).map(of_pair).collect()

@@ -84,7 +84,7 @@ impl Damping {
 impl StretchLoss {
     /// True if the stretch has a loss.
     pub fn is_some(self) -> bool {
-        self.factor > 0.0 || self.time > 0.0
+        self.factor != 0.0 || self.time != 0.0
     }
 
     /// Loss `h − 1 = iη + iωτ` at a complex ω of positive real part, and its derivative by ω; zero at rest.

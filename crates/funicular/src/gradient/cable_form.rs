@@ -71,27 +71,29 @@ pub(super) struct CableAt<T> {
     /// Square ω_c², and its derivatives by mass per length and by damping.
     pub(super) square: T,
     pub(super) by_damping: [T; 2],
-    /// Loss of the stretch; `None` without loss.
-    pub(super) stretch: Option<StretchAt<T>>,
+    /// Factor h of the axial stiffness by the loss of the stretch; `None` without loss.
+    pub(super) stretch: Option<T>,
+    /// Derivatives of h by loss factor and damping time.
+    pub(super) by_loss: [T; 2],
     /// Control of the motor.
     pub(super) control: ControlAt<T>,
     /// Losses of the drive; `None` without losses and without forces on it.
     pub(super) losses: Option<LossesAt<T>>,
 }
 
-/// Stretch of a rope with loss at a frequency, whose axial stiffness is EA h.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct StretchAt<T> {
-    /// Factor h, and its derivatives by loss factor and damping time.
-    pub(super) factor: T,
-    pub(super) by_values: [T; 2],
+impl<T: Field> CableAt<T> {
+    /// The frequency for the drive of the cable, whose own square is ω².
+    fn of_drive(&self, square: T) -> DriveAtFrequency<T> {
+        let stretch = self.stretch.unwrap_or_else(|| T::from(1.0));
+        DriveAtFrequency { square, of_rope: self.square, control: self.control, stretch, by_loss: self.by_loss }
+    }
 }
 
-impl StretchAt<Complex> {
-    /// Stretch at a complex ω of positive real part; `None` without loss.
-    pub(super) fn at(loss: StretchLoss, omega: Complex) -> Option<Self> {
+impl CableAt<Complex> {
+    /// The frequency with the stretch of a rope with this loss at a complex ω of positive real part.
+    pub(super) fn with_stretch(self, loss: StretchLoss, omega: Complex) -> Self {
         let factor = Complex::from(1.0) + loss.at(omega).0;
-        loss.is_some().then(|| Self { factor, by_values: StretchLoss::by_values(omega) })
+        Self { stretch: loss.is_some().then_some(factor), by_loss: StretchLoss::by_values(omega), ..self }
     }
 }
 
@@ -132,12 +134,12 @@ struct TensionIntegrals<T> {
     squares: T,
     /// Product of the change and the strain.
     work: T,
+    /// Product of the parts of both changes along the cable.
+    along: T,
 }
 
 /// Integrals along the cable that the loss of its stretch needs beside those without it.
 struct StretchIntegrals<T> {
-    /// Product of the parts of both changes along the cable.
-    along: T,
     /// Products of a part along and a part across over the tension, and the same times the fraction of the length.
     turned: Vector<T>,
     turned_by_load: Vector<T>,
@@ -294,7 +296,7 @@ impl CableForm {
                 let far = carrier.map(|carrier| (self.local(&carrier.displacement_w), carrier.along));
                 self.vibrating_motion(vibrating, (&self.local(&end_w), theta), far.as_ref(), at, near, forces)
             }
-            Inertia::None | Inertia::Massless => self.slow_motion(&end_w, theta, carrier, at.stretch.as_ref()),
+            Inertia::None | Inertia::Massless => self.slow_motion(&end_w, theta, carrier, at.stretch),
         }
     }
 
@@ -304,7 +306,7 @@ impl CableForm {
         end_w: &Vector<T>,
         theta: &Vector<T>,
         carrier: Option<&Carrier<T>>,
-        stretch: Option<&StretchAt<T>>,
+        stretch: Option<T>,
     ) -> CableMotion<T> {
         let end = self.local(end_w);
         let (relative_w, mut elongation, along) = match carrier {
@@ -368,9 +370,9 @@ impl CableForm {
             }
         }
         for (point, gathered) in self.points.iter().zip(&gathered) {
-            add_times(&mut moved, &self.strain(point, gathered, at.stretch.as_ref()), T::from(point.weight));
+            add_times(&mut moved, &self.strain(point, gathered, at.stretch), T::from(point.weight));
         }
-        let force = self.static_force(&moved, at.stretch.as_ref());
+        let force = self.static_force(&moved, at.stretch);
         let tension = gathered.iter().map(|gathered| less(gathered, &force)).collect();
         let far_force = less(&whole, &force);
         CableMotion { displacement, tension, end_force_w: self.world(&force), theta: *theta, end: motions, far_force }
@@ -400,10 +402,12 @@ impl CableForm {
         factor: T,
     ) -> SideForces<T> {
         let mut integrals = self.tension_integrals(&a.tension, &b.tension);
-        if let Some(stretch) = &at.stretch {
-            let along = self.add_stretch(&mut integrals, (&a.tension, &b.tension), stretch);
-            sum.stretch_loss.iter_mut().zip(stretch.by_values).for_each(|(sum, by)| *sum += factor * along * by);
+        let mut by_stretch = integrals.along * (1.0 / self.axial_stiffness);
+        if let Some(stretch) = at.stretch {
+            self.add_stretch(&mut integrals, (&a.tension, &b.tension), stretch);
+            by_stretch = by_stretch / (stretch * stretch);
         }
+        sum.stretch_loss.iter_mut().zip(at.by_loss).for_each(|(sum, by)| *sum += factor * by_stretch * by);
         let mut moved = T::default();
         for ((point, u), w) in self.points.iter().zip(&a.displacement).zip(&b.displacement) {
             moved += dot(u, w) * point.weight;
@@ -447,7 +451,7 @@ impl CableForm {
             Inertia::Modes(vibrating) => {
                 if let Some(VibratingEnd { form, .. }) = &vibrating.drive {
                     let along = &vibrating.along;
-                    let at = DriveAtFrequency::of(own_square, at);
+                    let at = at.of_drive(own_square);
                     (rope, on_side) = form.add(sum, (&a.end, &b.end), sides, &at, factor);
                     let slips = form.chain().is_some().then_some(0);
                     self.add_turn(sum, a, b, [slips, form.sideways().map(|_| *along)], factor);
@@ -468,7 +472,7 @@ impl CableForm {
     fn tension_integrals<T: Field>(&self, a: &[Vector<T>], b: &[Vector<T>]) -> TensionIntegrals<T> {
         let zero = T::default();
         let (mut by_force, mut by_load) = ([zero; 3], [zero; 3]);
-        let (mut squares, mut work) = (zero, zero);
+        let (mut squares, mut work, mut along) = (zero, zero, zero);
         for ((point, u), w) in self.points.iter().zip(a).zip(b) {
             // Third derivative of |N| along both changes.
             let [h, v] = point.direction;
@@ -486,35 +490,35 @@ impl CableForm {
                 by_load[k] += value * point.fraction;
             }
 
-            let both = product + along_u * along_w;
+            let both_along = along_u * along_w;
+            let both = product + both_along;
+            along += both_along * point.weight;
             squares += both * point.weight;
             work += (both * (1.0 / self.axial_stiffness) + product * (1.0 / point.tension)) * point.weight;
         }
-        TensionIntegrals { by_force, by_load, squares, work }
+        TensionIntegrals { by_force, by_load, squares, work, along }
     }
 
-    /// Adds to integrals over two changes of the tension vector what the loss of the stretch changes. The result is the
-    /// derivative of the form by the factor h of the axial stiffness.
+    /// Adds to integrals over two changes of the tension vector what the factor h of the axial stiffness changes.
     fn add_stretch<T: Field>(
         &self,
         integrals: &mut TensionIntegrals<T>,
         (a, b): (&[Vector<T>], &[Vector<T>]),
-        stretch: &StretchAt<T>,
-    ) -> T {
-        let StretchIntegrals { along, turned, turned_by_load } = self.stretch_integrals(a, b);
+        stretch: T,
+    ) {
+        let StretchIntegrals { turned, turned_by_load } = self.stretch_integrals(a, b);
         let more = self.more_compliance(stretch);
         for k in 0..3 {
             integrals.by_force[k] += -(more * turned[k]);
             integrals.by_load[k] += -(more * turned_by_load[k]);
         }
-        integrals.squares += along * (T::from(1.0) / stretch.factor - T::from(1.0));
-        integrals.work += along * more;
-        along * (1.0 / self.axial_stiffness) / (stretch.factor * stretch.factor)
+        integrals.squares += integrals.along * (T::from(1.0) / stretch - T::from(1.0));
+        integrals.work += integrals.along * more;
     }
 
     fn stretch_integrals<T: Field>(&self, a: &[Vector<T>], b: &[Vector<T>]) -> StretchIntegrals<T> {
         let zero = [T::default(); 3];
-        let mut sum = StretchIntegrals { along: T::default(), turned: zero, turned_by_load: zero };
+        let mut sum = StretchIntegrals { turned: zero, turned_by_load: zero };
         for ((point, u), w) in self.points.iter().zip(a).zip(b) {
             let [h, v] = point.direction;
             let (along_u, along_w) = (u[0] * h + u[1] * v, w[0] * h + w[1] * v);
@@ -526,14 +530,13 @@ impl CableForm {
                 sum.turned[k] += value;
                 sum.turned_by_load[k] += value * point.fraction;
             }
-            sum.along += along_u * along_w * point.weight;
         }
         sum
     }
 
     /// Compliance of the stretch beyond 1/EA, `1/(EA h) − 1/EA` [1/N].
-    fn more_compliance<T: Field>(&self, stretch: &StretchAt<T>) -> T {
-        (T::from(1.0) / stretch.factor - T::from(1.0)) * (1.0 / self.axial_stiffness)
+    fn more_compliance<T: Field>(&self, stretch: T) -> T {
+        (T::from(1.0) / stretch - T::from(1.0)) * (1.0 / self.axial_stiffness)
     }
 
     /// Adds `factor` times the coefficients of the forces of a signal on the drive, over another motion, the first of
@@ -548,7 +551,7 @@ impl CableForm {
     ) -> T {
         let Inertia::Modes(vibrating) = &self.inertia else { return T::default() };
         let Some(VibratingEnd { form, .. }) = &vibrating.drive else { return T::default() };
-        let frequency = DriveAtFrequency::of(own_square, at);
+        let frequency = at.of_drive(own_square);
         form.add_signal(sum, signal, (other.of_drive(), side), (&frequency, servo, at.by_damping), factor)
     }
 
@@ -572,7 +575,7 @@ impl CableForm {
     }
 
     /// Strain δp' of a change of the tension vector at a point.
-    fn strain<T: Field>(&self, point: &CablePoint, change: &Vector<T>, stretch: Option<&StretchAt<T>>) -> Vector<T> {
+    fn strain<T: Field>(&self, point: &CablePoint, change: &Vector<T>, stretch: Option<T>) -> Vector<T> {
         let [h, v] = point.direction;
         let along = change[0] * h + change[1] * v;
         let (by_stretch, by_turn) = (1.0 / self.axial_stiffness, 1.0 / point.tension);
@@ -597,7 +600,7 @@ impl CableForm {
     ///
     /// # References
     /// docs/theory.md, equation (27e): with loss, `(1 + K F)⁻¹ K` with the further flexibility F.
-    fn static_force<T: Field>(&self, end: &Vector<T>, stretch: Option<&StretchAt<T>>) -> Vector<T> {
+    fn static_force<T: Field>(&self, end: &Vector<T>, stretch: Option<T>) -> Vector<T> {
         let [hh, hv, vv, out] = self.stiffness;
         let force = [end[0] * hh + end[1] * hv, end[0] * hv + end[1] * vv, end[2] * out];
         let Some(stretch) = stretch else { return force };

@@ -2,7 +2,7 @@
 
 use super::GradientError;
 use super::adjoint::{Adjoint, CableAdjoint};
-use super::cable_form::{CableAt, CableForm, CableMotion, GaussRules, StretchAt};
+use super::cable_form::{CableAt, CableForm, CableMotion, GaussRules};
 use super::drive_form::ControlAt;
 use super::end_form::EndAtRest;
 use super::scalar::{Field, Vector, add, add_times, cross, dot, symmetric_outer, times, vector};
@@ -250,7 +250,7 @@ impl RobotForm {
                 }
                 (AnyCable::Spring(spring), ..) => {
                     let carriers = [a, b].map(|of| self.supports.as_ref()?.carrier(i, &of.supports));
-                    let stretch = at.cables[i].stretch.as_ref();
+                    let stretch = (at.cables[i].stretch, at.cables[i].by_loss);
                     spring.add(of_cable, (&a.v, &a.theta), (&b.v, &b.theta), (&carriers, stretch), factor)
                 }
                 _ => unreachable!("every catenary has its motion"),
@@ -320,7 +320,7 @@ impl SpringForm {
         sum: &mut CableAdjoint<T>,
         a: (&Vector<T>, &Vector<T>),
         b: (&Vector<T>, &Vector<T>),
-        (carriers, stretch): (&[Option<Carrier<T>>; 2], Option<&StretchAt<T>>),
+        (carriers, (stretch, by_loss)): (&[Option<Carrier<T>>; 2], (Option<T>, [T; 2])),
         factor: T,
     ) -> SideForces<T> {
         let (chord, lever) = (vector(&self.chord_w), vector(&self.lever_w));
@@ -337,12 +337,9 @@ impl SpringForm {
         let squared = self.chord_w.norm_squared();
         let per_stiffness = 1.0 / (self.length * squared);
         let [along_a, along_b] = [dot(&u_a, &chord), dot(&u_b, &chord)];
-        let mut stretched = factor;
-        if let Some(stretch) = stretch {
-            let by_factor = factor * along_a * along_b * (self.axial_stiffness * per_stiffness);
-            sum.stretch_loss.iter_mut().zip(stretch.by_values).for_each(|(sum, by)| *sum += by_factor * by);
-            stretched = factor * stretch.factor;
-        }
+        let by_factor = factor * along_a * along_b * (self.axial_stiffness * per_stiffness);
+        sum.stretch_loss.iter_mut().zip(by_loss).for_each(|(sum, by)| *sum += by_factor * by);
+        let stretched = stretch.map_or(factor, |stretch| factor * stretch);
         let size = stretched * (self.axial_stiffness * per_stiffness);
         let mut by_chord = add(&times(&u_a, along_b), &times(&u_b, along_a));
         add_times(&mut by_chord, &chord, -(along_a * along_b * (2.0 / squared)));

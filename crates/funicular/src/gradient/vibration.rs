@@ -1,7 +1,7 @@
 //! Gradients of natural frequencies, damped frequencies, damping ratios and responses.
 
 use super::adjoint::Adjoint;
-use super::cable_form::{CableAt, CableMotion, LossesAt, StretchAt};
+use super::cable_form::{CableAt, CableMotion, LossesAt};
 use super::drive_form::ControlAt;
 use super::robot_form::{At, Driven, FormMotion, NearAmplitude, RobotForm};
 use super::scalar::{Vector, add_times, cross, vector};
@@ -154,7 +154,7 @@ impl<'g> VibrationGradients<'g> {
             .map(|i| {
                 let (square, by_damping) = self.dynamics.square_by_damping(i, omega);
                 let loss = self.gradients.robot().cables[i].material.stretch_loss;
-                CableAt { square, by_damping, stretch: StretchAt::at(loss, omega), ..CableAt::default() }
+                CableAt { square, by_damping, ..CableAt::default() }.with_stretch(loss, omega)
             })
             .collect();
         for term in self.dynamics.terms() {

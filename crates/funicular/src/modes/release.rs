@@ -127,7 +127,11 @@ impl Release {
             let along = |row: &Vec6| -> Complex { (0..6).map(|k| found.platform[k] * row[k]).sum() };
             // i (l·u)(u·f)/slope over −λ = −iω.
             let factor = -along(&force) / (found.slope * of.omega);
-            motions.push(DecayingMotion { mode, omega: of.omega, amplitude: rows.each_ref().map(|row| factor * along(row)) });
+            motions.push(DecayingMotion {
+                mode,
+                omega: of.omega,
+                amplitude: rows.each_ref().map(|row| factor * along(row)),
+            });
         }
 
         let (held, omitted) = at_rest(dynamics, undamped, &force, &rows);

@@ -9,8 +9,8 @@ use funicular::math::Vec3;
 use funicular::modes::{self, Mode};
 use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::{
-    CableChange, Control, Damping, DrumSide, GuideWheel, GuideWheelChange, Pulley, Robot, RobotChange, Servo, StretchLoss, Winch,
-    WinchMode, Wind,
+    CableChange, Control, Damping, DrumSide, GuideWheel, GuideWheelChange, Pulley, Robot, RobotChange, Servo,
+    StretchLoss, Winch, WinchMode, Wind,
 };
 use funicular::statics::{self, Equilibrium, StaticModel};
 use proptest::prelude::*;

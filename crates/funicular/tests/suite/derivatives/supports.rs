@@ -176,22 +176,31 @@ fn directions(parameters: &Parameters, seed: u64, size: f64) -> Vec<(String, Rob
         });
         all[index].1 = sum(&all[index].1, change, size);
     };
-    for (index, parameter) in parameters.list().iter().enumerate() {
-        let Some(change) = parameters.change(index) else { continue };
-        if parameter.part == RobotPart::State {
-            continue;
+    // The loss of the stretch comes last, which changes no other direction.
+    let list = parameters.list();
+    let is_loss = |index: &usize| list[*index].key.starts_with("axial_") && list[*index].value == 0.0;
+    let (loss, others): (Vec<usize>, Vec<usize>) = (0..list.len()).partition(is_loss);
+    let add_all = |indices: Vec<usize>, random: &mut Random, add: &mut dyn FnMut(String, &RobotChange, f64)| {
+        for index in indices {
+            let parameter = &list[index];
+            let Some(change) = parameters.change(index) else { continue };
+            if parameter.part == RobotPart::State {
+                continue;
+            }
+            let share = match parameter.unit {
+                "m" | "1" => 1.0,
+                _ => parameter.value.abs().max(1e-2),
+            };
+            let kind = format!("{} {}", parameter.keys[0], parameter.key);
+            add(kind, &change, size * share * random.about(0.0, 1.0));
         }
-        let share = match parameter.unit {
-            "m" | "1" => 1.0,
-            _ => parameter.value.abs().max(1e-2),
-        };
-        add(format!("{} {}", parameter.keys[0], parameter.key), &change, size * share * random.about(0.0, 1.0));
-    }
-    for i in 0..cables {
-        let mut change = RobotChange::none(cables);
-        change.cables[i].unstrained_length = 1.0;
-        add("lengths".to_owned(), &change, 0.3 * size * random.about(0.0, 1.0));
-    }
+    };
+    add_all(others, &mut random, &mut add);
+    let lengths: Vec<f64> = (0..cables).map(|_| 0.3 * size * random.about(0.0, 1.0)).collect();
+    let mut by_length = RobotChange::none(cables);
+    by_length.cables.iter_mut().zip(lengths).for_each(|(cable, length)| cable.unstrained_length = length);
+    add("lengths".to_owned(), &by_length, 1.0);
+    add_all(loss, &mut random, &mut add);
     all
 }
 
@@ -219,6 +228,8 @@ fn sum(one: &RobotChange, other: &RobotChange, factor: f64) -> RobotChange {
         cable.load_per_length_w += other.load_per_length_w * factor;
         cable.drag_width += other.drag_width * factor;
         cable.damping += other.damping * factor;
+        cable.loss_factor += other.loss_factor * factor;
+        cable.damping_time += other.damping_time * factor;
         cable.pulley.radius += other.pulley.radius * factor;
         cable.pulley.entry_direction_w += other.pulley.entry_direction_w * factor;
         cable.pulley.inertia += other.pulley.inertia * factor;

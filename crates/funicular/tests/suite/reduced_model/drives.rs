@@ -37,7 +37,7 @@ struct WinchRobot {
 /// Loss of the stretch of ropes with this damping, which matrices have as exactly.
 fn loss_beside(damping: Damping) -> StretchLoss {
     match damping {
-        Damping::Ratio(_) => StretchLoss { factor: 0.02, time: 0.0 },
+        Damping::Ratio(_) => StretchLoss { factor: 0.004, time: 0.0 },
         Damping::Viscous(_) => StretchLoss { factor: 0.0, time: 4e-4 },
     }
 }
