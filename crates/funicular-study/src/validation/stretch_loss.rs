@@ -133,11 +133,9 @@ fn of_rope(source: &str, of: &LossyRope) -> Result<Vec<Comparison>> {
     let viscous = StretchLoss { factor: 0.0, time: of.tau_s };
     let kelvin = stiffness(CableModel::CatenaryDynamic, 0.0, viscous, omega)?;
     let still = stiffness(CableModel::CatenaryStatic, 0.0, hysteretic, omega)?;
-    let shallow = stiffness(CableModel::ShallowDynamic, of.xi, hysteretic, omega)?;
     Ok(vec![
         case.together("stiffness with η and ξ [N/m]", &theirs(&of.k_eta_xi), &dynamic, 2e-9, bound),
         case.together("stiffness with τ [N/m]", &theirs(&of.k_kelvin_voigt_no_xi), &kelvin, 2e-9, bound),
         case.together("static stiffness with η [N/m]", &theirs(&of.k_static_eta), &still, 2e-9, bound),
-        case.together("shallow-dynamic with η and ξ [N/m]", &theirs(&of.k_shallow_eta_xi), &shallow, 2e-9, bound),
     ])
 }

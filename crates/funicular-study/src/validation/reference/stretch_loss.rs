@@ -60,5 +60,4 @@ pub(in crate::validation) struct LossyRope {
     pub(in crate::validation) k_eta_xi: [[[f64; 3]; 3]; 2],
     pub(in crate::validation) k_kelvin_voigt_no_xi: [[[f64; 3]; 3]; 2],
     pub(in crate::validation) k_static_eta: [[[f64; 3]; 3]; 2],
-    pub(in crate::validation) k_shallow_eta_xi: [[[f64; 3]; 3]; 2],
 }

@@ -59,10 +59,8 @@ impl Families {
 
         let tables = mesh.tables();
         let arc_lengths = positions.arc_lengths(mesh, &tables);
-        let mut strain = mesh.moments(&tables, moments);
-        let mut in_plane =
-            mesh.condense(&tables, in_plane, end.guide_in_plane().as_ref(), limit, &arc_lengths, moments)?;
-        strain.keep_needed(&mut in_plane, arc_lengths.len(), limit);
+        let strain = mesh.moments(&tables, moments);
+        let in_plane = mesh.condense(&tables, in_plane, end.guide_in_plane().as_ref(), limit, &arc_lengths, moments)?;
         let out_of_plane =
             mesh.condense(&tables, out_of_plane, end.guide_out_of_plane().as_ref(), limit, &arc_lengths, 0)?;
         let error = in_plane.error.max(out_of_plane.error);
@@ -84,9 +82,8 @@ impl Families {
             end.static_stiffness_coupled(catenary.tangent(), catenary.out_of_plane_stiffness())?;
         let tables = mesh.tables();
         let arc_lengths = positions.arc_lengths(mesh, &tables);
-        let mut strain = mesh.moments(&tables, moments);
-        let mut coupled = mesh.condense(&tables, ends, Some(&end.guide()), limit, &arc_lengths, moments)?;
-        strain.keep_needed(&mut coupled, arc_lengths.len(), limit);
+        let strain = mesh.moments(&tables, moments);
+        let coupled = mesh.condense(&tables, ends, Some(&end.guide()), limit, &arc_lengths, moments)?;
         let error = coupled.error;
         let flexibility = strain.flexibility(flexibility, Some(end), catenary.tangent());
         Ok(Self {

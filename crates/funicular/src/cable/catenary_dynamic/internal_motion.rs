@@ -3,7 +3,6 @@
 use super::{CatenaryDynamic, Family, PoleResidue};
 use crate::math::{Complex, DMat};
 use std::array::from_fn;
-use std::ops::Range;
 
 /// Displacement of stations along a catenary-dynamic cable (D components per point) by motions of its ends (N = 2D
 /// components).
@@ -61,12 +60,6 @@ impl<const D: usize, const N: usize> Displacements<D, N> {
         for (mode, other) in self.modes.iter_mut().zip(&others.modes) {
             mode.splice(at..at, other.iter().copied());
         }
-    }
-
-    /// Removes stations.
-    pub(super) fn remove(&mut self, range: Range<usize>) {
-        self.still.drain(range.clone());
-        self.modes.iter_mut().for_each(|mode| drop(mode.drain(range.clone())));
     }
 
     /// Sums of stations, each with its factor.

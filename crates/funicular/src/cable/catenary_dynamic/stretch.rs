@@ -7,11 +7,9 @@
 
 use super::Displacements;
 use super::moving_end::MovingEnd;
-use super::partition::Condensed;
 use crate::catenary::Rope;
 use crate::drive::ChainStretch;
 use crate::math::{DMat, RowVec3};
-use std::ops::Range;
 
 /// Motions in which a cable with loss stretches. They stand between the motions of its drive along the cable and that
 /// sideways.
@@ -73,33 +71,6 @@ impl StrainMoments {
     /// Number of moments.
     pub(super) fn count(&self) -> usize {
         self.stiffness.len()
-    }
-
-    /// Leaves out the last moments, stations from the number `first` on, that hardly take part in slow motion and in the
-    /// clamped modes below ω = `limit` [rad/s].
-    pub(super) fn keep_needed<const D: usize, const N: usize, const E: usize>(
-        &mut self,
-        of: &mut Condensed<D, N, E>,
-        first: usize,
-        limit: f64,
-    ) {
-        let count = self.count();
-        let has_tail = |at: &dyn Fn(usize) -> f64, from: usize, negligible: f64| {
-            let sum = |range: Range<usize>| range.map(|j| at(first + j).powi(2)).sum::<f64>();
-            sum(from..count) > negligible * sum(0..count)
-        };
-        let stations = &of.stations;
-        let below = of.ends.poles_below(limit * limit);
-        let is_needed = |j: usize| {
-            (0..N).any(|end| has_tail(&|at| stations.still[at][0][end], j, NEGLIGIBLE))
-                || stations.modes[..below].iter().any(|mode| has_tail(&|at| mode[at][0], j, NEGLIGIBLE_IN_MODES))
-        };
-        let needed = (1..count).rev().find(|j| is_needed(*j)).map_or(1, |last| last + 1);
-        if needed < count {
-            of.stations.remove(first + needed..first + count);
-            self.by_force.truncate(needed);
-            self.stiffness.truncate(needed);
-        }
     }
 
     /// Stiffness of all motions in which a cable with this end stretches.
@@ -187,11 +158,6 @@ impl StrainMoments {
 fn pulled(held: [[f64; 2]; 2], [h, v]: [f64; 2]) -> [f64; 2] {
     held.map(|row| row[0] * h + row[1] * v)
 }
-
-/// Share of the last moments in the energy of the stretch that is left out: in slow motion it is the relative error of the
-/// loss, in clamped modes that of their own small share.
-const NEGLIGIBLE: f64 = 1e-9;
-const NEGLIGIBLE_IN_MODES: f64 = 1e-7;
 
 /// Motions in which the drum side behind an end stretches.
 fn stretches(end: Option<&MovingEnd>) -> &[ChainStretch] {
