@@ -56,7 +56,7 @@ impl Watch for CtrlC {
 }
 
 /// Dictionary from JSON.
-fn loaded<'py>(py: Python<'py>, bytes: &[u8]) -> PyResult<TextKeyed<'py>> {
+pub(crate) fn loaded<'py>(py: Python<'py>, bytes: &[u8]) -> PyResult<TextKeyed<'py>> {
     let dictionary = py.import("json")?.call_method1("loads", (PyBytes::new(py, bytes),))?;
     Ok(TextKeyed(dictionary.cast_into()?))
 }

@@ -270,15 +270,6 @@ impl Count {
     }
 }
 
-impl Count {
-    /// The number if it has 32 bits.
-    pub(crate) fn within_u32(self, what: &str) -> PyResult<u32> {
-        let rule = "give a whole number from 0 to 4294967295";
-        let number = self.within(what, 0..=u32::MAX as usize, rule)?;
-        u32::try_from(number).map_err(|error| errors::input(format!("`{what}`: {error}")))
-    }
-}
-
 /// First value, last value and number of values, in a tuple, list or array.
 pub(crate) struct FirstLastCount(Result<[Py<PyAny>; 3], Unusable>);
 

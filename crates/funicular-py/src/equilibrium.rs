@@ -5,14 +5,14 @@ use crate::answers::{self, in_words};
 use crate::arrays::{Count, Matrix, PickleParts, Tensor, TextKeyed, Vector};
 use crate::errors;
 use crate::pose::PyPose;
-use crate::request::joined;
+use crate::request::{Keywords, joined};
 use crate::robot::PyRobot;
 use funicular::cable::Sag;
 use funicular::statics;
 use funicular_study::analyses;
 use funicular_study::analyses::statics::Extras;
 use funicular_study::at_rest::{self, AtRest};
-use funicular_study::request::{State, Tensions};
+use funicular_study::request::{Request, State, Tensions};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -38,6 +38,11 @@ impl PyEquilibrium {
 
     pub(crate) fn into_object(self, py: Python<'_>) -> PyResult<Py<Self>> {
         Py::new(py, PyClassInitializer::from(PyAnalyses).add_subclass(self))
+    }
+
+    /// Request about this equilibrium.
+    pub(crate) fn request(&self, keywords: Keywords) -> PyResult<Request> {
+        keywords.request_at(&self.of.get().source, &self.state, &self.tensions)
     }
 
     fn sags(&self) -> impl Iterator<Item = Sag> {
@@ -283,7 +288,7 @@ impl PyEquilibrium {
         let py = slf.py();
         let Self { of, state, tensions, .. } = slf.get();
         // The keys of a request are the keywords of `Robot.equilibrium`.
-        let keywords = joined(&[&serde_json::to_value(state), &serde_json::to_value(tensions)])?;
+        let keywords = joined(state, tensions)?;
         let rebuild = py.import("funicular._rebuild")?.getattr("equilibrium")?;
         Ok((rebuild, (of.clone_ref(py), keywords)))
     }

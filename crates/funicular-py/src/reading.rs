@@ -7,21 +7,29 @@ use crate::labels::Names;
 use crate::pose::{PoseLike, PyPose};
 use crate::sweep;
 use crate::texts::Texts;
-use funicular_study::request::Pose;
+use funicular_study::names::no_such;
+use funicular_study::request::{self, Choice, Declared, Experiment, Key, Pose, ProgramForm, commands};
+use funicular_study::wording::{Words, told};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple};
 use serde_json::{Map, Value as Json, json};
 use std::convert::Infallible;
+use std::sync::LazyLock;
 
 /// Kinds of the values of requests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Number,
-    Count,
+    /// Whole number from the first to the last.
+    Count(u64, u64),
     Flag,
     Text,
-    /// One text or several.
+    /// One of several names of such a thing.
+    Name(&'static str, &'static [Choice]),
+    /// One text or several, which are a list.
     Texts,
+    /// One text, or a list of several.
+    TextOrTexts,
     /// Three numbers x, y, z.
     Vector,
     /// Components xx, yy, zz, xy, xz, yz.
@@ -44,73 +52,109 @@ enum Kind {
     Any,
 }
 
-/// Kind of the value of a key.
-fn kind(command: &str, key: &str) -> Kind {
-    match (command, key) {
-        ("pose-error", "mass_kg") => return Kind::Masses,
-        ("uncertainty", "at_hz") => return Kind::OneOrRow,
-        ("new", "cables") => return Kind::Count,
-        _ => {}
+impl Kind {
+    /// Kind of a declared key.
+    fn of(key: &'static Key) -> Self {
+        match &key.kind {
+            request::Kind::Switch => Self::Flag,
+            request::Kind::Number(_) => Self::Number,
+            request::Kind::Count(range) => Self::Count(*range.start(), *range.end()),
+            request::Kind::PerCable(_) => Self::PerCable,
+            request::Kind::OneOrPerCable(_) => Self::OneOrPerCable,
+            request::Kind::Vector => Self::Vector,
+            request::Kind::Pose => Self::Pose,
+            request::Kind::Poses => Self::Poses,
+            request::Kind::Tensor => Self::Inertia,
+            request::Kind::Name(what, choices) => Self::Name(what, choices),
+            request::Kind::Text => Self::Text,
+            request::Kind::Texts => Self::Texts,
+            request::Kind::Sizes => Self::Sizes,
+            request::Kind::Written(form) => match form {
+                ProgramForm::Positive | ProgramForm::NotNegative => Self::Number,
+                ProgramForm::MassRange => Self::Masses,
+                ProgramForm::Band => Self::Bounds,
+                _ => Self::Text,
+            },
+            request::Kind::List(form) | request::Kind::Commas(form) => match form {
+                ProgramForm::GridAxis | ProgramForm::Variation => Self::Axes,
+                ProgramForm::Positive => Self::Row,
+                ProgramForm::NotNegative => Self::OneOrRow,
+                ProgramForm::Fit | ProgramForm::Change => Self::Any,
+                _ => Self::Texts,
+            },
+            request::Kind::OneOrMore(_) => Self::TextOrTexts,
+            request::Kind::Data(_) if key.name == "cables" => Self::Texts,
+            request::Kind::Data(_) => Self::Any,
+        }
     }
-    match key {
-        "mass_kg"
-        | "min_tension_n"
-        | "max_tension_n"
-        | "at_hz"
-        | "below_hz"
-        | "from_hz"
-        | "to_hz"
-        | "prominence_db"
-        | "platform_share"
-        | "tolerance"
-        | "tolerance_mm"
-        | "damping_at_hz"
-        | "up_to_hz"
-        | "min_frequency_hz"
-        | "min_stiffness_n_per_m"
-        | "response_noise"
-        | "frequency_noise"
-        | "damping_noise"
-        | "axial_stiffness_n"
-        | "mass_kg_per_m"
-        | "youngs_modulus_pa"
-        | "diameter_m"
-        | "modes_below_hz"
-        | "position_std_m"
-        | "rotation_std_deg"
-        | "tension_std_n"
-        | "length_std_m"
-        | "minimum"
-        | "maximum"
-        | "prior"
-        | "prior_std"
-        | "plus_minus" => Kind::Number,
-        "points" | "stations" | "order" | "samples" | "seed" | "max_iterations" | "starts" | "segments" => Kind::Count,
-        "hold_lengths_of_pose"
-        | "all"
-        | "friction_interval"
-        | "in_plane_only"
-        | "log"
-        | "adaptive"
-        | "damped"
-        | "rigid_cables"
-        | "platform" => Kind::Flag,
-        "static_model" | "tension_rule" | "cable_model" | "assembly" | "winches" | "hold" | "per" | "method"
-        | "goal" | "form" | "to" | "name" | "motion" | "rope" | "csv_unit" | "cable_set" | "path" => Kind::Text,
-        "of" | "by" | "quantities" | "profile" | "cables" => Kind::Texts,
-        "force_n" | "moment_n_m" | "load_point_m" | "wind_m_s" | "cable_load_n_per_m" | "input_point_m"
-        | "output_point_m" | "payload_center_m" | "box_m" | "center_of_mass_m" | "point_m" => Kind::Vector,
-        "inertia_kg_m2" => Kind::Inertia,
-        "avoid_hz" => Kind::Bounds,
-        "weights" => Kind::Row,
-        "lengths_m" | "measured_lengths_m" | "measured_tensions_n" => Kind::PerCable,
-        "target_tension_n" => Kind::OneOrPerCable,
-        "pose" | "measured_pose" => Kind::Pose,
-        "poses" => Kind::Poses,
-        "grid" | "vary" => Kind::Axes,
-        "deviations" | "tolerances" => Kind::Sizes,
-        _ => Kind::Any,
+
+    /// Kind of a key of a command; of a part of a value, such as the bounds of a number, without a command.
+    fn of_key(command: &str, name: &str) -> Self {
+        static OF_EXPERIMENTS: LazyLock<Vec<Key>> = LazyLock::new(Experiment::keys);
+
+        let command = commands().iter().find(|of| of.name == command);
+        let declared = command.map_or(&[][..], |of| &of.keys).iter();
+        let in_experiments = OF_EXPERIMENTS.iter().filter(|_| command.is_some_and(|of| of.name == "identify"));
+        if let Some(key) = declared.chain(in_experiments).find(|key| key.name == name) {
+            return Self::of(key);
+        }
+        match name {
+            "minimum" | "maximum" | "prior" | "prior_std" | "plus_minus" => Self::Number,
+            "count" => Self::Count(0, u64::MAX),
+            "point_m" => Self::Vector,
+            _ => Self::Any,
+        }
     }
+
+    /// Type of Python's keyword.
+    fn python_type(self) -> &'static str {
+        match self {
+            Self::Number => "SupportsFloat | SupportsIndex",
+            Self::Count(..) => "SupportsIndex",
+            Self::Flag => "bool",
+            Self::Text | Self::Name(..) => "str",
+            Self::Texts | Self::TextOrTexts => "str | Sequence[str]",
+            Self::Vector
+            | Self::Inertia
+            | Self::Bounds
+            | Self::Row
+            | Self::OneOrRow
+            | Self::PerCable
+            | Self::OneOrPerCable
+            | Self::Poses => "ArrayLike",
+            Self::Pose => "Pose | ArrayLike",
+            Self::Masses => "tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsIndex]",
+            Self::Axes => "Mapping[str, ArrayLike]",
+            Self::Sizes | Self::Any => "Any",
+        }
+    }
+}
+
+/// Returns the declarations of all keywords as JSON: by commands, each key with its name, its type in Python, its
+/// meaning, its default, what stands for it if it is not given, the heading under which it stands, and its names.
+#[pyfunction]
+pub(crate) fn declarations() -> String {
+    let key = |key: &'static Key| {
+        let (names, meanings) = match &key.kind {
+            request::Kind::Name(_, choices) => {
+                choices.iter().map(|of| (of.name, told(of.about, Words::Python))).unzip()
+            }
+            _ => (Vec::new(), Vec::new()),
+        };
+        json!({
+            "name": key.name,
+            "type": Kind::of(key).python_type(),
+            "about": told(&key.about, Words::Python),
+            "default": key.default,
+            "otherwise": key.otherwise,
+            "heading": key.heading,
+            "required": key.required,
+            "names": names,
+            "meanings": meanings,
+        })
+    };
+    let all = commands().iter().map(|of| (of.name.to_owned(), of.keys.iter().map(key).collect::<Json>()));
+    Json::Object(all.collect()).to_string()
 }
 
 /// Reads the value of a key of a request, as JSON; `name` stands in errors, and `cables` are the names of the cables,
@@ -123,7 +167,18 @@ pub(crate) fn argument(
     value: &Bound<'_, PyAny>,
     cables: Vec<String>,
 ) -> PyResult<String> {
-    Ok(of_kind(kind(command, key), name, value, &cables)?.to_string())
+    Ok(read(command, key, name, value, &cables)?.to_string())
+}
+
+/// Reads the value of a key of a command; `name` stands in errors.
+pub(crate) fn read(
+    command: &str,
+    key: &str,
+    name: &str,
+    value: &Bound<'_, PyAny>,
+    cables: &[String],
+) -> PyResult<Json> {
+    of_kind(Kind::of_key(command, key), name, value, cables)
 }
 
 fn of_kind(kind: Kind, name: &str, value: &Bound<'_, PyAny>, cables: &[String]) -> PyResult<Json> {
@@ -136,18 +191,35 @@ fn of_kind(kind: Kind, name: &str, value: &Bound<'_, PyAny>, cables: &[String]) 
             let Ok::<Number, Infallible>(number) = value.extract();
             json!(number.finite(name)?)
         }
-        Kind::Count => {
+        Kind::Count(first, last) => {
             let Ok::<Count, Infallible>(count) = value.extract();
-            json!(count.within(name, 0..=usize::MAX, "it must be zero or more")?)
+            let rule = match (first, last) {
+                (0, u64::MAX) => "it must be zero or more".to_owned(),
+                (_, u64::MAX) => format!("give a whole number from {first} on"),
+                _ => format!("give a whole number from {first} to {last}"),
+            };
+            json!(count.within(name, first as usize..=last as usize, &rule)?)
         }
         Kind::Flag => json!(flag(name, value)?),
-        Kind::Text => match value.cast::<PyString>() {
-            Ok(text) => json!(text.to_str()?),
-            Err(_) => return Err(Unusable::value(value, "give text").named(name)),
-        },
+        Kind::Text => json!(text(name, value)?),
+        Kind::Name(what, choices) => {
+            let given = text(name, value)?;
+            if !choices.iter().any(|choice| choice.name == given) {
+                let names: Vec<String> = choices.iter().map(|choice| choice.name.to_owned()).collect();
+                return Err(errors::input(format!("`{name}`: {}", no_such(what, &given, &names))));
+            }
+            json!(given)
+        }
         Kind::Texts => {
             let Ok::<Texts, Infallible>(texts) = value.extract();
-            json!(texts.list(name)?)
+            json!(texts.not_empty(name)?)
+        }
+        Kind::TextOrTexts => {
+            let Ok::<Texts, Infallible>(texts) = value.extract();
+            match texts.one_or_several(name)? {
+                (mut texts, true) => json!(texts.pop()),
+                (texts, false) => json!(texts),
+            }
         }
         Kind::Vector => json!(checked(name, &numbers().three(name)?)?),
         Kind::Inertia => {
@@ -178,13 +250,23 @@ fn of_kind(kind: Kind, name: &str, value: &Bound<'_, PyAny>, cables: &[String]) 
             json!(poses)
         }
         Kind::Masses => json!(value.extract::<arrays::FirstLastCount>()?.masses(name, usize::MAX)?),
-        Kind::Axes if value.cast::<PyMapping>().is_ok() => {
+        // A request in JSON has a list of axes.
+        Kind::Axes if value.cast::<PyList>().is_ok() => any(name, value, 0)?,
+        Kind::Axes => {
             let axes = value.extract::<sweep::Axes>()?;
             serde_json::to_value(&axes.0).map_err(|error| errors::input(error.to_string()))?
         }
         Kind::Sizes => json!(sizes(name, value)?),
-        Kind::Axes | Kind::Any => any(name, value, 0)?,
+        Kind::Any => any(name, value, 0)?,
     })
+}
+
+/// One text.
+fn text(name: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
+    match value.cast::<PyString>() {
+        Ok(text) => Ok(text.to_str()?.to_owned()),
+        Err(_) => Err(Unusable::value(value, "give text").named(name)),
+    }
 }
 
 /// Truth value.

@@ -1,9 +1,6 @@
 //! `funicular.Robot`: the text of a robot file and the robot that the core has read from it.
 
-mod grids;
-mod inverse;
-mod statics;
-mod uncertainty;
+mod computed;
 
 use crate::analyses::PyAnalyses;
 use crate::answers;

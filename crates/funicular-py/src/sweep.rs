@@ -8,7 +8,7 @@ mod plan_data;
 mod table;
 mod work;
 
-pub(crate) use arguments::{Axes, ExecutorArgument, ProgressArgument, each_point, poses};
+pub(crate) use arguments::{Axes, ExecutorArgument, ProgressArgument, poses};
 pub(crate) use plan::PyPlan;
 pub(crate) use table::PyTable;
 pub(crate) use work::PyWork;

@@ -71,8 +71,3 @@ impl Texts {
         Ok(all)
     }
 }
-
-/// All texts of an optional argument, at least one if it is given.
-pub(crate) fn not_empty(texts: Option<Texts>, what: &str) -> PyResult<Option<Vec<String>>> {
-    texts.map(|texts| texts.not_empty(what)).transpose()
-}

@@ -1,21 +1,14 @@
 //! Stiffness, modes and responses of a robot at an equilibrium.
 
 use crate::answers::{self, CtrlC};
-use crate::arrays::{ComplexNumbers, Count, Matrix, Number, Numbers, OwnedArray, ResultsObject, Tensor, Vector};
+use crate::arrays::{ComplexNumbers, Matrix, Number, Numbers, OwnedArray, ResultsObject, Tensor, TextKeyed, Vector};
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
 use crate::interrupt::{interruptible, interruptible_in_steps};
-use crate::reading::sizes;
-use crate::request::{model, named, points, share, terms, three};
-use crate::texts::{Texts, not_empty};
-use funicular::compare::TOLERANCE;
-use funicular::gradient::Hold;
 use funicular::math::CMat6;
-use funicular::modes::damped::DECAY_PERCENT;
 use funicular::response;
 use funicular_study::analyses::{self, cable, frf};
 use funicular_study::at_rest;
-use funicular_study::names::Per;
 use funicular_study::request;
 use numpy::Complex64;
 use numpy::ndarray::{ArrayD, IxDyn};
@@ -28,6 +21,9 @@ use std::sync::Arc;
 /// Number of frequencies between two checks for Ctrl-C: some 10 ms. It is a multiple of every number of lanes, so that
 /// results do not depend on it.
 const CHUNK: usize = 16_384;
+
+/// Number of functions of Python between a line of the user and the compiled half.
+const LEVEL: i32 = 3;
 
 fn highest(frequencies: &[f64]) -> f64 {
     frequencies.iter().copied().fold(0.0, f64::max)
@@ -72,13 +68,9 @@ pub(crate) fn stiffness(
     py: Python<'_>,
     of: &PyEquilibrium,
     at_hz: Option<Numbers>,
-    cable_model: Option<&str>,
-    assembly: &str,
-    in_plane_only: bool,
-    winches: &str,
+    model: request::Model,
 ) -> PyResult<Stiffness> {
     let (frequencies, one) = at_hz.map_or(Ok((vec![0.0], true)), |hz| hz.frequencies_of("at_hz"))?;
-    let model = model(cable_model, assembly, in_plane_only, winches)?;
     let is_static = frequencies[..] == [0.0];
     let at_rest = Arc::clone(&of.at_rest);
     let matrices = interruptible_in_steps(py, move |watch| {
@@ -92,122 +84,12 @@ pub(crate) fn stiffness(
     })
 }
 
-/// `funicular.Modes`.
-pub(crate) struct ModesObject(Py<PyAny>);
-
-impl<'py> IntoPyObject<'py> for ModesObject {
-    type Target = PyAny;
-    type Output = Bound<'py, PyAny>;
-    type Error = Infallible;
-
-    const OUTPUT_TYPE: PyStaticExpr =
-        PyStaticExpr::Attribute { value: &PyStaticExpr::Name { id: "funicular._results" }, attr: "Modes" };
-
-    fn into_pyobject(self, py: Python<'py>) -> Result<Self::Output, Self::Error> {
-        Ok(self.0.into_bound(py))
-    }
-}
-
-/// Keywords of `modes`.
-pub(crate) struct ModesKeywords<'a> {
-    pub(crate) below_hz: Option<Number>,
-    pub(crate) input: Option<String>,
-    pub(crate) output: Option<String>,
-    pub(crate) input_point_m: Option<Numbers>,
-    pub(crate) output_point_m: Option<Numbers>,
-    pub(crate) stations: Option<Count>,
-    pub(crate) cable_model: Option<&'a str>,
-    pub(crate) assembly: &'a str,
-    pub(crate) in_plane_only: bool,
-    pub(crate) winches: &'a str,
-    pub(crate) platform_share: Option<Number>,
-    pub(crate) decay_percent: Option<Number>,
-    pub(crate) damped: bool,
-    pub(crate) rigid_cables: bool,
-}
-
-/// Keywords of `compare`.
-pub(crate) struct CompareKeywords<'a> {
-    pub(crate) below_hz: Number,
-    pub(crate) platform: bool,
-    pub(crate) platform_share: Option<Number>,
-    pub(crate) tolerance: Option<Number>,
-    pub(crate) assembly: &'a str,
-    pub(crate) in_plane_only: bool,
-    pub(crate) winches: &'a str,
-}
-
-/// Keywords of `gradient`.
-pub(crate) struct GradientKeywords<'a> {
-    pub(crate) of: Option<Texts>,
-    pub(crate) by: Option<Texts>,
-    pub(crate) hold: &'a str,
-    pub(crate) per: &'a str,
-    pub(crate) tolerances: Option<Bound<'a, PyAny>>,
-    pub(crate) below_hz: Option<Number>,
-    pub(crate) at_hz: Option<Number>,
-    pub(crate) input: Option<String>,
-    pub(crate) output: Option<String>,
-    pub(crate) input_point_m: Option<Numbers>,
-    pub(crate) output_point_m: Option<Numbers>,
-    pub(crate) cable_model: Option<&'a str>,
-    pub(crate) assembly: &'a str,
-    pub(crate) in_plane_only: bool,
-    pub(crate) winches: &'a str,
-}
-
-pub(crate) fn gradient<'py>(
+/// Modes with the keys of the program's JSON, and the request of their derivatives if they have any.
+pub(crate) fn modes<'py>(
     py: Python<'py>,
     of: &PyEquilibrium,
-    keywords: GradientKeywords<'_>,
-) -> PyResult<ResultsObject<'py>> {
-    let request = request::GradientRequest {
-        robot: of.of.get().source.clone(),
-        of: not_empty(keywords.of, "of")?.unwrap_or_else(request::frequencies),
-        by: not_empty(keywords.by, "by")?.unwrap_or_default(),
-        hold: named("hold", keywords.hold)?,
-        per: named("per", keywords.per)?,
-        tolerances: keywords.tolerances.map_or_else(|| Ok(Vec::new()), |given| sizes("tolerances", &given))?,
-        below_hz: keywords.below_hz.map(|hz| hz.value("below_hz")).transpose()?,
-        at_hz: keywords.at_hz.map(|hz| hz.not_negative("at_hz")).transpose()?,
-        input: keywords.input,
-        output: keywords.output,
-        points: points(keywords.input_point_m, keywords.output_point_m)?,
-        state: of.state.clone(),
-        tensions: of.tensions.clone(),
-        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
-    };
-    let at_rest = Arc::clone(&of.at_rest);
-    let found = interruptible(py, move || analyses::gradient::about(&at_rest, &request))?;
-    answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
-}
-
-impl ModesKeywords<'_> {
-    pub(crate) fn request(self, of: &PyEquilibrium) -> PyResult<request::ModesRequest> {
-        let stations = |count: Count| {
-            let max = request::MAX_STATIONS;
-            count.within("stations", 2..=max, &format!("give a whole number from 2 to {max}"))
-        };
-        Ok(request::ModesRequest {
-            robot: of.of.get().source.clone(),
-            below_hz: self.below_hz.map(|hz| hz.value("below_hz")).transpose()?,
-            input: self.input,
-            output: self.output,
-            points: points(self.input_point_m, self.output_point_m)?,
-            stations: self.stations.map(stations).transpose()?,
-            platform_share: share(self.platform_share)?,
-            decay_percent: self.decay_percent.map_or(Ok(DECAY_PERCENT), |percent| percent.value("decay_percent"))?,
-            damped: self.damped,
-            rigid_cables: self.rigid_cables,
-            state: of.state.clone(),
-            tensions: of.tensions.clone(),
-            model: model(self.cable_model, self.assembly, self.in_plane_only, self.winches)?,
-        })
-    }
-}
-
-pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<'_>) -> PyResult<ModesObject> {
-    let mut request = keywords.request(of)?;
+    mut request: request::ModesRequest,
+) -> PyResult<(TextKeyed<'py>, Option<String>)> {
     if !request.rigid_cables {
         let linearisation = at_rest::linearisation(&request.model, of.at_rest.equilibrium.model);
         let (at_rest, given) = (Arc::clone(&of.at_rest), request.below_hz);
@@ -215,105 +97,36 @@ pub(crate) fn modes(py: Python<'_>, of: &PyEquilibrium, keywords: ModesKeywords<
         request.below_hz = Some(limit.map_err(|error| errors::study(&error))?);
     }
 
-    // The request of the derivatives of these modes, for `Modes.gradient`.
     let own = request.clone();
     let gradient = request::Request::Gradient(request::GradientRequest {
         robot: own.robot,
-        of: request::frequencies(),
-        by: Vec::new(),
-        hold: Hold::default(),
-        per: Per::default(),
-        tolerances: Vec::new(),
         below_hz: own.below_hz,
-        at_hz: None,
-        input: None,
-        output: None,
-        points: request::ResponsePoints::default(),
         state: own.state,
         tensions: own.tensions,
         model: own.model,
+        ..request::GradientRequest::default()
     });
     let gradient = (!request.rigid_cables).then(|| gradient.to_value().to_string());
 
     let at_rest = Arc::clone(&of.at_rest);
     let found = interruptible(py, move || analyses::modes::about(&at_rest, &request))?;
-    let found = answers::plain(py, &found.map_err(|error| errors::study(&error))?)?;
-    let made = py.import("funicular._results")?.call_method1("modes", (found.0, gradient))?;
-    Ok(ModesObject(made.unbind()))
+    Ok((answers::plain(py, &found.map_err(|error| errors::study(&error))?)?, gradient))
 }
 
-pub(crate) fn compare<'py>(
-    py: Python<'py>,
-    of: &PyEquilibrium,
-    keywords: CompareKeywords<'_>,
-) -> PyResult<ResultsObject<'py>> {
-    let request = request::CompareRequest {
-        robot: of.of.get().source.clone(),
-        below_hz: keywords.below_hz.value("below_hz")?,
-        platform: keywords.platform,
-        platform_share: share(keywords.platform_share)?,
-        tolerance: keywords.tolerance.map_or(Ok(TOLERANCE), |tolerance| tolerance.value("tolerance"))?,
-        state: of.state.clone(),
-        tensions: of.tensions.clone(),
-        terms: terms(keywords.assembly, keywords.in_plane_only, keywords.winches)?,
-    };
-    let at_rest = Arc::clone(&of.at_rest);
-    let found = interruptible(py, move || analyses::compare::about(&at_rest, &request))?;
-    answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
-}
-
-/// Keywords of `settle`.
-pub(crate) struct SettleKeywords<'a> {
-    pub(crate) release_n: Option<Numbers>,
-    pub(crate) release_n_m: Option<Numbers>,
-    pub(crate) input_point_m: Option<Numbers>,
-    pub(crate) output_point_m: Option<Numbers>,
-    pub(crate) tolerance_m: Option<Number>,
-    pub(crate) below_hz: Option<Number>,
-    pub(crate) cable_model: Option<&'a str>,
-    pub(crate) assembly: &'a str,
-    pub(crate) in_plane_only: bool,
-    pub(crate) winches: &'a str,
-}
-
-pub(crate) fn settle<'py>(
-    py: Python<'py>,
-    of: &PyEquilibrium,
-    keywords: SettleKeywords<'_>,
-) -> PyResult<ResultsObject<'py>> {
-    let tolerance = |given: Number| given.value("tolerance_m");
-    let request = request::SettleRequest {
-        robot: of.of.get().source.clone(),
-        release_n: three(keywords.release_n, "release_n")?,
-        release_n_m: three(keywords.release_n_m, "release_n_m")?,
-        points: points(keywords.input_point_m, keywords.output_point_m)?,
-        tolerance_m: keywords.tolerance_m.map_or(Ok(request::SETTLED_WITHIN), tolerance)?,
-        below_hz: keywords.below_hz.map(|hz| hz.value("below_hz")).transpose()?,
-        state: of.state.clone(),
-        tensions: of.tensions.clone(),
-        model: model(keywords.cable_model, keywords.assembly, keywords.in_plane_only, keywords.winches)?,
-    };
-    let at_rest = Arc::clone(&of.at_rest);
-    let found = interruptible(py, move || analyses::settle::about(&at_rest, &request))?;
-    answers::with_arrays(py, &found.map_err(|error| errors::study(&error))?)
-}
-
+/// Stiffness of one cable over frequency; `of` has its models.
 pub(crate) fn cable<'py>(
     py: Python<'py>,
-    of: &PyEquilibrium,
-    name: &str,
+    rest: &PyEquilibrium,
+    name: String,
     hz: Numbers,
-    cable_model: Option<&str>,
-    in_plane_only: bool,
-    winches: &str,
+    of: &request::CableRequest,
 ) -> PyResult<ResultsObject<'py>> {
     let (frequency_hz, _) = hz.frequencies()?;
     if frequency_hz.is_empty() {
         return Err(errors::input("`hz` is an empty list: give at least one frequency".to_owned()));
     }
-    let cable_model = cable_model.map(|name| named("cable_model", name)).transpose()?;
-    let winches = named("winches", winches)?;
-    let (at_rest, name) = (Arc::clone(&of.at_rest), name.to_owned());
+    let (at_rest, cable_model, in_plane_only, winches) =
+        (Arc::clone(&rest.at_rest), of.cable_model, of.in_plane_only, of.winches);
     let found = interruptible_in_steps(py, move |watch| {
         let requested = cable::RequestedCable { name: &name, frequency_hz, cable_model, in_plane_only, winches };
         cable::about(&at_rest, requested, watch)
@@ -353,7 +166,6 @@ impl<'py> IntoPyObject<'py> for Responses {
     type Output = Bound<'py, PyAny>;
     type Error = PyErr;
 
-    // scripts/test-python makes overloads of it, one per value of `adaptive`.
     const OUTPUT_TYPE: PyStaticExpr = PyStaticExpr::BinOp {
         left: &<Vector<Complex64> as IntoPyObject<'py>>::OUTPUT_TYPE,
         op: PyStaticOperator::BitOr,
@@ -371,59 +183,22 @@ impl<'py> IntoPyObject<'py> for Responses {
 /// Minimum height of a peak above the valleys beside it, if none is given [dB]; the default of the requests.
 pub(crate) const PROMINENCE_DB: f64 = 1.0;
 
-/// Keywords for inputs and outputs of responses.
-pub(crate) struct PairKeywords<'a> {
-    pub(crate) input: Option<Texts>,
-    pub(crate) output: Option<Texts>,
-    pub(crate) adaptive: bool,
-    pub(crate) input_point_m: Option<Numbers>,
-    pub(crate) output_point_m: Option<Numbers>,
-    pub(crate) cable_model: Option<&'a str>,
-    pub(crate) assembly: &'a str,
-    pub(crate) in_plane_only: bool,
-    pub(crate) winches: &'a str,
+/// Signals and models of the responses of a request.
+pub(crate) fn pairs(of: &request::FrfRequest) -> frf::Pairs<'_> {
+    frf::Pairs { inputs: of.input.names(), outputs: of.output.names(), points: of.signal_points, model: of.model }
 }
 
-/// Signals and models of responses.
-pub(crate) struct Pairs {
-    inputs: Vec<String>,
-    outputs: Vec<String>,
-    /// True for one input and one output, none of them in a list.
-    one: bool,
-    points: request::ResponsePoints,
-    model: request::Model,
-}
-
-impl PairKeywords<'_> {
-    pub(crate) fn pairs(self) -> PyResult<Pairs> {
-        let signals = |given: Option<Texts>, key: &'static str, default: &str| {
-            given.map_or_else(|| Ok((vec![default.to_owned()], true)), |names| names.one_or_several(key))
-        };
-        let (inputs, one_input) = signals(self.input, "input", request::DEFAULT_INPUT)?;
-        let (outputs, one_output) = signals(self.output, "output", request::DEFAULT_OUTPUT)?;
-        let points = points(self.input_point_m, self.output_point_m)?;
-        let model = model(self.cable_model, self.assembly, self.in_plane_only, self.winches)?;
-        Ok(Pairs { inputs, outputs, one: one_input && one_output, points, model })
-    }
-}
-
-impl Pairs {
-    pub(crate) fn of_study(&self) -> frf::Pairs<'_> {
-        frf::Pairs { inputs: &self.inputs, outputs: &self.outputs, points: self.points, model: self.model }
-    }
-}
-
+/// Responses of a request at the frequencies `hz`.
 pub(crate) fn frf(
     py: Python<'_>,
-    of: &PyEquilibrium,
+    rest: &PyEquilibrium,
     hz: Option<Numbers>,
-    keywords: PairKeywords<'_>,
+    of: &request::FrfRequest,
 ) -> PyResult<Responses> {
-    let adaptive = keywords.adaptive;
-    let pairs = keywords.pairs()?;
+    let (adaptive, pairs) = (of.adaptive, pairs(of));
     let frequencies = match hz {
         Some(hz) => hz.frequencies()?.0,
-        None if adaptive => default_frequencies(py, of, pairs.model)?,
+        None if adaptive => default_frequencies(py, rest, pairs.model)?,
         None => {
             return Err(errors::input(
                 "`hz` is missing: give the frequencies, or `adaptive=True` for those that the program chooses"
@@ -434,16 +209,15 @@ pub(crate) fn frf(
 
     let found = py.detach(|| {
         let mut watch = CtrlC::new();
-        frf::response(&of.at_rest, &pairs.of_study(), frequencies, adaptive, &mut watch)
-            .map_err(|error| watch.or(&error))
+        frf::response(&rest.at_rest, &pairs, frequencies, adaptive, &mut watch).map_err(|error| watch.or(&error))
     })?;
     if let Some(caveat) = &found.caveat {
-        errors::warn(py, "ResponseWarning", caveat, 2)?;
+        errors::warn(py, "ResponseWarning", caveat, LEVEL)?;
     }
 
     let frf::Response { frequencies_hz, mut values, .. } = found;
     let shape = [pairs.outputs.len(), pairs.inputs.len(), frequencies_hz.len()];
-    let values = if pairs.one {
+    let values = if of.input.is_one() && of.output.is_one() {
         ArrayD::from_shape_vec(IxDyn(&shape[2..]), values.swap_remove(0)).expect("one row")
     } else {
         ArrayD::from_shape_vec(IxDyn(&shape), values.concat()).expect("a row per pair")
@@ -487,13 +261,9 @@ pub(crate) fn receptance(
     py: Python<'_>,
     of: &PyEquilibrium,
     hz: Numbers,
-    cable_model: Option<&str>,
-    assembly: &str,
-    in_plane_only: bool,
-    winches: &str,
+    model: request::Model,
 ) -> PyResult<Tensor<Complex64>> {
     let (frequencies, _) = hz.frequencies()?;
-    let model = model(cable_model, assembly, in_plane_only, winches)?;
     let linearisation = at_rest::linearisation(&model, of.at_rest.equilibrium.model);
     let dynamics = py.detach(|| of.at_rest.dynamics(linearisation, highest(&frequencies)));
     let (dynamics, _) = dynamics.map_err(|error| errors::study(&error))?;

@@ -324,3 +324,11 @@ def test_arrays_of_numbers_go_into_a_robot_file(robot: funicular.Robot) -> None:
         robot.with_({"cables.3.anchor_m": masked(anchor, 1)})
     with pytest.raises(funicular.RobotFileError):
         robot.with_({"cables.3.anchor_m": np.array((1.0, 2.0, 3.0), dtype=[(axis, float) for axis in "xyz"])})
+
+
+def test_a_mistyped_keyword_of_a_class_method_gets_a_hint() -> None:
+    with pytest.raises(TypeError, match="unexpected keyword argument 'pth'; did you mean `path`"):
+        funicular.Robot.from_file(pth="robot.toml")  # type: ignore[call-arg]
+    with pytest.raises(funicular.InputError, match="`text` is 3, of type int: give text"):
+        funicular.Robot.from_toml(3)  # type: ignore[arg-type]
+    assert funicular.Robot.from_toml(funicular.Robot.example().to_toml()) == funicular.Robot.example()

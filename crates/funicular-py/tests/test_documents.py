@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from conftest import ROOT
 
-PAGES = ["quick-start", "workspace", "measuring", "matlab", "python"]
+PAGES = ["quick-start", "workspace", "measuring", "matlab", "python", "tutorials/controller"]
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -40,6 +40,18 @@ pub trait Found: Serialize {
     fn warnings(&self) -> &[String];
 }
 
+impl<R: Found> Found for Box<R> {
+    const COMMAND: &'static str = R::COMMAND;
+
+    fn robot(&self) -> &str {
+        (**self).robot()
+    }
+
+    fn warnings(&self) -> &[String] {
+        (**self).warnings()
+    }
+}
+
 macro_rules! found {
     ($results:ty, $command:literal) => {
         impl $crate::analyses::Found for $results {

@@ -42,6 +42,7 @@ pub mod frequency_range;
 mod identification;
 pub mod import;
 pub mod json;
+mod measure;
 pub mod measurements;
 pub mod names;
 pub mod new_robot;
@@ -67,7 +68,7 @@ pub mod written;
 
 pub use error::{Error, ErrorKind, NoSolution};
 pub use request::Request;
-pub use run::{Results, run, run_on};
+pub use run::{Results, run, run_at, run_on};
 pub use watch::{Silent, Watch};
 
 /// Example of README.md, which is tested like those of the documentation.

@@ -36,8 +36,13 @@ pub trait Named: Copy + PartialEq + Sized + 'static {
             return Ok(*found);
         }
         let all: Vec<String> = Self::ALL.iter().map(|choice| choice.name().to_owned()).collect();
-        Err(format!("there is no {} `{name}`{}", Self::WHAT, suggestion(name, &all)))
+        Err(no_such(Self::WHAT, name, &all))
     }
+}
+
+/// Message about a name that no thing of a kind has.
+pub fn no_such(what: &str, name: &str, all: &[String]) -> String {
+    format!("there is no {what} `{name}`{}", suggestion(name, all))
 }
 
 /// End of a message: `; did you mean …` for a near name, else `; there are …` with the first names.

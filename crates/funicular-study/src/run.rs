@@ -18,6 +18,7 @@ use crate::analyses::{
     stiffness::{self, Stiffness},
     uncertainty::{self, Uncertainties},
 };
+use crate::at_rest::AtRest;
 use crate::error::Error;
 use crate::json;
 use crate::request::{Request, RobotText};
@@ -29,59 +30,92 @@ use anyhow::{Result, anyhow};
 use funicular::robot::Robot;
 use serde::Serialize;
 
-/// Results of any command that needs nothing but its request.
-#[derive(Serialize)]
-#[serde(untagged)]
-#[expect(missing_docs, reason = "each variant is named after its command and holds its results")]
-pub enum Results {
-    Check(Checked),
-    Parameters(ParameterList),
-    Statics(Statics),
-    Stiffness(Stiffness),
-    Modes(Modes),
-    Frf(frf::Frf),
-    Settle(Settled),
-    Compare(Compared),
-    Gradient(GradientTable),
-    Uncertainty(Uncertainties),
-    Payload(Payload),
-    PoseError(PoseErrors),
-    Cable(CableResult),
-    Reduce(ReducedForm),
-    Identify(Box<Identified>),
-    Design(Box<Designed>),
-    #[cfg(feature = "validation")]
-    Validate(Validated),
+/// Declares the commands that need nothing but their request: type of the results, and the analysis of a request `of`
+/// for its robot, with a watch. A command that starts from an equilibrium can say after `at` how it goes on from one.
+macro_rules! answers {
+    (
+        ($robot:ident, $watch:ident)
+        $($(#[$meta:meta])* $Variant:ident($Found:ty): $of:pat => $run:expr $(, at $at_rest:ident => $about:expr)?;)*
+    ) => {
+        /// Results of any command that needs nothing but its request.
+        #[derive(Serialize)]
+        #[serde(untagged)]
+        #[expect(missing_docs, reason = "each variant is named after its command and holds its results")]
+        pub enum Results {
+            $($(#[$meta])* $Variant($Found),)*
+        }
+
+        impl Results {
+            /// Results as JSON, with the warnings worded for a front end.
+            ///
+            /// # Errors
+            /// A result that is not a finite number, for example at an undamped resonance: kind
+            /// [`NoSolution`](crate::ErrorKind).
+            pub fn to_json(&self, words: Words) -> Result<Vec<u8>, Error> {
+                match self {
+                    $($(#[$meta])* Self::$Variant(found) => json::of_results(found, words),)*
+                }
+            }
+        }
+
+        /// Runs a request whose robot, if it has one, has been read before. The errors keep their types.
+        ///
+        /// # Errors
+        /// The errors of [`run`], except those of the robot file.
+        pub fn run_on(request: &Request, robot: Option<Robot>, $watch: &mut dyn Watch) -> Result<Results> {
+            let $robot = || robot.ok_or_else(|| anyhow!("`{}` needs a robot", request.command()));
+            Ok(match request {
+                $($(#[$meta])* Request::$Variant($of) => Results::$Variant($run),)*
+                #[cfg(not(feature = "validation"))]
+                Request::Validate(_) => {
+                    return Err(anyhow!(
+                        "`validate` needs the reference numbers, which this build leaves out: run it with the program \
+                         or in Python"
+                    ));
+                }
+                other => {
+                    return Err(anyhow!("`{}` writes a file: run it with the program or in Python", other.command()));
+                }
+            })
+        }
+
+        /// Runs a request about an equilibrium of its robot that has been computed before. The state of the request is
+        /// not used.
+        ///
+        /// # Errors
+        /// The errors of [`run_on`], and a command that does not start from an equilibrium.
+        pub fn run_at(request: &Request, at_rest: &AtRest, $watch: &mut dyn Watch) -> Result<Results> {
+            Ok(match request {
+                $($(Request::$Variant($of) => {
+                    let $at_rest = at_rest;
+                    Results::$Variant($about)
+                })?)*
+                other => return Err(anyhow!("`{}` does not start from an equilibrium", other.command())),
+            })
+        }
+    };
 }
 
-impl Results {
-    /// Results as JSON, with the warnings worded for a front end.
-    ///
-    /// # Errors
-    /// A result that is not a finite number, for example at an undamped resonance: kind
-    /// [`NoSolution`](crate::ErrorKind).
-    pub fn to_json(&self, words: Words) -> Result<Vec<u8>, Error> {
-        match self {
-            Self::Check(found) => json::of_results(found, words),
-            Self::Parameters(found) => json::of_results(found, words),
-            Self::Statics(found) => json::of_results(found, words),
-            Self::Stiffness(found) => json::of_results(found, words),
-            Self::Modes(found) => json::of_results(found, words),
-            Self::Frf(found) => json::of_results(found, words),
-            Self::Settle(found) => json::of_results(found, words),
-            Self::Compare(found) => json::of_results(found, words),
-            Self::Gradient(found) => json::of_results(found, words),
-            Self::Uncertainty(found) => json::of_results(found, words),
-            Self::Payload(found) => json::of_results(found, words),
-            Self::PoseError(found) => json::of_results(found, words),
-            Self::Cable(found) => json::of_results(found, words),
-            Self::Reduce(found) => json::of_results(found, words),
-            Self::Identify(found) => json::of_results(&**found, words),
-            Self::Design(found) => json::of_results(&**found, words),
-            #[cfg(feature = "validation")]
-            Self::Validate(found) => json::of_results(found, words),
-        }
-    }
+answers! {
+    (robot, watch)
+    Check(Checked): _ => check::run(robot()?);
+    Parameters(ParameterList): of => parameters::run(&of.robot)?;
+    Statics(Statics): of => statics::run(robot()?, of)?;
+    Stiffness(Stiffness): of => stiffness::run(robot()?, of, watch)?;
+    Modes(Modes): of => modes::run(robot()?, of)?, at at_rest => modes::about(at_rest, of)?;
+    Frf(frf::Frf): of => frf::run(robot()?, of, watch)?;
+    Settle(Settled): of => settle::run(robot()?, of)?, at at_rest => settle::about(at_rest, of)?;
+    Compare(Compared): of => compare::run(robot()?, of)?, at at_rest => compare::about(at_rest, of)?;
+    Gradient(GradientTable): of => gradient::run(robot()?, of)?, at at_rest => gradient::about(at_rest, of)?;
+    Uncertainty(Uncertainties): of => uncertainty::run(of, watch)?;
+    Payload(Payload): of => payload::run(robot()?, of)?;
+    PoseError(PoseErrors): of => pose_error::run(&robot()?, of, watch)?;
+    Cable(CableResult): of => cable::run(robot()?, of, watch)?;
+    Reduce(ReducedForm): of => reduce::run(robot()?, of, watch)?, at at_rest => reduce::about(at_rest, of, watch)?;
+    Identify(Box<Identified>): of => Box::new(identify::run(of, watch)?);
+    Design(Box<Designed>): of => Box::new(design::run(of, watch)?);
+    #[cfg(feature = "validation")]
+    Validate(Validated): _ => validation::run()?;
 }
 
 /// Runs a request.
@@ -92,41 +126,4 @@ impl Results {
 pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Results, Error> {
     let robot = request.robot().map(RobotText::read).transpose()?.map(|file| file.robot);
     Ok(run_on(request, robot, watch)?)
-}
-
-/// Runs a request whose robot, if it has one, has been read before. The errors keep their types.
-///
-/// # Errors
-/// The errors of [`run`], except those of the robot file.
-pub fn run_on(request: &Request, robot: Option<Robot>, watch: &mut dyn Watch) -> Result<Results> {
-    let robot = || robot.ok_or_else(|| anyhow!("`{}` needs a robot", request.command()));
-
-    Ok(match request {
-        Request::Check(_) => Results::Check(check::run(robot()?)),
-        Request::Parameters(of) => Results::Parameters(parameters::run(&of.robot)?),
-        Request::Statics(of) => Results::Statics(statics::run(robot()?, of)?),
-        Request::Stiffness(of) => Results::Stiffness(stiffness::run(robot()?, of, watch)?),
-        Request::Modes(of) => Results::Modes(modes::run(robot()?, of)?),
-        Request::Frf(of) => Results::Frf(frf::run(robot()?, of, watch)?),
-        Request::Settle(of) => Results::Settle(settle::run(robot()?, of)?),
-        Request::Compare(of) => Results::Compare(compare::run(robot()?, of)?),
-        Request::Gradient(of) => Results::Gradient(gradient::run(robot()?, of)?),
-        Request::Uncertainty(of) => Results::Uncertainty(uncertainty::run(of, watch)?),
-        Request::Payload(of) => Results::Payload(payload::run(robot()?, of)?),
-        Request::PoseError(of) => Results::PoseError(pose_error::run(&robot()?, of, watch)?),
-        Request::Cable(of) => Results::Cable(cable::run(robot()?, of, watch)?),
-        Request::Reduce(of) => Results::Reduce(reduce::run(robot()?, of, watch)?),
-        Request::Identify(of) => Results::Identify(Box::new(identify::run(of, watch)?)),
-        Request::Design(of) => Results::Design(Box::new(design::run(of, watch)?)),
-        #[cfg(feature = "validation")]
-        Request::Validate(_) => Results::Validate(validation::run()?),
-        #[cfg(not(feature = "validation"))]
-        Request::Validate(_) => {
-            return Err(anyhow!(
-                "`validate` needs the reference numbers, which this build leaves out: run it with the \
-                                program or in Python"
-            ));
-        }
-        other => return Err(anyhow!("`{}` writes a file: run it with the program or in Python", other.command())),
-    })
 }

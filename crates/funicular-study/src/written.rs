@@ -18,11 +18,11 @@ pub fn read(key: &Key, text: &str) -> Result<Value, String> {
         Kind::Switch => Ok(Value::Bool(true)),
         Kind::Number(range) => Ok(range.check(number(text)?)?.into()),
         Kind::Count(range) => count(text, range),
-        Kind::Numbers(range) => numbers(text, *range),
+        Kind::PerCable(range) | Kind::OneOrPerCable(range) => numbers(text, *range),
         Kind::Vector => vector(text),
         Kind::Pose => pose(text),
         Kind::Tensor => tensor(text),
-        Kind::Name(_) | Kind::Text | Kind::Texts | Kind::Data(_) => Ok(text.into()),
+        Kind::Name(..) | Kind::Text | Kind::Texts | Kind::Sizes | Kind::Poses | Kind::Data(_) => Ok(text.into()),
         Kind::Written(form) | Kind::List(form) | Kind::OneOrMore(form) | Kind::Commas(form) => read_form(*form, text),
     }
 }

@@ -12,6 +12,7 @@
 //! A panic is a mistake in this library. It ends the call with a trap. Afterwards the text says what happened and how
 //! to report it. The instance must not be used again: the caller makes a new one.
 
+mod border;
 pub mod frame;
 pub mod layout;
 mod page_answers;
@@ -191,11 +192,13 @@ fn keep(answer: Result<Answer>) -> u32 {
     status
 }
 
-/// Status and text of an error: JSON with the message and the places in the robot file that it refers to.
+/// Status and text of an error: JSON with the message, the places in the robot file that it refers to, and why a pose
+/// has no equilibrium.
 fn refusal(error: anyhow::Error) -> (u32, Answer) {
     let issues = error.downcast_ref().map_or_else(Vec::new, issues);
+    let border = border::of(&error);
     let error = Error::from(error);
-    let text = json!({ "message": error.message(Words::Json), "issues": issues }).to_string();
+    let text = json!({ "message": error.message(Words::Json), "issues": issues, "border": border }).to_string();
     (status_of(&error), Answer { numbers: Vec::new(), text })
 }
 
@@ -543,6 +546,21 @@ mod tests {
         let [from, to] = ["from_byte", "to_byte"].map(|key| usize::try_from(issue[key].as_u64().unwrap()).unwrap());
         assert_eq!(&text[from..to], "-91.058");
         assert!(told["message"].as_str().unwrap().contains("a.toml:7:"), "{told}");
+    }
+
+    #[test]
+    fn a_refused_pose_says_which_cables_prevent_it() {
+        robot(&json!({}));
+        let why = |pose: &[f64]| serde_json::from_str::<Value>(&at(pose, 0, 0).2).unwrap()["border"].clone();
+        // Above all anchors nothing pulls up; far along x the minimum tensions of the cables behind are too much.
+        assert_eq!(why(&[0.0, 0.0, 6.0])["one_sided"], json!(true));
+        let along = why(&[6.8, 0.0, 1.5]);
+        assert_eq!((&along["code"], &along["one_sided"]), (&json!("tension-limits"), &json!(false)), "{along}");
+        assert_eq!((&along["minimum"], &along["maximum"]), (&json!(["2", "3", "4"]), &json!([])), "{along}");
+        // Outside of the frame cables would have to push, and no limit is named.
+        let outside = why(&[12.0, 0.0, 1.5]);
+        assert!(!outside["push"].as_array().unwrap().is_empty() && outside["minimum"] == json!([]), "{outside}");
+        assert_eq!(why(&[0.0, f64::NAN, 1.0]), Value::Null);
     }
 
     #[test]

@@ -81,7 +81,8 @@ export class Funicular {
    * @param {number} modes number of frequencies
    * @param {number} points number of points per cable
    * @returns {{numbers: Float64Array, about: object}} layout: docs/web.md
-   * @throws RequestError; there is no frame then, and `platform`, `mode` and `response` are refused until there is one
+   * @throws RequestError, with `border` if the robot cannot rest there: `push`, `minimum` and `maximum` name the cables
+   *   that prevent it. There is no frame then, and `platform`, `mode` and `response` are refused until there is one
    */
   frame(kind, state, modes, points) {
     return this.#numbers("", state, (of) => of.funicular_frame(kind, modes, points));
@@ -112,8 +113,8 @@ export class Funicular {
     const status = this.#call(text, state, call);
     const answer = this.#output();
     if (status !== 0) {
-      const { message, issues } = JSON.parse(answer);
-      throw Object.assign(new RequestError(message, status), { issues });
+      const { message, issues, border } = JSON.parse(answer);
+      throw Object.assign(new RequestError(message, status), { issues, border });
     }
     const { funicular_numbers_output, funicular_numbers_length, memory } = this.#exports;
     const at = funicular_numbers_output() >>> 0;

@@ -51,12 +51,14 @@ fn option(key: &Key, all: &[Key]) -> Arg {
         arg = arg.default_value(default);
     }
     match &key.kind {
-        Kind::Name(choices) => {
+        Kind::Name(_, choices) => {
             let value = |name: &'static str, about: &str| PossibleValue::new(name).help(worded(about, Words::Program));
             let choices = choices.iter().map(|choice| value(choice.name, choice.about).aliases(choice.also));
             arg.value_parser(PossibleValuesParser::new(choices))
         }
-        Kind::Texts | Kind::Commas(_) => arg.value_parser(parser(key)).action(ArgAction::Append).value_delimiter(','),
+        Kind::Texts | Kind::Sizes | Kind::Commas(_) => {
+            arg.value_parser(parser(key)).action(ArgAction::Append).value_delimiter(',')
+        }
         Kind::List(_) | Kind::OneOrMore(_) => arg.value_parser(parser(key)).action(ArgAction::Append),
         _ => arg.value_parser(parser(key)),
     }
@@ -67,7 +69,14 @@ fn option(key: &Key, all: &[Key]) -> Arg {
 fn may_be_negative(kind: &Kind) -> bool {
     matches!(
         kind,
-        Kind::Number(_) | Kind::Count(_) | Kind::Numbers(_) | Kind::Vector | Kind::Pose | Kind::Tensor | Kind::Text
+        Kind::Number(_)
+            | Kind::Count(_)
+            | Kind::PerCable(_)
+            | Kind::OneOrPerCable(_)
+            | Kind::Vector
+            | Kind::Pose
+            | Kind::Tensor
+            | Kind::Text
     )
 }
 
@@ -99,12 +108,12 @@ fn value(matches: &ArgMatches, key: &Key) -> Option<Value> {
     let all = || matches.get_many::<Value>(key.name).into_iter().flatten().cloned();
     Some(match &key.kind {
         Kind::Switch => Value::Bool(true),
-        Kind::Name(choices) => {
+        Kind::Name(_, choices) => {
             let given = matches.get_one::<String>(key.name)?;
             let chosen = choices.iter().find(|choice| choice.name == given || choice.also == Some(given))?;
             chosen.name.into()
         }
-        Kind::Texts | Kind::Commas(_) | Kind::List(_) => all().collect(),
+        Kind::Texts | Kind::Sizes | Kind::Commas(_) | Kind::List(_) => all().collect(),
         Kind::OneOrMore(_) => match (all().next(), all().count()) {
             (Some(one), 1) => one,
             _ => all().collect(),

@@ -10,7 +10,7 @@ impl Printed for Payload {
             Some(maximum) => {
                 let above = maximum.excluded_from_kg.map_or_else(
                     || "; a larger one was not found, but is not excluded by a proof".to_owned(),
-                    |mass| format!("; proved: none from {} kg on", significant(mass, 7)),
+                    |mass| format!("; {} kg is proved to be too much", significant(mass, 7)),
                 );
                 format!("{} kg{above}", significant(maximum.payload_kg, 6))
             }

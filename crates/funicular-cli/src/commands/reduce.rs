@@ -124,7 +124,7 @@ impl Printed for ControlStateSpace {
         let damping = if self.damping_error == 0.0 {
             String::new()
         } else {
-            format!("; constant damping ratios alone leave {} %", percent(self.damping_error))
+            format!("; with all modes {} % would remain", percent(self.damping_error))
         };
         let pointwise = format!(
             "relative to the response at the same frequency: up to {} % ({}/{} at {} Hz, where the response is {} % of \

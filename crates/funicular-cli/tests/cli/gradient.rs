@@ -286,3 +286,18 @@ fn requests_without_derivatives_are_refused_with_the_reason() {
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(stderr(&output).contains("at the edge of being slack"), "{}", stderr(&output));
 }
+
+/// An empty list of modes is said, as a caveat: below 0.5 Hz there is none, below 1.1 Hz there is one.
+#[test]
+fn a_limit_below_the_first_frequency_is_a_caveat() {
+    let deviations = ["--deviations", "platform.mass_kg=1%"];
+    for command in [&["gradient"][..], &["uncertainty", deviations[0], deviations[1]][..]] {
+        let found = |hz: &str| {
+            json(&[&command[..1], &["ROBOT"], &command[1..], &["--of", "frequencies", "--below-hz", hz]].concat())
+        };
+        let said = "no natural frequency lies below 0.5 Hz: raise --below-hz";
+        let warnings = |found: &Value| found["warnings"].as_array().unwrap().iter().any(|text| text == said);
+        assert!(warnings(&found("0.5")), "{command:?}");
+        assert!(!warnings(&found("1.1")), "{command:?}");
+    }
+}

@@ -12,7 +12,8 @@ fn root() -> PathBuf {
 fn documents() -> Vec<PathBuf> {
     let mut documents: Vec<PathBuf> =
         ["README.md", "ARCHITECTURE.md", "DESIGN.md", "CONTRIBUTING.md"].iter().map(|name| root().join(name)).collect();
-    let in_docs = fs::read_dir(root().join("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let folders = ["docs", "docs/tutorials"].map(|folder| fs::read_dir(root().join(folder)).unwrap());
+    let in_docs = folders.into_iter().flatten().map(|entry| entry.unwrap().path());
     documents.extend(in_docs.filter(|path| path.extension().is_some_and(|extension| extension == "md")));
     documents
 }

@@ -38,22 +38,32 @@ fn same(a: &str, b: &str) -> bool {
         })
 }
 
+/// Pages of a folder of docs/ and how many console blocks they show.
+fn shown_in(folder: &str) -> Vec<(String, usize)> {
+    let mut names: Vec<PathBuf> =
+        fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path()).collect();
+    names.retain(|path| path.extension().is_some_and(|ending| ending == "md"));
+    names.sort();
+    let pages = names.iter().map(|path| format!("{folder}/{}", path.file_name().unwrap().to_str().unwrap()));
+    pages.map(|page| (page.clone(), blocks_are_printed(&page))).collect()
+}
+
+/// Every page of docs/ is checked; some have to show something.
 #[test]
 fn the_documents_show_what_the_program_prints() {
-    assert!(blocks_are_printed("docs/commands.md") >= 4, "statics, modes and compare are shown");
-    assert!(blocks_are_printed("docs/how-to-choose.md") >= 2);
-    assert!(blocks_are_printed("docs/sweeps.md") >= 1);
-    assert!(blocks_are_printed("docs/control.md") >= 1);
-    assert!(blocks_are_printed("docs/pulleys.md") >= 1);
+    let shown = shown_in("docs");
+    let least = [("commands", 4), ("how-to-choose", 2), ("quick-start", 5), ("workspace", 4), ("measuring", 4)];
+    for (page, least) in least.into_iter().chain([("sweeps", 1), ("control", 1), ("pulleys", 1), ("first-result", 2)]) {
+        let blocks = shown.iter().find(|(name, _)| *name == format!("docs/{page}.md")).unwrap().1;
+        assert!(blocks >= least, "docs/{page}.md shows {blocks} outputs");
+    }
 }
 
 /// The test has a name of its own, so that it runs beside the one above.
 #[test]
-fn the_pages_for_new_readers_show_what_the_program_prints() {
-    assert!(blocks_are_printed("docs/quick-start.md") >= 5, "check, statics, modes, frf and a message are shown");
-    assert!(blocks_are_printed("docs/workspace.md") >= 4);
-    assert!(blocks_are_printed("docs/measuring.md") >= 4);
-    assert!(blocks_are_printed("docs/identification.md") >= 1);
+fn the_tutorials_show_what_the_program_prints() {
+    let shown = shown_in("docs/tutorials");
+    assert!(shown.iter().map(|page| page.1).sum::<usize>() >= 20, "{shown:?}");
 }
 
 /// Commands with the robot of the quick start that a document shows without their output, in its order.
@@ -87,7 +97,35 @@ fn commands_that_the_pages_show_without_output_run() {
     assert!(count >= 8, "{count} commands");
 }
 
-/// Keys and options that the glossary names exist: a word of the program that changes has to change there.
+/// Blocks of shell of the tutorials: their lines run in their order, in a folder that has the examples.
+#[cfg(unix)]
+#[test]
+fn commands_of_the_tutorials_run_in_their_order() {
+    let pages = ["first-result", "coming-from", "tutorials/drawing", "tutorials/good-enough", "tutorials/cluster"];
+    let more = ["tutorials/measurement", "tutorials/controller", "tutorials/paper"];
+    let mut count = 0;
+    for page in pages.into_iter().chain(more) {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["docs", "robots"] {
+            std::os::unix::fs::symlink(root().canonicalize().unwrap().join(name), folder.path().join(name)).unwrap();
+        }
+        let text = fs::read_to_string(root().join(format!("docs/{page}.md"))).unwrap();
+        for block in text.split("```sh\n").skip(1) {
+            for line in block.split("```").next().unwrap().lines().filter(|line| line.starts_with("funicular ")) {
+                let arguments: Vec<&str> = line.split_whitespace().skip(1).collect();
+                let output = command(&arguments).current_dir(folder.path()).output().unwrap();
+                assert_eq!(output.status.code(), Some(0), "{page}: {line}: {}", stderr(&output));
+                count += 1;
+            }
+        }
+        if page == "tutorials/cluster" {
+            let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+            assert_eq!(bytes("all.parquet"), bytes("merged.parquet"), "the parts are joined to the same file");
+        }
+    }
+    assert!(count >= 19, "{count} commands");
+}
+
 /// The listing of docs/pulleys.md, with a platform and a rope, is a robot whose only cable runs as it says.
 #[test]
 fn the_listing_of_pulleys_and_winches_is_read_and_rests() {
@@ -117,6 +155,7 @@ fn the_listing_of_pulleys_and_winches_is_read_and_rests() {
     assert!((of("winch_yield_m") - of("tension_drum_n") / 50e3).abs() < 1e-12, "{drive}");
 }
 
+/// Keys and options that the glossary names exist: a word of the program that changes has to change there.
 #[test]
 fn the_glossary_names_options_and_keys_that_exist() {
     let glossary = fs::read_to_string(root().join("docs/glossary.md")).unwrap();

@@ -3,24 +3,27 @@ Compiled half of `funicular`; import `funicular` instead.
 """
 
 from _typeshed import SupportsGetItem
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from concurrent.futures import Executor
-from funicular._design import Designed
-from funicular._identify import Identified
-from funicular._live import Live
-from funicular._pages import Page
-from funicular._results import Equilibria, Modes, ReducedModel, Results, StateSpaceModel
+from funicular._results import Equilibria, Results
 from funicular._sweeps import Sweep
-from funicular._uncertainty import Uncertainty
-from funicular._words import Assembly, CableModel, ExportFormat, Goal, Hold, Method, Per, Result, StaticModel, TensionRule, Winches
 from numpy import complex128, float64
 from numpy.typing import ArrayLike, NDArray
 from os import PathLike
 from pathlib import Path
-from typing import Any, Final, SupportsFloat, SupportsIndex, final, Literal, overload
+from typing import Any, Final, SupportsFloat, SupportsIndex, final
 from typing_extensions import disjoint_base
+from collections.abc import Mapping, Sequence
+from funicular._design import Designed
+from funicular._identify import Identified
+from funicular._live import Live
+from funicular._pages import Page
+from funicular._results import Modes, ReducedModel, StateSpaceModel
+from funicular._uncertainty import Uncertainty
+from funicular._words import StaticModel, TensionRule, CableModel, Assembly, Winches, Hold, Per, Method, Goal, ExportFormat, Result
+from typing import Literal, overload
 
-__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "complete_request", "complex_numbers", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "write_file"]
+__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "write_file"]
 
 __version__: Final[str]
 
@@ -40,6 +43,27 @@ class Analyses:
         The keys of the program's JSON. `equilibria` lists the solutions, the lowest first, each with `pose`, `stable`,
         `energy_j`, `distance_m` and `tensions_platform_n`; `search` describes the search. Lists of numbers are arrays.
         """
+    def friction_interval(self, /) -> Results:
+        """
+        Computes the interval in which friction of pulleys leaves pose and tensions.
+
+        Every cable may have run last towards the platform or towards its drum. If the lengths are given or held, pose
+        and tensions vary; if the pose is given, the tensions at the drums and the lengths vary.
+
+        Returns
+        -------
+        The keys of the program's JSON. `friction_interval` has `held`, which is `lengths` or `pose`; with lengths held
+        `translation_m` (3, 2) and `rotation_deg` (3, 2), the rotation vector, both in world axes; and `cables`, each
+        with `friction_exponent`, `excess_length_m`, `tension_platform_n`, `tension_anchor_n` and `tension_drum_n`.
+        Pairs are minimum and maximum. Theory (71) to (74).
+
+        Raises
+        ------
+        InputError
+            No cable runs over a pulley with friction.
+        NoSolutionError
+            The equilibrium is indifferent.
+        """
     def cable(self, /, name: str, hz: ArrayLike, *, cable_model: CableModel | None = None, in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
         """
         Computes the dynamic stiffness of the platform end of one cable with a fixed anchor.
@@ -50,8 +74,8 @@ class Analyses:
             Name of a cable.
         hz
             Frequencies [Hz], a row of n.
-        cable_model, in_plane_only, winches
-            Model, as in `stiffness`.
+
+        The other parameters are those of `Equilibrium.stiffness`.
 
         Returns
         -------
@@ -67,15 +91,16 @@ class Analyses:
         Parameters
         ----------
         below_hz
-            Limit of the frequencies [Hz].
+            Upper limit of the frequencies [Hz].
         platform
             Compare the modes of the platform alone.
         platform_share
-            Minimum fraction of the kinetic energy in the platform for a mode of the platform; 0.5 if not given.
+            Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform; 0.5
+            if not given.
         tolerance
             Maximum relative difference of frequency for a model that is good enough; 0.01 if not given.
-        assembly, in_plane_only, winches
-            Terms of the stiffness, as in `stiffness`.
+
+        The other parameters are those of `Equilibrium.stiffness`.
 
         Returns
         -------
@@ -88,13 +113,16 @@ class Analyses:
         Parameters
         ----------
         to
-            Program that the file is for: `opensees`, `moordyn` or `vtk`.
+            Program that the file is for: `opensees` (python script for OpenSeesPy); `moordyn` (input file of version
+            2); `vtk` (vTK XML of polylines and polygons (.vtp), for ParaView).
         path
             Path of the file, which is complete or absent.
         segments
-            Number of elements per cable; 20 if not given.
+            Elements per cable, 1 to 1000: bars in OpenSees, segments in MoorDyn, pieces of a curve in VTK; 20 if not
+            given.
         modes_below_hz
-            Limit of the modes in the file [Hz].
+            Upper limit of the frequencies of modes in the file [Hz]: in VTK one field per mode, in OpenSees the modes
+            to compare with; if not given: no modes in VTK, the first ten in OpenSees.
 
         Raises
         ------
@@ -119,8 +147,7 @@ class Analyses:
             Input signal: force `fx`, `fy`, `fz`, moment `mx`, `my`, `mz`, or `f:ux,uy,uz`, `m:ux,uy,uz` along a
             direction, in world axes; a force on a cable, as in `cable:3@0.5:fz`; the commanded length of a cable, a
             force of its motor or on its drum, as in `length:3`, `motor:3`, `drum:3`; or a motion of the base, `base-x`
-            to `base-rz`, or of an anchor, as in `anchor:3:x`. A list names several; `fz` if not
-            given.
+            to `base-rz`, or of an anchor, as in `anchor:3:x`. A list names several; `fz` if not given.
         output
             Output signal: displacement `x`, `y`, `z`, rotation `rx`, `ry`, `rz`, with `v` (velocity) or `a`
             (acceleration) before it, or `x:ux,uy,uz`, `v:…`, `a:…` along a direction; a point of a cable, as in
@@ -132,8 +159,8 @@ class Analyses:
             response has no bound, there is a gap of 5e-5 of the frequency on either side.
         input_point_m, output_point_m
             Point where the forces act and point whose motion is measured, platform frame [m]; the origin if not given.
-        cable_model, assembly, in_plane_only, winches
-            Models, as in `stiffness`.
+
+        The other parameters are those of `Equilibrium.stiffness`.
 
         Returns
         -------
@@ -150,35 +177,14 @@ class Analyses:
         ResponseWarning
             At least ten frequencies ascend, and peaks between them are read more than 5 % too low.
         """
-    def friction_interval(self, /) -> Results:
-        """
-        Computes the interval in which friction of pulleys leaves pose and tensions.
-
-        Every cable may have run last towards the platform or towards its drum. If the lengths are given or held, pose
-        and tensions vary; if the pose is given, the tensions at the drums and the lengths vary.
-
-        Returns
-        -------
-        The keys of the program's JSON. `friction_interval` has `held`, which is `lengths` or `pose`; with lengths held
-        `translation_m` (3, 2) and `rotation_deg` (3, 2), the rotation vector, both in world axes; and `cables`, each
-        with `friction_exponent`, `excess_length_m`, `tension_platform_n`, `tension_anchor_n` and `tension_drum_n`.
-        Pairs are minimum and maximum. Theory (71) to (74).
-
-        Raises
-        ------
-        InputError
-            No cable runs over a pulley with friction.
-        NoSolutionError
-            The equilibrium is indifferent.
-        """
-    def gradient(self, /, of: Result | Sequence[Result] | None = None, *, by: str | Sequence[str] | None = None, hold: Hold = "lengths", per: Per = "unit", tolerances: Any | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
+    def gradient(self, /, of: Result | Sequence[Result] | None = None, *, by: str | Sequence[str] | None = None, hold: Hold = "lengths", per: Per = "unit", tolerances: Any = None, below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
         """
         Computes derivatives of results by numbers of the robot file, without perturbing any.
 
         Parameters
         ----------
         of
-            Groups of results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`; the
+            Results: pose, lengths, tensions, stiffness-min, frequencies, damping, response; separated by commas;
             frequencies if not given.
         by
             Paths of the numbers, as `Robot.parameters` lists them; `*` stands for any key, as in `cables.*.anchor_m`,
@@ -188,16 +194,17 @@ class Analyses:
             lengths follow. Of more cables than degrees of freedom the tensions parallel to the chords then change
             least. `rule`: as `pose`, but the tensions go on to follow the rule that has chosen them (not `stiffest`).
         per
-            Unit of the derivatives: `unit` of the number, `percent` of its value, or its `tolerance`.
+            Unit of the derivatives: per unit, percent or tolerance of each number: `unit` (unit of the number);
+            `percent` (percent of its value); `tolerance` (tolerance of the number).
         tolerances
             Tolerances: a mapping from paths to values or percentages, or texts such as `platform.mass_kg=1%` or
             `cables.*.anchor_m=0.002`. If not given: 1 mm for positions and lengths, 0.1° for angles, 1 % of other values.
         below_hz
-            Limit of the frequencies [Hz], for `frequencies` and `damping`.
+            Upper limit of the frequencies [Hz]; for frequencies and damping.
         at_hz, input, output, input_point_m, output_point_m
             Frequency [Hz], signals and points of the `response`, as in `frf`; signals on the platform.
-        cable_model, assembly, in_plane_only, winches
-            Models, as in `stiffness`.
+
+        The other parameters are those of `Equilibrium.stiffness`.
 
         Returns
         -------
@@ -225,30 +232,31 @@ class Analyses:
         ----------
         path
             File to which the page is also written.
-        cable_model, assembly, in_plane_only, winches
-            Models, as in `modes`.
+
+        The other parameters are those of `Equilibrium.stiffness`.
 
         Raises
         ------
         InputError
             The package was built without the page.
         """
-    def modes(self, /, below_hz: SupportsFloat | SupportsIndex | None = None, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True, rigid_cables: bool = False) -> Modes:
+    def modes(self, /, below_hz: SupportsFloat | SupportsIndex | None = None, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False) -> Modes:
         """
         Computes all natural frequencies below a limit, and checks by an independent count that none is missing.
 
         Parameters
         ----------
         below_hz
-            Limit of the frequencies [Hz]; if not given, slightly above the 20 lowest, or with `rigid_cables` above all.
+            Upper limit of the frequencies [Hz]; if not given: slightly above the 20 lowest; with rigid cables above
+            all.
         input, output
             Signals of a response, as in `frf`: every mode then has its residue and the height of its peak.
-        input_point_m, output_point_m
-            Points of the platform, as in `frf`.
+        input_point_m
+            Point where the force acts, platform frame [m]; if not given: the origin.
+        output_point_m
+            Point whose motion is measured, platform frame [m]; if not given: the origin.
         stations
             Number of points along every cable, ends included, whose displacements are wanted.
-        cable_model, assembly, in_plane_only, winches
-            Models, as in `stiffness`.
         platform_share
             Minimum fraction of the kinetic energy in the platform for `first_platform_index`, the first mode of the
             platform; 0.5 if not given.
@@ -258,13 +266,20 @@ class Analyses:
         rigid_cables
             Modes with cables that are straight, without mass and rigid in length, of the motions that they leave free.
             The equilibrium has the static model `ideal` or `spring`.
+
+        The other parameters are those of `Equilibrium.stiffness`.
         """
     def receptance(self, /, hz: ArrayLike, *, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> NDArray[complex128]:
         """
         Computes the receptance of all six motions to all six wrench components about the platform origin: (n, 6, 6),
         world axes.
 
-        The parameters are those of `frf`.
+        Parameters
+        ----------
+        hz
+            Frequencies [Hz], a row of n.
+
+        The other parameters are those of `Equilibrium.stiffness`.
         """
     def reduce(self, /, below_hz: SupportsFloat | SupportsIndex, input: str | Sequence[str] | None = None, output: str | Sequence[str] | None = None, *, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> ReducedModel:
         """
@@ -275,21 +290,23 @@ class Analyses:
         Parameters
         ----------
         below_hz
-            Highest frequency for which the model is made [Hz].
+            Highest frequency for which the model is valid [Hz].
         input, output
             Signals, as in `frf`, one or a list; if not given, all forces and moments on the platform, and all its
             displacements and rotations.
-        input_point_m, output_point_m
-            Points of the platform, as in `frf`.
+        input_point_m
+            Point where the force acts, platform frame [m]; if not given: the origin.
+        output_point_m
+            Point whose motion is measured, platform frame [m]; if not given: the origin.
         tolerance
             Maximum relative error of the responses by modes left out; 1e-3 if not given.
         damping_at_hz
-            Frequency at which constant damping ratios are right when made viscous [Hz]; at every natural frequency if
-            not given.
-        cable_model, assembly, in_plane_only, winches
-            Models, as in `stiffness`.
+            Frequency at which viscous damping reproduces constant damping ratios [Hz]; if not given: every natural
+            frequency.
+
+        The other parameters are those of `Equilibrium.stiffness`.
         """
-    def report(self, /, path: str | PathLike[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", platform_share: SupportsFloat | SupportsIndex | None = None) -> Page:
+    def report(self, /, path: str | PathLike[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Page:
         """
         Makes a page in HTML about the equilibrium and its vibration, which notebooks show.
 
@@ -298,16 +315,24 @@ class Analyses:
         path
             File to which the page is also written.
         below_hz
-            Limit of the frequencies [Hz]; 20 if not given.
-        input, output
-            Signals of the response on the page, as in `frf`; `fz` and `az` if not given, or `fx` and `ax` for a
-            platform that cannot move along z.
-        input_point_m, output_point_m, cable_model, assembly, in_plane_only, winches
-            Points and models, as in `frf`.
+            Upper limit of the frequencies [Hz]; 20 if not given.
+        input
+            Input of the frequency response: fx … mz, or f:ux,uy,uz, m:ux,uy,uz, see `funicular frf`; if not given: fz;
+            fx if the platform cannot move along z.
+        output
+            Output of the frequency response: x … arz, or x:ux,uy,uz, v:…, a:…, see `funicular frf`; if not given: az;
+            ax if the platform cannot move along z.
+        input_point_m
+            Point where the force acts, platform frame [m]; if not given: the origin.
+        output_point_m
+            Point whose motion is measured, platform frame [m]; if not given: the origin.
         platform_share
-            Minimum fraction of the kinetic energy in the platform for the first mode of the platform; 0.5 if not given.
+            Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform; 0.5
+            if not given.
+
+        The other parameters are those of `Equilibrium.stiffness`.
         """
-    def state_space(self, /, input: str | Sequence[str] | None = None, output: str | Sequence[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex, order: SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> StateSpaceModel:
+    def state_space(self, /, input: str | Sequence[str] | None = None, output: str | Sequence[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, order: SupportsIndex | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> StateSpaceModel:
         """
         Computes a state space A, B, C, D for control design: the modes that inputs and outputs see.
 
@@ -317,19 +342,21 @@ class Analyses:
             Signals, as in `frf`, one or a list; if not given, all forces and moments on the platform, and all its
             displacements and rotations.
         below_hz
-            Highest frequency for which the model is made [Hz].
-        order
-            Maximum number of states, instead of a tolerance.
+            Highest frequency for which the model is valid [Hz].
+        input_point_m
+            Point where the force acts, platform frame [m]; if not given: the origin.
+        output_point_m
+            Point whose motion is measured, platform frame [m]; if not given: the origin.
         tolerance
             Maximum of |G_r − G| up to the limit relative to the peak of |G|, for each response. The model has as few
             states as it allows. 0.01 if neither is given.
-        input_point_m, output_point_m
-            Points of the platform, as in `frf`.
+        order
+            Maximum number of states, instead of a tolerance.
         damping_at_hz
-            Frequency at which constant damping ratios are right when made viscous [Hz]; at every natural frequency if
-            not given.
-        cable_model, assembly, in_plane_only, winches
-            Models, as in `stiffness`.
+            Frequency at which viscous damping reproduces constant damping ratios [Hz]; if not given: every natural
+            frequency.
+
+        The other parameters are those of `Equilibrium.stiffness`.
 
         Raises
         ------
@@ -351,19 +378,21 @@ class Analyses:
             turns with the cables (theory (49d)). A named model, or another frequency, gives the symmetric stiffness
             with constant drag.
         assembly
-            Terms of the stiffness: `consistent`, or `without-geometric-stiffness` for the end stiffness of the cables
-            alone, as in Yuan et al. 2014.
+            Terms of the stiffness: `consistent` (all terms: end stiffness of the cables, and rotation of their forces
+            on their lever arms); `without-geometric-stiffness` (end stiffness of the cables only, as in Yuan et al.
+            2014).
         in_plane_only
-            Leave out the stiffness of cables out of their planes, as in Yuan et al. 2014.
+            Leave out the out-of-plane stiffness of the cables, as in Yuan et al. 2014.
         winches
-            Winches in vibration, for cables that run to one: `as-given`, motors `clamped`, at constant `torque`, or
-            cables `stuck` on their pulleys.
+            Winches in vibration, for cables that run to a winch: `as-given` (as the robot file describes them);
+            `clamped` (motors held at their angle); `torque` (motors with constant torque); `stuck` (cables that stick
+            to their pulleys).
 
         Returns
         -------
         (6, 6), real at 0 Hz and complex at another frequency; for a row of frequencies (n, 6, 6), complex.
         """
-    def write_frf(self, /, path: str | PathLike[str], hz: ArrayLike, input: str | Sequence[str], output: str | Sequence[str], *, adaptive: bool = False, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> list[str]:
+    def write_frf(self, /, path: str | PathLike[str], hz: ArrayLike, input: str | Sequence[str] | None = None, output: str | Sequence[str] | None = None, *, adaptive: bool = False, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> list[str]:
         """
         Writes frequency responses as a Universal File, as the program's `frf -o FILE.uff`; returns the caveats.
 
@@ -373,9 +402,19 @@ class Analyses:
         ----------
         path
             Path of the file, which is complete or absent.
-        hz, input, output, adaptive, input_point_m, output_point_m, cable_model, assembly, in_plane_only, winches
-            Frequencies, signals and models, as in `frf`. Signals are motions of the platform and forces on it, along
-            axes.
+        hz
+            Frequencies [Hz], a row of n.
+        input, output
+            Signals, as in `frf`: motions of the platform and forces on it, along axes.
+        adaptive
+            Add frequencies until every peak has its height (to 0.1 %) and straight lines over the logarithm of the
+            magnitude are accurate to 1 %.
+        input_point_m
+            Point where the force acts, platform frame [m]; if not given: the origin.
+        output_point_m
+            Point whose motion is measured, platform frame [m]; if not given: the origin.
+
+        The other parameters are those of `Equilibrium.stiffness`.
 
         Raises
         ------
@@ -384,7 +423,7 @@ class Analyses:
         FileError
             The file cannot be written.
         """
-    def write_modes(self, /, path: str | PathLike[str], below_hz: SupportsFloat | SupportsIndex, *, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False) -> list[str]:
+    def write_modes(self, /, path: str | PathLike[str], below_hz: SupportsFloat | SupportsIndex | None = None, *, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False) -> list[str]:
         """
         Writes all mode shapes below a limit as a Universal File, as the program's `modes -o FILE.uff`; returns the
         caveats.
@@ -395,8 +434,11 @@ class Analyses:
         ----------
         path
             Path of the file, which is complete or absent.
-        below_hz, cable_model, assembly, in_plane_only, winches, rigid_cables
-            Limit of the frequencies [Hz] and models, as in `modes`.
+        below_hz
+            Upper limit of the frequencies [Hz]; if not given: slightly above the 20 lowest; with rigid cables above
+            all.
+
+        The other parameters are those of `Equilibrium.stiffness`.
 
         Raises
         ------
@@ -721,113 +763,6 @@ class Robot(Analyses):
         """
         Returns the robot as it was read, with the keys of the program's `check`; lists of numbers are arrays.
         """
-    def design(self, /, change: Any, *, goal: Goal = "first", poses: ArrayLike | None = None, weights: ArrayLike | None = None, min_frequency_hz: SupportsFloat | SupportsIndex | None = None, min_stiffness_n_per_m: SupportsFloat | SupportsIndex | None = None, avoid_hz: ArrayLike | None = None, max_iterations: SupportsIndex | None = None, pose: Pose | ArrayLike | None = None, static_model: StaticModel = "catenary", mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Designed:
-        """
-        Chooses values of the robot file with which the robot is best at several poses.
-
-        The poses are held, and the tensions of more cables than degrees of freedom follow `tension_rule`. The values
-        move within their bounds until the goal improves no further.
-
-        Parameters
-        ----------
-        change
-            Values to choose: a mapping from paths to the largest change to both sides, or to bounds (minimum, maximum).
-            A vector without a component stands for all its numbers, and * for every name, as in
-            `cables.*.attachment_m`.
-        goal
-            `first` natural frequency, first natural frequency of the `platform` on the static stiffness of its cables,
-            minimum `stiffness`, `rope-mass` or `rope-length`.
-        poses
-            Poses (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees]; the worst one counts. If not given: `pose`,
-            or the pose of the robot file.
-        weights
-            Weights (n,) for the mean of the poses instead of the worst one.
-        min_frequency_hz, min_stiffness_n_per_m
-            Demands on the first natural frequency [Hz] and on the minimum stiffness [N/m] at every pose.
-        avoid_hz
-            Band (first, last) without natural frequencies at every pose [Hz].
-        max_iterations
-            Maximum number of iterations; 50 if not given.
-
-        The other parameters are those of `equilibrium` and of `modes`.
-
-        Returns
-        -------
-        Result with `x`, `fun`, `success`, `message`, `nit` as those of `scipy.optimize`, with the values per pose, and
-        with `robot`.
-
-        Raises
-        ------
-        InputError
-            A value, a path or a bound is wrong.
-        StaticsError
-            A pose has no equilibrium, or no values within the bounds meet all demands; the message says what was
-            reached.
-
-        References
-        ----------
-        docs/theory.md, equations (60r) to (60t) and (95a) to (95c).
-        """
-    def equilibria(self, /, poses: ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", tension_rule: TensionRule | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, threads: SupportsIndex | None = None) -> Equilibria:
-        """
-        Computes the equilibria of many states in parallel, without Python's lock.
-
-        A state without equilibrium is a row with its reason, never an exception. Each row has, bit for bit, the numbers
-        of `equilibrium`.
-
-        Parameters
-        ----------
-        poses
-            (n, 3), (n, 6) or (n, 7): x, y, z [m], then roll, pitch, yaw [degrees] or a quaternion w, x, y, z.
-        lengths_m
-            (n, m): unstrained lengths [m] of m cables.
-        threads
-            Number of threads; one per processor if not given.
-
-        The other parameters are those of `equilibrium`.
-        """
-    def equilibrium(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", tension_rule: TensionRule | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False) -> Equilibrium:
-        """
-        Computes the static equilibrium for a pose or for unstrained lengths.
-
-        Without `pose` and `lengths_m` the state is that of the robot file.
-
-        Parameters
-        ----------
-        pose
-            A `Pose`, or x, y, z [m], or x, y, z, roll, pitch, yaw [m, degrees], or x, y, z and a quaternion w, x, y, z.
-            The lengths follow. With fewer cables than degrees of freedom: the nearest pose that the cables can hold.
-        lengths_m
-            Unstrained lengths [m], one per cable in the order of the file; the pose follows.
-        static_model
-            How cables carry their static load: `ideal`, `spring` or `catenary`.
-        tension_rule
-            Which of the tensions that hold a pose: more cables than degrees of freedom leave a choice. `lowest` (the
-            default), `closest` (to `target_tension_n`), `middle` or `stiffest`.
-        target_tension_n
-            Tensions to come close to with the rule `closest` [N], one for all cables or one per cable.
-        min_tension_n, max_tension_n
-            Minimum and maximum tension anywhere in a cable [N], instead of the limits of the robot file.
-        mass_kg
-            Mass of the platform [kg], instead of the mass in the robot file.
-        force_n, moment_n_m, load_point_m
-            Dead load on the platform, instead of the load in the robot file: force and moment in world axes [N, N m],
-            and point where the force acts in the platform frame [m].
-        wind_m_s
-            Velocity of the wind in world axes [m/s], instead of the wind in the robot file.
-        cable_load_n_per_m
-            Load per metre of every cable besides its weight, in world axes [N/m].
-        hold_lengths_of_pose
-            Hold the unstrained lengths with which the robot, as it was read and before `with_`, rests at the pose. All
-            changes, those of `with_` and those of this call, then act at these lengths and move the platform.
-
-        Raises
-        ------
-        StaticsError
-            There is no such equilibrium; `code` gives the reason as one word.
-        InputError
-            An argument is wrong; the message says which and what to give.
-        """
     @classmethod
     def example(cls, /) -> Robot:
         """
@@ -865,105 +800,10 @@ class Robot(Analyses):
         RobotFileError
             The text is not a valid robot file; the message shows its lines.
         """
-    def identify(self, /, fit: Any, experiments: Any, *, starts: SupportsIndex | None = None, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex | None = None, frequency_noise: SupportsFloat | SupportsIndex | None = None, damping_noise: SupportsFloat | SupportsIndex | None = None, rigid_cables: bool = False, profile: str | Sequence[str] | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Identified:
-        """
-        Finds the values of the robot file that fit measurements best, with their deviations.
-
-        Parameters
-        ----------
-        fit
-            Values to identify: a list of paths, or a mapping from paths to None, to bounds (minimum, maximum), or to a
-            mapping with `minimum`, `maximum`, `prior` and `prior_std`. A vector without a component stands for all its
-            numbers, and * for every name, as in `materials.*.mass_kg_per_m`.
-        experiments
-            One mapping per state of the robot, or a single one: `responses` and `frequencies` as
-            `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m`
-            with their deviations, `cables` with the names of those that were mounted, and the keys of the state.
-        starts
-            Number of starts of the search, 10 if not given; the first one that fits ends it.
-        from_hz, to_hz
-            Range of the responses that counts [Hz].
-        response_noise, frequency_noise, damping_noise
-            Relative deviations of measurements that have none; 0.02, 0.01 and 0.1 if not given.
-        rigid_cables
-            Natural frequencies with cables that are rigid in length; with the static model `ideal`.
-        profile
-            Paths of fitted values whose interval of 95 % is also found by holding the value and fitting the others
-            again; `details["values"]` has it under `profile`. * stands for any key.
-
-        The other parameters are those of `equilibrium` and of `modes`; those of the state belong to every experiment
-        that does not give them itself.
-
-        Raises
-        ------
-        InputError
-            A value, a path or a measurement is wrong.
-        StaticsError
-            The robot has no equilibrium at any start.
-        """
     @property
     def lengths_m(self, /) -> NDArray[float64] | None:
         """
         Unstrained lengths of the robot file [m], one per cable; None if the file gives a pose or no state.
-        """
-    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: str | Sequence[str] | None = None, *, poses: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
-        """
-        Computes quantities over poses, one row per pose.
-
-        The rows are those of the program's `map`, bit for bit, with any number of threads or workers. A pose without
-        equilibrium is a row with its reason, never an exception.
-
-        Parameters
-        ----------
-        grid
-            Axes of a grid of poses: x, y, z [m], roll, pitch, yaw [degrees], as in `{"x": (-4, 4, 81), "z": [0.5, 1,
-            2]}`. A tuple is the first value, the last value and their number; anything else is values. x varies
-            fastest, then y.
-        quantities
-            What is computed at every point; docs/sweeps.md has the list; `tension-min` and `tension-max` if not given.
-        poses
-            Poses instead of a grid, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
-        pose, lengths_m
-            Values of the axes that the grid does not have: x, y, z [m], roll, pitch, yaw [degrees], or the pose of
-            unstrained lengths [m]; the state of the robot file if not given.
-        up_to_hz
-            Limit of the search for natural frequencies [Hz]; 1000 if not given.
-        platform_share
-            Minimum fraction of the kinetic energy in the platform for `first-platform-frequency`; 0.5 if not given.
-        payload_center_m
-            Centre of mass of the payload for `payload-max`, platform frame [m]; that of the platform if not given.
-        file
-            File of the rows: .parquet, .csv or .vti. It is written when all rows are there; until then FILE.partial
-            holds them, also after a crash. The rows of a Parquet file are read into memory at their first use.
-        resume, discard
-            Continue with the rows of the same sweep in FILE.partial, or delete them.
-        part
-            Part k of n, as in "3/8"; each part has its own Parquet `file`, and `funicular.merge` joins them.
-        threads
-            Number of threads of this process; one per processor if not given.
-        executor
-            Executor whose workers compute (`concurrent.futures`, Dask's `Client.get_executor()`, mpi4py's
-            `MPIPoolExecutor`), or a function that makes an executor and is called again when the executor breaks.
-        chunks_per_task
-            Number of chunks of rows that a worker gets at once; chosen from measured times if not given.
-        progress
-            Function that is called with the number of finished rows and the number of all rows.
-
-        The other parameters are those of `equilibrium` and `modes`.
-
-        Raises
-        ------
-        InputError
-            An argument is wrong; the message says which and what to give.
-        FileError
-            The file cannot be written, or belongs to another sweep.
-        ExecutorError
-            The executor's workers died; `resume` of the exception continues.
-
-        Warns
-        -----
-        RobotWarning
-            The robot has a value that no usual robot has; once per call, before the rows are computed.
         """
     @property
     def mass_kg(self, /) -> float:
@@ -985,7 +825,270 @@ class Robot(Analyses):
         Returns every number of the robot file, with the keys of the program's `parameters`: `path`, `value`, `unit`,
         `range`, `minimum`, `maximum`, `meaning`, `label` (name in words with the unit) and `given`. `Robot.with_` and `vary=` use the same paths.
         """
-    def payload(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", tension_rule: TensionRule | None = None, *, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, payload_center_m: ArrayLike | None = None) -> Results:
+    def request(self, /, command: "str", **keywords: "object") -> dict[str, Any]:
+        """
+        Makes the request of a command of the program for this robot, as `funicular COMMAND --print-request` prints it.
+
+        `funicular.run` runs the request.
+
+        Parameters
+        ----------
+        command
+            Name of the command, such as `statics`.
+        keywords
+            Options of the command by their names with _ in place of -, such as `tension_rule="middle"`.
+        """
+    @property
+    def source(self, /) -> str:
+        """
+        Source of the robot's numbers.
+        """
+    def to_dict(self, /) -> dict[str, Any]:
+        """
+        Returns the robot file as a dictionary.
+        """
+    def to_toml(self, /) -> str:
+        """
+        Returns the text of the robot file with all changes.
+        """
+    def with_(self, /, changes: dict[str, Any] | None = None, *, mass_kg: SupportsFloat | SupportsIndex | None = None) -> Robot:
+        """
+        Makes a robot with other values; this robot stays as it is.
+
+        Parameters
+        ----------
+        changes
+            New values by their paths in the robot file, as in the program's `--set`; cables by their names:
+            `{"materials.rope-4mm.diameter_m": 0.008, "cables.3.unstrained_length_m": 6.7}`.
+        mass_kg
+            Mass of the platform [kg]; inertia and centre of mass do not change.
+
+        Raises
+        ------
+        RobotFileError
+            The file has no such path, or the value is wrong there.
+        """
+    def design(self, /, change: Any, *, goal: Goal = "first", poses: ArrayLike | None = None, weights: ArrayLike | None = None, min_frequency_hz: SupportsFloat | SupportsIndex | None = None, min_stiffness_n_per_m: SupportsFloat | SupportsIndex | None = None, avoid_hz: ArrayLike | None = None, max_iterations: SupportsIndex | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Designed:
+        """
+        Chooses values of the robot file with which the robot is best at several poses.
+
+        The poses are held, and the tensions of more cables than degrees of freedom follow `tension_rule`. The values
+        move within their bounds until the goal improves no further.
+
+        Parameters
+        ----------
+        change
+            Values to choose: a mapping from paths to the largest change to both sides, or to bounds (minimum, maximum).
+            A vector without a component stands for all its numbers, and * for every name, as in
+            `cables.*.attachment_m`.
+        goal
+            Goal of the design: `first` (highest first natural frequency, cables included); `platform` (highest first
+            natural frequency of the platform on the static stiffness of its cables); `stiffness` (highest minimum
+            stiffness, as `statics` prints it); `rope-mass` (least mass of all ropes); `rope-length` (least length of
+            all ropes).
+        poses
+            Poses (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees]; the worst one counts. If not given: `pose`,
+            or the pose of the robot file.
+        weights
+            Weights of the poses, for their mean instead of the worst pose.
+        min_frequency_hz
+            Demand: first natural frequency at every pose of at least HZ.
+        min_stiffness_n_per_m
+            Demand: minimum stiffness at every pose of at least K, as `statics` prints it [N/m].
+        avoid_hz
+            Band (first, last) without natural frequencies at every pose [Hz].
+        max_iterations
+            Maximum number of iterations; 50 if not given.
+
+        The other parameters are those of `Robot.equilibrium` and of `Equilibrium.stiffness`.
+
+        Returns
+        -------
+        Result with `x`, `fun`, `success`, `message`, `nit` as those of `scipy.optimize`, with the values per pose, and
+        with `robot`.
+
+        Raises
+        ------
+        InputError
+            A value, a path or a bound is wrong.
+        StaticsError
+            A pose has no equilibrium, or no values within the bounds meet all demands; the message says what was
+            reached.
+
+        References
+        ----------
+        docs/theory.md, equations (60r) to (60t) and (95a) to (95c).
+        """
+    def equilibria(self, /, poses: ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", tension_rule: TensionRule | None = None, *, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, threads: SupportsIndex | None = None) -> Equilibria:
+        """
+        Computes the equilibria of many states in parallel, without Python's lock.
+
+        A state without equilibrium is a row with its reason, never an exception. Each row has, bit for bit, the numbers
+        of `equilibrium`.
+
+        Parameters
+        ----------
+        poses
+            (n, 3), (n, 6) or (n, 7): x, y, z [m], then roll, pitch, yaw [degrees] or a quaternion w, x, y, z.
+        lengths_m
+            (n, m): unstrained lengths [m] of m cables.
+        threads
+            Number of threads; one per processor if not given.
+
+        The other parameters are those of `Robot.equilibrium`.
+        """
+    def equilibrium(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", tension_rule: TensionRule | None = None, *, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> Equilibrium:
+        """
+        Computes the static equilibrium for a pose or for unstrained lengths.
+
+        Without `pose` and `lengths_m` the state is that of the robot file.
+
+        Parameters
+        ----------
+        pose
+            A `Pose`, or x, y, z [m], or x, y, z, roll, pitch, yaw [m, degrees], or x, y, z and a quaternion w, x, y, z.
+            The lengths follow. With fewer cables than degrees of freedom: the nearest pose that the cables can hold.
+        lengths_m
+            Unstrained lengths [m], one per cable in the order of the file; the pose follows from them.
+        static_model
+            Static model of the cables: `ideal` (straight, massless, rigid); `spring` (straight, massless, elastic);
+            `catenary` (elastic, sagging under its own weight).
+        tension_rule
+            Rule that chooses the tensions at a pose if there are more cables than degrees of freedom: `lowest` (minimum
+            sum of squares of the tensions above their minimum); `closest` (minimum sum of squares of the differences
+            from `target_tension_n`); `middle` (maximum distance from the limits, relative to the distance between
+            them); `stiffest` (maximum of the minimum eigenvalue of the scaled stiffness); if not given: lowest.
+        hold_lengths_of_pose
+            Hold the unstrained lengths with which the robot, as it was read and before `with_`, rests at the pose. All
+            changes, those of `with_` and those of this call, then act at these lengths and move the platform.
+        mass_kg
+            Mass of the platform [kg]; inertia and centre of mass do not change.
+        force_n
+            Force on the platform, world axes [N].
+        moment_n_m
+            Moment on the platform, world axes [N m].
+        load_point_m
+            Point where the force acts, platform frame [m]; if not given: from the robot file, or the origin.
+        wind_m_s
+            Velocity of the steady wind, world axes [m/s]; it acts on ropes with a `drag_coefficient` and platforms with
+            a `drag_area_m2`.
+        cable_load_n_per_m
+            Load per metre of every cable besides its weight, world axes [N/m].
+        target_tension_n
+            Target tensions [N], one for all cables or one per cable in the order of the file; the rule is then closest.
+        min_tension_n
+            Minimum tension anywhere in a cable [N]; if not given: from the robot file, or 2.5 times the cable's weight.
+        max_tension_n
+            Maximum tension anywhere in a cable [N]; if not given: from the robot file, or none.
+
+        Raises
+        ------
+        StaticsError
+            There is no such equilibrium; `code` gives the reason as one word.
+        InputError
+            An argument is wrong; the message says which and what to give.
+        """
+    def identify(self, /, fit: Any, experiments: Any, *, starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex | None = None, frequency_noise: SupportsFloat | SupportsIndex | None = None, damping_noise: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None) -> Identified:
+        """
+        Finds the values of the robot file that fit measurements best, with their deviations.
+
+        The keywords of the state belong to every experiment that does not give them itself.
+
+        Parameters
+        ----------
+        fit
+            Values to identify: a list of paths, or a mapping from paths to None, to bounds (minimum, maximum), or to a
+            mapping with `minimum`, `maximum`, `prior` and `prior_std`. A vector without a component stands for all its
+            numbers, and * for every name, as in `materials.*.mass_kg_per_m`.
+        experiments
+            One mapping per state of the robot, or a single one: `responses` and `frequencies` as
+            `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m`
+            with their deviations, `cables` with the names of those that were mounted, and the keys of the state.
+        starts
+            Maximum number of starts of the search. The first start has the values of the file, the others are spread by
+            the priors; the search ends at the first start that fits; 10 if not given.
+        profile
+            Paths of fitted values whose interval of 95 % is also found by holding the value and fitting the others
+            again; `details["values"]` has it under `profile`. * stands for any key.
+        from_hz
+            First frequency of the responses that counts [Hz]; if not given: all.
+        to_hz
+            Last frequency of the responses that counts [Hz]; if not given: all.
+        response_noise
+            Standard deviation of responses without deviations, relative to their magnitude; 0.3 % of the median
+            magnitude is added; 0.02 if not given.
+        frequency_noise
+            Relative standard deviation of natural frequencies without deviations; 0.01 if not given.
+        damping_noise
+            Relative standard deviation of damping ratios; 0.1 if not given.
+
+        The other parameters are those of `Robot.equilibrium` and of `Equilibrium.stiffness`.
+
+        Raises
+        ------
+        InputError
+            A value, a path or a measurement is wrong.
+        StaticsError
+            The robot has no equilibrium at any start.
+        """
+    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: str | Sequence[str] | None = None, *, poses: ArrayLike | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+        """
+        Computes quantities over poses, one row per pose.
+
+        The rows are those of the program's `map`, bit for bit, with any number of threads or workers. A pose without
+        equilibrium is a row with its reason, never an exception.
+
+        Parameters
+        ----------
+        grid
+            Axes of a grid of poses: x, y, z [m], roll, pitch, yaw [degrees], as in `{"x": (-4, 4, 81), "z": [0.5, 1,
+            2]}`. A tuple is the first value, the last value and their number; anything else is values. x varies
+            fastest, then y.
+        quantities
+            What is computed at every point; docs/sweeps.md has the list; `tension-min` and `tension-max` if not given.
+        poses
+            Poses instead of a grid, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
+        up_to_hz
+            Upper limit of the search for natural frequencies [Hz]; 1000 if not given.
+        platform_share
+            Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform; 0.5
+            if not given.
+        payload_center_m
+            Centre of mass of the payload, platform frame [m]; if not given: that of the platform.
+        file
+            File of the rows: .parquet, .csv or .vti. It is written when all rows are there; until then FILE.partial
+            holds them, also after a crash. The rows of a Parquet file are read into memory at their first use.
+        resume, discard
+            Continue with the rows of the same sweep in FILE.partial, or delete them.
+        part
+            Part k of n, as in "3/8"; each part has its own Parquet `file`, and `funicular.merge` joins them.
+        threads
+            Number of threads of this process; one per processor if not given.
+        executor
+            Executor whose workers compute (`concurrent.futures`, Dask's `Client.get_executor()`, mpi4py's
+            `MPIPoolExecutor`), or a function that makes an executor and is called again when the executor breaks.
+        chunks_per_task
+            Number of chunks of rows that a worker gets at once; chosen from measured times if not given.
+        progress
+            Function that is called with the number of finished rows and the number of all rows.
+
+        The other parameters are those of `Robot.equilibrium` and of `Equilibrium.stiffness`.
+
+        Raises
+        ------
+        InputError
+            An argument is wrong; the message says which and what to give.
+        FileError
+            The file cannot be written, or belongs to another sweep.
+        ExecutorError
+            The executor's workers died; `resume` of the exception continues.
+
+        Warns
+        -----
+        RobotWarning
+            The robot has a value that no usual robot has; once per call, before the rows are computed.
+        """
+    def payload(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", tension_rule: TensionRule | None = None, *, payload_center_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> Results:
         """
         Computes the minimum and the maximum payload at a pose, with the cables whose tension limits bind.
 
@@ -995,9 +1098,9 @@ class Robot(Analyses):
         Parameters
         ----------
         payload_center_m
-            Centre of mass of the payload, platform frame [m]; that of the platform if not given.
+            Centre of mass of the payload, platform frame [m]; if not given: that of the platform.
 
-        The other parameters are those of `equilibrium`.
+        The other parameters are those of `Robot.equilibrium`.
 
         Returns
         -------
@@ -1019,39 +1122,21 @@ class Robot(Analyses):
         mass_kg
             First mass [kg], last mass [kg] and number of masses.
         lengths_m
-            Unstrained lengths of all masses [m], one per cable; those of the robot file if not given.
+            Unstrained lengths [m], one per cable in the order of the file; if not given: from the robot file.
         pose
-            Pose instead of lengths: the lengths are those with which the robot, as it was read and before `with_`,
-            rests there. A robot file with a pose gives it if it is not given here.
-        tension_rule, target_tension_n, min_tension_n, max_tension_n
-            Choice of the tensions at this pose, as in `equilibrium`.
+            Pose x,y,z[,roll,pitch,yaw] [m, degrees]: hold the unstrained lengths with which the robot of the file,
+            without `with_`, rests there; if not given: the [state] of the robot file.
         tolerance_mm
-            Distance between spring and catenary pose below which the spring is good enough [mm]; `threshold` then gives
-            the mass from which on this holds.
+            Maximum distance between spring pose and catenary pose at which springs are good enough [mm]; reports the
+            masses where they are.
+
+        The other parameters are those of `Robot.equilibrium`.
 
         Returns
         -------
         The keys of the program's JSON: `points` with one entry for each mass.
         """
-    def request(self, /, command: "str", **keywords: "object") -> dict[str, Any]:
-        """
-        Makes the request of a command of the program for this robot, as `funicular COMMAND --print-request` prints it.
-
-        `funicular.run` runs the request.
-
-        Parameters
-        ----------
-        command
-            Name of the command, such as `statics`.
-        keywords
-            Options of the command by their names with _ in place of -, such as `tension_rule="middle"`.
-        """
-    @property
-    def source(self, /) -> str:
-        """
-        Source of the robot's numbers.
-        """
-    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: str | Sequence[str] | None = None, *, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: str | Sequence[str] | None = None, *, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over values of the robot file, one row per combination, as the program's `sweep`.
 
@@ -1061,18 +1146,19 @@ class Robot(Analyses):
             Values of the robot file that vary, by their paths as in `with_`: `{"platform.mass_kg": (10, 90, 81)}`. A
             tuple is the first value, the last value and their number; anything else is values. The first path varies
             fastest. `*` for any key moves all numbers that match together: `{"cables.*.anchor_m.z": (5, 6, 3)}`.
+        quantities
+            Quantities to compute at every point, described in docs/sweeps.md; tension-min, tension-max if not given.
+        up_to_hz
+            Upper limit of the search for natural frequencies [Hz]; 1000 if not given.
+        platform_share
+            Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform; 0.5
+            if not given.
+        payload_center_m
+            Centre of mass of the payload, platform frame [m]; if not given: that of the platform.
 
         The other parameters are those of `map`.
         """
-    def to_dict(self, /) -> dict[str, Any]:
-        """
-        Returns the robot file as a dictionary.
-        """
-    def to_toml(self, /) -> str:
-        """
-        Returns the text of the robot file with all changes.
-        """
-    def uncertainty(self, /, deviations: Any | None = None, tolerances: Any | None = None, of: Result | Sequence[Result] | None = None, *, hold: Hold = "lengths", below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: ArrayLike | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, poses: ArrayLike | None = None, method: Method = "automatic", samples: SupportsIndex | None = None, seed: SupportsIndex | None = None, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, samples_file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Uncertainty:
+    def uncertainty(self, /, deviations: Any = None, tolerances: Any = None, of: Result | Sequence[Result] | None = None, *, hold: Hold = "lengths", below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: ArrayLike | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, poses: ArrayLike | None = None, method: Method = "automatic", samples: SupportsIndex | None = None, seed: SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", samples_file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Uncertainty:
         """
         Computes the deviations of results from deviations or tolerances of numbers of the robot file.
 
@@ -1088,21 +1174,36 @@ class Robot(Analyses):
         tolerances
             Tolerances of numbers that are anywhere within ± their tolerance, in the same form.
         of
-            Results: `pose`, `lengths`, `tensions`, `stiffness-min`, `frequencies`, `damping`, `response`; the first and
-            the third if not given.
+            Results: pose, lengths, tensions, stiffness-min, frequencies, damping, response; separated by commas; pose,
+            tensions if not given.
         hold
-            What stays while the numbers deviate: `lengths`, `pose`, or `rule` (the pose and the rule of the tensions).
+            Quantity that is held while the numbers deviate; with the pose held, the tensions parallel to the chords of
+            more cables than degrees of freedom change least, or follow their rule: `lengths` (the unstrained lengths;
+            the pose follows); `pose` (the pose; the unstrained lengths follow); `rule` (the pose and the rule of
+            `tension_rule`; the unstrained lengths follow).
         below_hz
             Upper limit of the frequencies [Hz]; for frequencies and damping.
-        at_hz, input, output, input_point_m, output_point_m
-            Frequencies [Hz], one or several, signals and points of the response. Results are its magnitudes in decibels
-            of its unit, and its phases in degrees.
+        at_hz
+            Frequencies of the response [Hz], one or several. Results are its magnitudes in decibels of its unit, and its
+            phases in degrees.
+        input
+            Input of the response (see `frf`).
+        output
+            Output of the response (see `frf`); results are its magnitudes in decibels and its phases in degrees.
+        input_point_m
+            Point where the force acts, platform frame [m]; if not given: the origin.
+        output_point_m
+            Point whose motion is measured, platform frame [m]; if not given: the origin.
         poses
             Several poses, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
         method
-            `automatic`, `linear` or `sampled`.
-        samples, seed
-            Number of sampled robots per pose, 200 if not given, and a number that chooses another sample; 0 if not given.
+            Method for the deviations: `automatic` (linear where tensions and frequencies allow it, otherwise sampled);
+            `linear` (linear for every result); `sampled` (sampled for every result).
+        samples
+            Number of sampled robots per pose that needs sampling, 10 to 1000000; with several groups, each group needs
+            as many again; 200 if not given.
+        seed
+            Seed of the sample; 0 if not given.
         samples_file, resume, discard
             File of the sampled robots, .parquet or .csv: FILE.partial holds them until all are there, and `resume`
             continues with them.
@@ -1111,7 +1212,7 @@ class Robot(Analyses):
         progress
             Function that is called with the number of finished items and of all items.
 
-        The other parameters are those of `equilibrium` and of `modes`.
+        The other parameters are those of `Robot.equilibrium` and of `Equilibrium.stiffness`.
 
         Raises
         ------
@@ -1121,23 +1222,6 @@ class Robot(Analyses):
             The robot has no equilibrium.
         FileError
             The file of the samples cannot be written, or belongs to other work.
-        """
-    def with_(self, /, changes: dict[str, Any] | None = None, *, mass_kg: SupportsFloat | SupportsIndex | None = None) -> Robot:
-        """
-        Makes a robot with other values; this robot stays as it is.
-
-        Parameters
-        ----------
-        changes
-            New values by their paths in the robot file, as in the program's `--set`; cables by their names:
-            `{"materials.rope-4mm.diameter_m": 0.008, "cables.3.unstrained_length_m": 6.7}`.
-        mass_kg
-            Mass of the platform [kg]; inertia and centre of mass do not change.
-
-        Raises
-        ------
-        RobotFileError
-            The file has no such path, or the value is wrong there.
         """
 
 @final
@@ -1286,6 +1370,12 @@ def complex_numbers(name: str, values: ArrayLike) -> NDArray[complex128]:
     """
     Makes an array of complex numbers of any shape; `name` stands in errors. For functions of the package that are
     written in Python.
+    """
+
+def declarations() -> str:
+    """
+    Returns the declarations of all keywords as JSON: by commands, each key with its name, its type in Python, its
+    meaning, its default, what stands for it if it is not given, the heading under which it stands, and its names.
     """
 
 def figure_sizes() -> tuple[list[tuple[str, float]], tuple[float, float], tuple[float, float]]:

@@ -3,12 +3,12 @@
 import functools
 import inspect
 import re
-from collections.abc import Callable
-from types import MethodDescriptorType
+from collections.abc import Callable, Mapping
+from types import ClassMethodDescriptorType, MethodDescriptorType
 from typing import Any, ParamSpec, TypeVar
 
 from funicular._errors import InputError
-from funicular._funicular import Analyses, Equilibrium, Pose, Robot, suggested
+from funicular._funicular import Analyses, Catenary, Equilibrium, Pose, Robot, suggested
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -36,23 +36,41 @@ def hinted(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def _better(function: Callable[..., Any], arguments: Any, keywords: Any, error: TypeError) -> Exception | None:
-    said, notes = str(error), " ".join(getattr(error, "__notes__", ()))
     signature = inspect.signature(function)
-    if unknown := re.search(r"got an unexpected keyword argument '(.+)'$", said):
+    if unknown := re.search(r"got an unexpected keyword argument '(.+)'$", str(error)):
         known = [name for name in signature.parameters if name not in ("self", "keywords")]
-        return TypeError(said + suggested(unknown[1], known))
-    if named := re.search(r"while processing '(\w+)'", notes):
-        value = signature.bind_partial(*arguments, **keywords).arguments.get(named[1])
-        shown = repr(value)
-        is_short = len(shown) <= 60 and shown.isprintable()
-        kinds = [words for kind, words in _WANTED.items() if re.search(rf"\b{kind}\b['`]?$", said)]
-        wanted = f"give {kinds[0]}" if kinds else said
-        return InputError(f"`{named[1]}` is {f'{shown}, ' if is_short else ''}of type {type(value).__name__}: {wanted}")
-    return None
+        return TypeError(f"{error}{suggested(unknown[1], known)}")
+    return in_words(signature.bind_partial(*arguments, **keywords).arguments, error)
+
+
+def in_words(given: Mapping[str, Any], error: TypeError) -> InputError | None:
+    """Error of the compiled half about the type of an argument, in words; None for another error."""
+    said, notes = str(error), " ".join(getattr(error, "__notes__", ()))
+    named = re.search(r"while processing '(\w+)'", notes)
+    if not named:
+        return None
+    value = given.get(named[1])
+    shown = repr(value)
+    is_short = len(shown) <= 60 and shown.isprintable()
+    kinds = [words for kind, words in _WANTED.items() if re.search(rf"\b{kind}\b['`]?$", said)]
+    wanted = f"give {kinds[0]}" if kinds else said
+    return InputError(f"`{named[1]}` is {f'{shown}, ' if is_short else ''}of type {type(value).__name__}: {wanted}")
+
+
+def _hinted_class_method(method: ClassMethodDescriptorType) -> Any:
+    """Class method with hints in the errors of its call."""
+
+    @functools.wraps(method)
+    def call(of: type, /, *arguments: Any, **keywords: Any) -> Any:
+        return hinted(method.__get__(None, of))(*arguments, **keywords)
+
+    return classmethod(call)
 
 
 # Assigned here and not written into the classes, which are compiled.
-for _class in (Analyses, Robot, Equilibrium, Pose):
+for _class in (Analyses, Catenary, Robot, Equilibrium, Pose):
     for _name, _method in list(vars(_class).items()):
         if isinstance(_method, MethodDescriptorType) and not _name.startswith("_"):
             setattr(_class, _name, hinted(_method))
+        elif isinstance(_method, ClassMethodDescriptorType):
+            setattr(_class, _name, _hinted_class_method(_method))

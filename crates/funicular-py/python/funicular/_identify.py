@@ -1,7 +1,7 @@
 """Identification: values of a robot file that fit measurements best."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -14,9 +14,8 @@ from funicular._errors import InputError
 from funicular._funicular import Answered, Robot, measurements_of_file
 from funicular._hints import hinted
 from funicular._pages import Page, page_of_result
-from funicular._reading import experiments, keywords, read
+from funicular._reading import read
 from funicular._results import ArrayFields, with_arrays
-from funicular._study import complete
 
 File = str | PathLike[str]
 
@@ -113,21 +112,6 @@ def identified(request: Mapping[str, Any]) -> Identified:
         details=found,
         _answered=answered,
     )
-
-
-# Keywords that belong to the state of an experiment.
-_STATE = (
-    *("pose", "lengths_m", "hold_lengths_of_pose", "static_model", "mass_kg"),
-    *("force_n", "moment_n_m", "load_point_m", "wind_m_s", "cable_load_n_per_m"),
-)
-
-
-def identify_request(robot: str, cables: Sequence[str], measured: Any, given: Mapping[str, Any]) -> dict[str, Any]:
-    """Request of `Robot.identify`; `robot` is JSON. Keywords of the state belong to experiments that do not give them."""
-    own = keywords("identify", given, cables)
-    state = {key: own.pop(key) for key in _STATE if key in own}
-    made = {"command": "identify", "robot": json.loads(robot), "experiments": experiments(measured, state, cables), **own}
-    return complete(made)
 
 
 @hinted

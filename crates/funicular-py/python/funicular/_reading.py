@@ -20,24 +20,19 @@ def keywords(command: str, given: Mapping[str, Any], cables: Sequence[str]) -> d
     return {key: _READERS.get(key, read)(command, key, value, cables=cables) for key, value in given.items() if value is not None or key in _READERS}
 
 
-def experiments(given: Any, state: Mapping[str, Any], cables: Sequence[str]) -> list[dict[str, Any]]:
-    """Experiments of `identify`, each with the keys of the state that it does not give itself."""
+def _listed_experiments(given: Any) -> Sequence[Mapping[str, Any]]:
     listed = [given] if isinstance(given, Mapping) else given
     if not isinstance(listed, (list, tuple)) or not all(isinstance(one, Mapping) for one in listed):
         raise InputError(
             f"`experiments` is of type {type(given).__name__}: give what `funicular.read_measurements` returns, or a list "
             "of such mappings"
         )
-    found = []
-    for i, one in enumerate(listed):
-        mounted = read("identify", "cables", one["cables"], name=f"experiments[{i}].cables") if one.get("cables") is not None else cables
-        own = {
-            key: read("identify", key, value, cables=mounted, name=f"experiments[{i}].{key}")
-            for key, value in one.items()
-            if value is not None
-        }
-        found.append({**state, **own})
-    return found
+    return listed
+
+
+def with_state(given: Any, state: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Experiments of `identify`, each with the keys of the state that it does not give itself."""
+    return [{**state, **{key: value for key, value in one.items() if value is not None}} for one in _listed_experiments(given)]
 
 
 def _pairs(key: str, given: Any, wanted: str) -> Iterable[tuple[str, Any]]:
@@ -110,7 +105,16 @@ def _change(command: str, key: str, given: Any, *, cables: Sequence[str]) -> lis
 
 
 def _experiments(command: str, key: str, given: Any, *, cables: Sequence[str]) -> list[dict[str, Any]]:
-    return experiments(given, {}, cables)
+    """Experiments of `identify`; those that name their cables have one number per such cable."""
+    found = []
+    for i, one in enumerate(_listed_experiments(given)):
+        mounted = read(command, "cables", one["cables"], name=f"experiments[{i}].cables") if one.get("cables") is not None else cables
+        found.append({
+            name: read(command, name, value, cables=mounted, name=f"experiments[{i}].{name}")
+            for name, value in one.items()
+            if value is not None
+        })
+    return found
 
 
 _READERS: dict[str, Any] = {"fit": _fit, "change": _change, "experiments": _experiments}

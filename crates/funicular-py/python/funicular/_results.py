@@ -142,20 +142,19 @@ def _mode_gradients(found: dict[str, Any], count: int) -> ModeGradients:
     has_damping = False
     blocks: dict[tuple[int, ...], NDArray[np.float64]] = {}
     for result in found["results"]:
-        kind, derivatives = result["name"].split()[0], result["derivatives"]
-        entry = result.get("block_entry")
-        if entry:
-            # The name is "frequencies 3 to 4, entry …".
-            first, last = (int(word.rstrip(",")) for word in result["name"].split()[1:4:2])
-            modes = tuple(range(first - 1, last))
-            block = blocks.setdefault(modes, np.zeros((len(modes), len(modes), len(numbers))))
-            i, j = (number - first for number in entry)
-            block[i, j] = block[j, i] = derivatives
-        elif kind == "frequency":
-            frequency[int(result["name"].split()[1]) - 1] = derivatives
-        else:
-            has_damping = True
-            damping[int(result["name"].split()[2]) - 1] = derivatives
+        measure, derivatives = result["measure"], result["derivatives"]
+        match measure["kind"]:
+            case "shared-frequency":
+                first, last = measure["modes"]
+                modes = tuple(range(first - 1, last))
+                block = blocks.setdefault(modes, np.zeros((len(modes), len(modes), len(numbers))))
+                i, j = (number - first for number in measure["entry"])
+                block[i, j] = block[j, i] = derivatives
+            case "frequency":
+                frequency[measure["mode"] - 1] = derivatives
+            case "damping":
+                has_damping = True
+                damping[measure["mode"] - 1] = derivatives
     return ModeGradients(
         paths=tuple(number["path"] for number in numbers),
         units=tuple(number["unit"] for number in numbers),

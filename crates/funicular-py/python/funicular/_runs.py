@@ -31,7 +31,7 @@ def run(
     if chunks_per_task is not None and chunks_per_task < 1:
         raise InputError(f"`chunks_per_task` is {chunks_per_task}: give at least one")
 
-    work = plan.begin(file, resume, discard, level=3)
+    work = plan.begin(file, resume, discard, level=4)
     if work is None:
         return Sweep(None, file)
     if executor is not None:

@@ -533,7 +533,7 @@ def shape(
     """
     if modes.cable_shapes is None or modes.cable_axes is None or modes.station_position_m is None:
         raise InputError("these modes have no motion of the cables: compute them with `stations=65`")
-    row = read("", "order", mode, name="mode")
+    row = read("", "count", mode, name="mode")
     if row >= len(modes):
         raise InputError(f"`mode` is {mode}: there are {len(modes)} modes, from 0")
     mode = row

@@ -1,11 +1,8 @@
 //! Arguments of a sweep, with the types that the `.pyi` names.
 
-use crate::arrays::{ARRAY_LIKE, Count, Number, Numbers};
+use crate::arrays::{ARRAY_LIKE, Count, Number, Numbers, finite};
 use crate::errors;
-use crate::request::share;
-use crate::texts::{Texts, not_empty};
-use funicular_study::request::{Axis, EachPoint, Model, State, Tensions};
-use funicular_study::sweep::MAX_HZ;
+use funicular_study::request::Axis;
 use pyo3::inspect::{PyStaticExpr, PyStaticOperator};
 use pyo3::prelude::*;
 use pyo3::types::{PyMapping, PyTuple};
@@ -57,10 +54,13 @@ fn axis(name: String, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
         let third = format!("{name}[2]");
         let rule = "the third of a tuple is the number of values, 2 or more; give a list for values";
         let count = tuple.get_item(2)?.extract::<Count>()?.within(&third, 2..=usize::MAX, rule)?;
-        let end = |place: usize| tuple.get_item(place)?.extract::<Number>()?.value(&format!("{name}[{place}]"));
+        let end = |place: usize| tuple.get_item(place)?.extract::<Number>()?.finite(&format!("{name}[{place}]"));
         return Ok(Axis::Range { from: end(0)?, to: end(1)?, count, axis: name });
     }
     let (values, _) = values.extract::<Numbers>()?.one_or_row(&name)?;
+    for (i, value) in values.iter().enumerate() {
+        finite(&format!("{name}[{i}]"), *value)?;
+    }
     Ok(Axis::List { axis: name, values })
 }
 
@@ -135,25 +135,4 @@ pub(crate) fn poses(numbers: Numbers) -> PyResult<Vec<[f64; 6]>> {
         return six("poses", &[]).map(|_| Vec::new());
     }
     flat.chunks_exact(columns).map(|row| six("poses", row)).collect()
-}
-
-/// Request for the points of a map or sweep, from the keywords of Python.
-pub(crate) fn each_point(
-    quantities: Option<Texts>,
-    up_to_hz: Option<Number>,
-    platform_share: Option<Number>,
-    payload_center_m: Option<Numbers>,
-    state: State,
-    tensions: Tensions,
-    model: Model,
-) -> PyResult<EachPoint> {
-    Ok(EachPoint {
-        quantities: not_empty(quantities, "quantities")?.unwrap_or_else(|| EachPoint::default().quantities),
-        up_to_hz: up_to_hz.map_or(Ok(MAX_HZ), |up_to_hz| up_to_hz.value("up_to_hz"))?,
-        platform_share: share(platform_share)?,
-        payload_center_m: payload_center_m.map(|center| center.three("payload_center_m")).transpose()?,
-        state,
-        tensions,
-        model,
-    })
 }

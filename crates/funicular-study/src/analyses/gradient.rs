@@ -6,7 +6,7 @@ mod rows;
 pub(crate) use columns::{GradientColumns, Tolerance, refuse_replaced, value_at};
 
 use super::found;
-use super::result_groups::{missing_option, refuse_unused, result_groups};
+use super::result_groups::{missing_option, nothing_below, refuse_unused, result_groups};
 use super::shared::Models;
 use crate::at_rest::{self, AtRest};
 use crate::error::NoSolution;
@@ -19,6 +19,7 @@ use funicular::statics::TensionRule;
 use funicular::statics::derivatives::StaticDerivativeError;
 use rows::GradientRows;
 use serde::Serialize;
+use serde_json::Value;
 
 /// Results of `gradient`: derivatives of results by numbers of the robot file.
 #[derive(Serialize)]
@@ -63,6 +64,8 @@ pub struct GradientParameter {
 pub struct GradientResult {
     /// Name, such as `frequency 3` or `tension of cable "2" at the anchor`.
     pub name: String,
+    /// Identity as data: `kind`, and the cable, mode or frequency to which the result belongs.
+    pub measure: Value,
     pub unit: String,
     pub value: f64,
     /// Entry of the block of modes that share a frequency: numbers of the two modes in the list, from 1. Along a
@@ -77,6 +80,8 @@ pub struct GradientResult {
 #[derive(Serialize)]
 pub struct RefusedResult {
     pub name: String,
+    /// Identity as data, as in [`GradientResult`].
+    pub measure: Value,
     pub reason: String,
 }
 
@@ -126,7 +131,7 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
     let GradientColumns { parameters, changes, without_derivative } = columns;
     let gradients = held(at_rest, request.hold)?;
 
-    let mut rows = GradientRows { changes: &changes, results: Vec::new(), refused: Vec::new() };
+    let mut rows = GradientRows { robot, changes: &changes, results: Vec::new(), refused: Vec::new() };
     rows.statics(robot, &gradients, &groups);
 
     let limit = request.below_hz.into_iter().chain(request.at_hz).fold(0.0, f64::max);
@@ -136,7 +141,10 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
         warnings = found;
         let vibration = gradients.vibration(&dynamics)?;
         if groups.contains(&"frequencies") || groups.contains(&"damping") {
-            rows.modes(&dynamics, &vibration, &groups, request.below_hz.unwrap_or(limit));
+            let below_hz = request.below_hz.unwrap_or(limit);
+            if rows.modes(&dynamics, &vibration, &groups, below_hz) == 0 {
+                warnings.push(nothing_below(below_hz));
+            }
         }
         if groups.contains(&"response") {
             rows.response(robot, &vibration, request)?;

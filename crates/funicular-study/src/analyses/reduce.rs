@@ -120,10 +120,17 @@ pub struct CoordinateRow {
 /// was stopped.
 pub fn run(robot: Robot, request: &request::ReduceRequest, watch: &mut dyn Watch) -> Result<ReducedForm> {
     check(&robot, request)?;
-    let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
+    about(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request, watch)
+}
+
+/// Makes the model for a robot at equilibrium. The state of the request is not used.
+///
+/// # Errors
+/// The errors of [`run`].
+pub fn about(at_rest: &AtRest, request: &request::ReduceRequest, watch: &mut dyn Watch) -> Result<ReducedForm> {
     Ok(match request.form {
-        ModelForm::StateSpace => ReducedForm::StateSpace(Box::new(control_model::about(&at_rest, request, watch)?)),
-        ModelForm::SecondOrder => ReducedForm::SecondOrder(Box::new(about(&at_rest, request, watch)?)),
+        ModelForm::StateSpace => ReducedForm::StateSpace(Box::new(control_model::about(at_rest, request, watch)?)),
+        ModelForm::SecondOrder => ReducedForm::SecondOrder(Box::new(second_order(at_rest, request, watch)?)),
     })
 }
 
@@ -206,11 +213,8 @@ fn damping_in_words(is_exact: bool, damping_at: DampingAt) -> String {
     }
 }
 
-/// Makes the second-order form for a robot at equilibrium. The state of the request is not used.
-///
-/// # Errors
-/// The errors of [`run`].
-pub fn about(at_rest: &AtRest, request: &request::ReduceRequest, watch: &mut dyn Watch) -> Result<Reduced> {
+/// Makes the second-order form for a robot at equilibrium.
+fn second_order(at_rest: &AtRest, request: &request::ReduceRequest, watch: &mut dyn Watch) -> Result<Reduced> {
     let signals = check(&at_rest.robot, request)?;
     let Linearised { dynamics, linearisation, warnings, damping_at, from, to } =
         linearised(at_rest, request, &signals)?;

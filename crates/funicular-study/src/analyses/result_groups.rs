@@ -65,6 +65,11 @@ fn listed_alone(groups: &[&str]) -> String {
     groups.iter().map(|group| format!("`{group}`")).collect::<Vec<_>>().join(", ")
 }
 
+/// Caveat of a list of modes that is empty: its limit [Hz] is below the first natural frequency.
+pub(crate) fn nothing_below(below_hz: f64) -> String {
+    format!("no natural frequency lies below {below_hz} Hz: raise ⟪below_hz⟫")
+}
+
 /// Error of a group of results without an option that it needs.
 pub(crate) fn missing_option(group: &str, option: &str) -> anyhow::Error {
     anyhow!("`{group}` needs ⟪{option}⟫")

@@ -375,6 +375,7 @@ impl SamplePlan<'_> {
         });
         UncertainResult {
             name: row.kind.name(&linear.at_rest.robot),
+            measure: row.kind.identity(&linear.at_rest.robot),
             unit: row.kind.unit(),
             at_hz: row.kind.at_hz(),
             value: row.value + 0.0,

@@ -93,8 +93,8 @@ fn verdict(chi2_per_degree: f64, degrees: f64, is_noise_given: bool) -> (f64, St
     let times = significant(ratio, 3);
     if !is_noise_given {
         let sentence = format!(
-            "deviations of measurements were assumed; the residuals are {times} times as large, and the deviations of \
-             the values follow from the residuals"
+            "the deviations of the measurements were assumed. The residuals are {times} times as large, and the \
+             deviations of the values come from them"
         );
         return (ratio, sentence);
     }

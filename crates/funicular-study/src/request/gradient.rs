@@ -27,7 +27,7 @@ declared! {
         per: Per = Per::default() => (name::<Per>()).form("STEP");
         /// Tolerances PATH=VALUE or PATH=PERCENT%, separated by commas.
         tolerances: Vec<String> = Vec::new() =>
-            (Texts).form("TOLERANCES").otherwise("usual ones, which docs/gradients.md lists");
+            (Sizes).form("TOLERANCES").otherwise("usual ones, which docs/gradients.md lists");
         /// Upper limit of the frequencies [Hz]; for frequencies and damping.
         below_hz: Option<f64> = None => (Number(Positive));
         /// Frequency of the response [Hz].

@@ -12,7 +12,7 @@ declared! {
         /// (repeatable); an axis that is not given keeps the value of the robot's state or of ⟪pose⟫.
         grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…");
         /// List of poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
-        poses: Option<Vec<[f64; 6]>> = None => (Data(shape::poses));
+        poses: Option<Vec<[f64; 6]>> = None => (Poses);
         /// Quantities and options of every point.
         #[serde(flatten)]
         point: EachPoint = EachPoint::default() => group;

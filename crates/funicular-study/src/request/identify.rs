@@ -126,10 +126,10 @@ declared! {
         measured_pose: Option<Pose> = None => (Pose).form("X,Y,Z,ROLL,PITCH,YAW").under("Measurements");
         /// Measured tensions at the platform [N], one per cable.
         #[serde(skip_serializing_if = "Option::is_none")]
-        measured_tensions_n: Option<Vec<f64>> = None => (Numbers(NotNegative)).form("T1,T2,…").under("Measurements");
+        measured_tensions_n: Option<Vec<f64>> = None => (PerCable(NotNegative)).form("T1,T2,…").under("Measurements");
         /// Measured unstrained lengths at a held pose [m], one per cable.
         #[serde(skip_serializing_if = "Option::is_none")]
-        measured_lengths_m: Option<Vec<f64>> = None => (Numbers(Positive)).form("L1,L2,…").under("Measurements");
+        measured_lengths_m: Option<Vec<f64>> = None => (PerCable(Positive)).form("L1,L2,…").under("Measurements");
         /// Standard deviation of each coordinate of the measured position [m].
         #[serde(skip_serializing_if = "Option::is_none")]
         position_std_m: Option<f64> = None => (Number(Positive)).under("Measurements").otherwise("0.001");

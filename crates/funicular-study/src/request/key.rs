@@ -93,20 +93,26 @@ pub enum Kind {
     Number(Range),
     /// Whole number.
     Count(RangeInclusive<u64>),
-    /// List of numbers.
-    Numbers(Range),
+    /// Numbers, one per cable in the order of the file.
+    PerCable(Range),
+    /// One number for all cables, or one per cable.
+    OneOrPerCable(Range),
     /// Vector x, y, z.
     Vector,
     /// Position and orientation, or only the position.
     Pose,
     /// Entries xx, yy, zz, xy, xz, yz of a symmetric tensor, or its diagonal.
     Tensor,
-    /// One of several names.
-    Name(Vec<Choice>),
+    /// One of several names of such a thing.
+    Name(&'static str, Vec<Choice>),
     /// Any text.
     Text,
     /// Several texts; in the program separated by commas.
     Texts,
+    /// Paths of numbers of the robot file with sizes, `PATH=SIZE`; in the program separated by commas.
+    Sizes,
+    /// Poses, each x, y, z [m], roll, pitch, yaw [degrees]; the program reads them from a file.
+    Poses,
     /// Value that the program writes in a form of its own.
     Written(ProgramForm),
     /// List of such values; the option can be given several times.
@@ -214,7 +220,7 @@ impl Key {
         if !self.required {
             self.default = default.cloned().unwrap_or_default();
         }
-        if self.option.is_empty() && !matches!(self.kind, Kind::Data(_)) {
+        if self.option.is_empty() && !matches!(self.kind, Kind::Data(_) | Kind::Poses) {
             self.option = name.replace('_', "-");
         }
         if self.option == Self::NOT_IN_PROGRAM {
@@ -233,7 +239,7 @@ impl Key {
 /// Kind of value for a choice by name.
 pub(crate) fn name<T: Named>() -> Kind {
     let choice = |of: &T| Choice { name: of.name(), about: of.about(), also: of.also() };
-    Kind::Name(T::ALL.iter().map(choice).collect())
+    Kind::Name(T::WHAT, T::ALL.iter().map(choice).collect())
 }
 
 /// Form of a number in help texts: its unit, which the end of its name tells.

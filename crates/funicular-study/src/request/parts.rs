@@ -130,7 +130,7 @@ declared! {
     pub struct State {
         /// Unstrained lengths [m], one per cable in the order of the file; the pose follows from them.
         lengths_m: Option<Vec<f64>> = None =>
-            (Numbers(Positive)).form("L1,L2,…").under("State").excludes(&["pose", "hold_lengths_of_pose"]);
+            (PerCable(Positive)).form("L1,L2,…").under("State").excludes(&["pose", "hold_lengths_of_pose"]);
         /// Pose x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll); the lengths follow from it.
         pose: Option<Pose> = None => (Pose).under("State");
         /// Hold the unstrained lengths with which the robot of the file rests at the pose (of the file or of ⟪pose⟫); all
@@ -174,7 +174,7 @@ declared! {
         tension_rule: Option<TensionRuleName> = None =>
             (name::<TensionRuleName>()).form("RULE").under("Tensions").otherwise("lowest");
         /// Target tensions [N], one for all cables or one per cable in the order of the file; the rule is then closest.
-        target_tension_n: Option<Vec<f64>> = None => (Numbers(NotNegative)).form("T|T1,T2,…").under("Tensions");
+        target_tension_n: Option<Vec<f64>> = None => (OneOrPerCable(NotNegative)).form("T|T1,T2,…").under("Tensions");
         /// Minimum tension anywhere in a cable [N].
         min_tension_n: Option<f64> = None =>
             (Number(NotNegative)).under("Tensions").otherwise("from the robot file, or 2.5 times the cable's weight");
@@ -283,6 +283,11 @@ impl OneOrSeveral {
     /// One signal for a list of one name, else several.
     pub fn of(mut names: Vec<String>) -> Self {
         if names.len() == 1 { Self::One(names.remove(0)) } else { Self::Several(names) }
+    }
+
+    /// True for one name that stands alone.
+    pub fn is_one(&self) -> bool {
+        matches!(self, Self::One(_))
     }
 
     /// Names in their order.

@@ -54,13 +54,14 @@ fn of_kind(kind: &Kind) -> Value {
         Kind::Switch => json!({ "type": "boolean" }),
         Kind::Number(range) => number(*range),
         Kind::Count(range) => json!({ "type": "integer", "minimum": range.start(), "maximum": range.end() }),
-        Kind::Numbers(range) => numbers(*range, None),
+        Kind::PerCable(range) | Kind::OneOrPerCable(range) => numbers(*range, None),
         Kind::Vector => numbers(Range::Finite, Some(3)),
         Kind::Pose => pose(),
         Kind::Tensor => numbers(Range::Finite, Some(6)),
-        Kind::Name(choices) => json!({ "enum": choices.iter().map(|choice| choice.name).collect::<Vec<_>>() }),
+        Kind::Name(_, choices) => json!({ "enum": choices.iter().map(|choice| choice.name).collect::<Vec<_>>() }),
         Kind::Text => text(),
-        Kind::Texts => texts(),
+        Kind::Texts | Kind::Sizes => texts(),
+        Kind::Poses => poses(),
         Kind::Written(form) => of_form(*form),
         Kind::List(form) => list(&of_form(*form)),
         Kind::OneOrMore(form) | Kind::Commas(form) => {
@@ -133,7 +134,7 @@ fn pose() -> Value {
     })
 }
 
-pub(super) fn poses() -> Value {
+fn poses() -> Value {
     list(&numbers(Range::Finite, Some(6)))
 }
 

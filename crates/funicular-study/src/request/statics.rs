@@ -118,7 +118,7 @@ declared! {
         mass_kg: (f64, f64, usize) = (0.0, 0.0, 0) => (Written(ProgramForm::MassRange)).form("A:B:N").required();
         /// Unstrained lengths [m], one per cable in the order of the file.
         lengths_m: Option<Vec<f64>> = None =>
-            (Numbers(Positive)).form("L1,L2,…").excludes(&["pose"]).otherwise("from the robot file");
+            (PerCable(Positive)).form("L1,L2,…").excludes(&["pose"]).otherwise("from the robot file");
         /// Pose x,y,z[,roll,pitch,yaw] [m, degrees]: hold the unstrained lengths with which the robot of the file, without
         /// ⟪set⟫, rests there.
         pose: Option<Pose> = None => (Pose).otherwise("the [state] of the robot file");

@@ -21,10 +21,10 @@ declared! {
         /// Standard deviations PATH=VALUE or PATH=PERCENT% of normally distributed numbers, separated by commas. `parameters`
         /// lists the paths; * stands for any key, and a path to a table or vector for all numbers in it. Each entry is a
         /// group with its own share.
-        deviations: Vec<String> = Vec::new() => (Texts).form("DEVIATIONS");
+        deviations: Vec<String> = Vec::new() => (Sizes).form("DEVIATIONS");
         /// Tolerances PATH=VALUE or PATH=PERCENT% of numbers with a uniform distribution within ± their tolerance, separated
         /// by commas.
-        tolerances: Vec<String> = Vec::new() => (Texts).form("TOLERANCES");
+        tolerances: Vec<String> = Vec::new() => (Sizes).form("TOLERANCES");
         /// Results: pose, lengths, tensions, stiffness-min, frequencies, damping, response; separated by commas.
         of: Vec<String> = pose_and_tensions() => (Texts).form("RESULTS");
         /// Quantity that is held while the numbers deviate; with the pose held, the tensions parallel to the chords of more
@@ -44,7 +44,7 @@ declared! {
         #[serde(flatten)]
         points: ResponsePoints = ResponsePoints::default() => group;
         /// List of poses instead of the state: position [m] and roll, pitch, yaw [degrees].
-        poses: Option<Vec<[f64; 6]>> = None => (Data(shape::poses));
+        poses: Option<Vec<[f64; 6]>> = None => (Poses);
         /// Method for the deviations.
         #[serde(with = "crate::names")]
         method: UncertaintyMethod = UncertaintyMethod::default() => (name::<UncertaintyMethod>()).form("METHOD");

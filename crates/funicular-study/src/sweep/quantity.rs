@@ -10,6 +10,7 @@ use super::columns::{Column, Value};
 use super::evaluation::PointEvaluation;
 use super::sensitivity::Sensitivity;
 use crate::set_values;
+use crate::wording::{Words, worded};
 use funicular::cable::CableModel;
 use funicular::robot::Robot;
 use funicular::statics::StaticModel;
@@ -33,6 +34,21 @@ struct Definition {
     columns: fn(&Robot, &Parameter) -> Vec<Column>,
     /// Function that adds the values of a point, one per column.
     values: fn(&mut PointEvaluation<'_>, &Parameter, &mut Vec<Value>),
+}
+
+impl Definition {
+    /// Quantity without a parameter that exists for every static model and shows no natural frequency. Each row of the
+    /// table gives the rest.
+    const PLAIN: Self = Self {
+        name: "",
+        about: "",
+        documentation: "",
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
+        frequencies: |_| 0,
+        columns: |_, _| Vec::new(),
+        values: |_, _, _| {},
+    };
 }
 
 /// Kind of parameter after the colon of a name.
@@ -104,7 +120,10 @@ impl Quantity {
 
     /// Rows of a Markdown table of all quantities: name, description.
     pub fn documentation() -> String {
-        let rows: Vec<String> = TABLE.iter().map(|of| format!("| `{}` | {} |\n", of.name, of.documentation)).collect();
+        let rows: Vec<String> = TABLE
+            .iter()
+            .map(|of| format!("| `{}` | {} |\n", of.name, worded(of.documentation, Words::Program)))
+            .collect();
         rows.concat()
     }
 

@@ -3,34 +3,29 @@
 use super::columns::{Column, Value};
 use super::evaluation::PointEvaluation;
 use super::status::Status;
+use crate::measure::{Measure, TensionPlace};
 use crate::set_values::{self, ValuePath};
-use funicular::gradient::Gradients;
+use funicular::gradient::{GradientError, Gradients};
 use funicular::modes;
-use funicular::robot::RobotChange;
+use funicular::robot::{Robot, RobotChange};
 use funicular::suggest::nearest;
 use std::fmt::Display;
 
-/// Result that is differentiated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Differentiated {
-    FirstFrequency,
-    MinStiffness,
-    Tensions,
-    Lengths,
-}
+/// Measures of a robot that are differentiated.
+type MeasuresOf = fn(&Robot) -> Vec<Measure>;
 
 /// Quantities that can be differentiated, by their names.
-const RESULTS: [(&str, Differentiated); 4] = [
-    ("first-frequency", Differentiated::FirstFrequency),
-    ("stiffness-min", Differentiated::MinStiffness),
-    ("tensions", Differentiated::Tensions),
-    ("lengths", Differentiated::Lengths),
+const RESULTS: [(&str, MeasuresOf); 4] = [
+    ("first-frequency", |_| vec![Measure::Frequency(0)]),
+    ("stiffness-min", |_| vec![Measure::MinStiffness]),
+    ("tensions", |robot| Measure::tensions(robot, TensionPlace::Platform)),
+    ("lengths", Measure::lengths),
 ];
 
 /// Derivative of a quantity by a number of the robot file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Sensitivity {
-    result: (&'static str, Differentiated),
+    result: &'static str,
     path: ValuePath,
 }
 
@@ -38,7 +33,7 @@ impl Sensitivity {
     /// Derivative from `RESULT:PATH`.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let (result, path) = text.split_once(':')?;
-        let result = RESULTS.into_iter().find(|(name, _)| *name == result)?;
+        let (result, _) = RESULTS.into_iter().find(|(name, _)| *name == result)?;
         Some(Self { result, path: set_values::path(path).ok()? })
     }
 
@@ -61,7 +56,7 @@ impl Sensitivity {
 
     /// Name of the quantity that is differentiated.
     pub(super) fn result(&self) -> &'static str {
-        self.result.0
+        self.result
     }
 
     /// Path of the number.
@@ -71,7 +66,7 @@ impl Sensitivity {
 
     /// Result and path.
     pub(super) fn name(&self) -> String {
-        format!("{}:{}", self.result.0, self.path.text)
+        format!("{}:{}", self.result, self.path.text)
     }
 
     /// Columns, from those of the quantity that is differentiated.
@@ -91,20 +86,24 @@ impl Sensitivity {
         of_result.iter().map(column).collect()
     }
 
+    /// Measures that are differentiated, one per column.
+    fn measures(&self, robot: &Robot) -> Vec<Measure> {
+        RESULTS.iter().find(|(name, _)| *name == self.result).map_or_else(Vec::new, |(_, of)| of(robot))
+    }
+
     /// Adds the derivatives at a point, one per column.
     pub(super) fn values(&self, row: &mut PointEvaluation<'_>, out: &mut Vec<Value>) {
-        let cables = row.robot.cables.len();
-        match self.derivatives(row) {
+        let measures = self.measures(row.robot);
+        match self.derivatives(row, &measures) {
             Ok(found) => out.extend(found.into_iter().map(|value| Value::real(Some(value)))),
             Err(status) => {
-                let is_per_cable = matches!(self.result.1, Differentiated::Tensions | Differentiated::Lengths);
-                out.extend(vec![Value::Nothing; if is_per_cable { cables } else { 1 }]);
+                out.extend(vec![Value::Nothing; measures.len()]);
                 row.note_missing(status);
             }
         }
     }
 
-    fn derivatives(&self, row: &PointEvaluation<'_>) -> Result<Vec<f64>, Status> {
+    fn derivatives(&self, row: &PointEvaluation<'_>, measures: &[Measure]) -> Result<Vec<f64>, Status> {
         let none = |reason: &dyn Display| Status::new("no-derivative", &reason.to_string());
         let change = self.change(row)?;
 
@@ -114,21 +113,12 @@ impl Sensitivity {
         };
         let gradients = gradients.map_err(|error| none(&error))?;
 
-        let along = |all: Vec<RobotChange>| all.iter().map(|gradient| gradient.dot(&change)).collect();
-
-        Ok(match self.result.1 {
-            Differentiated::Tensions => along(gradients.tensions_platform()),
-            Differentiated::Lengths => along(gradients.lengths()),
-            Differentiated::MinStiffness => along(vec![gradients.min_stiffness().map_err(|error| none(&error))?]),
-            Differentiated::FirstFrequency => {
-                let (linearisation, highest_hz) = row.vibration();
-                let (dynamics, found) = modes::lowest(row.robot, row.rest, linearisation, 1, highest_hz)
-                    .map_err(|error| Status::new("no-frequency", &error))?;
-                let first = found.modes.first().ok_or_else(|| none(&"there is no mode"))?;
-                let vibration = gradients.vibration(&dynamics).map_err(|error| none(&error))?;
-                along(vec![vibration.frequency(first).map_err(|error| none(&error))?])
-            }
-        })
+        let found = Measure::static_gradients(measures, &gradients).into_iter().zip(measures);
+        let gradient = |(of, measure): (Option<Result<RobotChange, GradientError>>, &Measure)| match of {
+            Some(found) => found.map_err(|error| none(&error)),
+            None => frequency_gradient(row, &gradients, measure.mode().unwrap_or_default()),
+        };
+        found.map(|of| Ok(gradient(of)?.dot(&change))).collect()
     }
 
     /// Change of the robot of a point per unit of the number.
@@ -139,4 +129,15 @@ impl Sensitivity {
         let change = parameters.change_of(index, row.robot);
         change.ok_or_else(|| none(&format!("{} has no derivative", self.path.text)))
     }
+}
+
+/// Gradient of the natural frequency with this number, from 0.
+fn frequency_gradient(row: &PointEvaluation<'_>, gradients: &Gradients, mode: usize) -> Result<RobotChange, Status> {
+    let none = |reason: &dyn Display| Status::new("no-derivative", &reason.to_string());
+    let (linearisation, highest_hz) = row.vibration();
+    let (dynamics, found) = modes::lowest(row.robot, row.rest, linearisation, mode + 1, highest_hz)
+        .map_err(|error| Status::new("no-frequency", &error))?;
+    let mode = found.modes.get(mode).ok_or_else(|| none(&"there is no mode"))?;
+    let vibration = gradients.vibration(&dynamics).map_err(|error| none(&error))?;
+    vibration.frequency(mode).map_err(|error| none(&error))
 }

@@ -18,6 +18,7 @@ const details = new Job();
 const search = new Job();
 const dirty = { robot: false, frame: false, mode: false, response: false };
 let stopped = false; // a person has cancelled a frame
+let lost = false; // the worker has no frame for the state that holds at the border of the workspace
 let running = null; // the computation that is at work
 
 /** True if every change so far has its frame, or the reason why it has none. */
@@ -54,13 +55,16 @@ function cancelLong() {
  */
 export function empty(reason) {
   cancelLong();
-  Object.assign(page, { frame: null, answered: null, settled: { statics: null, payload: null }, reason });
+  const settled = { statics: null, payload: null };
+  Object.assign(page, { frame: null, answered: null, settled, reason, border: null });
+  lost = false;
   emit("empty");
 }
 
 /** Forgets the robot, because another one comes; `display`: what is shown of that. */
 export function forget(display = {}) {
   page.robots += 1;
+  followed = 0;
   Object.assign(shown, { mode: -1, newRobot: true, response: null, refused: false, broken: false, ...display });
   Object.assign(page, { about: null, last: null, before: null, parameters: [] });
   tell(null);
@@ -77,6 +81,8 @@ async function compute() {
     } else if (dirty.frame) {
       dirty.frame = false;
       await computeFrame();
+    } else if (lost) {
+      computeHeld();
     } else if (dirty.mode) {
       dirty.mode = false;
       await computeMode();
@@ -84,7 +90,7 @@ async function compute() {
       dirty.response = false;
       await computeResponse();
     }
-    if (dirty.frame && page.answered?.milliseconds < SLOW_MS && dirty.response) {
+    if (dirty.frame && page.answered?.milliseconds < SLOW_MS && dirty.response && !lost) {
       // While the platform is dragged, the response follows every frame.
       dirty.response = false;
       await computeResponse();
@@ -180,25 +186,78 @@ export function stop() {
   stopped = true;
 }
 
-/**
- * Number of modes of the next frame: those of the table, the one in motion, and the first of the platform if it is
- * near.
- */
+let followed = 0; // modes of the next frame, so that the first one of the platform is among them
+
+/** Follows the first mode of the platform from frame to frame: where it is not listed, the next list is longer. */
+function follow(frame) {
+  const index = frame.first?.index;
+  if (index === undefined) {
+    followed = frame.modes.length < MAX_FOLLOWED ? Math.min(MAX_FOLLOWED, 2 * frame.modes.length) : 0;
+  } else {
+    followed = index < MAX_FOLLOWED ? index + 2 : 0;
+  }
+}
+
+/** Number of modes of the next frame: those of the table, the one in motion, and the first of the platform if near. */
 function wantedModes() {
-  const first = page.last?.first?.index ?? -1;
-  return Math.min(MAX_FRAME_MODES, Math.max(shown.modes, shown.mode + 1, first < MAX_FOLLOWED ? first + 2 : 0));
+  return Math.min(MAX_FRAME_MODES, Math.max(shown.modes, shown.mode + 1, followed));
+}
+
+/** Everything that a frame depends on: values and rule, and the state. */
+function inputs() {
+  const { robot, rule, hold, pose, lengths, start } = content;
+  return { robot, rule, state: { hold, pose, lengths, start } };
+}
+
+const sameState = (a, b) => JSON.stringify(a.state) === JSON.stringify(b.state);
+
+/**
+ * True if a pose without an equilibrium was wanted of a robot that rests at another one: that one holds with its
+ * frame.
+ */
+function holdsAtBorder(asked, error) {
+  const before = page.frame?.of;
+  const sameRobot = before && before.robot === asked.robot && before.rule === asked.rule;
+  return error.status === 1 && asked.state.hold === "pose" && sameRobot && !sameState(before, asked);
+}
+
+/** Holds the last valid state. While a person drags on, the worker computes no frame for it: the page has it. */
+function holdAtBorder(asked, error) {
+  const { of } = page.frame;
+  const isLatest = sameState(inputs(), asked);
+  page.border = { pose: asked.state.pose, error, held: of.state };
+  if (isLatest) {
+    Object.assign(content, of.state);
+  }
+  lost = true;
+  emit("border");
+  if (isLatest && !page.view.dragging) {
+    computeHeld();
+  }
+}
+
+/** Computes the state that holds again, so that the worker has its frame. */
+function computeHeld() {
+  lost = false;
+  dirty.frame = true;
+  dirty.robot ||= Boolean(content.rule);
 }
 
 async function computeFrame() {
   const begin = performance.now();
   const { robots } = page;
+  const asked = inputs();
   const done = busy("Computing the equilibrium and its natural frequencies", stop);
   try {
     const found = await page.engine.call("frame", { ...stateOf(), modes: wantedModes(), points: POINTS });
     if (robots !== page.robots) {
       return; // another robot was chosen meanwhile
     }
-    const frame = { ...frameOf(found.numbers), about: found.about };
+    const frame = { ...frameOf(found.numbers), about: found.about, of: asked };
+    lost = false;
+    if (page.border && !sameState(asked, { state: page.border.held })) {
+      page.border = null;
+    }
     const index = frame.modes.findIndex(isOfPlatform);
     // `first`: the first mode of the platform, as its index or as the reason why there is none; null until it is
     // searched.
@@ -206,6 +265,7 @@ async function computeFrame() {
     const unlisted = frame.modes.length === 0 ? none : null;
     const first = index >= 0 ? { index } : unlisted;
     Object.assign(frame, { first, listed: Math.min(shown.modes, frame.modes.length), inWorker: frame.modes.length });
+    follow(frame);
     Object.assign(page, { frame, last: frame, reason: "" });
     tell(null);
     shown.broken = false;
@@ -215,7 +275,9 @@ async function computeFrame() {
     dirty.response = true;
     dirty.mode = shown.mode >= 0;
   } catch (error) {
-    if (robots === page.robots && (stopped || !(error instanceof Cancelled))) {
+    if (robots === page.robots && !stopped && holdsAtBorder(asked, error)) {
+      holdAtBorder(asked, error);
+    } else if (robots === page.robots && (stopped || !(error instanceof Cancelled))) {
       shown.broken = true;
       const failure = error.status ? "this state is refused" : "the computation has failed";
       const reason = error.status === 1 ? "there is no equilibrium at this state" : failure;
@@ -270,6 +332,9 @@ async function searchFirst(frame) {
     });
     frame.modes = [...frame.modes, ...modesOf(numbers, frame.cables.length).slice(frame.modes.length)];
     told({ index: about.index });
+    if (page.frame === frame) {
+      follow(frame);
+    }
     if (page.frame === frame && shown.mode >= frame.inWorker) {
       change({ mode: true });
     }
@@ -365,7 +430,7 @@ export function rest() {
   clearTimeout(waitingForRest);
   waitingForRest = setTimeout(async () => {
     const { frame, view } = page;
-    if (!frame || view.dragging) {
+    if (!frame || view.dragging || lost) {
       return;
     }
     emit("rest");
@@ -422,4 +487,12 @@ export function rest() {
   }, REST_MS);
 }
 
-on("drag-end", rest);
+/** Ends a drag: the state that holds has its frame, then the long computations begin. */
+export async function endDrag() {
+  await running;
+  if (lost) {
+    computeHeld();
+    await change({});
+  }
+  rest();
+}

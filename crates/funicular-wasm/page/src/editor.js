@@ -111,7 +111,7 @@ export class Editor {
           autocompletion({ override: [(context) => this.complete(context)], activateOnTyping: true }),
           // Tab leaves the editor, for people who use the keyboard only.
           keymap.of([...completionKeymap, ...defaultKeymap, ...historyKeymap]),
-          EditorView.contentAttributes.of({ "aria-label": "Robot file (TOML)" }),
+          EditorView.contentAttributes.of({ tabindex: "0", "aria-label": "Robot file (TOML)" }),
           EditorView.updateListener.of((update) => {
             if (update.docChanged && !this.silent) {
               changed(update.state.doc.toString());

@@ -1,10 +1,13 @@
 // Workers of the page: the one for frames, and others for long computations, which are cancelled by ending the worker.
 
-/** Error of a request; `issues` are places in the robot file, `broken` is a mistake in funicular. */
+/**
+ * Error of a request; `issues` are places in the robot file, `border` says why a pose has no equilibrium, `broken` is a
+ * mistake in funicular.
+ */
 export class EngineError extends Error {
-  constructor({ message, status, issues, broken }) {
+  constructor({ message, status, issues, border, broken }) {
     super(message);
-    Object.assign(this, { status, issues: issues ?? [], broken });
+    Object.assign(this, { status, issues: issues ?? [], border: border ?? null, broken });
   }
 }
 

@@ -195,13 +195,16 @@ const finite = (values, of) => [values.length ? values.reduce((a, b) => of(a, b)
 
 const VIRIDIS = ["#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725"];
 
-/** Colour of a fraction from 0 to 1 in a map. */
-export function mapColor(fraction) {
+/** Red, green and blue, 0 to 255, of a fraction from 0 to 1 in a map. */
+export function mapNumbers(fraction) {
   const at = Math.max(0, Math.min(1, fraction)) * (VIRIDIS.length - 1);
   const low = Math.min(VIRIDIS.length - 2, Math.floor(at));
   const parts = [VIRIDIS[low], VIRIDIS[low + 1]].map((hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16)));
-  return `rgb(${parts[0].map((value, k) => Math.round(value + (parts[1][k] - value) * (at - low))).join(",")})`;
+  return parts[0].map((value, k) => Math.round(value + (parts[1][k] - value) * (at - low)));
 }
+
+/** Colour of a fraction from 0 to 1 in a map. */
+const mapColor = (fraction) => `rgb(${mapNumbers(fraction).join(",")})`;
 
 /**
  * Slice of the workspace: cells with a value or without an equilibrium.

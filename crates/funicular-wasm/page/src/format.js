@@ -67,3 +67,23 @@ export function save(name, content, type) {
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
+
+/** Copies a text; the button says so for a moment. */
+export async function copy(text, button) {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const area = document.createElement("textarea");
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    document.execCommand("copy");
+    area.remove();
+  }
+  const old = button.dataset.text ?? button.textContent;
+  button.dataset.text = old;
+  button.textContent = "Copied";
+  setTimeout(() => {
+    button.textContent = old;
+  }, 1500);
+}

@@ -9,6 +9,7 @@ import { age, busy } from "./messages.js";
 import { chooseMode } from "./modes.js";
 import { pin } from "./sliders.js";
 import { content, on, page, shown } from "./store.js";
+import { wordsOf } from "./units.js";
 
 const BARS = 10;
 const MARGIN = 1e-6; // relative: the limit of the list is above the chosen frequency by this
@@ -123,7 +124,7 @@ function show() {
   const label = `Change of ${short(result.value, 5)} Hz ${STEPS[table.per]}`;
   const past = pastOf(table);
   const rows = largest.map((one) => ({
-    name: `${one.path}${step(one)}`,
+    name: `${nameOf(one.path)}${step(one)}`,
     path: one.path,
     value: one.effect,
     past: past?.get(one.path),
@@ -131,6 +132,12 @@ function show() {
   place.innerHTML = bars({ rows, label, unit: "%" });
   const held = `${table.held_means[0].toUpperCase()}${table.held_means.slice(1)}`;
   place.append(element("p", { class: "soft" }, `${held}. A click on a bar adds a slider for the value.`));
+}
+
+/** Words for a value of the robot file. */
+function nameOf(path) {
+  const parameter = page.parameters.find((one) => one.path === path);
+  return parameter ? wordsOf(parameter) : path;
 }
 
 /** Effects of the remembered state on its mode of this number, by paths; none if it was of another kind. */

@@ -1,5 +1,7 @@
 // The facts that most people look for first, and the remarks on the state.
 
+import { cableName, cableNames } from "./border.js";
+import { limitingCable } from "./colors.js";
 import { $, element, short } from "./format.js";
 import { age, put } from "./messages.js";
 import { KINDS } from "./modes.js";
@@ -14,17 +16,26 @@ const NAMES = [
   "Stiffness in the softest direction",
 ];
 
+/** Those of them that are shown over the view, with short names: what a person watches while the platform moves. */
+const OVER_VIEW = [
+  [3, "Platform resonance"],
+  [0, "Highest tension"],
+  [4, "Maximum payload"],
+  [5, "Softest stiffness"],
+];
+
 /** Tells a screen reader the results when the platform rests. */
 function speak() {
   const { frame } = page;
   if (frame) {
     const [x, y, z] = frame.position.map((value) => short(Number(value.toFixed(3)), 4));
     const first = frame.modes[frame.first?.index];
-    const highest = Math.max(...frame.cables.map((cable) => cable.highest));
+    const highest = frame.cables[limitingCable(frame)].highest;
     const resonance = first ? ` First resonance of the platform ${short(first.hz, 3)} hertz.` : "";
     put(
       $("spoken"),
-      `Platform at x ${x}, y ${y}, z ${z} metres. ` + `Highest tension ${short(highest, 3)} newtons.${resonance}`,
+      `Platform at x ${x}, y ${y}, z ${z} metres. Highest tension ${short(highest, 3)} newtons, ` +
+        `${cableName(page.about.check.cables[limitingCable(frame)].name)}.${resonance}`,
     );
   }
 }
@@ -44,20 +55,33 @@ function platformFact(frame, delta) {
 function showKey() {
   const { frame } = page;
   const facts = frame ? factsOf(frame) : NAMES.map(() => ["–", ""]);
-  const place = $("key");
+  fill($("key"), NAMES, facts);
+  fill(
+    $("hud"),
+    OVER_VIEW.map(([, name]) => name),
+    OVER_VIEW.map(([i]) => facts[i]),
+  );
+}
+
+/** Fills a list of facts, whose elements are made once. */
+function fill(place, names, facts) {
   if (place.children.length !== facts.length) {
-    place.replaceChildren(
-      ...NAMES.map((name) =>
-        element("div", {}, element("dt", {}, name), element("dd", {}, element("span"), element("small"))),
-      ),
-    );
+    const entry = (name) =>
+      element("div", {}, element("dt", {}, name), element("dd", {}, element("span"), element("small")));
+    place.replaceChildren(...names.map(entry));
   }
   facts.forEach(([value, more], i) => {
     const fact = place.children[i].lastChild;
     put(fact.firstChild, value);
     put(fact.lastChild, more);
+    fact.lastChild.title = more;
   });
 }
+
+const KILO_FROM = 1e4; // N/m, above which a stiffness is shown in kN/m
+
+const stiffnessText = (value) =>
+  Math.abs(value) >= KILO_FROM ? `${short(value / 1000, 4)} kN/m` : `${short(value, 4)} N/m`;
 
 /** Values of the key figures and what is told about them. */
 function factsOf(frame) {
@@ -77,13 +101,13 @@ function factsOf(frame) {
   const highestBefore = before && Math.max(...before.frame.cables.map((cable) => cable.highest));
   const lowestBefore = before && Math.min(...before.frame.cables.map((cable) => cable.lowest));
   return [
-    [`${short(top.highest, 4)} N`, `cable ${names[highest]}${ofMaximum}${delta(highestBefore)}`],
-    [`${short(bottom.lowest, 4)} N`, `cable ${names[lowest]}${ofMinimum}${delta(lowestBefore)}`],
+    [`${short(top.highest, 4)} N`, `${cableName(names[highest])}${ofMaximum}${delta(highestBefore)}`],
+    [`${short(bottom.lowest, 4)} N`, `${cableName(names[lowest])}${ofMinimum}${delta(lowestBefore)}`],
     first ? [`${short(first.hz, 4)} Hz`, `of the ${KINDS[first.kind]}${delta(before?.frame.modes[0]?.hz)}`] : ["–", ""],
     platformFact(frame, delta),
     payloadFact(delta),
     [
-      frame.stable === undefined ? "rigid" : `${short(frame.minStiffness, 4)} N/m`,
+      frame.stable === undefined ? "rigid" : stiffnessText(frame.minStiffness),
       `${frame.stable === false ? "unstable" : ""}${delta(before?.frame.minStiffness)}`,
     ],
   ];
@@ -104,8 +128,8 @@ function payloadFact(delta) {
   }
   const limiting = maximum.cables.filter((cable) => cable.limit_reached === "maximum").map((cable) => cable.name);
   const slack = maximum.cables.filter((cable) => cable.limit_reached === "minimum").map((cable) => cable.name);
-  const least = slack.length ? `cable ${slack.join(", ")} reaches its minimum` : "";
-  const by = limiting.length ? `limited by cable ${limiting.join(", ")}` : least;
+  const least = slack.length ? `${cableNames(slack)} at the minimum` : "";
+  const by = limiting.length ? `limited by ${cableNames(limiting)}` : least;
   return [`${short(maximum.payload_kg, 4)} kg`, `${by}${delta(before?.payload?.maximum?.payload_kg)}`];
 }
 
@@ -119,6 +143,7 @@ function showWarnings() {
 
 export function listen() {
   on("frame", showKey);
+  on("border", showKey);
   on("platform", showKey);
   on("remember", showKey);
   on("empty", () => {

@@ -1,10 +1,9 @@
 // The state of the page as a link, and as the start of a page that `funicular live` has made.
 
 import { mayChoose } from "./computation.js";
-import { element, $ } from "./format.js";
+import { copy, element, $ } from "./format.js";
 import { tell } from "./messages.js";
 import { setRobot, showLibrary } from "./robot.js";
-import { copy } from "./saving.js";
 import { checked, LinkError, packed, unpacked } from "./share.js";
 import { content, page, shown } from "./store.js";
 
@@ -77,11 +76,15 @@ export function linkOfAddress() {
 /** Restores the state of the address. */
 export const restoreAddress = async () => restore(await unpacked(linkOfAddress()));
 
+/** Address with the state of the page. */
+export async function address() {
+  return `${location.href.split("#")[0]}#${await packed(linkState())}`;
+}
+
 /** Listens to the button and to links that are opened in this page. */
 export function listen() {
   $("share").addEventListener("click", async () => {
-    const fragment = await packed(linkState());
-    window.history.replaceState(null, "", `#${fragment}`);
+    window.history.replaceState(null, "", await address());
     await copy(location.href, $("share"));
   });
   addEventListener("hashchange", async () => {

@@ -5,12 +5,18 @@ import { isIdle, statics } from "./computation.js";
 import { CORES, prepare } from "./engine.js";
 import { $ } from "./format.js";
 import * as embedded from "./embedded.js";
+import * as gallery from "./gallery.js";
 import * as history from "./history.js";
+import * as importing from "./importing.js";
 import * as influence from "./influence.js";
 import * as key from "./key.js";
 import * as link from "./link.js";
+import * as messages from "./messages.js";
 import { age, tell } from "./messages.js";
 import * as modes from "./modes.js";
+import * as opening from "./opening.js";
+import * as parts from "./parts.js";
+import * as places from "./places.js";
 import * as pose from "./pose.js";
 import * as release from "./release.js";
 import * as response from "./response.js";
@@ -19,8 +25,11 @@ import * as saving from "./saving.js";
 import * as sliders from "./sliders.js";
 import { LinkError } from "./share.js";
 import { content, emit, on, page, shown } from "./store.js";
+import * as survey from "./survey.js";
 import * as tensions from "./tensions.js";
+import * as validation from "./validation.js";
 import { View } from "./view.js";
+import * as welcome from "./welcome.js";
 import { Workspace } from "./workspace.js";
 
 const FIRST_ROBOT = "cogiro";
@@ -64,10 +73,7 @@ function makeWorkspace() {
     request: () => ({ ...statics(), robot: content.robot }),
     state: () => page,
     here: pose.presentPose,
-    go: (to) => {
-      pose.setPose(to);
-      history.commit();
-    },
+    go: (to) => pose.setPose(to).then(history.commit),
     rounded: pose.roundedLength,
     tell,
     cores: CORES,
@@ -116,8 +122,10 @@ async function start() {
   makeWorkspace();
 
   // The order of listeners is the order in which a frame is shown: the view first, whose colours the table takes.
+  messages.listen();
   robot.listen();
-  const parts = [
+  const all = [
+    parts,
     pose,
     tensions,
     modes,
@@ -126,13 +134,20 @@ async function start() {
     sliders,
     influence,
     release,
+    survey,
+    places,
+    opening,
+    importing,
+    welcome,
+    gallery,
     history,
     link,
     embedded,
     saving,
     comparison,
+    validation,
   ];
-  parts.forEach((part) => part.listen());
+  all.forEach((part) => part.listen());
   on("frame", () => {
     if (performance.getEntriesByName("frame").length === 0) {
       performance.mark("frame");
@@ -151,7 +166,8 @@ async function start() {
     ofFrame(true);
     age("bode", true);
   });
-  ["frame", "empty"].forEach((event) => on(event, () => ofFrame(false)));
+  ["frame", "empty", "border"].forEach((event) => on(event, () => ofFrame(false)));
+  on("border", () => age("bode", false));
   on("rested", () => {
     $("state").dataset.settled = String(Number($("state").dataset.settled ?? 0) + 1);
   });
@@ -172,6 +188,9 @@ window.funicular = {
   },
   get frame() {
     return page.frame;
+  },
+  get border() {
+    return page.border && { pose: page.border.pose, message: page.border.error.message };
   },
   get response() {
     return page.answered;

@@ -5,18 +5,22 @@ import { $, element } from "./format.js";
 const PATIENCE_MS = 300; // what is shorter needs no word
 
 let error = null; // the message that is shown, if it is an error
-let refused = null; // the field that it is about
 
 /** Shows a message, or nothing. A note is not an error: it does not replace one, but follows it. */
 export function tell(text, note = false) {
   const place = $("message");
   const shown = note && error !== null ? `${error}\n${text}` : text;
   if (!note) {
-    [error, refused] = [text, null];
+    error = text;
   }
-  place.hidden = shown === null;
-  place.classList.toggle("note", error === null);
+  place.hidden = $("message-box").hidden = shown === null;
+  $("message-box").classList.toggle("note", error === null);
   place.textContent = shown ?? "";
+}
+
+/** Lets a person close the message, which lies over the page. */
+export function listen() {
+  $("message-close").addEventListener("click", () => tell(null));
 }
 
 /**
@@ -60,18 +64,27 @@ export function numberOf(text) {
   return text.trim() !== "" && Number.isFinite(number) ? number : null;
 }
 
-/** Marks a field as wrong and says why. */
+let refusals = 0;
+
+/** Marks a field as wrong and says why beside it. */
 export function refuse(field, text) {
+  accept(field);
+  refusals += 1;
+  const id = `refusal-${refusals}`;
   field.setAttribute("aria-invalid", "true");
-  tell(text);
-  refused = field;
+  field.setAttribute("aria-describedby", id);
+  // Not within a label, whose text is the name of the field.
+  (field.closest("label, .head, .combo") ?? field).after(
+    element("span", { id, class: "field-message", role: "alert" }, text),
+  );
 }
 
 /** Takes the mark of a field away, with its message. */
 export function accept(field) {
-  field.removeAttribute("aria-invalid");
-  if (refused === field) {
-    tell(null);
+  if (field.hasAttribute("aria-invalid")) {
+    $(field.getAttribute("aria-describedby"))?.remove();
+    field.removeAttribute("aria-invalid");
+    field.removeAttribute("aria-describedby");
   }
 }
 

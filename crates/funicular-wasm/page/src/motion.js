@@ -1,6 +1,7 @@
 // Playback of a mode or of a release in the view.
 
 import { Quaternion, Vector3 } from "three";
+import { setCurve } from "./curve.js";
 
 const PERIOD_S = 1.6; // of a mode on the screen
 const MODE_SIZE = 0.035; // of the size of the robot: the largest displacement on the screen
@@ -116,7 +117,7 @@ export class Playback {
       const own = view.exaggerated(cable);
       const moved = Float64Array.from(own, (value, k) => value + factor * cables[at + k]);
       at += own.length;
-      view.lines[i].geometry.setPositions(moved);
+      setCurve(view.lines[i], moved);
     });
     const [w, x, y, z] = frame.quaternion;
     view.platform.position.set(...frame.position.map((value, k) => value + factor * shape[k]));

@@ -1,6 +1,7 @@
 // Pose of the platform: fields, handles, keys, and what is held.
 
-import { change, holdsLengths, mayChoose } from "./computation.js";
+import { reasonOf } from "./border.js";
+import { change, endDrag, holdsLengths, mayChoose } from "./computation.js";
 import { $, short } from "./format.js";
 import { anglesOf, quaternionOf } from "./frame.js";
 import { commit } from "./history.js";
@@ -57,7 +58,7 @@ export function presentPose() {
   return from && rounded(from.position, from.quaternion);
 }
 
-/** Holds the platform at a pose. */
+/** Holds the platform at a pose; resolves when it is shown, or refused. */
 export function setPose(pose) {
   content.hold = "pose";
   content.pose = allowed(pose);
@@ -65,7 +66,7 @@ export function setPose(pose) {
   content.start = null;
   showHold();
   // The tension rule is a key of the robot's request, and only poses have one.
-  change(content.rule ? { robot: true } : { frame: true });
+  return change(content.rule ? { robot: true } : { frame: true });
 }
 
 function showHold() {
@@ -76,38 +77,51 @@ function showHold() {
   $("rule").disabled = !mayChoose();
 }
 
-function hold(kind) {
+/** Holds the cable lengths of the present frame; resolves when they are computed. */
+export function holdLengths() {
   const { frame } = page;
-  if (kind === "lengths" && !frame) {
-    tell(`The cable lengths cannot be held: ${page.reason}.`, true);
-    return;
-  }
-  const pose = presentPose();
-  if (kind === "lengths") {
-    content.hold = "lengths";
-    content.lengths = frame.cables.map((cable) => cable.length);
-    content.start = [...frame.position, ...frame.quaternion];
-    content.pose = null;
-    showHold();
-    change({ robot: true });
-  } else if (frame) {
-    setPose(rounded(frame.position, frame.quaternion));
-  } else if (pose) {
-    setPose(pose);
-  } else {
-    tell(`There is no pose to hold: ${page.reason}.`, true);
-    return;
-  }
-  commit();
+  const lengths = frame.cables.map((cable) => cable.length);
+  Object.assign(content, { hold: "lengths", lengths, start: [...frame.position, ...frame.quaternion], pose: null });
+  showHold();
+  return change({ robot: true });
 }
 
-/** Shows a pose in the fields; null empties them. */
-function showPose(pose) {
+/** Holds other lengths; the search begins at the last pose. */
+export function setLengths(lengths) {
+  const { last } = page;
+  const start = last ? [...last.position, ...last.quaternion] : content.start;
+  Object.assign(content, { start, lengths });
+  return change({ frame: true });
+}
+
+function hold(kind) {
+  const { frame } = page;
+  const pose = presentPose();
+  if (kind === "lengths" && !frame) {
+    tell(`The cable lengths cannot be held: ${page.reason}.`, true);
+  } else if (kind === "lengths") {
+    holdLengths().then(commit);
+  } else if (frame || pose) {
+    setPose(frame ? rounded(frame.position, frame.quaternion) : pose).then(commit);
+  } else {
+    tell(`There is no pose to hold: ${page.reason}.`, true);
+  }
+}
+
+const ANGLE_DIGITS = 2; // of degrees
+const MAX_DIGITS = 6; // of what a person has typed
+
+/** Decimals of a position [m]: a millimetre, or the step of the handle of a robot so small that this is coarse. */
+const lengthDigits = () => Math.max(3, -Math.floor(Math.log10(rounding())));
+
+/** Shows a pose in the fields, rounded unless `exact`, as a person has chosen it; null empties them. */
+function showPose(pose, exact) {
   document.querySelectorAll("#pose [data-pose]").forEach((field) => {
     if (document.activeElement !== field || !field.dirty) {
       const k = Number(field.dataset.pose);
-      field.value = pose ? String(Number(pose[k].toFixed(k < 3 ? 5 : 3)) + 0) : "";
-      field.removeAttribute("aria-invalid");
+      const digits = k < 3 ? lengthDigits() : ANGLE_DIGITS;
+      field.value = pose ? String(Number(pose[k].toFixed(exact ? MAX_DIGITS : digits)) + 0) : "";
+      accept(field);
     }
   });
 }
@@ -129,8 +143,9 @@ function showFrame() {
   showHold();
   view.setFrame(frame, view.dragging);
   const under = Number.isFinite(frame.distance) && frame.distance > 0;
-  showPose(content.hold === "pose" && !under ? content.pose : [...frame.position, ...frame.angles]);
-  const [x, y, z] = frame.position.map((value) => short(value));
+  const exact = content.hold === "pose" && !under;
+  showPose(exact ? content.pose : [...frame.position, ...frame.angles], exact);
+  const [x, y, z] = frame.position.map((value) => short(Number(value.toFixed(3)), 4));
   view.canvas.setAttribute(
     "aria-label",
     `Robot with ${frame.cables.length} cables; ` +
@@ -171,7 +186,8 @@ function showNone() {
   put($("state"), about || shown.refused ? `There are no results: ${page.reason}.` : "");
   const pose = requestedPose();
   view.setBroken(pose);
-  showPose(content.hold === "pose" ? content.pose : pose && [...pose.position, ...anglesOf(pose.quaternion)]);
+  const exact = content.hold === "pose";
+  showPose(exact ? content.pose : pose && [...pose.position, ...anglesOf(pose.quaternion)], exact);
   view.canvas.setAttribute(
     "aria-label",
     pose
@@ -187,25 +203,36 @@ function frameRefused(error) {
   tell(error.status === 1 ? `No equilibrium here: ${error.message}` : textOf(error));
 }
 
+/** At the border of the workspace the last pose holds; the wanted one is pale, and the view says why. */
+function showBorder() {
+  const { border, view } = page;
+  view.setGhost(border && { position: border.pose.slice(0, 3), quaternion: quaternionOf(border.pose.slice(3)) });
+  const text = border ? `Beyond the workspace: ${reasonOf(border.error.border)}.` : "";
+  put($("border"), text);
+  $("border").title = border ? border.error.message : "";
+}
+
 let dragged = null;
 
-/** What the view tells: a handle is dragged, and released. */
+/** What the view tells: a handle is taken, dragged, and released. */
 export const handles = {
+  dragBegin: () => emit("drag-begin"),
   drag: (position, quaternion) => {
     dragged = rounded(position, quaternion);
     setPose(dragged);
   },
-  dragEnd: () => {
-    if (dragged) {
-      commit();
-      dragged = null;
-    }
-    if (page.frame) {
+  dragEnd: async () => {
+    const moved = dragged;
+    dragged = null;
+    await endDrag();
+    if (page.frame && !page.view.dragging) {
       page.view.setFrame(page.frame);
+    }
+    if (moved) {
+      commit();
     }
     emit("drag-end");
   },
-  turned: () => {},
 };
 
 /** Axis and direction in which a key moves the platform. */
@@ -229,9 +256,9 @@ function onKey(event) {
   event.preventDefault();
   const step = rounding() * (event.shiftKey ? 100 : 10);
   pose[axis[0]] = Number((pose[axis[0]] + axis[1] * step).toPrecision(10));
-  setPose(pose);
+  const done = setPose(pose);
   clearTimeout(keys);
-  keys = setTimeout(commit, 500);
+  keys = setTimeout(() => done.then(commit), 500);
 }
 
 /** Listens to the bar over the view, the fields and the keys. */
@@ -239,6 +266,9 @@ export function listen() {
   const { view } = page;
   on("robot", showRobot);
   on("frame", showFrame);
+  on("frame", showBorder);
+  on("border", showBorder);
+  on("empty", showBorder);
   on("empty", showNone);
   on("frame-refused", frameRefused);
   document.querySelectorAll("[data-handle]").forEach((button) =>
@@ -279,8 +309,7 @@ export function listen() {
       }
       accept(field);
       pose[Number(field.dataset.pose)] = value;
-      setPose(pose);
-      commit();
+      setPose(pose).then(commit);
     });
   });
   $("pose").addEventListener("submit", (event) => event.preventDefault());

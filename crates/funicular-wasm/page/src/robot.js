@@ -1,16 +1,14 @@
-// The robot: choice from the library, files, and the editor of its text.
+// The robot: choice from the library, and the editor of its text.
 
-import { change, forget, stop } from "./computation.js";
+import { change, forget } from "./computation.js";
 import { Editor } from "./editor.js";
-import { Cancelled } from "./engine.js";
 import { $, element } from "./format.js";
 import { commit } from "./history.js";
-import { busy, tell, textOf } from "./messages.js";
+import { titles } from "./library.js";
+import { tell, textOf } from "./messages.js";
 import { allowed } from "./pose.js";
 import { pinFirst, readParameters } from "./sliders.js";
 import { content, emit, on, page, shown } from "./store.js";
-
-const MAX_BYTES = 5e6; // of all files that are opened at once: more would take seconds, and no robot has it
 
 let editor = null;
 
@@ -117,91 +115,10 @@ function showRefusal(error) {
   );
 }
 
-/** Number of times that files were opened; of several the last one counts. */
-let openings = 0;
-
-/**
- * Why files are not read; null if they are. Robot files have some kilobytes, the largest of other programs some
- * hundred.
- */
-function tooLarge(list) {
-  const size = list.reduce((sum, file) => sum + file.size, 0);
-  const [named, has] = list.length === 1 ? [list[0].name, "has"] : [`These ${list.length} files`, "have"];
-  if (size <= MAX_BYTES) {
-    return null;
-  }
-  return (
-    `${named} ${has} ${(size / 1e6).toFixed(1)} MB, which is more than the ${MAX_BYTES / 1e6} MB that a robot may ` +
-    "have: choose the file of the robot. The robot on the page is the one before."
-  );
-}
-
-async function openFiles(list) {
-  openings += 1;
-  const own = openings;
-  const chosen = [...list];
-  const refusal = tooLarge(chosen);
-  if (refusal || chosen.length === 0) {
-    if (refusal) {
-      tell(refusal);
-    }
-    return;
-  }
-  const done = busy(`Reading ${chosen.map(({ name }) => name).join(", ")}`, stop);
-  try {
-    const files = chosen.map(async (file) => ({ path: file.name, text: await file.text() }));
-    await read(await Promise.all(files), () => own === openings);
-  } catch (error) {
-    const names = chosen.map(({ name }) => name).join(", ");
-    if (own !== openings) {
-      return;
-    }
-    if (error instanceof Cancelled) {
-      tell(`Cancelled: ${names} was not read. The robot on the page is the one before.`, true);
-    } else {
-      const from = error.message.startsWith(names) ? "" : `${names}: `;
-      tell(`${from}${importAdvice(error.message)}\nThe robot on the page is the one before.`);
-    }
-  } finally {
-    done();
-  }
-}
-
-/** Message of an import, with the way for values that the files lack: the page has no fields for them. */
-const importAdvice = (message) =>
-  /`(mass_kg_per_m|youngs_modulus_pa|diameter_m|lengths_m|pose)`/.test(message)
-    ? `${message}\nThis page has no fields for these values: run \`funicular import\` with them as options, ` +
-      "such as `--mass-kg-per-m`, and open the file that it writes."
-    : message;
-
-/** Shows the robot of files. `isLast()`: no others were opened meanwhile. */
-async function read(files, isLast) {
-  if (!isLast()) {
-    return;
-  }
-  if (files.length === 1 && /\.toml$/i.test(files[0].path)) {
-    await setRobot(files[0].path, files[0].text);
-    showLibrary();
-    return;
-  }
-  const { text } = await page.engine.call("answer", { request: { command: "import", files } });
-  if (!isLast()) {
-    return;
-  }
-  const found = JSON.parse(text);
-  await setRobot(`${files[0].path.replace(/\.[^.]*$/, "")}.toml`, found.text);
-  showLibrary();
-  const told = [...found.assumed.map((line) => `assumed: ${line}`), ...found.lost.map((line) => `left out: ${line}`)];
-  if (told.length && isLast()) {
-    tell(`Imported.\n${told.join("\n")}`, true);
-  }
-}
-
 /** Shows which robot of the library this is, or that it is another one. */
 export function showLibrary() {
   const own = ROBOTS[content.robot.name] !== undefined && ROBOTS[content.robot.name] === content.robot.text;
-  const title = (name, text) => /^name = "(.*)"/m.exec(text)?.[1] ?? name;
-  const options = Object.entries(ROBOTS).map(([name, text]) => element("option", { value: name }, title(name, text)));
+  const options = titles(ROBOTS).map(([name, title]) => element("option", { value: name }, title));
   if (!own) {
     options.unshift(element("option", { value: "" }, content.robot.name || "own file"));
   }
@@ -239,7 +156,7 @@ async function openEditor() {
   editor.schema = JSON.parse((await page.engine.call("answer", { request: { command: "schema" } })).text);
 }
 
-/** Listens to the library, files and the tabs of the panel. */
+/** Listens to the library and the tabs of the panel. */
 export function listen() {
   on("forget", forgetRobot);
   on("robot", showRobot);
@@ -254,25 +171,6 @@ export function listen() {
       setRobot(name, ROBOTS[name]).then(showLibrary);
     }
   });
-  $("open").addEventListener("click", () => $("files").click());
-  $("files").addEventListener("change", () =>
-    openFiles($("files").files).then(() => {
-      $("files").value = "";
-    }),
-  );
-  addEventListener("dragover", (event) => {
-    event.preventDefault();
-    $("drop").hidden = false;
-  });
-  addEventListener("dragleave", (event) => {
-    $("drop").hidden = event.relatedTarget !== null ? $("drop").hidden : true;
-  });
-  addEventListener("drop", (event) => {
-    event.preventDefault();
-    $("drop").hidden = true;
-    openFiles(event.dataTransfer.files);
-  });
-
   const tabs = [...document.querySelectorAll("[role=tab]")];
   const choose = (tab) =>
     tabs.forEach((other) => {

@@ -1,10 +1,13 @@
 // Files of results and pictures, and the same analysis as text to copy.
 
 import { mayChoose, RESPONSE_POINTS, statics } from "./computation.js";
-import { $, save } from "./format.js";
+import { $, copy, save } from "./format.js";
+import { card } from "./card.js";
 import { drawing } from "./drawing.js";
 import { Cancelled, Job } from "./engine.js";
+import { address } from "./link.js";
 import { age, busy, put, tell } from "./messages.js";
+import { withLengths, withPose } from "./state_text.js";
 import { content, on, page, shown } from "./store.js";
 import { commands, python } from "./words.js";
 
@@ -66,9 +69,11 @@ async function saveAs(kind) {
   const name = fileName().replace(/\.toml$/, "");
   document.querySelector(".menu").open = false;
   if (kind === "toml") {
-    saveRobot(`${name}.toml`);
+    await saveRobot(`${name}.toml`);
   } else if (!page.frame && kind !== "map") {
     tell(`There is nothing to save: ${page.reason}.`, true);
+  } else if (kind === "card") {
+    save(`${name}-card.png`, await card(await address()), "image/png");
   } else if (kind === "png") {
     save(`${name}.png`, await page.view.png(), "image/png");
   } else if (kind === "svg") {
@@ -93,16 +98,33 @@ async function saveAs(kind) {
   }
 }
 
-/** Saves the robot file; one with an error as it was typed. */
-function saveRobot(name) {
+/** Saves the robot file with the state on the screen; one with an error as it was typed. */
+async function saveRobot(name) {
   const { set, text } = content.robot;
   if (shown.refused && set.length > 0) {
     tell(`There is no robot file to save: ${page.reason}. Correct the value, or press “Reset all values”.`, true);
     return;
   }
-  save(name, shown.refused ? text : page.about.text, "application/toml");
+  save(name, shown.refused ? text : await textWithState(), "application/toml");
   if (shown.refused) {
     tell("The robot file was saved with its error.", true);
+  }
+}
+
+/** Text of the robot with the pose or the lengths of the page; the reader checks it. */
+async function textWithState() {
+  const { text } = page.about;
+  const { hold, pose, lengths } = content;
+  if (hold === "file") {
+    return text;
+  }
+  const changed = hold === "pose" ? withPose(text, pose) : withLengths(text, lengths);
+  try {
+    await page.engine.call("answer", { request: { command: "check", robot: { text: changed } } });
+    return changed;
+  } catch (error) {
+    tell(`The file keeps the state that it had: the reader refuses the one on the screen. ${error.message}`);
+    return text;
   }
 }
 
@@ -178,26 +200,6 @@ function csv({ statics: rest, modes, frf }) {
     parts.push(table(["frequency_hz", "real", "imag"], rows));
   }
   return `${parts.join("\n\n")}\n`;
-}
-
-/** Copies a text; the button says so for a moment. */
-export async function copy(text, button) {
-  try {
-    await navigator.clipboard.writeText(text);
-  } catch {
-    const area = document.createElement("textarea");
-    area.value = text;
-    document.body.append(area);
-    area.select();
-    document.execCommand("copy");
-    area.remove();
-  }
-  const old = button.dataset.text ?? button.textContent;
-  button.dataset.text = old;
-  button.textContent = "Copied";
-  setTimeout(() => {
-    button.textContent = old;
-  }, 1500);
 }
 
 /** Listens to the menu of files and the buttons that copy. */

@@ -4,7 +4,9 @@ import { change } from "./computation.js";
 import { $, element, plain } from "./format.js";
 import { commit } from "./history.js";
 import { accept, numberOf, refuse } from "./messages.js";
+import { makeSearch } from "./search.js";
 import { content, on, page } from "./store.js";
+import { labelOf, shownValue, unitOf, valueOf as inSi, wordsOf } from "./units.js";
 
 /** Reads the numbers of the robot file. */
 export async function readParameters() {
@@ -18,7 +20,6 @@ export async function readParameters() {
   } finally {
     page.pending -= 1;
   }
-  $("paths").replaceChildren(...page.parameters.map(({ path, label }) => element("option", { value: path }, label)));
   showSliders();
 }
 
@@ -76,16 +77,23 @@ function sliderOf(path) {
   const id = `value-${path}`;
   const [low, high] = rangeOf(parameter);
   const value = valueOf(path);
+  const unit = unitOf(parameter);
+  const [label, words] = [labelOf(parameter), wordsOf(parameter)];
   const range = element("input", {
     type: "range",
     min: low,
     max: high,
     step: (high - low) / 400,
     value,
-    "aria-label": parameter.label,
+    "aria-label": label,
     "data-path": path,
   });
-  const number = element("input", { id, value: plain(value), inputmode: "decimal", "data-number": path });
+  const number = element("input", {
+    id,
+    value: plain(shownValue(value, unit)),
+    inputmode: "decimal",
+    "data-number": path,
+  });
   const set = (next, done) => {
     setValue(path, next);
     change({ robot: true });
@@ -95,17 +103,18 @@ function sliderOf(path) {
   };
   range.addEventListener("input", () => {
     const next = Number(Number(range.value).toPrecision(5));
-    number.value = plain(next);
+    number.value = plain(shownValue(next, unit));
     accept(number);
     set(next, false);
   });
   range.addEventListener("change", commit);
   number.addEventListener("change", () => {
-    const next = numberOf(number.value);
-    if (next === null) {
-      refuse(number, `${parameter.label}: “${number.value}” is not a number`);
+    const typed = numberOf(number.value);
+    if (typed === null) {
+      refuse(number, `${words}: “${number.value}” is not a number`);
       return;
     }
+    const next = inSi(typed, unit);
     accept(number);
     range.value = next;
     set(next, true);
@@ -122,13 +131,13 @@ function sliderOf(path) {
     element(
       "div",
       { class: "head" },
-      element("label", { for: id, title: `${path}: ${parameter.meaning}` }, parameter.label),
+      element("label", { for: id, title: `${path}: ${parameter.meaning}` }, label),
       number,
       element(
         "button",
         {
           title: "Back to the value of the file",
-          "aria-label": `${parameter.label} back to the value of the file`,
+          "aria-label": `${words} back to the value of the file`,
           onclick: back,
         },
         "↺",
@@ -137,7 +146,7 @@ function sliderOf(path) {
         "button",
         {
           title: "Remove this slider",
-          "aria-label": `Remove the slider ${parameter.label}`,
+          "aria-label": `Remove the slider ${words}`,
           onclick: () => unpin(path),
         },
         "×",
@@ -167,25 +176,10 @@ export function listen() {
   on("forget", () => {
     $("sliders").replaceChildren();
     $("paths").replaceChildren();
+    $("path").value = "";
   });
   on("restored", (isOther) => (isOther ? readParameters() : showSliders()));
-  const add = $("path");
-  const added = () => {
-    const path = add.value.trim();
-    if (known(path)) {
-      pin(path);
-      add.value = "";
-      add.removeAttribute("aria-invalid");
-    } else if (path !== "") {
-      add.setAttribute("aria-invalid", "true");
-    }
-  };
-  add.addEventListener("change", added);
-  add.addEventListener("input", () => {
-    if (known(add.value)) {
-      added();
-    }
-  });
+  makeSearch(pin);
   $("reset").addEventListener("click", () => {
     content.robot = { ...content.robot, set: [] };
     showSliders();

@@ -26,6 +26,7 @@ export const page = {
   frame: null, // results for the state; null while there are none
   reason: "", // why there are none
   last: null, // last frame of this robot, also after a refused state: where a person moves the platform from
+  border: null, // pose that was wanted beyond the workspace, and why it has no equilibrium; the last valid one holds
   robots: 0, // number of robots so far: an answer for an earlier one is dropped
   before: null, // remembered frame, with its response
   answered: null, // response of the frame

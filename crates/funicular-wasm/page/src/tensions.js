@@ -1,11 +1,11 @@
 // Table of tensions, the legend of their colours, and fields for held lengths.
 
-import { change } from "./computation.js";
+import { colorOf, COLORS, isLimited } from "./colors.js";
 import { $, element, plain, short, span } from "./format.js";
 import { commit } from "./history.js";
 import { accept, numberOf, put, refuse, rowsOf } from "./messages.js";
+import { setLengths } from "./pose.js";
 import { content, on, page, shown } from "./store.js";
-import { colorOf, COLORS } from "./view.js";
 
 function showLegend() {
   const { frame } = page;
@@ -82,13 +82,12 @@ function showTensions() {
   }
   const rows = rowsOf("tensions", frame.cables.length, rowOf);
   const free = content.hold === "lengths";
-  const isLimited = (cable) => frame.limited && Number.isFinite(cable.maximum);
-  const top = Math.max(...frame.cables.map((cable) => (isLimited(cable) ? cable.maximum : 1.1 * cable.highest)));
+  const top = Math.max(...frame.cables.map((cable) => (isLimited(frame, cable) ? cable.maximum : 1.1 * cable.highest)));
   frame.cables.forEach((cable, i) => {
     const { cells } = rows[i];
     put(cells[0], about.check.cables[i].name);
     put(cells[1], short(cable.tension, 5));
-    const most = isLimited(cable) ? cable.maximum : top;
+    const most = isLimited(frame, cable) ? cable.maximum : top;
     const track = cells[2].firstChild;
     const part = Math.max(0, Math.min(1, cable.highest / most));
     const own = view.lines[i]?.material.color.getHexString();
@@ -105,14 +104,14 @@ function showTensions() {
     put(text, free ? "" : short(cable.length, 5));
     if (free && document.activeElement !== field) {
       field.value = plain(cable.length, 7);
-      field.removeAttribute("aria-invalid");
+      accept(field);
     }
     rows[i].classList.toggle("beyond", cable.beyond || cable.slack === 1);
   });
 }
 
 function setLength(i, field) {
-  const { about, last } = page;
+  const { about } = page;
   const value = numberOf(field.value);
   if (value === null || value <= 0) {
     const name = about.check.cables[i].name;
@@ -120,10 +119,7 @@ function setLength(i, field) {
     return;
   }
   accept(field);
-  content.start = last ? [...last.position, ...last.quaternion] : content.start;
-  content.lengths = content.lengths.map((length, k) => (k === i ? value : length));
-  change({ frame: true });
-  commit();
+  setLengths(content.lengths.map((length, k) => (k === i ? value : length))).then(commit);
 }
 
 export function listen() {

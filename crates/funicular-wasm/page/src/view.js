@@ -29,48 +29,28 @@ import { ConvexGeometry } from "three/addons/geometries/ConvexGeometry.js";
 import { Line2 } from "three/addons/lines/Line2.js";
 import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { canvasOf } from "./canvas.js";
+import { colorOf, COLORS, isLimited, limitingCable } from "./colors.js";
+import { setCurve } from "./curve.js";
 import { Drives } from "./drives.js";
 import { rotation } from "./frame.js";
+import { Grab } from "./grab.js";
+import { Ground } from "./ground.js";
 import { Playback } from "./motion.js";
 
-/** Colours of tension from low to high, readable with any colour vision and on both backgrounds. */
-const SCALE = ["#3b6fb6", "#4aa3c8", "#62b78f", "#c9a227", "#d9772b", "#c23b22"].map((hex) => new Color(hex));
-/** Colours of states. */
-export const COLORS = { slack: "#8a8f98", beyond: "#d1249d" };
 const FIELD_OF_VIEW = 35;
 const VIEW_HALF = 0.44; // of the size of the robot: half of what the view shows of it at first
 const NAME_AT = 0.3; // of the length of a cable from its anchor: place of its name
+const LONG_NAME = 8; // characters: of longer names the view has numbers, except for the highest
+const WIDTH = 2.6; // of a cable, in pixels
+const WIDTH_LIMITING = 5.2; // of the cable that is nearest to its limit
 const OPACITY = 0.82; // of the platform, so that cables behind it are seen
 const OPACITY_BROKEN = 0.3; // of the platform at a pose without an equilibrium
-
-/** Colour of a fraction from 0 to 1. */
-export function colorOf(fraction) {
-  const at = Math.max(0, Math.min(1, fraction)) * (SCALE.length - 1);
-  const low = Math.min(SCALE.length - 2, Math.floor(at));
-  return SCALE[low].clone().lerp(SCALE[low + 1], at - low);
-}
-
-/** Canvas with its context. Without a graphics card smooth edges and fine pixels take longer than a frame. */
-function drawing() {
-  const made = (antialias) => {
-    const canvas = document.createElement("canvas");
-    const context = canvas.getContext("webgl2", { alpha: true, stencil: false, antialias });
-    return { canvas, context: context ?? undefined };
-  };
-  const smooth = made(true);
-  const about = smooth.context?.getExtension("WEBGL_debug_renderer_info");
-  const name = about ? smooth.context.getParameter(about.UNMASKED_RENDERER_WEBGL) : "";
-  if (!/swiftshader|llvmpipe|software|basic render/i.test(name)) {
-    return { ...smooth, software: false };
-  }
-  smooth.context.getExtension("WEBGL_lose_context")?.loseContext();
-  return { ...made(false), software: true };
-}
 
 export class View {
   /**
    * @param {HTMLElement} place
-   * @param {object} tell functions: `drag(position, quaternion)`, `dragEnd()`, `turned()`
+   * @param {object} tell functions: `dragBegin()`, `drag(position, quaternion)`, `dragEnd()`
    */
   constructor(place, tell) {
     this.place = place;
@@ -81,7 +61,7 @@ export class View {
     this.canDrag = false; // until there is a pose
     this.pixels = [1, 1];
 
-    const { canvas, context, software } = drawing();
+    const { canvas, context, software } = canvasOf();
     this.software = software;
     this.renderer = new WebGLRenderer({ canvas, context, alpha: true });
     this.canvas = canvas;
@@ -104,11 +84,11 @@ export class View {
     this.cables = new Group();
     this.remembered = new Group();
     this.handle = new Object3D();
+    this.ground = new Ground(this.scene);
     this.scene.add(this.platform, this.fixed, this.cables, this.remembered, this.handle);
 
     this.orbit = new OrbitControls(this.camera, this.canvas);
     this.orbit.addEventListener("change", () => this.draw());
-    this.orbit.addEventListener("end", () => tell.turned());
     this.controls = new TransformControls(this.camera, this.canvas);
     this.controls.setSize(0.85);
     this.controls.attach(this.handle);
@@ -117,10 +97,13 @@ export class View {
     this.controls.addEventListener("dragging-changed", ({ value }) => {
       this.dragging = value;
       this.orbit.enabled = !value;
-      if (!value) {
+      if (value) {
+        tell.dragBegin();
+      } else {
         tell.dragEnd();
       }
     });
+    this.grab = new Grab(this);
     this.controls.addEventListener("objectChange", () => {
       const { x, y, z, w } = this.handle.quaternion;
       tell.drag(this.handle.position.toArray(), [w, x, y, z]);
@@ -175,6 +158,7 @@ export class View {
   /** Takes the robot away. */
   clear() {
     [this.platform, this.fixed, this.cables, this.remembered].forEach((group) => group.clear());
+    this.ground.clear();
     Object.assign(this, { lines: [], frame: null, names: [], attachments: [] });
     this.playback.mode = null;
     this.labels.replaceChildren();
@@ -187,18 +171,22 @@ export class View {
   setRobot(about, frame, keepView) {
     [this.platform, this.fixed, this.cables].forEach((group) => group.clear());
     this.lines = [];
+    this.limiting = -1;
     this.frame = this.playback.mode = null;
     const { cables } = about.check;
     this.names = cables.map((cable) => cable.name);
+    const areLong = this.names.some((name) => name.length > LONG_NAME);
+    this.shortNames = this.names.map((name, i) => (areLong ? String(i + 1) : name));
     const label = (name) => Object.assign(document.createElement("span"), { textContent: name });
-    this.labels.replaceChildren(...this.names.map(label));
+    this.labels.replaceChildren(...this.shortNames.map(label));
     this.attachments = cables.map((cable) => new Vector3(...cable.attachment_m));
     this.motion = about.motion;
 
     // Box around the robot: anchors and platform.
     const anchors = cables.map((cable) => new Vector3(...cable.anchor_m));
     this.anchors = anchors;
-    const box = [...anchors, new Vector3(...(frame?.position ?? about.check.pose?.position_m ?? [0, 0, 0]))];
+    // The place of the file, not of the moment: one button gives one view.
+    const box = [...anchors, new Vector3(...(about.check.pose?.position_m ?? [0, 0, 0]))];
     const low = new Vector3(...["x", "y", "z"].map((axis) => Math.min(...box.map((point) => point[axis]))));
     const high = new Vector3(...["x", "y", "z"].map((axis) => Math.max(...box.map((point) => point[axis]))));
     this.center = low.clone().add(high).multiplyScalar(0.5);
@@ -210,7 +198,7 @@ export class View {
     this.drives = new Drives(cables, about.check.supports ?? [], this.size);
     this.fixed.add(this.drives.group);
     for (const { name } of cables) {
-      const material = new LineMaterial({ linewidth: 2.6, vertexColors: false, dashScale: 60 / this.size });
+      const material = new LineMaterial({ linewidth: WIDTH, vertexColors: false, dashScale: 60 / this.size });
       const line = new Line2(new LineGeometry(), material);
       line.name = name;
       line.frustumCulled = false;
@@ -264,6 +252,7 @@ export class View {
       body = new ConvexGeometry(sides);
     }
     this.body = new Mesh(body, this.platformMaterial);
+    this.ground.setRobot(body, this.size, this.grid.position.z);
     this.platform.add(this.body);
     if (radius > 0) {
       this.platform.add(new LineSegments(new EdgesGeometry(body, 20), this.edgeMaterial));
@@ -284,6 +273,7 @@ export class View {
     this.platformMaterial?.color.set(color("--platform"));
     this.edgeMaterial?.color.set(color("--ink"));
     this.drives?.recolor(color);
+    this.ground.recolor(color);
     this.draw();
   }
 
@@ -325,14 +315,17 @@ export class View {
       this.handle.quaternion.copy(this.platform.quaternion);
     }
     this.platformMaterial.opacity = OPACITY;
+    this.ground.setPlumb(frame.position);
     this.drives.setFrame(frame);
     this.moveSupports(() => new Vector3());
     const top = Math.max(...frame.cables.map((cable) => cable.highest), 1e-9);
+    this.markLimiting(limitingCable(frame));
     frame.cables.forEach((cable, i) => {
       const line = this.lines[i];
-      line.geometry.setPositions(this.exaggerated(cable));
-      const finite = frame.limited && Number.isFinite(cable.maximum);
-      const part = finite ? (cable.highest - cable.minimum) / (cable.maximum - cable.minimum) : cable.highest / top;
+      setCurve(line, this.exaggerated(cable));
+      const part = isLimited(frame, cable)
+        ? (cable.highest - cable.minimum) / (cable.maximum - cable.minimum)
+        : cable.highest / top;
       const color = cable.slack ? new Color(COLORS.slack) : cable.beyond ? new Color(COLORS.beyond) : colorOf(part);
       line.material.color.copy(color);
       line.material.dashed = Boolean(cable.slack);
@@ -350,6 +343,7 @@ export class View {
    */
   setBroken(pose) {
     this.frame = this.playback.mode = null;
+    this.ground.setPlumb(null);
     this.platform.visible = this.cables.visible = pose !== null;
     this.drives?.setUnknown();
     this.#allowDrag(pose !== null);
@@ -364,7 +358,7 @@ export class View {
       this.lines.forEach((line, i) => {
         const own = this.attachments[i].toArray();
         const at = r.map((row, k) => position[k] + row.reduce((sum, value, j) => sum + value * own[j], 0));
-        line.geometry.setPositions([...at, ...this.anchors[i].toArray()]);
+        setCurve(line, [...at, ...this.anchors[i].toArray()]);
         line.material.color.set(COLORS.slack);
         line.material.dashed = false;
       });
@@ -372,6 +366,32 @@ export class View {
         this.platformMaterial.opacity = OPACITY_BROKEN;
       }
     }
+    this.draw();
+  }
+
+  /** Draws the cable that is nearest to its limit thick, with its whole name. */
+  markLimiting(index) {
+    if (this.limiting === index) {
+      return;
+    }
+    this.limiting = index;
+    this.lines.forEach((line, i) => {
+      line.material.linewidth = i === index ? WIDTH_LIMITING : WIDTH;
+      const label = this.labels.children[i];
+      label.classList.toggle("limiting", i === index);
+      label.textContent = i === index ? this.names[i] : this.shortNames[i];
+    });
+  }
+
+  /** Shows a wanted pose that has no equilibrium as a pale body; null hides it. */
+  setGhost(pose) {
+    this.ground.setGhost(pose);
+    this.draw();
+  }
+
+  /** Colours the plane of a measure; null takes it away. */
+  setPlane(of) {
+    this.ground.setPlane(of);
     this.draw();
   }
 

@@ -69,7 +69,8 @@ async function answer({ data }) {
     postMessage({ id: data.id, ...found }, found.numbers ? [found.numbers.buffer] : []);
   } catch (error) {
     const broken = error instanceof BrokenError;
-    postMessage({ id: data.id, error: { message: error.message, status: error.status, issues: error.issues, broken } });
+    const { message, status, issues, border } = error;
+    postMessage({ id: data.id, error: { message, status, issues, border, broken } });
     if (broken) {
       // A mistake in the core: the page lives on with a new instance and the last robot, unless it is the mistake.
       await funicular.renew();

@@ -3,19 +3,18 @@
 import { Cancelled, Job } from "./engine.js";
 import { slice } from "./figures.js";
 import { $, element, short } from "./format.js";
+import { freeAxes, keyOf, measureOf, MEASURES, rangeOf, sampleGrid } from "./measures.js";
 import { age, put } from "./messages.js";
 
 /** Numbers of intervals along the longer axis, one level after the other: each has the points of the one before. */
 const LEVELS = [8, 16, 32, 64];
-const CHUNK = 24; // poses per message: short enough that all workers end together
-
-const QUANTITIES = [
-  ["tension-max", "tension_max_n", "Highest tension"],
-  ["tension-min", "tension_min_n", "Lowest tension"],
-  ["first-platform-frequency", "first_platform_frequency_hz", "First resonance of the platform"],
-  ["first-frequency", "first_frequency_hz", "First resonance"],
-  ["stiffness-min", "stiffness_min_n_per_m", "Minimum stiffness"],
-];
+/** Cells of a level, which replace those of the level before. */
+function cellsOf({ columns, values, steps: [du, dv], ends: [[u0], [v0]] }) {
+  return values.map((value, at) => {
+    const [i, j] = [at % columns, Math.floor(at / columns)];
+    return { u: u0 + i * du, v: v0 + j * dv, du, dv, value };
+  });
+}
 
 export class Workspace {
   #page;
@@ -26,7 +25,8 @@ export class Workspace {
 
   constructor(page) {
     this.#page = page;
-    $("quantity").replaceChildren(...QUANTITIES.map(([value, , text]) => element("option", { value }, text)));
+    $("quantity").replaceChildren(...MEASURES.map(({ name, label }) => element("option", { value: name }, label)));
+    $("quantity").value = "tension-max";
     $("slice-run").addEventListener("click", () => (this.#running ? this.#job.cancel() : this.run()));
     $("slice").addEventListener("change", () => {
       if (this.#result) {
@@ -57,17 +57,11 @@ export class Workspace {
     const here = this.#page.here();
     const at = this.#page.state().frame?.position ?? here;
     cross.setAttribute("d", at ? this.cross(this.#result.indices.map((k) => at[k])) : "");
-    const old = !here || this.#keyOf(here, this.#result.indices) !== this.#result.key;
+    const old = !here || keyOf(this.#page.request(), here, this.#result.indices) !== this.#result.key;
     if ($("map").classList.contains("stale") !== old) {
       age("map", old);
       put(this.note, old ? "This slice is of an earlier state: compute it again." : this.told);
     }
-  }
-
-  /** Everything that a slice depends on, as a text: the request without the position in its plane. */
-  #keyOf(here, indices) {
-    const { pose: _, lengths_m: __, ...rest } = this.#page.request();
-    return JSON.stringify([rest, here.map((value, k) => (indices.includes(k) ? null : value))]);
   }
 
   /** Another robot. */
@@ -92,52 +86,30 @@ export class Workspace {
       return;
     }
     const plane = $("plane").value;
-    const [quantity, column, label] = QUANTITIES.find(([name]) => name === $("quantity").value);
+    const measure = measureOf($("quantity").value);
+    const { label, unit } = measure;
     const axes = [...plane].map((axis) => "xyz".indexOf(axis));
-    const [low, high] = view.box.map((point) => point.toArray());
-    const ranges = axes.map((k) => {
-      // A planar robot or a robot with all anchors in one plane: at least a part of its size.
-      const flat = high[k] - low[k] < 0.05 * view.size;
-      return flat ? [here[k] - 0.3 * view.size, here[k] + 0.3 * view.size] : [low[k], high[k]];
-    });
-    const { name, normal } = about.motion;
-    if (name === "planar" && axes.some((k) => Math.abs(normal[k]) > 0.99)) {
+    if (axes.some((k) => !freeAxes(about.motion).includes(k))) {
       this.#page.tell("the platform moves in another plane: choose that plane for the slice");
       return;
     }
 
-    const spans = ranges.map(([a, b]) => b - a);
-    const counts = (level) => spans.map((span) => Math.max(2, Math.round((level * span) / Math.max(...spans))));
-    const [nu, nv] = counts(LEVELS.at(-1));
-    const known = new Map();
+    const ranges = axes.map((k) => rangeOf(view, here, k));
     const request = this.#page.request();
-    const told = {
-      axes: [plane[0], plane[1]],
-      indices: axes,
-      ranges,
-      label,
-      here,
-      key: this.#keyOf(here, axes),
-      cells: [],
-      unit: "",
-    };
+    const key = keyOf(request, here, axes);
+    const told = { axes: [...plane], indices: axes, ranges, label, here, key, cells: [], unit };
     this.#result = told;
     this.#show(true);
+    const of = { request, measure, axes, ranges, here, levels: LEVELS, known: new Map() };
+    const show = (grid) => {
+      told.cells = cellsOf(grid);
+      this.#draw();
+    };
+    const progress = (part) => {
+      $("slice-progress").value = part;
+    };
     try {
-      await this.#job.run(this.#page.cores, async (workers) => {
-        for (const level of LEVELS) {
-          const stride = LEVELS.at(-1) / level;
-          const todo = [];
-          for (let i = 0; i <= nu; i += stride) {
-            for (let j = 0; j <= nv; j += stride) {
-              if (!known.has(i * 1000 + j)) {
-                todo.push([i, j]);
-              }
-            }
-          }
-          await this.#level(workers, todo, { known, request, quantity, column, told, nu, nv, stride, here });
-        }
-      });
+      await this.#job.run(this.#page.cores, (workers) => sampleGrid(workers, of, show, progress));
     } catch (error) {
       if (!(error instanceof Cancelled)) {
         this.#page.tell(error.message);
@@ -145,41 +117,6 @@ export class Workspace {
     }
     this.#show(false);
     $("map").dataset.done = String(Number($("map").dataset.done ?? 0) + 1);
-  }
-
-  /** Computes the points of a level; every worker takes the next chunk when it has finished one. */
-  async #level(workers, todo, of) {
-    const { known, request, quantity, column, told, nu, nv, stride, here } = of;
-    const total = todo.length;
-    const { axes } = { axes: told.indices };
-    const value = (k, i) => told.ranges[k][0] + ((told.ranges[k][1] - told.ranges[k][0]) * i) / (k === 0 ? nu : nv);
-    const { pose: _, lengths_m: __, ...rest } = request;
-    const take = async (worker) => {
-      while (todo.length) {
-        const chunk = todo.splice(0, CHUNK);
-        const poses = chunk.map(([i, j]) => {
-          const pose = [...here];
-          [pose[axes[0]], pose[axes[1]]] = [value(0, i), value(1, j)];
-          return pose;
-        });
-        const own = { command: "map", ...rest, quantities: [quantity], poses };
-        const { columns, units } = JSON.parse((await worker.call("answer", { request: own })).text);
-        told.unit = units[column];
-        chunk.forEach(([i, j], k) => known.set(i * 1000 + j, columns[column][k] ?? NaN));
-        $("slice-progress").value = 1 - todo.length / total;
-      }
-    };
-    await Promise.all(workers.map(take));
-
-    // The cells of a level replace those of the level before.
-    const size = [0, 1].map((k) => (stride * (told.ranges[k][1] - told.ranges[k][0])) / (k === 0 ? nu : nv));
-    told.cells = [];
-    for (let i = 0; i <= nu; i += stride) {
-      for (let j = 0; j <= nv; j += stride) {
-        told.cells.push({ u: value(0, i), v: value(1, j), du: size[0], dv: size[1], value: known.get(i * 1000 + j) });
-      }
-    }
-    this.#draw();
   }
 
   #show(running) {

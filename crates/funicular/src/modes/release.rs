@@ -1,7 +1,7 @@
 //! Free decay after a wrench on the platform is released: closed form over the damped modes.
 //!
 //! The wrench f has held the platform away from its equilibrium. With the residues R_k of the response at the poles
-//! λ_k the point moves by `y(t) = Σ 2 Re(A_k e^{λ_k t})`, `A_k = −R_k f/λ_k` (docs/theory.md, equations (46e) to (46g)).
+//! λ_k the point moves by `y(t) = Σ 2 Re(A_k e^{λ_k t})`, `A_k = −R_k f/λ_k` (docs/theory.md, equations (46f) to (46h)).
 
 use super::Modes;
 use super::damped::DampedModes;

@@ -237,7 +237,7 @@ impl fmt::Display for Obstacle {
                         in_words(rotation_w)
                     )
                 };
-                write!(f, "no cable can {motion}, so that {:.2} % of the load stay unbalanced", 100.0 * unbalanced)?;
+                write!(f, "no cable can {motion}: {:.2} % of the load cannot be balanced", 100.0 * unbalanced)?;
                 match (nearest.is_empty(), opposed.is_empty()) {
                     (true, _) => Ok(()),
                     (false, true) => write!(f, "; {} nearest to it", cables(nearest, "comes", "come")),
@@ -312,8 +312,8 @@ mod tests {
         };
         assert_eq!(
             of(&["1", "2"], &["5"]).to_string(),
-            "no cable can pull the platform along (-1.000, 0.000, 0.000) (-x), so that 25.00 % of the load stay \
-             unbalanced; cables \"1\", \"2\" come nearest to it, and cable \"5\" would have to push"
+            "no cable can pull the platform along (-1.000, 0.000, 0.000) (-x): 25.00 % of the load cannot be \
+             balanced; cables \"1\", \"2\" come nearest to it, and cable \"5\" would have to push"
         );
         assert!(of(&["1"], &[]).to_string().ends_with("; cable \"1\" comes nearest to it"));
         assert!(of(&["1", "2", "3", "4"], &[]).to_string().contains("cables \"1\", \"2\", \"3\", … come nearest"));

@@ -223,7 +223,7 @@ fn rooms_use_each_other_as_the_direction_table_of_architecture_says() {
 fn the_map_of_architecture_names_what_exists_and_every_room() {
     let top = root().join("../..");
     let text = fs::read_to_string(top.join("ARCHITECTURE.md")).unwrap();
-    assert!(text.lines().count() <= 150, "ARCHITECTURE.md is the map; reasons stand in DESIGN.md");
+    assert!(text.lines().count() <= 200, "ARCHITECTURE.md is the map; reasons stand in DESIGN.md");
 
     let map = text.split("## Map").nth(1).unwrap().split("```").nth(1).unwrap();
     let (mut base, mut inner) = (PathBuf::new(), PathBuf::new());

@@ -136,7 +136,7 @@ pub fn about(at_rest: &AtRest, request: &request::ReduceRequest, watch: &mut dyn
         modes_below: model.modes_below,
         damping: match damping_at {
             DampingAt::NaturalFrequencies if model.damping_error > 0.0 => {
-                "eigenvalues and residues of the ropes' constant ratios".to_owned()
+                "of each mode as the ropes' constant damping ratios give it".to_owned()
             }
             _ => damping_in_words(model.damping_error == 0.0, damping_at),
         },

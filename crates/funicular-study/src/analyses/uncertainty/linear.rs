@@ -4,11 +4,13 @@ use super::inputs::{Distribution, Inputs};
 use super::mode_linearity;
 use super::response_linearity;
 use super::responses::{RequestedResponse, Responses};
-use super::results::{NominalModes, ResultKind, static_gradients};
+use super::results::{NominalModes, of_groups};
 use super::row::{Along, Row};
 use crate::analyses::gradient::{check_hold, held};
+use crate::analyses::result_groups::nothing_below;
 use crate::at_rest::{self, AtRest};
 use crate::error::NoSolution;
+use crate::measure::{Measure, ResponsePart};
 use crate::request::UncertaintyRequest;
 use anyhow::Result;
 use funicular::dynamics::Linearisation;
@@ -74,7 +76,7 @@ impl LinearPose {
             (Some(requested), Some(modes)) => Some(Responses::new(requested, &at_rest, &modes.dynamics)?),
             _ => None,
         };
-        let kinds = ResultKind::of_groups(of, robot, modes.as_ref().map_or(0, |modes| modes.count), at_hz);
+        let kinds = of_groups(of, robot, modes.as_ref().map_or(0, |modes| modes.count), at_hz);
         let mut rows = rows(&kinds, &at_rest, modes.as_ref(), responses.as_ref());
 
         match held(&at_rest, request.hold) {
@@ -86,7 +88,9 @@ impl LinearPose {
             }
         }
 
-        let warnings = modes.map_or_else(|| at_rest.warnings(None), |modes| modes.warnings);
+        let lacking = below_hz.filter(|_| modes.as_ref().is_some_and(|modes| modes.count == 0)).map(nothing_below);
+        let mut warnings = modes.map_or_else(|| at_rest.warnings(None), |modes| modes.warnings);
+        warnings.extend(lacking);
         let rule = match (request.hold, &at_rest.rule) {
             (Hold::Rule, Some(rule)) => rule.clone(),
             _ => held_tensions(&at_rest),
@@ -149,23 +153,18 @@ fn held_tensions(at_rest: &AtRest) -> TensionRule {
 }
 
 /// Results with their values, without derivatives. A value that does not exist has no row.
-fn rows(
-    kinds: &[ResultKind],
-    at_rest: &AtRest,
-    modes: Option<&NominalModes>,
-    responses: Option<&Responses>,
-) -> Vec<Row> {
-    let value = |kind: ResultKind| match kind {
-        ResultKind::Magnitude(hz) => responses.and_then(|of| Some(of.decibels(of.place(hz)?))),
-        ResultKind::Phase(hz) => responses.and_then(|of| Some(of.degrees(of.place(hz)?))),
-        ResultKind::Frequency(k) => modes?.found.modes.get(k).map(|mode| mode.frequency_hz),
-        ResultKind::Damping(k) => modes?.damped.get(k).map(funicular::modes::damped::DampedMode::damping_ratio),
+fn rows(kinds: &[Measure], at_rest: &AtRest, modes: Option<&NominalModes>, responses: Option<&Responses>) -> Vec<Row> {
+    let value = |kind: Measure| match kind {
+        Measure::Response(hz, ResponsePart::Phase) => responses.and_then(|of| Some(of.degrees(of.place(hz)?))),
+        Measure::Response(hz, _) => responses.and_then(|of| Some(of.decibels(of.place(hz)?))),
+        Measure::Frequency(k) => modes?.found.modes.get(k).map(|mode| mode.frequency_hz),
+        Measure::Damping(k) => modes?.damped.get(k).map(funicular::modes::damped::DampedMode::damping_ratio),
         // A rotation is counted from here.
-        ResultKind::Pose(3..) => Some(0.0),
+        Measure::Pose(3..) => Some(0.0),
         other => other.static_value(&at_rest.equilibrium, &at_rest.equilibrium.pose),
     };
     let row =
-        |kind: &ResultKind| Some(Row { kind: *kind, value: value(*kind)?, derivatives: None, sampling_reason: None });
+        |kind: &Measure| Some(Row { kind: *kind, value: value(*kind)?, derivatives: None, sampling_reason: None });
     kinds.iter().filter_map(row).collect()
 }
 
@@ -179,8 +178,8 @@ fn differentiate(rows: &mut [Row], gradients: &Gradients, modes: Option<&Nominal
         Err(reason) => row.sampling_reason = Some(reason),
     };
 
-    let kinds: Vec<ResultKind> = rows.iter().map(|row| row.kind).collect();
-    for (row, gradient) in rows.iter_mut().zip(static_gradients(&kinds, gradients)) {
+    let kinds: Vec<Measure> = rows.iter().map(|row| row.kind).collect();
+    for (row, gradient) in rows.iter_mut().zip(Measure::static_gradients(&kinds, gradients)) {
         if let Some(gradient) = gradient {
             put(row, gradient);
         }
@@ -197,8 +196,8 @@ fn differentiate(rows: &mut [Row], gradients: &Gradients, modes: Option<&Nominal
     };
     for row in rows {
         match row.kind {
-            ResultKind::Frequency(k) => put(row, vibration.frequency(&modes.found.modes[k])),
-            ResultKind::Damping(k) => {
+            Measure::Frequency(k) => put(row, vibration.frequency(&modes.found.modes[k])),
+            Measure::Damping(k) => {
                 put(row, vibration.damped(&modes.damped[k]).map(|gradient| gradient.damping_ratio));
             }
             _ => {}

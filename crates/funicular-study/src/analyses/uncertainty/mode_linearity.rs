@@ -1,8 +1,9 @@
 //! Test of whether natural frequencies and damping ratios are nearly linear: neighbours that cross, and neighbours that
 //! come near and mix.
 
-use super::results::{NominalModes, ResultKind};
+use super::results::NominalModes;
 use super::row::{Along, Row};
+use crate::measure::Measure;
 use crate::text::significant;
 use funicular::gradient::Gradients;
 
@@ -79,8 +80,7 @@ pub(super) fn test(rows: &mut [Row], modes: &NominalModes, gradients: &Gradients
             derivatives.as_deref().map_or(0.0, |derivatives| along.reach(derivatives, DEVIATIONS))
         };
         let bends = linear(&derivatives[k]) * MAX_NONLINEAR < mixed[k].frequency_hz
-            || matches!(row.kind, ResultKind::Damping(_))
-                && linear(&row.derivatives) * MAX_NONLINEAR < mixed[k].damping;
+            || matches!(row.kind, Measure::Damping(_)) && linear(&row.derivatives) * MAX_NONLINEAR < mixed[k].damping;
         row.sampling_reason = crossing[k].clone().or_else(|| {
             let (_, other) = mixed[k].nearest.filter(|_| bends)?;
             Some(format!(

@@ -99,6 +99,8 @@ pub struct FailedSamples {
 pub struct UncertainResult {
     /// Name, such as `frequency 3` or `tension of cable "2" at the anchor`.
     pub name: String,
+    /// Identity as data: `kind`, and the cable, mode or frequency to which the result belongs.
+    pub measure: serde_json::Value,
     pub unit: &'static str,
     /// Frequency of a response [Hz].
     #[serde(skip_serializing_if = "Option::is_none")]

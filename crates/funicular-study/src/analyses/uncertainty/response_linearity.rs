@@ -1,8 +1,9 @@
 //! Derivatives of frequency responses, and the test of whether responses are nearly linear.
 
 use super::responses::{ResponseChange, Responses};
-use super::results::{NominalModes, ResultKind};
+use super::results::NominalModes;
 use super::row::{Along, Row};
+use crate::measure::{Measure, ResponsePart};
 use funicular::gradient::Gradients;
 use funicular::math::{Complex, Vec6};
 use funicular::modes::Mode;
@@ -54,9 +55,9 @@ pub(super) fn differentiate(
 }
 
 /// ResponseChange of a result, in its unit, by a relative change of the response.
-fn change_of(kind: ResultKind, relative: Complex) -> f64 {
+fn change_of(kind: Measure, relative: Complex) -> f64 {
     let change = ResponseChange(relative);
-    if matches!(kind, ResultKind::Phase(_)) { change.degrees() } else { change.decibels() }
+    if matches!(kind, Measure::Response(_, ResponsePart::Phase)) { change.degrees() } else { change.decibels() }
 }
 
 /// Mode near the frequencies of a response.
@@ -94,18 +95,21 @@ pub(super) fn test(
         }
     };
 
-    let derivatives: Vec<(ResultKind, Option<Vec<f64>>)> =
+    let derivatives: Vec<(Measure, Option<Vec<f64>>)> =
         rows.iter().map(|row| (row.kind, row.derivatives.clone())).collect();
     for row in rows {
         let (Some(hz), None) = (row.kind.at_hz(), &row.sampling_reason) else { continue };
         let Some(place) = of.place(hz) else { continue };
         // Linear relative change of the magnitude, and change of the phase in radians.
-        let relative = |kind: ResultKind| {
+        let relative = |kind: Measure| {
             let own = derivatives.iter().find(|(other, _)| *other == kind).and_then(|(_, own)| own.as_deref());
             along.reach(own.unwrap_or_default(), DEVIATIONS) / change_of(kind, Complex::new(1.0, 1.0))
         };
-        let (magnitude, phase) = (relative(ResultKind::Magnitude(hz)), relative(ResultKind::Phase(hz)));
-        let is_phase = matches!(row.kind, ResultKind::Phase(_));
+        let (magnitude, phase) = (
+            relative(Measure::Response(hz, ResponsePart::Magnitude)),
+            relative(Measure::Response(hz, ResponsePart::Phase)),
+        );
+        let is_phase = matches!(row.kind, Measure::Response(_, ResponsePart::Phase));
         let linear = if is_phase { phase } else { magnitude };
         let part = |value: Complex| if is_phase { value.im.abs() } else { value.re.abs() };
 

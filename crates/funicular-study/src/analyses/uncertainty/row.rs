@@ -2,14 +2,14 @@
 
 use super::distribution::half_width;
 use super::inputs::{DeviatingNumber, Distribution, Inputs};
-use super::results::ResultKind;
+use crate::measure::Measure;
 use funicular::robot::RobotChange;
 
 /// Result with its derivatives.
 #[derive(Clone)]
 pub(crate) struct Row {
     /// Result.
-    pub(crate) kind: ResultKind,
+    pub(crate) kind: Measure,
     /// Value for the undisturbed robot.
     pub(crate) value: f64,
     /// Derivatives by the numbers that deviate; absent for a result without a gradient.

@@ -3,8 +3,9 @@
 use super::distribution::latin_hypercube;
 use super::inputs::{DeviatingNumber, Distribution, Inputs};
 use super::linear::LinearPose;
-use super::results::{self, ResultKind};
+use super::results;
 use super::statistics::total_share;
+use crate::measure::Measure;
 use crate::request::UncertaintyRequest;
 use crate::sweep::{Chunk, Column, ColumnKind, Values};
 use anyhow::{Result, bail};
@@ -43,7 +44,7 @@ struct Segment {
 pub(crate) struct Sampling {
     segments: Vec<Segment>,
     /// Results, one column each.
-    pub(crate) kinds: Vec<ResultKind>,
+    pub(crate) kinds: Vec<Measure>,
     rows: usize,
     /// Points in the unit cube, and the points from which groups are drawn again.
     points: Vec<Vec<f64>>,
@@ -163,7 +164,7 @@ impl Sampling {
             let (values, reason) = match disturbed(inputs, linear, hold, &deviations) {
                 Ok((robot, rest)) => {
                     let pose = &linear.at_rest.equilibrium.pose;
-                    let kinds: Vec<ResultKind> = linear.rows.iter().map(|row| row.kind).collect();
+                    let kinds: Vec<Measure> = linear.rows.iter().map(|row| row.kind).collect();
                     let responses = linear.responses.as_ref();
                     (results::values(&kinds, &robot, &rest, pose, linear.linearisation, responses), None)
                 }
@@ -290,7 +291,7 @@ impl SampleTable {
         sampling: &Sampling,
         pose: usize,
         set: SampleSet,
-        kind: ResultKind,
+        kind: Measure,
     ) -> Option<impl Iterator<Item = f64> + use<'t>> {
         let range = sampling.range(pose, set)?;
         let column = sampling.kinds.iter().position(|other| *other == kind)?;
@@ -303,7 +304,7 @@ impl SampleTable {
         sampling: &Sampling,
         inputs: &Inputs,
         (pose, linear): (usize, &LinearPose),
-        kind: ResultKind,
+        kind: Measure,
         deviation: f64,
     ) -> Option<Vec<f64>> {
         if inputs.groups.len() == 1 {

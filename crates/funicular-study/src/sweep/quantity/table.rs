@@ -1,7 +1,9 @@
 //! Table of all quantities.
 
 use super::{Definition, Parameter, ParameterKind, Quantity, RequiredModel};
+use crate::measure::{Measure, TensionPlace};
 use crate::sweep::columns::{Column, ColumnKind, Value};
+use crate::sweep::evaluation::PointEvaluation;
 use crate::sweep::points::AXES;
 use funicular::cable::{CableModel, Sag};
 use funicular::math::rotation;
@@ -14,23 +16,19 @@ pub(super) static TABLE: [Definition; 26] = [
         name: "first-frequency",
         about: "lowest natural frequency",
         documentation: "`first_frequency_hz`: lowest natural frequency, undamped, with the requested cable model",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
         frequencies: |_| 1,
         columns: |_, _| one("first_frequency_hz", "Hz", "lowest natural frequency, undamped"),
         values: |row, _, out| row.frequencies(1, out),
+        ..Definition::PLAIN
     },
     Definition {
         name: "first-platform-frequency",
         about: "lowest natural frequency of a mode of the platform; it jumps from pose to pose where modes of cables are near",
         documentation: "`first_platform_frequency_hz`: lowest natural frequency of a mode with at least \
-                        `--platform-share` (0.5 if not given) of its kinetic energy in the platform, with the \
+                        `⟪platform_share⟫` (0.5 if not given) of its kinetic energy in the platform, with the \
                         requested cable model; the modes below it are all found, however many they are. It \
                         jumps between neighbouring points where a mode of the cables is near and takes over half of the \
-                        energy: for a smooth curve choose `--cable-model catenary-static`",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
+                        energy: for a smooth curve choose `⟪cable_model⟫ catenary-static`",
         columns: |_, _| {
             let about = "lowest natural frequency of a mode of the platform, undamped; it jumps where a mode of the \
                          cables is near and shares the energy: catenary-static gives a smooth curve";
@@ -40,6 +38,7 @@ pub(super) static TABLE: [Definition; 26] = [
             let first = row.first_platform_frequency();
             row.push(Some(first), out);
         },
+        ..Definition::PLAIN
     },
     Definition {
         name: "damping",
@@ -76,8 +75,6 @@ pub(super) static TABLE: [Definition; 26] = [
         name: "first-kind",
         about: "kind of the first mode: platform, cable or mixed",
         documentation: "`first_kind`: kind of the first mode by kinetic energy: platform, cable or mixed",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
         frequencies: |_| 1,
         columns: |_, _| {
             let about = "kind of the first mode by kinetic energy: platform, cable or mixed";
@@ -87,37 +84,33 @@ pub(super) static TABLE: [Definition; 26] = [
             let kind = row.modes().and_then(|modes| modes.first().map(|mode| mode.1));
             out.push(kind.map_or(Value::Nothing, |kind| Value::Text(kind.name().into())));
         },
+        ..Definition::PLAIN
     },
     Definition {
         name: "frequencies:N",
         about: "lowest N natural frequencies",
         documentation: "`frequency_1_hz` …: lowest N natural frequencies, ascending, undamped",
         takes: ParameterKind::Count,
-        needs: RequiredModel::Anything,
         frequencies: Parameter::count,
         columns: |_, parameter| {
             let about = "natural frequency, ascending, undamped";
             (1..=parameter.count()).map(|i| column(format!("frequency_{i}_hz"), "Hz", about)).collect()
         },
         values: |row, parameter, out| row.frequencies(parameter.count(), out),
+        ..Definition::PLAIN
     },
     Definition {
         name: "tension-max",
         about: "maximum tension anywhere in a cable",
         documentation: "`tension_max_n`: maximum tension anywhere in any cable",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
         columns: |_, _| one("tension_max_n", "N", "maximum tension anywhere in a cable"),
         values: |row, _, out| out.push(Value::real(row.tensions().map(|(_, max)| max).reduce(f64::max))),
+        ..Definition::PLAIN
     },
     Definition {
         name: "tension-max-cable",
         about: "name of the cable with the maximum tension",
         documentation: "`tension_max_cable`: name of the cable with the maximum tension; text",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
         columns: |_, _| {
             let about = "name of the cable with the maximum tension anywhere";
             vec![Column { kind: ColumnKind::Text, ..column("tension_max_cable".to_owned(), "", about) }]
@@ -129,82 +122,80 @@ pub(super) static TABLE: [Definition; 26] = [
             let name = tightest.map(|(i, _)| Value::Text(row.robot.cables[i].name.clone().into()));
             out.push(name.unwrap_or(Value::Nothing));
         },
+        ..Definition::PLAIN
     },
     Definition {
         name: "tension-min",
         about: "minimum tension anywhere in a cable",
         documentation: "`tension_min_n`: minimum tension anywhere in any cable",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
         columns: |_, _| one("tension_min_n", "N", "minimum tension anywhere in a cable"),
         values: |row, _, out| out.push(Value::real(row.tensions().map(|(min, _)| min).reduce(f64::min))),
+        ..Definition::PLAIN
     },
     Definition {
         name: "tensions",
         about: "tension of every cable at its platform end",
         documentation: "`tension_platform_NAME_n`: tension of every cable at its platform end",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
-        columns: |robot, _| each_cable(robot, "tension_platform", "n", "N", "tension of a cable at its platform end"),
-        values: |row, _, out| out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.tension_platform)))),
+        columns: |robot, _| {
+            columns_of_measures(
+                robot,
+                &Measure::tensions(robot, TensionPlace::Platform),
+                "tension of a cable at its platform end",
+            )
+        },
+        values: |row, _, out| push_measures(row, &Measure::tensions(row.robot, TensionPlace::Platform), out),
+        ..Definition::PLAIN
     },
     Definition {
         name: "exit-tensions",
         about: "tension of every cable where it leaves its anchor or pulley",
         documentation: "`tension_anchor_NAME_n`: tension of every cable at its anchor, over a pulley at the exit point",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
-        columns: |robot, _| each_cable(robot, "tension_anchor", "n", "N", "tension of a cable at its anchor"),
-        values: |row, _, out| out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.tension_anchor)))),
+        columns: |robot, _| {
+            columns_of_measures(
+                robot,
+                &Measure::tensions(robot, TensionPlace::Anchor),
+                "tension of a cable at its anchor",
+            )
+        },
+        values: |row, _, out| push_measures(row, &Measure::tensions(row.robot, TensionPlace::Anchor), out),
+        ..Definition::PLAIN
     },
     Definition {
         name: "drum-tensions",
         about: "tension of every cable at its drum",
         documentation: "`tension_drum_NAME_n`: tension of every cable at its drum; without pulley and winch that at \
                         its anchor",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
-        columns: |robot, _| each_cable(robot, "tension_drum", "n", "N", "tension of a cable at its drum"),
-        values: |row, _, out| out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.tension_drum())))),
+        columns: |robot, _| {
+            columns_of_measures(robot, &Measure::tensions(robot, TensionPlace::Drum), "tension of a cable at its drum")
+        },
+        values: |row, _, out| push_measures(row, &Measure::tensions(row.robot, TensionPlace::Drum), out),
+        ..Definition::PLAIN
     },
     Definition {
         name: "wrap-max",
         about: "maximum wrap angle on a pulley",
         documentation: "`wrap_max_deg`: maximum wrap angle of a cable on its pulley; empty without pulleys and with \
                         `ideal` cables",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
         columns: |_, _| one("wrap_max_deg", "degrees", "maximum wrap angle on a pulley"),
         values: |row, _, out| {
             let wraps = row.rest.cables.iter().filter_map(|cable| cable.drive.as_ref()?.contact);
             out.push(Value::real(wraps.map(|contact| contact.wrap.to_degrees()).reduce(f64::max)));
         },
+        ..Definition::PLAIN
     },
     Definition {
         name: "lengths",
         about: "unstrained length of every cable",
         documentation: "`unstrained_length_NAME_m`: unstrained length of every cable",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
-        columns: |robot, _| each_cable(robot, "unstrained_length", "m", "m", "unstrained length of a cable"),
-        values: |row, _, out| {
-            out.extend(row.rest.cables.iter().map(|cable| Value::real(Some(cable.unstrained_length))));
-        },
+        columns: |robot, _| columns_of_measures(robot, &Measure::lengths(robot), "unstrained length of a cable"),
+        values: |row, _, out| push_measures(row, &Measure::lengths(row.robot), out),
+        ..Definition::PLAIN
     },
     Definition {
         name: "tension-margin",
         about: "minimum distance of a tension from its limits, negative beyond them",
         documentation: "`tension_margin_n`: minimum distance of a tension from its limits (the limits that \
-                        `--tension-rule` uses), negative beyond them",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
+                        `⟪tension_rule⟫` uses), negative beyond them",
         columns: |_, _| one("tension_margin_n", "N", "minimum distance of a tension from its limits"),
         values: |row, _, out| {
             let cables = row.rest.cables.iter().enumerate();
@@ -212,16 +203,15 @@ pub(super) static TABLE: [Definition; 26] = [
                 cables.map(|(i, cable)| TensionRange::of(row.robot, i, &cable.chord_w()).margin(cable).distance());
             out.push(Value::real(margins.reduce(f64::min)));
         },
+        ..Definition::PLAIN
     },
     Definition {
         name: "payload-max",
         about: "maximum payload with tensions within their limits, and the limits that bind",
         documentation: "`payload_max_kg`: maximum mass in addition to the platform, with its centre at \
-                        `--payload-center-m`, over all tensions within their limits, whatever the rule; \
+                        `⟪payload_center_m⟫`, over all tensions within their limits, whatever the rule; \
                         `payload_limits`: cables at their limits then, as `1 maximum at anchor`",
-        takes: ParameterKind::Nothing,
         needs: RequiredModel::HeldPose,
-        frequencies: |_| 0,
         columns: |_, _| {
             let about = "cables at their limits with the maximum payload";
             vec![
@@ -230,19 +220,19 @@ pub(super) static TABLE: [Definition; 26] = [
             ]
         },
         values: |row, _, out| row.payload(out),
+        ..Definition::PLAIN
     },
     Definition {
         name: "stiffness-min",
         about: "minimum eigenvalue of the static stiffness, rotations scaled by the platform's size",
         documentation: "`stiffness_min_n_per_m`: minimum eigenvalue of the static stiffness, rotations scaled by the \
                         platform's size; in wind, of the symmetric part of the stiffness",
-        takes: ParameterKind::Nothing,
         needs: RequiredModel::Elastic,
-        frequencies: |_| 0,
-        columns: |_, _| one("stiffness_min_n_per_m", "N/m", "minimum eigenvalue of the scaled static stiffness"),
-        values: |row, _, out| {
-            out.push(Value::real(row.rest.stability.min_stiffness()));
+        columns: |robot, _| {
+            columns_of_measures(robot, &[Measure::MinStiffness], "minimum eigenvalue of the scaled static stiffness")
         },
+        values: |row, _, out| push_measures(row, &[Measure::MinStiffness], out),
+        ..Definition::PLAIN
     },
     Definition {
         name: "stiffness",
@@ -250,15 +240,14 @@ pub(super) static TABLE: [Definition; 26] = [
         documentation: "`stiffness_x_n_per_m` … `stiffness_rz_n_m_per_rad`: static stiffness along one coordinate \
                         while the platform is free to move along the others: 1/(K⁻¹)_ii of the 6×6 stiffness K, not \
                         its entry K_ii; in wind the drag turns with the cables",
-        takes: ParameterKind::Nothing,
         needs: RequiredModel::Elastic,
-        frequencies: |_| 0,
         columns: |robot, _| stiffness_columns(robot),
         values: |row, _, out| {
             let found = statics::stiffness_along_coordinates(row.robot, row.rest);
             let along = |k: usize| found.as_ref().map(|stiffness| stiffness[k]);
             out.extend((0..row.robot.platform.motion.count()).map(|k| Value::real(along(k))));
         },
+        ..Definition::PLAIN
     },
     Definition {
         name: "pose-error",
@@ -268,25 +257,22 @@ pub(super) static TABLE: [Definition; 26] = [
                         models. All models get the unstrained lengths of the catenaries. The first two columns need as \
                         many cables as degrees of freedom. A distance is empty if the other model has no equilibrium \
                         nearby, for example if all springs are slack",
-        takes: ParameterKind::Nothing,
         needs: RequiredModel::Catenary,
-        frequencies: |_| 0,
         columns: |robot, _| pose_error_columns(robot),
         values: |row, _, out| row.pose_error(out),
+        ..Definition::PLAIN
     },
     Definition {
         name: "sag-max",
         about: "maximum ratio of sag to chord",
         documentation: "`sag_ratio_max`: maximum ratio of sag to chord",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
         columns: |_, _| one("sag_ratio_max", "1", "maximum ratio of sag to chord"),
         values: |row, _, out| {
             let sags = row.rest.cables.iter().enumerate().map(|(i, cable)| Sag::of(row.robot, i, cable));
             let ratios = sags.map(|sag| if sag.tension > 0.0 { sag.ratio() } else { f64::INFINITY });
             out.push(Value::real(ratios.reduce(f64::max)));
         },
+        ..Definition::PLAIN
     },
     Definition {
         name: "model-error:MODEL",
@@ -295,7 +281,6 @@ pub(super) static TABLE: [Definition; 26] = [
                         `catenary-dynamic`, minus one; without MODEL `shallow-dynamic`",
         takes: ParameterKind::Model(CableModel::ShallowDynamic),
         needs: RequiredModel::Catenary,
-        frequencies: |_| 0,
         columns: |_, parameter| {
             let about = "first frequency with this cable model divided by the one with catenary-dynamic, minus one";
             vec![column(format!("model_error_{}", parameter.underscored()), "1", about)]
@@ -304,6 +289,7 @@ pub(super) static TABLE: [Definition; 26] = [
             let error = parameter.model().map(|model| row.model_error(model));
             row.push(error, out);
         },
+        ..Definition::PLAIN
     },
     Definition {
         name: "stiffness-error:MODEL",
@@ -312,7 +298,6 @@ pub(super) static TABLE: [Definition; 26] = [
                         one with `catenary-static`, minus one; without MODEL `spring`",
         takes: ParameterKind::Model(CableModel::Spring),
         needs: RequiredModel::Catenary,
-        frequencies: |_| 0,
         columns: |_, parameter| {
             let about =
                 "minimum static stiffness with this cable model divided by the one with catenary-static, minus one";
@@ -322,6 +307,7 @@ pub(super) static TABLE: [Definition; 26] = [
             let error = parameter.model().map(|model| row.stiffness_error(model));
             row.push(error, out);
         },
+        ..Definition::PLAIN
     },
     Definition {
         name: "sensitivity:RESULT:PATH",
@@ -330,11 +316,10 @@ pub(super) static TABLE: [Definition; 26] = [
                         `tension_platform_NAME_n_by_PATH` or `unstrained_length_NAME_m_by_PATH`: derivative of \
                         `first-frequency`, `stiffness-min`, `tensions` or `lengths` by a number of the robot file, as \
                         in `sensitivity:first-frequency:platform.mass_kg`, in the unit of the result over that of the \
-                        number. The lengths are held if the state gives them and with `--hold-lengths-of-pose`; \
+                        number. The lengths are held if the state gives them and with `⟪hold_lengths_of_pose⟫`; \
                         otherwise the pose is held, and the tensions follow their rule",
         takes: ParameterKind::Sensitivity,
         needs: RequiredModel::Elastic,
-        frequencies: |_| 0,
         columns: |robot, parameter| {
             parameter.sensitivity().map_or_else(Vec::new, |of| of.columns(&columns_of(of.result(), robot)))
         },
@@ -343,38 +328,32 @@ pub(super) static TABLE: [Definition; 26] = [
                 of.values(row, out);
             }
         },
+        ..Definition::PLAIN
     },
     Definition {
         name: "condition",
         about: "inverse condition number of the cables' directions: 0 at a singular pose, at most 1",
         documentation: "`inverse_condition`: minimum divided by maximum singular value of the cables' directions \
                         (moments divided by the platform's size); 0 at a singular pose",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
         columns: |_, _| {
             one("inverse_condition", "1", "minimum divided by maximum singular value of the cables' scaled directions")
         },
         values: |row, _, out| out.push(Value::real(Some(statics::inverse_condition(row.robot, row.rest)))),
+        ..Definition::PLAIN
     },
     Definition {
         name: "energy",
         about: "potential energy of platform, load and cables",
         documentation: "`potential_energy_j`: potential energy of platform, load and cables, heights from the world's \
                         origin",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
         columns: |_, _| one("potential_energy_j", "J", "potential energy of platform, load and cables"),
         values: |row, _, out| out.push(Value::real(Some(statics::energy(row.robot, row.rest)))),
+        ..Definition::PLAIN
     },
     Definition {
         name: "pose",
         about: "pose of the equilibrium",
         documentation: "`pose_x_m` … `pose_yaw_deg`: pose of the equilibrium, which a `sweep` from lengths computes",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
         columns: |_, _| {
             let axes = AXES.iter().enumerate().map(|(i, axis)| (axis, if i < 3 { "m" } else { "deg" }));
             let about = "coordinate of the equilibrium pose, world axes, R = Rz Ry Rx";
@@ -385,6 +364,7 @@ pub(super) static TABLE: [Definition; 26] = [
             let angles = rotation::to_roll_pitch_yaw_deg(&pose.rot_wp);
             out.extend(pose.position_w.iter().chain(&angles).map(|value| Value::real(Some(*value))));
         },
+        ..Definition::PLAIN
     },
 ];
 
@@ -404,9 +384,14 @@ fn one(name: &str, unit: &'static str, about: &str) -> Vec<Column> {
     vec![column(name.to_owned(), unit, about)]
 }
 
-/// Columns of numbers, one per cable.
-fn each_cable(robot: &Robot, prefix: &str, suffix: &str, unit: &'static str, about: &str) -> Vec<Column> {
-    robot.cables.iter().map(|cable| column(format!("{prefix}_{}_{suffix}", cable.name), unit, about)).collect()
+/// Columns of measures of a robot.
+fn columns_of_measures(robot: &Robot, measures: &[Measure], about: &str) -> Vec<Column> {
+    measures.iter().map(|measure| column(measure.column(robot), measure.unit(), about)).collect()
+}
+
+/// Adds the values of measures of the equilibrium of a row.
+fn push_measures(row: &PointEvaluation<'_>, measures: &[Measure], out: &mut Vec<Value>) {
+    out.extend(measures.iter().map(|measure| Value::real(measure.static_value(row.rest, &row.rest.pose))));
 }
 
 fn stiffness_columns(robot: &Robot) -> Vec<Column> {

@@ -365,6 +365,7 @@ mod tests {
             drum_side_mass: 0.0,
             drum_end: None,
             stretch_drum: 1.0,
+            stretches: Vec::new(),
         };
 
         let sideways = EndSideways { direction: [0.0, 0.0, 1.0], stiffness: 500.0, coupling: 0.0, mass: swivel };

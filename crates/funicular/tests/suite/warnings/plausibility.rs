@@ -1,6 +1,9 @@
 //! Slips of units and signs: each gives a warning that names it, and no usual robot gives one.
 
-use funicular::robot::{Pose, Robot, State};
+mod drives;
+mod library;
+
+use funicular::robot::Robot;
 use funicular::statics::{self, StaticModel};
 use funicular::warnings;
 use funicular::warnings::plausibility::{self, Implausible};
@@ -61,6 +64,24 @@ fn hall() -> String {
         }
     }
     text
+}
+
+/// Hall with a pulley and a winch of every cable.
+fn hall_with_drives() -> String {
+    let drives = "[pulleys.wheel]\nradius_m = 0.05\nentry_direction = [0.0, 0.0, 1.0]\ninertia_kg_m2 = 0.0004\n\
+                  swivel_inertia_kg_m2 = 0.001\nefficiency = 0.97\n[winches.drum]\ndrum_side_length_m = 5.0\n\
+                  drum_radius_m = 0.0675\nstiffness_n_per_m = 200000.0\ndrum_inertia_kg_m2 = 0.02\n\
+                  motor_inertia_kg_m2 = 0.0012\ngear_ratio = 5.0\ndamping_n_m_s_per_rad = 0.8\n\
+                  control = \"position\"\nbandwidth_hz = 5.0\ncontrol_damping_ratio = 0.7\ndelay_s = 0.002\n\n[state]";
+    changed(
+        &hall(),
+        &[
+            // Indented, so that `scaled` changes the inertia of the wheel alone.
+            ("inertia_kg_m2 = [4.45", "  inertia_kg_m2 = [4.45"),
+            ("[state]", drives),
+            ("material = \"rope\"\n", "material = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\n"),
+        ],
+    )
 }
 
 /// Everything that a user sees who runs `statics`: warnings about the robot, and about its equilibrium or the error.
@@ -416,145 +437,6 @@ fn slips_of_single_values_are_named() {
     }
 }
 
-/// Hall with a pulley and a winch of every cable.
-fn hall_with_drives() -> String {
-    let drives = "[pulleys.wheel]\nradius_m = 0.05\nentry_direction = [0.0, 0.0, 1.0]\ninertia_kg_m2 = 0.0004\n\
-                  swivel_inertia_kg_m2 = 0.001\nefficiency = 0.97\n[winches.drum]\ndrum_side_length_m = 5.0\n\
-                  drum_radius_m = 0.0675\nstiffness_n_per_m = 200000.0\ndrum_inertia_kg_m2 = 0.02\n\
-                  motor_inertia_kg_m2 = 0.0012\ngear_ratio = 5.0\ndamping_n_m_s_per_rad = 0.8\n\
-                  control = \"position\"\nbandwidth_hz = 5.0\ncontrol_damping_ratio = 0.7\ndelay_s = 0.002\n\n[state]";
-    changed(
-        &hall(),
-        &[
-            // Indented, so that `scaled` changes the inertia of the wheel alone.
-            ("inertia_kg_m2 = [4.45", "  inertia_kg_m2 = [4.45"),
-            ("[state]", drives),
-            ("material = \"rope\"\n", "material = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\n"),
-        ],
-    )
-}
-
-#[test]
-fn slips_at_pulleys_and_winches_are_named() {
-    let hall = hall_with_drives();
-    assert_eq!(said(&Robot::from_toml(&hall).unwrap()), "");
-
-    let mut misses = Vec::new();
-    for (key, factor, expected) in [
-        ("radius_m", 1e2, "radius in cm given as m"),
-        ("radius_m", 1e3, "give the radius in metres"),
-        ("inertia_kg_m2", 1e3, "inertia in g m² given as kg m²"),
-        ("inertia_kg_m2", 1e4, "inertia in kg cm² given as kg m²"),
-        ("swivel_inertia_kg_m2", 1e4, "inertia in kg cm² given as kg m²"),
-        ("drum_side_length_m", 1e3, "length in mm given as m"),
-        ("drum_side_length_m", 1e2, "length in cm given as m"),
-        ("drum_radius_m", 1e3, "radius in mm given as m"),
-        ("drum_radius_m", 1e2, "radius in cm given as m"),
-        ("drum_inertia_kg_m2", 1e4, "inertia in kg cm² given as kg m²"),
-        ("drum_inertia_kg_m2", 1e3, "inertia in g m² given as kg m²"),
-        ("motor_inertia_kg_m2", 1e4, "inertia in kg cm² given as kg m²"),
-        ("motor_inertia_kg_m2", 1e3, "inertia in g m² given as kg m²"),
-        ("motor_inertia_kg_m2", 1e6, "inertia in kg mm² given as kg m²"),
-        ("gear_ratio", 0.04, "turns of the drum per turn of the motor?"),
-        ("stiffness_n_per_m", 1e-3, "stiffness in kN/m or N/mm given as N/m"),
-        ("damping_n_m_s_per_rad", 1e3, "damping in N mm s given as N m s"),
-        ("efficiency", 0.03 / 0.97, "the loss given as efficiency"),
-        ("bandwidth_hz", 1e3, "bandwidth of its control"),
-        ("control_damping_ratio", 1e2, "damping ratio in per cent given as a fraction"),
-        ("delay_s", 1e3, "delay in ms given as s"),
-    ] {
-        check(key, &scaled(&hall, key, factor), &[expected], &mut misses);
-    }
-    assert!(misses.is_empty(), "{}", misses.join("\n"));
-}
-
-/// Pulleys, drums and gears of any usual size against the unit in which they may be given: a small motor with a small
-/// platform, a large one with a large platform, and slips between.
-#[test]
-fn drives_are_compared_with_the_cable_and_the_platform() {
-    let hall = hall_with_drives();
-    let with =
-        |changes: &[(&str, f64)]| changes.iter().fold(hall.clone(), |text, (key, factor)| scaled(&text, key, *factor));
-    let mut misses = Vec::new();
-    for (slip, changes, expected) in [
-        // 71,000 kg at the cable: 12 kg cm² given as 12 kg m².
-        ("motor in kg cm²", vec![("motor_inertia_kg_m2", 1e4)], "inertia of the motor is 12 kg m²"),
-        (
-            "motor of 0.5 kg cm² at a gear of 10",
-            vec![("motor_inertia_kg_m2", 0.5 / 0.0012), ("gear_ratio", 2.0)],
-            "over the mass of the platform is",
-        ),
-        ("pulley of 20 mm in cm", vec![("radius_m", 0.4e2), ("inertia_kg_m2", 0.01)], "radius over the diameter"),
-        ("drum of 75 mm in cm", vec![("drum_radius_m", 7.5 / 0.0675)], "radius of the drum is 7.5 m"),
-        ("drum of 20 mm in cm", vec![("drum_radius_m", 2.0 / 0.0675)], "radius of the drum over the diameter"),
-        ("stiff winch in N/mm", vec![("stiffness_n_per_m", 0.02)], "stretch over that of the longest cable"),
-    ] {
-        check(slip, &with(&changes), &[expected], &mut misses);
-    }
-    assert!(misses.is_empty(), "{}", misses.join("\n"));
-
-    // Drives that are right: small and geared, large and direct, soft, rigid.
-    for (what, changes) in [
-        ("worm gear", vec![("motor_inertia_kg_m2", 0.01), ("gear_ratio", 20.0)]),
-        ("direct drive", vec![("motor_inertia_kg_m2", 50.0), ("gear_ratio", 0.2)]),
-        ("small wheels", vec![("radius_m", 0.3), ("inertia_kg_m2", 0.01), ("swivel_inertia_kg_m2", 0.1)]),
-        ("large wheels", vec![("radius_m", 6.0), ("inertia_kg_m2", 500.0), ("swivel_inertia_kg_m2", 1e3)]),
-        ("soft winch", vec![("stiffness_n_per_m", 0.1)]),
-        ("stiff winch", vec![("stiffness_n_per_m", 1e3)]),
-        ("drum on the other side of the hall", vec![("drum_side_length_m", 6.0)]),
-    ] {
-        assert_eq!(said(&Robot::from_toml(&with(&changes)).unwrap()), "", "{what}");
-    }
-}
-
-#[test]
-fn slips_at_flexible_supports_are_named() {
-    let post = |number: usize| format!("[supports.{number}]\nstiffness_n_per_m = 200000.0\nmass_kg = 40.0\n\n");
-    let mut hall = changed(&hall(), &[("[state]", &((1..5).map(post).collect::<String>() + "[state]"))]);
-    for cable in 1..=8_usize {
-        let name = format!("name = \"{cable}\"\n");
-        hall = changed(&hall, &[(&name, &format!("{name}support = \"{}\"\n", cable.div_ceil(2)))]);
-    }
-    assert_eq!(said(&Robot::from_toml(&hall).unwrap()), "");
-
-    let mut misses = Vec::new();
-    let stiffness = "stiffness_n_per_m";
-    for (key, factor, expected) in [
-        (stiffness, 1e-3, "displacement under the weight of the platform"),
-        (stiffness, 1e-3, "stiffness in N/mm or kN/m given as N/m?"),
-        (stiffness, 1e-6, "stiffness in kN/mm or MN/m given as N/m?"),
-        (stiffness, 1e6, "A rigid frame needs no `support`"),
-    ] {
-        check(key, &scaled(&hall, key, factor), &[expected], &mut misses);
-    }
-    let heavy = hall.replace("mass_kg = 40.0", "mass_kg = 40000.0");
-    check("mass", &heavy, &["mass in g given as kg"], &mut misses);
-    let per_cent = hall.replace("mass_kg = 40.0", "mass_kg = 40.0\ndamping_ratio = 0.5");
-    check("damping", &per_cent, &["damping ratio is 0.5", "per cent given as a fraction"], &mut misses);
-    let one = (2..5).fold(hall.clone(), |text, post| text.replace(&format!("support = \"{post}\""), "support = \"1\""));
-    check(
-        "one table",
-        &one,
-        &["support \"1\": distance of its anchors, 23.32 m", "several posts in one table?"],
-        &mut misses,
-    );
-    // Stiff posts yield little to the weight, but less than the cables.
-    let stiff = scaled(&hall, stiffness, 0.01);
-    check("stiff posts", &stiff, &["over the axial stiffness of its stiffest cable", "stiffness in N/mm"], &mut misses);
-    assert!(misses.is_empty(), "{}", misses.join("\n"));
-
-    // At an equilibrium, a support that moves far is named.
-    let slip = scaled(&hall, stiffness, 2e-3);
-    let robot = Robot::from_toml(&slip).unwrap();
-    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
-    let said: Vec<String> = plausibility::of_equilibrium(&robot, &rest).iter().map(ToString::to_string).collect();
-    let moved = rest.support_displacements(&robot)[0].norm();
-    assert!(moved > 1.0 && said.concat().contains("displacement of support \""), "{moved} {said:?}");
-    let robot = Robot::from_toml(&hall).unwrap();
-    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
-    assert!(plausibility::of_equilibrium(&robot, &rest).is_empty());
-}
-
 /// A hint names no slip that would have made the value larger where it is too small, or smaller where it is too large.
 #[test]
 fn hints_name_slips_of_the_right_direction_alone() {
@@ -646,151 +528,4 @@ position_m = [0.0, 5.0, 12.0]
         changed(funicular_robots::YUAN2014_4MM, &[("unstrained_length_m = 6.863", "unstrained_length_m = 22.516")]);
     let said = said(&Robot::from_toml(&feet).unwrap());
     assert!(said.contains("unstrained length of cable \"1\"") && said.contains("too long"), "{said}");
-}
-
-#[test]
-fn slips_at_robots_of_the_library_are_named() {
-    let mut misses = Vec::new();
-    let mut slip = |slip: &str, text: String, expected: &[&str]| check(slip, &text, expected, &mut misses);
-
-    // Lengths give the state, and E with the full circle the stiffness.
-    let yuan = funicular_robots::YUAN2014_4MM;
-    slip("yuan, E in GPa", scaled(yuan, "youngs_modulus_pa", 1e-9), &["GPa given as Pa"]);
-    slip("yuan, rope in kg per 100 m", scaled(yuan, "mass_kg_per_m", 1e2), &["kg per 100 m"]);
-    slip("yuan, lengths in mm", scaled(yuan, "unstrained_length_m", 1e3), &["unstrained lengths in mm"]);
-    slip("yuan, lengths in km", scaled(yuan, "unstrained_length_m", 1e-3), &["unstrained lengths in km"]);
-    slip("yuan, mass in g", scaled(yuan, "mass_kg", 1e3), &["mass in g given as kg"]);
-    slip("yuan, mass in t", scaled(yuan, "mass_kg", 1e-3), &["mass in t given as kg"]);
-    slip("yuan, anchors in mm", scaled(yuan, "anchor_m", 1e3), &["anchors in mm"]);
-    slip("yuan, attachments in mm", scaled(yuan, "attachment_m", 1e3), &["attachments in mm"]);
-    slip("yuan, ends swapped", swapped(yuan), &["swapped"]);
-
-    // A point mass, and the stiffness itself.
-    let camera = funicular_robots::STADIUM_CAMERA;
-    slip("camera, EA in kN", scaled(camera, "axial_stiffness_n", 1e-3), &["axial stiffness in kN"]);
-    slip("camera, rope in g/m", scaled(camera, "mass_kg_per_m", 1e3), &["mass in g/m"]);
-    slip("camera, mass in t", scaled(camera, "mass_kg", 1e-3), &["platform in t"]);
-    slip("camera, mass in g", scaled(camera, "mass_kg", 1e3), &["mass in g given as kg"]);
-    slip("camera, limit in kN", scaled(camera, "maximum_tension_n", 1e-3), &["tension in kN"]);
-    slip(
-        "camera, breaking load in kN",
-        scaled(&scaled(camera, "breaking_load_n", 1e-3), "maximum_tension_n", 0.01),
-        &["breaking load in kN"],
-    );
-    slip("camera, anchors in mm", scaled(camera, "anchor_m", 1e3), &["lengths of the robot in mm"]);
-
-    // A robot between anchors above and below, and one that moves in a horizontal plane.
-    let ipanema = funicular_robots::IPANEMA2;
-    slip("ipanema, E in MPa", scaled(ipanema, "youngs_modulus_pa", 1e-6), &["MPa (N/mm²) given as Pa"]);
-    slip("ipanema, diameter in cm", scaled(ipanema, "diameter_m", 100.0), &["diameter in cm"]);
-    slip("ipanema, limit in kN", scaled(ipanema, "maximum_tension_n", 1e-3), &["maximum tension in kN"]);
-    slip("ipanema, mass in t", scaled(ipanema, "mass_kg", 1e-3), &["mass in t given as kg"]);
-    let planar = funicular_robots::KNTU_PLANAR;
-    slip("kntu, inertia times 1000", scaled(planar, "inertia_kg_m2", 1e3), &["inertia a factor of 1000 too large"]);
-    slip(
-        "kntu, all in mm",
-        scaled(&scaled(planar, "anchor_m", 1e3), "attachment_m", 1e3),
-        &["lengths of the robot in mm"],
-    );
-
-    assert!(misses.is_empty(), "{}", misses.join("\n"));
-}
-
-#[test]
-fn no_robot_of_the_library_is_implausible() {
-    for (name, text) in funicular_robots::ALL {
-        let robot = Robot::from_toml(text).unwrap();
-        // The source of these robots has cables without mass.
-        if name.starts_with("grab-") {
-            let notes = plausibility::notes(&robot);
-            assert!(notes.len() == 2 && notes[0].starts_with("rope \"rope\": it has no mass"), "{name}: {notes:?}");
-            assert!(notes[1].starts_with("nothing in the robot file damps vibration"), "{name}: {notes:?}");
-            continue;
-        }
-        assert_eq!(said(&robot), "", "{name}");
-        // The source of this robot says nothing of damping.
-        let undamped = ["nothing in the robot file damps vibration"].map(str::to_owned);
-        let expected = if name.starts_with("sap2000-") { &undamped[..] } else { &[] };
-        let notes = plausibility::notes(&robot);
-        let as_expected = notes.iter().zip(expected).all(|(note, expected)| note.starts_with(expected.as_str()));
-        assert!(notes.len() == expected.len() && as_expected, "{name}: {notes:?}");
-        // The pose of the lengths as the state.
-        let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
-        let at_pose = Robot { state: State::Pose(rest.pose), ..robot.clone() };
-        assert_eq!(warnings::of_robot(&at_pose), [], "{name}");
-        let without = Robot { state: State::Unknown, ..robot };
-        assert_eq!(warnings::of_robot(&without), [], "{name}");
-    }
-}
-
-#[test]
-fn a_file_without_any_damping_has_a_note() {
-    let notes = |text: &str| plausibility::notes(&Robot::from_toml(text).unwrap());
-    let none = changed(&hall(), &[("damping_ratio = 0.003", "damping_ratio = 0.0")]);
-    let found = notes(&none);
-    assert!(found.len() == 1 && found[0].contains("nothing in the robot file damps vibration"), "{found:?}");
-    // Any damping is enough: of the platform, a support or a winch.
-    let platform = "drag_area_m2 = 0.5\nrotational_damping_n_m_s = [1.0, 1.0, 1.0]";
-    assert!(notes(&changed(&none, &[("drag_area_m2 = 0.5", platform)])).is_empty());
-    let support = "[supports.1]\nstiffness_n_per_m = 2e5\ndamping_ratio = 0.01\n[state]";
-    let on_support = ("name = \"1\"\n", "name = \"1\"\nsupport = \"1\"\n");
-    assert!(notes(&changed(&none, &[("[state]", support), on_support])).is_empty());
-    let servo = changed(&hall_with_drives(), &[("damping_ratio = 0.003\n", "damping_ratio = 0.0\n")]);
-    assert!(notes(&servo).is_empty());
-}
-
-#[test]
-fn ropes_that_leave_a_doubt_have_a_note() {
-    let circle = |modulus: &str| {
-        let change = format!("youngs_modulus_pa = {modulus}\ndiameter_m = 0.006");
-        let text = changed(&hall(), &[("youngs_modulus_pa = 100e9\narea_m2 = 14e-6", change.as_str())]);
-        let robot = Robot::from_toml(&text).unwrap();
-        (warnings::of_robot(&robot).len(), plausibility::notes(&robot))
-    };
-    // 0.13 kg/m fills 0.586 of the circle with steel.
-    assert_eq!(circle("50e9"), (0, Vec::new()));
-    let (warned, notes) = circle("75e9");
-    assert!(warned == 0 && notes[0].contains("1.28e11 Pa over the metal"), "{notes:?}");
-    assert_eq!((circle("100e9").0, circle("196e9").0), (1, 1));
-
-    let massless = changed(&hall(), &[("mass_kg_per_m = 0.13", "mass_kg_per_m = 0.0")]);
-    let notes = plausibility::notes(&Robot::from_toml(&massless).unwrap());
-    assert!(notes[0].contains("has no mass"), "{notes:?}");
-}
-
-/// Forces of slings from one hook: the attachments are farther apart than the anchors.
-#[test]
-fn slings_from_one_hook_are_plausible() {
-    let mut robot = Robot::from_toml(&hall()).unwrap();
-    for (i, cable) in robot.cables.iter_mut().enumerate() {
-        let angle = i as f64;
-        cable.anchor = funicular::math::Vec3::new(0.01 * angle.cos(), 0.01 * angle.sin(), 8.0).into();
-        cable.attachment_p *= 2.0;
-    }
-    robot.state = State::Pose(Pose::new([0.0, 0.0, 3.0], [0.0; 3]));
-    assert_eq!(warnings::of_robot(&robot), []);
-}
-
-/// A request may give lengths of any number; statics refuses them, and the warnings come with the error.
-#[test]
-fn lengths_of_another_number_than_the_cables_are_no_panic() {
-    let robot = Robot::from_toml(&hall()).unwrap();
-    for lengths in [vec![], vec![12.0; 3], vec![12.0; 20]] {
-        let robot = Robot { state: State::Lengths(lengths), ..robot.clone() };
-        assert!(said(&robot).contains("unstrained lengths given for 8 cables"));
-    }
-}
-
-/// Full turns are warned of up to the limit alone, and only for the pose that the angles were written for.
-#[test]
-fn a_full_turn_is_plausible_and_more_is_not() {
-    for (written, expected) in [("360.0", 0), ("-360.0", 0), ("360.001", 1), ("-3600.0", 1)] {
-        let text = changed(&hall(), &[("[0.0, 0.0, 2.0]", &format!("[0.0, 0.0, {written}]"))]);
-        let robot = Robot::from_toml(&text).unwrap();
-        assert_eq!(warnings::of_robot(&robot).len(), expected, "{written}");
-
-        // Code sets another pose: the angles of the file are not its angles.
-        let moved = Robot { state: State::Pose(Pose::new([0.0, 0.0, 3.0], [0.0, 0.0, 7.0])), ..robot };
-        assert_eq!(warnings::of_robot(&moved), [], "{written}");
-    }
 }

@@ -1,0 +1,153 @@
+//! Computations for a robot; `_methods.py` declares the methods that call them.
+
+use super::PyRobot;
+use crate::answered::PyAnswered;
+use crate::answers::{self, CtrlC};
+use crate::arrays::{Count, Numbers, TextKeyed};
+use crate::batch::{self, Equilibria, States};
+use crate::equilibrium::PyEquilibrium;
+use crate::errors;
+use crate::interrupt::interruptible_by_flag;
+use crate::request::{Keywords, state_and_tensions};
+use crate::sweep::{ExecutorArgument, ProgressArgument, PyPlan, RunKeywords, SweepObject};
+use crate::threads::Threads;
+use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun};
+use funicular_study::analyses::uncertainty::UncertaintyStudy;
+use funicular_study::request::{Request, UncertaintyRequest};
+use funicular_study::wording::Words;
+use funicular_study::{Results, run_on};
+use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+
+impl PyRobot {
+    fn request_of(&self, command: &str, given: &Bound<'_, PyDict>) -> PyResult<Request> {
+        Keywords::read(command, given, &self.names())?.request(&self.source)
+    }
+}
+
+#[pymethods]
+impl PyRobot {
+    #[pyo3(name = "_equilibrium")]
+    fn equilibrium(slf: Py<Self>, py: Python<'_>, given: &Bound<'_, PyDict>) -> PyResult<Py<PyEquilibrium>> {
+        let (state, tensions) = state_and_tensions(given, &slf.get().names())?;
+        PyEquilibrium::of(py, slf, state, tensions)?.into_object(py)
+    }
+
+    #[pyo3(name = "_equilibria")]
+    fn equilibria(
+        &self,
+        py: Python<'_>,
+        poses: Option<Numbers>,
+        lengths_m: Option<Numbers>,
+        threads: Option<Threads>,
+        given: &Bound<'_, PyDict>,
+    ) -> PyResult<Equilibria> {
+        let cables = self.names();
+        let states = States::read(poses, lengths_m, &cables)?;
+        let (state, tensions) = state_and_tensions(given, &cables)?;
+        batch::equilibria(py, self, states, &state, &tensions, threads)
+    }
+
+    /// Results of a command, with the keys of the program's JSON.
+    #[pyo3(name = "_answer")]
+    fn answer<'py>(&self, py: Python<'py>, command: &str, given: &Bound<'py, PyDict>) -> PyResult<TextKeyed<'py>> {
+        let request = self.request_of(command, given)?;
+        let found = py.detach(|| {
+            let mut watch = CtrlC::new();
+            let found = run_on(&request, Some((*self.robot).clone()), &mut watch).map_err(|error| watch.or(&error))?;
+            found.to_json(Words::Python).map_err(|error| errors::study(&error.into()))
+        })?;
+        answers::loaded(py, &found)
+    }
+
+    /// Rows of `map` or `sweep`.
+    #[pyo3(name = "_rows")]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn rows(
+        &self,
+        py: Python<'_>,
+        command: &str,
+        given: &Bound<'_, PyDict>,
+        part: Option<String>,
+        file: Option<PathBuf>,
+        resume: bool,
+        discard: bool,
+        threads: Option<Threads>,
+        executor: Option<ExecutorArgument>,
+        chunks_per_task: Option<Count>,
+        progress: Option<ProgressArgument>,
+    ) -> PyResult<SweepObject> {
+        let plan = PyPlan::of(py, self.request_of(command, given)?, part)?;
+        RunKeywords { file, resume, discard, threads, executor, chunks_per_task, progress }.rows(py, plan)
+    }
+
+    /// Deviations of results, from robots that are sampled on all threads, with calls of `progress`.
+    #[pyo3(name = "_uncertainty")]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn uncertainty(
+        &self,
+        py: Python<'_>,
+        given: &Bound<'_, PyDict>,
+        samples_file: Option<PathBuf>,
+        resume: bool,
+        discard: bool,
+        threads: Option<Threads>,
+        progress: Option<ProgressArgument>,
+    ) -> PyResult<PyAnswered> {
+        let Request::Uncertainty(request) = self.request_of("uncertainty", given)? else {
+            unreachable!("the request is of uncertainty")
+        };
+        let samples = samples_file.map(|path| (path, begin(resume, discard)));
+        if samples.is_none() && (resume || discard) {
+            return Err(errors::input("`resume` and `discard` need `samples_file`".to_owned()));
+        }
+        if resume && discard {
+            return Err(errors::input("give `resume` or `discard`, not both: one keeps the robots".to_owned()));
+        }
+        sampled(py, request, samples, threads, progress)
+    }
+}
+
+/// Beginning of the work on a file of samples.
+fn begin(resume: bool, discard: bool) -> Begin {
+    match (resume, discard) {
+        (true, _) => Begin::Resume,
+        (_, true) => Begin::Discard,
+        _ => Begin::Anew,
+    }
+}
+
+fn sampled(
+    py: Python<'_>,
+    request: UncertaintyRequest,
+    samples: Option<(PathBuf, Begin)>,
+    threads: Option<Threads>,
+    progress: Option<ProgressArgument>,
+) -> PyResult<PyAnswered> {
+    let threads = Threads::of(threads);
+    let asked = Request::Uncertainty(request.clone());
+    let outcome = interruptible_by_flag(py, move |cancel| {
+        let study = UncertaintyStudy::new(&request)?;
+        let samples = samples.as_ref().map(|(path, begin)| (path.as_path(), *begin));
+        let mut raised = None;
+        let mut report = |done: usize, total: usize, _: &'static str| {
+            if let (Some(ProgressArgument(function)), None) = (&progress, &raised) {
+                raised = Python::attach(|py| function.call1(py, (done, total)).err());
+            }
+        };
+        let outcome = UncertaintyRun { threads, samples, cancel }.run(&study, &mut report)?;
+        Ok::<_, anyhow::Error>((outcome, raised))
+    })?;
+
+    let (outcome, raised) = outcome.map_err(|error| errors::study(&error))?;
+    if let Some(raised) = raised {
+        return Err(raised);
+    }
+    match outcome {
+        UncertaintyOutcome::Complete(found) => Ok(PyAnswered::new(asked, Results::Uncertainty(*found))),
+        // Only Ctrl-C stops the work, and its exception has been raised before.
+        UncertaintyOutcome::Stopped(reason) => Err(PyKeyboardInterrupt::new_err(reason)),
+    }
+}

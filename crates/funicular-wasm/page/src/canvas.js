@@ -1,0 +1,18 @@
+// Canvas of the view.
+
+/** Canvas with its context. Without a graphics card smooth edges and fine pixels take longer than a frame. */
+export function canvasOf() {
+  const made = (antialias) => {
+    const canvas = document.createElement("canvas");
+    const context = canvas.getContext("webgl2", { alpha: true, stencil: false, antialias });
+    return { canvas, context: context ?? undefined };
+  };
+  const smooth = made(true);
+  const about = smooth.context?.getExtension("WEBGL_debug_renderer_info");
+  const name = about ? smooth.context.getParameter(about.UNMASKED_RENDERER_WEBGL) : "";
+  if (!/swiftshader|llvmpipe|software|basic render/i.test(name)) {
+    return { ...smooth, software: false };
+  }
+  smooth.context.getExtension("WEBGL_lose_context")?.loseContext();
+  return { ...made(false), software: true };
+}

@@ -1,0 +1,234 @@
+// The documentation site in headless Chromium, opened from its files. Run by scripts/test-docs.
+//
+// FUNICULAR_SITE: folder of the site. FUNICULAR_PROGRAM: the program. FUNICULAR_BROWSER: Chromium.
+
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { existsSync, mkdirSync, readFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+
+const site = resolve(process.env.FUNICULAR_SITE);
+const program = resolve(process.env.FUNICULAR_PROGRAM);
+const repository = resolve(import.meta.dirname, "../../..");
+const pictures = resolve(site, "../site-screenshots");
+const PATIENCE_MS = 60_000;
+const DESKTOP = { width: 1280, height: 900 };
+const PHONE = { width: 390, height: 844 };
+
+let browser;
+const faults = []; // errors on the console, exceptions, and requests to anything but files
+
+before(async () => {
+  mkdirSync(pictures, { recursive: true });
+  browser = await chromium.launch({
+    executablePath: process.env.FUNICULAR_BROWSER,
+    args: [
+      "--no-sandbox",
+      "--disable-dev-shm-usage",
+      "--disable-gpu",
+      "--enable-unsafe-swiftshader",
+      "--proxy-server=127.0.0.1:9",
+    ],
+  });
+});
+
+after(async () => {
+  await browser?.close();
+});
+
+/** Opens a page of the site in a new window. */
+async function opened(name, { viewport = DESKTOP, colorScheme = "light" } = {}) {
+  const context = await browser.newContext({ viewport, colorScheme });
+  const page = await context.newPage();
+  page.setDefaultTimeout(PATIENCE_MS);
+  page.on("console", (message) => {
+    if (message.type() === "error") faults.push(`${name}: console: ${message.text()}`);
+  });
+  page.on("pageerror", (error) => faults.push(`${name}: exception: ${error.message}`));
+  page.on("request", (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) faults.push(`${name}: request to ${request.url()}`);
+  });
+  const [file, more = ""] = name.split("?");
+  await page.goto(pathToFileURL(join(site, file)).href + (more && `?${more}`));
+  return page;
+}
+
+async function closed(page) {
+  await page.context().close();
+  assert.deepEqual(faults, []);
+}
+
+/** Addresses of the pages that a search finds, the first ones. */
+async function found(words) {
+  const page = await opened(`search.html?q=${encodeURIComponent(words)}`);
+  await page.locator("#search-results ul.search li a").first().waitFor();
+  const links = await page.locator("#search-results ul.search li a").evaluateAll((all) => all.map((one) => one.href));
+  await closed(page);
+  return links.slice(0, 10).map((link) => link.replace(pathToFileURL(site).href + "/", ""));
+}
+
+test("search finds what a reader looks for, from files alone", async () => {
+  const radius = await found("pulley radius");
+  assert.ok(
+    radius.some((link) => /^(pulleys|robot-file)\.html/.test(link)),
+    radius.join(" "),
+  );
+  const negative = await found("negative tension");
+  assert.ok(
+    negative.some((link) => link.startsWith("reference/messages.html")),
+    negative.join(" "),
+  );
+  const entry = await found("K_11");
+  assert.ok(
+    entry.some((link) => link.startsWith("theory/")),
+    entry.join(" "),
+  );
+  assert.ok((await found("sign moment")).some((link) => link.startsWith("conventions.html")));
+  assert.ok((await found("CASPR")).some((link) => link.startsWith("coming-from.html")));
+});
+
+test("equations are typeset by the fonts of the site", async () => {
+  const page = await opened("theory/2-static-cable.html");
+  await page.evaluate(() => document.fonts.ready);
+  const seen = await page.evaluate(() => ({
+    equations: document.querySelectorAll(".katex-display").length,
+    numbered: [...document.querySelectorAll(".katex-display .katex-html")].some((one) =>
+      one.textContent.includes("(4)"),
+    ),
+    left: document.body.innerText.match(/\\(frac|begin|mathrm|tfrac)/g),
+    fonts: [...document.fonts].filter((font) => font.family.startsWith("KaTeX") && font.status === "loaded").length,
+  }));
+  assert.ok(seen.equations > 10 && seen.numbered && seen.fonts >= 2, JSON.stringify(seen));
+  assert.equal(seen.left, null);
+  await closed(page);
+});
+
+test("figures and notebooks show their pictures", async () => {
+  const wanted = { "gallery/index.html": 12, "conventions.html": 1, "quick-start.html": 1 };
+  for (const name of ["quick-start", "paper", "identification"]) {
+    const notebook = JSON.parse(readFileSync(join(repository, `docs/notebooks/${name}.ipynb`), "utf8"));
+    wanted[`notebooks/${name}.html`] = notebook.metadata.funicular.pictures;
+  }
+  for (const [name, least] of Object.entries(wanted)) {
+    const page = await opened(name);
+    const sizes = await page.locator("article img").evaluateAll((all) =>
+      Promise.all(
+        all.map(
+          (one) => (
+            (one.loading = "eager"),
+            one.decode().then(
+              () => one.naturalWidth,
+              () => 0,
+            )
+          ),
+        ),
+      ),
+    );
+    assert.ok(sizes.length >= least, `${name}: ${sizes.length} pictures, expected ${least}`);
+    assert.ok(
+      sizes.every((width) => width > 0),
+      `${name}: ${sizes}`,
+    );
+    await closed(page);
+  }
+});
+
+test("pages fit a phone, in light and dark", async () => {
+  const names = ["index.html", "first-result.html", "conventions.html", "theory/7-natural-frequencies.html"];
+  names.push(
+    "reference/messages.html",
+    "reference/commands/modes.html",
+    "notebooks/paper.html",
+    "tutorials/drawing.html",
+  );
+  for (const colorScheme of ["light", "dark"]) {
+    for (const name of names) {
+      const page = await opened(name, { viewport: PHONE, colorScheme });
+      const seen = await page.evaluate(() => ({
+        wide: document.documentElement.scrollWidth - window.innerWidth,
+        background: getComputedStyle(document.body).backgroundColor,
+      }));
+      assert.ok(seen.wide <= 1, `${name} is ${seen.wide} pixels wider than a phone`);
+      const [red] = seen.background.match(/\d+/g).map(Number);
+      assert.ok(
+        colorScheme === "dark" ? red < 80 : red > 200,
+        `${name}: ${colorScheme} has the background ${seen.background}`,
+      );
+      await page.screenshot({
+        path: join(pictures, `${name.replaceAll("/", "-").replace(".html", "")}-phone-${colorScheme}.png`),
+      });
+      await closed(page);
+    }
+    const page = await opened("index.html", { colorScheme });
+    await page.screenshot({ path: join(pictures, `index-desktop-${colorScheme}.png`) });
+    await closed(page);
+  }
+});
+
+test("the live page runs inside the site where it was built", async () => {
+  const page = await opened("live.html");
+  if (existsSync(join(site, "_static/live.html"))) {
+    const frame = page.frameLocator("iframe.live");
+    await frame.locator("select option").nth(3).waitFor({ state: "attached" });
+    await frame.getByText("Loading the program").waitFor({ state: "hidden" });
+    // The figures over the view; a narrow page folds its tables.
+    await frame.getByText("Highest tension").locator("visible=true").first().waitFor();
+    await frame.locator("td", { hasText: /^\d+\.\d+$/ }).first().waitFor({ state: "attached" });
+  } else {
+    assert.match(await page.locator("article").innerText(), /scripts\/web/);
+  }
+  await closed(page);
+});
+
+/** Text of a message as a pattern: what is an ellipsis on the page is anything. */
+function pattern(shown) {
+  const parts = shown.split("…").map((part) => part.replace(/[.*+?^${}()|[\]\\]/g, "\\$&").replace(/\s+/g, "\\s+"));
+  return new RegExp(parts.join("[\\s\\S]*?"));
+}
+
+test("what the program refuses is on the page of messages", async () => {
+  const page = await opened("reference/messages.html");
+  const shown = await page.locator("article li > p > code, article li > code").allInnerTexts();
+  assert.ok(shown.length > 800, `${shown.length} messages`);
+  // A message that is mostly names and numbers of the user would match anything.
+  const patterns = shown.filter((text) => text.replace(/[^a-z]/g, "").length >= 10).map(pattern);
+  await closed(page);
+  const hall = "docs/quick-start/hall.toml";
+  const refused = [
+    ["statics", hall, "--mass-kg", "900"],
+    ["statics", hall, "--pose", "12,0,3"],
+    ["statics", hall, "--pose", "0,0,9"],
+    ["statics", hall, "--pose", "1,2"],
+    ["statics", hall, "--mass-kg", "17,5"],
+    ["statics", hall, "--tension-rule", "closest"],
+    ["statics", hall, "--set", "platform.mass=75"],
+    ["statics", hall, "--set", "materials.rope.damping_ratio=30"],
+    ["statics", hall, "--lengths-m", "1,2,3"],
+    ["statics", hall, "--load-point-m", "0,0,1"],
+    ["statics", "robots/yuan2014-4mm.toml", "--pose", "9,9,3"],
+    ["statics", "robots/none.toml"],
+    ["modes", hall, "--below-hz", "-2"],
+    ["frf", hall, "--from-hz", "2", "--to-hz", "1", "--points", "5"],
+    ["frf", hall, "--from-hz", "1", "--to-hz", "2", "--points", "5", "--input", "fq"],
+    ["map", hall, "--grid", "x=0:1:2", "--quantity", "damping"],
+    ["map", hall, "--grid", "q=0:1:2"],
+    ["payload", hall, "--mass-kg", "9000"],
+    ["identify", hall, "--measured", "docs/identification/hall-modes.csv", "--fit", "platform.weight"],
+    ["uncertainty", hall, "--of", "tensions"],
+    ["design", hall, "--change", "platform.mass_kg=±0"],
+    ["reduce", hall, "--below-hz", "5", "--order", "1", "--input", "fz", "--output", "z"],
+    ["import", hall],
+    ["new", "--cables", "1"],
+  ];
+  for (const words of refused) {
+    const { status, stderr } = spawnSync(program, words, { cwd: repository, encoding: "utf8" });
+    assert.ok(status === 1 || status === 2, `${words.join(" ")}: exit code ${status}: ${stderr}`);
+    assert.ok(
+      patterns.some((one) => one.test(stderr)),
+      `${words.join(" ")}: no row for ${stderr}`,
+    );
+  }
+});
