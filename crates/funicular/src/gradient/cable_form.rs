@@ -316,7 +316,8 @@ impl CableForm {
             }
             None => (*end_w, end, T::default()),
         };
-        let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&relative_w, along));
+        let pull = |moved_w: &Vector<T>| self.world(&self.static_force(&self.local(moved_w), stretch));
+        let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&relative_w, along, stretch, pull));
         if let Some(of) = &self.end {
             let followed_w = of.displacement(&at_end);
             (0..3).for_each(|k| elongation[k] += dot(&followed_w, &vector(&self.axes_w[k])) * -1.0);
@@ -459,7 +460,7 @@ impl CableForm {
             }
             Inertia::None | Inertia::Massless => {
                 if let Some(of) = &self.end {
-                    on_side = of.add(sum, (&a.end, &b.end), &sides.along, factor);
+                    on_side = of.add(sum, (&a.end, &b.end), &sides.along, (at.stretch, at.by_loss), factor);
                     self.add_turn(sum, a, b, [Some(0), Some(1)], factor);
                 }
             }

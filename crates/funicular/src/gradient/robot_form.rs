@@ -4,7 +4,7 @@ use super::GradientError;
 use super::adjoint::{Adjoint, CableAdjoint};
 use super::cable_form::{CableAt, CableForm, CableMotion, GaussRules};
 use super::drive_form::ControlAt;
-use super::end_form::EndAtRest;
+use super::end_form::{EndAtRest, StretchAt};
 use super::scalar::{Field, Vector, add, add_times, cross, dot, symmetric_outer, times, vector};
 use super::support_form::{Carrier, SideForces, Sides, SupportForm};
 use crate::cable::CableModel;
@@ -107,7 +107,7 @@ impl RobotForm {
         let mut servos = vec![None; robot.cables.len()];
         for (i, state) in equilibrium.cables.iter().enumerate() {
             let cable = &settled.cables[i];
-            let term = dynamics.terms().iter().position(|term| term.cable() == i);
+            let term = dynamics.terms().iter().position(|term| term.cable() == i && !dynamics.is_at_rest(i));
             cables.push(match (cable_model, term.and_then(|term| dynamics.terms()[term].form().by_poles())) {
                 (CableModel::Spring, _) => AnyCable::Spring(Box::new(SpringForm::of(cable, state)?)),
                 (CableModel::CatenaryStatic, _) => {
@@ -320,22 +320,26 @@ impl SpringForm {
         sum: &mut CableAdjoint<T>,
         a: (&Vector<T>, &Vector<T>),
         b: (&Vector<T>, &Vector<T>),
-        (carriers, (stretch, by_loss)): (&[Option<Carrier<T>>; 2], (Option<T>, [T; 2])),
+        (carriers, (stretch, by_loss)): (&[Option<Carrier<T>>; 2], StretchAt<T>),
         factor: T,
     ) -> SideForces<T> {
         let (chord, lever) = (vector(&self.chord_w), vector(&self.lever_w));
         let [end_a, end_b] = [a, b].map(|(v, theta)| add(v, &cross(theta, &lever)));
+        let per_stiffness = 1.0 / (self.length * self.chord_w.norm_squared());
+        let pull = |moved: &Vector<T>| {
+            let force = dot(moved, &chord) * (self.axial_stiffness * per_stiffness);
+            times(&chord, stretch.map_or(force, |stretch| force * stretch))
+        };
         let followed = |start: &Vector<T>, carrier: &Option<Carrier<T>>| -> ([T; 2], Vector<T>) {
             let (far, along) = carrier.map_or_else(Default::default, |of| (of.displacement_w, of.along));
             let start: Vector<T> = std::array::from_fn(|k| start[k] - far[k]);
-            let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&start, along));
+            let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&start, along, stretch, pull));
             let moved = self.end.as_ref().map_or_else(Default::default, |of| of.displacement(&at_end));
             (at_end, std::array::from_fn(|k| start[k] - moved[k]))
         };
         let [(far_a, u_a), (far_b, u_b)] = [followed(&end_a, &carriers[0]), followed(&end_b, &carriers[1])];
 
         let squared = self.chord_w.norm_squared();
-        let per_stiffness = 1.0 / (self.length * squared);
         let [along_a, along_b] = [dot(&u_a, &chord), dot(&u_b, &chord)];
         let by_factor = factor * along_a * along_b * (self.axial_stiffness * per_stiffness);
         sum.stretch_loss.iter_mut().zip(by_loss).for_each(|(sum, by)| *sum += by_factor * by);
@@ -352,7 +356,7 @@ impl SpringForm {
         let mut on_side = [T::default(); 2];
         if let Some(end) = &self.end {
             let sides = carriers.map(|carrier| carrier.map_or_else(T::default, |of| of.along));
-            on_side = end.add(sum, (&far_a, &far_b), &sides, factor);
+            on_side = end.add(sum, (&far_a, &far_b), &sides, (stretch, by_loss), factor);
             for (first, i) in [(end::TRAVEL, 0), (end::SIDEWAYS, 1)] {
                 for (sum, chord) in sum.end[first..].iter_mut().zip(chord) {
                     *sum += -(size * chord * (along_a * far_b[i] + along_b * far_a[i]));

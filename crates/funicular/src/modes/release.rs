@@ -38,7 +38,10 @@ pub enum ReleaseError {
     #[error("the cable model `shallow-dynamic` has no motions at complex frequencies: choose `catenary-dynamic`")]
     Model,
     /// A mode does not oscillate.
-    #[error("{0} modes are so strongly damped that they do not oscillate: this decay has no closed form here")]
+    #[error(
+        "motions that are damped so strongly that they do not oscillate ({0}) have no place in the closed form of a decay: \
+         give winches and platform less damping"
+    )]
     Overdamped(usize),
     /// A mode does not decay.
     #[error(
@@ -55,6 +58,13 @@ pub enum ReleaseError {
         /// Frequency [Hz].
         frequency_hz: f64,
     },
+}
+
+impl ReleaseError {
+    /// True if the request is valid, but the robot has no such decay.
+    pub fn is_no_solution(&self) -> bool {
+        !matches!(self, Self::Model)
+    }
 }
 
 /// Fraction of the tolerance below which the last crossing counts as found.
