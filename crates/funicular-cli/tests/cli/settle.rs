@@ -1,6 +1,6 @@
 //! `settle`: decay after a release.
 
-use super::{csv, json, json_of, number, numbers, run, run_with, stderr, succeed, yuan};
+use super::{csv, json, json_of, number, numbers, robot, run, run_with, stderr, succeed, yuan};
 
 /// Small release at the robot of Yuan 2014.
 const SMALL: [&str; 6] = ["settle", "ROBOT", "--release-n", "0,0,-1", "--below-hz", "6"];
@@ -13,7 +13,7 @@ fn size(of: &serde_json::Value) -> f64 {
 fn a_release_has_its_displacement_its_modes_and_two_times() {
     let found = json(&[&SMALL[..], &["--tolerance-m", "1e-4"]].concat());
     let (settled, surely) = (number(&found["settled_s"]), number(&found["surely_settled_s"]));
-    assert!(settled > 1.0 && settled <= surely, "{settled} {surely}");
+    assert!(settled > 0.1 && settled <= surely, "{settled} {surely}");
     assert_eq!(found["damped_certified"], true);
 
     // Linear and exact displacement agree for a small force; the history begins there and ends within the tolerance.
@@ -40,12 +40,13 @@ fn a_release_has_its_displacement_its_modes_and_two_times() {
 /// What the command is asked for first: the loss of the stretch makes a bounce on light rope end.
 #[test]
 fn a_loss_factor_shortens_the_decay() {
-    let file = yuan();
-    let lossy = file.replace("[materials.rope-4mm]", "[materials.rope-4mm]\naxial_loss_factor = 0.02");
+    let file = std::fs::read_to_string(robot("cogiro.toml")).unwrap();
+    let lossy = file.replace("[materials.wire-rope-4mm]", "[materials.wire-rope-4mm]\naxial_loss_factor = 0.02");
     assert_ne!(file, lossy);
-    let line = ["settle", "-", "--release-n", "0,0,-1", "--below-hz", "6", "--tolerance-m", "1e-5"];
+    let line =
+        ["settle", "-", "--pose", "0,0,1.5", "--release-n", "0,0,-50", "--below-hz", "8", "--tolerance-m", "1e-5"];
     let [without, with] = [file, lossy].map(|text| number(&json_of(&line, &text)["surely_settled_s"]));
-    assert!(with < 0.95 * without, "{with} {without}");
+    assert!(with < 0.2 * without, "{with} {without}");
 }
 
 #[test]
