@@ -294,8 +294,8 @@ fn intervals_of_a_loss_factor_from_responses_hold_as_often_as_they_say() {
     assert!((chi2 - 1.0).abs() < 0.1, "{chi2}");
 }
 
-/// Loss factor from damping ratios of decays alone, with noise of 10 %: 20 repetitions, whose fraction has a deviation of
-/// 5 %. The fitted ratios are of first order, the measured ones those of damped modes.
+/// Loss factor from damping ratios of decays alone, with noise of 10 %: 100 repetitions, whose fraction has a deviation of
+/// 2 %. The fitted ratios are of first order, the measured ones those of damped modes.
 #[test]
 fn intervals_of_a_loss_factor_from_decays_hold_as_often_as_they_say() {
     const NOISE_OF_DECAY: f64 = 0.1;
@@ -307,14 +307,18 @@ fn intervals_of_a_loss_factor_from_decays_hold_as_often_as_they_say() {
     };
     let mut noise = Noise(11);
     let mut inside = 0;
-    for _ in 0..20 {
+    for _ in 0..100 {
         let measured: Vec<Value> = exact
             .modes
             .iter()
             .enumerate()
             .map(|(i, mode)| {
                 let ratio = mode.damping_ratio * (1.0 + NOISE_OF_DECAY * noise.next());
-                json!({"frequency_hz": mode.frequency_hz, "damping_ratio": ratio, "label": format!("{}", i + 1)})
+                let hz = mode.frequency_hz * (1.0 + 0.002 * noise.next());
+                json!({
+                    "frequency_hz": hz, "std_hz": 0.002 * mode.frequency_hz, "damping_ratio": ratio,
+                    "label": format!("{}", i + 1),
+                })
             })
             .collect();
         let found = identified(&json!({
@@ -325,7 +329,7 @@ fn intervals_of_a_loss_factor_from_decays_hold_as_often_as_they_say() {
         assert!((found.values[0].value / TRUTH - 1.0).abs() < 0.2, "{}", found.values[0].value);
         inside += u32::from((low..=high).contains(&TRUTH));
     }
-    assert!(inside >= 17, "{inside} of 20");
+    assert!((90..=98).contains(&inside), "{inside} of 100");
 }
 
 /// A loss factor that the file gives as zero is fitted, too.

@@ -362,6 +362,8 @@ mod tests {
         diameter_m = 0.004
         mass_kg_per_m = 0.07
         damping_ratio = 0.003
+        axial_loss_factor = 0.02
+        axial_damping_time_s = 0.8e-3
         minimum_tension_n = 1.0
         maximum_tension_n = 5000.0
         breaking_load_n = 9000.0

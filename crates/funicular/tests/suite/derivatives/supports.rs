@@ -178,7 +178,7 @@ fn directions(parameters: &Parameters, seed: u64, size: f64) -> Vec<(String, Rob
     };
     // The loss of the stretch comes last, which changes no other direction.
     let list = parameters.list();
-    let is_loss = |index: &usize| list[*index].key.starts_with("axial_") && list[*index].value == 0.0;
+    let is_loss = |index: &usize| ["axial_loss_factor", "axial_damping_time_s"].contains(&list[*index].key);
     let (loss, others): (Vec<usize>, Vec<usize>) = (0..list.len()).partition(is_loss);
     let add_all = |indices: Vec<usize>, random: &mut Random, add: &mut dyn FnMut(String, &RobotChange, f64)| {
         for index in indices {
@@ -403,7 +403,8 @@ fn small_robot(seed: u64, behind: DriveVariant) -> Parameters {
     let mut r = |center: f64, width: f64| random.about(center, width);
     let mut text = format!(
         "name = \"small\"\n[platform]\nmass_kg = {}\nmotion = \"point-mass\"\ntranslational_damping_n_s_m = [2, 3, 4]\n\
-         [materials.rope]\naxial_stiffness_n = {}\nmass_kg_per_m = {}\ndamping_ratio = 0.01\n[loads]\nforce_n = [12, -8, -15]\n",
+         [materials.rope]\naxial_stiffness_n = {}\nmass_kg_per_m = {}\ndamping_ratio = 0.01\naxial_loss_factor = 0.03\n\
+         axial_damping_time_s = 4e-4\n[loads]\nforce_n = [12, -8, -15]\n",
         r(20.0, 4.0),
         r(1.0e5, 3e4),
         r(0.15, 0.05)
