@@ -30,7 +30,7 @@ fn a_release_has_its_displacement_its_modes_and_two_times() {
     let modes = found["modes"].as_array().unwrap();
     assert!(modes.iter().all(|mode| number(&mode["settled_s"]) <= surely * (1.0 + 1e-9)));
 
-    let text = succeed(&SMALL);
+    let text = succeed(&[&SMALL[..], &["--tolerance-m", "1e-5"]].concat());
     assert!(text.contains("for good after") && text.contains("lasts longest"), "{text}");
     let (header, rows) = csv(&SMALL);
     assert_eq!(header, ["t_s", "x_m", "y_m", "z_m", "envelope_m"]);

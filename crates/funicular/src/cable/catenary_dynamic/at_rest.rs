@@ -76,7 +76,9 @@ impl CatenaryDynamicEnd {
             for (i, j) in [(2, 2), (2, 5), (5, 2), (5, 5)] {
                 stiffness[i][j] = 0.0;
             }
-            still.iter_mut().for_each(|[row, ..]| [row[2], row[5]] = [0.0; 2]);
+            for [row, ..] in &mut still {
+                [row[2], row[5]] = [0.0; 2];
+            }
         }
 
         let drive = DriveMotion {

@@ -327,7 +327,9 @@ impl CatenaryDynamicEnd {
         let (_, along) = self.motions_along();
         let chain = self.chain().map_or(&[][..], |chain| &chain.stretches);
         let first = along - if self.cable.stretch.moments > 0 { chain.len() } else { 0 };
-        row.iter_mut().for_each(|row| row.resize(along, 0.0));
+        for of_power in &mut *row {
+            of_power.resize(along, 0.0);
+        }
         for (rate, of) in row[1][first..].iter_mut().zip(chain) {
             *rate -= self.stretch_loss.time * of.stiffness * of.by([moved, 0.0]);
         }

@@ -187,7 +187,6 @@ impl<'a> Mesh<'a> {
     /// displacements of the points at the arc lengths `stations`. The first `moments` moments of the strain follow as
     /// stations of their own. An `end` that can move is part of the inside, with the motions behind it; their
     /// displacements are the last.
-    #[expect(clippy::too_many_arguments, reason = "a cable, its end, and the points and motions that are wanted")]
     pub(super) fn condense<const D: usize, const N: usize, const E: usize>(
         &self,
         tables: &[ElementTable],

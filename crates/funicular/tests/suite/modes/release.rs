@@ -79,7 +79,7 @@ fn the_decay_is_that_of_the_complete_matrices() {
         assert!((release.at(exact).norm() / tolerance - 1.0).abs() < 1e-6 || exact == 0.0);
         assert!((release.envelope(sure) / tolerance - 1.0).abs() < 1e-6);
     }
-    assert_eq!(release.settled(10.0 * peak), 0.0);
+    assert!(release.settled(10.0 * peak) <= 0.0);
 }
 
 #[test]
