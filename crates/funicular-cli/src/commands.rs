@@ -23,6 +23,7 @@ mod reduce;
 mod request;
 mod result_files;
 mod schema;
+mod settle;
 mod statics;
 mod stiffness;
 mod uncertainty;

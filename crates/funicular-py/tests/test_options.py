@@ -24,6 +24,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "stiffness": ("`robot.equilibrium(…).stiffness(…)`", [Robot.equilibrium, Equilibrium.stiffness]),
     "modes": ("`robot.equilibrium(…).modes(…)`", [Robot.equilibrium, Equilibrium.modes]),
     "frf": ("`robot.equilibrium(…).frf(…)`, `funicular.peaks(…)`", [Robot.equilibrium, Equilibrium.frf, funicular.peaks]),
+    "settle": ("`robot.equilibrium(…).settle(…)`", [Robot.equilibrium, Equilibrium.settle]),
     "compare": ("`robot.equilibrium(…).compare(…)`", [Robot.equilibrium, Equilibrium.compare]),
     "gradient": ("`robot.equilibrium(…).gradient(…)`", [Robot.equilibrium, Equilibrium.gradient]),
     "uncertainty": ("`robot.uncertainty(…)`", [Robot.uncertainty]),

@@ -33,6 +33,9 @@ MORE = [
     f"funicular frf {ROBOT} {RANGE} --log --input cable:3@0.5:fz --output vz --prominence-db 3 --pose 0,0,0.5 {STATE}",
     f"funicular frf {ROBOT} {RANGE} {MODEL} --input fz --output rx --input-point-m 0.1,0,0",
     f"funicular frf {ROBOT} --from-hz 0.5 --to-hz 2 --adaptive --input fz --input fx --output z --output rx",
+    f"funicular settle {ROBOT} --release-n 0,0,-1 --below-hz 2 {LENGTHS} --input-point-m 0.1,0,0 --output-point-m 0,0,0.1",
+    f"funicular settle robots/cogiro.toml --release-n-m 5,0,0 --tolerance-m 1e-5 --below-hz 5 {TENSIONS} --hold-lengths-of-pose",
+    f"funicular modes {ROBOT} --below-hz 2 --decay-percent 10",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",
     f"funicular gradient {ROBOT} --of frequencies,damping,tensions --below-hz 2 --per percent {LENGTHS}",
@@ -224,7 +227,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
     *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "pose-error", "cable"),
-    *("reduce", "identify", "uncertainty"),
+    *("settle", "reduce", "identify", "uncertainty"),
 )
 
 
@@ -281,6 +284,8 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
             assert rest.modes(**own).to_dict() == theirs
         case "gradient":
             assert plain(rest.gradient(**own)) == theirs
+        case "settle":
+            assert plain(rest.settle(**own)) == theirs
         case "compare":
             assert plain(rest.compare(**own)) == theirs
         case "reduce":

@@ -18,6 +18,7 @@ pub mod payload;
 pub mod pose_error;
 pub mod reduce;
 mod result_groups;
+pub mod settle;
 pub mod shared;
 pub mod statics;
 pub mod stiffness;

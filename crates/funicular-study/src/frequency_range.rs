@@ -51,7 +51,7 @@ impl AtRest {
     }
 
     /// End of a response [Hz] above the lowest natural frequencies and the first mode of the platform.
-    fn response_limit(&self, linearisation: Linearisation) -> Result<f64> {
+    pub(crate) fn response_limit(&self, linearisation: Linearisation) -> Result<f64> {
         let limit = self.modes_limit(None, linearisation)?;
         let share = modes::PLATFORM_SHARE;
         let found = modes::lowest_with_platform(&self.robot, &self.equilibrium, linearisation, share, MAX_HZ);

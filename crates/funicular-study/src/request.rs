@@ -44,6 +44,7 @@ pub use uncertainty::{DEFAULT_SAMPLES, UncertaintyRequest, pose_and_tensions};
 
 pub use vibration::{
     CableRequest, CompareRequest, DEFAULT_INPUT, DEFAULT_OUTPUT, FrfRequest, ModesRequest, ReduceRequest,
+    SETTLED_WITHIN, SettleRequest,
 };
 
 pub use parts::check;
@@ -142,6 +143,7 @@ commands! {
     Stiffness(StiffnessRequest) "stiffness" Needed robot;
     Modes(ModesRequest) "modes" Needed robot;
     Frf(FrfRequest) "frf" Needed robot;
+    Settle(SettleRequest) "settle" Needed robot;
     Compare(CompareRequest) "compare" Needed robot;
     Gradient(GradientRequest) "gradient" Needed robot;
     Uncertainty(UncertaintyRequest) "uncertainty" Needed robot;

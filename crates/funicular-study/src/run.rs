@@ -14,6 +14,7 @@ use crate::analyses::{
     payload::{self, Payload},
     pose_error::{self, PoseErrors},
     reduce::{self, ReducedForm},
+    settle::{self, Settled},
     statics::{self, Statics},
     stiffness::{self, Stiffness},
     uncertainty::{self, Uncertainties},
@@ -116,6 +117,7 @@ answers! {
     Stiffness(Stiffness): of => stiffness::run(robot()?, of, watch)?;
     Modes(Modes): of => modes::run(robot()?, of)?, at at_rest => modes::about(at_rest, of)?;
     Frf(frf::Frf): of => frf::run(robot()?, of, watch)?;
+    Settle(Settled): of => settle::run(robot()?, of)?, at at_rest => settle::about(at_rest, of)?;
     Compare(Compared): of => compare::run(robot()?, of)?, at at_rest => compare::about(at_rest, of)?;
     Gradient(GradientTable): of => gradient::run(robot()?, of)?, at at_rest => gradient::about(at_rest, of)?;
     Uncertainty(Uncertainties): of => uncertainty::run(of, watch)?;

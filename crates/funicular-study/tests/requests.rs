@@ -83,7 +83,7 @@ fn requests() -> Vec<Value> {
                 &points,
                 &signals,
                 &share,
-                &json!({ "below_hz": 20.0, "stations": 21, "damped": false, "rigid_cables": true }),
+                &json!({ "below_hz": 20.0, "stations": 21, "damped": false, "rigid_cables": true, "decay_percent": 10.0 }),
             ],
         ),
         of(
@@ -108,6 +108,19 @@ fn requests() -> Vec<Value> {
                 &json!({
                     "from_hz": 0.1, "to_hz": 10.0, "log": false, "adaptive": true, "prominence_db": 1.0,
                     "input": ["fx", "mz"], "output": ["x", "cable:3@0.5:az"],
+                }),
+            ],
+        ),
+        of(
+            "settle",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &model,
+                &points,
+                &json!({
+                    "release_n": [0.0, 0.0, -20.0], "release_n_m": [0.5, 0.0, 0.0], "tolerance_m": 1e-4, "below_hz": 20.0,
                 }),
             ],
         ),

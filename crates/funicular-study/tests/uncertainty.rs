@@ -344,3 +344,28 @@ fn responses_without_gradients_are_sampled_and_wrong_ones_refused() {
         assert!(format!("{error:#}").contains(message), "{error:#}");
     }
 }
+
+/// Damping ratio of a mode that lives on the stretch of its ropes: proportional to the loss factor, whose deviation it
+/// has to the share of the stretch.
+#[test]
+fn a_loss_factor_deviates_by_both_ways() {
+    let robot = funicular_robots::COGIRO
+        .replace("[materials.wire-rope-4mm]", "[materials.wire-rope-4mm]\naxial_loss_factor = 0.02")
+        .replace("damping_ratio = 0.003", "damping_ratio = 0.0");
+    let with = |method: &str| {
+        uncertainty(
+            &robot,
+            &json!({
+                "pose": [0.0, 0.0, 1.5, 0.0, 0.0, 0.0], "hold": "pose", "of": ["damping"], "below_hz": 20.0,
+                "cable_model": "spring", "deviations": ["materials.*.axial_loss_factor=10%"], "method": method,
+                "samples": 100,
+            }),
+        )
+    };
+    let (linear, sampled) = (with("linear"), with("sampled"));
+    assert!(results(&linear).len() >= 3, "{}", results(&linear).len());
+    for (linear, sampled) in results(&linear).iter().zip(results(&sampled)) {
+        assert!((linear.deviation.unwrap() / linear.value - 0.1).abs() < 1e-3, "{linear:?}");
+        assert!((sampled.deviation.unwrap() / linear.deviation.unwrap() - 1.0).abs() < 0.02, "{sampled:?}");
+    }
+}

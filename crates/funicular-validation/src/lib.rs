@@ -19,6 +19,7 @@ mod paper;
 mod reference;
 mod robots;
 mod shapes;
+mod stretch_loss;
 #[cfg(test)]
 mod tests;
 mod uncertainty;
@@ -126,6 +127,7 @@ pub fn sections() -> Result<Vec<Section>> {
         independent::section(&independent)?,
         exact::section(&published, &reference::exact()?, &independent)?,
         damped::section(&reference::damped()?, &independent)?,
+        stretch_loss::section(&reference::stretch_loss()?)?,
         drives::section(&of_drives, driven::comparisons(&of_drives)?)?,
         gradients::section(&reference::gradients()?)?,
         measured::section(&reference::measured()?.grab)?,

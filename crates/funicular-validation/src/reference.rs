@@ -8,6 +8,7 @@ mod identification;
 mod independent;
 mod measured;
 mod published;
+mod stretch_loss;
 
 use anyhow::{Result, anyhow};
 use funicular::robot::{Robot, State};
@@ -30,6 +31,8 @@ pub(super) use measured::{MeasuredPose, measured};
 pub(super) use published::{
     BesselRow, ClosedFormRow, Cube, CubeRow, Fig2, FiniteElementRow, HungBetween, IsolatedCable, Published, published,
 };
+
+pub(super) use stretch_loss::{ChangedRobot, LossyRobot, LossyRope, StretchLossReference, stretch_loss};
 
 /// Table of a reference file: a source and rows.
 #[derive(Deserialize)]

@@ -43,6 +43,11 @@ fn damped_modes_shapes_and_points_on_cables_are_those_of_the_independent_program
 }
 
 #[test]
+fn the_loss_of_the_stretch_is_that_of_the_independent_program() {
+    check(super::stretch_loss::section(&reference::stretch_loss().unwrap()));
+}
+
+#[test]
 fn gradients_are_those_of_a_complex_step_through_a_separate_program() {
     check(gradients::section(&reference::gradients().unwrap()));
 }

@@ -17,9 +17,11 @@ pub use model::{CableModel, CableShape, MODELS, ModelEntry};
 use crate::catenary::space::HangingCable;
 use crate::drive::DriveChain;
 use crate::math::{Complex, Mat3, Vec3, any_normal};
-use crate::robot::{Damping, Robot, WinchMode};
+use crate::robot::{Damping, Robot, StretchLoss, WinchMode};
 use crate::statics::CableState;
-use catenary_dynamic::{CarrierMotion, CatenaryDynamicEnd, EndDirections, MovingEnd, NearPole, Shapes};
+use catenary_dynamic::{
+    CarrierMotion, CatenaryDynamicEnd, EndDirections, MovingEnd, NearPole, Shapes, SpanAtRest, has_tension,
+};
 use shallow_dynamic::ShallowDynamic;
 use std::f64::consts::TAU;
 use thiserror::Error;
@@ -351,6 +353,10 @@ impl EndStiffness {
         if sag.tension <= 0.0 && model.entry().needs_tension {
             return Err(NoStiffness::NoTension);
         }
+        // A rope whose stretch has a loss, or whose strains are wanted, has motions beside its stiffness.
+        let loss = material.stretch_loss;
+        let has_strains = shapes.has_strains(loss);
+
         let without_b =
             |k: Mat3| if in_plane_only { k - axes.b * axes.b.transpose() * axes.b.dot(&(k * axes.b)) } else { k };
 
@@ -358,19 +364,43 @@ impl EndStiffness {
         let drive = state.drive.as_deref();
         let in_series = |held: Mat3| drive.map_or(held, |drive| drive.end.in_series_with(&held));
 
+        let at_rest = |span: SpanAtRest| -> Result<Self, NoStiffness> {
+            let end = CatenaryDynamicEnd::at_rest(span, drive.map(|drive| &drive.end), loss, in_plane_only)?;
+            Ok(Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(end))))
+        };
+        let shallow_at_rest = || -> Result<Self, NoStiffness> {
+            let held = shallow_static::stiffness(&sag);
+            if has_strains {
+                return at_rest(SpanAtRest::along_chord(axes, held, sag.axial_stiffness / sag.effective_length));
+            }
+            Ok(Self::Constant(without_b(in_series(held.in_world(&axes)))))
+        };
+        let hanging_at_rest = |hanging: &HangingCable| -> Result<Self, NoStiffness> {
+            if has_strains && has_tension(&hanging.catenary) {
+                return at_rest(SpanAtRest::hanging(LocalAxes::of_hanging(hanging), &hanging.catenary));
+            }
+            Ok(Self::Constant(without_b(in_series(hanging.tangent_w()))))
+        };
+
         let limit = up_to_hz * TAU;
         Ok(match model {
             CableModel::Spring if state.is_slack() => Self::Constant(Mat3::zeros()),
-            CableModel::Spring => Self::Constant(in_series(spring::stiffness(robot, i, state).in_world(&axes))),
-            CableModel::ShallowStatic => {
-                Self::Constant(without_b(in_series(shallow_static::stiffness(&sag).in_world(&axes))))
+            CableModel::Spring => {
+                let held = spring::stiffness(robot, i, state);
+                if has_strains {
+                    return at_rest(SpanAtRest::along_chord(axes, held, held.axial));
+                }
+                Self::Constant(in_series(held.in_world(&axes)))
             }
-            CableModel::CatenaryStatic => Self::Constant(without_b(state.tangent_w().ok_or(NoStiffness::Rigid)?)),
-            CableModel::ShallowDynamic if robot.has_moving_ends() => {
+            CableModel::ShallowStatic => shallow_at_rest()?,
+            CableModel::CatenaryStatic => hanging_at_rest(state.hanging.as_ref().ok_or(NoStiffness::Rigid)?)?,
+            // One cable by poles and residues makes all of them such cables.
+            CableModel::ShallowDynamic if robot.has_moving_ends() || robot.has_stretch_loss() => {
                 let end = moving_end(robot, i, state, &axes, winches, limit);
-                match shallow_span(state, (&sag, axes), end, shallow_damping, in_plane_only, limit)? {
+                let of_rope = (shallow_damping, loss, has_strains);
+                match shallow_span(state, (&sag, axes), end, of_rope, in_plane_only, limit)? {
                     Some(cable) => Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable))),
-                    None => Self::Constant(without_b(in_series(shallow_static::stiffness(&sag).in_world(&axes)))),
+                    None => shallow_at_rest()?,
                 }
             }
             CableModel::ShallowDynamic => {
@@ -383,9 +413,9 @@ impl EndStiffness {
                 let end = moving_end(robot, i, state, &LocalAxes::of_hanging(hanging), winches, limit);
                 // Without any mass the cable and its drive are springs.
                 if m == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
-                    return Ok(Self::Constant(without_b(in_series(hanging.tangent_w()))));
+                    return hanging_at_rest(hanging);
                 }
-                let cable = CatenaryDynamicEnd::new(hanging, end, (m, damping), in_plane_only, limit, shapes)?;
+                let cable = CatenaryDynamicEnd::new(hanging, end, (m, damping, loss), in_plane_only, limit, shapes)?;
                 Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable)))
             }
         })
@@ -397,7 +427,7 @@ fn shallow_span(
     state: &CableState,
     (sag, axes): (&Sag, LocalAxes),
     end: Option<MovingEnd>,
-    damping: Damping,
+    of_rope: (Damping, StretchLoss, bool),
     in_plane_only: bool,
     limit: f64,
 ) -> Result<Option<CatenaryDynamicEnd>, NoStiffness> {
@@ -406,7 +436,7 @@ fn shallow_span(
         return Ok(None);
     }
     let directions = EndDirections::in_axes(hanging, &axes);
-    let cable = CatenaryDynamicEnd::of_shallow_span(sag, (axes, directions), end, damping, in_plane_only, limit)?;
+    let cable = CatenaryDynamicEnd::of_shallow_span(sag, (axes, directions), end, of_rope, in_plane_only, limit)?;
     Ok(Some(cable))
 }
 

@@ -97,7 +97,7 @@ impl CableStations {
     ) -> Result<Self, CableMotionError> {
         let state = &equilibrium.cables[i];
         let arc_lengths: Vec<f64> = fractions.iter().map(|fraction| fraction * state.free_length()).collect();
-        let term = dynamics.terms().iter().position(|term| term.cable() == i);
+        let term = dynamics.terms().iter().position(|term| term.cable() == i && !dynamics.is_at_rest(i));
         let chord_w = state.chord_w();
 
         // Shallow spans with a drive have poles and residues, too, but no shape of the catenary.
@@ -117,6 +117,7 @@ impl CableStations {
                 limit,
                 &arc_lengths,
                 loaded,
+                end.cable.stretch.moments,
             )
             .map_err(|reason| {
                 let cable = robot.cables[i].name.clone();

@@ -75,6 +75,10 @@ enum Slope {
     Slack,
 }
 
+/// Weight over tension up to which the direction of a cable counts as constant in its integrals: the error is a twelfth of
+/// its square.
+const STRAIGHT_WEIGHT: f64 = 1e-8;
+
 impl Catenary {
     /// Cable that hangs from the origin to `(span, rise)` [m].
     ///
@@ -294,6 +298,29 @@ impl Catenary {
             Slope::Straight => hypot(self.horizontal, self.vertical_mean) / hypot(self.span, self.rise),
             Slope::Curved { v, .. } => w / (2.0 * (v + self.half_strain_of_weight())),
         }
+    }
+
+    /// Integrals ∫ t tᵀ ds of the direction t along the unstrained length [m], in (horizontal, up); not finite where a
+    /// point has no tension.
+    ///
+    /// # References
+    /// docs/theory.md, equation (27f).
+    pub fn direction_integrals(&self) -> [[f64; 2]; 2] {
+        let Rope { unstrained_length: length, weight_per_length: w, .. } = self.rope;
+        let (h, start, end) = (self.horizontal, self.vertical_force_at_start(), self.vertical_force_at_end());
+        let (first, weight) = (hypot(h, start), w * length);
+
+        // With the weight going to zero both quotients keep their digits: ∫ H²/T² ds and ∫ H V/T² ds.
+        let [level, mixed] = if weight.abs() <= STRAIGHT_WEIGHT * first {
+            let mean = 0.5 * (start + end);
+            let square = h * h + mean * mean;
+            [length * h * h / square, length * h * mean / square]
+        } else {
+            let turned = (h * weight).atan2(h * h + start * end);
+            let grown = 0.5 * (weight * (start + end) / (first * first)).ln_1p();
+            [h / w * turned, h / w * grown]
+        };
+        [[level, mixed], [mixed, length - level]]
     }
 
     /// Parallel tension τ = H/cos α, α being the chord's inclination [N]: the tension parallel to the chord, also for a

@@ -19,7 +19,7 @@ mod friction;
 
 pub use anchor_end::AnchorEnd;
 pub(crate) use anchor_end::{DrumSideAtRest, OnSupport};
-pub(crate) use chain::{ChainDescription, Piece};
+pub(crate) use chain::{ChainDescription, ChainStretch, Piece};
 pub use chain::{DriveChain, Motor, Place};
 pub use friction::DriveFriction;
 

@@ -9,7 +9,7 @@ mod min_stiffness;
 mod null_vectors;
 mod supports;
 
-pub(crate) use blocks::{CableBlocks, CableRow, PlatformBlocks, SupportBlocks};
+pub(crate) use blocks::{CableBlocks, CableRow, DrivePartBlock, PlatformBlocks, SupportBlocks};
 pub use error::DynamicsError;
 pub(crate) use null_vectors::NullVector;
 
@@ -156,6 +156,21 @@ impl Dynamics {
         Self::with_shapes(robot, equilibrium, linearisation, up_to_hz, Shapes::Kept)
     }
 
+    /// Robot linearised as by [`about`](Self::about), with the strains of all cables, which
+    /// [`Mode::stretching_shares`](crate::modes::Mode::stretching_shares) need. They cost a little time. The
+    /// shallow-dynamic model has none in its closed form.
+    ///
+    /// # Errors
+    /// The errors of [`about`](Self::about).
+    pub fn with_strains(
+        robot: &Robot,
+        equilibrium: &Equilibrium,
+        linearisation: Linearisation,
+        up_to_hz: f64,
+    ) -> Result<Self, DynamicsError> {
+        Self::with_shapes(robot, equilibrium, linearisation, up_to_hz, Shapes::Strains)
+    }
+
     fn with_shapes(
         robot: &Robot,
         equilibrium: &Equilibrium,
@@ -234,9 +249,12 @@ impl Dynamics {
         cut
     }
 
-    /// True if a cable with mass or a flexible support has a constant damping ratio.
+    /// True if a cable with mass or a flexible support has a constant damping ratio, or a rope a constant loss factor.
     pub(crate) fn has_damping_ratios(&self) -> bool {
-        self.terms.iter().any(|term| matches!(self.damping[term.cable].0, Damping::Ratio(xi) if xi > 0.0))
+        let has_loss_factor = |end: &CatenaryDynamicEnd| end.has_drive_losses() && end.stretch_loss.factor > 0.0;
+        let has_loss_factors = self.terms.iter().any(|term| term.form.by_poles().is_some_and(has_loss_factor));
+        has_loss_factors
+            || self.terms.iter().any(|term| matches!(self.damping[term.cable].0, Damping::Ratio(xi) if xi > 0.0))
             || self.supports().is_some_and(Supports::has_losses)
     }
 
@@ -421,9 +439,15 @@ impl Dynamics {
             .any(|term| term.cable == i && term.form.by_poles().is_some_and(CatenaryDynamicEnd::has_drive_losses))
     }
 
+    /// True if the model has no inertia of cable `i`.
+    pub(crate) fn is_at_rest(&self, i: usize) -> bool {
+        let vibrates = |form: &DynamicCable| form.by_poles().is_none_or(|end| !end.is_at_rest);
+        !self.terms.iter().any(|term| term.cable == i && vibrates(&term.form))
+    }
+
     /// Mass per length of cable `i` in its model [kg/m]: zero if its stiffness does not depend on frequency.
     pub(crate) fn moving_mass_per_length(&self, i: usize) -> f64 {
-        if self.terms.iter().any(|term| term.cable == i) { self.damping[i].1 } else { 0.0 }
+        if self.is_at_rest(i) { 0.0 } else { self.damping[i].1 }
     }
 
     /// True if every catenary-dynamic cable is resolved up to ω [rad/s], with an estimated error of its clamped

@@ -19,6 +19,8 @@ pub mod symmetric;
 pub type Complex = num_complex::Complex64;
 /// Vector in space; the field that holds it gives the unit.
 pub type Vec3 = nalgebra::Vector3<f64>;
+/// Row of three real numbers.
+pub(crate) type RowVec3 = nalgebra::RowVector3<f64>;
 /// Wrench (force N, moment N·m) or small motion (translation m, rotation vector rad).
 pub type Vec6 = nalgebra::Vector6<f64>;
 /// 3×3 matrix.

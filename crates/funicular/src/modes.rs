@@ -9,13 +9,17 @@ pub mod damped;
 mod fundamental;
 mod lowest;
 mod mac;
+mod release;
 mod rigid_cables;
+mod stretch;
 pub mod tracking;
 
 pub use fundamental::{First, FirstError, first, lowest_by_count};
 pub use lowest::{LowestError, PlatformModeError, Search, Wanted, doubled, lowest, lowest_with_platform, until};
 pub use mac::mac;
+pub use release::{DecayingMotion, Release, ReleaseError};
 pub use rigid_cables::{RigidCablesError, with_rigid_cables};
+pub use stretch::caveat_of_stretch;
 
 pub use certificate::{MAX_MODES, TooMany, check_count, damped_partners};
 
@@ -89,6 +93,10 @@ pub struct Mode {
     /// Fraction of the kinetic energy that each flexible support has, in the order of the robot. Empty on a rigid
     /// frame.
     pub support_energy_fractions: Vec<f64>,
+    /// Share of the stretch of each cable in the energy of deformation: its loss factor η adds half of η times this share
+    /// to the damping ratio. What the shares of all cables leave is geometric stiffness: tensions, sag and lever arms.
+    /// Empty unless the strains are known: for ropes with loss, and by [`Dynamics::with_strains`].
+    pub stretching_shares: Vec<f64>,
     /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1. Zero
     /// if the platform is at rest.
     pub shape: [f64; 6],
@@ -318,6 +326,7 @@ impl List<'_> {
             cable_energy_fractions: cable_energies.clone(),
             drive_energy_fractions: drive_energies.clone(),
             support_energy_fractions: support_energies.clone(),
+            stretching_shares: motion.stretching.clone(),
             shape,
             modal_mass,
             residual,
@@ -352,6 +361,7 @@ impl List<'_> {
                 platform_energy: 0.0,
                 cable_energies,
                 drive_energies: Vec::new(),
+                stretching: Vec::new(),
                 drive_damping: 0.0,
                 residual: 0.0,
             };

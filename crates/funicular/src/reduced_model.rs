@@ -27,7 +27,7 @@ pub use error::ReductionError;
 pub use selection::StateSpaceSize;
 
 use crate::cable::catenary_dynamic::{DriveSignal, InPowersOfS};
-use crate::dynamics::{CableBlocks, Dynamics};
+use crate::dynamics::{CableBlocks, DrivePartBlock, Dynamics};
 use crate::math::{CDMat, Complex, DMat};
 use crate::modes;
 use crate::response::{FrameInput, Quantity, Signal};
@@ -154,8 +154,14 @@ fn check_cables(robot: &Robot, dynamics: &Dynamics) -> Result<(), ReductionError
         }
     }
     for blocks in dynamics.cable_blocks() {
-        if blocks.drive.iter().any(|part| part.damping > 0.0 && part.massless > MASSLESS) {
-            return Err(ReductionError::Massless { cable: name(blocks.cable) });
+        let is_lossy = |part: &DrivePartBlock| part.damping > 0.0 || part.loss > 0.0;
+        if blocks.drive.iter().any(|part| is_lossy(part) && part.massless > MASSLESS) {
+            let (cable, is_at_rest) = (name(blocks.cable), dynamics.is_at_rest(blocks.cable));
+            return Err(if is_at_rest {
+                ReductionError::StretchAtRest { cable }
+            } else {
+                ReductionError::Massless { cable }
+            });
         }
     }
     Ok(())

@@ -121,6 +121,16 @@ pub enum Damping {
     Viscous(f64),
 }
 
+/// Loss of the stretch of a rope: in vibration its axial stiffness is `EA h(ω)`, `h = 1 + iη + iωτ` for ω > 0 (theory,
+/// section 4).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StretchLoss {
+    /// Loss factor η of the axial stiffness, the same at every frequency.
+    pub factor: f64,
+    /// Damping time τ of a viscous loss in parallel with the stiffness (Kelvin and Voigt) [s].
+    pub time: f64,
+}
+
 /// A rope.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
@@ -130,8 +140,10 @@ pub struct Material {
     pub axial_stiffness: f64,
     /// Mass per unstrained length [kg/m]; zero for a massless cable.
     pub mass_per_length: f64,
-    /// Damping.
+    /// Damping of the motion of the rope.
     pub damping: Damping,
+    /// Loss of its stretch.
+    pub stretch_loss: StretchLoss,
     /// Tension limits of every cable made of this rope.
     pub tension_limits: TensionLimits,
     /// Tension at which the rope breaks [N].
@@ -269,12 +281,17 @@ impl Pose {
 }
 
 impl Robot {
+    /// True if the stretch of a rope has a loss.
+    pub(crate) fn has_stretch_loss(&self) -> bool {
+        self.cables.iter().any(|cable| cable.material.stretch_loss.is_some())
+    }
+
     /// True if a number of the robot damps vibration: a rope that has mass, the platform, a winch or a support. Without
     /// any, all damping ratios are zero, and responses have no bound at resonances.
     pub fn is_damped(&self) -> bool {
         let of_rope = |rope: &Material| {
             let (Damping::Ratio(number) | Damping::Viscous(number)) = rope.damping;
-            number > 0.0 && rope.mass_per_length > 0.0
+            (number > 0.0 && rope.mass_per_length > 0.0) || rope.stretch_loss.is_some()
         };
         let of_winch = |winch: &Winch| winch.damping > 0.0 || winch.servo().is_some_and(|servo| servo.speed_gain > 0.0);
         let of_cable = |cable: &Cable| of_rope(&cable.material) || cable.anchor.winch.as_ref().is_some_and(of_winch);

@@ -216,8 +216,8 @@ impl fmt::Display for Warning {
             ),
             Self::NoDamping => f.write_str(
                 "nothing in the robot file damps vibration: damping ratios are zero, and responses have no bound at \
-                 their resonances; give the ropes a `damping_ratio` (wire rope has about 0.003), or the platform \
-                 `translational_damping_n_s_m`",
+                 their resonances; give the ropes a `damping_ratio` (wire rope has about 0.003) and an \
+                 `axial_loss_factor`, or the platform `translational_damping_n_s_m`",
             ),
             Self::DeepSag { cables, model } => f.write_str(&too_deep(cables, *model)),
             Self::DragTurns { effect } => write!(

@@ -25,6 +25,7 @@ mod readme;
 mod reduce;
 mod request;
 mod results;
+mod settle;
 mod statics;
 mod stiffness;
 mod sweeps;

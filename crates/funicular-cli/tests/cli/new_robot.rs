@@ -104,7 +104,7 @@ fn one_number_of_a_vector_is_set_varied_and_listed() {
     // Names in words, for a page or a table.
     for (path, label) in [
         ("platform.mass_kg", "mass of the platform [kg]"),
-        ("materials.rope.damping_ratio", "damping ratio of the rope (rope)"),
+        ("materials.rope.damping_ratio", "damping ratio of moving the rope (rope)"),
         ("cables.3.anchor_m.z", "exit point of the cable (3), z [m]"),
         ("state.position_m.x", "origin of the platform frame in the world frame, x [m]"),
     ] {

@@ -5,7 +5,7 @@ use super::{robot, run, run_with, stderr, stdout, succeed};
 /// Command lines that print their result.
 fn command_lines() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
-    let lines: [&[&str]; 19] = [
+    let lines: [&[&str]; 20] = [
         &["check", &cogiro],
         &["parameters", &cogiro, "--set", "platform.center_of_mass_m.x=0.1"],
         &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],
@@ -78,6 +78,7 @@ fn command_lines() -> Vec<Vec<String>> {
             "tensions,stiffness-min",
         ],
         &["sweep", "ROBOT", "--vary", "platform.mass_kg=10,20", "--quantity", "pose,frequencies:2"],
+        &["settle", "ROBOT", "--release-n", "0,0,-1", "--below-hz", "2", "--tolerance-m", "5e-4"],
         &["export", "ROBOT", "--to", "vtk", "--segments", "3", "--modes-below-hz", "1"],
         &["new", "--cables", "6", "--motion", "rigid", "--box-m", "0.4,0.3,0.2", "--mass-kg", "20", "--rope", "7x7"],
         &["schema"],

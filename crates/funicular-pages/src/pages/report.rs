@@ -118,9 +118,11 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     let ReportInput { at_rest, linearisation, below_hz, .. } = *input;
     let AtRest { robot, equilibrium, .. } = at_rest;
     let ModesBelow { dynamics, modes: found, mut warnings } =
-        at_rest.modes_below(linearisation, below_hz, MAX_MODES)?;
+        at_rest.modes_with_strains(linearisation, below_hz, MAX_MODES)?;
     let (response_figure, peaks_table, response_notes) = response_part(input, &dynamics, &found)?;
     warnings.extend(funicular::warnings::of_damping(robot).map(|warning| warning.to_string()));
+    let ratios: Vec<f64> = found.modes.iter().map(|mode| mode.damping_ratio).collect();
+    warnings.extend(modes::caveat_of_stretch(robot, &found.modes, &ratios, input.platform_share));
 
     let page = ReportPage {
         shell: Shell::new(robot.name.clone(), CONTENTS),

@@ -240,7 +240,7 @@ class Analyses:
         InputError
             The package was built without the page.
         """
-    def modes(self, /, below_hz: SupportsFloat | SupportsIndex | None = None, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, damped: bool = True, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False) -> Modes:
+    def modes(self, /, below_hz: SupportsFloat | SupportsIndex | None = None, *, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, stations: SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, decay_percent: SupportsFloat | SupportsIndex | None = None, damped: bool = True, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False) -> Modes:
         """
         Computes all natural frequencies below a limit, and checks by an independent count that none is missing.
 
@@ -260,6 +260,8 @@ class Analyses:
         platform_share
             Minimum fraction of the kinetic energy in the platform for `first_platform_index`, the first mode of the
             platform; 0.5 if not given.
+        decay_percent
+            Percentage of its amplitude to which a mode decays in the time that is listed; 5 if not given.
         damped
             Seek the damped partner of every mode. False is faster; damping ratios are then of first order in the
             damping, and there are no eigenvalues.
@@ -331,6 +333,38 @@ class Analyses:
             if not given.
 
         The other parameters are those of `Equilibrium.stiffness`.
+        """
+    def settle(self, /, release_n: ArrayLike | None = None, *, release_n_m: ArrayLike | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
+        """
+        Computes how a point of the platform swings after a force or moment on it is released, and when it has settled.
+
+        The motion is linear about the equilibrium without the force, in closed form over the damped modes.
+
+        Parameters
+        ----------
+        release_n
+            Force on the platform that is released, at `input_point_m`, world axes [N]; if not given: none.
+        release_n_m
+            Moment on the platform that is released, world axes [N m]; if not given: none.
+        input_point_m
+            Point where the force acts, platform frame [m]; if not given: the origin.
+        output_point_m
+            Point whose motion is measured, platform frame [m]; if not given: the origin.
+        tolerance_m
+            Distance from its rest within which the point has settled [m]; 0.001 if not given.
+        below_hz
+            Upper limit of the frequencies of the modes that take part [Hz]; if not given: the lowest 20 modes, and
+            twice the first mode of the platform if that is higher.
+
+        The other parameters are those of `Equilibrium.stiffness`.
+
+        Returns
+        -------
+        The keys of the program's JSON; lists of numbers are arrays.
+
+        References
+        ----------
+        docs/theory.md, equations (46f) to (46h).
         """
     def state_space(self, /, input: str | Sequence[str] | None = None, output: str | Sequence[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, order: SupportsIndex | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> StateSpaceModel:
         """

@@ -444,6 +444,23 @@ def receptance(of: Any, given: Given, hz: ArrayLike) -> NDArray[complex128]:
     return matrices
 
 
+@declared(Analyses, "settle", positional=("release_n",), headings=REST, others=_AS_MODES)
+def settle(of: Any, given: Given) -> Results:
+    """Computes how a point of the platform swings after a force or moment on it is released, and when it has settled.
+
+    The motion is linear about the equilibrium without the force, in closed form over the damped modes.
+
+    Returns
+    -------
+    The keys of the program's JSON; lists of numbers are arrays.
+
+    References
+    ----------
+    docs/theory.md, equations (46f) to (46h).
+    """
+    return _results.results(of._results("settle", given))
+
+
 @declared(Analyses, "compare", positional=("below_hz",), headings=REST, others=_AS_MODES)
 def compare(of: Any, given: Given) -> Results:
     """Compares every cable model with the catenary-dynamic model: frequencies found, missed and wrong, and the
@@ -609,7 +626,7 @@ def write_frf(of: Any, given: Given, path: File, hz: ArrayLike) -> list[str]:
     "modes",
     positional=("path", "below_hz"),
     headings=REST,
-    without=("input", "output", "input_point_m", "output_point_m", "stations", "platform_share", "damped"),
+    without=("input", "output", "input_point_m", "output_point_m", "stations", "platform_share", "decay_percent", "damped"),
     others=_AS_MODES,
 )
 def write_modes(of: Any, given: Given, path: File) -> list[str]:

@@ -179,6 +179,8 @@ class Modes(ArrayFields):
     """Number of modes that share the frequency."""
     damping_ratio: NDArray[np.float64]
     """Damping ratio ζ of the damped partner; with `damped=False` to first order in the damping."""
+    decay_time_s: NDArray[np.float64]
+    """Time in which the amplitude falls to `decay_percent` [s]; NaN for a mode that does not decay."""
     eigenvalue_per_s: NDArray[np.complex128] | None
     """λ = −ζω + iω√(1 − ζ²) of the damped partner [1/s]; None with `damped=False`."""
     kind: NDArray[np.str_]
@@ -191,6 +193,11 @@ class Modes(ArrayFields):
     """Kinetic energy of the drive of each cable over that of the robot, (modes, cables); zero without inertia."""
     support_energy_fractions: NDArray[np.float64]
     """Kinetic energy of each flexible support over that of the robot, (modes, supports)."""
+    stretching_share: NDArray[np.float64] | None
+    """Share of the stretch of each cable in the energy of deformation, (modes, cables).
+
+    A loss factor η of the rope adds η/2 times it to the damping ratio. None for shallow-dynamic cables without loss of
+    their stretch, and for rigid ones."""
     shape: NDArray[np.float64]
     """Motion of the platform, translation and rotation about its origin, world axes, (modes, 6).
 
@@ -207,6 +214,8 @@ class Modes(ArrayFields):
     """True if the list has as many modes as the count and every mode is accurate."""
     unstable_directions: int
     """Number of directions in which the equilibrium is unstable; they have no frequency, but are in the count."""
+    decay_percent: float | None
+    """Percentage of the amplitude in `decay_time_s`; None with rigid cables."""
     platform_share: float
     """Minimum fraction of the kinetic energy in the platform for `first_platform_index`."""
     first_platform_index: int | None
@@ -348,15 +357,18 @@ def modes(found: dict[str, Any], request: str | None = None) -> Modes:
         frequency_hz=column("frequency_hz"),
         multiplicity=np.array([row["multiplicity"] for row in rows], dtype=np.int64),
         damping_ratio=column("damping_ratio"),
+        decay_time_s=column("decay_time_s"),
         eigenvalue_per_s=eigenvalues,
         kind=np.array([row["kind"] for row in rows], dtype="U8"),
         platform_energy_fraction=column("platform_energy_fraction"),
         cable_energy_fractions=table("cable_energy_fractions", len(cables)),
         drive_energy_fractions=_drive_energies(rows, len(cables)),
         support_energy_fractions=_support_energies(rows, len(found.get("support_names", []))),
+        stretching_share=table("stretching_share", len(cables)) if rows and "stretching_share" in rows[0] else None,
         shape=table("shape", 6),
         modal_mass_kg=column("modal_mass_kg"),
         residual=column("residual"),
+        decay_percent=found.get("decay_percent"),
         first_platform_index=found.get("first_platform_mode", {}).get("index"),
         damped_certified=found.get("damped_certified"),
         cable_names=tuple(cables),

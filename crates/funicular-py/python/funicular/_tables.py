@@ -45,6 +45,7 @@ def _modes(of: Modes) -> Any:
         "frequency_hz": of.frequency_hz,
         "multiplicity": of.multiplicity,
         "damping_ratio": of.damping_ratio,
+        "decay_time_s": of.decay_time_s,
     }
     if of.eigenvalue_per_s is not None:
         columns["eigenvalue_per_s"] = of.eigenvalue_per_s
@@ -65,6 +66,8 @@ def _modes(of: Modes) -> Any:
     columns |= {
         f"energy_fraction_support_{name}": of.support_energy_fractions[:, i] for i, name in enumerate(of.support_names)
     }
+    if of.stretching_share is not None:
+        columns |= {f"stretching_share_cable_{name}": of.stretching_share[:, i] for i, name in enumerate(of.cable_names)}
     return _pandas().DataFrame(columns)
 
 

@@ -72,6 +72,11 @@ pub struct CheckedRope {
     pub damping_ratio: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub viscous_damping_n_s_m2: Option<f64>,
+    /// Loss factor and damping time of the stretch; absent if zero.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axial_loss_factor: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axial_damping_time_s: Option<f64>,
     #[serde(flatten)]
     pub limits: CheckedLimits,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -377,6 +382,8 @@ fn ropes(robot: &Robot) -> Vec<CheckedRope> {
             mass_kg_per_m: rope.mass_per_length,
             damping_ratio,
             viscous_damping_n_s_m2,
+            axial_loss_factor: not_zero(rope.stretch_loss.factor),
+            axial_damping_time_s: not_zero(rope.stretch_loss.time),
             limits: CheckedLimits::of(rope.tension_limits),
             breaking_load_n: rope.breaking_load,
             drag_width_m: rope.drag_width,
@@ -387,6 +394,10 @@ fn ropes(robot: &Robot) -> Vec<CheckedRope> {
         }
     }
     ropes
+}
+
+fn not_zero(value: f64) -> Option<f64> {
+    (value != 0.0).then_some(value)
 }
 
 /// Cables in the order of the file.
@@ -512,6 +523,15 @@ impl CheckedRope {
             })
             .short("viscous damping", "N s/m²", 4),
         ];
+        let lossy = ropes.iter().any(|rope| rope.axial_loss_factor.is_some() || rope.axial_damping_time_s.is_some());
+        let loss = [
+            column("axial_loss_factor", "1", "loss factor of the stretch", |rope: &Self| rope.axial_loss_factor)
+                .short("loss factor", "", 4)
+                .read_if(lossy),
+            column("axial_damping_time_s", "s", "damping time of the stretch", |rope: &Self| rope.axial_damping_time_s)
+                .short("damping time", "s", 4)
+                .read_if(lossy),
+        ];
         let further = [
             column("breaking_load_n", "N", "breaking load", |rope: &Self| rope.breaking_load_n)
                 .short("breaks at", "N", 4)
@@ -520,7 +540,12 @@ impl CheckedRope {
                 .short("drag width", "m", 4)
                 .read_if(dragged),
         ];
-        Columns::new(own.into_iter().chain(CheckedLimits::fields(|rope: &Self| &rope.limits, limited)).chain(further))
+        Columns::new(
+            own.into_iter()
+                .chain(loss)
+                .chain(CheckedLimits::fields(|rope: &Self| &rope.limits, limited))
+                .chain(further),
+        )
     }
 }
 

@@ -7,12 +7,12 @@ use crate::columns::{Columns, ResultTable, Style, Tabled, any, column, only_read
 use crate::request::{self, Model, Terms};
 use crate::signals::{Input, Output, response_unit};
 use crate::table::Column;
-use crate::text::NONE;
+use crate::text::{NONE, short};
 use anyhow::{Result, anyhow, bail};
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Assembly, Dynamics, Linearisation};
 use funicular::math::Rotation;
-use funicular::modes;
+use funicular::modes::{self, damped};
 use funicular::response::Signal;
 use funicular::robot::{Robot, WinchMode};
 use serde::Serialize;
@@ -42,6 +42,9 @@ pub struct Modes {
     /// True if a count proves that every mode has its damped mode; absent if damping ratios are of first order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damped_certified: Option<bool>,
+    /// Percentage of the amplitude to which modes decay in `decay_time_s`; absent for rigid cables.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decay_percent: Option<f64>,
     /// Minimum fraction of the kinetic energy in the platform for `first_platform_mode`.
     pub platform_share: f64,
     /// First mode of the platform; absent if none lies below the limit.
@@ -177,6 +180,7 @@ fn about_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> Resu
         unstable_directions: found.unstable_directions,
         is_indifferent: at_rest.equilibrium.stability.is_indifferent(),
         damped_certified: None,
+        decay_percent: None,
         platform_share: request.platform_share,
         first_platform_mode: FirstPlatformMode::of(&found, request.platform_share),
         cable_names: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
@@ -197,21 +201,24 @@ fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<Si
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
     let limit = at_rest.modes_limit(request.below_hz, linearisation)?;
     let ModesBelow { dynamics, modes: found, mut warnings } =
-        at_rest.modes_below(linearisation, limit, modes::MAX_MODES)?;
+        at_rest.modes_with_strains(linearisation, limit, modes::MAX_MODES)?;
     let AtRest { robot, .. } = at_rest;
     warnings.extend(funicular::warnings::of_damping(robot).map(|warning| warning.to_string()));
 
     // Damping, and the peaks that depend on it.
     let mut rows: Vec<ModeRow> = found.modes.iter().cloned().map(ModeRow::from).collect();
-    let (damped, caveat) = if request.damped { modes::damped_partners(&dynamics, &found) } else { (None, None) };
+    let (partners, caveat) = if request.damped { modes::damped_partners(&dynamics, &found) } else { (None, None) };
     warnings.extend(caveat);
-    if let Some(damped) = &damped {
-        for (row, mode) in rows.iter_mut().zip(&damped.modes) {
+    if let Some(partners) = &partners {
+        for (row, mode) in rows.iter_mut().zip(&partners.modes) {
             let eigenvalue = mode.eigenvalue();
             row.damping_ratio = mode.damping_ratio();
             row.eigenvalue_per_s = Some([eigenvalue.re, eigenvalue.im]);
         }
     }
+    let ratios: Vec<f64> = rows.iter().map(|row| row.damping_ratio).collect();
+    warnings.extend(modes::caveat_of_stretch(robot, &found.modes, &ratios, request.platform_share));
+    set_decay_times(&mut rows, request.decay_percent);
     let participation = pair.map(|pair| participate(&mut rows, at_rest, &dynamics, &found, &pair)).transpose()?;
 
     let stations = request.stations.map_or(Ok(Vec::new()), |count| stations(at_rest, &dynamics, count))?;
@@ -228,7 +235,8 @@ fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<Si
         certified: found.certified,
         unstable_directions: found.unstable_directions,
         is_indifferent: at_rest.equilibrium.stability.is_indifferent(),
-        damped_certified: damped.map(|damped| damped.certified),
+        damped_certified: partners.map(|partners| partners.certified),
+        decay_percent: Some(request.decay_percent),
         platform_share: request.platform_share,
         first_platform_mode: FirstPlatformMode::of(&found, request.platform_share),
         cable_names: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
@@ -239,6 +247,18 @@ fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<Si
         outline: Outline::of(at_rest),
         warnings,
     })
+}
+
+/// Writes the times of decay to a percentage of the amplitude into the rows of the modes.
+fn set_decay_times(rows: &mut [ModeRow], percent: f64) {
+    for row in rows {
+        let rate = match row.eigenvalue_per_s {
+            Some([re, _]) => -re,
+            None => row.damping_ratio * row.frequency_hz * TAU,
+        };
+        let time = damped::decay_time(rate, 0.01 * percent);
+        row.decay_time_s = time.is_finite().then_some(time);
+    }
 }
 
 /// Writes residues and peaks of a response into the rows of the modes; names the response.
@@ -282,6 +302,7 @@ struct SignalPair {
 fn checked(robot: &Robot, request: &request::ModesRequest) -> Result<Option<SignalPair>> {
     request.below_hz.map_or(Ok(()), |limit| request::check_positive("below_hz", limit))?;
     request::check_fraction("platform_share", request.platform_share)?;
+    check_percent(request.decay_percent)?;
     match (&request.input, &request.output) {
         (Some(input), Some(output)) => {
             let (input, output) = (request::input(input)?, request::output(output)?);
@@ -292,6 +313,14 @@ fn checked(robot: &Robot, request: &request::ModesRequest) -> Result<Option<Sign
         (Some(_), None) => bail!("⟪input⟫ is given without ⟪output⟫: a response needs both"),
         (None, Some(_)) => bail!("⟪output⟫ is given without ⟪input⟫: a response needs both"),
     }
+}
+
+/// Refuses a percentage of the amplitude to which nothing decays.
+fn check_percent(percent: f64) -> Result<()> {
+    if percent > 0.0 && percent < 100.0 {
+        return Ok(());
+    }
+    bail!("⟪decay_percent⟫ is {percent}: give the percentage of the amplitude that is left, between 0 and 100, as 5")
 }
 
 /// Stations at equal steps along every cable.
@@ -339,14 +368,33 @@ impl Modes {
     pub fn columns(&self) -> Columns<ModeRow> {
         let drives_move = self.modes.iter().any(|mode| !mode.drive_energy_fractions.is_empty());
         let drives = if drives_move { &self.cable_names[..] } else { &[] };
-        let peak_unit = self.participation.as_ref().map(|of| &of.peak_unit[..]);
-        ModeRow::columns(&self.cable_names, drives, &self.support_names, peak_unit)
+        let stretches = self.modes.iter().any(|mode| !mode.stretching_share.is_empty());
+        ModeRow::columns(&NamedParts {
+            cables: &self.cable_names,
+            drives,
+            supports: &self.support_names,
+            stretching: if stretches { &self.cable_names[..] } else { &[] },
+            peak_unit: self.participation.as_ref().map(|of| &of.peak_unit[..]),
+            decay_percent: self.decay_percent,
+        })
     }
 }
 
+/// What a table of modes has columns for: parts of the robot by their names, and what was asked for.
+struct NamedParts<'a> {
+    cables: &'a [String],
+    /// Cables whose drives move.
+    drives: &'a [String],
+    supports: &'a [String],
+    /// Cables whose share of stretch is known.
+    stretching: &'a [String],
+    peak_unit: Option<&'a str>,
+    decay_percent: Option<f64>,
+}
+
 impl ModeRow {
-    /// Columns of the modes of a robot with these cables, drives and supports.
-    fn columns(cables: &[String], drives: &[String], supports: &[String], peak_unit: Option<&str>) -> Columns<Self> {
+    fn columns(parts_of: &NamedParts<'_>) -> Columns<Self> {
+        let NamedParts { cables, drives, supports, stretching, peak_unit, decay_percent } = *parts_of;
         let names = (cables.to_vec(), supports.to_vec());
         let strongest = move |mode: &Self, style: Style| {
             let of_supports = (&names.1[..], &mode.support_energy_fractions[..]);
@@ -373,6 +421,18 @@ impl ModeRow {
                 "%",
                 |mode, style| style.significant(100.0 * mode.damping_ratio, 3),
             ),
+            only_read()
+                .shown(format!("to {} %", short(decay_percent.unwrap_or_default(), 4)), "s", |mode: &Self, style| {
+                    style.significant(mode.decay_time_s, 3)
+                })
+                .aligned(false)
+                .only_if(decay_percent.is_some()),
+            only_read()
+                .shown("stretch", "%", |mode: &Self, style| {
+                    style.decimals(100.0 * mode.stretching_share.iter().sum::<f64>(), 1)
+                })
+                .aligned(false)
+                .only_if(!stretching.is_empty()),
             only_read()
                 .shown("peak", "", |mode: &Self, style| style.significant(mode.peak, 3))
                 .with_unit(peak_unit.unwrap_or_default().to_owned())
@@ -415,6 +475,12 @@ impl ModeRow {
             column("peak", "", "contribution of the mode alone to the response at its frequency", |mode: &Self| {
                 mode.peak
             }),
+            column(
+                "decay_time_s",
+                "s",
+                "time in which the amplitude falls to the percentage of the request",
+                |mode: &Self| mode.decay_time_s,
+            ),
             parts("energy_fraction_cable_{}", cables, "1", "share of cable {} in the kinetic energy", |mode: &Self| {
                 mode.cable_energy_fractions.clone()
             }),
@@ -424,6 +490,13 @@ impl ModeRow {
             parts("energy_fraction_support_{}", supports, "1", "share of the flexible support {}", |mode: &Self| {
                 mode.support_energy_fractions.clone()
             }),
+            parts(
+                "stretching_share_cable_{}",
+                stretching,
+                "1",
+                "share of the stretch of cable {} in the potential energy",
+                |mode: &Self| mode.stretching_share.clone(),
+            ),
             only_read().shown("kind", "", |mode: &Self, _| mode.kind.to_owned()),
             only_read().shown("cables", "", strongest),
         ];
@@ -433,7 +506,16 @@ impl ModeRow {
 
 impl Tabled for Modes {
     fn tables() -> Vec<(&'static str, Vec<Column>)> {
-        vec![("", ModeRow::columns(&any(), &any(), &any(), None).described())]
+        let names = any();
+        let all = NamedParts {
+            cables: &names,
+            drives: &names,
+            supports: &names,
+            stretching: &names,
+            peak_unit: None,
+            decay_percent: None,
+        };
+        vec![("", ModeRow::columns(&all).described())]
     }
 
     fn table(&self) -> ResultTable<'_> {

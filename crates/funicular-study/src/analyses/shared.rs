@@ -240,6 +240,9 @@ pub struct ModeRow {
     pub frequency_hz: f64,
     pub multiplicity: usize,
     pub damping_ratio: f64,
+    /// Time in which its amplitude falls to the requested percentage; absent for a mode that does not decay.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decay_time_s: Option<f64>,
     /// Eigenvalue λ = −ζω + iω√(1 − ζ²): real and imaginary part.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub eigenvalue_per_s: Option<[f64; 2]>,
@@ -252,6 +255,10 @@ pub struct ModeRow {
     /// Kinetic energy of each flexible support; absent on a rigid frame.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub support_energy_fractions: Vec<f64>,
+    /// Share of the stretch of each cable in the energy of deformation; absent in the closed form of shallow-dynamic
+    /// cables and for rigid ones.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stretching_share: Vec<f64>,
     pub shape: [f64; 6],
     pub modal_mass_kg: f64,
     pub residual: f64,
@@ -271,12 +278,14 @@ impl From<modes::Mode> for ModeRow {
             frequency_hz: mode.frequency_hz,
             multiplicity: mode.multiplicity,
             damping_ratio: mode.damping_ratio,
+            decay_time_s: None,
             eigenvalue_per_s: None,
             kind: mode.kind.name(),
             platform_energy_fraction: mode.platform_energy_fraction,
             cable_energy_fractions: mode.cable_energy_fractions,
             drive_energy_fractions: mode.drive_energy_fractions,
             support_energy_fractions: mode.support_energy_fractions,
+            stretching_share: mode.stretching_shares,
             // `+ 0.0` makes a negative zero positive.
             shape: mode.shape.map(|x| x + 0.0),
             modal_mass_kg: mode.modal_mass,

@@ -84,7 +84,24 @@ impl AtRest {
     /// # Errors
     /// A cable model that has no stiffness at this equilibrium, or more than `max_modes` modes below the limit.
     pub fn modes_below(&self, linearisation: Linearisation, limit_hz: f64, max_modes: usize) -> Result<ModesBelow> {
-        let (dynamics, mut warnings) = self.dynamics(linearisation, limit_hz)?;
+        Self::listed(self.dynamics(linearisation, limit_hz)?, limit_hz, max_modes)
+    }
+
+    /// Modes as by [`modes_below`](Self::modes_below), with their shares of the stretch.
+    ///
+    /// # Errors
+    /// The errors of [`modes_below`](Self::modes_below).
+    pub fn modes_with_strains(&self, linearisation: Linearisation, limit_hz: f64, max: usize) -> Result<ModesBelow> {
+        let dynamics = Dynamics::with_strains(&self.robot, &self.equilibrium, linearisation, limit_hz)?;
+        let warnings = self.warnings(Some((linearisation.cable_model, limit_hz)));
+        Self::listed((dynamics, warnings), limit_hz, max)
+    }
+
+    fn listed(
+        (dynamics, mut warnings): (Dynamics, Vec<String>),
+        limit_hz: f64,
+        max_modes: usize,
+    ) -> Result<ModesBelow> {
         modes::check_count(&dynamics, limit_hz, max_modes)?;
         let modes = modes::below(&dynamics, limit_hz);
         warnings.extend(modes.caveat());

@@ -9,6 +9,7 @@ use crate::names::{ModelForm, optional};
 use funicular::cable::CableModel;
 use funicular::compare::TOLERANCE;
 use funicular::modes::PLATFORM_SHARE;
+use funicular::modes::damped::DECAY_PERCENT;
 use funicular::robot::WinchMode;
 
 declared! {
@@ -30,6 +31,8 @@ declared! {
         stations: Option<usize> = None => (Count(2..=MAX_STATIONS as u64));
         /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform.
         platform_share: f64 = PLATFORM_SHARE => (Number(Fraction));
+        /// Percentage of its amplitude to which a mode decays in the time that is listed.
+        decay_percent: f64 = DECAY_PERCENT => (Number(Positive));
         /// Compute the damped mode of every undamped mode; otherwise damping ratios are of first order in the damping.
         damped: bool = true => (Switch).option(Key::NOT_IN_PROGRAM);
         /// State and loads.
@@ -101,6 +104,42 @@ declared! {
         "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    --input fz --output az --figure-width-mm ieee-single -o frf.pdf",
     }
 }
+
+declared! {
+    /// How a point of the platform swings after a force or moment on it is released, and when it has settled.
+    pub struct SettleRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
+        /// Force on the platform that is released, at ⟪input_point_m⟫, world axes [N].
+        release_n: Option<[f64; 3]> = None => (Vector).otherwise("none");
+        /// Moment on the platform that is released, world axes [N m].
+        release_n_m: Option<[f64; 3]> = None => (Vector).otherwise("none");
+        /// Points of the platform.
+        #[serde(flatten)]
+        points: ResponsePoints = ResponsePoints::default() => group;
+        /// Distance from its rest within which the point has settled [m].
+        tolerance_m: f64 = SETTLED_WITHIN => (Number(Positive));
+        /// Upper limit of the frequencies of the modes that take part [Hz].
+        below_hz: Option<f64> = None =>
+            (Number(Positive)).otherwise("the lowest 20 modes, and twice the first mode of the platform if that is higher");
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Linearisation.
+        #[serde(flatten)]
+        model: Model = Model::default() => group;
+    }
+    examples {
+        "funicular settle robots/yuan2014-4mm.toml --release-n 0,0,-20 --below-hz 10",
+        "funicular settle robots/cogiro.toml --release-n 0,0,-196 --tolerance-m 1e-4 --below-hz 20 -o settling.csv",
+    }
+}
+
+/// Default of the distance within which a point has settled [m].
+pub const SETTLED_WITHIN: f64 = 1e-3;
 
 declared! {
     /// Comparison of all cable models, and the simplest model that is good enough.

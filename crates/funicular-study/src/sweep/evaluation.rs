@@ -8,6 +8,7 @@ use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::Hold;
 use funicular::modes::Kind;
+use funicular::modes::damped::{DECAY_PERCENT, DampedMode};
 use funicular::pose_error::PoseDifference;
 use funicular::robot::parameters::Parameters;
 use funicular::robot::{Constraint, Robot};
@@ -34,6 +35,8 @@ pub(super) struct PointEvaluation<'a> {
     frequency_count: usize,
     /// First frequency with the cable model `catenary-dynamic`, for comparisons.
     exact: OnceCell<Result<Lowest, Status>>,
+    /// Damped partner of the first mode of the platform, and true if its list is certified.
+    damped_platform: OnceCell<Result<(DampedMode, bool), Status>>,
     /// First reason why a requested value is missing.
     missing: Option<Status>,
 }
@@ -49,9 +52,9 @@ impl<'a> PointEvaluation<'a> {
         options: &'a Options,
         frequency_count: usize,
     ) -> Self {
-        let (lowest, exact) = (OnceCell::new(), OnceCell::new());
+        let (lowest, exact, damped_platform) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
         let missing = Status::note_for(robot, rest);
-        Self { robot, rest, hold, read, options, lowest, frequency_count, exact, missing }
+        Self { robot, rest, hold, read, options, lowest, frequency_count, exact, damped_platform, missing }
     }
 
     /// Numbers of the robot file of this point.
@@ -177,6 +180,24 @@ impl PointEvaluation<'_> {
             self.missing.get_or_insert_with(not_certified);
         }
         Ok(first)
+    }
+
+    /// Damping ratio of the damped partner of the first mode of the platform, and the time in which its amplitude falls
+    /// to [`DECAY_PERCENT`] [s].
+    pub(super) fn platform_damping(&mut self) -> Result<(f64, f64), Status> {
+        let found = self.damped_platform.get_or_init(|| {
+            let Options { linearisation, highest_hz, platform_share, .. } = *self.options;
+            frequency::damped_platform(self.robot, self.rest, linearisation, platform_share, highest_hz)
+        });
+        let (mode, certified) = found.clone()?;
+        if !certified {
+            self.missing.get_or_insert_with(not_certified);
+        }
+        let time = mode.decay_time(0.01 * DECAY_PERCENT);
+        if !time.is_finite() {
+            return Err(Status::new("no-decay", "the first mode of the platform does not decay: nothing damps it"));
+        }
+        Ok((mode.damping_ratio(), time))
     }
 
     /// Adds the maximum payload and the limits that bind.

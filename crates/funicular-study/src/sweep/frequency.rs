@@ -5,8 +5,9 @@ use super::points::Point;
 use super::status::Status;
 use funicular::cable_motion::WeightedMotions;
 use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::modes::damped::{DampedMode, damped_modes};
 use funicular::modes::tracking::Tracked;
-use funicular::modes::{self, Kind, LowestError, Mode, PlatformModeError, TooMany};
+use funicular::modes::{self, Kind, LowestError, Mode, Modes, PlatformModeError, TooMany};
 use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, Stability};
 
@@ -74,12 +75,37 @@ pub(super) fn first_platform(
     share: f64,
     highest_hz: f64,
 ) -> Result<(f64, bool), Status> {
+    let (_, found, first) = up_to_platform(robot, rest, linearisation, share, highest_hz)?;
+    Ok((found.modes[first].frequency_hz, found.certified))
+}
+
+/// Damped partner of the mode of [`first_platform`], and true if a count proves its list.
+pub(super) fn damped_platform(
+    robot: &Robot,
+    rest: &Equilibrium,
+    linearisation: Linearisation,
+    share: f64,
+    highest_hz: f64,
+) -> Result<(DampedMode, bool), Status> {
+    let (dynamics, found, first) = up_to_platform(robot, rest, linearisation, share, highest_hz)?;
+    let damped = damped_modes(&dynamics, &found);
+    Ok((damped.modes[first], damped.certified))
+}
+
+/// Linearised robot with its modes up to the first of the platform, and the index of that mode.
+fn up_to_platform(
+    robot: &Robot,
+    rest: &Equilibrium,
+    linearisation: Linearisation,
+    share: f64,
+    highest_hz: f64,
+) -> Result<(Dynamics, Modes, usize), Status> {
     refuse_unstable(rest)?;
     let found = modes::lowest_with_platform(robot, rest, linearisation, share, highest_hz);
-    let (_, found) = found.map_err(|error| Status::new("no-frequency", &no_platform_mode(&error, share)))?;
-    let first = found.first_platform(share).map(|first| found.modes[first].frequency_hz);
+    let (dynamics, found) = found.map_err(|error| Status::new("no-frequency", &no_platform_mode(&error, share)))?;
+    let first = found.first_platform(share);
     let first = first.ok_or_else(|| Status::new("no-frequency", "no mode of the platform was found"))?;
-    Ok((first, found.certified))
+    Ok((dynamics, found, first))
 }
 
 /// Reason for which no mode of the platform was found. Nobody has chosen the limit that a search reaches by itself.

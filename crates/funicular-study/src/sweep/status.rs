@@ -13,7 +13,7 @@ pub(super) struct Status {
 }
 
 /// Every code that a row can have, with its meaning.
-pub const CODES: [(&str, &str); 18] = [
+pub const CODES: [(&str, &str); 19] = [
     ("ok", "all requested quantities are there"),
     ("out-of-plane", "infeasible: a planar platform cannot have this pose"),
     ("coinciding-ends", "infeasible: a cable has no length between its ends, or ends inside the wheel of its pulley"),
@@ -38,6 +38,7 @@ pub const CODES: [(&str, &str); 18] = [
          modes that are computed",
     ),
     ("not-certified", "the frequencies are not certified"),
+    ("no-decay", "the mode does not decay, because nothing damps it"),
     ("no-comparison", "another model that was requested has no result here"),
     ("unlimited", "no maximum tension limits the payload"),
     ("no-payload", "no payload with tensions within the limits was found"),

@@ -14,6 +14,7 @@
 //! pole. Derivation: docs/theory.md, section 9. A shallow sagging span with a pulley or a winch takes the same form
 //! (`shallow_span`), so that counts, modes and responses treat both alike.
 
+mod at_rest;
 mod carrier;
 mod drive_forms;
 mod drive_motion;
@@ -25,9 +26,11 @@ mod moving_end;
 mod partition;
 mod poles;
 mod shallow_span;
+mod stretch;
 mod two_ended;
 
 pub(crate) use crate::drive::ByTurn;
+pub(crate) use at_rest::SpanAtRest;
 pub(crate) use carrier::CarrierMotion;
 pub(crate) use drive_forms::{DriveForm, DrivePart, EndSignal, InPowersOfS};
 pub use drive_motion::DriveMotion;
@@ -39,13 +42,14 @@ pub use internal_motion::{Displacements, Stations};
 pub(crate) use mesh::{POINTS_BEYOND_DEGREE, ellipse, has_tension, smooth_pieces};
 pub use moving_end::{EndAlong, EndSideways, MovingEnd};
 pub use poles::PoleResidue;
+pub use stretch::StretchMotions;
 pub(crate) use two_ended::{ENDS, TwoEnded};
 
 use super::{LocalAxes, LocalStiffness, Sag};
 use crate::catenary::Catenary;
 use crate::catenary::space::HangingCable;
 use crate::math::{Complex, DMat};
-use crate::robot::Damping;
+use crate::robot::{Damping, StretchLoss};
 use families::{Families, StationPositions};
 use mesh::Mesh;
 use std::ops::Range;
@@ -71,8 +75,10 @@ pub struct CatenaryDynamic {
     /// relative to the carrier of the end: the components of the end in stiffness, mass and participations are the
     /// motion of this carrier, with wheel and drum.
     pub end: Option<MovingEnd>,
-    /// Motions of the drive at that end.
+    /// Motions of the drive at that end, and those in which a rope with loss stretches.
     pub drive: Option<DriveMotion>,
+    /// Motions in which a rope with loss stretches; none without loss.
+    pub stretch: StretchMotions,
 }
 
 /// Reason for which a cable has no catenary-dynamic stiffness.
@@ -127,6 +133,8 @@ pub struct CatenaryDynamicEnd {
     pub axes: LocalAxes,
     /// Damping of the rope.
     pub damping: Damping,
+    /// Loss of the stretch of the rope.
+    pub stretch_loss: StretchLoss,
     /// Mass per unstrained length m [kg/m].
     pub mass_per_length: f64,
     /// Leave out the stiffness out of plane, as the paper does.
@@ -138,24 +146,33 @@ pub struct CatenaryDynamicEnd {
     /// Displacements of the points at which motions along the cable are integrated, by all clamped modes; `None` unless
     /// they have been kept.
     pub(crate) shapes: Option<Box<Stations>>,
+    /// True if the model has no inertia of the cable, which then has no poles.
+    pub(crate) is_at_rest: bool,
 }
 
-/// Choice to drop or to keep the shapes of the clamped modes of a cable once its poles and residues are known.
+/// Choice of what is kept of the clamped modes of a cable once its poles and residues are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shapes {
     /// Shapes are never formed.
     Dropped,
     /// Shapes are kept, for gradients.
     Kept,
+    /// Strains are kept also of a rope without loss, for the share of stretch in its modes.
+    Strains,
 }
 
 impl Shapes {
     /// Stations at which the shapes are formed.
     fn stations(self) -> StationPositions<'static> {
         match self {
-            Self::Dropped => StationPositions::ArcLengths(&[]),
+            Self::Dropped | Self::Strains => StationPositions::ArcLengths(&[]),
             Self::Kept => StationPositions::GaussPoints,
         }
+    }
+
+    /// True if the strains of a rope with this loss are kept.
+    pub(crate) fn has_strains(self, loss: StretchLoss) -> bool {
+        self == Self::Strains || loss.is_some()
     }
 }
 
@@ -191,7 +208,7 @@ impl CatenaryDynamicEnd {
     pub(crate) fn new(
         hanging: &HangingCable,
         end: Option<MovingEnd>,
-        (mass_per_length, damping): (f64, Damping),
+        (mass_per_length, damping, stretch_loss): (f64, Damping, StretchLoss),
         in_plane_only: bool,
         limit: f64,
         shapes: Shapes,
@@ -199,11 +216,32 @@ impl CatenaryDynamicEnd {
         if in_plane_only && end.as_ref().is_some_and(MovingEnd::couples) {
             return Err(CatenaryDynamicError::Skew);
         }
-        let (cable, stations) =
-            CatenaryDynamic::condensed(&hanging.catenary, end, mass_per_length, limit, shapes.stations(), &[])?;
+        let rope = hanging.catenary.rope();
+        let has_strains = shapes.has_strains(stretch_loss);
+        let moments = if has_strains { stretch::moments(&rope, mass_per_length, limit) } else { 0 };
+        let (cable, stations) = CatenaryDynamic::condensed(
+            &hanging.catenary,
+            end,
+            mass_per_length,
+            limit,
+            shapes.stations(),
+            (&[], moments),
+        )?;
         let (axes, directions) = (LocalAxes::of_hanging(hanging), EndDirections::of(hanging));
         let shapes = (shapes == Shapes::Kept).then(|| Box::new(stations));
-        Ok(Self { cable, axes, damping, mass_per_length, in_plane_only, kept: None, directions, shapes })
+        let (kept, is_at_rest) = (None, false);
+        Ok(Self {
+            cable,
+            axes,
+            damping,
+            stretch_loss,
+            mass_per_length,
+            in_plane_only,
+            kept,
+            directions,
+            shapes,
+            is_at_rest,
+        })
     }
 
     /// Platform end of a shallow sagging span with a drive, valid up to ω = `limit` [rad/s]. `end` is its end at the
@@ -215,15 +253,27 @@ impl CatenaryDynamicEnd {
         sag: &Sag,
         (axes, directions): (LocalAxes, EndDirections),
         end: Option<MovingEnd>,
-        damping: Damping,
+        (damping, stretch_loss, has_strains): (Damping, StretchLoss, bool),
         in_plane_only: bool,
         limit: f64,
     ) -> Result<Self, CatenaryDynamicError> {
         if in_plane_only && end.as_ref().is_some_and(MovingEnd::couples) {
             return Err(CatenaryDynamicError::Skew);
         }
-        let (cable, mass_per_length) = (shallow_span::condensed(sag, end, limit)?, sag.mass_per_length);
-        Ok(Self { cable, axes, damping, mass_per_length, in_plane_only, kept: None, directions, shapes: None })
+        let cable = shallow_span::condensed(sag, end, limit, has_strains)?;
+        let mass_per_length = sag.mass_per_length;
+        Ok(Self {
+            cable,
+            axes,
+            damping,
+            stretch_loss,
+            mass_per_length,
+            in_plane_only,
+            kept: None,
+            directions,
+            shapes: None,
+            is_at_rest: false,
+        })
     }
 
     /// Copy that keeps the poles below x and has a few poles in place of the others: see [`PoleResidue::compressed`].
@@ -481,12 +531,13 @@ impl CatenaryDynamic {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(catenary: &Catenary, mass_per_length: f64, limit: f64) -> Result<Self, CatenaryDynamicError> {
-        Ok(Self::with_stations(catenary, None, mass_per_length, limit, &[], false)?.0)
+        Ok(Self::with_stations(catenary, None, mass_per_length, limit, &[], false, 0)?.0)
     }
 
     /// Dynamic stiffness as by [`new`](Self::new), and the displacements of the points at the given unstrained arc
     /// lengths from the start [m]. With `loaded`, forces may act at these points; each of them then costs an element.
-    /// An `end` that can move is part of the inside of the cable.
+    /// An `end` that can move is part of the inside of the cable. `moments` is the number of moments of the strain for a
+    /// rope with loss ([`StretchMotions`]).
     ///
     /// # Errors
     /// [`CatenaryDynamicError`].
@@ -497,20 +548,22 @@ impl CatenaryDynamic {
         limit: f64,
         arc_lengths: &[f64],
         loaded: bool,
+        moments: usize,
     ) -> Result<(Self, Stations), CatenaryDynamicError> {
         let cuts = if loaded { arc_lengths } else { &[] };
-        Self::condensed(catenary, end, mass_per_length, limit, StationPositions::ArcLengths(arc_lengths), cuts)
+        let positions = StationPositions::ArcLengths(arc_lengths);
+        Self::condensed(catenary, end, mass_per_length, limit, positions, (cuts, moments))
     }
 
     /// Dynamic stiffness and displacements as by [`with_stations`](Self::with_stations), with nodes of the mesh at the
-    /// arc lengths `cuts`.
+    /// arc lengths `cuts`, and with this number of moments of the strain.
     fn condensed(
         catenary: &Catenary,
         end: Option<MovingEnd>,
         mass_per_length: f64,
         limit: f64,
         positions: StationPositions,
-        cuts: &[f64],
+        (cuts, moments): (&[f64], usize),
     ) -> Result<(Self, Stations), CatenaryDynamicError> {
         let mut mesh = Mesh::new(catenary, mass_per_length, limit, cuts, end.is_some())?;
         let couples = end.as_ref().is_some_and(MovingEnd::couples);
@@ -522,8 +575,8 @@ impl CatenaryDynamic {
 
             // Poles and residues, with the drive among the stations.
             let found = match &end {
-                Some(end) if couples => Families::together(catenary, &mesh, end, limit, positions)?,
-                _ => Families::apart(catenary, &mesh, end.as_ref(), limit, positions)?,
+                Some(end) if couples => Families::together(catenary, &mesh, end, limit, positions, moments)?,
+                _ => Families::apart(catenary, &mesh, end.as_ref(), limit, positions, moments)?,
             };
 
             // Accept the discretisation if it is fine enough, otherwise refine it.

@@ -1,9 +1,9 @@
 //! Damping of a rope as a complex frequency of its cable, motion e^{+iωt}: `ω_c² = ω²(1 − 2iξ)` with a constant ratio,
 //! `ω_c² = ω² − iωc/m` with a viscous coefficient (docs/theory.md, section 4). A cable without mass has no frequency of
-//! its own, so it has no damping either.
+//! its own, so it has no damping either. The loss of its stretch is a complex factor of its axial stiffness.
 
 use crate::math::Complex;
-use crate::robot::Damping;
+use crate::robot::{Damping, StretchLoss};
 
 impl Damping {
     /// Real and imaginary part of the square `ω_c²` of the cable's complex frequency [rad²/s²] at ω [rad/s], for a mass
@@ -78,6 +78,30 @@ impl Damping {
             Self::Ratio(xi) => Self::Ratio(xi * fraction),
             Self::Viscous(c) => Self::Viscous(c * fraction),
         }
+    }
+}
+
+impl StretchLoss {
+    /// True if the stretch has a loss.
+    pub fn is_some(self) -> bool {
+        self.factor != 0.0 || self.time != 0.0
+    }
+
+    /// Loss `h − 1 = iη + iωτ` at a complex ω of positive real part, and its derivative by ω; zero at rest.
+    pub(crate) fn at(self, omega: Complex) -> (Complex, Complex) {
+        let (i, is_at_rest) = (Complex::i(), omega == Complex::new(0.0, 0.0));
+        let factor = if is_at_rest { 0.0 } else { self.factor };
+        (i * (factor + omega * self.time), i * self.time)
+    }
+
+    /// Derivatives of the loss `h − 1` at a complex ω by the loss factor and by the damping time.
+    pub(crate) fn by_values(omega: Complex) -> [Complex; 2] {
+        [Complex::i(), Complex::i() * omega]
+    }
+
+    /// Loss factor Im h/Re h at ω [rad/s], ω > 0.
+    pub fn factor_at(self, omega: f64) -> f64 {
+        self.factor + omega * self.time
     }
 }
 

@@ -145,6 +145,11 @@ impl AnchorEnd {
         end
     }
 
+    /// Stiffness k_r of arc and drum side along the cable [N/m]; `None` without them.
+    pub(crate) fn rope_spring(&self) -> Option<f64> {
+        (self.rope_compliance > 0.0).then(|| 1.0 / (self.stretch * self.stretch * self.rope_compliance))
+    }
+
     /// Stiffness of a span, whose end would be held, in series with this end; 3×3, world axes [N/m].
     ///
     /// # References

@@ -10,7 +10,7 @@ mod parts;
 
 pub(crate) use description::{ChainDescription, Piece};
 
-use super::DriveAtRest;
+use super::{AnchorEnd, DriveAtRest};
 use crate::math::{Complex, DMat, legendre};
 use crate::robot::{Anchor, Servo, WinchMode};
 use parts::{MotionOrder, Parts};
@@ -39,6 +39,26 @@ pub struct DriveChain {
     pub(crate) drum_end: Option<DrumEnd>,
     /// Stretch λ_E between entry point and drum.
     pub(crate) stretch_drum: f64,
+    /// Motions in which the drum side stretches.
+    pub(crate) stretches: Vec<ChainStretch>,
+}
+
+/// Motion in which a piece of the drum side stretches: its elongation, or one of its waves.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ChainStretch {
+    /// The motion as a sum of parts of the motions of the chain.
+    pub(crate) parts: Vec<Place>,
+    /// Its stiffness [N/m].
+    pub(crate) stiffness: f64,
+    /// The motion per displacement of the ends of the drum side: of that at the drum and of that at the wheel.
+    pub(crate) by_ends: [f64; 2],
+}
+
+impl ChainStretch {
+    /// The motion by displacements of the ends of the drum side, at the drum and at the wheel.
+    pub(crate) fn by(&self, ends: [f64; 2]) -> f64 {
+        self.by_ends[0] * ends[0] + self.by_ends[1] * ends[1]
+    }
 }
 
 /// Force of the drum side on a motion of the chain when the pulley moves along the drum side, or carries it along.
@@ -122,12 +142,18 @@ struct ChainMatrices {
     stiffness: DMat,
     mass: DMat,
     cable_mass: DMat,
+    stretches: Vec<ChainStretch>,
 }
 
 impl ChainMatrices {
     /// Chain of `n` motions without stiffness and mass.
     fn new(n: usize) -> Self {
-        Self { stiffness: DMat::zeros(n, n), mass: DMat::zeros(n, n), cable_mass: DMat::zeros(n, n) }
+        Self {
+            stiffness: DMat::zeros(n, n),
+            mass: DMat::zeros(n, n),
+            cable_mass: DMat::zeros(n, n),
+            stretches: Vec::new(),
+        }
     }
 
     /// Adds a spring [N/m] against the sum of these parts of the motions.
@@ -160,6 +186,8 @@ impl ChainMatrices {
             let (spring, at_drum) = (parts.spring(piece), piece + 1 == last);
             let both: Vec<Place> = ends[0].into_iter().chain(ends[1].map(|end| end.times(-1.0))).collect();
             self.spring(spring, &both);
+            let by_ends = [if at_drum { -1.0 } else { 0.0 }, if piece == 0 { 1.0 } else { 0.0 }];
+            self.stretches.push(ChainStretch { parts: both.clone(), stiffness: spring, by_ends });
             if at_drum {
                 end.own.0 = spring;
                 for place in both {
@@ -197,7 +225,9 @@ impl ChainMatrices {
             }
             // The slopes of these polynomials are orthonormal.
             if row >= 2 {
-                self.stiffness[(a.motion, a.motion)] += parts.axial_stiffness / half;
+                let stiffness = parts.axial_stiffness / half;
+                self.stiffness[(a.motion, a.motion)] += stiffness;
+                self.stretches.push(ChainStretch { parts: vec![a], stiffness, by_ends: [0.0; 2] });
             }
         }
         mass
@@ -279,7 +309,7 @@ impl DriveChain {
         let drum_side = if parts.has_rope() { (0..layout.count).map(on_drum_side).collect() } else { Vec::new() };
         chain.winch(&parts, &layout);
 
-        let ChainMatrices { stiffness, mass, cable_mass } = chain;
+        let ChainMatrices { stiffness, mass, cable_mass, stretches } = chain;
         let damping = parts.winch.map_or(0.0, |winch| winch.damping);
         let motor = layout.motor.map(|place| Motor { place, damping, servo: parts.servo() });
         let (drum, stretch_drum) = (layout.drum, drive.end.stretch_drum);
@@ -294,6 +324,51 @@ impl DriveChain {
             drum_side_mass: parts.rod_mass(),
             drum_end: parts.has_rope().then_some(drum_end),
             stretch_drum,
+            stretches,
+        })
+    }
+
+    /// Chain of an end at rest: the spring of arc and drum side, and that of the winch. `None` for an end that is held.
+    pub(crate) fn at_rest(end: &AnchorEnd) -> Option<Self> {
+        end.along_w?;
+        let (whole, rope) = (end.stiffness[0][0] - end.weight, end.rope_spring());
+        let winch = rope.and_then(|rope| Some((rope, softer(rope, whole)?)));
+        let motion = |motion: usize, factor: f64| Place { motion, factor };
+        let (stiffness, parts) = match (rope, winch) {
+            (_, Some((rope, winch))) => (
+                DMat::from_row_slice(2, 2, &[end.weight + rope, -rope, -rope, rope + winch]),
+                vec![AT_WHEEL, motion(1, -1.0)],
+            ),
+            _ => (DMat::from_element(1, 1, end.weight + whole), vec![AT_WHEEL]),
+        };
+        let on_side = |part: &Place| OnDrumSide {
+            stiffness: rope.map_or(0.0, |rope| rope * part.factor),
+            mass: 0.0,
+            carried_mass: 0.0,
+        };
+        let count = stiffness.nrows();
+        let drum_end = rope.map(|rope| DrumEnd {
+            by_motion: parts.iter().map(|part| (-rope * part.factor, 0.0)).collect(),
+            own: (rope, 0.0),
+            by_wheel: (-rope, 0.0),
+            carried_mass: 0.0,
+            ratio: end.stretch / end.stretch_drum,
+        });
+        Some(Self {
+            stiffness,
+            mass: DMat::zeros(count, count),
+            cable_mass: DMat::zeros(count, count),
+            drum: None,
+            motor: None,
+            by_length: Vec::new(),
+            drum_side: parts.iter().filter(|_| rope.is_some()).map(on_side).collect(),
+            drum_side_mass: 0.0,
+            drum_end,
+            stretch_drum: end.stretch_drum,
+            stretches: rope
+                .map(|stiffness| ChainStretch { parts, stiffness, by_ends: [-1.0, 1.0] })
+                .into_iter()
+                .collect(),
         })
     }
 
@@ -360,6 +435,15 @@ impl DriveChain {
         delta
     }
 }
+
+/// Stiffness that has the stiffness `whole` in series with the spring `rope` [N/m]; `None` for a rigid one.
+fn softer(rope: f64, whole: f64) -> Option<f64> {
+    let compliance = 1.0 / whole - 1.0 / rope;
+    (compliance > RIGID / rope).then(|| 1.0 / compliance)
+}
+
+/// Compliance over that of the rope up to which a winch counts as rigid: rounding.
+const RIGID: f64 = 1e-12;
 
 #[cfg(test)]
 mod tests {

@@ -2,7 +2,7 @@
 //! programs are in the validation of funicular-study.
 
 use super::*;
-use crate::robot::{Damping, Material, Pulley, RopeDimensions, TensionLimits, Winch};
+use crate::robot::{Damping, Material, Pulley, RopeDimensions, StretchLoss, TensionLimits, Winch};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
@@ -36,6 +36,7 @@ fn cable(anchor: Anchor, axial_stiffness: f64) -> Cable {
         axial_stiffness,
         mass_per_length: 0.067,
         damping: Damping::Ratio(0.0),
+        stretch_loss: StretchLoss::default(),
         tension_limits: TensionLimits::default(),
         breaking_load: None,
         drag_width: None,

@@ -63,6 +63,8 @@ pub(crate) struct DrivePartBlock {
     pub(crate) mass: f64,
     /// Viscous damping [N s/m].
     pub(crate) damping: f64,
+    /// Imaginary part of the stiffness by a constant loss factor [N/m].
+    pub(crate) loss: f64,
     /// Fraction of the static response that the modes cannot represent: above zero for a part without mass.
     pub(crate) massless: f64,
 }
@@ -212,10 +214,9 @@ impl Dynamics {
         // The drive.
         let motions = self.supports().and_then(|supports| supports.carrier_motions(t)).map(|(_, motions)| motions);
         let part = |part: DrivePart| {
-            let DrivePart { motion, with_carrier, mass, damping, massless } = part;
-            let along = |carrier: CarrierMotion| product(&with_carrier, &carrier.displacement);
-            let by_carrier = motions.map_or([0.0; 3], |motions| motions.map(along));
-            DrivePartBlock { row: self.row(t, motion, by_carrier), mass, damping, massless }
+            let by_carrier = motions.map_or([0.0; 3], |motions| motions.map(|carrier| part.along(&carrier)));
+            let DrivePart { motion, mass, damping, loss, massless, .. } = part;
+            DrivePartBlock { row: self.row(t, motion, by_carrier), mass, damping, loss, massless }
         };
         let drive: Vec<DrivePartBlock> = end.drive_parts().into_iter().map(part).collect();
 

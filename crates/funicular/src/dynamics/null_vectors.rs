@@ -46,7 +46,10 @@ pub(crate) struct NullVector {
     pub(crate) drive_energies: Vec<f64>,
     /// Kinetic energy of each support as a fraction of the total; empty on a rigid frame.
     pub(crate) support_energies: Vec<f64>,
-    /// Damping ratio of drives and supports to first order.
+    /// Share of the stretch of each cable in the energy of deformation, ω² times the modal mass; empty unless the
+    /// strains are known.
+    pub(crate) stretching: Vec<f64>,
+    /// Damping ratio of drives, supports and the loss of stretch to first order.
     pub(crate) drive_damping: f64,
     /// Residual |vᵀ A v|/x: twice the relative change of the frequency by another Newton step.
     pub(crate) residual: f64,
@@ -78,6 +81,7 @@ impl Dynamics {
                     platform_energy: platform / total,
                     cable_energies: cables.iter().map(|mass| mass / total).collect(),
                     drive_energies: Vec::new(),
+                    stretching: Vec::new(),
                     drive_damping: 0.0,
                     residual: values[k].abs() / (omega * omega * total),
                 }
@@ -234,6 +238,7 @@ impl BorderedPencil {
             platform_energy: platform_energy / total,
             cable_energies,
             drive_energies: Vec::new(),
+            stretching: Vec::new(),
             support_energies,
             drive_damping: support_loss / (2.0 * omega * omega * total),
             residual,
@@ -272,7 +277,7 @@ impl NullVector {
     fn part_drives(&mut self, dynamics: &Dynamics, omega: f64, total: f64) {
         for (t, term) in dynamics.terms.iter().enumerate() {
             let Some(form) = term.form.by_poles() else { continue };
-            if !(form.has_drive_mass() || form.has_drive_losses()) {
+            if !(form.has_drive_mass() || form.has_drive_losses() || form.has_strains()) {
                 continue;
             }
 
@@ -285,11 +290,17 @@ impl NullVector {
                 carrier.map(|(both, ends)| move |x: f64, left_out: &NearRanges| both.drive_by(x, left_out, &ends));
             let by_support = by_support.as_ref().map(|of| of as &MotionsOfDrive);
 
-            let (mass, loss) = form.drive_share(omega, term.displacement(&self.platform), &of_cable, by_support);
-            self.drive_energies.resize(dynamics.cable_count(), 0.0);
-            self.drive_energies[term.cable] = mass / total;
-            self.cable_energies[term.cable] -= mass / total;
-            self.drive_damping += loss / (2.0 * omega * omega * total);
+            let share = form.drive_share(omega, term.displacement(&self.platform), &of_cable, by_support);
+            if form.has_drive_mass() {
+                self.drive_energies.resize(dynamics.cable_count(), 0.0);
+                self.drive_energies[term.cable] = share.mass / total;
+                self.cable_energies[term.cable] -= share.mass / total;
+            }
+            if form.has_strains() {
+                self.stretching.resize(dynamics.cable_count(), 0.0);
+                self.stretching[term.cable] = share.stretch / (omega * omega * total);
+            }
+            self.drive_damping += share.loss / (2.0 * omega * omega * total);
         }
     }
 }

@@ -67,11 +67,10 @@ impl CableOnSupport {
         [0.0, 0.0, 0.0, e, n, b, if self.moves_like(moved) { moved.along_drum_side } else { 0.0 }]
     }
 
-    /// Forces on the motions of the drive by a motion of the frame beside that of the ends: constant part [N], and part
-    /// per ω_c² [kg m].
-    fn forces_beside_ends(&self, form: &CatenaryDynamicEnd, moved: &CarrierMotion) -> Vec<(f64, f64)> {
+    /// Forces on the motions of the drive by a motion of the frame beside that of the ends, at ω [rad/s].
+    fn forces_beside_ends(&self, form: &CatenaryDynamicEnd, moved: &CarrierMotion, omega: f64) -> Vec<Complex> {
         let along_drum_side = if self.moves_like(moved) { 0.0 } else { moved.along_drum_side };
-        form.forces_by_carrier(&CarrierMotion { along_drum_side, ..*moved })
+        form.forces_at(&CarrierMotion { along_drum_side, ..*moved }, omega)
     }
 
     /// Mass [kg m] between the entry point of a drum side from the ground, along it, and a base that moves with the
@@ -321,8 +320,7 @@ impl Supports {
             let delta = form.beyond_undamped(omega.into(), 1.0);
             let transfer: Vec<[Complex; ENDS]> =
                 carried.both.drive(square, &all).into_iter().map(|(row, _)| row).collect();
-            let given: Vec<Complex> =
-                carried.forces_beside_ends(form, moved).iter().map(|(still, mass)| *still + square * *mass).collect();
+            let given = carried.forces_beside_ends(form, moved, omega);
             let mut free: Vec<Complex> =
                 transfer.iter().map(|row| row.iter().zip(ends).map(|(t, u)| t * u).sum()).collect();
             motions.add_motion_by(&given, &mut free);

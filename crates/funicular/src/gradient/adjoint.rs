@@ -81,6 +81,8 @@ pub(super) struct CableAdjoint<T> {
     pub(super) mass: T,
     /// Coefficient of the damping ratio, or of the viscous damping per length.
     pub(super) damping: T,
+    /// Coefficients of the loss factor and of the damping time of its stretch.
+    pub(super) stretch_loss: [T; 2],
     /// Coefficients of the numbers of the end at the exit point, in the order of
     /// [`end`](crate::drive::derivatives::end).
     pub(super) end: [T; end::COUNT],
@@ -198,6 +200,7 @@ impl<T: Field> Adjoint<T> {
             stiffness: of(cable.stiffness),
             mass: of(cable.mass),
             damping: of(cable.damping),
+            stretch_loss: cable.stretch_loss.map(&of),
             end: cable.end.map(&of),
             drive: cable.drive.map(&of),
             guides: cable.guides.iter().map(|guide| guide.map(&of)).collect(),

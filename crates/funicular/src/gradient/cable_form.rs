@@ -20,8 +20,8 @@ use crate::cable::catenary_dynamic::{
 };
 use crate::catenary::space::HangingCable;
 use crate::drive::derivatives::end;
-use crate::math::Vec3;
-use crate::robot::{Anchor, Cable, Servo, WinchMode};
+use crate::math::{Complex, Vec3};
+use crate::robot::{Anchor, Cable, Servo, StretchLoss, WinchMode};
 use crate::statics::CableState;
 use crate::statics::derivatives::StaticDerivativeError;
 use std::array::from_fn;
@@ -44,6 +44,8 @@ pub(super) struct CableForm {
     mass_per_length: f64,
     /// Static stiffness of the platform end in the axes: hh, hv, vv, and out of plane [N/m].
     stiffness: [f64; 4],
+    /// Integrals ∫ t tᵀ ds in plane [m].
+    direction_integrals: [[f64; 2]; 2],
     /// Load per length, up [N/m]; negative.
     load: f64,
     points: Vec<CablePoint>,
@@ -69,10 +71,30 @@ pub(super) struct CableAt<T> {
     /// Square ω_c², and its derivatives by mass per length and by damping.
     pub(super) square: T,
     pub(super) by_damping: [T; 2],
+    /// Factor h of the axial stiffness by the loss of the stretch; `None` without loss.
+    pub(super) stretch: Option<T>,
+    /// Derivatives of h by loss factor and damping time.
+    pub(super) by_loss: [T; 2],
     /// Control of the motor.
     pub(super) control: ControlAt<T>,
     /// Losses of the drive; `None` without losses and without forces on it.
     pub(super) losses: Option<LossesAt<T>>,
+}
+
+impl<T: Field> CableAt<T> {
+    /// The frequency for the drive of the cable, whose own square is ω².
+    fn of_drive(&self, square: T) -> DriveAtFrequency<T> {
+        let stretch = self.stretch.unwrap_or_else(|| T::from(1.0));
+        DriveAtFrequency { square, of_rope: self.square, control: self.control, stretch, by_loss: self.by_loss }
+    }
+}
+
+impl CableAt<Complex> {
+    /// The frequency with the stretch of a rope with this loss at a complex ω of positive real part.
+    pub(super) fn with_stretch(self, loss: StretchLoss, omega: Complex) -> Self {
+        let factor = Complex::from(1.0) + loss.at(omega).0;
+        Self { stretch: loss.is_some().then_some(factor), by_loss: StretchLoss::by_values(omega), ..self }
+    }
 }
 
 /// Point of the integrals along a cable.
@@ -112,6 +134,15 @@ struct TensionIntegrals<T> {
     squares: T,
     /// Product of the change and the strain.
     work: T,
+    /// Product of the parts of both changes along the cable.
+    along: T,
+}
+
+/// Integrals along the cable that the loss of its stretch needs beside those without it.
+struct StretchIntegrals<T> {
+    /// Products of a part along and a part across over the tension, and the same times the fraction of the length.
+    turned: Vector<T>,
+    turned_by_load: Vector<T>,
 }
 
 impl<T> CableMotion<T> {
@@ -158,27 +189,27 @@ impl CableForm {
 
         // Displacements of these points: those that the cable has kept, or computed again.
         let (m, limit, moving) = (end.mass_per_length, end.cable.limit, end.cable.end.clone());
+        let moments = end.cable.stretch.moments;
         let again;
         let (modes, stations) = if let Some(stations) = &end.shapes {
             (end.cable.clone(), &**stations)
         } else {
             let arc_lengths: Vec<f64> = form.points.iter().map(|point| point.fraction * form.length).collect();
-            let found = CatenaryDynamic::with_stations(&catenary, moving.clone(), m, limit, &arc_lengths, false)
-                .map_err(|reason| GradientError::CatenaryDynamic { cable: cable.name.clone(), reason })?;
+            let found =
+                CatenaryDynamic::with_stations(&catenary, moving.clone(), m, limit, &arc_lengths, false, moments)
+                    .map_err(|reason| GradientError::CatenaryDynamic { cable: cable.name.clone(), reason })?;
             again = found.1;
             (found.0, &again)
         };
+        let (_, along) = end.motions_along();
         let drive = match (&moving, &state.drive) {
             (Some(moving), Some(drive)) => {
-                let (along, count) = moving.counts();
                 let rope = (cable.material.axial_stiffness, m);
                 let directions = moving.along.iter().map(|of| (0, of.direction));
                 let sideways = moving.sideways.iter().map(|of| (along, of.direction));
                 Some(VibratingEnd {
                     form: VibratingDriveForm::of(&cable.anchor, drive, rope, winches, limit, along),
                     directions: directions.chain(sideways).collect(),
-                    along,
-                    count,
                 })
             }
             _ => None,
@@ -190,6 +221,8 @@ impl CableForm {
             out_of_plane: ShapeColumns::of(&stations.out_of_plane),
             coupled: ShapeColumns::of(&stations.coupled),
             drive,
+            along,
+            count: end.motions(),
             side: both.map(AlongDrumSide::of),
         }));
         Ok(form)
@@ -237,6 +270,7 @@ impl CableForm {
             axial_stiffness: rope.axial_stiffness,
             mass_per_length,
             stiffness: [hh, hv, vv, catenary.out_of_plane_stiffness()],
+            direction_integrals: catenary.direction_integrals(),
             load: -rope.weight_per_length,
             points,
             elements,
@@ -262,7 +296,7 @@ impl CableForm {
                 let far = carrier.map(|carrier| (self.local(&carrier.displacement_w), carrier.along));
                 self.vibrating_motion(vibrating, (&self.local(&end_w), theta), far.as_ref(), at, near, forces)
             }
-            Inertia::None | Inertia::Massless => self.slow_motion(&end_w, theta, carrier),
+            Inertia::None | Inertia::Massless => self.slow_motion(&end_w, theta, carrier, at.stretch),
         }
     }
 
@@ -272,6 +306,7 @@ impl CableForm {
         end_w: &Vector<T>,
         theta: &Vector<T>,
         carrier: Option<&Carrier<T>>,
+        stretch: Option<T>,
     ) -> CableMotion<T> {
         let end = self.local(end_w);
         let (relative_w, mut elongation, along) = match carrier {
@@ -281,19 +316,24 @@ impl CableForm {
             }
             None => (*end_w, end, T::default()),
         };
-        let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&relative_w, along));
+        let pull = |moved_w: &Vector<T>| self.world(&self.static_force(&self.local(moved_w), stretch));
+        let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&relative_w, along, stretch, pull));
         if let Some(of) = &self.end {
             let followed_w = of.displacement(&at_end);
             (0..3).for_each(|k| elongation[k] += dot(&followed_w, &vector(&self.axes_w[k])) * -1.0);
         }
 
-        let force = self.static_force(&elongation);
+        let force = self.static_force(&elongation, stretch);
         let far_force = times(&force, T::from(-1.0));
         let tension = vec![far_force; self.points.len()];
         let displacement = match self.inertia {
             Inertia::Massless => {
-                let strains: Vec<Vector<T>> =
-                    self.points.iter().zip(&tension).map(|(point, change)| self.strain(point, change)).collect();
+                let strains: Vec<Vector<T>> = self
+                    .points
+                    .iter()
+                    .zip(&tension)
+                    .map(|(point, change)| self.strain(point, change, stretch))
+                    .collect();
                 let (gathered, _) = self.gathered(&sums::by_axes(&strains));
                 gathered.iter().map(|moved| add(&end, moved)).collect()
             }
@@ -331,9 +371,9 @@ impl CableForm {
             }
         }
         for (point, gathered) in self.points.iter().zip(&gathered) {
-            add_times(&mut moved, &self.strain(point, gathered), T::from(point.weight));
+            add_times(&mut moved, &self.strain(point, gathered, at.stretch), T::from(point.weight));
         }
-        let force = self.static_force(&moved);
+        let force = self.static_force(&moved, at.stretch);
         let tension = gathered.iter().map(|gathered| less(gathered, &force)).collect();
         let far_force = less(&whole, &force);
         CableMotion { displacement, tension, end_force_w: self.world(&force), theta: *theta, end: motions, far_force }
@@ -362,7 +402,13 @@ impl CableForm {
         (own_square, at): (T, &CableAt<T>),
         factor: T,
     ) -> SideForces<T> {
-        let integrals = self.tension_integrals(&a.tension, &b.tension);
+        let mut integrals = self.tension_integrals(&a.tension, &b.tension);
+        let mut by_stretch = integrals.along * (1.0 / self.axial_stiffness);
+        if let Some(stretch) = at.stretch {
+            self.add_stretch(&mut integrals, (&a.tension, &b.tension), stretch);
+            by_stretch = by_stretch / (stretch * stretch);
+        }
+        sum.stretch_loss.iter_mut().zip(at.by_loss).for_each(|(sum, by)| *sum += factor * by_stretch * by);
         let mut moved = T::default();
         for ((point, u), w) in self.points.iter().zip(&a.displacement).zip(&b.displacement) {
             moved += dot(u, w) * point.weight;
@@ -404,8 +450,9 @@ impl CableForm {
 
         match &self.inertia {
             Inertia::Modes(vibrating) => {
-                if let Some(VibratingEnd { form, along, .. }) = &vibrating.drive {
-                    let at = DriveAtFrequency { square: own_square, of_rope: at.square, control: at.control };
+                if let Some(VibratingEnd { form, .. }) = &vibrating.drive {
+                    let along = &vibrating.along;
+                    let at = at.of_drive(own_square);
                     (rope, on_side) = form.add(sum, (&a.end, &b.end), sides, &at, factor);
                     let slips = form.chain().is_some().then_some(0);
                     self.add_turn(sum, a, b, [slips, form.sideways().map(|_| *along)], factor);
@@ -413,7 +460,7 @@ impl CableForm {
             }
             Inertia::None | Inertia::Massless => {
                 if let Some(of) = &self.end {
-                    on_side = of.add(sum, (&a.end, &b.end), &sides.along, factor);
+                    on_side = of.add(sum, (&a.end, &b.end), &sides.along, (at.stretch, at.by_loss), factor);
                     self.add_turn(sum, a, b, [Some(0), Some(1)], factor);
                 }
             }
@@ -426,7 +473,7 @@ impl CableForm {
     fn tension_integrals<T: Field>(&self, a: &[Vector<T>], b: &[Vector<T>]) -> TensionIntegrals<T> {
         let zero = T::default();
         let (mut by_force, mut by_load) = ([zero; 3], [zero; 3]);
-        let (mut squares, mut work) = (zero, zero);
+        let (mut squares, mut work, mut along) = (zero, zero, zero);
         for ((point, u), w) in self.points.iter().zip(a).zip(b) {
             // Third derivative of |N| along both changes.
             let [h, v] = point.direction;
@@ -444,11 +491,53 @@ impl CableForm {
                 by_load[k] += value * point.fraction;
             }
 
-            let both = product + along_u * along_w;
+            let both_along = along_u * along_w;
+            let both = product + both_along;
+            along += both_along * point.weight;
             squares += both * point.weight;
             work += (both * (1.0 / self.axial_stiffness) + product * (1.0 / point.tension)) * point.weight;
         }
-        TensionIntegrals { by_force, by_load, squares, work }
+        TensionIntegrals { by_force, by_load, squares, work, along }
+    }
+
+    /// Adds to integrals over two changes of the tension vector what the factor h of the axial stiffness changes.
+    fn add_stretch<T: Field>(
+        &self,
+        integrals: &mut TensionIntegrals<T>,
+        (a, b): (&[Vector<T>], &[Vector<T>]),
+        stretch: T,
+    ) {
+        let StretchIntegrals { turned, turned_by_load } = self.stretch_integrals(a, b);
+        let more = self.more_compliance(stretch);
+        for k in 0..3 {
+            integrals.by_force[k] += -(more * turned[k]);
+            integrals.by_load[k] += -(more * turned_by_load[k]);
+        }
+        integrals.squares += integrals.along * (T::from(1.0) / stretch - T::from(1.0));
+        integrals.work += integrals.along * more;
+    }
+
+    fn stretch_integrals<T: Field>(&self, a: &[Vector<T>], b: &[Vector<T>]) -> StretchIntegrals<T> {
+        let zero = [T::default(); 3];
+        let mut sum = StretchIntegrals { turned: zero, turned_by_load: zero };
+        for ((point, u), w) in self.points.iter().zip(a).zip(b) {
+            let [h, v] = point.direction;
+            let (along_u, along_w) = (u[0] * h + u[1] * v, w[0] * h + w[1] * v);
+            let across = |of: &Vector<T>, along: T| [of[0] - along * h, of[1] - along * v, of[2]];
+            let (across_u, across_w) = (across(u, along_u), across(w, along_w));
+            let size = point.weight / point.tension;
+            for k in 0..3 {
+                let value = (across_w[k] * along_u + across_u[k] * along_w) * size;
+                sum.turned[k] += value;
+                sum.turned_by_load[k] += value * point.fraction;
+            }
+        }
+        sum
+    }
+
+    /// Compliance of the stretch beyond 1/EA, `1/(EA h) − 1/EA` [1/N].
+    fn more_compliance<T: Field>(&self, stretch: T) -> T {
+        (T::from(1.0) / stretch - T::from(1.0)) * (1.0 / self.axial_stiffness)
     }
 
     /// Adds `factor` times the coefficients of the forces of a signal on the drive, over another motion, the first of
@@ -463,7 +552,7 @@ impl CableForm {
     ) -> T {
         let Inertia::Modes(vibrating) = &self.inertia else { return T::default() };
         let Some(VibratingEnd { form, .. }) = &vibrating.drive else { return T::default() };
-        let frequency = DriveAtFrequency { square: own_square, of_rope: at.square, control: at.control };
+        let frequency = at.of_drive(own_square);
         form.add_signal(sum, signal, (other.of_drive(), side), (&frequency, servo, at.by_damping), factor)
     }
 
@@ -487,12 +576,19 @@ impl CableForm {
     }
 
     /// Strain δp' of a change of the tension vector at a point.
-    fn strain<T: Field>(&self, point: &CablePoint, change: &Vector<T>) -> Vector<T> {
+    fn strain<T: Field>(&self, point: &CablePoint, change: &Vector<T>, stretch: Option<T>) -> Vector<T> {
         let [h, v] = point.direction;
         let along = change[0] * h + change[1] * v;
         let (by_stretch, by_turn) = (1.0 / self.axial_stiffness, 1.0 / point.tension);
         let both = by_stretch + by_turn;
-        [change[0] * both - along * (h * by_turn), change[1] * both - along * (v * by_turn), change[2] * both]
+        let mut strain =
+            [change[0] * both - along * (h * by_turn), change[1] * both - along * (v * by_turn), change[2] * both];
+        if let Some(stretch) = stretch {
+            let more = self.more_compliance(stretch) * along;
+            strain[0] += more * h;
+            strain[1] += more * v;
+        }
+        strain
     }
 
     /// Integrals of a vector, whose components at the points stand axis by axis, from the platform end to every point
@@ -502,9 +598,23 @@ impl CableForm {
     }
 
     /// Force that moves the platform end slowly, in the axes of the cable.
-    fn static_force<T: Field>(&self, end: &Vector<T>) -> Vector<T> {
+    ///
+    /// # References
+    /// docs/theory.md, equation (27e): with loss, `(1 + K F)⁻¹ K` with the further flexibility F.
+    fn static_force<T: Field>(&self, end: &Vector<T>, stretch: Option<T>) -> Vector<T> {
         let [hh, hv, vv, out] = self.stiffness;
-        [end[0] * hh + end[1] * hv, end[0] * hv + end[1] * vv, end[2] * out]
+        let force = [end[0] * hh + end[1] * hv, end[0] * hv + end[1] * vv, end[2] * out];
+        let Some(stretch) = stretch else { return force };
+
+        let more = self.more_compliance(stretch);
+        let [[a, b], [_, c]] = self.direction_integrals;
+        let entry = |diagonal: f64, of: f64| more * of + T::from(diagonal);
+        let [[p, q], [r, s]] = [
+            [entry(1.0, hh * a + hv * b), entry(0.0, hh * b + hv * c)],
+            [entry(0.0, hv * a + vv * b), entry(1.0, hv * b + vv * c)],
+        ];
+        let determinant = p * s - q * r;
+        [(s * force[0] - q * force[1]) / determinant, (p * force[1] - r * force[0]) / determinant, force[2]]
     }
 
     /// Components of a vector in the axes of the cable.

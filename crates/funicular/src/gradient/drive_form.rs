@@ -83,6 +83,16 @@ pub(super) struct DriveAtFrequency<T> {
     pub(super) square: T,
     pub(super) of_rope: T,
     pub(super) control: ControlAt<T>,
+    /// Factor h of the stiffness of the drum side, and its derivatives by loss factor and damping time.
+    pub(super) stretch: T,
+    pub(super) by_loss: [T; 2],
+}
+
+impl<T: Field> DriveAtFrequency<T> {
+    /// Adds the derivative of the form by h, times the derivatives of h.
+    fn add_loss(&self, sum: &mut CableAdjoint<T>, by_factor: T) {
+        sum.stretch_loss.iter_mut().zip(self.by_loss).for_each(|(sum, by)| *sum += by_factor * by);
+    }
 }
 
 impl VibratingDriveForm {
@@ -199,12 +209,14 @@ impl VibratingDriveForm {
         }
 
         // k = 1/(λ²Γ); the mass is proportional to 1/k.
-        let by_spring = factor * strained + factor * at.of_rope * mass * (1.0 / piece.spring);
+        let by_spring = factor * strained * at.stretch + factor * at.of_rope * mass * (1.0 / piece.spring);
+        at.add_loss(sum, factor * strained * piece.spring);
         sum.end[end::STRETCH] += by_spring * (-2.0 * piece.spring / self.stretch);
         self.add_compliance(sum, chain, index, by_spring * (-piece.spring / piece.compliance));
 
         // Ends whose places contain the ratio of the stretches.
-        let pull = [ends_a[0] - ends_a[1], ends_b[0] - ends_b[1]].map(|stretched| stretched * piece.spring);
+        let pull =
+            [ends_a[0] - ends_a[1], ends_b[0] - ends_b[1]].map(|stretched| stretched * at.stretch * piece.spring);
         for (k, sign) in [(0, 1.0), (1, -1.0)] {
             let (Some(place), true) = (piece.ends[k], piece.by_ratio[k]) else { continue };
             let force = [pull[0] * sign + forces[k][0], pull[1] * sign + forces[k][1]];
@@ -421,9 +433,10 @@ impl VibratingDriveForm {
         }
 
         let inertia = factor * at.of_rope * mass;
-        let force = factor * start * piece.spring + inertia;
+        let force = factor * start * at.stretch * piece.spring + inertia;
+        at.add_loss(sum, factor * start * (piece.spring * self.stretch));
         sum.end[end::STRETCH] += force;
-        let by_spring = (factor * start - inertia * (1.0 / piece.spring)) * self.stretch;
+        let by_spring = (factor * start * at.stretch - inertia * (1.0 / piece.spring)) * self.stretch;
         sum.end[end::STRETCH] += by_spring * (-2.0 * piece.spring / self.stretch);
         self.add_compliance(sum, chain, index, by_spring * (-piece.spring / piece.compliance));
         if piece.mass.is_some() {
@@ -432,7 +445,7 @@ impl VibratingDriveForm {
             sum.mass += factor * mass * self.stretch * by_damping[0];
             sum.damping += factor * mass * self.stretch * by_damping[1];
         }
-        let per_motion = (T::from(piece.spring) + at.of_rope * mass_of_start) * self.stretch;
+        let per_motion = (at.stretch * piece.spring + at.of_rope * mass_of_start) * self.stretch;
         if let (Some(place), true) = (piece.ends[0], piece.by_ratio[0]) {
             *by_ratio += factor * per_motion * z[place.motion] * (place.factor / chain.ratio);
         }

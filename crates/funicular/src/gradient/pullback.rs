@@ -358,6 +358,8 @@ fn cable_pulled(
         load_per_length_w: load * partials.load_by_own,
         drag_width: partials.load_by_drag_width_w.dot(&load),
         damping: cable.damping,
+        loss_factor: cable.stretch_loss[0],
+        damping_time: cable.stretch_loss[1],
         pulley,
         winch,
         guide_wheels: cable

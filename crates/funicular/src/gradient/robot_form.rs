@@ -4,7 +4,7 @@ use super::GradientError;
 use super::adjoint::{Adjoint, CableAdjoint};
 use super::cable_form::{CableAt, CableForm, CableMotion, GaussRules};
 use super::drive_form::ControlAt;
-use super::end_form::EndAtRest;
+use super::end_form::{EndAtRest, StretchAt};
 use super::scalar::{Field, Vector, add, add_times, cross, dot, symmetric_outer, times, vector};
 use super::support_form::{Carrier, SideForces, Sides, SupportForm};
 use crate::cable::CableModel;
@@ -107,7 +107,7 @@ impl RobotForm {
         let mut servos = vec![None; robot.cables.len()];
         for (i, state) in equilibrium.cables.iter().enumerate() {
             let cable = &settled.cables[i];
-            let term = dynamics.terms().iter().position(|term| term.cable() == i);
+            let term = dynamics.terms().iter().position(|term| term.cable() == i && !dynamics.is_at_rest(i));
             cables.push(match (cable_model, term.and_then(|term| dynamics.terms()[term].form().by_poles())) {
                 (CableModel::Spring, _) => AnyCable::Spring(Box::new(SpringForm::of(cable, state)?)),
                 (CableModel::CatenaryStatic, _) => {
@@ -250,7 +250,8 @@ impl RobotForm {
                 }
                 (AnyCable::Spring(spring), ..) => {
                     let carriers = [a, b].map(|of| self.supports.as_ref()?.carrier(i, &of.supports));
-                    spring.add(of_cable, (&a.v, &a.theta), (&b.v, &b.theta), &carriers, factor)
+                    let stretch = (at.cables[i].stretch, at.cables[i].by_loss);
+                    spring.add(of_cable, (&a.v, &a.theta), (&b.v, &b.theta), (&carriers, stretch), factor)
                 }
                 _ => unreachable!("every catenary has its motion"),
             };
@@ -319,36 +320,43 @@ impl SpringForm {
         sum: &mut CableAdjoint<T>,
         a: (&Vector<T>, &Vector<T>),
         b: (&Vector<T>, &Vector<T>),
-        carriers: &[Option<Carrier<T>>; 2],
+        (carriers, (stretch, by_loss)): (&[Option<Carrier<T>>; 2], StretchAt<T>),
         factor: T,
     ) -> SideForces<T> {
         let (chord, lever) = (vector(&self.chord_w), vector(&self.lever_w));
         let [end_a, end_b] = [a, b].map(|(v, theta)| add(v, &cross(theta, &lever)));
+        let per_stiffness = 1.0 / (self.length * self.chord_w.norm_squared());
+        let pull = |moved: &Vector<T>| {
+            let force = dot(moved, &chord) * (self.axial_stiffness * per_stiffness);
+            times(&chord, stretch.map_or(force, |stretch| force * stretch))
+        };
         let followed = |start: &Vector<T>, carrier: &Option<Carrier<T>>| -> ([T; 2], Vector<T>) {
             let (far, along) = carrier.map_or_else(Default::default, |of| (of.displacement_w, of.along));
             let start: Vector<T> = std::array::from_fn(|k| start[k] - far[k]);
-            let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&start, along));
+            let at_end = self.end.as_ref().map_or_else(Default::default, |of| of.motion(&start, along, stretch, pull));
             let moved = self.end.as_ref().map_or_else(Default::default, |of| of.displacement(&at_end));
             (at_end, std::array::from_fn(|k| start[k] - moved[k]))
         };
         let [(far_a, u_a), (far_b, u_b)] = [followed(&end_a, &carriers[0]), followed(&end_b, &carriers[1])];
 
         let squared = self.chord_w.norm_squared();
-        let per_stiffness = 1.0 / (self.length * squared);
         let [along_a, along_b] = [dot(&u_a, &chord), dot(&u_b, &chord)];
-        let size = factor * (self.axial_stiffness * per_stiffness);
+        let by_factor = factor * along_a * along_b * (self.axial_stiffness * per_stiffness);
+        sum.stretch_loss.iter_mut().zip(by_loss).for_each(|(sum, by)| *sum += by_factor * by);
+        let stretched = stretch.map_or(factor, |stretch| factor * stretch);
+        let size = stretched * (self.axial_stiffness * per_stiffness);
         let mut by_chord = add(&times(&u_a, along_b), &times(&u_b, along_a));
         add_times(&mut by_chord, &chord, -(along_a * along_b * (2.0 / squared)));
         add_times(&mut sum.chord, &by_chord, size);
         let by_end = add(&times(&cross(&chord, a.1), along_b), &times(&cross(&chord, b.1), along_a));
         add_times(&mut sum.lever, &by_end, size);
-        sum.stiffness += factor * along_a * along_b * per_stiffness;
+        sum.stiffness += stretched * along_a * along_b * per_stiffness;
         sum.free_length += -(size * along_a * along_b * (1.0 / self.length));
 
         let mut on_side = [T::default(); 2];
         if let Some(end) = &self.end {
             let sides = carriers.map(|carrier| carrier.map_or_else(T::default, |of| of.along));
-            on_side = end.add(sum, (&far_a, &far_b), &sides, factor);
+            on_side = end.add(sum, (&far_a, &far_b), &sides, (stretch, by_loss), factor);
             for (first, i) in [(end::TRAVEL, 0), (end::SIDEWAYS, 1)] {
                 for (sum, chord) in sum.end[first..].iter_mut().zip(chord) {
                     *sum += -(size * chord * (along_a * far_b[i] + along_b * far_a[i]));

@@ -153,7 +153,8 @@ impl<'g> VibrationGradients<'g> {
         let mut cables: Vec<CableAt<Complex>> = (0..self.cables())
             .map(|i| {
                 let (square, by_damping) = self.dynamics.square_by_damping(i, omega);
-                CableAt { square, by_damping, ..CableAt::default() }
+                let loss = self.gradients.robot().cables[i].material.stretch_loss;
+                CableAt { square, by_damping, ..CableAt::default() }.with_stretch(loss, omega)
             })
             .collect();
         for term in self.dynamics.terms() {

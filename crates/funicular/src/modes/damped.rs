@@ -39,10 +39,24 @@ impl DampedMode {
         self.omega.im / self.omega.norm()
     }
 
+    /// Time in which its amplitude falls to the fraction `remaining` [s]; infinite for a mode that does not decay.
+    pub fn decay_time(&self, remaining: f64) -> f64 {
+        decay_time(self.omega.im, remaining)
+    }
+
     /// Eigenvalue λ = iω = −ζ|ω| + i|ω|√(1 − ζ²) [1/s].
     pub fn eigenvalue(&self) -> Complex {
         Complex::new(-self.omega.im, self.omega.re)
     }
+}
+
+/// Default of the percentage of the amplitude to which a mode decays in the time that is listed: what remains is small
+/// against the motion, and the time is the settling time of control engineering.
+pub const DECAY_PERCENT: f64 = 5.0;
+
+/// Time in which an amplitude falls to the fraction `remaining` at a rate of decay, ζω [1/s]; infinite without decay.
+pub fn decay_time(rate: f64, remaining: f64) -> f64 {
+    if rate > 0.0 { -remaining.ln() / rate } else { f64::INFINITY }
 }
 
 /// Damped partners of undamped modes.

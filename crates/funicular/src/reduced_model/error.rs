@@ -34,6 +34,16 @@ pub enum ReductionError {
         /// Name of the cable.
         cable: String,
     },
+    /// The stretch of a rope has a loss in a model without inertia of the cables.
+    #[error(
+        "the stretch of cable \"{cable}\" has a loss, but the cable has no mass in this model, so that no matrices of \
+         second order have it: choose the cable model `catenary-dynamic` and give the rope its mass, or leave \
+         `axial_loss_factor` and `axial_damping_time_s` out"
+    )]
+    StretchAtRest {
+        /// Name of the cable.
+        cable: String,
+    },
     /// An output follows the rate of an input.
     #[error(
         "output {output} contains the rate of change of input {input}, which the state space of the second-order model \

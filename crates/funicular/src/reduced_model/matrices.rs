@@ -54,7 +54,8 @@ pub(super) struct Matrices {
     pub(super) damping: DMat,
     /// Damping of cables with a constant damping ratio: the coefficient R of the damping `2ωR`.
     pub(super) ratio: DMat,
-    /// Imaginary part of the stiffness of supports with a constant damping ratio.
+    /// Imaginary part of the stiffness of supports with a constant damping ratio, and of ropes with a constant loss
+    /// factor.
     pub(super) loss: DMat,
     pub(super) stiffness: DMat,
     /// Mass of the drives; part of `mass`.
@@ -138,8 +139,9 @@ impl Matrices {
             let product = &row * row.transpose();
             rope -= &product * part.mass;
             self.drives += &product * part.mass;
-            if part.damping > 0.0 {
-                self.damping += product * part.damping;
+            if part.damping > 0.0 || part.loss > 0.0 {
+                self.damping += &product * part.damping;
+                self.loss += product * part.loss;
                 self.lossy.push(row.as_slice().to_vec());
             }
         }

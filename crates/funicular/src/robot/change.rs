@@ -136,6 +136,10 @@ numbers! {
         drag_width: f64,
         /// Damping: the ratio, or the viscous damping per length, whichever the rope has.
         damping: f64,
+        /// Loss factor of the stretch.
+        loss_factor: f64 => material.stretch_loss.factor,
+        /// Damping time of the stretch.
+        damping_time: f64 => material.stretch_loss.time,
         /// Pulley at the anchor.
         pulley: PulleyChange,
         /// Winch behind the anchor.

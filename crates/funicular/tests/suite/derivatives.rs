@@ -15,7 +15,7 @@ use funicular::math::{DMat, Mat3, Vec3};
 use funicular::modes::{self, Mode};
 use funicular::response::{self, Quantity, Signal};
 use funicular::robot::parameters::Parameters;
-use funicular::robot::{Cable, Control, Damping, Robot, RobotChange, State, Wind};
+use funicular::robot::{Cable, Control, Damping, Robot, RobotChange, State, StretchLoss, Wind};
 use funicular::statics::derivatives::{StaticDerivativeError, at_held_lengths, at_held_pose};
 use funicular::statics::{self, Equilibrium, StaticModel};
 
@@ -415,6 +415,11 @@ fn changes_with_damping(robot: &Robot) -> Vec<(&'static str, RobotChange, f64)> 
     let mut of_rope = none();
     of_rope.cables.iter_mut().for_each(|cable| cable.damping = 1.0);
     all.push(("damping of the ropes", of_rope, 1e-4));
+    for (name, [factor, time], step) in [("loss factor", [1.0, 0.0], 1e-3), ("damping time", [0.0, 1.0], 1e-4)] {
+        let mut of_stretch = none();
+        of_stretch.cables.iter_mut().for_each(|cable| (cable.loss_factor, cable.damping_time) = (factor, time));
+        all.push((name, of_stretch, step));
+    }
     let of_platform = RobotChange {
         translational_damping_p: Vec3::new(1.0, 0.5, 0.2),
         rotational_damping_p: Vec3::new(0.01, 0.02, 0.03),
@@ -424,16 +429,18 @@ fn changes_with_damping(robot: &Robot) -> Vec<(&'static str, RobotChange, f64)> 
     all
 }
 
-/// A robot in wind and under a load whose platform is damped and whose ropes have a damping ratio, and one with viscous
-/// ropes.
-fn damped_robots() -> [(&'static str, Robot, f64); 2] {
+/// A robot in wind and under a load whose platform is damped and whose ropes have a damping ratio, one with viscous ropes,
+/// and one whose ropes have a loss of their stretch, too.
+fn damped_robots() -> [(&'static str, Robot, f64); 3] {
     let mut with_ratio = loaded();
     with_ratio.platform.translational_damping_p = Vec3::new(3.0, 1.0, 2.0);
     with_ratio.platform.rotational_damping_p = Vec3::new(0.02, 0.05, 0.01);
     with_ratio.cables.iter_mut().for_each(|cable| cable.material.damping = Damping::Ratio(0.01));
     let mut viscous = with_ratio.clone();
     viscous.cables.iter_mut().for_each(|cable| cable.material.damping = Damping::Viscous(0.02));
-    [("damping ratio", with_ratio, 3.0), ("viscous", viscous, 3.0)]
+    let mut lossy = with_ratio.clone();
+    lossy.cables.iter_mut().for_each(|cable| cable.material.stretch_loss = StretchLoss { factor: 0.05, time: 2e-3 });
+    [("damping ratio", with_ratio, 3.0), ("viscous", viscous, 3.0), ("loss of stretch", lossy, 3.0)]
 }
 
 const LENGTHS: [f64; 6] = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];

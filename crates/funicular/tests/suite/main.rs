@@ -22,5 +22,6 @@ mod reduced_model;
 mod response;
 mod robot;
 mod statics;
+mod stretch_loss;
 mod support;
 mod warnings;

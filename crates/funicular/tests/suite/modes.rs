@@ -2,6 +2,7 @@
 
 mod damped;
 mod fundamental;
+mod release;
 mod rigid_cables;
 mod tracking;
 

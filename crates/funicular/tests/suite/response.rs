@@ -6,7 +6,7 @@ use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Vec3, Vec6};
 use funicular::response::{self, Port, Quantity, ResponseError, Signal};
-use funicular::robot::{Damping, Robot, State, WinchMode};
+use funicular::robot::{Damping, Robot, State, StretchLoss, WinchMode};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
 
@@ -30,10 +30,17 @@ fn the_vector_kernel_equals_plain_elimination() {
     let frequencies: Vec<f64> = (0..1003).map(|i| 0.03 * f64::from(i)).collect();
     for text in ROBOTS {
         let (robot, rest) = load(text);
-        for damping in [Damping::Ratio(0.003), Damping::Ratio(0.3), Damping::Viscous(0.02), Damping::Viscous(3.0)] {
+        let lossless = StretchLoss::default();
+        let cases = [
+            (Damping::Ratio(0.003), lossless),
+            (Damping::Ratio(0.3), lossless),
+            (Damping::Viscous(0.02), StretchLoss { factor: 0.05, time: 1e-3 }),
+            (Damping::Viscous(3.0), lossless),
+        ];
+        for (damping, loss) in cases {
             let mut robot = robot.clone();
             for cable in &mut robot.cables {
-                cable.material.damping = damping;
+                (cable.material.damping, cable.material.stretch_loss) = (damping, loss);
             }
             for cable_model in CableModel::ALL {
                 for in_plane_only in [false, true] {

@@ -145,12 +145,14 @@ fn closed_form(robot: &Robot, rest: &Equilibrium, own: Complex, square: Complex,
         let across = ea * state.tension_platform / (ea + state.tension_platform);
         let t = state.chord_w().normalize();
         let along = (t * t.transpose()).map(Complex::from);
-        let wave = |c: f64| {
-            let kappa = (square * (m / c)).sqrt();
+        let wave = |c: Complex| {
+            let kappa = (square * m / c).sqrt();
             let phase = kappa * length;
             (c * kappa * phase.cos() / phase.sin(), -c * kappa / phase.sin())
         };
-        let ((k, far), (k_across, far_across)) = (wave(ea), wave(across));
+        let loss = cable.material.stretch_loss;
+        let h = Complex::from(1.0) + Complex::i() * losses * (loss.factor + own.sqrt() * loss.time);
+        let ((k, far), (k_across, far_across)) = (wave(ea * h), wave(across.into()));
         let block = |along_t: Complex, across_t: Complex| along * along_t + (CMat3::identity() - along) * across_t;
         add(0, 0, &block(k, k_across));
         if let Some(support) = cable.anchor.support {

@@ -95,6 +95,7 @@ fn colour_of(code: u8) -> &'static str {
         "unstable" => "#a6dcc8",
         "no-frequency" => "#f5d9a0",
         "not-certified" => "#faecc9",
+        "no-decay" => "#e8cfb8",
         "no-comparison" => "#e3d9ee",
         "unlimited" => "#d3efd0",
         "no-payload" => "#efd3dc",

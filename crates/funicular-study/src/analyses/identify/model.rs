@@ -198,7 +198,7 @@ impl<'a> IdentifiedModel<'a> {
         if all.any(|(observation, value)| matches!(observation.subject, Subject::Damping(_)) && value.re <= 0.0) {
             return anyhow::anyhow!(
                 "a damping ratio was measured, and the mode has no damping in the model: give the ropes a \
-                 `damping_ratio`, or leave the measured one out"
+                 `damping_ratio` or an `axial_loss_factor`, or leave the measured one out"
             );
         }
         anyhow::anyhow!("a residual is not finite: the robot or its measurements are too far apart")

@@ -15,6 +15,11 @@ const LENGTH_SPREAD: f64 = 0.03;
 /// Usual magnitude of a product of inertia that the file gives as zero, relative to the mean principal moment.
 const PRODUCT_OF_INERTIA: f64 = 0.1;
 
+/// Usual magnitude of the damping of ropes that the file gives as zero: damping ratio and loss factor, and damping time
+/// of the stretch [s].
+const DAMPING: f64 = 0.01;
+const DAMPING_TIME: f64 = 1e-3;
+
 /// Maximum number of values that a request may fit: a Jacobian by differences takes two evaluations each.
 const MAX_UNKNOWNS: usize = 200;
 
@@ -113,6 +118,8 @@ fn unknown(parameters: &Parameters, number: &ChosenNumber<'_>, wanted: &FitValue
         (None, "m") => LENGTH_SPREAD,
         (None, _) if start != 0.0 => SPREAD * start.abs(),
         (None, "kg m²") => SPREAD * PRODUCT_OF_INERTIA * mean_moment(parameters).max(MIN_POSITIVE),
+        (None, "1") if matches!(parameter.key, "damping_ratio" | "axial_loss_factor") => DAMPING,
+        (None, "s") if parameter.key == "axial_damping_time_s" => DAMPING_TIME,
         (None, _) => 1.0,
     };
     Ok(Unknown { index, path, unit: parameter.unit, is_log, start, bounds, prior, unit_step })

@@ -11,7 +11,7 @@ use funicular::robot::{Constraint, Robot};
 use funicular::statics::{self, TensionRange};
 
 /// Every quantity, in the order of the documentation.
-pub(super) static TABLE: [Definition; 24] = [
+pub(super) static TABLE: [Definition; 26] = [
     Definition {
         name: "first-frequency",
         about: "lowest natural frequency",
@@ -39,6 +39,37 @@ pub(super) static TABLE: [Definition; 24] = [
             row.push(Some(first), out);
         },
         ..Definition::PLAIN
+    },
+    Definition {
+        name: "damping",
+        about: "damping ratio of the first mode of the platform",
+        documentation: "`platform_damping_ratio`: damping ratio of the damped partner of the first mode with at least \
+                        `--platform-share` (0.5 if not given) of its kinetic energy in the platform, with the \
+                        requested cable model; it takes the time of a complete damped list per point",
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
+        frequencies: |_| 0,
+        columns: |_, _| one("platform_damping_ratio", "1", "damping ratio of the first mode of the platform"),
+        values: |row, _, out| {
+            let found = row.platform_damping().map(|(ratio, _)| ratio);
+            row.push(Some(found), out);
+        },
+    },
+    Definition {
+        name: "decay-time",
+        about: "time in which the first mode of the platform decays to 5 % of its amplitude",
+        documentation: "`platform_decay_time_s`: time in which the mode of `damping` decays to 5 % of its amplitude",
+        takes: ParameterKind::Nothing,
+        needs: RequiredModel::Anything,
+        frequencies: |_| 0,
+        columns: |_, _| {
+            let about = "time in which the first mode of the platform decays to 5 % of its amplitude";
+            one("platform_decay_time_s", "s", about)
+        },
+        values: |row, _, out| {
+            let found = row.platform_damping().map(|(_, time)| time);
+            row.push(Some(found), out);
+        },
     },
     Definition {
         name: "first-kind",

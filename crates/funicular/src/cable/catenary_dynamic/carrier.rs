@@ -46,13 +46,22 @@ impl CatenaryDynamicEnd {
             .collect();
 
         // A chain without a drum side has no such force; wheel and swivel turn with the carrier.
-        let (along, _) = self.cable.end.as_ref().map_or((0, 0), super::MovingEnd::counts);
+        let (chain, along) = self.motions_along();
         let [on_slip, on_swivel] = motion.by_turn.on_end;
         forces.resize(along, (0.0, 0.0));
-        if let Some((still, _)) = forces.first_mut() {
+        if let Some((still, _)) = forces[..chain].first_mut() {
             *still += on_slip;
         }
         forces.resize(self.motions(), (on_swivel, 0.0));
+        forces
+    }
+
+    /// Forces of [`forces_by_carrier`](Self::forces_by_carrier) at ω [rad/s], with the loss of the drum side.
+    pub(crate) fn forces_at(&self, motion: &CarrierMotion, omega: f64) -> Vec<Complex> {
+        let square = self.square(omega);
+        let mut forces = self.forces_by_carrier(motion).iter().map(|(still, mass)| *still + square * *mass).collect();
+        let [at_drum, at_wheel, _] = motion.of_drum_side(self.drum_side_ratio());
+        self.add_on_drum_side(&mut forces, [-at_drum, -at_wheel], omega);
         forces
     }
 
@@ -64,9 +73,7 @@ impl CatenaryDynamicEnd {
         motion: &CarrierMotion,
         omega: f64,
     ) -> InternalMotion {
-        let square = self.square(omega);
-        let given = self.forces_by_carrier(motion).iter().map(|(still, mass)| *still + square * *mass).collect();
-        self.motion_by_far_end(cable, motion.displacement, given, omega)
+        self.motion_by_far_end(cable, motion.displacement, self.forces_at(motion, omega), omega)
     }
 
     /// Motion along `cable` per unit of a signal of the drive or tension at ω [rad/s]: by an input, the platform end
@@ -253,7 +260,8 @@ impl CatenaryDynamicEnd {
         let ([h, v], square, [e, n, _]) = (self.directions.to_platform, self.square(omega), motion.displacement);
         let of = |i: usize, j: usize| self.in_plane().entry(i, j, square);
         let force = |i: usize| of(i, 2) * e + of(i, 3) * n;
-        self.coupled().is_none().then(|| -(force(2) * h + force(3) * v))
+        let lost = self.lost_at_far_end(motion.displacement, omega);
+        self.coupled().is_none().then(|| -(force(2) * h + force(3) * v + lost))
     }
 
     /// Motions of the drive at ω [rad/s], the terms that its losses add, the motions by the carrier alone, and the
@@ -263,14 +271,10 @@ impl CatenaryDynamicEnd {
         motion: &CarrierMotion,
         omega: f64,
     ) -> Option<(DriveAt, DriveLosses, Vec<Complex>, Vec<Complex>)> {
-        let drive = self.cable.drive.as_ref()?;
         let (motions, losses) = self.motions_with_losses(omega)?;
-        let (count, square) = (losses.0.len(), self.square(omega));
-        let free = DriveAt::by_carrier(&self.cable, drive, count, square);
-        let free = free.iter().map(|row| row.iter().zip(motion.displacement).map(|(t, c)| t * c).sum()).collect();
+        let free = self.free_by_far_end(motion.displacement, omega)?;
 
         // The drum side, whose mass is carried along or which is stretched, and the swivel.
-        let given = self.forces_by_carrier(motion).iter().map(|(still, mass)| *still + square * *mass).collect();
-        Some((motions, losses, free, given))
+        Some((motions, losses, free, self.forces_at(motion, omega)))
     }
 }

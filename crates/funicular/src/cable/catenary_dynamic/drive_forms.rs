@@ -5,9 +5,10 @@
 //! a row that is a polynomial of s = iω (docs/theory.md, equations (45a) to (45d)).
 
 use super::drive_signals::DriveForce;
-use super::{CarrierMotion, CatenaryDynamicEnd, DriveSignal, Family, MovingEnd};
+use super::{CarrierMotion, CatenaryDynamicEnd, DriveSignal, Family, MovingEnd, StretchMotions};
+use crate::drive::{ByTurn, ChainStretch};
 use crate::math::DMat;
-use crate::robot::Damping;
+use crate::robot::{Damping, StretchLoss};
 use std::array::from_fn;
 
 /// Linear form over the displacement (e, n, b) of the platform end and the amplitudes of the clamped modes, in plane
@@ -35,19 +36,34 @@ pub(crate) enum EndSignal {
     Carrier(CarrierMotion),
 }
 
-/// Part of a drive that has mass of its own or losses.
+/// Part of a drive that has mass of its own or losses, or a stretch with a loss.
 pub(crate) struct DrivePart {
     /// Motion.
     pub(crate) motion: DriveForm,
     /// Motion with the carrier of the end (e, n, b), platform end and amplitudes at rest.
     pub(crate) with_carrier: [f64; 3],
+    /// Motion with the ends of the drum side, at the drum and at the wheel, if the motions of the drive are at rest.
+    pub(crate) with_drum_side: [f64; 2],
+    /// Ratio of the stretch at the exit point to that at the drum.
+    ratio: f64,
     /// Mass [kg]. The damping of the cable does not act on it.
     pub(crate) mass: f64,
     /// Viscous damping [N s/m].
     pub(crate) damping: f64,
+    /// Imaginary part of the stiffness by a constant loss factor [N/m].
+    pub(crate) loss: f64,
     /// Static response of the motion to a force on it that the clamped modes do not have, relative to its static
     /// response: zero unless the part has no mass.
     pub(crate) massless: f64,
+}
+
+impl DrivePart {
+    /// Motion with a motion of the carrier.
+    pub(crate) fn along(&self, carrier: &CarrierMotion) -> f64 {
+        let [at_drum, at_wheel, _] = carrier.of_drum_side(self.ratio);
+        let displaced: f64 = self.with_carrier.iter().zip(carrier.displacement).map(|(part, c)| part * c).sum();
+        displaced + self.with_drum_side[0] * at_drum + self.with_drum_side[1] * at_wheel
+    }
 }
 
 /// Relative size below which the difference of two static responses is rounding; the modes leave about 1e-10.
@@ -121,21 +137,37 @@ impl CatenaryDynamicEnd {
         let motions = self.motion_forms();
         let rest = self.massless_flexibility(&motions);
 
-        // Mass and viscous damping of each motion.
+        // Mass, viscous damping and loss of each motion, and its motion with the ends of the drum side.
+        let held = [0.0; 2];
         let of_chain = self.chain().map_or_else(Vec::new, |chain| {
-            chain.mass.diagonal().iter().copied().zip(chain.viscous_damping()).collect()
+            let damped = chain.viscous_damping().into_iter().enumerate();
+            damped.map(|(j, damping)| (chain.mass[(j, j)], damping, 0.0, held)).collect()
         });
+        let StretchLoss { factor, time } = self.stretch_loss;
+        let StretchMotions { moments, stiffness } = &self.cable.stretch;
+        let of_drum_side = self.chain().map_or(&[][..], |chain| &chain.stretches).iter().map(|of| of.by_ends);
+        let ends = std::iter::repeat_n(held, *moments).chain(of_drum_side);
+        let of_stretch = stiffness.iter().zip(ends).map(|(k, ends)| (0.0, time * k, factor * k, ends));
         let swivel = self.cable.end.as_ref().map_or(0.0, MovingEnd::swivel_mass);
-        let all = of_chain.into_iter().chain([(swivel, 0.0)]);
+        let all = of_chain.into_iter().chain(of_stretch).chain([(swivel, 0.0, 0.0, held)]);
 
-        let massless = |j: usize| rest[(j, j)] / drive.flexibility[(j, j)];
+        let (chain, along) = self.motions_along();
+        let massless = |j: usize| {
+            let spring = if (chain..along).contains(&j) { 1.0 / stiffness[j - chain] } else { 0.0 };
+            let (left, size) = (rest[(j, j)], drive.flexibility[(j, j)]);
+            if left.abs() <= ROUNDING * spring { 0.0 } else { left / size }
+        };
+        let ratio = self.drum_side_ratio();
         (motions.into_iter().zip(drive.with_carrier()).zip(all).enumerate())
-            .filter(|(_, (_, (mass, damping)))| *mass > 0.0 || *damping > 0.0)
-            .map(|(j, ((motion, with_carrier), (mass, damping)))| DrivePart {
+            .filter(|(_, (_, (mass, damping, loss, _)))| *mass > 0.0 || *damping > 0.0 || *loss > 0.0)
+            .map(|(j, ((motion, with_carrier), (mass, damping, loss, with_drum_side)))| DrivePart {
                 motion,
                 with_carrier,
+                with_drum_side,
+                ratio,
                 mass,
                 damping,
+                loss,
                 massless: massless(j),
             })
             .collect()
@@ -164,10 +196,16 @@ impl CatenaryDynamicEnd {
             let end = chain.drum_end.as_ref()?;
             let (constant, square): (Vec<f64>, Vec<f64>) =
                 end.by_motion.iter().map(|(k, mass)| (-k * end.ratio, mass * end.ratio)).unzip();
-            return Some(self.in_powers(constant, &vec![0.0; square.len()], &square));
+            let mut row = self.in_powers(constant, &vec![0.0; square.len()], &square);
+            self.add_rate_of_drum_side(&mut row, end.ratio);
+            return Some(row);
         }
         let DriveForce { constant, rate, square, .. } = DriveForce::of(chain, signal)?;
-        Some(self.in_powers(constant, &rate, &square))
+        let mut row = self.in_powers(constant, &rate, &square);
+        if signal == DriveSignal::Length && chain.drum.is_none() {
+            self.add_rate_of_drum_side(&mut row, self.directions.stretch);
+        }
+        Some(row)
     }
 
     /// Row of a signal: generalised force on platform end and amplitudes per unit of an input, and the output per
@@ -253,7 +291,48 @@ impl CatenaryDynamicEnd {
         for (amplitude, g) in square.modes.iter_mut().zip(&family.participation) {
             *amplitude = factor * (g[2] * h + g[3] * v);
         }
-        Some(self.form_in_powers(constant, self.zero_form(), self.zero_form(), &square))
+        let mut rate = self.zero_form();
+        for part in self.drive_parts() {
+            rate.add(-part.along(&self.far_end_moved(factor)) * part.damping, &part.motion);
+        }
+        Some(self.form_in_powers(constant, rate, self.zero_form(), &square))
+    }
+
+    /// Motion of a far end without a drive by `factor` towards the platform.
+    fn far_end_moved(&self, factor: f64) -> CarrierMotion {
+        let displacement = self.far_end_along().map(|along| factor * along);
+        CarrierMotion { displacement, by_turn: ByTurn::default(), along_drum_side: 0.0, with_drum: true }
+    }
+
+    /// Viscous damping between two motions of the carrier by losses of the stretch and of the drive, all coordinates at
+    /// rest [N s/m].
+    fn damping_between(&self, one: &CarrierMotion, other: &CarrierMotion) -> f64 {
+        self.drive_parts().iter().map(|part| part.damping * part.along(one) * part.along(other)).sum()
+    }
+
+    /// Viscous force of the stretches of the drum side on its end at the drum, towards the wheel, per speed of its ends,
+    /// at the drum and at the wheel [N s/m].
+    fn rate_at_drum(&self, ends: [f64; 2]) -> f64 {
+        if !self.has_strains() {
+            return 0.0;
+        }
+        let chain = self.chain().map_or(&[][..], |chain| &chain.stretches);
+        let of = |of: &ChainStretch| of.stiffness * of.by(ends) * -of.by_ends[0];
+        self.stretch_loss.time * chain.iter().map(of).sum::<f64>()
+    }
+
+    /// Viscous damping of each stretch of the drum side by its end at the drum, which moves by `moved` towards the
+    /// wheel, in a row over the motions of the chain and the stretches [N s/m].
+    fn add_rate_of_drum_side(&self, row: &mut InPowersOfS<Vec<f64>>, moved: f64) {
+        let (_, along) = self.motions_along();
+        let chain = self.chain().map_or(&[][..], |chain| &chain.stretches);
+        let first = along - if self.cable.stretch.moments > 0 { chain.len() } else { 0 };
+        for of_power in &mut *row {
+            of_power.resize(along, 0.0);
+        }
+        for (rate, of) in row[1][first..].iter_mut().zip(chain) {
+            *rate -= self.stretch_loss.time * of.stiffness * of.by([moved, 0.0]);
+        }
     }
 
     /// Row of a motion of the carrier: generalised force on platform end and amplitudes per unit of it.
@@ -292,7 +371,7 @@ impl CatenaryDynamicEnd {
             square.add(mass, form);
         }
         for part in self.drive_parts() {
-            let along: f64 = part.with_carrier.iter().zip(motion.displacement).map(|(part, c)| part * c).sum();
+            let along = part.along(motion);
             square.add(-along * part.mass, &part.motion);
             acceleration.add(-along * part.mass, &part.motion);
             rate.add(-along * part.damping, &part.motion);
@@ -338,8 +417,7 @@ impl CatenaryDynamicEnd {
                 constant += force * f2.iter().enumerate().map(|(j, (other, _))| rest[(i, j)] * other).sum::<f64>();
             }
             for part in self.drive_parts() {
-                let along = |c: [f64; 3]| part.with_carrier.iter().zip(c).map(|(part, c)| part * c).sum::<f64>();
-                let product = along(c1) * along(c2);
+                let product = part.along(one) * part.along(other);
                 square -= product * part.mass;
                 acceleration -= product * part.mass;
                 rate -= product * part.damping;
@@ -383,7 +461,9 @@ impl CatenaryDynamicEnd {
             let along = |matrix: &[[f64; 4]; 4]| {
                 (matrix[2][2] * e + matrix[2][3] * n) * h + (matrix[3][2] * e + matrix[3][3] * n) * v
             };
-            return Some(in_powers(-along(&family.stiffness) * factor, along(&family.mass) * factor));
+            let mut direct = in_powers(-along(&family.stiffness) * factor, along(&family.mass) * factor);
+            direct[1] -= self.damping_between(motion, &self.far_end_moved(factor));
+            return Some(direct);
         };
 
         // Motions of the drive with the carrier, and those without mass by the forces that the carrier brings about.
@@ -413,7 +493,8 @@ impl CatenaryDynamicEnd {
         {
             let [_, at_wheel, whole] = motion.of_drum_side(self.drum_side_ratio());
             let mass = end.by_wheel.1 * at_wheel + end.carried_mass * whole;
-            let own = in_powers(-end.by_wheel.0 * at_wheel * factor, mass * factor);
+            let mut own = in_powers(-end.by_wheel.0 * at_wheel * factor, mass * factor);
+            own[1] += self.rate_at_drum([0.0, at_wheel]) * factor;
             direct.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
         }
         Some(direct)
@@ -435,7 +516,11 @@ impl CatenaryDynamicEnd {
                 (matrix[2][2] * h + matrix[2][3] * v) * h + (matrix[3][2] * h + matrix[3][3] * v) * v
             };
             let stretch = self.directions.stretch;
-            return pays_out.then(|| in_powers(-stretch * own(&family.stiffness), stretch * own(&family.mass)));
+            return pays_out.then(|| {
+                let mut direct = in_powers(-stretch * own(&family.stiffness), stretch * own(&family.mass));
+                direct[1] -= self.damping_between(&self.far_end_moved(1.0), &self.far_end_moved(stretch));
+                direct
+            });
         };
 
         // Motions without mass follow at once. A product with ω_c² on both sides belongs to rods, which have mass.
@@ -449,7 +534,8 @@ impl CatenaryDynamicEnd {
             from_fn(|power| (0..=power).map(|i| product(&rows[i], &forces[power - i])).sum());
         if let Some(end) = chain.drum_end.as_ref().filter(|_| pays_out && chain.drum.is_none()) {
             let by_length = self.directions.stretch * end.ratio;
-            let own = in_powers(-end.own.0 * by_length, end.own.1 * by_length);
+            let mut own = in_powers(-end.own.0 * by_length, end.own.1 * by_length);
+            own[1] += self.rate_at_drum([by_length, 0.0]);
             direct.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
         }
         Some(direct)

@@ -12,14 +12,15 @@ use crate::drive::DriveChain;
 use crate::math::{CDMat, Complex, DMat};
 use std::ops::Range;
 
-/// Motions of a drive in the clamped modes of its cable. In each displacement the first component is the motion.
+/// Motions of a drive, and those in which a rope with loss stretches, in the clamped modes of their cable. In each
+/// displacement the first component is the motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriveMotion {
-    /// Motions of the chain along the cable, in the modes in plane.
+    /// Motions of the chain along the cable and stretches, in the modes in plane.
     pub along: Displacements<2, 4>,
     /// Motion sideways, if the end has one, in the modes out of plane.
     pub sideways: Displacements<1, 2>,
-    /// All motions, those of the chain and then that sideways, for an end that couples the families.
+    /// All motions, those of the chain, the stretches and then that sideways, for an end that couples the families.
     pub coupled: Displacements<3, 6>,
     /// Static response of all motions to unit forces on them, the platform end of the cable held [m/N].
     pub(super) flexibility: DMat,
@@ -28,7 +29,7 @@ pub struct DriveMotion {
 /// Motions of a drive at x = ω² without the poles left out.
 pub(crate) type MotionsOfDrive<'a> = dyn Fn(f64, &NearRanges) -> Vec<f64> + 'a;
 
-/// Motions of a drive at one frequency: those of the chain, then that sideways if there is one.
+/// Motions of a drive at one frequency: those of the chain, the stretches, then that sideways if there is one.
 pub(crate) struct DriveAt {
     /// T: motion per component (e, n, b) of the platform end, and its derivative by x = ω_c².
     pub(crate) transfer: Vec<[Complex; 3]>,
@@ -234,7 +235,7 @@ fn add_carrier<const D: usize, const N: usize, const E: usize>(
 }
 
 /// Dynamic stiffness of a drive besides that of the undamped model [N/m], and its derivative by ω, per motion: those of
-/// the chain, then that sideways if there is one.
+/// the chain, the stretches, then that sideways if there is one.
 pub(crate) struct DriveLosses(pub(crate) Vec<(Complex, Complex)>);
 
 impl DriveLosses {
@@ -242,6 +243,17 @@ impl DriveLosses {
     pub(super) fn values(&self) -> Vec<Complex> {
         self.0.iter().map(|(value, _)| *value).collect()
     }
+}
+
+/// Energies of a drive in a natural motion.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct DriveShare {
+    /// Twice its kinetic energy over ω² [kg m²].
+    pub(crate) mass: f64,
+    /// Work of its losses and of that of the stretch, by which the damping grows [N m].
+    pub(crate) loss: f64,
+    /// Twice the energy of the stretch of a rope with loss [N m].
+    pub(crate) stretch: f64,
 }
 
 impl DriveMotion {
@@ -329,18 +341,33 @@ impl CatenaryDynamicEnd {
         })
     }
 
-    /// True if the undamped model does not describe its drive completely: masses of the drive that do not share the
-    /// damping of the cable, or losses of its control.
+    /// True if the undamped model does not describe the cable with its drive completely: masses of the drive that do
+    /// not share the damping of the cable, losses of its control, or of the stretch of the rope.
     pub(crate) fn has_drive_losses(&self) -> bool {
+        if self.has_strains() && self.stretch_loss.is_some() {
+            return true;
+        }
         let Some(end) = &self.cable.end else { return false };
         let damped_cable = self.damping.ratio_at(1.0, self.mass_per_length) > 0.0;
         (damped_cable && end.has_mass()) || end.chain().is_some_and(DriveChain::has_losses)
     }
 
+    /// True if the motions in which it stretches are known.
+    pub(crate) fn has_strains(&self) -> bool {
+        !self.cable.stretch.stiffness.is_empty()
+    }
+
+    /// Numbers of motions of its drive: of the chain, and of these with the stretches.
+    pub(crate) fn motions_along(&self) -> (usize, usize) {
+        let (chain, _) = self.cable.end.as_ref().map_or((0, 0), MovingEnd::counts);
+        (chain, chain + self.cable.stretch.stiffness.len())
+    }
+
     /// Number of motions at its end that count: without motion out of plane only those along the cable.
-    pub(super) fn motions(&self) -> usize {
-        let (along, all) = self.cable.end.as_ref().map_or((0, 0), MovingEnd::counts);
-        if self.in_plane_only { along } else { all }
+    pub(crate) fn motions(&self) -> usize {
+        let (chain, all) = self.cable.end.as_ref().map_or((0, 0), MovingEnd::counts);
+        let (_, along) = self.motions_along();
+        if self.in_plane_only { along } else { along + all - chain }
     }
 
     /// Motions of the drive at x = ω_c², without the poles `left_out`; `None` without a drive.
@@ -369,17 +396,16 @@ impl CatenaryDynamicEnd {
         self.cable.end.as_ref().is_some_and(MovingEnd::has_mass)
     }
 
-    /// Kinetic energy of the drive over ω²/2 [kg m²], and the work of its losses, by which its damping grows [N m], in
-    /// a motion of the platform end (e, n, b) at the undamped ω [rad/s]. `near` has the amplitudes of the clamped modes
-    /// that are unknowns of their own; `by_support` gives the motions of the drive by a support at x = ω², without some
-    /// poles.
+    /// Energies of the drive in a motion of the platform end (e, n, b) at the undamped ω [rad/s]. `near` has the
+    /// amplitudes of the clamped modes that are unknowns of their own; `by_support` gives the motions of the drive by a
+    /// support at x = ω², without some poles.
     pub(crate) fn drive_share(
         &self,
         omega: f64,
         end: [f64; 3],
         near: &[(usize, Family, f64)],
         by_support: Option<&MotionsOfDrive>,
-    ) -> (f64, f64) {
+    ) -> DriveShare {
         let x = omega * omega;
         let left_out = |family: Family| {
             let mut indices = near.iter().filter(|near| near.1 == family).map(|near| near.0);
@@ -390,7 +416,7 @@ impl CatenaryDynamicEnd {
             out_of_plane: left_out(Family::OutOfPlane),
             coupled: left_out(Family::Coupled),
         };
-        let Some(motions) = self.drive_at(x.into(), &left_out) else { return (0.0, 0.0) };
+        let Some(motions) = self.drive_at(x.into(), &left_out) else { return DriveShare::default() };
 
         // Motions by the platform end, and in the near modes.
         let by_end = |row: &[Complex; 3]| row.iter().zip(end).map(|(transfer, u)| transfer.re * u).sum();
@@ -404,18 +430,21 @@ impl CatenaryDynamicEnd {
         }
 
         // Masses, and the imaginary part of what the drive has besides the undamped model, without the cable's damping.
-        let (along, _) = self.cable.end.as_ref().map_or((0, 0), MovingEnd::counts);
+        let (chain, along) = self.motions_along();
         let swivel = self.cable.end.as_ref().map_or(0.0, MovingEnd::swivel_mass);
-        let (mut mass, mut loss) = (motion[along..].iter().map(|z| swivel * z * z).sum(), 0.0);
-        if let Some(chain) = self.chain() {
+        let mut share =
+            DriveShare { mass: motion[along..].iter().map(|z| swivel * z * z).sum(), ..DriveShare::default() };
+        if let Some(of) = self.chain() {
             let undamped = (Complex::from(x), Complex::from(2.0 * omega));
-            let losses = chain.beyond_undamped(omega.into(), undamped, 1.0);
-            for (j, z) in motion[..along].iter().enumerate() {
-                mass += chain.mass[(j, j)] * z * z;
-                loss += losses[j].0.im * z * z;
+            let losses = of.beyond_undamped(omega.into(), undamped, 1.0);
+            for (j, z) in motion[..chain].iter().enumerate() {
+                share.mass += of.mass[(j, j)] * z * z;
+                share.loss += losses[j].0.im * z * z;
             }
         }
-        (mass, loss)
+        share.stretch = self.cable.stretch.stiffness.iter().zip(&motion[chain..along]).map(|(k, z)| k * z * z).sum();
+        share.loss += self.stretch_loss.factor_at(omega) * share.stretch;
+        share
     }
 
     /// Motions of the drive in the clamped mode with this index of a family [1/√kg].
@@ -429,6 +458,8 @@ impl CatenaryDynamicEnd {
         let square = self.damping.times(losses).square_with_slope(omega, self.mass_per_length);
         let along = self.chain().map(|chain| chain.beyond_undamped(omega, square, losses));
         let mut all = along.unwrap_or_default();
+        let (loss, slope) = self.stretch_loss.at(omega);
+        all.extend(self.cable.stretch.stiffness.iter().map(|k| (loss * (losses * k), slope * (losses * k))));
         let mass = self.cable.end.as_ref().map_or(0.0, MovingEnd::swivel_mass);
         all.resize(self.motions(), (mass * (square.0 - omega * omega), mass * (square.1 - 2.0 * omega)));
         DriveLosses(all)

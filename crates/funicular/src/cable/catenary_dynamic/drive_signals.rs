@@ -3,7 +3,7 @@
 use super::{CatenaryDynamicEnd, DriveAt, DriveLosses, NearRanges};
 use crate::cable::LocalAxes;
 use crate::catenary::space::HangingCable;
-use crate::drive::DriveChain;
+use crate::drive::{ChainStretch, DriveChain};
 use crate::math::Complex;
 
 /// Quantity of a cable's drive in a response.
@@ -79,6 +79,11 @@ impl EndDirections {
         }
     }
 
+    /// Directions of a straight cable without stretch, in the axes of its chord.
+    pub(crate) fn along_chord() -> Self {
+        Self { from_platform: [1.0, 0.0], to_platform: [-1.0, 0.0], stretch: 1.0 }
+    }
+
     /// Directions of a hanging cable in other axes of its plane.
     pub(crate) fn in_axes(hanging: &HangingCable, axes: &LocalAxes) -> Self {
         let own = Self::of(hanging);
@@ -126,13 +131,67 @@ impl CatenaryDynamicEnd {
     fn at_held_end(&self, omega: f64) -> Option<[Complex; 3]> {
         let (square, [h, v], family) = (self.square(omega), self.directions.to_platform, &self.cable.in_plane);
         let towards = |i: usize| -(family.entry(i, 2, square) * h + family.entry(i, 3, square) * v);
-        self.cable.coupled.is_none().then(|| [towards(0), towards(1), Complex::new(0.0, 0.0)])
+        let mut row = [towards(0), towards(1), Complex::new(0.0, 0.0)];
+        if let Some((motions, lost)) = self.lost_by_far_end(self.far_end_along(), omega) {
+            for (s, entry) in row.iter_mut().enumerate() {
+                *entry -= lost.iter().zip(&motions.transfer).map(|(lost, row)| row[s] * lost).sum::<Complex>();
+            }
+        }
+        self.cable.coupled.is_none().then_some(row)
+    }
+
+    /// Displacement of the far end along itself towards the platform, (e, n, b).
+    pub(super) fn far_end_along(&self) -> [f64; 3] {
+        let [h, v] = self.directions.to_platform;
+        [h, v, 0.0]
+    }
+
+    /// Motions of the drive at ω [rad/s], and the forces on them by their losses for a displacement of the far end, the
+    /// platform end held. `None` without losses.
+    fn lost_by_far_end(&self, displacement: [f64; 3], omega: f64) -> Option<(DriveAt, Vec<Complex>)> {
+        if !self.has_drive_losses() {
+            return None;
+        }
+        let (motions, losses) = self.motions_with_losses(omega)?;
+        let free = self.free_by_far_end(displacement, omega)?;
+        let lost = motions.forces_by(&losses, &free);
+        Some((motions, lost))
+    }
+
+    /// Motions of the drive without its losses for a displacement of the far end, the platform end held.
+    pub(super) fn free_by_far_end(&self, displacement: [f64; 3], omega: f64) -> Option<Vec<Complex>> {
+        let drive = self.cable.drive.as_ref()?;
+        let rows = DriveAt::by_carrier(&self.cable, drive, self.motions(), self.square(omega));
+        Some(rows.iter().map(|row| row.iter().zip(displacement).map(|(t, c)| t * c).sum()).collect())
+    }
+
+    /// Force along a far end without a drive, towards the platform, by the losses of the cable, if the far end has this
+    /// displacement, at ω [rad/s].
+    pub(super) fn lost_at_far_end(&self, displacement: [f64; 3], omega: f64) -> Complex {
+        let found = self.lost_by_far_end(displacement, omega).zip(self.free_by_far_end(self.far_end_along(), omega));
+        found.map_or(0.0.into(), |((_, lost), along)| lost.iter().zip(along).map(|(lost, z)| lost * z).sum())
     }
 
     /// Tension at the drum per motion of the drive [N/m]; `None` without a drum side.
     fn drum_tension_row(&self, chain: &DriveChain, omega: f64) -> Option<Vec<Complex>> {
         let (end, square) = (chain.drum_end.as_ref()?, self.square(omega));
-        Some(end.by_motion.iter().map(|(k, mass)| (square * *mass - k) * end.ratio).collect())
+        let mut row: Vec<Complex> = end.by_motion.iter().map(|(k, mass)| (square * *mass - k) * end.ratio).collect();
+        self.add_on_drum_side(&mut row, [-end.ratio, 0.0], omega);
+        Some(row)
+    }
+
+    /// Adds the forces of the loss of the drum side to forces on the motions of the drive: those that act while
+    /// these motions are at rest, and the ends of the drum side, at the drum and at the wheel, move against them.
+    pub(super) fn add_on_drum_side(&self, forces: &mut Vec<Complex>, against: [f64; 2], omega: f64) {
+        let (loss, (chain, along)) = (self.stretch_loss.at(omega.into()).0, self.motions_along());
+        let first = chain + self.cable.stretch.moments;
+        if first == along || !self.stretch_loss.is_some() {
+            return;
+        }
+        forces.resize(along.max(forces.len()), Complex::new(0.0, 0.0));
+        for (force, of) in forces[first..along].iter_mut().zip(self.chain().map_or(&[][..], |chain| &chain.stretches)) {
+            *force += loss * (of.stiffness * of.by(against));
+        }
     }
 
     /// Row of an output over the motions of the drive.
@@ -150,7 +209,21 @@ impl CatenaryDynamicEnd {
         let square = self.square(omega);
         let force = |(k, mass): (f64, f64), motion: f64| (square * mass - k) * motion;
         let carried = square * end.carried_mass * whole;
-        (force(end.own, at_drum) + force(end.by_wheel, at_wheel) + carried) * end.ratio
+        (force(end.own, at_drum)
+            + force(end.by_wheel, at_wheel)
+            + carried
+            + self.lost_on_drum(at_drum, at_wheel, omega))
+            * end.ratio
+    }
+
+    /// Force of the loss of the drum side at its end at the drum, when its ends move.
+    fn lost_on_drum(&self, at_drum: f64, at_wheel: f64, omega: f64) -> Complex {
+        if !self.has_strains() || !self.stretch_loss.is_some() {
+            return 0.0.into();
+        }
+        let stretches = self.chain().map_or(&[][..], |chain| &chain.stretches);
+        let of = |of: &ChainStretch| of.stiffness * of.by([at_drum, at_wheel]) * -of.by_ends[0];
+        self.stretch_loss.at(omega.into()).0 * stretches.iter().map(of).sum::<f64>()
     }
 
     /// Output per input of signals of this cable, its platform end held, at ω [rad/s]. `None` if the cable has no such
@@ -163,7 +236,9 @@ impl CatenaryDynamicEnd {
             // The far end moves along itself.
             let ([h, v], square) = (self.directions.to_platform, self.square(omega));
             let of = |i: usize, j: usize| self.cable.in_plane.entry(i, j, square);
-            let own = (of(2, 2) * h + of(2, 3) * v) * h + (of(3, 2) * h + of(3, 3) * v) * v;
+            let own = (of(2, 2) * h + of(2, 3) * v) * h
+                + (of(3, 2) * h + of(3, 3) * v) * v
+                + self.lost_at_far_end(self.far_end_along(), omega);
             let known =
                 self.cable.coupled.is_none() && (input, output) == (DriveSignal::Length, DriveSignal::DrumTension);
             return known.then(|| own * -self.directions.stretch);
@@ -205,7 +280,11 @@ impl CatenaryDynamicEnd {
     /// Forces on the motions of the drive per unit of an input [N/m or 1]; for drum and motor also the row of their
     /// motion.
     pub(super) fn forces_of(&self, chain: &DriveChain, signal: DriveSignal, omega: f64) -> Option<Vec<Complex>> {
-        Some(DriveForce::of(chain, signal)?.at(omega, self.square(omega)))
+        let mut forces = DriveForce::of(chain, signal)?.at(omega, self.square(omega));
+        if signal == DriveSignal::Length && chain.drum.is_none() {
+            self.add_on_drum_side(&mut forces, [-self.directions.stretch, 0.0], omega);
+        }
+        Some(forces)
     }
 }
 

@@ -3,6 +3,7 @@
 use super::mesh::{ElementTable, Mesh};
 use super::moving_end::{MovingEnd, StaticEnds};
 use super::partition::Condensed;
+use super::stretch::StretchMotions;
 use super::{CatenaryDynamic, CatenaryDynamicError, Displacements, DriveMotion, Stations};
 use crate::catenary::Catenary;
 use crate::math::DMat;
@@ -19,6 +20,8 @@ pub(super) struct Families {
     pub(super) error: f64,
     /// Arc lengths of the stations.
     pub(super) arc_lengths: Vec<f64>,
+    /// Motions in which the rope stretches, if it has loss.
+    pub(super) stretch: StretchMotions,
 }
 
 /// Positions of the stations of a cable.
@@ -47,6 +50,7 @@ impl Families {
         end: Option<&MovingEnd>,
         limit: f64,
         positions: StationPositions,
+        moments: usize,
     ) -> Result<Self, CatenaryDynamicError> {
         let held = MovingEnd { along: None, sideways: None };
         let end = end.unwrap_or(&held);
@@ -55,11 +59,14 @@ impl Families {
 
         let tables = mesh.tables();
         let arc_lengths = positions.arc_lengths(mesh, &tables);
-        let in_plane = mesh.condense(&tables, in_plane, end.guide_in_plane().as_ref(), limit, &arc_lengths)?;
+        let strain = mesh.moments(&tables, moments);
+        let in_plane = mesh.condense(&tables, in_plane, end.guide_in_plane().as_ref(), limit, &arc_lengths, moments)?;
         let out_of_plane =
-            mesh.condense(&tables, out_of_plane, end.guide_out_of_plane().as_ref(), limit, &arc_lengths)?;
+            mesh.condense(&tables, out_of_plane, end.guide_out_of_plane().as_ref(), limit, &arc_lengths, 0)?;
         let error = in_plane.error.max(out_of_plane.error);
-        Ok(Self { in_plane, out_of_plane, coupled: None, flexibility, error, arc_lengths })
+        let flexibility = strain.flexibility(flexibility, Some(end), catenary.tangent());
+        let stretch = strain.motions(Some(end));
+        Ok(Self { in_plane, out_of_plane, coupled: None, flexibility, error, arc_lengths, stretch })
     }
 
     /// Motions in plane and out of plane, which the end couples.
@@ -69,13 +76,16 @@ impl Families {
         end: &MovingEnd,
         limit: f64,
         positions: StationPositions,
+        moments: usize,
     ) -> Result<Self, CatenaryDynamicError> {
         let (ends, flexibility) =
             end.static_stiffness_coupled(catenary.tangent(), catenary.out_of_plane_stiffness())?;
         let tables = mesh.tables();
         let arc_lengths = positions.arc_lengths(mesh, &tables);
-        let coupled = mesh.condense(&tables, ends, Some(&end.guide()), limit, &arc_lengths)?;
+        let strain = mesh.moments(&tables, moments);
+        let coupled = mesh.condense(&tables, ends, Some(&end.guide()), limit, &arc_lengths, moments)?;
         let error = coupled.error;
+        let flexibility = strain.flexibility(flexibility, Some(end), catenary.tangent());
         Ok(Self {
             in_plane: Condensed::none(),
             out_of_plane: Condensed::none(),
@@ -83,10 +93,12 @@ impl Families {
             flexibility,
             error,
             arc_lengths,
+            stretch: strain.motions(Some(end)),
         })
     }
 
-    /// Cable, and its stations; the motions at its end, which follow the stations, belong to the cable.
+    /// Cable, and its stations; the moments of the strain and the motions at its end, which follow the stations, belong
+    /// to the cable.
     pub(super) fn split(
         mut self,
         end: Option<MovingEnd>,
@@ -111,11 +123,17 @@ impl Families {
             drive.along = self.in_plane.stations.split_off(first);
             drive.sideways = self.out_of_plane.stations.split_off(first);
         }
+        let stretch = self.stretch;
+        match &coupled {
+            Some(_) => stretch.put_in_order(&mut drive.coupled, end.as_ref()),
+            None => stretch.put_in_order(&mut drive.along, end.as_ref()),
+        }
 
-        let drive = end.is_some().then_some(drive);
+        let drive = (end.is_some() || stretch.moments > 0).then_some(drive);
         let (in_plane, out_of_plane) = (self.in_plane.stations, self.out_of_plane.stations);
         let stations = Stations { arc_lengths, in_plane, out_of_plane, coupled: coupled_stations };
         let (in_plane, out_of_plane) = (self.in_plane.ends, self.out_of_plane.ends);
-        (CatenaryDynamic { in_plane, out_of_plane, coupled, limit, error: self.error, degrees, end, drive }, stations)
+        let error = self.error;
+        (CatenaryDynamic { in_plane, out_of_plane, coupled, limit, error, degrees, end, drive, stretch }, stations)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{CatenaryDynamic, Family, PoleResidue};
 use crate::math::{Complex, DMat};
+use std::array::from_fn;
 
 /// Displacement of stations along a catenary-dynamic cable (D components per point) by motions of its ends (N = 2D
 /// components).
@@ -53,12 +54,24 @@ impl<const D: usize, const N: usize> Displacements<D, N> {
         Self { still: self.still.split_off(first), modes }
     }
 
-    /// Displacements by the hat functions of the two ends alone, without clamped modes.
-    pub(super) fn of_ends(values_at_ends: &[[f64; 2]]) -> Self {
-        let hats = |values: &[f64; 2]| {
-            std::array::from_fn(|d| std::array::from_fn(|n| if n % D == d { values[n / D] } else { 0.0 }))
+    /// Inserts the stations of another list before the station `at`.
+    pub(super) fn insert(&mut self, at: usize, others: &Self) {
+        self.still.splice(at..at, others.still.iter().copied());
+        for (mode, other) in self.modes.iter_mut().zip(&others.modes) {
+            mode.splice(at..at, other.iter().copied());
+        }
+    }
+
+    /// Sums of stations, each with its factor.
+    pub(super) fn sums(&self, of: &[Vec<(usize, f64)>]) -> Self {
+        let still = |sum: &Vec<(usize, f64)>| {
+            from_fn(|d| from_fn(|n| sum.iter().map(|(at, factor)| factor * self.still[*at][d][n]).sum()))
         };
-        Self { still: values_at_ends.iter().map(hats).collect(), modes: Vec::new() }
+        let mode = |mode: &Vec<[f64; D]>| {
+            let at = |sum: &Vec<(usize, f64)>| from_fn(|d| sum.iter().map(|(at, factor)| factor * mode[*at][d]).sum());
+            of.iter().map(at).collect()
+        };
+        Self { still: of.iter().map(still).collect(), modes: self.modes.iter().map(mode).collect() }
     }
 
     /// Adds a clamped mode: its values at the stations and its products `K_ibᵀ φ` with the ends, φᵀKφ = 1, μ = 1/ω².

@@ -2,8 +2,10 @@
 
 use super::CatenaryDynamicError;
 use super::partition::{Condensed, Functions, Guide, Partition};
+use super::stretch::StrainMoments;
 use crate::catenary::Catenary;
 use crate::math::{Complex, DMat, legendre, order};
+use std::f64::consts::SQRT_2;
 
 /// Cable divided into elements, each with its polynomial degree.
 pub(super) struct Mesh<'a> {
@@ -182,8 +184,9 @@ impl<'a> Mesh<'a> {
     }
 
     /// Condenses D components per point onto the two ends (N = 2D), whose static stiffness is `still`, and finds the
-    /// displacements of the points at the arc lengths `stations`. An `end` that can move is part of the inside, with
-    /// the motions behind it; their displacements follow those of the stations.
+    /// displacements of the points at the arc lengths `stations`. The first `moments` moments of the strain follow as
+    /// stations of their own. An `end` that can move is part of the inside, with the motions behind it; their
+    /// displacements are the last.
     pub(super) fn condense<const D: usize, const N: usize, const E: usize>(
         &self,
         tables: &[ElementTable],
@@ -191,13 +194,85 @@ impl<'a> Mesh<'a> {
         end: Option<&Guide<D>>,
         limit: f64,
         stations: &[f64],
+        moments: usize,
     ) -> Result<Condensed<D, N, E>, CatenaryDynamicError> {
-        let behind = end.map_or(0, |end| end.stiffness.nrows());
+        let behind = moments + end.map_or(0, |end| end.stiffness.nrows());
         let mut partition = self.assemble::<D, N>(tables, stations, end.is_some(), behind);
+        if moments > 0 {
+            self.add_moments(&mut partition, tables, stations.len(), (moments, end.is_some()));
+        }
         if let Some(end) = end {
-            partition.guide(self.elements.len() - 1, end, stations.len());
+            partition.guide(self.elements.len() - 1, end, stations.len() + moments);
         }
         partition.reduce(still, limit)
+    }
+
+    /// Adds moments of the strain t·p′ as stations from the number `first` on; `moves` as in [`assemble`](Self::assemble).
+    fn add_moments<const D: usize, const N: usize>(
+        &self,
+        partition: &mut Partition<D, N>,
+        tables: &[ElementTable],
+        first: usize,
+        (moments, moves): (usize, bool),
+    ) {
+        for (e, (element, table)) in self.elements.iter().zip(tables).enumerate() {
+            let functions = self.functions_of(e, moves);
+            let mut rows = vec![vec![[0.0; 2]; table.slopes.nrows()]; moments];
+            for (q, (_, weight, direction, weights)) in self.strain_weights(element, table, moments).enumerate() {
+                for (row, by_strain) in rows.iter_mut().zip(weights) {
+                    for (entry, slope) in row.iter_mut().zip(table.slopes.column(q).iter()) {
+                        // The slopes are by ξ: their arc length cancels that of the integral.
+                        (0..2).for_each(|d| entry[d] += weight * by_strain * direction[d] * slope);
+                    }
+                }
+            }
+            for (j, row) in rows.iter().enumerate() {
+                partition.add_motion(&functions, first + j, row);
+            }
+        }
+    }
+
+    /// Points of the rule of an element: ξ, weight, direction of the cable in plane, and the weight of the strain there
+    /// in each moment, √2 times the orthonormal Legendre polynomials of the whole arc length.
+    fn strain_weights<'t>(
+        &'t self,
+        element: &Element,
+        table: &'t ElementTable,
+        moments: usize,
+    ) -> impl Iterator<Item = (f64, f64, [f64; 2], Vec<f64>)> + 't {
+        let Element { from, to, .. } = *element;
+        table.rule.iter().map(move |(xi, weight)| {
+            let s = 0.5 * (from + to) + 0.5 * (to - from) * xi;
+            let x = 2.0 * s / self.catenary.rope().unstrained_length - 1.0;
+            let weights = legendre::orthonormal(x, moments - 1).iter().map(|p| SQRT_2 * p).collect();
+            (*xi, *weight, self.direction_at(s), weights)
+        })
+    }
+
+    /// First moments of the strain at rest.
+    pub(super) fn moments(&self, tables: &[ElementTable], count: usize) -> StrainMoments {
+        if count == 0 {
+            return StrainMoments::none();
+        }
+        let rope = self.catenary.rope();
+        let mut by_force = vec![[0.0; 2]; count];
+        for (element, table) in self.elements.iter().zip(tables) {
+            let per_force = 0.5 * (element.to - element.from) / rope.axial_stiffness;
+            for (_, weight, direction, weights) in self.strain_weights(element, table, count) {
+                for (sum, by_strain) in by_force.iter_mut().zip(weights) {
+                    (0..2).for_each(|d| sum[d] += per_force * weight * by_strain * direction[d]);
+                }
+            }
+        }
+        StrainMoments { by_force, stiffness: vec![rope.axial_stiffness / rope.unstrained_length; count] }
+    }
+
+    /// Direction of the cable in plane at arc length s, a unit vector.
+    fn direction_at(&self, s: f64) -> [f64; 2] {
+        let h = self.catenary.horizontal_force();
+        let v = self.catenary.vertical_force_at_start() + self.catenary.rope().weight_per_length * s;
+        let tension = h.hypot(v);
+        [h / tension, v / tension]
     }
 
     /// Stiffness and mass of all functions, assembled element by element in the blocks of a [`Partition`]. There is

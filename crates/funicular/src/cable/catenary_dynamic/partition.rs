@@ -42,8 +42,14 @@ pub(super) struct Partition<const D: usize, const N: usize> {
     end_mass: [[f64; N]; N],
     /// Diagonal entries of stiffness and mass of each unknown beyond the degree.
     beyond: Vec<(f64, f64)>,
-    /// Values of the two end functions at each station.
-    values_at_ends: Vec<[f64; 2]>,
+    /// Displacement of each station by the functions of both ends.
+    by_ends: Vec<[[f64; N]; D]>,
+}
+
+/// Station that is a motion, not a point: its first component as a sum of unknowns and of components of the ends.
+pub(super) struct MotionRow {
+    pub(super) inner: Vec<(usize, f64)>,
+    pub(super) ends: Vec<f64>,
 }
 
 /// Motions at the end of a cable, some of which move the end; the others lie behind these.
@@ -76,8 +82,8 @@ pub(super) struct Blocks {
     pub(super) end_mass: DMat,
     /// Diagonal entries of stiffness and mass of each unknown beyond the degree.
     pub(super) beyond: Vec<(f64, f64)>,
-    /// Inner unknown of each station, which is a motion behind the end.
-    pub(super) stations: Vec<usize>,
+    /// Stations, all of which are motions.
+    pub(super) stations: Vec<MotionRow>,
 }
 
 impl<const D: usize, const N: usize> Partition<D, N> {
@@ -93,8 +99,12 @@ impl<const D: usize, const N: usize> Partition<D, N> {
             }
         }
 
-        for (station, unknown) in stations.iter().enumerate() {
-            rows[unknown * row_length + 2 * outer + D * station] = 1.0;
+        let mut by_ends = vec![[[0.0; N]; D]; stations.len()];
+        for (station, row) in stations.iter().enumerate() {
+            by_ends[station][0].copy_from_slice(&row.ends);
+            for (unknown, entry) in &row.inner {
+                rows[unknown * row_length + 2 * outer + D * station] = *entry;
+            }
         }
 
         Self {
@@ -106,7 +116,7 @@ impl<const D: usize, const N: usize> Partition<D, N> {
             row_length,
             end_mass: std::array::from_fn(|i| std::array::from_fn(|j| end_mass[(i, j)])),
             beyond: beyond.clone(),
-            values_at_ends: vec![[0.0; 2]; stations.len()],
+            by_ends,
         }
     }
 
@@ -123,7 +133,7 @@ impl<const D: usize, const N: usize> Partition<D, N> {
             row_length,
             end_mass: [[0.0; N]; N],
             beyond: vec![(0.0, 0.0); D * beyond],
-            values_at_ends: vec![[0.0; 2]; stations],
+            by_ends: vec![[[0.0; N]; D]; stations],
         }
     }
 
@@ -184,7 +194,22 @@ impl<const D: usize, const N: usize> Partition<D, N> {
             }
         }
         for &(a, end) in &functions.ends {
-            self.values_at_ends[station][end] = values[a];
+            (0..D).for_each(|d| self.by_ends[station][d][D * end + d] = values[a]);
+        }
+    }
+
+    /// Adds an element's contribution to a station that is a motion: `row` has its first component by each function of
+    /// the element, in plane.
+    pub(super) fn add_motion(&mut self, functions: &Functions, station: usize, row: &[[f64; 2]]) {
+        for &(a, at) in &functions.inner {
+            for (d, entry) in row[a].iter().enumerate() {
+                self.rows[(D * at + d) * self.row_length + 2 * self.outer + D * station] += entry;
+            }
+        }
+        for &(a, end) in &functions.ends {
+            for (d, entry) in row[a].iter().enumerate() {
+                self.by_ends[station][0][D * end + d] += entry;
+            }
         }
     }
 
@@ -257,7 +282,7 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         still: [[f64; N]; N],
         limit: f64,
     ) -> Result<Condensed<D, N, E>, CatenaryDynamicError> {
-        let Self { stiffness, mass, rows, row_length, outer, end_mass, beyond, values_at_ends, .. } = self;
+        let Self { stiffness, mass, rows, row_length, outer, end_mass, beyond, by_ends, .. } = self;
         let (values, products) =
             generalized_eigen::pencil(stiffness, mass, rows, row_length).ok_or(CatenaryDynamicError::NoTension)?;
 
@@ -268,7 +293,7 @@ impl<const D: usize, const N: usize> Partition<D, N> {
         // Poles, participations and displacements, mode by mode; each mode takes its contribution out of the end mass.
         let (mut mass, mut error) = (end_mass, 0.0_f64);
         let (mut poles, mut participation) = (Vec::with_capacity(order.len()), Vec::with_capacity(order.len()));
-        let mut stations = Displacements::of_ends(&values_at_ends);
+        let mut stations = Displacements { still: by_ends, modes: Vec::new() };
         for k in infinite {
             let mode = ModeProducts::new(values[k], &products[k * row_length..(k + 1) * row_length], outer);
             stations.add_still(mode.at_stations, mode.stiff);

@@ -10,14 +10,16 @@
 
 use super::mesh::{self, BEYOND};
 use super::moving_end::{MovingEnd, StaticEnds};
-use super::partition::{Blocks, Condensed, Guide, Partition};
+use super::partition::{Blocks, Condensed, Guide, MotionRow, Partition};
+use super::stretch::StrainMoments;
 use super::{CatenaryDynamic, CatenaryDynamicError, Families, MAX_REFINEMENTS, MAX_UNKNOWNS, WANTED_ERROR};
 use crate::cable::{Sag, shallow_static};
-use crate::math::{DMat, legendre};
+use crate::math::{DMat, DVec, legendre};
 use std::ops::Range;
 
 /// Span condensed onto its ends, for frequencies up to ω = `limit` [rad/s]. `end` is its far end, in the axes of the
-/// chord; `None` for one that is held.
+/// chord; `None` for one that is held. With `has_strains` its elongation
+/// is one more motion.
 ///
 /// # Errors
 /// [`CatenaryDynamicError`].
@@ -25,11 +27,12 @@ pub(super) fn condensed(
     sag: &Sag,
     end: Option<MovingEnd>,
     limit: f64,
+    has_strains: bool,
 ) -> Result<CatenaryDynamic, CatenaryDynamicError> {
     let held = MovingEnd { along: None, sideways: None };
     let moves = end.as_ref().unwrap_or(&held);
     let phase = limit * sag.chord * (sag.mass_per_length / sag.tension).sqrt();
-    let mut span = ShallowSpan { sag, degree: mesh::degree(phase, f64::INFINITY) };
+    let mut span = ShallowSpan { sag, degree: mesh::degree(phase, f64::INFINITY), has_strains };
 
     for refinements in 0.. {
         let unknowns = span.degree + moves.counts().1;
@@ -49,6 +52,7 @@ pub(super) fn condensed(
 struct ShallowSpan<'a> {
     sag: &'a Sag,
     degree: usize,
+    has_strains: bool,
 }
 
 /// Components of the motion of a family with `count` components: out of plane alone, along the chord and normal to it,
@@ -72,7 +76,10 @@ impl ShallowSpan<'_> {
         let in_plane = self.condense(end.guide_in_plane().as_ref(), in_plane, limit)?;
         let out_of_plane = self.condense(end.guide_out_of_plane().as_ref(), out_of_plane, limit)?;
         let error = in_plane.error.max(out_of_plane.error);
-        Ok(Families { in_plane, out_of_plane, coupled: None, flexibility, error, arc_lengths: Vec::new() })
+        let strain = self.strain();
+        let flexibility = strain.flexibility(flexibility, Some(end), held);
+        let (arc_lengths, stretch) = (Vec::new(), strain.motions(Some(end)));
+        Ok(Families { in_plane, out_of_plane, coupled: None, flexibility, error, arc_lengths, stretch })
     }
 
     /// Motions in plane and out of plane, which the end couples.
@@ -81,6 +88,8 @@ impl ShallowSpan<'_> {
         let (ends, flexibility) = end.static_stiffness_coupled(held, held_out_of_plane)?;
         let coupled = self.condense(Some(&end.guide()), ends, limit)?;
         let error = coupled.error;
+        let strain = self.strain();
+        let flexibility = strain.flexibility(flexibility, Some(end), held);
         Ok(Families {
             in_plane: Condensed::none(),
             out_of_plane: Condensed::none(),
@@ -88,7 +97,38 @@ impl ShallowSpan<'_> {
             flexibility,
             error,
             arc_lengths: Vec::new(),
+            stretch: strain.motions(Some(end)),
         })
+    }
+
+    /// Strain of the span, whose only moment is its elongation; none without loss.
+    fn strain(&self) -> StrainMoments {
+        if !self.has_strains {
+            return StrainMoments::none();
+        }
+        let stiffness = self.sag.axial_stiffness / self.sag.effective_length;
+        StrainMoments { by_force: vec![[1.0 / stiffness, 0.0]], stiffness: vec![stiffness] }
+    }
+
+    /// Elongation of the chord and of the first bubble, the only function whose mean the ends do not cancel: places and
+    /// factors. None out of plane.
+    fn elongation<const D: usize>(&self) -> Vec<(usize, f64)> {
+        if D == 1 {
+            return Vec::new();
+        }
+        vec![
+            (self.place::<D>(0, 0), -1.0),
+            (self.place::<D>(0, 1), 1.0),
+            (self.place::<D>(1, 2), self.sag.epsilon / 6f64.sqrt()),
+        ]
+    }
+
+    /// Place of a function of a component: the platform end, the far end, then the bubbles.
+    fn place<const D: usize>(&self, component: usize, function: usize) -> usize {
+        match function {
+            0 | 1 => function * D + component,
+            bubble => 2 * D + (component - transverse(D).start) * self.bubbles() + bubble - 2,
+        }
     }
 
     /// Number of bubbles per transverse component, with those beyond the degree.
@@ -102,19 +142,15 @@ impl ShallowSpan<'_> {
     /// # References
     /// docs/theory.md, equation (87).
     fn matrices<const D: usize>(&self) -> [DMat; 2] {
-        let Sag { chord, tension, axial_stiffness, mass_per_length, epsilon, effective_length, .. } = *self.sag;
+        let Sag { chord, tension, axial_stiffness, mass_per_length, effective_length, .. } = *self.sag;
         let (bubbles, half) = (self.bubbles(), 0.5 * chord);
         let count = 2 * D + transverse(D).len() * bubbles;
-        let place = |component: usize, function: usize| match function {
-            0 | 1 => function * D + component,
-            bubble => 2 * D + (component - transverse(D).start) * bubbles + bubble - 2,
-        };
 
         // Strings: the slopes of the bubbles are orthonormal, and orthogonal to those of the hats.
         let (mut stiffness, mut mass) = (DMat::zeros(count, count), DMat::zeros(count, count));
         let of_element = legendre::element_mass(self.degree + BEYOND) * (half * mass_per_length);
         for component in transverse(D) {
-            let at = |function: usize| place(component, function);
+            let at = |function: usize| self.place::<D>(component, function);
             for (i, j, sign) in [(0, 0, 1.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 1.0)] {
                 stiffness[(at(i), at(j))] = sign * tension / chord;
             }
@@ -128,14 +164,11 @@ impl ShallowSpan<'_> {
             }
         }
 
-        // Sag: the elongation of the chord and of the first bubble, the only function whose mean the ends do not
-        // cancel.
-        if D > 1 {
-            let elongation = [(place(0, 0), -1.0), (place(0, 1), 1.0), (place(1, 2), epsilon / 6f64.sqrt())];
-            for (i, a) in elongation {
-                for (j, b) in elongation {
-                    stiffness[(i, j)] += axial_stiffness / effective_length * a * b;
-                }
+        // Sag.
+        let elongation = self.elongation::<D>();
+        for (i, a) in &elongation {
+            for (j, b) in &elongation {
+                stiffness[(*i, *j)] += axial_stiffness / effective_length * a * b;
             }
         }
         [stiffness, mass]
@@ -176,6 +209,17 @@ impl ShallowSpan<'_> {
                 corner += added;
             }
         }
+        // Its elongation, and the motions of the guide.
+        let elongation = DVec::from_fn(total, |place, _| {
+            self.elongation::<D>().iter().filter(|(at, _)| *at == place).map(|(_, factor)| factor).sum()
+        });
+        let stretched = (self.has_strains && D > 1).then(|| MotionRow {
+            inner: of_span.tr_mul(&elongation).iter().copied().enumerate().filter(|(_, entry)| *entry != 0.0).collect(),
+            ends: elongation.as_slice()[..N].to_vec(),
+        });
+        let of_guide = (inner.len()..unknowns).map(|at| MotionRow { inner: vec![(at, 1.0)], ends: vec![0.0; N] });
+        let stations = stretched.into_iter().chain(of_guide).collect();
+
         let blocks = Blocks {
             inner: square,
             to_outer: matrices.each_ref().map(|matrix| of_span.tr_mul(&matrix.select_columns(&outer))),
@@ -184,7 +228,7 @@ impl ShallowSpan<'_> {
                 .iter()
                 .map(|&place| (matrices[0][(place, place)], matrices[1][(place, place)]))
                 .collect(),
-            stations: (inner.len()..unknowns).collect(),
+            stations,
         };
         Partition::of(&blocks).reduce(still, limit)
     }

@@ -49,7 +49,7 @@ impl TwoEnded {
             Self { stiffness: [[0.0; ENDS]; ENDS], mass: [[0.0; ENDS]; ENDS], modes: Vec::new(), still: Vec::new() };
 
         // The families.
-        let (along, all) = end.cable.end.as_ref().map_or((0, 0), super::MovingEnd::counts);
+        let ((_, along), all) = (end.motions_along(), end.motions());
         both.still = vec![[0.0; ENDS]; end.motions()];
         let drive = end.cable.drive.as_ref();
         if let Some(family) = end.coupled() {
@@ -152,6 +152,13 @@ impl TwoEnded {
         self.stiffness[ALONG][ALONG] = own.0 + along(&k);
         self.mass[ALONG][ALONG] = own.1 + 2.0 * along(&m) + of_modes;
         self.still.iter_mut().zip(still).for_each(|(row, still)| row[ALONG] = still);
+
+        // A drum side from the ground stretches with it at the wheel.
+        if from_ground {
+            let (first, along) = end.motions_along();
+            let rows = &mut self.still[first + end.cable.stretch.moments..along];
+            rows.iter_mut().zip(&chain.stretches).for_each(|(row, of)| row[ALONG] += of.by([0.0, ratio]));
+        }
     }
 
     /// Modes with the poles that are not `left_out`.

@@ -25,7 +25,7 @@ impl CableForm {
         factor: f64,
     ) {
         let [v, by_length] = [v_w, force_by_length_w].map(|of| -> Vector<f64> { from_fn(|k| self.axes_w[k].dot(of)) });
-        let a = self.static_force(&v);
+        let a = self.static_force(&v, None);
 
         // Integrals along the cable; of the compliance S there is the minus of its derivative in (60a).
         let held = [0.0; 3];
@@ -48,7 +48,7 @@ impl CableForm {
         // Load, chord and length where they stand.
         let mut by_load = [0.0; 3];
         for point in &self.points {
-            add_times(&mut by_load, &self.strain(point, &a), point.weight * point.fraction);
+            add_times(&mut by_load, &self.strain(point, &a, None), point.weight * point.fraction);
         }
         let a_w = self.world(&a);
         add_times(&mut sum.load, &self.world(&by_load), factor);

@@ -20,6 +20,9 @@ pub(super) struct Vibrating {
     pub(super) out_of_plane: ShapeColumns,
     pub(super) coupled: ShapeColumns,
     pub(super) drive: Option<VibratingEnd>,
+    /// Number of motions of the drive in plane, with the stretches, and number of all motions.
+    pub(super) along: usize,
+    pub(super) count: usize,
     /// Motions along a drum side that a flexible support moves.
     pub(super) side: Option<AlongDrumSide>,
 }
@@ -29,9 +32,6 @@ pub(super) struct VibratingEnd {
     pub(super) form: VibratingDriveForm,
     /// Directions in which the end moves, in the axes of the cable, each with the motion.
     pub(super) directions: Vec<(usize, [f64; 3])>,
-    /// Number of motions along the cable, and number of all motions.
-    pub(super) along: usize,
-    pub(super) count: usize,
 }
 
 /// Losses of a drive at a frequency, for its motions.
@@ -83,8 +83,8 @@ impl Vibrating {
     ) -> (Vec<T>, Vec<T>) {
         let mut amplitudes = self.amplitudes(end, far, at.square, near);
         let mut motions = Vec::new();
-        if let (Some(drive), Some(shapes)) = (&self.drive, &self.cable.drive) {
-            motions = self.drive_motions((drive, shapes), end, far, &mut amplitudes);
+        if let Some(shapes) = &self.cable.drive {
+            motions = self.drive_motions(shapes, end, far, &mut amplitudes);
             // The losses and forces of the drive act on the clamped modes.
             if let Some(losses) = &at.losses {
                 let act = losses.act_on(&mut motions, forces);
@@ -128,14 +128,14 @@ impl Vibrating {
     /// a drum side.
     fn drive_motions<T: Field>(
         &self,
-        (drive, shapes): (&VibratingEnd, &DriveMotion),
+        shapes: &DriveMotion,
         end: &Vector<T>,
         far: Option<&(Vector<T>, T)>,
         amplitudes: &mut Amplitudes<T>,
     ) -> Vec<T> {
         let is_coupled = self.cable.coupled.is_some();
-        let mut motions = vec![T::default(); drive.count];
-        let (along, sideways) = motions.split_at_mut(drive.along);
+        let mut motions = vec![T::default(); self.count];
+        let (along, sideways) = motions.split_at_mut(self.along);
         if is_coupled {
             add_motions(&mut motions, &shapes.coupled, end, &amplitudes.coupled);
         } else {
@@ -144,7 +144,7 @@ impl Vibrating {
         }
 
         let Some((far, moved)) = far else { return motions };
-        let (along, sideways) = motions.split_at_mut(drive.along);
+        let (along, sideways) = motions.split_at_mut(self.along);
         if is_coupled {
             add_far_motions(&mut motions, &shapes.coupled, far);
         } else {

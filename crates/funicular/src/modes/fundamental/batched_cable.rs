@@ -365,6 +365,7 @@ mod tests {
             drum_side_mass: 0.0,
             drum_end: None,
             stretch_drum: 1.0,
+            stretches: Vec::new(),
         };
 
         let sideways = EndSideways { direction: [0.0, 0.0, 1.0], stiffness: 500.0, coupling: 0.0, mass: swivel };
@@ -436,7 +437,7 @@ mod tests {
             let cables: Vec<Catenary> = shapes.into_iter().map(cable).collect();
             let end = |i: usize| (i != held).then(|| moving(&cables[i], masses.map(|mass| 10f64.powf(mass))));
             let oracle = |(i, c): (usize, &Catenary)| {
-                CatenaryDynamic::with_stations(c, end(i), MASS, 60.0, &[], false).unwrap().0
+                CatenaryDynamic::with_stations(c, end(i), MASS, 60.0, &[], false, 0).unwrap().0
             };
             let oracles: Vec<CatenaryDynamic> = cables.iter().enumerate().map(oracle).collect();
             let first = |e: &CatenaryDynamic| e.in_plane.poles[0].min(e.out_of_plane.poles[0]);
@@ -470,7 +471,7 @@ mod tests {
             const MASS: f64 = 0.067;
             let catenary = cable(shape);
             let end = masses.map(|masses| moving(&catenary, masses.map(|mass| 10f64.powf(mass))));
-            let oracle = CatenaryDynamic::with_stations(&catenary, end.clone(), MASS, 20.0, &[], false).unwrap().0;
+            let oracle = CatenaryDynamic::with_stations(&catenary, end.clone(), MASS, 20.0, &[], false, 0).unwrap().0;
             let x = part * oracle.in_plane.poles[0].min(oracle.out_of_plane.poles[0]);
             let span = CableSpan { catenary: &catenary, mass_per_length: MASS, end };
             let group = &mut CableGroup::groups(&[span]).unwrap()[0];

@@ -260,6 +260,8 @@ impl Parameters {
                 },
                 "drag_diameter_m" => change.drag_width = material.drag_width? / parameter.value,
                 "damping_ratio" | "viscous_damping_n_s_m2" => change.damping = 1.0,
+                "axial_loss_factor" => change.loss_factor = 1.0,
+                "axial_damping_time_s" => change.damping_time = 1.0,
                 "mass_kg_per_m" => change.mass_per_length = 1.0,
                 "load_n_per_m" => {
                     let own = |other: &Parameter| other.part == RobotPart::Cable(i) && other.key == "load_n_per_m";
@@ -360,6 +362,8 @@ mod tests {
         diameter_m = 0.004
         mass_kg_per_m = 0.07
         damping_ratio = 0.003
+        axial_loss_factor = 0.02
+        axial_damping_time_s = 0.8e-3
         minimum_tension_n = 1.0
         maximum_tension_n = 5000.0
         breaking_load_n = 9000.0

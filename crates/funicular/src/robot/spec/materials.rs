@@ -6,12 +6,20 @@ use super::limits;
 use super::range::{MAX_MAGNITUDE, MIN_POSITIVE, Range};
 use super::read::{Named, Reader, Section};
 use crate::math::Vec3;
-use crate::robot::{Damping, Material, RopeDimensions, RopeSection};
+use crate::robot::{Damping, Material, RopeDimensions, RopeSection, StretchLoss};
 use std::f64::consts::PI;
 
 /// Damping ratio that must not be reached: from here on it is not material damping, and `ω² (1 − 2iξ)` is turned from
 /// the real axis by 45°.
 const RATIO_LIMIT: f64 = 0.5;
+
+/// Loss factor that must not be reached: with it a rope loses 2π times the energy of its stretch in a cycle. Larger values
+/// are per cent.
+const LOSS_FACTOR_LIMIT: f64 = 1.0;
+
+/// Damping time that must not be reached [s]: it would give a loss factor of one at 0.16 Hz. Values above are
+/// milliseconds.
+const DAMPING_TIME_LIMIT: f64 = 1.0;
 
 /// Keys of `[materials.NAME]`.
 pub(super) const KEYS: &[Key] = &[
@@ -65,7 +73,7 @@ pub(super) const KEYS: &[Key] = &[
         "damping_ratio = 0.003",
         "1",
         Range::Below(RATIO_LIMIT),
-        "damping ratio of the rope, the same at every frequency",
+        "damping ratio of moving the rope, not of stretching it, the same at every frequency",
     )
     .or([0.0; 3]),
     Key::numeric(
@@ -74,9 +82,27 @@ pub(super) const KEYS: &[Key] = &[
         "viscous_damping_n_s_m2 = 0.01",
         "N s/m²",
         Range::NotNegative,
-        "viscous damping of the rope per length",
+        "viscous damping of moving the rope per length, not of stretching it",
     )
     .without(Absent::Means("the `damping_ratio` applies; a file gives one of the two")),
+    Key::numeric(
+        Shape::Number,
+        "axial_loss_factor",
+        "axial_loss_factor = 0.02",
+        "1",
+        Range::Below(LOSS_FACTOR_LIMIT),
+        "loss factor η of the rope's stretch, the same at every frequency: EA (1 + iη)",
+    )
+    .or([0.0; 3]),
+    Key::numeric(
+        Shape::Number,
+        "axial_damping_time_s",
+        "axial_damping_time_s = 0.8e-3",
+        "s",
+        Range::Below(DAMPING_TIME_LIMIT),
+        "damping time τ of the rope's stretch: EA (1 + iωτ), adds to the loss factor",
+    )
+    .or([0.0; 3]),
     Key::numeric(
         Shape::Number,
         "minimum_tension_n",
@@ -158,6 +184,7 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
     let mass_per_length =
         reader.required(section, "mass_kg_per_m").and_then(|value| reader.number_of(section, "mass_kg_per_m", value));
     let damping = damping(reader, section);
+    let loss = ["axial_loss_factor", "axial_damping_time_s"].map(|key| below_limit(reader, section, key));
 
     let breaking_load = limits::breaking_load(reader, section);
     let tension_limits = limits::read(reader, section);
@@ -173,6 +200,7 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
         axial_stiffness: axial_stiffness?,
         mass_per_length: mass_per_length?,
         damping: damping?,
+        stretch_loss: StretchLoss { factor: loss[0]?, time: loss[1]? },
         tension_limits: tension_limits?,
         breaking_load: breaking_load?,
         drag_width: drag?.map(|[coefficient, diameter]| coefficient * diameter),
@@ -332,4 +360,20 @@ fn damping(reader: &mut Reader, section: &Section) -> Option<Damping> {
         (None, Some(value)) => reader.number_of(section, "viscous_damping_n_s_m2", value).map(Damping::Viscous),
         (None, None) => Some(Damping::Ratio(section.default("damping_ratio")[0])),
     }
+}
+
+/// Number of the loss of the stretch, or its default.
+fn below_limit(reader: &mut Reader, section: &Section, key: &'static str) -> Option<f64> {
+    let (limit, unit, help) = match key {
+        "axial_loss_factor" => (LOSS_FACTOR_LIMIT, "", "it is a fraction, not per cent: 2 % is 0.02"),
+        _ => (DAMPING_TIME_LIMIT, " s", "it is in seconds, not milliseconds: 0.8 ms is 0.8e-3"),
+    };
+    let Some(value) = section.get(key) else { return Some(section.default(key)[0]) };
+    let number = reader.number_of(section, key, value)?;
+    if number >= limit {
+        let written = reader.written(value.span());
+        reader.issue(value.span(), format!("`{key}` is {written}, it must be below {limit}{unit}")).help(help);
+        return None;
+    }
+    Some(number)
 }

@@ -24,7 +24,9 @@ pub(super) fn check(robot: &Robot, rope: &Material) -> Vec<Implausible> {
     let stiffness = stiffness.or_else(|| full_circle(rope));
     let strength = if stiffness.is_none() { strength(rope) } else { Vec::new() };
 
-    let others = [damping(rope), drag_coefficient(rope), drag_diameter(rope), load(robot, rope)];
+    let loss = loss_factor(rope).or_else(|| same_decay(rope));
+    let others =
+        [damping(rope), loss, damping_time(rope), drag_coefficient(rope), drag_diameter(rope), load(robot, rope)];
     stiffness.into_iter().chain(strength).chain(others.into_iter().flatten()).collect()
 }
 
@@ -163,6 +165,34 @@ fn damping(rope: &Material) -> Option<Implausible> {
         }
         Damping::Ratio(_) | Damping::Viscous(_) => None,
     }
+}
+
+fn loss_factor(rope: &Material) -> Option<Implausible> {
+    let factor = rope.stretch_loss.factor;
+    let slips: &[(f64, &str)] = &[(1e-2, "per cent given as a fraction"), (1e2, "a fraction divided by 100 once more")];
+    let is_given = factor > 0.0;
+    let what = named(rope, "loss factor of the stretch, `axial_loss_factor`,");
+    is_given.then(|| outside(what, factor, "", usual::LOSS_FACTOR, |value| likely(value, [2e-3, 0.1], slips)))?
+}
+
+fn damping_time(rope: &Material) -> Option<Implausible> {
+    let slips: &[(f64, &str)] = &[(1e-3, "milliseconds given as s")];
+    let what = named(rope, "damping time of the stretch, `axial_damping_time_s`,");
+    outside(what, rope.stretch_loss.time, "s", usual::DAMPING_TIME, |value| likely(value, [1e-5, 5e-3], slips))
+}
+
+/// One measured decay in two numbers: the ratio of a mode that lives on the stretch of the rope is half its loss factor.
+fn same_decay(rope: &Material) -> Option<Implausible> {
+    let Damping::Ratio(ratio) = rope.damping else { return None };
+    let factor = rope.stretch_loss.factor;
+    let is_same = |expected: f64| expected > 0.0 && (ratio / expected - 1.0).abs() <= usual::SAME_DECAY;
+    (is_same(0.5 * factor) || is_same(factor)).then(|| Implausible::Odd {
+        what: named(rope, &format!("`damping_ratio` is {ratio}, and `axial_loss_factor` is {factor}")),
+        slip: "one measured decay given twice? The ratio damps moving the rope, the loss factor stretching it (alone it \
+               gives a mode half its value as damping ratio): give the decay of a vibrating rope as `damping_ratio`, and \
+               fit the loss factor to that of the platform with `identify`"
+            .to_owned(),
+    })
 }
 
 /// Breaking load and tension limits against the axial stiffness.

@@ -48,6 +48,17 @@ pub const DAMPING_RATIO: [f64; 2] = [5e-4, 0.05];
 /// 0.33.
 pub const VISCOUS_DAMPING: [f64; 2] = [0.0, 6.3];
 
+/// Loss factor of the stretch of a rope. Dampers of high-damping rubber reach 0.3, braided fibre ropes are below.
+/// Outside: per cent given as a fraction (0.5), and per cent divided by 100 twice (0.0002).
+pub const LOSS_FACTOR: [f64; 2] = [1e-3, 0.3];
+
+/// Damping time of the stretch of a rope [s]: 0.02 is a loss factor of 0.13 at 1 Hz. Braided Dyneema in simulations of
+/// kites: 7.7e-4. Outside: milliseconds given as s (0.77), and N s of a complete coefficient EAτ (473).
+pub const DAMPING_TIME: [f64; 2] = [0.0, 0.02];
+
+/// Relative difference up to which two dampings of a rope count as one measured decay: two written digits.
+pub const SAME_DECAY: f64 = 0.005;
+
 /// Breaking load over axial stiffness, the strain at break of a linear rope. Library: 0.012 (steel, CoGiRo) to 0.14
 /// (IPAnema 2). Outside: kN given as N, and kgf of wire rope (0.0012).
 pub const STRAIN_AT_BREAK: [f64; 2] = [2e-3, 0.5];

@@ -9,8 +9,8 @@ use funicular::math::Vec3;
 use funicular::modes::{self, Mode};
 use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::{
-    CableChange, Control, Damping, DrumSide, GuideWheel, GuideWheelChange, Pulley, Robot, RobotChange, Servo, Winch,
-    WinchMode, Wind,
+    CableChange, Control, Damping, DrumSide, GuideWheel, GuideWheelChange, Pulley, Robot, RobotChange, Servo,
+    StretchLoss, Winch, WinchMode, Wind,
 };
 use funicular::statics::{self, Equilibrium, StaticModel};
 use proptest::prelude::*;
@@ -57,6 +57,7 @@ pub(super) fn robot_of(chosen: &DriveNumbers) -> Option<(Robot, Equilibrium)> {
     let mut robot = robot.with_wind(Wind { velocity_w: Vec3::from(chosen.wind), ..Wind::default() });
 
     for (i, cable) in robot.cables.iter_mut().enumerate() {
+        cable.material.stretch_loss = StretchLoss { factor: 0.03 * (i % 2) as f64, time: 4e-4 * (i % 3) as f64 };
         let without = chosen.mixed && i % 3 == 1;
         let side = if i % 2 == 0 { 1.0 } else { -0.7 };
         let [x, y] = chosen.incline;
@@ -120,6 +121,7 @@ pub(super) fn changes(robot: &Robot) -> Vec<(&'static str, RobotChange)> {
             cable.pulley.entry_direction_w = pulley.entry_direction_w.cross(&Vec3::new(0.6, 0.5 * x, -0.3)) * 0.3;
         }
     });
+    of_cables("loss", &|_, _, x, cable| (cable.loss_factor, cable.damping_time) = (0.01 * x, 1e-4 * x));
     of_cables("drum side", &|_, _, x, cable| cable.winch.drum_side_length = 0.02 * x);
     of_cables("winch", &|robot, i, x, cable| {
         let stiffness = robot.cables[i].anchor.winch.as_ref().map_or(0.0, |winch| winch.stiffness);

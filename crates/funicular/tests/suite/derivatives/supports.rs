@@ -176,22 +176,31 @@ fn directions(parameters: &Parameters, seed: u64, size: f64) -> Vec<(String, Rob
         });
         all[index].1 = sum(&all[index].1, change, size);
     };
-    for (index, parameter) in parameters.list().iter().enumerate() {
-        let Some(change) = parameters.change(index) else { continue };
-        if parameter.part == RobotPart::State {
-            continue;
+    // The loss of the stretch comes last, which changes no other direction.
+    let list = parameters.list();
+    let is_loss = |index: &usize| ["axial_loss_factor", "axial_damping_time_s"].contains(&list[*index].key);
+    let (loss, others): (Vec<usize>, Vec<usize>) = (0..list.len()).partition(is_loss);
+    let add_all = |indices: Vec<usize>, random: &mut Random, add: &mut dyn FnMut(String, &RobotChange, f64)| {
+        for index in indices {
+            let parameter = &list[index];
+            let Some(change) = parameters.change(index) else { continue };
+            if parameter.part == RobotPart::State {
+                continue;
+            }
+            let share = match parameter.unit {
+                "m" | "1" => 1.0,
+                _ => parameter.value.abs().max(1e-2),
+            };
+            let kind = format!("{} {}", parameter.keys[0], parameter.key);
+            add(kind, &change, size * share * random.about(0.0, 1.0));
         }
-        let share = match parameter.unit {
-            "m" | "1" => 1.0,
-            _ => parameter.value.abs().max(1e-2),
-        };
-        add(format!("{} {}", parameter.keys[0], parameter.key), &change, size * share * random.about(0.0, 1.0));
-    }
-    for i in 0..cables {
-        let mut change = RobotChange::none(cables);
-        change.cables[i].unstrained_length = 1.0;
-        add("lengths".to_owned(), &change, 0.3 * size * random.about(0.0, 1.0));
-    }
+    };
+    add_all(others, &mut random, &mut add);
+    let lengths: Vec<f64> = (0..cables).map(|_| 0.3 * size * random.about(0.0, 1.0)).collect();
+    let mut by_length = RobotChange::none(cables);
+    by_length.cables.iter_mut().zip(lengths).for_each(|(cable, length)| cable.unstrained_length = length);
+    add("lengths".to_owned(), &by_length, 1.0);
+    add_all(loss, &mut random, &mut add);
     all
 }
 
@@ -219,6 +228,8 @@ fn sum(one: &RobotChange, other: &RobotChange, factor: f64) -> RobotChange {
         cable.load_per_length_w += other.load_per_length_w * factor;
         cable.drag_width += other.drag_width * factor;
         cable.damping += other.damping * factor;
+        cable.loss_factor += other.loss_factor * factor;
+        cable.damping_time += other.damping_time * factor;
         cable.pulley.radius += other.pulley.radius * factor;
         cable.pulley.entry_direction_w += other.pulley.entry_direction_w * factor;
         cable.pulley.inertia += other.pulley.inertia * factor;
@@ -392,7 +403,8 @@ fn small_robot(seed: u64, behind: DriveVariant) -> Parameters {
     let mut r = |center: f64, width: f64| random.about(center, width);
     let mut text = format!(
         "name = \"small\"\n[platform]\nmass_kg = {}\nmotion = \"point-mass\"\ntranslational_damping_n_s_m = [2, 3, 4]\n\
-         [materials.rope]\naxial_stiffness_n = {}\nmass_kg_per_m = {}\ndamping_ratio = 0.01\n[loads]\nforce_n = [12, -8, -15]\n",
+         [materials.rope]\naxial_stiffness_n = {}\nmass_kg_per_m = {}\ndamping_ratio = 0.01\naxial_loss_factor = 0.03\n\
+         axial_damping_time_s = 4e-4\n[loads]\nforce_n = [12, -8, -15]\n",
         r(20.0, 4.0),
         r(1.0e5, 3e4),
         r(0.15, 0.05)

@@ -8,7 +8,7 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Vec3};
 use funicular::modes::{self, Kind};
 use funicular::response::{self, FrameInput, Port, Quantity, Signal};
-use funicular::robot::{Control, DrumSide, GuideWheel, Pose, Robot, Servo, Winch, WinchMode};
+use funicular::robot::{Control, DrumSide, GuideWheel, Pose, Robot, Servo, StretchLoss, Winch, WinchMode};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
 
@@ -28,7 +28,7 @@ fn weightless(damping_ratio: f64, winch: &str) -> (Robot, Equilibrium) {
 }
 
 /// Dynamic stiffness of a rod or string whose far end has the impedance `end` [N/m].
-fn rod(c: f64, kappa: Complex, length: f64, end: Complex) -> Complex {
+fn rod(c: Complex, kappa: Complex, length: f64, end: Complex) -> Complex {
     let (sin, cos) = ((kappa * length).sin(), (kappa * length).cos());
     c * kappa * (end * cos - c * kappa * sin) / (end * sin + c * kappa * cos)
 }
@@ -62,18 +62,25 @@ fn guides(wheels: &[(f64, f64)]) -> String {
 }
 
 /// Impedance at the exit point along the cable and sideways [N/m], from the series of theory (68), (75) and (76): from
-/// the drum towards the exit point, each piece of the drum side and each guide wheel in turn.
-fn impedances(rest: &Equilibrium, wheels: &[(f64, f64)], omega: f64, xi: f64, is_rod: bool) -> (Complex, Complex) {
+/// the drum towards the exit point, each piece of the drum side and each guide wheel in turn. The axial stiffness of the
+/// rope has the factor `h`.
+fn impedances(
+    rest: &Equilibrium,
+    wheels: &[(f64, f64)],
+    omega: f64,
+    (xi, h): (f64, Complex),
+    is_rod: bool,
+) -> (Complex, Complex) {
     let (ea, tension): (f64, f64) = (2e4, 100.0);
     let stretch = 1.0 + tension / ea;
     let drive = rest.cables[0].drive.as_ref().unwrap();
     let wrap = drive.contact.unwrap().wrap;
 
     // Pieces of the drum side: springs, or rods of the length at which they have the same static stiffness.
-    let kappa = omega * (0.1 / ea * Complex::new(1.0, -2.0 * xi)).sqrt();
+    let kappa = omega * (0.1 / ea * Complex::new(1.0, -2.0 * xi) / h).sqrt();
     let through = |compliance: f64, behind: Complex| {
         let spring = 1.0 / (stretch * stretch * compliance);
-        if is_rod { rod(ea, kappa, ea / spring, behind) } else { 1.0 / (1.0 / spring + 1.0 / behind) }
+        if is_rod { rod(ea * h, kappa, ea / spring, behind) } else { 1.0 / (1.0 / (spring * h) + 1.0 / behind) }
     };
     let straight = drive.drum_side_length / (ea * stretch * stretch * 2.0);
     let (mut behind, mut end) = (at_drum(omega), 2.0);
@@ -88,16 +95,27 @@ fn impedances(rest: &Equilibrium, wheels: &[(f64, f64)], omega: f64, xi: f64, is
     (behind - omega * omega * 0.05 / 0.16, swivel.into())
 }
 
+const NO_LOSS: StretchLoss = StretchLoss { factor: 0.0, time: 0.0 };
+const LOSS: StretchLoss = StretchLoss { factor: 0.05, time: 1e-4 };
+
+/// Factor h of the axial stiffness with a loss of the stretch.
+fn factor_of(loss: StretchLoss, omega: f64) -> Complex {
+    Complex::new(1.0, loss.factor + omega * loss.time)
+}
+
 /// Wheel, guide wheels, drum, shaft, motor, servo with delay, damped cable: all in one closed form, which shares no
 /// code.
 #[test]
 fn a_weightless_cable_ends_in_the_impedance_of_its_drive() {
     let (ea, m, tension): (f64, f64, f64) = (2e4, 0.1, 100.0);
     let stretch = 1.0 + tension / ea;
-    let cases = [(0.0, "massless", 0), (0.02, "massless", 0), (0.02, "rod", 0), (0.02, "massless", 1)];
-    for (xi, drum_side, count) in cases.into_iter().chain([(0.0, "massless", 2), (0.02, "rod", 2)]) {
+    let plain = [(0.0, "massless", 0), (0.02, "massless", 0), (0.02, "rod", 0), (0.02, "massless", 1)];
+    let plain = plain.into_iter().chain([(0.0, "massless", 2), (0.02, "rod", 2)]).map(|case| (case, NO_LOSS));
+    let lossy = [(0.0, "massless", 0), (0.02, "rod", 0), (0.02, "massless", 1), (0.01, "rod", 2)];
+    for ((xi, drum_side, count), loss) in plain.chain(lossy.map(|case| (case, LOSS))) {
         let wheels = &GUIDES[..count];
-        let (robot, rest) = weightless(xi, &format!("{WINCH}drum_side = \"{drum_side}\"\n{}", guides(wheels)));
+        let (mut robot, rest) = weightless(xi, &format!("{WINCH}drum_side = \"{drum_side}\"\n{}", guides(wheels)));
+        robot.cables[0].material.stretch_loss = loss;
         let state = &rest.cables[0];
         let model = CableModel::CatenaryDynamic;
         let found = EndStiffness::new(&robot, 0, state, model, false, WinchMode::AsGiven, 120.0).unwrap();
@@ -111,11 +129,13 @@ fn a_weightless_cable_ends_in_the_impedance_of_its_drive() {
             let along = Complex::new(e.dot(&(re * e)), e.dot(&(im * e)));
             let out = Complex::new(re[(1, 1)], im[(1, 1)]);
 
-            let (slip, swivel) = impedances(&rest, wheels, omega, xi, drum_side == "rod");
-            let kappa = |c: f64| omega * (m / c * Complex::new(1.0, -2.0 * xi)).sqrt();
+            let h = factor_of(loss, omega);
+            let (slip, swivel) = impedances(&rest, wheels, omega, (xi, h), drum_side == "rod");
+            let kappa = |c: Complex| omega * (m / c * Complex::new(1.0, -2.0 * xi)).sqrt();
             let length = state.free_length();
-            let axial = rod(ea, kappa(ea), length, slip);
-            let transverse = rod(tension / stretch, kappa(tension / stretch), length, swivel);
+            let axial = rod(ea * h, kappa(ea * h), length, slip);
+            let across = Complex::from(tension / stretch);
+            let transverse = rod(across, kappa(across), length, swivel);
             for (ours, exact) in [(along, axial), (out, transverse)] {
                 // Rounding of the clamped frequencies near their poles.
                 let case = format!("ξ {xi}, {drum_side}, {count} wheels");
@@ -128,7 +148,8 @@ fn a_weightless_cable_ends_in_the_impedance_of_its_drive() {
 /// Points along the same cable: `u(s) = cos κs + B sin κs`.
 #[test]
 fn points_of_a_weightless_cable_move_with_the_drive_behind_it() {
-    let (robot, rest) = weightless(0.02, WINCH);
+    let (mut robot, rest) = weightless(0.02, WINCH);
+    robot.cables[0].material.stretch_loss = LOSS;
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 120.0).unwrap();
     let fractions = [0.2, 0.7, 1.0];
     let e = rest.cables[0].chord_w().normalize();
@@ -137,9 +158,10 @@ fn points_of_a_weightless_cable_move_with_the_drive_behind_it() {
         let stations = CableStations::new(&robot, &rest, &dynamics, 0, &fractions, loaded).unwrap();
         for hz in [0.5, 7.0, 61.0] {
             let omega = hz * TAU;
-            let (slip, _) = impedances(&rest, &[], omega, 0.02, false);
-            let kappa = omega * (0.1 / 2e4 * Complex::new(1.0, -0.04)).sqrt();
-            let stiff = 2e4 * kappa;
+            let h = factor_of(LOSS, omega);
+            let (slip, _) = impedances(&rest, &[], omega, (0.02, h), false);
+            let kappa = omega * (0.1 / 2e4 * Complex::new(1.0, -0.04) / h).sqrt();
+            let stiff = 2e4 * h * kappa;
             let (sin, cos) = ((kappa * length).sin(), (kappa * length).cos());
             let b = (stiff * sin - slip * cos) / (stiff * cos + slip * sin);
             for (at, fraction) in fractions.iter().enumerate() {
@@ -157,7 +179,8 @@ fn points_of_a_weightless_cable_move_with_the_drive_behind_it() {
 /// motion brings about, the far end moving by the base and by the drive behind it.
 #[test]
 fn points_of_a_weightless_cable_move_with_the_base() {
-    let (robot, rest) = weightless(0.02, WINCH);
+    let (mut robot, rest) = weightless(0.02, WINCH);
+    robot.cables[0].material.stretch_loss = LOSS;
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 120.0).unwrap();
     let state = &rest.cables[0];
     let (e, length) = (state.chord_w().normalize(), state.free_length());
@@ -179,8 +202,9 @@ fn points_of_a_weightless_cable_move_with_the_base() {
                 };
                 let platform: Vec<Complex> = ports[3..].iter().map(response).collect();
 
-                let (slip, swivel) = impedances(&rest, &[], omega, 0.02, false);
-                let (c, end) = if is_axial { (2e4, slip) } else { (tension, swivel) };
+                let h = factor_of(LOSS, omega);
+                let (slip, swivel) = impedances(&rest, &[], omega, (0.02, h), false);
+                let (c, end) = if is_axial { (2e4 * h, slip) } else { (tension.into(), swivel) };
                 let kappa = omega * (0.1 / c * Complex::new(1.0, -0.04)).sqrt();
                 let (sin, cos) = ((kappa * length).sin(), (kappa * length).cos());
                 let b = end / (c * kappa * cos + end * sin);
@@ -529,7 +553,8 @@ fn delays_destabilise_and_strong_gains_stop_ringing() {
 fn the_tension_at_the_drum_is_the_impedance_of_the_winch_times_its_motion() {
     for (drum_side, count) in [("massless", 0), ("rod", 0), ("massless", 2), ("rod", 2)] {
         let wheels = guides(&GUIDES[..count]);
-        let (robot, rest) = weightless(0.01, &format!("{WINCH}drum_side = \"{drum_side}\"\n{wheels}"));
+        let (mut robot, rest) = weightless(0.01, &format!("{WINCH}drum_side = \"{drum_side}\"\n{wheels}"));
+        robot.cables[0].material.stretch_loss = LOSS;
         let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 120.0).unwrap();
         let drive = |signal: DriveSignal| Signal::Drive { cable: 0, signal };
         let along = |direction_w: Vec3| Signal::Along { direction_w, point_p: Vec3::zeros() };

@@ -9,7 +9,7 @@ use funicular::reduced_model::{
     StateSpaceSize, control_model, reduce,
 };
 use funicular::response::{self, FrameInput, Port, Quantity, Signal};
-use funicular::robot::{Control, Damping, DrumSide, Robot, Servo, State, Winch};
+use funicular::robot::{Control, Damping, DrumSide, Robot, Servo, State, StretchLoss, Winch};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
 
@@ -34,6 +34,14 @@ struct WinchRobot {
     dynamics: Dynamics,
 }
 
+/// Loss of the stretch of ropes with this damping, which matrices have as exactly.
+fn loss_beside(damping: Damping) -> StretchLoss {
+    match damping {
+        Damping::Ratio(_) => StretchLoss { factor: 0.004, time: 0.0 },
+        Damping::Viscous(_) => StretchLoss { factor: 0.0, time: 4e-4 },
+    }
+}
+
 impl WinchRobot {
     /// Two cables, whose winches `change` gives inertia and control.
     fn new(name: &'static str, damping: Damping, change: impl Fn(&mut Winch)) -> Self {
@@ -44,6 +52,7 @@ impl WinchRobot {
         let mut robot = Robot::from_toml(text).unwrap();
         for cable in &mut robot.cables {
             cable.material.damping = damping;
+            cable.material.stretch_loss = loss_beside(damping);
             change(cable.anchor.winch.as_mut().unwrap());
         }
         Self::at_rest(name, robot)
@@ -54,6 +63,7 @@ impl WinchRobot {
         let mut robot = Robot::from_toml(TWO_CABLES).unwrap();
         for cable in &mut robot.cables {
             cable.material.damping = damping;
+            cable.material.stretch_loss = loss_beside(damping);
             (cable.anchor.pulley, cable.anchor.winch) = (None, None);
         }
         // The drum side is not part of the cables.

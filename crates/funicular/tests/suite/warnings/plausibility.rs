@@ -66,6 +66,11 @@ fn hall() -> String {
     text
 }
 
+/// Hall with one more line for its rope.
+fn hall_with(line: &str) -> String {
+    changed(&hall(), &[("damping_ratio = 0.003", &format!("damping_ratio = 0.003\n{line}"))])
+}
+
 /// Hall with a pulley and a winch of every cable.
 fn hall_with_drives() -> String {
     let drives = "[pulleys.wheel]\nradius_m = 0.05\nentry_direction = [0.0, 0.0, 1.0]\ninertia_kg_m2 = 0.0004\n\
@@ -189,6 +194,17 @@ fn slips_of_units_and_signs_are_named() {
     slip("rope in t/m", times("mass_kg_per_m", 1e-3), &["mass in t/m"]);
     slip("damping in per cent", times("damping_ratio", 100.0), &["damping ratio", "per cent given as a fraction"]);
     slip("damping over 100", times("damping_ratio", 0.01), &["divided by 100 once more"]);
+    slip(
+        "loss in per cent",
+        hall_with("axial_loss_factor = 0.5"),
+        &["axial_loss_factor", "per cent given as a fraction?"],
+    );
+    slip("loss over 100", hall_with("axial_loss_factor = 0.0002"), &["divided by 100 once more?"]);
+    slip("loss above one", hall_with("axial_loss_factor = 2.0"), &["must be below 1", "2 % is 0.02"]);
+    slip("damping time in ms", hall_with("axial_damping_time_s = 0.77"), &["milliseconds given as s?"]);
+    slip("longer one in ms", hall_with("axial_damping_time_s = 5.0"), &["must be below 1 s", "0.8 ms is 0.8e-3"]);
+    slip("one decay twice", hall_with("axial_loss_factor = 0.006"), &["one measured decay given twice?", "`identify`"]);
+    slip("one decay, equal", hall_with("axial_loss_factor = 0.003"), &["one measured decay given twice?"]);
     slip(
         "breaking load in kN",
         changed(
@@ -429,6 +445,8 @@ fn slips_of_single_values_are_named() {
     for (what, text) in [
         ("modulus and area of the full circle", circle("50e9")),
         ("ice", load("[0.0, 0.0, -4.0]")),
+        ("loss of a fibre rope", hall_with("axial_loss_factor = 0.02")),
+        ("damping time of a fibre rope", hall_with("axial_damping_time_s = 0.8e-3")),
         ("a rope that floats", load("[0.0, 0.0, 0.2]")),
         ("damping of guides", damped("translational_damping_n_s_m", "30.0")),
         ("payload", changed(&hall, &[("[0.0, 0.0, -100.0]", "[0.0, 0.0, -500.0]")])),

@@ -1,7 +1,7 @@
 //! Derivatives of the predictions: gradients against differences.
 
-use super::*;
 use super::super::unknowns::unknowns;
+use super::*;
 use crate::request::Request;
 use serde_json::{Value, json};
 

@@ -1,0 +1,141 @@
+//! Loss of the stretch of ropes: damped modes of robots, and the stiffness of single ropes.
+
+use super::reference::{ChangedRobot, LossyRobot, LossyRope, StretchLossReference};
+use super::{Bound, Case, Comparison, Section};
+use anyhow::{Context, Result, anyhow, bail};
+use funicular::cable::{CableModel, EndStiffness, LocalAxes};
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::modes::{self, damped, damped::DampedMode};
+use funicular::robot::{Damping, Robot, State, StretchLoss, WinchMode};
+use funicular::statics::{self, Equilibrium, StaticModel};
+use std::f64::consts::TAU;
+
+/// Range above the highest listed mode, over its frequency.
+const MARGIN: f64 = 1.02;
+
+pub(super) fn section(reference: &StretchLossReference) -> Result<Section> {
+    let mut rows = Vec::new();
+    for of in &reference.robots {
+        rows.extend(of_robot(&reference.source, of)?);
+    }
+    for of in &reference.ropes {
+        rows.extend(of_rope(&reference.source, of)?);
+    }
+    Ok(Section {
+        title: "Loss of the stretch of ropes, computed independently",
+        note: "Damping ratios with a loss factor η of the axial stiffness, with η and the damping ratio ξ of the ropes, and \
+               with a damping time τ (Kelvin and Voigt); shares of the stretch in the undamped modes; the stiffness of single \
+               ropes. In the other program loss and inertia stand in one matrix; here the loss acts on a few moments of the \
+               strain. Near a veering the lists are compared as sets.",
+        rows,
+    })
+}
+
+/// Robot of the library with the numbers of a case, its damping and its loss, at rest.
+fn at_rest(of: &ChangedRobot, xi: f64, loss: StretchLoss) -> Result<(Robot, Equilibrium)> {
+    let text = match of.robot.as_str() {
+        "yuan2014-4mm" => funicular_robots::YUAN2014_4MM,
+        "cogiro" => funicular_robots::COGIRO,
+        other => bail!("the comparisons use no robot {other}"),
+    };
+    let mut robot = Robot::from_toml(text)?;
+    robot.platform.mass = of.platform_mass_kg.unwrap_or(robot.platform.mass);
+    for cable in &mut robot.cables {
+        let rope = &mut cable.material;
+        rope.axial_stiffness = of.axial_stiffness_n.unwrap_or(rope.axial_stiffness);
+        rope.mass_per_length = of.mass_kg_per_m.unwrap_or(rope.mass_per_length);
+        (rope.damping, rope.stretch_loss) = (Damping::Ratio(xi), loss);
+    }
+    let State::Lengths(own) = &robot.state else { bail!("{} gives no lengths", robot.name) };
+    let lengths = of.unstrained_length_m.clone().unwrap_or_else(|| own.clone());
+    let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
+    Ok((robot, rest))
+}
+
+/// Undamped and damped modes up to a limit [Hz].
+fn modes_of(
+    of: &ChangedRobot,
+    xi: f64,
+    loss: StretchLoss,
+    below_hz: f64,
+) -> Result<(Vec<modes::Mode>, Vec<DampedMode>)> {
+    let (robot, rest) = at_rest(of, xi, loss)?;
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), below_hz)?;
+    let found = modes::below(&dynamics, below_hz);
+    let partners = damped::damped_modes(&dynamics, &found);
+    if !partners.certified {
+        bail!("{}: the damped list is not certified", robot.name);
+    }
+    Ok((found.modes, partners.modes))
+}
+
+/// Value of the list that is nearest by a distance.
+fn nearest<T>(list: &[T], distance: impl Fn(&T) -> f64) -> Result<&T> {
+    list.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).context("an empty list")
+}
+
+fn of_robot(source: &str, of: &LossyRobot) -> Result<Vec<Comparison>> {
+    let case = Case { name: of.id.clone(), source };
+    let bound = Bound::Digits("accuracy of the other program");
+    let below_hz = MARGIN * of.frequency_hz.iter().copied().fold(0.0, f64::max);
+    let hysteretic = StretchLoss { factor: of.eta, time: 0.0 };
+
+    // The undamped modes and their shares, then the damping ratios by the nearest damped modes.
+    let (undamped, by_loss) = modes_of(&of.changed, 0.0, hysteretic, below_hz)?;
+    let listed = of.frequency_hz.iter().map(|hz| nearest(&undamped, |mode| (mode.frequency_hz - hz).abs()));
+    let listed: Vec<&modes::Mode> = listed.collect::<Result<_>>()?;
+    let shares: Vec<f64> = listed.iter().map(|mode| mode.stretching_shares.iter().sum()).collect();
+    let frequencies: Vec<f64> = listed.iter().map(|mode| mode.frequency_hz).collect();
+    let first = &listed.first().ok_or_else(|| anyhow!("no mode"))?.stretching_shares;
+    let with_frequencies = |list: &[DampedMode], hz: &[f64], zeta: &[f64]| -> Result<Vec<f64>> {
+        let of_pair = |(hz, zeta): (&f64, &f64)| {
+            let distance =
+                |mode: &DampedMode| (mode.frequency_hz() / hz - 1.0).abs() + (mode.damping_ratio() - zeta).abs();
+            Ok(nearest(list, distance)?.damping_ratio())
+        };
+        hz.iter().zip(zeta).map(of_pair).collect()
+    };
+    let ratios = with_frequencies(&by_loss, &of.frequency_eta_hz, &of.zeta_eta)?;
+    let (_, with_xi) = modes_of(&of.changed, of.xi, hysteretic, below_hz)?;
+    let both = with_frequencies(&with_xi, &of.frequency_eta_hz, &of.zeta_eta_xi)?;
+    let (_, viscous) = modes_of(&of.changed, 0.0, StretchLoss { factor: 0.0, time: of.tau_s }, below_hz)?;
+    let kelvin = with_frequencies(&viscous, &of.frequency_kelvin_voigt_hz, &of.zeta_kelvin_voigt)?;
+
+    let accuracy = of.relative_accuracy;
+    Ok(vec![
+        case.relative("frequencies [Hz]", &of.frequency_hz, &frequencies, 1e-8, bound),
+        case.relative("shares of the stretch", &of.stretching_share, &shares, accuracy, bound),
+        case.together("shares per cable, first mode", &of.share_per_cable_mode_1, first, accuracy, bound),
+        case.relative("damping ratios with η", &of.zeta_eta, &ratios, accuracy, bound),
+        case.relative("damping ratios with η and ξ", &of.zeta_eta_xi, &both, accuracy, bound),
+        case.relative("damping ratios with τ", &of.zeta_kelvin_voigt, &kelvin, accuracy, bound),
+    ])
+}
+
+fn of_rope(source: &str, of: &LossyRope) -> Result<Vec<Comparison>> {
+    let hysteretic = StretchLoss { factor: of.eta, time: 0.0 };
+    let omega = of.frequency_hz * TAU;
+    let stiffness = |model: CableModel, xi: f64, loss: StretchLoss, omega: f64| -> Result<Vec<f64>> {
+        let (robot, rest) = at_rest(&of.changed, xi, loss)?;
+        let i = of.cable - 1;
+        let up_to_hz = MARGIN * of.frequency_hz;
+        let found = EndStiffness::new(&robot, i, &rest.cables[i], model, false, WinchMode::AsGiven, up_to_hz)?;
+        let EndStiffness::Dynamic(cable) = found else { bail!("a rope with loss") };
+        let (k, axes): (_, &LocalAxes) = (cable.damped(omega), cable.axes());
+        let parts = [k.map(|z| z.re), k.map(|z| z.im)].map(|part| part.in_world(axes));
+        Ok(parts.iter().flat_map(|part| part.iter().copied().collect::<Vec<f64>>()).collect())
+    };
+
+    let case = Case { name: format!("rope {}", of.id), source };
+    let bound = Bound::Digits("digits of the table");
+    let theirs = |k: &[[[f64; 3]; 3]; 2]| -> Vec<f64> { k.iter().flatten().flatten().copied().collect() };
+    let dynamic = stiffness(CableModel::CatenaryDynamic, of.xi, hysteretic, omega)?;
+    let viscous = StretchLoss { factor: 0.0, time: of.tau_s };
+    let kelvin = stiffness(CableModel::CatenaryDynamic, 0.0, viscous, omega)?;
+    let still = stiffness(CableModel::CatenaryStatic, 0.0, hysteretic, omega)?;
+    Ok(vec![
+        case.together("stiffness with η and ξ [N/m]", &theirs(&of.k_eta_xi), &dynamic, 2e-9, bound),
+        case.together("stiffness with τ [N/m]", &theirs(&of.k_kelvin_voigt_no_xi), &kelvin, 2e-9, bound),
+        case.together("static stiffness with η [N/m]", &theirs(&of.k_static_eta), &still, 2e-9, bound),
+    ])
+}

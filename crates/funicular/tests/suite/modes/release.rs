@@ -1,0 +1,95 @@
+//! Decay after a release against the exponential of complete matrices, and its times of settling against samples.
+
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::math::{DMat, Vec3, Vec6};
+use funicular::modes::{self, Release, ReleaseError, damped};
+use funicular::reduced_model::{DampingAt, RequestedModel, reduce};
+use funicular::response::{Quantity, Signal};
+use funicular::robot::{Damping, Robot, StretchLoss};
+use funicular::statics::{self, StaticModel};
+
+const BELOW_HZ: f64 = 25.0;
+
+/// Exponential of a matrix times a time: a series for a small fraction of it, squared again and again.
+fn exponential(matrix: &DMat, time: f64) -> DMat {
+    let halvings = (matrix.norm() * time).max(1.0).log2().ceil() as i32 + 2;
+    let small = matrix * (time / 2_f64.powi(halvings));
+    let n = matrix.nrows();
+    let (mut sum, mut term) = (DMat::identity(n, n), DMat::identity(n, n));
+    for k in 1..16 {
+        term = &term * &small / f64::from(k);
+        sum += &term;
+    }
+    (0..halvings).for_each(|_| sum = &sum * &sum);
+    sum
+}
+
+/// Release of a downward force on CoGiRo, seen at a point of its platform, whose losses matrices have exactly.
+#[test]
+fn the_decay_is_that_of_the_complete_matrices() {
+    let mut robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    for cable in &mut robot.cables {
+        cable.material.damping = Damping::Viscous(0.05);
+        cable.material.stretch_loss = StretchLoss { factor: 0.0, time: 6e-4 };
+    }
+    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), BELOW_HZ).unwrap();
+    let found = modes::below(&dynamics, BELOW_HZ);
+    let damped = damped::damped_modes(&dynamics, &found);
+    assert!(damped.certified);
+    let point_p = Vec3::new(0.3, -0.2, 0.1);
+    let force = Vec3::new(20.0, 10.0, -150.0);
+    let wrench = Vec6::new(force.x, force.y, force.z, 0.0, 0.0, 0.0);
+    let arm_w = rest.pose.rot_wp * point_p;
+    let release = Release::of(&dynamics, &found, &damped, &wrench, &arm_w).unwrap();
+
+    // The complete matrices, their state under the force, and its exponential.
+    let requested = RequestedModel { below_hz: BELOW_HZ, tolerance: 0.0, damping_at: DampingAt::NaturalFrequencies };
+    let along = |direction_w: Vec3, point_p: Vec3| Signal::Along { direction_w, point_p };
+    let outputs = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| (along(axis, point_p), Quantity::Displacement));
+    let input = [along(force.normalize(), Vec3::zeros())];
+    let model = reduce(&robot, &rest, &dynamics, &input, &outputs, requested, &mut |_| true).unwrap();
+    let n = model.mass.nrows();
+    let held = model.stiffness.clone().lu().solve(&(&model.input * force.norm())).unwrap();
+    let inverse = model.mass.clone().cholesky().unwrap().inverse();
+    let mut state = DMat::zeros(2 * n, 2 * n);
+    state.view_mut((0, n), (n, n)).copy_from(&DMat::identity(n, n));
+    state.view_mut((n, 0), (n, n)).copy_from(&(-&inverse * &model.stiffness));
+    state.view_mut((n, n), (n, n)).copy_from(&(-&inverse * &model.damping));
+    let peak = release.held.norm();
+    assert!(((&model.output * &held).norm() / peak - 1.0).abs() < 1e-9);
+    assert!((release.at(0.0) - release.held).norm() <= release.omitted);
+    let (mut time, mut forward) = (0.1, exponential(&state, 0.1));
+    for _ in 0..6 {
+        let moved = forward.view((0, 0), (n, n)) * &held;
+        let expected = &model.output * moved;
+        let expected = Vec3::new(expected[0], expected[1], expected[2]);
+        let gap = (release.at(time) - expected).norm();
+        assert!(gap <= release.omitted + 1e-6 * peak, "{time} s: {gap:e}, omitted {:e}, {peak:e}", release.omitted);
+        (time, forward) = (2.0 * time, &forward * &forward);
+    }
+    assert!(release.omitted < 2e-3 * peak, "{:e} of {peak:e}", release.omitted);
+
+    // Times of settling: no sample beyond them is farther away.
+    for tolerance in [0.5 * peak, 0.02 * peak, 1e-4 * peak] {
+        let (exact, sure) = (release.settled(tolerance), release.surely_settled(tolerance));
+        assert!(exact <= sure && sure < 100.0, "{exact} {sure}");
+        let after = (0..20_000).map(|i| exact + 1e-6 + (sure - exact) * f64::from(i) / 2e4);
+        assert!(after.clone().all(|time| release.at(time).norm() < tolerance), "{tolerance}");
+        assert!((release.at(exact).norm() / tolerance - 1.0).abs() < 1e-6 || exact == 0.0);
+        assert!((release.envelope(sure) / tolerance - 1.0).abs() < 1e-6);
+    }
+    assert!(release.settled(10.0 * peak) <= 0.0);
+}
+
+#[test]
+fn what_does_not_decay_is_refused() {
+    let mut robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    robot.cables.iter_mut().for_each(|cable| cable.material.damping = Damping::Ratio(0.0));
+    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 9.0).unwrap();
+    let found = modes::below(&dynamics, 9.0);
+    let damped = damped::damped_modes(&dynamics, &found);
+    let released = Release::of(&dynamics, &found, &damped, &Vec6::z(), &Vec3::zeros());
+    assert!(matches!(released, Err(ReleaseError::NoDecay { .. })), "{released:?}");
+}
