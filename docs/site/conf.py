@@ -10,10 +10,11 @@ sys.path.insert(0, str(HERE))
 
 project = "funicular"
 author = "The funicular developers"
+project_copyright = "2026 The funicular developers"
 release = tomllib.loads((ROOT / "Cargo.toml").read_text())["workspace"]["package"]["version"]
 version = release
 
-extensions = ["myst_nb", "sphinx_copybutton", "sphinx_design", "equations"]
+extensions = ["myst_nb", "sphinx_copybutton", "sphinx_design", "equations", "search_texts"]
 myst_enable_extensions = ["dollarmath", "colon_fence", "deflist"]
 myst_heading_anchors = 5
 # Notebooks are executed by notebooks.py, in a kernel that has the package.
@@ -26,10 +27,13 @@ html_theme = "furo"
 html_title = f"funicular {release}"
 html_static_path = ["static"]
 html_css_files = ["site.css"]
+templates_path = ["templates"]
+html_search_scorer = str(HERE / "static/scorer.js")
 html_math_renderer = "katex"
 html_copy_source = False
 html_show_sourcelink = False
-# Summaries of search results are fetched, which a browser refuses to pages that were opened from a folder.
+# Sphinx fetches pages for the summaries of its results, which a browser refuses to pages that were opened from a folder:
+# search_texts.py and scorer.js make excerpts without that.
 html_show_search_summary = False
 html_search_language = "en"
 html_theme_options = {

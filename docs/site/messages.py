@@ -1,13 +1,15 @@
 """Page of all messages: the refusals and warnings are read from the sources, cause and cure from messages.toml.
 
 A text of the sources counts as a message by the macro, call or attribute around it. A message without a row of
-messages.toml is an error, and so is a row without a message."""
+messages.toml is an error, and so is a row without a message. Lines of help, and texts from which the program puts a message
+together, are folded below the messages of their row. static/messages.js finds the row of a message that a reader pastes."""
 
 import re
 import tomllib
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from pages import ROOT
 from rust_texts import texts
@@ -30,11 +32,18 @@ WHOLE = re.compile(
 )
 # Tests have no messages for users; neither have the reference numbers, whose crate is not in the list.
 OUTSIDE = re.compile(r"tests\.rs$|/tests/")
+# Files whose texts are parts of messages: a finding is put together from the value, the usual range and a likely mistake.
+PARTS = re.compile(r"/warnings/plausibility|/statics/obstacle\.rs")
+# Values of variables that become parts of a message.
+PART_OF = {"let reason", "let sentence"}
+# Own words up to which a text with two or more gaps says nothing without them.
+MAX_BARE_WORDS = 4
+# Messages of a row up to which the page shows them unfolded.
+MAX_UNFOLDED = 5
 # Words that a text needs to be a message and not a part of one, names and numbers of the user included; words without
 # those; and marks with which only a part begins.
 MIN_WORDS, MIN_OWN_WORDS = 3, 2
 PART = (",", ";", ":", "(", " ", ")")
-
 
 
 def _program_names() -> dict[str, str]:
@@ -58,12 +67,21 @@ class Message:
 
     text: str
     file: str
+    is_help: bool = False
+    is_part: bool = False
+    example: str = ""
+    """The message with names and numbers, if it is written in messages.toml."""
 
     def shown(self) -> str:
         """Message as the page shows it: what differs from case to case is an ellipsis."""
         text = re.sub(r"⟪([^⟫]*)⟫", lambda found: _option(found[1]), self.text)
         text = re.sub(r"\{\{|\}\}", "'", re.sub(r"(?<!\{)\{[^{}]*\}", "…", text))
         return re.sub(r"\s+", " ", text).strip()
+
+
+def is_bare(shown: str) -> bool:
+    """Whether a text is little more than gaps: its meaning is in what the program puts there."""
+    return shown.count("…") > 1 and len(re.findall(r"[a-z]{2,}", re.sub(r"`[^`]*`", " ", shown))) <= MAX_BARE_WORDS
 
 
 def collected() -> Iterator[Message]:
@@ -84,7 +102,9 @@ def collected() -> Iterator[Message]:
                 own = len(re.findall(r"[a-z]{2,}", shown))
                 is_part = shown.startswith(PART) or message.text.startswith(" ")
                 if len(shown.split()) >= MIN_WORDS and own >= MIN_OWN_WORDS and not is_part:
-                    yield message
+                    is_label = "context" in around and "/robot/spec" in file
+                    unfinished = bool(PARTS.search(file) or around & PART_OF or is_label or is_bare(shown))
+                    yield replace(message, is_help="help" in around, is_part=unfinished)
 
 
 @dataclass
@@ -95,7 +115,9 @@ class Row:
     text: re.Pattern[str]
     cause: str
     cure: str
-    messages: list[Message]
+    messages: list[Message] = field(default_factory=list)
+    stands_alone: bool = False
+    """Whether its messages are written in messages.toml only."""
 
 
 @dataclass
@@ -108,13 +130,20 @@ class Room:
     rows: list[Row]
 
 
+def _row(row: dict[str, Any]) -> Row:
+    """Row of messages.toml with the messages that are written there, each alone or with an example."""
+    pairs = [(one, "") if isinstance(one, str) else one for one in row.get("shown", [])]
+    written = [Message(text, "", example=example) for text, example in pairs]
+    alone = row.get("stands_alone", False)
+    return Row(row["title"], re.compile("(?!)" if alone else row.get("text", "")), row["cause"], row["cure"], written, alone)
+
+
 def rooms() -> list[Room]:
-    """Rooms of messages.toml, without their messages."""
+    """Rooms of messages.toml, with the messages that are written there only."""
     table = tomllib.loads((Path(__file__).parent / "messages.toml").read_text(encoding="utf-8"))
     return [
         Room(
-            room["title"], room.get("about", ""), re.compile("|".join(room["files"])),
-            [Row(row["title"], re.compile(row.get("text", "")), row["cause"], row["cure"], []) for row in room["row"]],
+            room["title"], room.get("about", ""), re.compile("|".join(room["files"]) or "(?!)"), [_row(row) for row in room["row"]]
         )
         for room in table["room"]
     ]
@@ -133,9 +162,47 @@ def sorted_into_rooms() -> tuple[list[Room], list[str]]:
             row.messages.append(message)
     faults += [
         f"docs/site/messages.toml: the row \"{row.title}\" of \"{room.title}\" has no message: remove it"
-        for room in made for row in room.rows if not row.messages
+        for room in made for row in room.rows if not (row.stands_alone or any(message.file for message in row.messages))
     ]
     return made, faults
+
+
+# Box into which a reader pastes a message; static/messages.js fills it with life, and without it the page is complete.
+FILTER = """```{raw} html
+<div class="message-filter" hidden>
+<label for="message">Paste a message, or type some of its words:</label>
+<textarea id="message" spellcheck="false" placeholder="error: `mass_kg` is 0, it must be positive"></textarea>
+<div role="status"></div>
+<div class="message-answers"></div>
+</div>
+<script src="../_static/messages.js" defer></script>
+```"""
+
+
+def _listed(messages: list[Message]) -> str:
+    """List of messages; an example stands behind its message."""
+    return "\n".join(
+        f"- `` {one.shown()} ``" + (f" – for example `` {one.example} ``" if one.example else "") for one in messages
+    )
+
+
+def _folded(title: str, listed: str, kind: str) -> str:
+    return f"<details class=\"{kind}\"><summary>{title}</summary>\n\n{listed}\n\n</details>"
+
+
+def _lists(row: Row) -> list[str]:
+    """Messages of a row, and below them lines of help and parts, folded."""
+    whole = [one for one in row.messages if not (one.is_help or one.is_part)]
+    helps = [one for one in row.messages if one.is_help]
+    parts = [one for one in row.messages if one.is_part and not one.is_help]
+    out = []
+    if whole:
+        out.append(_listed(whole) if len(whole) <= MAX_UNFOLDED else _folded(f"{len(whole)} messages", _listed(whole), "messages"))
+    if helps:
+        out.append(_folded("Lines after <code>help:</code>", _listed(helps), "helps"))
+    if parts:
+        out.append(_folded("Parts of these messages", _listed(parts), "parts"))
+    return out
 
 
 def page() -> str:
@@ -143,18 +210,17 @@ def page() -> str:
     made, faults = sorted_into_rooms()
     if faults:
         raise RuntimeError("\n".join(faults))
-    count = sum(len(row.messages) for room in made for row in room.rows)
+    count = sum(not (one.is_help or one.is_part) for room in made for row in room.rows for one in row.messages)
     out = [
         "# Messages: cause and cure",
+        FILTER,
         f"Every refusal and warning of the program, {count} in all, read from its sources. `…` stands for your names and "
-        "numbers; options are as on the command line, and in Python and JSON `--mass-kg` is `mass_kg`. Type three or four words of a message into the search, or into the search of your browser (Ctrl-F).",
-        "A message names the place, the value, the limit and what to do. This page says in addition why the "
-        "program refuses, and what usually helps. "
+        "numbers. Options are as on the command line; in Python and JSON `--mass-kg` is `mass_kg`.",
+        "A message names the place, the value, the limit and what to do. This page adds the reason and the usual cure. "
         "Exit code 2: the input has to change. Exit code 1: the input is right, but there is no such solution.",
     ]
     for room in made:
         out += [f"## {room.title}", room.about]
         for row in room.rows:
-            listed = "\n".join(f"- `` {message.shown()} ``" for message in row.messages)
-            out += [f"### {row.title}", f"**Cause.** {row.cause}", f"**Cure.** {row.cure}", listed]
+            out += [f"### {row.title}", f"**Cause.** {row.cause}", f"**Cure.** {row.cure}", *_lists(row)]
     return "\n\n".join(part for part in out if part) + "\n"

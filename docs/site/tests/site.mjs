@@ -70,12 +70,34 @@ async function found(words) {
   return links.slice(0, 10).map((link) => link.replace(pathToFileURL(site).href + "/", ""));
 }
 
+/** Pages that have to be among the first three of a search, as patterns of their addresses. */
+const FIRST = {
+  "pulley radius": /^(pulleys|robot-file)\.html/,
+  "negative tension": /^(conventions|reference\/messages)\.html/,
+  "natural frequency": /^(first-result|quick-start)\.html/,
+  K_11: /^(glossary|conventions)\.html/,
+  Kxx: /^(glossary|conventions)\.html/,
+  moment: /^conventions\.html/,
+  "sign moment": /^conventions\.html/,
+  CASPR: /^coming-from\.html#caspr/,
+};
+
+test("search shows first where a reader has to look, with an excerpt", async () => {
+  for (const [words, wanted] of Object.entries(FIRST)) {
+    const links = await found(words);
+    assert.ok(
+      links.slice(0, 3).some((link) => wanted.test(link)),
+      `${words}: ${links.join(" ")}`,
+    );
+  }
+  const page = await opened("search.html?q=K_11");
+  await page.locator("#search-results .excerpt").nth(1).waitFor();
+  assert.match(await page.locator("#search-results .excerpt").first().innerText(), /K_11 or Kxx is force along x/);
+  await page.screenshot({ path: join(pictures, "search-K_11-desktop.png") });
+  await closed(page);
+});
+
 test("search finds what a reader looks for, from files alone", async () => {
-  const radius = await found("pulley radius");
-  assert.ok(
-    radius.some((link) => /^(pulleys|robot-file)\.html/.test(link)),
-    radius.join(" "),
-  );
   const negative = await found("negative tension");
   assert.ok(
     negative.some((link) => link.startsWith("reference/messages.html")),
@@ -107,7 +129,7 @@ test("equations are typeset by the fonts of the site", async () => {
 });
 
 test("figures and notebooks show their pictures", async () => {
-  const wanted = { "gallery/index.html": 12, "conventions.html": 1, "quick-start.html": 1 };
+  const wanted = { "gallery/index.html": 12, "conventions.html": 6, "quick-start.html": 1 };
   for (const name of ["quick-start", "paper", "identification"]) {
     const notebook = JSON.parse(readFileSync(join(repository, `docs/notebooks/${name}.ipynb`), "utf8"));
     wanted[`notebooks/${name}.html`] = notebook.metadata.funicular.pictures;
@@ -168,6 +190,52 @@ test("pages fit a phone, in light and dark", async () => {
   }
 });
 
+test("the number of an equation stands beside it, also on a phone", async () => {
+  for (const viewport of [DESKTOP, PHONE]) {
+    const page = await opened("theory/4-dynamic-stiffness-of-a-cable.html", { viewport });
+    await page.evaluate(() => document.fonts.ready);
+    const printedOver = await page.locator(".equation").evaluateAll((all) =>
+      all.flatMap((one) => {
+        const number = one.querySelector(".katex-tag")?.getBoundingClientRect();
+        const bases = [...one.querySelectorAll(".katex-html > .base")].map(
+          (base) => base.getBoundingClientRect().right,
+        );
+        return number && Math.max(...bases) > number.left + 1 ? [one.querySelector(".katex-tag").textContent] : [];
+      }),
+    );
+    assert.deepEqual(printedOver, []);
+    await closed(page);
+  }
+});
+
+test("a message that is pasted leads to its cause and cure", async () => {
+  const answers = {
+    "error: `mass_kg` is 0, it must be positive": "A value is out of its range or of another kind",
+    "unexpected argument '--pos' found": "A word or an option is unknown",
+    "mass_kg is -3, it must be positive": "A value is out of its range or of another kind",
+    'strain of cable "3" at equilibrium, tension over axial stiffness, is 0.17, usual is at most 0.02: Young\'s modulus in a wrong unit, or axial stiffness in kN given as N, or mass in g?':
+      "A cable is strained more than a rope can be",
+    "cable slack": "A cable is slack",
+  };
+  for (const [viewport, name] of [
+    [DESKTOP, "desktop"],
+    [PHONE, "phone"],
+  ]) {
+    const page = await opened("reference/messages.html", { viewport });
+    for (const [message, title] of Object.entries(answers)) {
+      await page.fill("#message", message);
+      assert.equal(await page.locator(".message-answers h3").first().innerText(), title, message);
+    }
+    assert.match(await page.locator(".message-answers > div").first().innerText(), /Cause\.[\s\S]*Cure\./);
+    await page.screenshot({ path: join(pictures, `messages-pasted-${name}.png`) });
+    // The title leads to the row, and the page is complete again.
+    await page.locator(".message-answers h3 a").first().click();
+    assert.equal(await page.locator(".message-answers h3").count(), 0);
+    assert.match(page.url(), /#a-cable-is-slack$/);
+    await closed(page);
+  }
+});
+
 test("the live page runs inside the site where it was built", async () => {
   const page = await opened("live.html");
   if (existsSync(join(site, "_static/live.html"))) {
@@ -176,7 +244,10 @@ test("the live page runs inside the site where it was built", async () => {
     await frame.getByText("Loading the program").waitFor({ state: "hidden" });
     // The figures over the view; a narrow page folds its tables.
     await frame.getByText("Highest tension").locator("visible=true").first().waitFor();
-    await frame.locator("td", { hasText: /^\d+\.\d+$/ }).first().waitFor({ state: "attached" });
+    await frame
+      .locator("td", { hasText: /^\d+\.\d+$/ })
+      .first()
+      .waitFor({ state: "attached" });
   } else {
     assert.match(await page.locator("article").innerText(), /scripts\/web/);
   }
@@ -191,7 +262,8 @@ function pattern(shown) {
 
 test("what the program refuses is on the page of messages", async () => {
   const page = await opened("reference/messages.html");
-  const shown = await page.locator("article li > p > code, article li > code").allInnerTexts();
+  // Folded messages have no inner text.
+  const shown = await page.locator("article li > p > code, article li > code").allTextContents();
   assert.ok(shown.length > 800, `${shown.length} messages`);
   // A message that is mostly names and numbers of the user would match anything.
   const patterns = shown.filter((text) => text.replace(/[^a-z]/g, "").length >= 10).map(pattern);
@@ -205,6 +277,10 @@ test("what the program refuses is on the page of messages", async () => {
     ["statics", hall, "--mass-kg", "17,5"],
     ["statics", hall, "--tension-rule", "closest"],
     ["statics", hall, "--set", "platform.mass=75"],
+    ["statics", hall, "--set", "platform.mass_kg=0"],
+    ["statics", hall, "--below-hz", "3"],
+    ["statics"],
+    ["static", hall],
     ["statics", hall, "--set", "materials.rope.damping_ratio=30"],
     ["statics", hall, "--lengths-m", "1,2,3"],
     ["statics", hall, "--load-point-m", "0,0,1"],

@@ -180,7 +180,13 @@ impl<'t> Reader<'t> {
 
     /// Number of a key, within its range.
     pub(super) fn number_as(&mut self, key: &Key, value: &Value) -> Option<f64> {
-        self.number(&format!("`{}`", key.name), key.numbers().range, value)
+        let number = self.number(&format!("`{}`", key.name), key.numbers().range, value);
+        if number.is_none()
+            && let Some(issue) = self.issues.last_mut().filter(|issue| issue.help.is_none())
+        {
+            issue.help(format!("give a number in this range, for example `{}`", key.example));
+        }
+        number
     }
 
     /// Number within the limits. `label` is the key in backticks, or names the element.

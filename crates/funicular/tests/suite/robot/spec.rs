@@ -420,6 +420,7 @@ fn the_help_says_what_to_do() {
     );
     assert_eq!(help("mass_kg = 10.0", ""), "add it, for example `mass_kg = 10.0`");
     assert_eq!(help("mass_kg = 10.0", "mass_kg = '10'"), "remove the quotes");
+    assert_eq!(help("mass_kg = 10.0", "mass_kg = 0"), "give a number in this range, for example `mass_kg = 10.0`");
     assert_eq!(help("\"fibre\"", "\"fiber\""), "did you mean \"fibre\"? the file has \"fibre\", \"steel\"");
     assert_eq!(help("\"fibre\"", "\"zylon\""), "the file has \"fibre\", \"steel\"");
     assert!(help("0.003", "3").contains("not per cent"));
