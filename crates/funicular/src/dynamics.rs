@@ -14,7 +14,7 @@ pub use error::DynamicsError;
 pub(crate) use null_vectors::NullVector;
 
 use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, EndSignal, Shapes};
-use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, span_stiffness};
+use crate::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, span_stiffness};
 use crate::math::{CMat6, CVec6, Complex, Mat3, Mat6, Matrix6, Scalar, Vec3, Vec6, order};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms, damping_matrix, mass_matrix};
 use crate::robot::{Damping, PlatformMotion, Robot, WinchMode};
@@ -178,7 +178,27 @@ impl Dynamics {
         up_to_hz: f64,
         shapes: Shapes,
     ) -> Result<Self, DynamicsError> {
-        let Linearisation { cable_model, assembly, in_plane_only, winches } = linearisation;
+        let Linearisation { cable_model, in_plane_only, winches, .. } = linearisation;
+        let settled = equilibrium.settled(robot);
+        Self::of_ends(robot, equilibrium, linearisation, |i, state| {
+            EndStiffness::of_cable(&settled, (i, state), (cable_model, in_plane_only, winches), up_to_hz, shapes)
+        })
+    }
+
+    /// Linearises a robot about an equilibrium with the end stiffness of each cable that `end` gives for its index and
+    /// its state. A model of one's own needs nothing else: [`EndStiffness::Constant`], or poles and residues by
+    /// [`CatenaryDynamicEnd::of_families`](crate::cable::catenary_dynamic::CatenaryDynamicEnd::of_families). The cable
+    /// model of the linearisation then counts only for the static stiffness of cables on flexible supports.
+    ///
+    /// # Errors
+    /// [`DynamicsError`] if a cable has no stiffness.
+    pub fn of_ends(
+        robot: &Robot,
+        equilibrium: &Equilibrium,
+        linearisation: Linearisation,
+        end: impl Fn(usize, &CableState) -> Result<EndStiffness, NoStiffness>,
+    ) -> Result<Self, DynamicsError> {
+        let Linearisation { cable_model, assembly, .. } = linearisation;
         let coordinates = Coordinates::of(robot);
         refuse_on_supports(robot, linearisation)?;
         let settled = equilibrium.settled(robot);
@@ -188,9 +208,8 @@ impl Dynamics {
         let mut constant = Mat6::zeros();
         let mut terms = Vec::new();
         for (i, state) in equilibrium.cables.iter().enumerate() {
-            let options = (cable_model, in_plane_only, winches);
-            let stiffness = EndStiffness::of_cable(&settled, (i, state), options, up_to_hz, shapes)
-                .map_err(|reason| DynamicsError::of_cable(&robot.cables[i].name, cable_model, reason))?;
+            let stiffness =
+                end(i, state).map_err(|reason| DynamicsError::of_cable(&robot.cables[i].name, cable_model, reason))?;
             match stiffness {
                 EndStiffness::Constant(k) => {
                     add_congruent(&mut constant, &k, &state.lever_w);

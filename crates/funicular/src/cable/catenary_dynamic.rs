@@ -52,6 +52,7 @@ use crate::math::{Complex, DMat};
 use crate::robot::{Damping, StretchLoss};
 use families::{Families, StationPositions};
 use mesh::Mesh;
+use std::f64::consts::TAU;
 use std::ops::Range;
 use thiserror::Error;
 
@@ -274,6 +275,44 @@ impl CatenaryDynamicEnd {
             shapes: None,
             is_at_rest: false,
         })
+    }
+
+    /// Platform end of a cable of another model, valid up to `limit_hz`: its stiffness by poles and residues in plane
+    /// (components along e and n of the platform end, then of the far end) and out of plane (along b of both ends). The
+    /// far end is held, or on a flexible support. `mass_per_length` [kg/m] belongs to the damping.
+    ///
+    /// # References
+    /// docs/theory.md, section 9.
+    pub fn of_families(
+        axes: LocalAxes,
+        in_plane: PoleResidue<4, 3>,
+        out_of_plane: PoleResidue<2, 1>,
+        (mass_per_length, damping): (f64, Damping),
+        limit_hz: f64,
+    ) -> Self {
+        let cable = CatenaryDynamic {
+            in_plane,
+            out_of_plane,
+            coupled: None,
+            limit: limit_hz * TAU,
+            error: 0.0,
+            degrees: Vec::new(),
+            end: None,
+            drive: None,
+            stretch: StretchMotions::default(),
+        };
+        Self {
+            cable,
+            axes,
+            damping,
+            stretch_loss: StretchLoss::default(),
+            mass_per_length,
+            in_plane_only: false,
+            kept: None,
+            directions: EndDirections::along_chord(),
+            shapes: None,
+            is_at_rest: false,
+        }
     }
 
     /// Copy that keeps the poles below x and has a few poles in place of the others: see [`PoleResidue::compressed`].

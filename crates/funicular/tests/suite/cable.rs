@@ -5,6 +5,7 @@
 //! an error of EA (κh)²/24, which is large in a stiff rope.)
 
 mod catenary_dynamic;
+mod own_model;
 mod shallow_dynamic;
 mod stretched;
 

@@ -40,13 +40,8 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
         Self::new([[0.0; N]; N], [[0.0; N]; N], Vec::new(), Vec::new())
     }
 
-    /// Stiffness from K_s, M_s, the ascending ω_k², and g_k.
-    pub(super) fn new(
-        stiffness: [[f64; N]; N],
-        mass: [[f64; N]; N],
-        poles: Vec<f64>,
-        participation: Vec<[f64; N]>,
-    ) -> Self {
+    /// Stiffness from K_s [N/m], M_s [kg], the ascending ω_k² [rad²/s²], and g_k [√kg].
+    pub fn new(stiffness: [[f64; N]; N], mass: [[f64; N]; N], poles: Vec<f64>, participation: Vec<[f64; N]>) -> Self {
         let residues = from_fn(|e| {
             let (i, j) = ENTRIES[e];
             participation.iter().map(|g| g[i] * g[j]).collect()
