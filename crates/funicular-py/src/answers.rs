@@ -13,7 +13,7 @@ use funicular_pages::figures;
 use funicular_pages::pages;
 use funicular_study::analyses::Found;
 use funicular_study::request::Request;
-use funicular_study::robot_file::schema;
+use funicular_study::schema;
 use funicular_study::wording::{Words, told, worded};
 use funicular_study::{Error, Watch, at_rest, json, run};
 use pyo3::prelude::*;

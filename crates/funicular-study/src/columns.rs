@@ -143,10 +143,10 @@ impl Style {
 type Text<R> = dyn Fn(&R, Style) -> String;
 
 /// What adds the cells of a row.
-type Values<R> = dyn Fn(&R, &mut Vec<Cell>);
+type CellsOfRow<R> = dyn Fn(&R, &mut Vec<Cell>);
 
 /// Text of a field in tables for reading.
-enum Form<R> {
+enum ReadingForm<R> {
     /// Numbers with this many decimals.
     Decimals(usize),
     /// Numbers with this many significant digits.
@@ -166,7 +166,7 @@ struct Reading<R> {
     is_text: bool,
     /// Style of the tables that have it; `None` for all.
     style: Option<Style>,
-    form: Form<R>,
+    form: ReadingForm<R>,
 }
 
 impl<R> Reading<R> {
@@ -178,7 +178,7 @@ impl<R> Reading<R> {
 /// What a row says of one quantity: its numbers in files, one text in tables for reading.
 pub struct Field<R> {
     columns: Vec<Column>,
-    values: Box<Values<R>>,
+    values: Box<CellsOfRow<R>>,
     reading: Option<Reading<R>>,
     is_there: bool,
 }
@@ -232,7 +232,7 @@ impl<R> Field<R> {
         self
     }
 
-    fn reading(mut self, heading: Cow<'static, str>, unit: &'static str, form: Form<R>) -> Self {
+    fn reading(mut self, heading: Cow<'static, str>, unit: &'static str, form: ReadingForm<R>) -> Self {
         let is_text = self.columns.first().is_none_or(|column| column.kind == ColumnKind::Text);
         self.reading = Some(Reading { heading, unit: unit.into(), is_text, style: None, form });
         self
@@ -241,31 +241,31 @@ impl<R> Field<R> {
     /// Shows the values as they are under a heading.
     #[must_use]
     pub fn plain(self, heading: impl Into<Cow<'static, str>>) -> Self {
-        self.reading(heading.into(), "", Form::Short(MAX_DIGITS))
+        self.reading(heading.into(), "", ReadingForm::Short(MAX_DIGITS))
     }
 
     /// Shows the numbers with `count` decimals.
     #[must_use]
     pub fn decimals(self, heading: impl Into<Cow<'static, str>>, unit: &'static str, count: usize) -> Self {
-        self.reading(heading.into(), unit, Form::Decimals(count))
+        self.reading(heading.into(), unit, ReadingForm::Decimals(count))
     }
 
     /// Shows the numbers with `digits` significant digits.
     #[must_use]
     pub fn significant(self, heading: impl Into<Cow<'static, str>>, unit: &'static str, digits: usize) -> Self {
-        self.reading(heading.into(), unit, Form::Significant(digits))
+        self.reading(heading.into(), unit, ReadingForm::Significant(digits))
     }
 
     /// Shows the numbers with at most `digits` significant digits, without zeros at the end.
     #[must_use]
     pub fn short(self, heading: impl Into<Cow<'static, str>>, unit: &'static str, digits: usize) -> Self {
-        self.reading(heading.into(), unit, Form::Short(digits))
+        self.reading(heading.into(), unit, ReadingForm::Short(digits))
     }
 
     /// Shows the components of a vector with `count` decimals, below each other on a terminal.
     #[must_use]
     pub fn components(self, heading: impl Into<Cow<'static, str>>, unit: &'static str, count: usize) -> Self {
-        self.reading(heading.into(), unit, Form::Components(count)).aligned(false)
+        self.reading(heading.into(), unit, ReadingForm::Components(count)).aligned(false)
     }
 
     /// Shows a text that is made of the row.
@@ -276,7 +276,7 @@ impl<R> Field<R> {
         unit: &'static str,
         text: impl Fn(&R, Style) -> String + 'static,
     ) -> Self {
-        self.reading(heading.into(), unit, Form::Own(Box::new(text)))
+        self.reading(heading.into(), unit, ReadingForm::Own(Box::new(text)))
     }
 
     /// Tables for reading have this field if the condition holds; files have it anyway.
@@ -318,22 +318,24 @@ impl<R> Field<R> {
     /// Text of a row; `None` for a field that is not shown.
     fn text(&self, row: &R, style: Style) -> Option<String> {
         let form = &self.reading.as_ref().filter(|reading| reading.is_in(style))?.form;
-        if let Form::Own(text) = form {
+        if let ReadingForm::Own(text) = form {
             return Some(text(row, style));
         }
         let mut cells = Vec::new();
         (self.values)(row, &mut cells);
         let texts = cells.into_iter().map(|cell| match (cell, form) {
-            (Cell::Number(value), Form::Decimals(count) | Form::Components(count)) => style.decimals(value, *count),
-            (Cell::Number(value), Form::Significant(digits)) => style.significant(value, *digits),
-            (Cell::Number(value), Form::Short(digits)) => style.short(value, *digits),
+            (Cell::Number(value), ReadingForm::Decimals(count) | ReadingForm::Components(count)) => {
+                style.decimals(value, *count)
+            }
+            (Cell::Number(value), ReadingForm::Significant(digits)) => style.significant(value, *digits),
+            (Cell::Number(value), ReadingForm::Short(digits)) => style.short(value, *digits),
             (Cell::Count(count), _) => count.to_string(),
             (Cell::Text(text), _) => text,
             (Cell::Flag(is), _) => if is { "yes" } else { "no" }.to_owned(),
             (Cell::Missing(_) | Cell::Number(_), _) => NONE.to_owned(),
         });
         let separator = match (form, style) {
-            (Form::Components(_), Style::Plain) => COMPONENTS,
+            (ReadingForm::Components(_), Style::Plain) => COMPONENTS,
             _ => ", ",
         };
         Some(texts.collect::<Vec<_>>().join(separator))
@@ -439,23 +441,25 @@ pub(crate) fn any() -> Vec<String> {
 mod tests {
     use super::*;
 
-    struct Row {
+    struct PulledCable {
         name: &'static str,
         force: [f64; 2],
         margin: Option<f64>,
     }
 
-    fn of_rows(has_margin: bool) -> Columns<Row> {
+    fn of_rows(has_margin: bool) -> Columns<PulledCable> {
         Columns::new([
-            column("name", "", "name", |row: &Row| row.name).plain("cable"),
-            parts("force_{}_n", ["x", "y"], "N", "force, {}", |row: &Row| row.force).decimals("force", "N", 1),
-            column("margin_n", "N", "margin", |row: &Row| row.margin).only_if(has_margin).short("margin", "N", 3),
+            column("name", "", "name", |row: &PulledCable| row.name).plain("cable"),
+            parts("force_{}_n", ["x", "y"], "N", "force, {}", |row: &PulledCable| row.force).decimals("force", "N", 1),
+            column("margin_n", "N", "margin", |row: &PulledCable| row.margin)
+                .only_if(has_margin)
+                .short("margin", "N", 3),
         ])
     }
 
     #[test]
     fn files_have_every_number_and_tables_for_reading_one_text_per_quantity() {
-        let row = Row { name: "a", force: [-1.0, 2.25], margin: None };
+        let row = PulledCable { name: "a", force: [-1.0, 2.25], margin: None };
         let columns = of_rows(true);
         let headings: Vec<String> = columns.headings(Style::Plain).iter().map(Heading::with_unit).collect();
         assert_eq!(headings, ["cable", "force [N]", "margin [N]"]);

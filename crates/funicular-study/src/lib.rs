@@ -44,6 +44,7 @@ mod refused;
 pub mod request;
 pub mod robot_file;
 mod run;
+pub mod schema;
 pub mod set_values;
 pub mod signals;
 pub mod sweep;

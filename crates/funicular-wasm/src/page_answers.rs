@@ -3,7 +3,7 @@
 use anyhow::{Result, anyhow};
 use funicular_formats::{import, new_robot};
 use funicular_study::request::Request;
-use funicular_study::robot_file;
+use funicular_study::schema;
 use funicular_study::sweep::{Plan, PreparedSweep};
 use funicular_study::table::{Chunk, Values};
 use funicular_study::wording::Words;
@@ -15,7 +15,7 @@ pub(crate) fn content(request: &Request) -> Option<Result<Vec<u8>>> {
         Request::Import(of) => import::run(of, Words::Json)
             .map(|found| json!({ "text": found.text, "assumed": found.assumed, "lost": found.lost })),
         Request::New(of) => new_robot::run(of, Words::Json).map(|found| json!({ "text": found.text })),
-        Request::Schema(of) => serde_json::from_str(&robot_file::schema::of_request(of)).map_err(Into::into),
+        Request::Schema(of) => serde_json::from_str(&schema::of_request(of)).map_err(Into::into),
         Request::Map(_) => rows(request),
         _ => return None,
     };

@@ -6,7 +6,7 @@ use anyhow::Result;
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
 use funicular_study::request::SchemaRequest;
-use funicular_study::robot_file::schema;
+use funicular_study::schema;
 use std::path::Path;
 
 /// Writes the JSON Schema.

@@ -17,7 +17,8 @@ fn printed(line: &str, shown: &str) -> String {
     let arguments: Vec<&str> = line.split(' ').collect();
     let output = command(&arguments).current_dir(root()).output().unwrap();
 
-    let expected = i32::from(shown.lines().any(|line| line.starts_with("error: ")));
+    let after_warnings = shown.lines().find(|line| !line.starts_with("warning: "));
+    let expected = i32::from(after_warnings.is_some_and(|line| line.starts_with("error: ")));
     assert_eq!(output.status.code(), Some(expected), "{line}: {}", stderr(&output));
     [stderr(&output), stdout(&output)].concat()
 }

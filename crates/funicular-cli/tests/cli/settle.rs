@@ -32,7 +32,7 @@ fn a_release_has_its_displacement_its_modes_and_two_times() {
 
     let text = succeed(&[&SMALL[..], &["--tolerance-m", "1e-5"]].concat());
     assert!(text.contains("for good after") && text.contains("lasts longest"), "{text}");
-    let (header, rows) = csv(&SMALL);
+    let (header, rows) = csv(&[&SMALL[..], &["--tolerance-m", "1e-5"]].concat());
     assert_eq!(header, ["t_s", "x_m", "y_m", "z_m", "envelope_m"]);
     assert!(rows.len() > 100);
 }

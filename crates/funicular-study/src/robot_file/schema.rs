@@ -3,10 +3,6 @@
 //! The schema contains names, types, ranges and required keys. Conditions between keys, such as a minimum tension below
 //! the maximum, are left to the reader of the program.
 
-use crate::Results;
-use crate::names::SchemaSubject;
-use crate::request::{self, SchemaRequest};
-use crate::table::Column;
 use funicular::robot::parameters::Range;
 use funicular::robot::spec::key::{Absent, Key, KeyValue, Numeric, Shape, Table};
 use funicular::robot::spec::{TABLES, top_of_file};
@@ -28,25 +24,6 @@ const DRAFT: &str = "http://json-schema.org/draft-07/schema#";
 pub fn text() -> String {
     // The alternate form has one value per line; a JSON value always has a text.
     format!("{:#}\n", schema())
-}
-
-/// Text of the schema of a request: that of the robot file, that of requests, or the columns of results.
-pub fn of_request(request: &SchemaRequest) -> String {
-    match request.of {
-        SchemaSubject::RobotFile => text(),
-        SchemaSubject::Request => format!("{:#}\n", request::schema()),
-        SchemaSubject::Columns => format!("{:#}\n", columns()),
-    }
-}
-
-/// Columns of the tables that the commands write as CSV: name, unit, and meaning. A command has one table or several,
-/// each with the words that say when it is that one.
-fn columns() -> Value {
-    let of_column = |column: Column| json!({ "name": column.name, "unit": column.unit, "about": column.about });
-    let of_table = |(with, columns): (&str, Vec<Column>)| json!({ "with": with, "columns": columns.into_iter().map(of_column).collect::<Vec<_>>() });
-    let of_command =
-        |(name, tables): (&str, Vec<_>)| (name.to_owned(), tables.into_iter().map(of_table).collect::<Value>());
-    Value::Object(Results::tables().into_iter().map(of_command).collect())
 }
 
 /// Schema as a JSON value.

@@ -170,7 +170,7 @@ fn first_message(reason: &SpecError) -> String {
 /// let heavier = parameters.robot_with(&[(mass, 300.0)])?;
 /// assert_eq!(heavier.platform.mass, 300.0); // kg
 /// let refused = parameters.robot_with(&[(mass, -1.0)]).unwrap_err();
-/// assert_eq!(refused.to_string(), "with platform.mass_kg=-1: `mass_kg` is -1.0, it must be positive");
+/// assert!(refused.to_string().starts_with("with platform.mass_kg=-1: `mass_kg` is -1.0, it must be positive"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]

@@ -5,7 +5,7 @@ use funicular::cable::{CableModel, DynamicCable, EndStiffness, LocalAxes};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes;
-use funicular::robot::{Pose, Robot};
+use funicular::robot::{Pose, Robot, TensionLimits};
 use funicular::statics::{self, CableState, StaticModel};
 use std::array::from_fn;
 use std::f64::consts::PI;
@@ -16,7 +16,8 @@ const POLES: usize = 4000;
 
 /// Robot without gravity at a pose where its cables are taut.
 fn straight_robot() -> (Robot, statics::Equilibrium) {
-    let mut robot = Robot::from_toml(funicular_robots::IPANEMA2).unwrap();
+    let limits = TensionLimits { minimum: Some(100.0), maximum: Some(5000.0) };
+    let mut robot = Robot::from_toml(funicular_robots::IPANEMA2).unwrap().with_tension_limits(limits);
     robot.gravity_w = Vec3::zeros();
     let pose = Pose::new([0.2, -0.1, 1.1], [0.0; 3]);
     let rest = statics::inverse(&robot, &pose, StaticModel::Catenary).unwrap();
