@@ -39,7 +39,7 @@ fn string(robot: &Robot, i: usize, state: &CableState, limit_hz: f64, factor: f6
     let poles: Vec<f64> = (0..POLES).map(|k| (number(k) * PI / chord).powi(2) * tension / mass).collect();
     let ends = |k: usize| {
         let size = (2.0 * mass * chord).sqrt() / (number(k) * PI);
-        [size, if k % 2 == 0 { size } else { -size }]
+        [size, if k.is_multiple_of(2) { size } else { -size }]
     };
 
     let across = |matrix: [[f64; 2]; 2], along: f64| -> [[f64; 4]; 4] {
