@@ -9,7 +9,6 @@ use funicular_study::wording::{Words, worded};
 use funicular_study::{Results, run};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use pyo3::types::PyList;
 use std::sync::OnceLock;
 
 /// Results of a request, from which their page is made.
@@ -70,16 +69,16 @@ impl PyAnswered {
     }
 
     /// Returns name, unit and values of every column of the program's CSV.
-    fn table<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, String, Bound<'py, PyList>)>> {
+    fn table(&self, py: Python<'_>) -> PyResult<Vec<(String, String, Vec<Py<PyAny>>)>> {
         let ResultTable { columns, rows } = self.found(py)?.table();
-        let mut values: Vec<Vec<Py<PyAny>>> = columns.iter().map(|_| Vec::new()).collect();
+        let named = columns.into_iter().map(|column| (column.name, column.unit.into_owned(), Vec::new()));
+        let mut table: Vec<(String, String, Vec<Py<PyAny>>)> = named.collect();
         for row in rows {
-            for (value, cell) in values.iter_mut().zip(row) {
-                value.push(object(py, cell)?);
+            for ((_, _, values), cell) in table.iter_mut().zip(row) {
+                values.push(object(py, cell)?);
             }
         }
-        let lists = columns.into_iter().zip(values);
-        lists.map(|(column, values)| Ok((column.name, column.unit.into_owned(), PyList::new(py, values)?))).collect()
+        Ok(table)
     }
 
     /// Makes the page in HTML; `call` is the code that makes it again.

@@ -35,6 +35,7 @@ MORE = [
     f"funicular frf {ROBOT} --from-hz 0.5 --to-hz 2 --adaptive --input fz --input fx --output z --output rx",
     f"funicular settle {ROBOT} --release-n 0,0,-1 --below-hz 2 {LENGTHS} --input-point-m 0.1,0,0 --output-point-m 0,0,0.1",
     f"funicular settle robots/cogiro.toml --release-n-m 5,0,0 --tolerance-m 1e-5 --below-hz 5 {TENSIONS} --hold-lengths-of-pose",
+    f"funicular settle {ROBOT} --release-n 0,0,-0.5 --pose 0,0,0.5 --below-hz 3 {STATE} {WHOLE} --winches clamped",
     f"funicular modes {ROBOT} --below-hz 2 --decay-percent 10",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",

@@ -30,7 +30,8 @@ def test_deviations_of_tensions_are_arrays_with_names_and_units() -> None:
 def test_the_table_has_the_columns_of_the_csv_with_units(executable: str) -> None:
     found = funicular.Robot.example().uncertainty(["platform.mass_kg=1%"], of=["tensions"])
     table = found.to_pandas()
-    line = [executable, "uncertainty", "--deviations", "platform.mass_kg=1%", "--of", "tensions", "--format", "csv"]
+    robot = str(Path(__file__).parents[3] / "robots/yuan2014-4mm.toml")
+    line = [executable, "uncertainty", robot, "--deviations", "platform.mass_kg=1%", "--of", "tensions", "--format", "csv"]
     csv = pandas.read_csv(StringIO(subprocess.run(line, capture_output=True, text=True, check=True).stdout))
     assert list(table.columns) == list(csv.columns) and len(table) == 12
     assert np.array_equal(table["deviation"], csv["deviation"]) and np.array_equal(table["value"], found.value)

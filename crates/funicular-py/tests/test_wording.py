@@ -22,7 +22,7 @@ def named() -> dict[str, str]:
     forms = dict(re.findall(r'\("(\w+)", "([^"]+)"\)', table))
     assert forms["node"] == "nodes"
     keys: set[str] = set()
-    for part in ("funicular", "funicular-study", "funicular-files"):
+    for part in ("funicular", "funicular-study", "funicular-formats", "funicular-pages", "funicular-files"):
         for path in (ROOT / "crates" / part / "src").rglob("*.rs"):
             keys.update(re.findall(r"⟪([a-z_]+)⟫", path.read_text()))
     assert len(keys) > 60

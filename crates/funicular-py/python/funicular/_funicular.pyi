@@ -505,6 +505,10 @@ class Answered:
         """
         Request, as JSON.
         """
+    def table(self, /) -> list[tuple[str, str, list[Any]]]:
+        """
+        Returns name, unit and values of every column of the program's CSV.
+        """
 
 @final
 class Catenary:
