@@ -36,6 +36,9 @@ impl PyAnswered {
     }
 }
 
+/// Name, unit and values of a column of CSV.
+type ColumnOfCsv = (String, String, Vec<Py<PyAny>>);
+
 /// Value of a cell; `None` for one that the row does not have.
 fn object(py: Python<'_>, cell: Cell) -> PyResult<Py<PyAny>> {
     Ok(match cell {
@@ -69,10 +72,10 @@ impl PyAnswered {
     }
 
     /// Returns name, unit and values of every column of the program's CSV.
-    fn table(&self, py: Python<'_>) -> PyResult<Vec<(String, String, Vec<Py<PyAny>>)>> {
+    fn table(&self, py: Python<'_>) -> PyResult<Vec<ColumnOfCsv>> {
         let ResultTable { columns, rows } = self.found(py)?.table();
         let named = columns.into_iter().map(|column| (column.name, column.unit.into_owned(), Vec::new()));
-        let mut table: Vec<(String, String, Vec<Py<PyAny>>)> = named.collect();
+        let mut table: Vec<ColumnOfCsv> = named.collect();
         for row in rows {
             for ((_, _, values), cell) in table.iter_mut().zip(row) {
                 values.push(object(py, cell)?);
