@@ -289,7 +289,7 @@ test("what the program refuses is on the page of messages", async () => {
     ["modes", hall, "--below-hz", "-2"],
     ["frf", hall, "--from-hz", "2", "--to-hz", "1", "--points", "5"],
     ["frf", hall, "--from-hz", "1", "--to-hz", "2", "--points", "5", "--input", "fq"],
-    ["map", hall, "--grid", "x=0:1:2", "--quantity", "damping"],
+    ["map", hall, "--grid", "x=0:1:2", "--quantity", "dampings"],
     ["map", hall, "--grid", "q=0:1:2"],
     ["payload", hall, "--mass-kg", "9000"],
     ["identify", hall, "--measured", "docs/identification/hall-modes.csv", "--fit", "platform.weight"],
