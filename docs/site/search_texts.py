@@ -22,7 +22,7 @@ def _plain(node: nodes.Node) -> str:
 
 
 def _own(section: nodes.section) -> Iterator[nodes.Node]:
-    """What a section has beside its heading and its sections."""
+    """Contents of a section beside its heading and its sections."""
     return (child for child in section.children if not isinstance(child, (nodes.title, nodes.section, nodes.raw)))
 
 

@@ -142,7 +142,7 @@ impl Style {
 /// Text of a row.
 type Text<R> = dyn Fn(&R, Style) -> String;
 
-/// What adds the cells of a row.
+/// Function that adds the cells of a row.
 type CellsOfRow<R> = dyn Fn(&R, &mut Vec<Cell>);
 
 /// Text of a field in tables for reading.
@@ -175,7 +175,7 @@ impl<R> Reading<R> {
     }
 }
 
-/// What a row says of one quantity: its numbers in files, one text in tables for reading.
+/// Quantity of a row: its numbers in files, one text in tables for reading.
 pub struct Field<R> {
     columns: Vec<Column>,
     values: Box<CellsOfRow<R>>,
@@ -219,7 +219,8 @@ pub fn parts<R, I: IntoIterator<Item: ToCell>>(
     }
 }
 
-/// Field that stands in tables for reading only.
+/// Field that stands in tables for reading only: files have its number at another place, because their order never
+/// changes.
 pub fn only_read<R>() -> Field<R> {
     Field { columns: Vec::new(), values: Box::new(|_, _| ()), reading: None, is_there: true }
 }
@@ -368,7 +369,7 @@ impl<R> Columns<R> {
         Self(fields.into_iter().filter(|field| field.is_there).collect())
     }
 
-    /// What the columns in files mean.
+    /// Descriptions of the columns in files.
     pub fn described(&self) -> Vec<Column> {
         self.0.iter().flat_map(|field| field.columns.iter().cloned()).collect()
     }

@@ -568,7 +568,7 @@ impl Named for SchemaSubject {
         match self {
             Self::RobotFile => "Robot files (TOML), for editors",
             Self::Request => "Requests (JSON) of all commands, for programs that write them",
-            Self::Columns => "Columns (CSV) of all results with units and meanings, for programs that read them",
+            Self::Columns => "Columns (CSV) of results with units and meanings, for programs that read them",
         }
     }
 }

@@ -37,7 +37,7 @@ fn a_release_has_its_displacement_its_modes_and_two_times() {
     assert!(rows.len() > 100);
 }
 
-/// What the command is asked for first: the loss of the stretch makes a bounce on light rope end.
+/// Loss of the stretch makes a bounce on light rope end: the first question to the command.
 #[test]
 fn a_loss_factor_shortens_the_decay() {
     let file = std::fs::read_to_string(robot("cogiro.toml")).unwrap();

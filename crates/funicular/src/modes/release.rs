@@ -45,7 +45,7 @@ pub enum ReleaseError {
     Overdamped(usize),
     /// A mode does not decay.
     #[error(
-        "the mode at {frequency_hz} Hz does not decay: give the ropes `damping_ratio` and `axial_loss_factor`, or the \
+        "the mode at {frequency_hz:.4} Hz does not decay: give the ropes `damping_ratio` and `axial_loss_factor`, or the \
          platform `translational_damping_n_s_m`"
     )]
     NoDecay {
@@ -53,7 +53,9 @@ pub enum ReleaseError {
         frequency_hz: f64,
     },
     /// Modes share a complex frequency.
-    #[error("modes of the platform share the complex frequency at {frequency_hz} Hz: their motions cannot be parted")]
+    #[error(
+        "modes of the platform share the complex frequency at {frequency_hz:.4} Hz: their motions cannot be parted"
+    )]
     Shared {
         /// Frequency [Hz].
         frequency_hz: f64,

@@ -26,7 +26,7 @@ impl Modes {
     }
 }
 
-/// What a table of modes has columns for: parts of the robot by their names, and what was asked for.
+/// Names of the parts of the robot, and requested numbers, for which a table of modes has columns.
 struct NamedParts<'a> {
     cables: &'a [String],
     /// Cables whose drives move.
