@@ -9,6 +9,7 @@ pub mod cable;
 pub mod check;
 pub mod compare;
 pub mod design;
+mod fields;
 pub mod frf;
 pub mod gradient;
 pub mod identify;

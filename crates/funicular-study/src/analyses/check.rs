@@ -1,5 +1,6 @@
 //! `check`: description of the robot in the robot file.
 
+use super::fields::{self, AXES};
 use super::found;
 use super::shared::{LoadRow, WindRow};
 use crate::columns::{Columns, Field, ResultTable, Tabled, column, only_read, parts};
@@ -552,11 +553,10 @@ impl CheckedRope {
 impl CheckedCable {
     /// Columns of the cables.
     pub fn columns(cables: &[Self]) -> Columns<Self> {
-        const AXES: [&str; 3] = ["x", "y", "z"];
         let limited = cables.iter().any(|cable| cable.limits.are_given());
         let loaded = cables.iter().any(|cable| cable.load_n_per_m.is_some());
         let own = [
-            column("name", "", "name of the cable", |cable: &Self| cable.name.clone()).plain("cable"),
+            fields::cable_name(|cable: &Self| cable.name.clone()),
             column("material", "", "name of its rope", |cable: &Self| cable.material.clone()).plain("rope"),
             parts("anchor_{}_m", AXES, "m", "anchor, world axes, {}", |cable: &Self| cable.anchor_m)
                 .components("anchor", "m", 4),

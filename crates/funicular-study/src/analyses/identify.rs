@@ -24,7 +24,7 @@ mod unknowns;
 pub use profile::{OpenEnd, Profile};
 pub use tables::{FittedResponse, FrequencyRow, StaticRow};
 
-use super::found;
+use super::{fields, found};
 use crate::Watch;
 use crate::chosen_numbers::at_bound;
 use crate::columns::{Columns, ResultTable, Style, Tabled, column, only_read, parts};
@@ -495,7 +495,8 @@ impl<'a> FittedValue<'a> {
         let listed = |numbers: &mut dyn Iterator<Item = usize>| {
             numbers.map(|number| number.to_string()).collect::<Vec<_>>().join(" ")
         };
-        let end = |of: &Self, k: usize| of.row.interval_95.map(|interval| interval[k]);
+        let [from, to] =
+            fields::interval_95(|of: &Self| of.row.interval_95, |of: &Self| of.row.digits(), "the value with 95 %");
         let profile = |of: &Self| of.row.profile.as_ref().map_or([None; 2], |profile| [profile.from, profile.to]);
         let notes = |of: &Self, style| {
             let prior = of.row.prior_text(style);
@@ -516,18 +517,8 @@ impl<'a> FittedValue<'a> {
                 |of: &Self| of.row.deviation,
             )
             .significant("deviation", "", 2),
-            column(
-                "interval_95_from",
-                "",
-                "lower end of the interval that holds the value with 95 %",
-                move |of: &Self| end(of, 0),
-            )
-            .shown("95 % from", "", move |of, style| style.significant(end(of, 0), of.row.digits())),
-            column("interval_95_to", "", "upper end of this interval", move |of: &Self| end(of, 1)).shown(
-                "to",
-                "",
-                move |of, style| style.significant(end(of, 1), of.row.digits()),
-            ),
+            from,
+            to,
             column("prior", "", "value that was known beforehand", |of: &Self| of.row.prior)
                 .shown("prior", "", |of, style| of.row.prior_text(style))
                 .aligned(true)

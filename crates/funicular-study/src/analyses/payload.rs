@@ -1,9 +1,9 @@
 //! `payload`: minimum and maximum payload at a pose.
 
-use super::found;
 use super::shared::{LimitNumbers, PoseRow};
+use super::{fields, found};
 use crate::at_rest::{self, AtRest};
-use crate::columns::{Columns, Field, ResultTable, Tabled, column, parts};
+use crate::columns::{Columns, Field, ResultTable, Tabled, column};
 use crate::error::NoSolution;
 use crate::request;
 use crate::table::Column;
@@ -178,27 +178,25 @@ impl LoadedRow {
         Columns::new(Self::fields(|row: &Self| row))
     }
 
-    fn fields<R>(of: impl Fn(&R) -> &Self + Copy + 'static) -> [Field<R>; 6] {
+    fn fields<R>(of: impl Fn(&R) -> &Self + Copy + 'static) -> [Field<R>; 7] {
+        let [at_platform, at_anchor] =
+            fields::tensions(move |row| [of(row).tension_platform_n, of(row).tension_anchor_n]);
+        let [range, margin, reached] = fields::limits(move |row| Some(&of(row).limits));
         [
-            column("name", "", "name of the cable", move |row| of(row).name.clone()).plain("cable"),
-            column("tension_platform_n", "N", "tension at the platform", move |row| of(row).tension_platform_n)
-                .decimals("T platform", "N", 3),
-            column("tension_anchor_n", "N", "tension at the anchor", move |row| of(row).tension_anchor_n)
-                .decimals("T anchor", "N", 3),
-            parts("{}_tension_n", ["minimum", "maximum"], "N", "{} tension that is allowed", move |row| {
-                [Some(of(row).limits.minimum_tension_n), of(row).limits.maximum_tension_n]
-            })
-            .shown("limits", "N", move |row, style| of(row).limits.range(style)),
-            column("tension_margin_n", "N", "distance of the tension from the nearer limit", move |row| {
-                of(row).limits.tension_margin_n
-            }),
-            parts("limit_{}", ["reached", "place"], "", "limit that the tension has reached: {}", move |row| {
-                [of(row).limits.limit_reached, of(row).limit_place]
-            })
-            .shown("at its limit", "", move |row, _| {
-                let reached = of(row).limits.limit_reached.zip(of(row).limit_place);
-                reached.map_or_else(|| NONE.to_owned(), |(limit, place)| format!("{limit}, {place}"))
-            }),
+            fields::cable_name(move |row| of(row).name.clone()),
+            at_platform,
+            at_anchor,
+            range,
+            margin.read_if(false),
+            reached,
+            column("limit_place", "", "place in the cable where it is reached", move |row| of(row).limit_place).shown(
+                "at its limit",
+                "",
+                move |row, _| {
+                    let reached = of(row).limits.limit_reached.zip(of(row).limit_place);
+                    reached.map_or_else(|| NONE.to_owned(), |(limit, place)| format!("{limit}, {place}"))
+                },
+            ),
         ]
     }
 }

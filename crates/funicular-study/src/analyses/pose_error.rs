@@ -1,5 +1,6 @@
 //! `pose-error`: pose errors of simpler static models over platform mass.
 
+use super::fields::AXES;
 use super::found;
 use super::shared::PoseRow;
 use crate::Watch;
@@ -220,13 +221,9 @@ impl PoseErrorRow {
         let mass = column("mass_kg", "kg", "mass of the platform", |row: &Self| row.mass_kg);
         let of_pairs = pairs.into_iter().flat_map(|(name, about, of)| {
             [
-                parts(
-                    &format!("{name}_{{}}_m"),
-                    ["x", "y", "z"],
-                    "m",
-                    &format!("{about}: translation, {{}}"),
-                    move |row| of(row).map_or([None; 3], |pair| pair.translation_m.map(Some)),
-                ),
+                parts(&format!("{name}_{{}}_m"), AXES, "m", &format!("{about}: translation, {{}}"), move |row| {
+                    of(row).map_or([None; 3], |pair| pair.translation_m.map(Some))
+                }),
                 parts(&format!("{name}_{{}}_m"), ["distance"], "m", &format!("{about}: distance"), move |row| {
                     [of(row).map(|pair| pair.distance_m)]
                 }),

@@ -1,5 +1,6 @@
 //! `settle`: how a point of the platform swings after a wrench is released, and when it has settled.
 
+use super::fields::AXES;
 use super::found;
 use super::shared::Models;
 use crate::at_rest::{self, AtRest, ModesBelow};
@@ -285,7 +286,7 @@ impl HistoryRow {
         let place = |row: &Self| [row.x_m, row.y_m, row.z_m];
         Columns::new([
             column("t_s", "s", "time since the release", |row: &Self| row.t_s),
-            parts("{}_m", ["x", "y", "z"], "m", "displacement of the point from its rest, {}", place),
+            parts("{}_m", AXES, "m", "displacement of the point from its rest, {}", place),
             column("envelope_m", "m", "bound of its distance from its rest", |row: &Self| row.envelope_m),
         ])
     }

@@ -1,5 +1,6 @@
 //! `statics`: equilibrium of the robot.
 
+use super::fields::{self, AXES};
 use super::found;
 use super::shared::{LimitNumbers, LoadRow, PoseDifferenceRow, PoseRow, SagNumbers, WindRow};
 use crate::at_rest::{self, AtRest};
@@ -17,9 +18,6 @@ use funicular::statics::{
 };
 use serde::Serialize;
 use std::fmt::Display;
-
-/// Names of the components of a vector.
-const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Results of `statics`: an equilibrium.
 #[derive(Serialize)]
@@ -139,8 +137,8 @@ impl EquilibriumRow {
 impl EquilibriumRow {
     /// Columns of the equilibria of a robot with these cables.
     fn columns(cables: impl IntoIterator<Item = impl Display>) -> Columns<Self> {
-        let pose = |row: &Self| row.pose.position_m;
-        let angles = |row: &Self| row.pose.roll_pitch_yaw_deg;
+        let [position, angles] =
+            fields::pose(|row: &Self| Some(row.pose.position_m), |row: &Self| Some(row.pose.roll_pitch_yaw_deg));
         Columns::new([
             column("stable", "", "the equilibrium is stable", |row: &Self| row.stable),
             column("falling_directions", "1", "number of directions in which the energy falls", |row: &Self| {
@@ -151,8 +149,8 @@ impl EquilibriumRow {
             }),
             column("energy_j", "J", "energy above the lowest equilibrium", |row: &Self| row.energy_j),
             column("distance_m", "m", "distance from the first equilibrium", |row: &Self| row.distance_m),
-            parts("{}_m", AXES, "m", "position of the platform origin, {}", pose),
-            parts("{}_deg", ["roll", "pitch", "yaw"], "deg", "{} of the platform", angles),
+            position,
+            angles,
             parts("tension_platform_{}_n", cables, "N", "tension of cable {} at the platform", |row: &Self| {
                 row.tensions_platform_n.clone()
             }),
@@ -293,7 +291,7 @@ impl FrictionCableRow {
 
     /// Columns of the table of friction.
     pub fn columns(lengths_held: bool) -> Columns<Self> {
-        let name = column("name", "", "name of the cable", |row: &Self| row.name.clone()).plain("cable");
+        let name = fields::cable_name(|row: &Self| row.name.clone());
         Columns::new(std::iter::once(name).chain(Self::fields(|row| Some(row), lengths_held)))
     }
 
@@ -440,19 +438,17 @@ impl CableRow {
 
     /// Fields of a row with a cable; tables for reading have the limits if there are any.
     fn fields<R>(of: impl Fn(&R) -> &Self + Copy + 'static, limited: bool) -> [Field<R>; 14] {
-        let limit = move |row: &R, text: fn(&LimitNumbers, Style) -> String, style| {
-            of(row).limits.as_ref().map_or_else(String::new, |limits| text(limits, style))
-        };
+        let [at_platform, at_anchor] =
+            fields::tensions(move |row| [of(row).tension_platform_n, of(row).tension_anchor_n]);
+        let [range, margin, reached] = fields::limits(move |row| of(row).limits.as_ref());
         [
-            column("name", "", "name of the cable", move |row| of(row).name.clone()).plain("cable"),
+            fields::cable_name(move |row| of(row).name.clone()),
             only_read().shown("rope", "", move |row, _| of(row).rope.clone()).only_in(Style::Typeset),
             column("unstrained_length_m", "m", "length without tension", move |row| of(row).unstrained_length_m)
                 .decimals("unstrained", "m", 4),
             only_read().shown("chord", "m", move |row, style| style.decimals(of(row).chord_m, 4)).aligned(false),
-            column("tension_platform_n", "N", "tension at the platform", move |row| of(row).tension_platform_n)
-                .decimals("T platform", "N", 3),
-            column("tension_anchor_n", "N", "tension at the anchor", move |row| of(row).tension_anchor_n)
-                .decimals("T anchor", "N", 3),
+            at_platform,
+            at_anchor,
             column("chord_m", "m", "distance between the ends of the free span", move |row| of(row).chord_m),
             column("sag_ratio", "1", "sag divided by the chord", move |row| of(row).sag.sag_ratio).decimals(
                 "sag/chord",
@@ -467,26 +463,15 @@ impl CableRow {
             parts("force_on_platform_{}_n", AXES, "N", "force of the cable on the platform, {}", move |row| {
                 of(row).force_on_platform_n
             }),
-            parts("{}_tension_n", ["minimum", "maximum"], "N", "{} tension that is allowed", move |row| {
-                let limits = of(row).limits.as_ref();
-                limits.map_or([None; 2], |limits| [Some(limits.minimum_tension_n), limits.maximum_tension_n])
-            })
-            .shown("limits", "N", move |row, style| limit(row, LimitNumbers::range, style))
-            .read_if(limited),
-            column("tension_margin_n", "N", "distance of the tension from the nearer limit", move |row| {
-                of(row).limits.as_ref().map(|limits| limits.tension_margin_n)
-            })
-            .shown("margin", "N", move |row, style| limit(row, LimitNumbers::margin, style))
-            .read_if(limited),
-            column("limit_reached", "", "limit that the tension has reached", move |row| {
-                of(row).limits.as_ref().and_then(|limits| limits.limit_reached)
-            }),
+            range.read_if(limited),
+            margin.read_if(limited),
+            reached,
         ]
     }
 
     /// Columns of the table of pulleys and winches.
     pub fn drive_columns() -> Columns<Self> {
-        let name = column("name", "", "name of the cable", |row: &Self| row.name.clone()).plain("cable");
+        let name = fields::cable_name(|row: &Self| row.name.clone());
         Columns::new(std::iter::once(name).chain(DriveRow::fields(|row: &Self| row.drive.as_ref())))
     }
 }

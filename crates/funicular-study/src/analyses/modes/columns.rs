@@ -1,6 +1,7 @@
 //! Columns of the list of modes.
 
 use super::{Modes, strongest};
+use crate::analyses::fields::AXES;
 use crate::analyses::shared::ModeRow;
 use crate::columns::{Columns, Field, ResultTable, Style, Tabled, any, column, only_read, parts};
 use crate::table::Column;
@@ -96,13 +97,9 @@ impl ModeRow {
             .shown("platform", "%", |mode, style| style.decimals(100.0 * mode.platform_energy_fraction, 1)),
         ];
         let in_files = [
-            parts(
-                "shape_{}",
-                ["x", "y", "z"],
-                "m",
-                "motion of the platform origin along {}, world axes",
-                |mode: &Self| [mode.shape[0], mode.shape[1], mode.shape[2]],
-            ),
+            parts("shape_{}", AXES, "m", "motion of the platform origin along {}, world axes", |mode: &Self| {
+                [mode.shape[0], mode.shape[1], mode.shape[2]]
+            }),
             parts(
                 "shape_{}_per_m",
                 ["rx", "ry", "rz"],

@@ -1,5 +1,6 @@
 //! Results of `uncertainty` as data.
 
+use crate::analyses::fields;
 use crate::analyses::shared::Models;
 use crate::columns::{Columns, ResultTable, Style, Tabled, any, column, only_read, parts};
 use crate::table::Column;
@@ -198,19 +199,16 @@ impl<'a> ResultAtPose<'a> {
     /// the tolerances if there are any.
     pub fn columns(groups: &[InputGroup], has_worst: bool) -> Columns<Self> {
         let digits = |of: &Self| digits_for(of.result.value, of.result.deviation);
-        let end = |of: &Self, k: usize| of.result.interval_95.map(|interval| interval[k]);
+        let [from, to] = fields::interval_95(|of: &Self| of.result.interval_95, digits, "95 % of the robots");
+        let [position, angles] = fields::pose(|of: &Self| of.pose.position_m, |of: &Self| of.pose.roll_pitch_yaw_deg);
         let worst = |of: &Self, side: fn(&WorstCase) -> Option<f64>| of.result.worst.as_ref().and_then(side);
 
         let place = [
             column("pose", "1", "number of the pose, from 1", |of: &Self| of.index + 1)
                 .plain("pose")
                 .only_in(Style::Typeset),
-            parts("{}_m", ["x", "y", "z"], "m", "position of the platform origin, {}", |of: &Self| {
-                of.pose.position_m.map_or([None; 3], |position| position.map(Some))
-            }),
-            parts("{}_deg", ["roll", "pitch", "yaw"], "deg", "{} of the platform", |of: &Self| {
-                of.pose.roll_pitch_yaw_deg.map_or([None; 3], |angles| angles.map(Some))
-            }),
+            position,
+            angles,
         ];
         let values = [
             column("result", "", "name of the result", |of: &Self| of.result.name.clone()).plain("result"),
@@ -225,18 +223,8 @@ impl<'a> ResultAtPose<'a> {
                 "",
                 3,
             ),
-            column(
-                "interval_95_from",
-                "",
-                "lower end of the interval that holds 95 % of the robots",
-                move |of: &Self| end(of, 0),
-            )
-            .shown("95 % from", "", move |of, style| style.significant(end(of, 0), digits(of))),
-            column("interval_95_to", "", "upper end of this interval", move |of: &Self| end(of, 1)).shown(
-                "to",
-                "",
-                move |of, style| style.significant(end(of, 1), digits(of)),
-            ),
+            from,
+            to,
             column("method", "", "method: linear or sampled", |of: &Self| of.result.method).plain("method"),
             column("linear_deviation", "", "standard deviation by the gradient", |of: &Self| {
                 of.result.linear_deviation
