@@ -21,6 +21,7 @@ use crate::request::{self, RobotText, Tensions};
 use anyhow::Result;
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{self, Equilibrium, Solution, TensionRule};
+use std::borrow::Cow;
 
 /// Robot at an equilibrium.
 #[derive(Debug, Clone)]
@@ -39,6 +40,19 @@ pub struct AtRest {
 }
 
 impl AtRest {
+    /// State about which the robot vibrates: where ropes have a dynamic axial stiffness, with the ropes of
+    /// [`Equilibrium::with_dynamic_stiffness`]; otherwise this state.
+    pub fn vibrating(&self) -> Cow<'_, Self> {
+        match self.equilibrium.with_dynamic_stiffness(&self.robot) {
+            (Cow::Owned(robot), equilibrium) => {
+                let equilibrium = equilibrium.into_owned();
+                let (rule, held_pose) = (self.rule.clone(), self.held_pose);
+                Cow::Owned(Self { robot, equilibrium, requested_pose: self.requested_pose, rule, held_pose })
+            }
+            _ => Cow::Borrowed(self),
+        }
+    }
+
     /// Robot at this equilibrium whose supports are rigid where they have settled; `None` on a rigid frame.
     pub fn with_rigid_supports(&self) -> Option<Self> {
         self.robot.has_supports().then(|| Self {

@@ -41,7 +41,7 @@ impl AtRest {
         if let Some(given) = given {
             return check("below_hz", Some(given), positive).map(|()| given);
         }
-        let AtRest { robot, equilibrium, .. } = self;
+        let AtRest { robot, equilibrium, .. } = &*self.vibrating();
         let list = match modes::lowest(robot, equilibrium, linearisation, LOWEST, MAX_HZ) {
             Ok((_, list)) => list.modes,
             Err(LowestError::TooFew { .. }) => self.modes_below(linearisation, MAX_HZ, modes::MAX_MODES)?.modes.modes,
@@ -54,7 +54,8 @@ impl AtRest {
     pub(crate) fn response_limit(&self, linearisation: Linearisation) -> Result<f64> {
         let limit = self.modes_limit(None, linearisation)?;
         let share = modes::PLATFORM_SHARE;
-        let found = modes::lowest_with_platform(&self.robot, &self.equilibrium, linearisation, share, MAX_HZ);
+        let AtRest { robot, equilibrium, .. } = &*self.vibrating();
+        let found = modes::lowest_with_platform(robot, equilibrium, linearisation, share, MAX_HZ);
         // Without a mode of the platform the lowest natural frequencies are the range.
         let first = found.ok().and_then(|(_, list)| Some(list.modes[list.first_platform(share)?].frequency_hz));
         Ok(first.map_or(limit, |hz| limit.max(rounded_up(BEYOND_PLATFORM * hz))))

@@ -50,8 +50,8 @@ pub fn about(key: &Key) -> String {
     }
     let names: Vec<&str> = sweep::Quantity::names().collect();
     format!(
-        "{}: {}. first-platform-frequency jumps between neighbouring points where a mode of the cables is near; for a \
-         smooth curve choose catenary-static as ⟪cable_model⟫",
+        "{}: {}. first-platform-frequency jumps between neighbouring points where a mode of the cables is near; \
+         platform-frequency is smooth",
         key.about,
         names.join(", ")
     )

@@ -191,7 +191,7 @@ impl Session {
         let share = modes::PLATFORM_SHARE;
         let first = |found: &Option<(Dynamics, Modes)>| found.as_ref().and_then(|(_, list)| list.first_platform(share));
         if first(vibration).is_none() {
-            let AtRest { robot, equilibrium, .. } = &*at_rest;
+            let AtRest { robot, equilibrium, .. } = &*at_rest.vibrating();
             let linearisation = at_rest::linearisation(&self.request.model, equilibrium.model);
             let found = modes::lowest_with_platform(robot, equilibrium, linearisation, share, MAX_HZ);
             *vibration = Some(found.map_err(|error| NoSolution(without_platform(&error, share)))?);
@@ -233,7 +233,7 @@ impl Session {
     /// At least `count` lowest modes, or all if there are fewer. The first limit is the highest frequency of the last
     /// frame, because a robot that moves a little has nearly the same frequencies.
     fn modes(&self, at_rest: &AtRest, linearisation: Linearisation, count: usize) -> Result<(Dynamics, Modes)> {
-        let AtRest { robot, equilibrium, .. } = at_rest;
+        let AtRest { robot, equilibrium, .. } = &*at_rest.vibrating();
 
         if let Some(limit) = self.known_hz.get(count - 1).map(|hz| (LIMIT_FACTOR * hz).min(MAX_HZ)) {
             let dynamics = Dynamics::about(robot, equilibrium, linearisation, limit)?;
@@ -269,6 +269,7 @@ impl Session {
         let Some(mode) = found.modes.get(index) else {
             bail!("there is no mode {index}: the last frame has {}", found.modes.len())
         };
+        let at_rest = &*at_rest.vibrating();
         let fractions = fractions(points);
         let mut numbers = Vec::with_capacity(3 * points * at_rest.robot.cables.len());
         for i in 0..at_rest.robot.cables.len() {

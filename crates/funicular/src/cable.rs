@@ -268,18 +268,19 @@ impl DynamicCable {
     }
 
     /// Damped stiffness at the complex x = ω_c² without the poles in the relative distance `width` of the real part of
-    /// x, minus its derivative by x [kg], and those poles. The closed form has no poles to leave out.
-    pub(crate) fn complex_beside_poles(
-        &self,
-        x: Complex,
-        width: f64,
-    ) -> (LocalStiffness<Complex>, LocalStiffness<Complex>, Vec<NearPole>) {
+    /// x, and those poles. The closed form has no poles to leave out.
+    pub(crate) fn complex_beside_poles(&self, x: Complex, width: f64) -> (LocalStiffness<Complex>, Vec<NearPole>) {
         match self {
-            Self::ShallowDynamic(cable) => {
-                let (stiffness, mass) = cable.at(x);
-                (stiffness, mass, Vec::new())
-            }
+            Self::ShallowDynamic(cable) => (cable.at(x).0, Vec::new()),
             Self::CatenaryDynamic(cable) => cable.complex_beside_poles(x, width),
+        }
+    }
+
+    /// Minus the derivative by x of the stiffness of [`complex_beside_poles`](Self::complex_beside_poles) [kg].
+    pub(crate) fn complex_mass_beside_poles(&self, x: Complex, width: f64) -> LocalStiffness<Complex> {
+        match self {
+            Self::ShallowDynamic(cable) => cable.at(x).1,
+            Self::CatenaryDynamic(cable) => cable.complex_mass_beside_poles(x, width),
         }
     }
 

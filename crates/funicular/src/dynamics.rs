@@ -7,6 +7,7 @@ mod count;
 mod error;
 mod min_stiffness;
 mod null_vectors;
+mod platform_frequency;
 mod supports;
 
 pub(crate) use blocks::{CableBlocks, CableRow, DrivePartBlock, PlatformBlocks, SupportBlocks};
@@ -93,9 +94,21 @@ pub(crate) struct DynamicCableAt {
     along: Vec6,
     normal: Vec6,
     out: Vec6,
+    /// Matrices that the entries of its [`LocalStiffness`] multiply: axial, coupling, normal, out of plane.
+    products: [Mat6; 4],
 }
 
 impl DynamicCableAt {
+    fn new(cable: usize, form: DynamicCable, [along, normal, out]: [Vec6; 3]) -> Self {
+        let products = [
+            along * along.transpose(),
+            symmetric_product(&along, &normal),
+            normal * normal.transpose(),
+            out * out.transpose(),
+        ];
+        Self { cable, form, along, normal, out, products }
+    }
+
     /// Index of the cable, in the order of the file.
     pub(crate) fn cable(&self) -> usize {
         self.cable
@@ -125,7 +138,8 @@ impl DynamicCableAt {
 
 impl Dynamics {
     /// Linearises a robot about an equilibrium, for frequencies up to `up_to_hz` [Hz]. Catenary-dynamic cables are
-    /// discretised as finely as these frequencies require; the other models do not use the number.
+    /// discretised as finely as these frequencies require; the other models do not use the number. If a rope is stiffer
+    /// in vibration, robot and equilibrium are those of [`Equilibrium::with_dynamic_stiffness`].
     ///
     /// # Errors
     /// [`DynamicsError`] if a cable has no stiffness in the requested model.
@@ -200,6 +214,7 @@ impl Dynamics {
     ) -> Result<Self, DynamicsError> {
         let Linearisation { cable_model, assembly, .. } = linearisation;
         let coordinates = Coordinates::of(robot);
+        refuse_two_stiffnesses(robot)?;
         refuse_on_supports(robot, linearisation)?;
         let settled = equilibrium.settled(robot);
         let mut supports = robot.has_supports().then(|| SupportsBuilder::new(robot, &coordinates));
@@ -224,8 +239,7 @@ impl Dynamics {
                     }
                     let vector = |u: &Vec3| coordinates.reduce_force(u, &state.lever_w);
                     let LocalAxes { e, n, b } = *form.axes();
-                    let (along, normal, out) = (vector(&e), vector(&n), vector(&b));
-                    terms.push(DynamicCableAt { cable: i, form, along, normal, out });
+                    terms.push(DynamicCableAt::new(i, form, [vector(&e), vector(&n), vector(&b)]));
                 }
             }
         }
@@ -368,7 +382,7 @@ impl Dynamics {
         let mut total = self.constant.zip_map(&self.platform_damping, |k, c| Complex::new(k, omega * c));
         for term in &self.terms {
             let k = term.form.damped(omega);
-            add_local(&mut total, term, &k, |z, product| z * product);
+            add_local(&mut total, term, &k);
         }
         match &self.supports {
             Some(supports) => total - self.damped_loss(supports, omega),
@@ -385,7 +399,7 @@ impl Dynamics {
     pub(crate) fn dynamic_stiffness(&self, omega: f64) -> Mat6 {
         let mut total = self.constant - self.mass * (omega * omega);
         for term in &self.terms {
-            add_local(&mut total, term, &term.form.undamped(omega), |k, product| k * product);
+            add_local(&mut total, term, &term.form.undamped(omega));
         }
         match &self.supports {
             Some(supports) => total - self.undamped_loss(supports, omega),
@@ -490,6 +504,14 @@ impl Dynamics {
     }
 }
 
+pub(crate) fn refuse_two_stiffnesses(robot: &Robot) -> Result<(), DynamicsError> {
+    let mut ropes = robot.cables.iter().map(|cable| &cable.material);
+    match ropes.find(|rope| rope.dynamic_axial_stiffness.is_some()) {
+        Some(rope) => Err(DynamicsError::TwoStiffnesses { rope: rope.name.clone() }),
+        None => Ok(()),
+    }
+}
+
 /// Refuses motion in plane alone for a robot with anchors on flexible supports.
 fn refuse_on_supports(robot: &Robot, linearisation: Linearisation) -> Result<(), DynamicsError> {
     let Some(cable) = robot.cables.iter().find(|cable| cable.anchor.support.is_some()) else { return Ok(()) };
@@ -502,35 +524,32 @@ fn refuse_on_supports(robot: &Robot, linearisation: Linearisation) -> Result<(),
 /// Estimated relative error of the clamped frequencies up to which a catenary-dynamic cable counts as resolved.
 const RESOLUTION: f64 = 1e-9;
 
-/// Adds the stiffness of a cable in local axes; `times(k, product)` multiplies k by a product of axis components.
-fn add_local<T: Copy + Default + std::ops::AddAssign + Scalar>(
-    total: &mut Matrix6<T>,
-    term: &DynamicCableAt,
-    k: &LocalStiffness<T>,
-    times: impl Fn(T, f64) -> T,
-) {
-    let (a, n, b) = (&term.along, &term.normal, &term.out);
-    for j in 0..6 {
-        for i in 0..6 {
-            let entry = &mut total[(i, j)];
-            *entry += times(k.axial, a[i] * a[j]);
-            *entry += times(k.coupling, a[i] * n[j] + n[i] * a[j]);
-            *entry += times(k.normal, n[i] * n[j]);
-            *entry += times(k.out_of_plane, b[i] * b[j]);
-        }
+/// `p qᵀ + q pᵀ`.
+fn symmetric_product(p: &Vec6, q: &Vec6) -> Mat6 {
+    p * q.transpose() + q * p.transpose()
+}
+
+/// Adds the stiffness of a cable in local axes.
+fn add_local<T>(total: &mut Matrix6<T>, term: &DynamicCableAt, k: &LocalStiffness<T>)
+where
+    T: Copy + Default + std::ops::AddAssign + std::ops::Mul<f64, Output = T> + Scalar,
+{
+    let LocalStiffness { axial, coupling, normal, out_of_plane, across } = *k;
+    let [by_axial, by_coupling, by_normal, by_out_of_plane] = &term.products;
+    for (n, entry) in total.iter_mut().enumerate() {
+        *entry += axial * by_axial[n];
+        *entry += coupling * by_coupling[n];
+        *entry += normal * by_normal[n];
+        *entry += out_of_plane * by_out_of_plane[n];
     }
 
     // Most cables couple no motion out of plane.
-    let [with_axial, with_normal] = k.across;
-    if k.across == [T::default(); 2] {
+    if across == [T::default(); 2] {
         return;
     }
-    for j in 0..6 {
-        for i in 0..6 {
-            let entry = &mut total[(i, j)];
-            *entry += times(with_axial, a[i] * b[j] + b[i] * a[j]);
-            *entry += times(with_normal, n[i] * b[j] + b[i] * n[j]);
-        }
+    for (k, axis) in across.iter().zip([&term.along, &term.normal]) {
+        let by_axis = symmetric_product(axis, &term.out);
+        total.iter_mut().zip(by_axis.iter()).for_each(|(entry, product)| *entry += *k * *product);
     }
 }
 

@@ -28,7 +28,7 @@ pub use vibration::{DampedGradient, ResponseDerivatives, VibrationGradients};
 use crate::cable::CableModel;
 use crate::cable::catenary_dynamic::CatenaryDynamicError;
 use crate::drive::derivatives::end;
-use crate::dynamics::Dynamics;
+use crate::dynamics::{Dynamics, DynamicsError};
 use crate::math::{Vec3, Vec6, symmetric};
 use crate::platform::Coordinates;
 use crate::robot::{Robot, RobotChange};
@@ -74,6 +74,9 @@ pub enum GradientError {
     /// The equilibrium has no derivatives.
     #[error(transparent)]
     Static(#[from] StaticDerivativeError),
+    /// The robot cannot be linearised as it is.
+    #[error(transparent)]
+    Dynamics(#[from] DynamicsError),
     /// The parallel tension of a vertical cable with weight is not differentiated.
     #[error(
         "cable \"{cable}\" is parallel to its load: with the pose held, the rule for more cables than degrees of \

@@ -138,6 +138,9 @@ pub struct Material {
     pub name: String,
     /// Axial stiffness EA [N].
     pub axial_stiffness: f64,
+    /// Axial stiffness in vibration [N] if it differs; see
+    /// [`Equilibrium::with_dynamic_stiffness`](crate::statics::Equilibrium::with_dynamic_stiffness).
+    pub dynamic_axial_stiffness: Option<f64>,
     /// Mass per unstrained length [kg/m]; zero for a massless cable.
     pub mass_per_length: f64,
     /// Damping of the motion of the rope.
@@ -281,6 +284,11 @@ impl Pose {
 }
 
 impl Robot {
+    /// True if a rope is stiffer in vibration than under a slow load.
+    pub fn has_dynamic_stiffness(&self) -> bool {
+        self.cables.iter().any(|cable| cable.material.dynamic_axial_stiffness.is_some())
+    }
+
     /// True if the stretch of a rope has a loss.
     pub(crate) fn has_stretch_loss(&self) -> bool {
         self.cables.iter().any(|cable| cable.material.stretch_loss.is_some())

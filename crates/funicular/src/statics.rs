@@ -28,6 +28,7 @@ mod obstacle; // direction in which no cable can pull, whatever the limits
 
 // Pieces shared by several solvers.
 mod collect; // equilibrium from the cables that hang at a pose
+mod dynamic_stiffness; // robot that vibrates about an equilibrium, where ropes have a second stiffness
 mod energy; // potential energy, minimised by forward statics
 mod exit_points; // exit points of cables over pulleys, which follow from the tensions
 mod free_motion; // motions that no cable opposes, because the directions of the cables are dependent

@@ -36,6 +36,7 @@ pub(crate) fn poly_data(
     below_hz: Option<f64>,
     warnings: &mut Vec<String>,
 ) -> Result<String> {
+    let at_rest = &*at_rest.vibrating();
     let mut shape = VtkCells::at_rest(at_rest, segments);
     if let Some(limit) = below_hz {
         let (dynamics, found) = modes_below(at_rest, limit, warnings)?;

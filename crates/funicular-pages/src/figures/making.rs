@@ -79,7 +79,7 @@ fn equilibrium(robot: Robot, of: &request::StaticsRequest) -> Result<RequestFigu
 
 /// Spectrum of the natural frequencies, or the shape of one mode.
 fn natural_frequencies(robot: Robot, of: &request::ModesRequest, choice: &FigureChoice) -> Result<RequestFigure> {
-    let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?;
+    let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?.vibrating().into_owned();
     let (dynamics, found, warnings) = if of.rigid_cables {
         let (found, warnings) = with_rigid_cables(&at_rest, of)?;
         (None, found, warnings)

@@ -120,7 +120,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
     let ModesBelow { dynamics, modes: found, mut warnings } =
         at_rest.modes_with_strains(linearisation, below_hz, MAX_MODES)?;
     let (response_figure, peaks_table, response_notes) = response_part(input, &dynamics, &found)?;
-    warnings.extend(funicular::warnings::of_damping(robot).map(|warning| warning.to_string()));
+    warnings.extend(at_rest.without_damping());
     let ratios: Vec<f64> = found.modes.iter().map(|mode| mode.damping_ratio).collect();
     warnings.extend(modes::caveat_of_stretch(robot, &found.modes, &ratios, input.platform_share));
 
@@ -140,7 +140,7 @@ pub(crate) fn report(input: &ReportInput<'_>) -> anyhow::Result<Report> {
         stiffness_table: parts::stiffness_table(robot, equilibrium),
         modes_text: modes_text(linearisation, &found),
         modes_figure: response::strip(&found),
-        shapes: shapes_of(robot, equilibrium, &dynamics, &found),
+        shapes: shapes_of(&at_rest.vibrating(), &dynamics, &found),
         modes_table: parts::modes_table(robot, &found),
         held_table: parts::held_table(robot, equilibrium, linearisation, &found),
         gradients: gradients::first_frequencies(at_rest, input.robot_text, &dynamics, &found)
@@ -296,8 +296,8 @@ fn modes_text(linearisation: Linearisation, found: &Modes) -> String {
 }
 
 /// View of the mode shapes, or the reason why there is none and how to get it.
-fn shapes_of(robot: &Robot, equilibrium: &Equilibrium, dynamics: &Dynamics, found: &Modes) -> Result<Shapes, String> {
-    let reason = match Shapes::new(robot, equilibrium, dynamics, found) {
+fn shapes_of(at_rest: &AtRest, dynamics: &Dynamics, found: &Modes) -> Result<Shapes, String> {
+    let reason = match Shapes::new(&at_rest.robot, &at_rest.equilibrium, dynamics, found) {
         Ok(Some(shapes)) => return Ok(shapes),
         Ok(None) if found.modes.is_empty() => "there is no mode below the limit. Raise `--below-hz`".to_owned(),
         Ok(None) => "the first mode needs more data than a page may hold".to_owned(),
@@ -315,8 +315,8 @@ fn response_part(
     dynamics: &Dynamics,
     found: &Modes,
 ) -> anyhow::Result<(PageFigure, PageTable, Vec<String>)> {
-    let ReportInput { at_rest: AtRest { robot, equilibrium, .. }, linearisation, below_hz, frf_unit: unit, .. } =
-        *input;
+    let ReportInput { at_rest, linearisation, below_hz, frf_unit: unit, .. } = *input;
+    let AtRest { robot, equilibrium, .. } = &*at_rest.vibrating();
     let (force, u) = &input.frf_input;
     let (motion, v, quantity) = &input.frf_output;
 

@@ -122,6 +122,7 @@ fn place(robot: &Robot, name: &str) -> Result<usize> {
 /// The errors of [`run`].
 pub fn about(at_rest: &AtRest, requested: RequestedCable<'_>, watch: &mut dyn Watch) -> Result<CableResult> {
     let RequestedCable { name, frequency_hz, cable_model, in_plane_only, winches } = requested;
+    let at_rest = &*at_rest.vibrating();
     let i = place(&at_rest.robot, name)?;
     let (from_hz, to_hz) =
         frequency_hz.iter().fold((f64::INFINITY, 0.0_f64), |(from, to), hz| (from.min(*hz), to.max(*hz)));

@@ -68,6 +68,8 @@ pub struct CheckedPlatform {
 pub struct CheckedRope {
     pub name: String,
     pub axial_stiffness_n: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dynamic_axial_stiffness_n: Option<f64>,
     pub mass_kg_per_m: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping_ratio: Option<f64>,
@@ -380,6 +382,7 @@ fn ropes(robot: &Robot) -> Vec<CheckedRope> {
         let row = CheckedRope {
             name: rope.name.clone(),
             axial_stiffness_n: rope.axial_stiffness,
+            dynamic_axial_stiffness_n: rope.dynamic_axial_stiffness,
             mass_kg_per_m: rope.mass_per_length,
             damping_ratio,
             viscous_damping_n_s_m2,
@@ -508,10 +511,16 @@ impl CheckedRope {
     pub fn columns(ropes: &[Self]) -> Columns<Self> {
         let limited = ropes.iter().any(|rope| rope.limits.are_given() || rope.breaking_load_n.is_some());
         let dragged = ropes.iter().any(|rope| rope.drag_width_m.is_some());
+        let stiffer = ropes.iter().any(|rope| rope.dynamic_axial_stiffness_n.is_some());
         let own = [
             column("name", "", "name of the rope", |rope: &Self| rope.name.clone()).plain("rope"),
             column("axial_stiffness_n", "N", "axial stiffness EA", |rope: &Self| rope.axial_stiffness_n)
                 .short("EA", "N", 6),
+            column("dynamic_axial_stiffness_n", "N", "axial stiffness in vibration", |rope: &Self| {
+                rope.dynamic_axial_stiffness_n
+            })
+            .short("EA in vibration", "N", 6)
+            .read_if(stiffer),
             column("mass_kg_per_m", "kg/m", "mass per length", |rope: &Self| rope.mass_kg_per_m)
                 .short("mass", "kg/m", 5),
             column("damping_ratio", "1", "damping ratio", |rope: &Self| rope.damping_ratio).short(

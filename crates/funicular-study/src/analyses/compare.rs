@@ -132,6 +132,7 @@ pub fn about(at_rest: &AtRest, request: &request::CompareRequest) -> Result<Comp
         in_plane_only: request.terms.in_plane_only,
         winches: request.terms.winches,
     };
+    let at_rest = &*at_rest.vibrating();
     let (reference, mut warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
     modes::check_count(&reference, request.below_hz, modes::MAX_MODES)?;
     let found = compare::compare(&at_rest.robot, &at_rest.equilibrium, request.below_hz, linearisation, criterion)?;

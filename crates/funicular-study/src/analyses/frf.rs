@@ -293,10 +293,12 @@ pub fn values_alone(at_rest: &AtRest, pairs: &Pairs<'_>, frequencies: Vec<f64>) 
 impl Response {
     /// Response whose values are not computed yet, and the linearised robot.
     fn without_values(at_rest: &AtRest, pairs: &Pairs<'_>, frequencies: Vec<f64>) -> Result<(Self, Dynamics)> {
+        let at_rest = &*at_rest.vibrating();
         let (inputs, outputs) = signals(&at_rest.robot, pairs)?;
         let linearisation = at_rest::linearisation(&pairs.model, at_rest.equilibrium.model);
         let highest_hz = frequencies.iter().copied().fold(0.0, f64::max);
-        let (dynamics, warnings) = at_rest.dynamics(linearisation, highest_hz)?;
+        let (dynamics, mut warnings) = at_rest.dynamics(linearisation, highest_hz)?;
+        warnings.extend(at_rest.without_damping());
 
         // Ports. All points of one cable belong together, whether forces or motions.
         let all: Vec<Signal> = inputs.iter().map(|of| of.1).chain(outputs.iter().map(|of| of.1)).collect();

@@ -130,6 +130,7 @@ pub fn run(robot: Robot, request: &request::ReduceRequest, watch: &mut dyn Watch
 /// # Errors
 /// The errors of [`run`].
 pub fn about(at_rest: &AtRest, request: &request::ReduceRequest, watch: &mut dyn Watch) -> Result<ReducedForm> {
+    let at_rest = &*at_rest.vibrating();
     Ok(match request.form {
         ModelForm::StateSpace => ReducedForm::StateSpace(Box::new(control_model::about(at_rest, request, watch)?)),
         ModelForm::SecondOrder => ReducedForm::SecondOrder(Box::new(second_order(at_rest, request, watch)?)),
@@ -181,7 +182,8 @@ fn linearised(
     (inputs, outputs): &SignalLists,
 ) -> Result<Linearised> {
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
-    let (dynamics, warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
+    let (dynamics, mut warnings) = at_rest.dynamics(linearisation, request.below_hz)?;
+    warnings.extend(at_rest.without_damping());
     modes::check_count(&dynamics, request.below_hz, MAX_MODES)?;
     Ok(Linearised {
         dynamics,

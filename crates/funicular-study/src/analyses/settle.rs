@@ -98,6 +98,8 @@ pub fn run(robot: Robot, request: &SettleRequest) -> Result<Settled> {
 pub fn about(at_rest: &AtRest, request: &SettleRequest) -> Result<Settled> {
     checked(request)?;
     check_rest(at_rest)?;
+    let under_wrench = UnderWrench::of(at_rest, request);
+    let at_rest = &*at_rest.vibrating();
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
     let limit = match request.below_hz {
         Some(given) => at_rest.modes_limit(Some(given), linearisation)?,
@@ -105,7 +107,7 @@ pub fn about(at_rest: &AtRest, request: &SettleRequest) -> Result<Settled> {
     };
     let ModesBelow { dynamics, modes: found, mut warnings } =
         at_rest.modes_with_strains(linearisation, limit, modes::MAX_MODES)?;
-    warnings.extend(funicular::warnings::of_damping(&at_rest.robot).map(|warning| warning.to_string()));
+    warnings.extend(at_rest.without_damping());
     let damped = modes::damped::damped_modes(&dynamics, &found);
     let ratios: Vec<f64> = damped.modes.iter().map(modes::damped::DampedMode::damping_ratio).collect();
     warnings.extend(modes::caveat_of_stretch(&at_rest.robot, &found.modes, &ratios, modes::PLATFORM_SHARE));
@@ -119,7 +121,6 @@ pub fn about(at_rest: &AtRest, request: &SettleRequest) -> Result<Settled> {
 
     let tolerance = request.tolerance_m;
     let (settled_s, surely_settled_s) = (release.settled(tolerance), release.surely_settled(tolerance));
-    let under_wrench = UnderWrench::of(at_rest, request);
     warnings.extend(under_wrench.as_ref().and_then(|under| under.caveat(&release.held)));
     let held_exact_m = under_wrench.and_then(|under| Some(under.found?.0.into()));
     let history = history(&release, surely_settled_s);

@@ -135,7 +135,9 @@ impl Form {
         {
             return Ok(constant(tangent));
         }
-        let dynamics = Dynamics::about(robot, equilibrium, linearisation, up_to_hz)?;
+        // At rest a rope has the stiffness of its equilibrium, in vibration its dynamic one.
+        let vibrating = if up_to_hz > 0.0 { equilibrium.with_dynamic_stiffness(robot) } else { at_rest.slow() };
+        let dynamics = Dynamics::about(&vibrating.0, &vibrating.1, linearisation, up_to_hz)?;
         Ok(match statics::tangent_stiffness(robot, equilibrium) {
             Some(tangent) if linearisation == FULL_TANGENT => constant(tangent),
             _ => Self::Dynamic(Box::new(dynamics)),

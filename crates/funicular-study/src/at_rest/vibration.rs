@@ -11,7 +11,8 @@ use funicular::math::Vec3;
 use funicular::modes::{self, Modes};
 use funicular::response::{Port, Signal};
 use funicular::robot::Robot;
-use funicular::statics::StaticModel;
+use funicular::statics::{Equilibrium, StaticModel};
+use std::borrow::Cow;
 
 /// Cable model of a request. The default is the dynamic model with the same shape as the static model.
 pub fn cable_model(requested: Option<CableModel>, static_model: StaticModel) -> CableModel {
@@ -48,12 +49,18 @@ pub struct ModesBelow {
 }
 
 impl AtRest {
+    /// Robot and equilibrium with the stiffness of slow loads alone.
+    pub(crate) fn slow(&self) -> (Cow<'_, Robot>, Cow<'_, Equilibrium>) {
+        (without_dynamic_stiffness(&self.robot), Cow::Borrowed(&self.equilibrium))
+    }
+
     /// Ports of the linearised robot for the input and the output of a response.
     ///
     /// # Errors
     /// [`CableMotionError`]: a cable model without motion along the cables.
     pub fn ports(&self, dynamics: &Dynamics, signals: [Signal; 2]) -> Result<[Port; 2], CableMotionError> {
-        let all = Port::all(&self.robot, &self.equilibrium, dynamics, &signals, true)?;
+        let Self { robot, equilibrium, .. } = &*self.vibrating();
+        let all = Port::all(robot, equilibrium, dynamics, &signals, true)?;
         Ok(all.try_into().expect("there are as many ports as signals"))
     }
 
@@ -62,7 +69,8 @@ impl AtRest {
     /// # Errors
     /// A cable model that has no stiffness at this equilibrium.
     pub fn dynamics(&self, linearisation: Linearisation, up_to_hz: f64) -> Result<(Dynamics, Vec<String>)> {
-        let dynamics = Dynamics::about(&self.robot, &self.equilibrium, linearisation, up_to_hz)?;
+        let Self { robot, equilibrium, .. } = &*self.vibrating();
+        let dynamics = Dynamics::about(robot, equilibrium, linearisation, up_to_hz)?;
         Ok((dynamics, self.warnings(Some((linearisation.cable_model, up_to_hz)))))
     }
 
@@ -92,7 +100,8 @@ impl AtRest {
     /// # Errors
     /// The errors of [`modes_below`](Self::modes_below).
     pub fn modes_with_strains(&self, linearisation: Linearisation, limit_hz: f64, max: usize) -> Result<ModesBelow> {
-        let dynamics = Dynamics::with_strains(&self.robot, &self.equilibrium, linearisation, limit_hz)?;
+        let Self { robot, equilibrium, .. } = &*self.vibrating();
+        let dynamics = Dynamics::with_strains(robot, equilibrium, linearisation, limit_hz)?;
         let warnings = self.warnings(Some((linearisation.cable_model, limit_hz)));
         Self::listed((dynamics, warnings), limit_hz, max)
     }
@@ -107,4 +116,13 @@ impl AtRest {
         warnings.extend(modes.caveat());
         Ok(ModesBelow { dynamics, modes, warnings })
     }
+}
+
+/// Robot whose ropes have one stiffness only, that of slow loads.
+fn without_dynamic_stiffness(robot: &Robot) -> Cow<'_, Robot> {
+    let mut robot = Cow::Borrowed(robot);
+    if robot.has_dynamic_stiffness() {
+        robot.to_mut().cables.iter_mut().for_each(|cable| cable.material.dynamic_axial_stiffness = None);
+    }
+    robot
 }

@@ -17,6 +17,11 @@ impl AtRest {
         self.implausible().chain(elsewhere.iter().chain(&warnings).map(ToString::to_string)).collect()
     }
 
+    /// Warning of a robot that nothing damps, for results that depend on damping.
+    pub fn without_damping(&self) -> Option<String> {
+        warnings::of_damping(&self.robot).map(|warning| warning.to_string())
+    }
+
     /// Warnings about values of the robot and of its equilibrium that no usual robot has.
     pub fn implausible(&self) -> impl Iterator<Item = String> + use<> {
         let of_robot = warnings::of_robot(&self.robot).into_iter();

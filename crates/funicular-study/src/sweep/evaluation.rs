@@ -17,6 +17,9 @@ use funicular::statics::{
 };
 use std::cell::OnceCell;
 
+/// Frequency up to which cables are resolved for their slow motion [Hz]; the shape of slow motion itself is exact.
+const SLOW_HZ: f64 = 0.1;
+
 /// Reader of the numbers of the robot file of a point.
 pub(super) type ReadParameters<'a> = dyn Fn() -> Option<Parameters> + 'a;
 
@@ -182,6 +185,15 @@ impl PointEvaluation<'_> {
         Ok(first)
     }
 
+    /// Lowest frequency of the platform on cables that follow it as at rest.
+    pub(super) fn platform_frequency(&self) -> Result<f64, Status> {
+        let (robot, rest) = self.rest.with_dynamic_stiffness(self.robot);
+        let dynamics = Dynamics::about(&robot, &rest, self.options.linearisation, SLOW_HZ)
+            .map_err(|error| Status::new("no-frequency", &error))?;
+        let none = || Status::new("no-frequency", "some motion of the platform has no mass or no positive stiffness");
+        dynamics.platform_frequency().ok_or_else(none)
+    }
+
     /// Damping ratio of the damped partner of the first mode of the platform, and the time in which its amplitude falls
     /// to [`DECAY_PERCENT`] [s].
     pub(super) fn platform_damping(&mut self) -> Result<(f64, f64), Status> {
@@ -262,8 +274,9 @@ impl PointEvaluation<'_> {
     pub(super) fn stiffness_error(&self, model: CableModel) -> Result<f64, Status> {
         let min_stiffness = |cable_model| {
             let requested = Linearisation { cable_model, ..self.options.linearisation };
-            let dynamics = Dynamics::about(self.robot, self.rest, requested, 0.0)
-                .map_err(|error| Status::new("no-comparison", &error))?;
+            let (robot, rest) = self.rest.with_dynamic_stiffness(self.robot);
+            let dynamics =
+                Dynamics::about(&robot, &rest, requested, 0.0).map_err(|error| Status::new("no-comparison", &error))?;
             Ok::<f64, Status>(dynamics.min_static_stiffness())
         };
         let exact = min_stiffness(CableModel::CatenaryStatic)?;

@@ -31,9 +31,10 @@ pub fn lowest_modes(point: &Point, count: usize, options: &Options) -> Result<Po
     if let Some(status) = Status::of_infeasible(robot, &rest) {
         return Err(status.reason);
     }
-    let found = search(robot, &rest, options.linearisation, count, options.highest_hz);
+    let (robot, rest) = rest.with_dynamic_stiffness(robot);
+    let found = search(&robot, &rest, options.linearisation, count, options.highest_hz);
     let (dynamics, modes, _) = found.map_err(|status| status.reason)?;
-    let weighted = WeightedMotions::new(robot, &rest, &dynamics).map_err(|error| error.to_string())?;
+    let weighted = WeightedMotions::new(&robot, &rest, &dynamics).map_err(|error| error.to_string())?;
     let tracked = modes.iter().map(|mode| weighted.of(mode)).collect();
     Ok(PointModes { modes, tracked })
 }
@@ -53,6 +54,8 @@ pub(super) fn lowest(
     count: usize,
     highest_hz: f64,
 ) -> Result<Lowest, Status> {
+    let (robot, rest) = rest.with_dynamic_stiffness(robot);
+    let (robot, rest) = (&*robot, &*rest);
     refuse_unstable(rest)?;
     if count == 1 && linearisation == Linearisation::default() {
         let first = modes::first(robot, rest).map_err(|error| Status::new("no-frequency", &error))?;
@@ -100,6 +103,8 @@ fn up_to_platform(
     share: f64,
     highest_hz: f64,
 ) -> Result<(Dynamics, Modes, usize), Status> {
+    let (robot, rest) = rest.with_dynamic_stiffness(robot);
+    let (robot, rest) = (&*robot, &*rest);
     refuse_unstable(rest)?;
     let found = modes::lowest_with_platform(robot, rest, linearisation, share, highest_hz);
     let (dynamics, found) = found.map_err(|error| Status::new("no-frequency", &no_platform_mode(&error, share)))?;

@@ -13,6 +13,13 @@ export const MEASURES = [
     of: (frame) => frame.modes[frame.first?.index]?.hz,
   },
   {
+    name: "platform-frequency",
+    column: "platform_frequency_hz",
+    label: "Frequency of the platform, smooth",
+    unit: "Hz",
+    of: () => undefined,
+  },
+  {
     name: "tension-max",
     column: "tension_max_n",
     label: "Highest tension",

@@ -439,25 +439,25 @@ impl CatenaryDynamicEnd {
     }
 
     /// Damped stiffness at the complex x = ω_c² without the poles in the relative distance `width` of the real part of
-    /// x, minus its derivative by x [kg], and those poles.
-    pub(crate) fn complex_beside_poles(
-        &self,
-        x: Complex,
-        width: f64,
-    ) -> (LocalStiffness<Complex>, LocalStiffness<Complex>, Vec<NearPole>) {
+    /// x, and those poles.
+    pub(crate) fn complex_beside_poles(&self, x: Complex, width: f64) -> (LocalStiffness<Complex>, Vec<NearPole>) {
         let near = self.near(x.re, width);
-        let (stiffness, effective_mass) = if let Some(family) = self.coupled() {
-            let (k, mass) = family.with_derivative(x, near.coupled.clone());
-            (local_of_coupled(k), local_of_coupled(mass))
-        } else {
-            let (k, mass) = self.in_plane().with_derivative(x, near.in_plane.clone());
-            let (k_out_of_plane, mass_out_of_plane) = match self.out_of_plane() {
-                Some(family) => family.with_derivative(x, near.out_of_plane.clone()),
-                None => Default::default(),
-            };
-            (local(k, k_out_of_plane), local(mass, mass_out_of_plane))
-        };
-        (stiffness, effective_mass, self.near_poles(&near))
+        let stiffness = self.local(
+            |of| of.damped_without(x, near.in_plane.clone()),
+            |of| of.damped_without(x, near.out_of_plane.clone()),
+            |of| of.damped_without(x, near.coupled.clone()),
+        );
+        (stiffness, self.near_poles(&near))
+    }
+
+    /// Minus the derivative by x of the stiffness of [`complex_beside_poles`](Self::complex_beside_poles) [kg].
+    pub(crate) fn complex_mass_beside_poles(&self, x: Complex, width: f64) -> LocalStiffness<Complex> {
+        let near = self.near(x.re, width);
+        self.local(
+            |of| of.damped_mass_without(x, near.in_plane.clone()),
+            |of| of.damped_mass_without(x, near.out_of_plane.clone()),
+            |of| of.damped_mass_without(x, near.coupled.clone()),
+        )
     }
 
     /// Minus the derivative by ω² of the undamped stiffness at x = ω² [kg], without the poles that
@@ -481,7 +481,7 @@ impl CatenaryDynamicEnd {
     }
 
     /// Poles at the given places.
-    fn near_poles(&self, near: &NearRanges) -> Vec<NearPole> {
+    pub(crate) fn near_poles(&self, near: &NearRanges) -> Vec<NearPole> {
         let CatenaryDynamic { in_plane, out_of_plane, .. } = &self.cable;
         let pole = |family: Family, index: usize, direction: [f64; 3], poles: &[f64]| NearPole {
             direction,

@@ -36,6 +36,7 @@ fn cable(anchor: Anchor, axial_stiffness: f64) -> Cable {
         axial_stiffness,
         mass_per_length: 0.067,
         damping: Damping::Ratio(0.0),
+        dynamic_axial_stiffness: None,
         stretch_loss: StretchLoss::default(),
         tension_limits: TensionLimits::default(),
         breaking_load: None,

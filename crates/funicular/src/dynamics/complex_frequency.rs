@@ -15,13 +15,25 @@
 
 use super::supports::{Supports, SupportsAt};
 use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
-use crate::cable::LocalStiffness;
 use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveAt, Family, NearPole, NearRanges};
 use crate::math::{CDMat, CMat6, CVec6, Complex, Vec6, order};
+
+/// What is computed of a bordered dynamic stiffness.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Purpose {
+    /// Motions: all are unknowns, and the derivative belongs to them.
+    Motion,
+    /// Logarithmic derivative of the determinant: the motions of drives are no unknowns where that loses no digits;
+    /// their determinant is then part of the product.
+    Slope,
+    /// Determinant, as for its derivative, which stays incomplete.
+    Determinant,
+}
 
 /// Dynamic stiffness at a complex frequency, bordered by near poles, and its derivative.
 struct Bordered {
     value: CDMat,
+    /// Incomplete where only the determinant is wanted.
     slope: CDMat,
     /// Sum of (d/dω) ln(ω_k² − s) over the poles below a limit that are not in the border.
     pole_slope: Complex,
@@ -50,14 +62,14 @@ impl Dynamics {
     /// one.
     pub(crate) fn damped_motion(&self, omega: Complex) -> Option<DampedMotion> {
         let no_poles = vec![Vec::new(); self.terms.len()];
-        let Bordered { value, slope, .. } = self.bordered(omega, 1.0, &no_poles, false);
+        let Bordered { value, slope, .. } = self.bordered(omega, 1.0, &no_poles, Purpose::Motion);
         // Poles near ω, as the border has them.
         let mut near = Vec::new();
         for (t, term) in self.terms.iter().enumerate() {
             let form = term.form.by_poles()?;
             let (damping, mass_per_length) = self.damping[term.cable];
             let (square, _) = damping.square_with_slope(omega, mass_per_length);
-            let (.., poles) = form.complex_beside_poles(square, NEAR_POLE_FRACTION);
+            let poles = form.near_poles(&Self::near_of_border(form, square));
             near.extend(poles.into_iter().map(|pole| (t, pole.family, pole.index)));
         }
 
@@ -119,7 +131,7 @@ impl Dynamics {
     /// The zeros of f are the damped natural frequencies, with their multiplicity, and f has no pole in their region.
     /// `losses` is the fraction of the damping that acts: 1 all, 0 none.
     pub(crate) fn logarithmic_slope(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> Complex {
-        let Bordered { value, slope, pole_slope, .. } = self.bordered(omega, losses, poles, true);
+        let Bordered { value, slope, pole_slope, .. } = self.bordered(omega, losses, poles, Purpose::Slope);
         match value.lu().solve(&slope) {
             Some(solved) => solved.trace() + pole_slope,
             None => Complex::new(f64::INFINITY, 0.0),
@@ -128,19 +140,18 @@ impl Dynamics {
 
     /// Phase of f of [`logarithmic_slope`](Self::logarithmic_slope) [rad], up to multiples of 2π.
     pub(crate) fn phase(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> f64 {
-        let Bordered { value, pole_phase, .. } = self.bordered(omega, losses, poles, true);
+        let Bordered { value, pole_phase, .. } = self.bordered(omega, losses, poles, Purpose::Determinant);
         value.lu().determinant().arg() + pole_phase
     }
 
     /// Bordered dynamic stiffness at a complex ω [rad/s] with the fraction `losses` of the damping. `poles` are the
-    /// squares of the clamped frequencies of each cable whose factors complete the determinant. With `eliminated` the
-    /// motions of drives are no unknowns where that loses no digits; their determinant is then part of the product.
-    fn bordered(&self, omega: Complex, losses: f64, poles: &[Vec<f64>], eliminated: bool) -> Bordered {
-        let mut parts = BorderedParts::of_platform(self, omega, losses);
+    /// squares of the clamped frequencies of each cable whose factors complete the determinant.
+    fn bordered(&self, omega: Complex, losses: f64, poles: &[Vec<f64>], purpose: Purpose) -> Bordered {
+        let mut parts = BorderedParts::of_platform(self, omega, losses, purpose);
         for (t, poles) in poles.iter().enumerate() {
             parts.add_cable(t, poles);
         }
-        parts.assembled(eliminated)
+        parts.assembled()
     }
 }
 
@@ -150,6 +161,7 @@ struct BorderedParts<'d> {
     omega: Complex,
     /// Fraction of the damping that acts.
     losses: f64,
+    purpose: Purpose,
     /// Stiffness of platform and cables without the poles near ω.
     value: CMat6,
     slope: CMat6,
@@ -178,7 +190,7 @@ struct BorderRow {
 
 impl<'d> BorderedParts<'d> {
     /// Platform without cables.
-    fn of_platform(dynamics: &'d Dynamics, omega: Complex, losses: f64) -> Self {
+    fn of_platform(dynamics: &'d Dynamics, omega: Complex, losses: f64, purpose: Purpose) -> Self {
         let i = Complex::i();
         let Dynamics { constant, mass, .. } = dynamics;
         let damping = dynamics.platform_damping * losses;
@@ -189,6 +201,7 @@ impl<'d> BorderedParts<'d> {
             dynamics,
             omega,
             losses,
+            purpose,
             value,
             slope,
             pole_slope: Complex::new(0.0, 0.0),
@@ -207,9 +220,12 @@ impl<'d> BorderedParts<'d> {
         self.squares.push(square);
 
         // Stiffness without the poles near ω.
-        let (stiffness, mass, near) = term.form.complex_beside_poles(square.0, NEAR_POLE_FRACTION);
-        add_scaled(&mut self.value, term, &stiffness, Complex::new(1.0, 0.0));
-        add_scaled(&mut self.slope, term, &mass, -square.1);
+        let (stiffness, near) = term.form.complex_beside_poles(square.0, NEAR_POLE_FRACTION);
+        add_local(&mut self.value, term, &stiffness);
+        if self.purpose != Purpose::Determinant {
+            let mass = term.form.complex_mass_beside_poles(square.0, NEAR_POLE_FRACTION);
+            add_local(&mut self.slope, term, &mass.map(|mass| -square.1 * mass));
+        }
 
         // Poles that are not near are factors of the product.
         let is_near = |pole: f64| near.iter().any(|near| near.pole.to_bits() == pole.to_bits());
@@ -251,14 +267,14 @@ impl<'d> BorderedParts<'d> {
 
     /// Matrix over the platform, the near poles, the supports and the motions of drives that are not eliminated, in
     /// this order.
-    fn assembled(self, eliminated: bool) -> Bordered {
+    fn assembled(self) -> Bordered {
         let dynamics = self.dynamics;
         let f = dynamics.dof();
         let first_support = f + self.borders.len();
         let first_drive = first_support + dynamics.supports().map_or(0, Supports::count);
         let drives: Vec<(DriveRows, Option<EliminatedDrive>)> = (self.drives.into_iter())
             .map(|drive| {
-                let found = if eliminated { EliminatedDrive::of(&drive) } else { None };
+                let found = if self.purpose == Purpose::Motion { None } else { EliminatedDrive::of(&drive) };
                 (drive, found)
             })
             .collect();
@@ -506,8 +522,4 @@ fn add_supports(total: &mut CDMat, coupling: &CDMat, own: &CDMat, f: usize, firs
             total[(first + j, i)] = coupling[(i, j)];
         }
     }
-}
-
-fn add_scaled(total: &mut CMat6, term: &DynamicCableAt, k: &LocalStiffness<Complex>, factor: Complex) {
-    add_local(total, term, k, |k, product| k * factor * product);
 }

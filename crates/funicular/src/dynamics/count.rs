@@ -12,7 +12,7 @@ impl Dynamics {
         let rows = supports.rows(&self.terms, &self.undamped_at(x, 0.0));
         let mut matrix = self.constant - self.mass * x;
         for term in &self.terms {
-            add_local(&mut matrix, term, &term.form.undamped(omega), |k, product| k * product);
+            add_local(&mut matrix, term, &term.form.undamped(omega));
         }
 
         // Entries over their size, so that no product overflows.
@@ -80,14 +80,14 @@ impl BorderedStiffness {
                 DynamicCable::ShallowDynamic(form) => {
                     let of = Entire::real(x * form.gamma_by_square);
                     if is_regular(&of, form) {
-                        add_local(&mut regular, term, &form.undamped(omega), |k, product| k * product);
+                        add_local(&mut regular, term, &form.undamped(omega));
                     } else {
                         add_bordered(&mut regular, &mut borders, term, form, &of);
                     }
                 }
                 DynamicCable::CatenaryDynamic(form) => {
                     let (stiffness, poles) = form.beside_poles(x, NEAR_POLE_FRACTION);
-                    add_local(&mut regular, term, &stiffness, |k, product| k * product);
+                    add_local(&mut regular, term, &stiffness);
                     borders.extend(poles.iter().map(|near| (term.vector(near.direction), (x - near.pole) / (x * x))));
                     if let Some(supports) = dynamics.supports() {
                         on_supports.extend(poles.iter().map(|near| supports.participation(t, near)));
@@ -198,7 +198,7 @@ fn add_bordered(
         let normal = -gamma * (sigma + sagging) / determinant * transverse;
         let (axial, coupling) = (c / determinant * along, turn / determinant * along);
         let k = LocalStiffness { axial, coupling, normal, ..LocalStiffness::default() };
-        add_local(matrix, term, &k, |k, product| k * product);
+        add_local(matrix, term, &k);
     } else if turn.abs() <= c.abs() {
         // Symmetric pole, mainly along the chord.
         let w = term.along + term.normal * (turn / c);

@@ -35,6 +35,15 @@ pub enum DynamicsError {
         /// Name of the cable.
         cable: String,
     },
+    /// A rope has a second stiffness for vibration, and the robot has not been replaced by the one that vibrates.
+    #[error(
+        "this analysis knows one axial stiffness only, and rope \"{rope}\" has a second one for vibration: leave \
+         `dynamic_axial_stiffness_n` out here; `modes`, `frf`, `settle`, `reduce`, maps and sweeps have both"
+    )]
+    TwoStiffnesses {
+        /// Name of the rope.
+        rope: String,
+    },
     /// An equilibrium with ideal cables has no tangent stiffness.
     #[error(
         "ideal cables are rigid: they have no stiffness in the models `catenary-static` and `catenary-dynamic`; use \
@@ -50,7 +59,7 @@ impl DynamicsError {
         match self {
             Self::NoTension { .. } => true,
             Self::CatenaryDynamic { reason, .. } => *reason == CatenaryDynamicError::NoTension,
-            Self::Rigid | Self::Support { .. } => false,
+            Self::Rigid | Self::Support { .. } | Self::TwoStiffnesses { .. } => false,
         }
     }
 

@@ -149,10 +149,8 @@ impl BorderedPencil {
             let mut moving = Mat6::zeros();
             if let Some(form) = term.form.by_poles() {
                 let (regular, poles) = form.beside_poles(x, NEAR_POLE_FRACTION);
-                add_local(&mut stiffness, term, &regular, |k, product| k * product);
-                add_local(&mut moving, term, &form.effective_mass_beside_poles(x, NEAR_POLE_FRACTION), |m, product| {
-                    m * product
-                });
+                add_local(&mut stiffness, term, &regular);
+                add_local(&mut moving, term, &form.effective_mass_beside_poles(x, NEAR_POLE_FRACTION));
                 near.extend(poles.iter().map(|near| NearMode {
                     motion: NearMotion { term: t, family: near.family, pole: near.index, amplitude: 0.0 },
                     participation: term.vector(near.direction),

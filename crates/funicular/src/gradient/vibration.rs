@@ -7,7 +7,7 @@ use super::robot_form::{At, Driven, FormMotion, NearAmplitude, RobotForm};
 use super::scalar::{Vector, add_times, cross, vector};
 use super::{GradientError, Gradients};
 use crate::cable::catenary_dynamic::{DriveSignal, MovingEnd, NearRanges};
-use crate::dynamics::{DynamicCableAt, Dynamics};
+use crate::dynamics::{DynamicCableAt, Dynamics, refuse_two_stiffnesses};
 use crate::math::{CDMat, CMat6, CVec6, Complex, Vec3, Vec6};
 use crate::modes::Mode;
 use crate::modes::damped::DampedMode;
@@ -73,6 +73,7 @@ pub struct ResponseDerivatives {
 
 impl<'g> VibrationGradients<'g> {
     pub(super) fn new(gradients: &'g Gradients<'g>, dynamics: &'g Dynamics) -> Result<Self, GradientError> {
+        refuse_two_stiffnesses(gradients.robot())?;
         let robots = (gradients.robot(), gradients.pullback.settled());
         let form = RobotForm::of_dynamics(robots, gradients.equilibrium(), dynamics)?;
         let terms = dynamics.terms().iter().map(DynamicCableAt::cable).collect();

@@ -532,9 +532,9 @@ const GAP_POINTS: usize = 64;
 /// minimum over the frequency limit. Not tuned: the nearer the boundary, the more points its phase needs.
 const MARGIN: f64 = 2.0;
 const MIN_MARGIN: f64 = 0.01;
-/// Maximum length of a piece of the boundary, over its distance from the zeros: within it the phase of one zero changes
-/// by less than half a radian.
-const MAX_PIECE: f64 = 0.5;
+/// Maximum length of a piece of the boundary, over its distance from the zeros: within each of its halves, which are
+/// compared, the phase of one zero changes by less than half a radian.
+const MAX_PIECE: f64 = 1.0;
 
 /// Maximum step of a search, relative to its frequency.
 const MAX_STEP: f64 = 0.1;

@@ -12,6 +12,7 @@ mod compare;
 mod control_model;
 mod derivatives;
 mod drive;
+mod dynamic_stiffness;
 mod dynamics;
 mod library;
 mod modes;

@@ -11,7 +11,7 @@ use funicular::robot::{Constraint, Robot};
 use funicular::statics::{self, TensionRange};
 
 /// Every quantity, in the order of the documentation.
-pub(super) static TABLE: [Definition; 26] = [
+pub(super) static TABLE: [Definition; 27] = [
     Definition {
         name: "first-frequency",
         about: "lowest natural frequency",
@@ -28,15 +28,34 @@ pub(super) static TABLE: [Definition; 26] = [
                         `⟪platform_share⟫` (0.5 if not given) of its kinetic energy in the platform, with the \
                         requested cable model; the modes below it are all found, however many they are. It \
                         jumps between neighbouring points where a mode of the cables is near and takes over half of the \
-                        energy: for a smooth curve choose `⟪cable_model⟫ catenary-static`",
+                        energy: `platform-frequency` is smooth",
         columns: |_, _| {
             let about = "lowest natural frequency of a mode of the platform, undamped; it jumps where a mode of the \
-                         cables is near and shares the energy: catenary-static gives a smooth curve";
+                         cables is near and shares the energy: platform-frequency is smooth";
             one("first_platform_frequency_hz", "Hz", about)
         },
         values: |row, _, out| {
             let first = row.first_platform_frequency();
             row.push(Some(first), out);
+        },
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "platform-frequency",
+        about: "lowest frequency of the platform on cables that follow it as at rest; smooth from pose to pose",
+        documentation: "`platform_frequency_hz`: lowest frequency of the platform if each cable follows it in the shape \
+                        of slow motion, with the share of its mass that then moves. It is smooth from pose to pose. Its \
+                        square is the mean of the squares of all natural frequencies, weighted by the kinetic energy \
+                        that each mode has in this motion: beside a mode of the cables it lies between the frequencies \
+                        of the pair ([theory](theory.md), equations (35d) and (35e))",
+        needs: RequiredModel::Elastic,
+        columns: |_, _| {
+            let about = "lowest frequency of the platform on cables that follow it as at rest";
+            one("platform_frequency_hz", "Hz", about)
+        },
+        values: |row, _, out| {
+            let found = row.platform_frequency();
+            row.push(Some(found), out);
         },
         ..Definition::PLAIN
     },

@@ -34,6 +34,14 @@ fn at_start<const N: usize, const E: usize>(matrix: &[[f64; N]; N]) -> [f64; E] 
     })
 }
 
+/// 1/(pole − x) with one division, at a tenth of the time of the division of complex numbers.
+#[inline(always)]
+fn reciprocal_gap(pole: f64, x: Complex) -> Complex {
+    let gap = pole - x.re;
+    let scale = 1.0 / (gap * gap + x.im * x.im);
+    Complex::new(gap * scale, x.im * scale)
+}
+
 impl<const N: usize, const E: usize> PoleResidue<N, E> {
     /// Stiffness zero, without poles.
     pub(super) fn none() -> Self {
@@ -102,14 +110,43 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
 
     /// Entries of the stiffness at the complex x = ω_c² [N/m].
     pub fn damped(&self, x: Complex) -> [Complex; E] {
+        self.damped_without(x, 0..0)
+    }
+
+    /// Entries of the stiffness at the complex x = ω_c² [N/m], without the poles `left_out`.
+    pub(crate) fn damped_without(&self, x: Complex, left_out: Range<usize>) -> [Complex; E] {
         let mut sums = [Complex::new(0.0, 0.0); E];
-        for (k, pole) in self.poles.iter().enumerate() {
-            let factor = 1.0 / (*pole - x);
-            for (sum, residues) in sums.iter_mut().zip(&self.residues) {
-                *sum += factor * residues[k];
+        for range in [0..left_out.start, left_out.end..self.poles.len()] {
+            let poles = &self.poles[range.clone()];
+            let residues: [&[f64]; E] = from_fn(|e| &self.residues[e][range.clone()]);
+
+            // Full lanes of poles, side by side: real and imaginary parts.
+            let whole = poles.len() / LANES * LANES;
+            let mut lanes = [[[0.0; LANES]; 2]; E];
+            for (k, block) in poles.chunks_exact(LANES).enumerate() {
+                let gaps: [f64; LANES] = from_fn(|i| block[i] - x.re);
+                let scales: [f64; LANES] = from_fn(|i| 1.0 / (gaps[i] * gaps[i] + x.im * x.im));
+                for ([real, imaginary], residues) in lanes.iter_mut().zip(residues) {
+                    let block = &residues[k * LANES..(k + 1) * LANES];
+                    for i in 0..LANES {
+                        let scaled = block[i] * scales[i];
+                        real[i] += scaled * gaps[i];
+                        imaginary[i] += scaled;
+                    }
+                }
+            }
+
+            // Sum of the lanes, and the remaining poles one by one.
+            for ((sum, [real, imaginary]), residues) in sums.iter_mut().zip(&lanes).zip(residues) {
+                *sum += Complex::new(real.iter().sum(), imaginary.iter().sum::<f64>() * x.im);
+                for (pole, residue) in poles[whole..].iter().zip(&residues[whole..]) {
+                    *sum += reciprocal_gap(*pole, x) * *residue;
+                }
             }
         }
-        self.total(x, sums)
+
+        let (stiffness, mass): ([f64; E], [f64; E]) = (self.start_stiffness(), self.start_mass());
+        from_fn(|e| stiffness[e] - x * (mass[e] + x * sums[e]))
     }
 
     /// Entry (i, j) over both ends of the stiffness at the complex x = ω_c² [N/m].
@@ -134,27 +171,17 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
         sums
     }
 
-    /// Entries of the stiffness at the complex x = ω_c² [N/m] and of minus its derivative by x [kg], without the poles
-    /// `left_out`.
-    pub(crate) fn with_derivative(&self, x: Complex, left_out: Range<usize>) -> ([Complex; E], [Complex; E]) {
-        let mut sums = [Complex::new(0.0, 0.0); E];
+    /// Entries of minus the derivative of the stiffness by x at the complex x = ω_c² [kg], without the poles `left_out`.
+    pub(crate) fn damped_mass_without(&self, x: Complex, left_out: Range<usize>) -> [Complex; E] {
         let mut masses = self.start_mass().map(Complex::from);
-        for k in (0..self.poles.len()).filter(|k| !left_out.contains(k)) {
-            let pole = self.poles[k];
-            let factor = (pole - x).inv();
-            let by_square = factor * factor * x * (2.0 * pole - x);
-            for (e, residues) in self.residues.iter().enumerate() {
-                sums[e] += factor * residues[k];
-                masses[e] += by_square * residues[k];
+        for k in (0..left_out.start).chain(left_out.end..self.poles.len()) {
+            let factor = reciprocal_gap(self.poles[k], x);
+            let by_square = factor * factor * x * (2.0 * self.poles[k] - x);
+            for (mass, residues) in masses.iter_mut().zip(&self.residues) {
+                *mass += by_square * residues[k];
             }
         }
-        (self.total(x, sums), masses)
-    }
-
-    /// Entries `K_s − x (M_s + x Σ)` of the stiffness, from the sums Σ over the poles.
-    fn total(&self, x: Complex, sums: [Complex; E]) -> [Complex; E] {
-        let (stiffness, mass): ([f64; E], [f64; E]) = (self.start_stiffness(), self.start_mass());
-        from_fn(|e| stiffness[e] - x * (mass[e] + x * sums[e]))
+        masses
     }
 
     /// Keeps the first `count` poles and replaces all others by a few.

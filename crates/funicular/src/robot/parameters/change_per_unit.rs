@@ -7,12 +7,14 @@ use crate::robot::{GuideWheelChange, PlatformMotion, Pulley, Robot, RobotChange,
 use std::f64::consts::TAU;
 
 /// Keys of numbers without derivatives, with the table in which they stand. All other numbers have a direction.
-const WITHOUT_DERIVATIVE: [(&str, &[&str]); 4] = [
+const WITHOUT_DERIVATIVE: [(&str, &[&str]); 5] = [
     // Another plane means other coordinates of the platform.
     ("platform", &["plane_normal", "plane_offset_m"]),
     // Limits judge tensions or stop a rule, which keeps them as they are: a limit that is reached stays reached.
     ("materials", &["minimum_tension_n", "maximum_tension_n", "breaking_load_n"]),
     ("cables", &["minimum_tension_n", "maximum_tension_n"]),
+    // No equilibrium depends on it, and derivatives of vibration are refused beside it.
+    ("materials", &["dynamic_axial_stiffness_n"]),
     // Results with derivatives are those without friction.
     ("pulleys", &["friction_coefficient", "efficiency", "bearing_friction_coefficient", "bearing_radius_m"]),
 ];

@@ -16,8 +16,9 @@ pub(super) fn breaking_load(reader: &mut Reader, section: &Section) -> Option<Op
     optional(reader, section, "breaking_load_n")
 }
 
+/// Reads a number that may be absent.
 #[expect(clippy::option_option, reason = "outside: refused, an issue is reported; inside: not given")]
-fn optional(reader: &mut Reader, section: &Section, key: &str) -> Option<Option<f64>> {
+pub(super) fn optional(reader: &mut Reader, section: &Section, key: &str) -> Option<Option<f64>> {
     match section.get(key) {
         Some(value) => reader.number_of(section, key, value).map(Some),
         None => Some(None),

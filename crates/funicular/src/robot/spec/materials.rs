@@ -61,6 +61,15 @@ pub(super) const KEYS: &[Key] = &[
     .without(Absent::Depends(TWO_WAYS)),
     Key::numeric(
         Shape::Number,
+        "dynamic_axial_stiffness_n",
+        "dynamic_axial_stiffness_n = 400e3",
+        "N",
+        Range::Positive,
+        "axial stiffness of the rope in vibration, which is higher for fibre ropes; equilibria keep the other one",
+    )
+    .without(Absent::Means("vibration has the stiffness of the equilibrium")),
+    Key::numeric(
+        Shape::Number,
         "mass_kg_per_m",
         "mass_kg_per_m = 0.06",
         "kg/m",
@@ -181,6 +190,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section) -> Option<Materials> {
 fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Material> {
     let stiffness = StiffnessKeys::read(reader, section);
     let axial_stiffness = stiffness.axial_stiffness(reader, section);
+    let dynamic_axial_stiffness = limits::optional(reader, section, "dynamic_axial_stiffness_n");
     let mass_per_length =
         reader.required(section, "mass_kg_per_m").and_then(|value| reader.number_of(section, "mass_kg_per_m", value));
     let damping = damping(reader, section);
@@ -198,6 +208,7 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Materi
     Some(Material {
         name: name.to_owned(),
         axial_stiffness: axial_stiffness?,
+        dynamic_axial_stiffness: dynamic_axial_stiffness?,
         mass_per_length: mass_per_length?,
         damping: damping?,
         stretch_loss: StretchLoss { factor: loss[0]?, time: loss[1]? },

@@ -24,10 +24,11 @@ pub(super) fn check(robot: &Robot, rope: &Material) -> Vec<Implausible> {
     let stiffness = stiffness.or_else(|| full_circle(rope));
     let strength = if stiffness.is_none() { strength(rope) } else { Vec::new() };
 
+    let stiffness_ratio = stiffness_ratio(rope);
     let loss = loss_factor(rope).or_else(|| same_decay(rope));
-    let others =
-        [damping(rope), loss, damping_time(rope), drag_coefficient(rope), drag_diameter(rope), load(robot, rope)];
-    stiffness.into_iter().chain(strength).chain(others.into_iter().flatten()).collect()
+    let loss = [damping(rope), loss, damping_time(rope)];
+    let others = [stiffness_ratio, drag_coefficient(rope), drag_diameter(rope), load(robot, rope)];
+    stiffness.into_iter().chain(strength).chain(loss.into_iter().chain(others).flatten()).collect()
 }
 
 fn named(rope: &Material, quantity: &str) -> String {
@@ -145,6 +146,20 @@ pub(super) fn note(rope: &Material) -> Option<String> {
              to 1.3e11 Pa; if it is the modulus over the metal, give `area_m2`"
         );
         named(rope, &what)
+    })
+}
+
+/// Axial stiffness in vibration over that of the equilibrium.
+fn stiffness_ratio(rope: &Material) -> Option<Implausible> {
+    let slips: &[(f64, &str)] =
+        &[(1e3, "axial stiffness in kN given as N"), (1e-3, "axial stiffness in mN given as N")];
+    let what = named(rope, "`dynamic_axial_stiffness_n` over the axial stiffness of the equilibrium");
+    let ratio = rope.dynamic_axial_stiffness? / rope.axial_stiffness;
+    outside(what, ratio, "", usual::STIFFNESS_RATIO, |value| {
+        format!(
+            "{} A rope is stiffer in vibration than under a slow load",
+            likely(value, usual::STIFFNESS_RATIO, slips)
+        )
     })
 }
 

@@ -48,6 +48,11 @@ pub const DAMPING_RATIO: [f64; 2] = [5e-4, 0.05];
 /// 0.33.
 pub const VISCOUS_DAMPING: [f64; 2] = [0.0, 6.3];
 
+/// Axial stiffness in vibration over that under a slow load. Of polyester mooring ropes it is much higher (J. Offshore
+/// Mech. Arct. Eng. 137(6), 2015, 061401); four times is the most that was met. Outside: the two exchanged, or kN given as
+/// N.
+pub const STIFFNESS_RATIO: [f64; 2] = [1.0, 6.0];
+
 /// Loss factor of the stretch of a rope. Dampers of high-damping rubber reach 0.3, braided fibre ropes are below.
 /// Outside: per cent given as a fraction (0.5), and per cent divided by 100 twice (0.0002).
 pub const LOSS_FACTOR: [f64; 2] = [1e-3, 0.3];
