@@ -35,6 +35,7 @@ mod initial_pose; // start pose from the lengths
 mod loaded_cable; // cable with its load, before its length is known
 mod residual; // residual of the balance at a pose, and its rounding
 mod supports; // balance of flexible supports under the forces of their cables
+mod wrench_set; // wrenches that the cables can apply within their limits
 
 // Solvers.
 mod equilibria; // all equilibria of given lengths that a search finds
@@ -74,8 +75,8 @@ pub use solve::{Solution, inverse, solve, solve_at, solve_held, solve_held_at};
 pub use stiffness::tangent_stiffness;
 pub(crate) use supports::{SupportSide, on_support, support_side};
 pub use tension::{
-    LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, TensionPlace, TensionRule, distribute_tensions,
-    payload_bound,
+    LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, TensionRule, distribute_tensions, payload_bound,
 };
 pub(crate) use tension_gain::tension_gain_exceeds;
 pub use tension_gain::{inverse_condition, tension_gain};
+pub use wrench_set::TensionPlace;

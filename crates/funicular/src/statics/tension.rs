@@ -8,11 +8,11 @@
 //! millisecond. With many cables it is solved in the space of the cables instead, see [`feasible_set`].
 
 mod bounds;
-mod cable_at_pose;
 mod feasible_set;
 mod null_space;
 mod payload;
 mod proof;
+mod ray;
 mod search;
 mod stiffest;
 
@@ -25,11 +25,10 @@ use super::ideal;
 use super::limits::TensionRange;
 use super::model::StaticModel;
 pub(super) use super::obstacle::Obstacle;
+use super::wrench_set::CableAtPose;
 use crate::drive::CableAtRest;
 use crate::platform::Coordinates;
 use crate::robot::{Cable, Pose, Robot};
-use cable_at_pose::CableAtPose;
-pub use cable_at_pose::TensionPlace;
 pub use payload::{LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, payload_bound};
 use search::TensionSearch;
 

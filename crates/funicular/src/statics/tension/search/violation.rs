@@ -8,9 +8,9 @@ use crate::platform::{Coordinates, load_wrench};
 use crate::statics::error::StaticsError;
 use crate::statics::limits::{Limit, LimitViolation};
 use crate::statics::obstacle::Obstacle;
-use crate::statics::tension::cable_at_pose::CableAtPose;
 use crate::statics::tension::feasible_set::FeasibleSet;
-use crate::statics::tension::proof::{Infeasibility, ReachableTensions};
+use crate::statics::tension::proof::Infeasibility;
+use crate::statics::wrench_set::{CableAtPose, ReachableTensions, WrenchSet};
 
 /// Distance from a limit, over the size of the tensions, from which on an optimum has left the limit: well above
 /// [`VIOLATION`], by which the optima are relaxed, and below the millionth to which tensions are given.
@@ -54,7 +54,7 @@ impl TensionSearch<'_> {
             self.cables.iter().zip(&minima).map(|(cable, tau)| ReachableTensions::of(cable, *tau)).collect();
         let motion = self.robot.platform.motion;
         let load = Coordinates::of(self.robot).reduce(&load_wrench(self.robot, self.pose));
-        let claim = Infeasibility { reaches: &reaches, load, motion };
+        let claim = Infeasibility { set: WrenchSet { reaches: &reaches, motion }, load };
         let verdict = claim.prove(&optimum.multipliers);
         if verdict.proved {
             return Err(StaticsError::BeyondLimits(self.miss(&optimum)));
