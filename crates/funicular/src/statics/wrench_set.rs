@@ -4,8 +4,11 @@
 //! cables have segments, and the set is a zonotope.
 
 mod cable_at_pose;
+mod chords;
+mod facets;
 mod reach;
 
 pub use cable_at_pose::TensionPlace;
 pub(super) use cable_at_pose::{CableAtPose, Rates, TensionByTau};
+pub(super) use chords::{AvailableWrenches, Facet};
 pub(super) use reach::{ReachableTensions, WrenchSet};

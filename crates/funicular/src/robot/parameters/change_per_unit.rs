@@ -7,12 +7,27 @@ use crate::robot::{GuideWheelChange, PlatformMotion, Pulley, Robot, RobotChange,
 use std::f64::consts::TAU;
 
 /// Keys of numbers without derivatives, with the table in which they stand. All other numbers have a direction.
-const WITHOUT_DERIVATIVE: [(&str, &[&str]); 4] = [
+const WITHOUT_DERIVATIVE: [(&str, &[&str]); 5] = [
     // Another plane means other coordinates of the platform.
     ("platform", &["plane_normal", "plane_offset_m"]),
     // Limits judge tensions or stop a rule, which keeps them as they are: a limit that is reached stays reached.
     ("materials", &["minimum_tension_n", "maximum_tension_n", "breaking_load_n"]),
     ("cables", &["minimum_tension_n", "maximum_tension_n"]),
+    // Results with derivatives are those of the dead load.
+    (
+        "required",
+        &[
+            "force_n",
+            "moment_n_m",
+            "payload_min_kg",
+            "payload_max_kg",
+            "payload_center_m",
+            "payload_center_reach_m",
+            "acceleration_m_s2",
+            "angular_acceleration_rad_s2",
+            "wind_speed_m_s",
+        ],
+    ),
     // Results with derivatives are those without friction.
     ("pulleys", &["friction_coefficient", "efficiency", "bearing_friction_coefficient", "bearing_radius_m"]),
 ];

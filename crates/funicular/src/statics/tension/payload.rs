@@ -5,23 +5,15 @@
 //! within the limits counts, whatever a rule would choose.
 
 use super::TensionRule;
-use super::ray::{CONVERGED, RayEnd, RaySearch, WrenchRay};
-use crate::drive::CableAtRest;
+use super::ray::{CONVERGED, LimitAtCable, RayEnd, RaySearch, WrenchRay, equilibrium_of, limits_reached};
 use crate::math::Vec3;
 use crate::platform::{Coordinates, wrench_of};
 use crate::robot::{Load, Pose, Robot};
-use crate::statics::collect::collect;
 use crate::statics::equilibrium::{CableState, Equilibrium};
 use crate::statics::error::StaticsError;
 use crate::statics::exit_points;
 use crate::statics::free_motion::unopposed;
-use crate::statics::ideal;
-use crate::statics::limits::Limit;
 use crate::statics::model::StaticModel;
-use crate::statics::wrench_set::{CableAtPose, TensionPlace};
-
-/// Relative distance within which a tension counts as at its limit, in the list of limits that bind.
-const AT_LIMIT: f64 = 1e-6;
 
 /// Payload that the cables hold at a pose: the minimum or the maximum.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,17 +32,6 @@ pub struct PayloadBound {
     /// Mass [kg], slightly beyond [`Self::mass`], from which on it is proved that no tensions within the limits hold
     /// the payload, however the cables sag; `None` if no proof was requested or found.
     pub excluded_from: Option<f64>,
-}
-
-/// Tension at its limit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct LimitAtCable {
-    /// Index of the cable.
-    pub cable: usize,
-    /// Limit that is reached.
-    pub limit: Limit,
-    /// Place in the cable where it is reached.
-    pub place: TensionPlace,
 }
 
 /// Side of the range of payloads.
@@ -188,43 +169,10 @@ fn collect_bound(
     PayloadBound { mass, cables: rest.cables, limits, residual: rest.residual, iterations, excluded_from }
 }
 
-/// Limits that hold a payload back and those that are reached besides, one per cable, in the order of the file.
-fn limits_reached(cables: &[CableAtPose], held_by: &[(usize, Limit)]) -> Vec<LimitAtCable> {
-    let of_cable = |(i, cable): (usize, &CableAtPose)| {
-        let holds = |limit: Limit| held_by.contains(&(i, limit));
-        let (range, min, max) = (cable.range, cable.min_tension().value, cable.max_tension().value);
-        let limit = if holds(Limit::Maximum) || max >= range.maximum * (1.0 - AT_LIMIT) {
-            Limit::Maximum
-        } else if holds(Limit::Minimum) || min <= range.minimum * (1.0 + AT_LIMIT) {
-            Limit::Minimum
-        } else {
-            return None;
-        };
-        Some(LimitAtCable { cable: i, limit, place: cable.place(limit) })
-    };
-    cables.iter().enumerate().filter_map(of_cable).collect()
-}
-
 /// Robot with a payload of this weight [N] as a part of its load: the wrench at this pose is that of both.
-fn with_weight(robot: &Robot, pose: &Pose, center_p: &Vec3, weight: f64) -> Robot {
+pub(in crate::statics) fn with_weight(robot: &Robot, pose: &Pose, center_p: &Vec3, weight: f64) -> Robot {
     let force_w = robot.up_w() * -weight;
     let Load { force_w: own_force_w, moment_w, point_p } = robot.load;
     let arm_w = pose.rot_wp * (center_p - point_p);
     robot.with_load(Load { force_w: own_force_w + force_w, moment_w: moment_w + arm_w.cross(&force_w), point_p })
-}
-
-fn equilibrium_of(
-    robot: &Robot,
-    pose: &Pose,
-    model: StaticModel,
-    cables: Vec<CableAtPose>,
-    iterations: usize,
-) -> Equilibrium {
-    if model == StaticModel::Ideal {
-        let tensions: Vec<f64> = cables.iter().map(CableAtPose::tau).collect();
-        return ideal::collect(robot, *pose, &tensions, iterations);
-    }
-    let lengths: Vec<f64> = cables.iter().map(|cable| cable.length()[0]).collect();
-    let hanging = cables.into_iter().map(|cable| CableAtRest::fixed(cable.hanging)).collect();
-    collect(robot, *pose, model, hanging, &lengths, iterations)
 }

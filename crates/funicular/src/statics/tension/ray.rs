@@ -7,14 +7,18 @@
 use super::feasible_set::{FeasiblePoint, FeasibleSet, MIN_DIRECTIONS_IN_CABLE_SPACE};
 use super::null_space::Solutions;
 use super::search::{HOLDS, Linear, ProximalStep, ProximalStepControl, TauBound, TensionSearch};
+use crate::drive::CableAtRest;
 use crate::math::Vec6;
 use crate::math::active_set::Active;
 use crate::platform::{Coordinates, load_wrench};
 use crate::robot::{Pose, Robot};
+use crate::statics::collect::collect;
+use crate::statics::equilibrium::Equilibrium;
 use crate::statics::error::StaticsError;
+use crate::statics::ideal;
 use crate::statics::limits::Limit;
 use crate::statics::model::StaticModel;
-use crate::statics::wrench_set::{CableAtPose, ReachableTensions, WrenchSet};
+use crate::statics::wrench_set::{CableAtPose, ReachableTensions, TensionPlace, WrenchSet};
 
 /// Maximum number of iterations: robots of the library take 2 to 6.
 const MAX_ITERATIONS: usize = 100;
@@ -26,6 +30,20 @@ pub(in crate::statics) const CONVERGED: f64 = 1e-10;
 /// shares of sagging cables are not quite concave in the tension. This costs some 1e-5 for taut cables, and up to 1e-3
 /// for robots whose lower cables are nearly slack.
 const BEYOND: [f64; 7] = [1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3];
+
+/// Relative distance within which a tension counts as at its limit, in the list of limits that bind.
+const AT_LIMIT: f64 = 1e-6;
+
+/// Tension at its limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LimitAtCable {
+    /// Index of the cable.
+    pub cable: usize,
+    /// Limit that is reached.
+    pub limit: Limit,
+    /// Place in the cable where it is reached.
+    pub place: TensionPlace,
+}
 
 /// Wrench whose multiples are added to the load.
 #[derive(Debug, Clone, Copy)]
@@ -245,4 +263,38 @@ impl<'a> RaySearch<'a> {
             .map(|beyond| end.multiple + sign * beyond * size)
             .find(|multiple| set.separates(y, &(own + unit * *multiple)).0)
     }
+}
+
+/// Limits that bind and those that are reached besides, one per cable, in the order of the file.
+pub(in crate::statics) fn limits_reached(cables: &[CableAtPose], held_by: &[(usize, Limit)]) -> Vec<LimitAtCable> {
+    let of_cable = |(i, cable): (usize, &CableAtPose)| {
+        let holds = |limit: Limit| held_by.contains(&(i, limit));
+        let (range, min, max) = (cable.range, cable.min_tension().value, cable.max_tension().value);
+        let limit = if holds(Limit::Maximum) || max >= range.maximum * (1.0 - AT_LIMIT) {
+            Limit::Maximum
+        } else if holds(Limit::Minimum) || min <= range.minimum * (1.0 + AT_LIMIT) {
+            Limit::Minimum
+        } else {
+            return None;
+        };
+        Some(LimitAtCable { cable: i, limit, place: cable.place(limit) })
+    };
+    cables.iter().enumerate().filter_map(of_cable).collect()
+}
+
+/// Equilibrium of cables that hold the load of a robot at a pose.
+pub(in crate::statics) fn equilibrium_of(
+    robot: &Robot,
+    pose: &Pose,
+    model: StaticModel,
+    cables: Vec<CableAtPose>,
+    iterations: usize,
+) -> Equilibrium {
+    if model == StaticModel::Ideal {
+        let tensions: Vec<f64> = cables.iter().map(CableAtPose::tau).collect();
+        return ideal::collect(robot, *pose, &tensions, iterations);
+    }
+    let lengths: Vec<f64> = cables.iter().map(|cable| cable.length()[0]).collect();
+    let hanging = cables.into_iter().map(|cable| CableAtRest::fixed(cable.hanging)).collect();
+    collect(robot, *pose, model, hanging, &lengths, iterations)
 }

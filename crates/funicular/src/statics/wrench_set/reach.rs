@@ -21,6 +21,37 @@ pub(in crate::statics) struct WrenchSet<'a> {
 }
 
 impl WrenchSet<'_> {
+    /// Upper bound of the contribution of all cables in the direction `y` [N, in the unit of y], and the tensions τ that
+    /// contribute most [N].
+    pub(in crate::statics) fn reach(&self, y: &Vec6) -> (f64, Vec<f64>) {
+        let (mut bound, mut tensions) = (0.0, Vec::with_capacity(self.reaches.len()));
+        for reach in self.reaches {
+            let seen = reach.seen(y, &self.motion);
+            let end = |k: usize| SharePoint::of(&reach.ends[k], y, &seen, &self.motion);
+            let mut parts = vec![TauInterval { cable: 0, ends: [end(0), end(1)] }];
+            let mut best = parts[0].best();
+            for _ in 0..MAX_HALVINGS {
+                let excess = |part: &TauInterval| part.bound(&seen) - best.share();
+                let widest = (0..parts.len()).max_by(|&a, &b| excess(&parts[a]).total_cmp(&excess(&parts[b])));
+                let Some(widest) = widest.filter(|at| excess(&parts[*at]) > ROUNDING * best.share().abs()) else {
+                    break;
+                };
+                let [from, to] = parts[widest].ends;
+                let mut there = reach.ends[0].clone();
+                there.set((from.tau * to.tau).sqrt());
+                let middle = SharePoint::of(&there, y, &seen, &self.motion);
+                if middle.share() > best.share() {
+                    best = middle;
+                }
+                parts[widest].ends = [from, middle];
+                parts.push(TauInterval { cable: 0, ends: [middle, to] });
+            }
+            bound += parts.iter().map(|part| part.bound(&seen)).fold(best.share(), f64::max);
+            tensions.push(best.tau);
+        }
+        (bound, tensions)
+    }
+
     /// True if the direction `y` proves that no tensions balance a load, with the points of maximum contribution of the
     /// cables in this direction.
     pub(in crate::statics) fn separates(&self, y: &Vec6, load: &Vec6) -> (bool, Vec<SharePoint>) {
@@ -98,6 +129,11 @@ impl ReachableTensions {
             convex_bend: upward * sin >= 0.0,
             steep: sin.abs() > STEEP,
         }
+    }
+
+    /// Wrenches at the minimum and at the maximum, reduced [N].
+    pub(in crate::statics) fn wrenches(&self, motion: &PlatformMotion) -> [Vec6; 2] {
+        [0, 1].map(|k| motion.reduced(&self.ends[k].wrench(&self.ends[k].force().0)))
     }
 
     /// Minimum and maximum τ [N].
