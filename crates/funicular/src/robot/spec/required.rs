@@ -134,7 +134,7 @@ pub(super) fn read(
 
     // Numbers that are right by themselves, but not together.
     if required.wind_speed > Wind::MAX_SPEED {
-        let span = section.get("wind_speed_m_s").map_or_else(|| value.span(), |value| value.span());
+        let span = section.get("wind_speed_m_s").map_or_else(|| value.span(), toml::Spanned::span);
         let message =
             format!("`wind_speed_m_s` is {} m/s, it must be at most {} m/s", required.wind_speed, Wind::MAX_SPEED);
         reader.issue(span, message).help("faster air is compressed, and drag no longer grows with its square");
@@ -143,7 +143,7 @@ pub(super) fn read(
     if let Err(error) = required.check(&motion?) {
         let key =
             if matches!(error, RequiredLoadsError::PayloadReversed { .. }) { "payload_min_kg" } else { "moment_n_m" };
-        let span = section.get(key).map_or_else(|| value.span(), |value| value.span());
+        let span = section.get(key).map_or_else(|| value.span(), toml::Spanned::span);
         reader.issue(span, error.to_string());
         return None;
     }

@@ -142,6 +142,21 @@ impl ReachableTensions {
     }
 }
 
+/// Start number `k` of a search: tensions τ that spread over the ranges, evenly in their logarithms [N]. `size` is the
+/// reference size of the tensions.
+pub(in crate::statics) fn spread_start(reaches: &[ReachableTensions], size: f64, k: usize) -> Vec<f64> {
+    let tensions = reaches.iter().enumerate().map(|(i, reach)| {
+        let [low, high] = reach.limits();
+        // Without a maximum, the upper end of the range is too high for a start.
+        let high = if reach.ends[0].range.maximum.is_infinite() { high.min(size.max(2.0 * low)) } else { high };
+        let low = low.max(f64::MIN_POSITIVE);
+        // Multiples of irrational numbers have no pattern (Weyl).
+        let part = ((k as f64 + 1.0) * (i as f64 + 2.0).sqrt() * std::f64::consts::E).fract();
+        low * (high / low).max(1.0).powf(part)
+    });
+    tensions.collect()
+}
+
 /// Contribution of a cable in one direction: `along τ + b D(τ) − ½ b w L0(τ)`, see (39b).
 #[derive(Debug, Clone, Copy)]
 struct DirectionalShare {
