@@ -469,6 +469,16 @@ mod tests {
         winch = "drum"
         entry_direction = [0.0, 0.0, 1.0]
         load_n_per_m = [0.0, 0.0, -0.1]
+        [required]
+        force_n = [1.0, 1.0, 1.0]
+        moment_n_m = [0.1, 0.1, 0.1]
+        payload_min_kg = 1.0
+        payload_max_kg = 2.0
+        payload_center_m = [0.0, 0.0, 0.1]
+        payload_center_reach_m = [0.1, 0.0, 0.0]
+        acceleration_m_s2 = [0.1, 0.1, 0.1]
+        angular_acceleration_rad_s2 = [0.1, 0.1, 0.1]
+        wind_speed_m_s = 3.0
         [[cables]]
         name = "2"
         material = "other"
@@ -494,7 +504,8 @@ mod tests {
     fn every_number_of_the_file_has_a_direction_or_is_listed_without() {
         let files = FILES.map(|text| Parameters::from_toml(text).unwrap_or_else(|error| panic!("{error}")));
         let mut listed = 0;
-        for table in TABLES {
+        // Listed loads have no names, so their numbers are no parameters.
+        for table in TABLES.iter().filter(|table| table.header != "[[required_loads]]") {
             for key in table.keys.iter().filter(|key| key.numeric_value().is_some()) {
                 let label = format!("{} {}", table.header, key.name);
                 let mut of_key = Vec::new();
