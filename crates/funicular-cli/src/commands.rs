@@ -11,6 +11,7 @@ mod frf;
 mod gradient;
 mod identify;
 mod import;
+mod loads;
 mod map;
 mod merge;
 mod modes;

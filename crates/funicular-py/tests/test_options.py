@@ -29,6 +29,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "gradient": ("`robot.equilibrium(…).gradient(…)`", [Robot.equilibrium, Equilibrium.gradient]),
     "uncertainty": ("`robot.uncertainty(…)`", [Robot.uncertainty]),
     "payload": ("`robot.payload(…)`", [Robot.payload]),
+    "loads": ("`robot.loads(…)`", [Robot.loads]),
     "pose-error": ("`robot.pose_error(…)`", [Robot.pose_error]),
     "identify": ("`robot.identify(fit, experiments, …)`", [Robot.identify]),
     "design": ("`robot.design(change, …)`", [Robot.design]),

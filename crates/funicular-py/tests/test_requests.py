@@ -47,6 +47,11 @@ MORE = [
     f"funicular gradient robots/cogiro.toml --below-hz 3 {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
     f"funicular payload robots/cogiro.toml {TENSIONS} {STATE} --payload-center-m 0,0,-0.2",
     "funicular payload robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250",
+    f"funicular loads robots/cogiro.toml {TENSIONS} {STATE} --required-force-n 20,20,20 --required-moment-n-m 2,2,2 "
+    "--required-shape ellipsoid --required-wind-speed-m-s 5",
+    "funicular loads robots/cogiro.toml --pose 1,1,1.5 --required-payload-min-kg 5 --required-payload-max-kg 40 "
+    "--required-payload-center-m 0,0,0.1 --required-payload-center-reach-m 0.1,0.1,0 --required-acceleration-m-s2 1,1,1 "
+    "--required-angular-acceleration-rad-s2 0.2,0.2,0.2",
     f"funicular statics robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --set platform.mass_kg=200",
     f"funicular stiffness robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
     f"funicular modes robots/cogiro.toml --below-hz 5 {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --platform-share 0.9",
@@ -227,7 +232,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
-    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "pose-error", "cable"),
+    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "pose-error", "cable"),
     *("settle", "reduce", "identify", "uncertainty"),
 )
 
@@ -265,6 +270,9 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
         return
     if command == "payload":
         assert plain(robot.payload(**keywords)) == theirs
+        return
+    if command == "loads":
+        assert plain(robot.loads(**keywords)) == theirs
         return
     if command == "identify":
         assert plain(robot.identify(**keywords).to_dict()) == theirs

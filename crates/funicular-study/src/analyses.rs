@@ -13,6 +13,7 @@ mod fields;
 pub mod frf;
 pub mod gradient;
 pub mod identify;
+pub mod loads;
 pub mod modes;
 pub mod parameters;
 pub mod payload;

@@ -3,7 +3,7 @@
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::gradient::Hold;
-use funicular::robot::WinchMode;
+use funicular::robot::{LoadShape, WinchMode};
 use funicular::statics::{StaticModel, TensionRule};
 use funicular::suggest::nearest;
 use serde::{Deserialize, Deserializer, Serializer};
@@ -116,6 +116,25 @@ impl Named for WinchMode {
             Self::Clamped => "Motors held at their angle",
             Self::Torque => "Motors with constant torque",
             Self::Stuck => "Cables that stick to their pulleys",
+        }
+    }
+}
+
+impl Named for LoadShape {
+    const WHAT: &'static str = "shape";
+    const ALL: &'static [Self] = &[Self::Box, Self::Ellipsoid];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Box => "box",
+            Self::Ellipsoid => "ellipsoid",
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Box => "Every component varies by itself",
+            Self::Ellipsoid => "Ellipsoid with these half axes; a ball if they are equal",
         }
     }
 }

@@ -11,6 +11,7 @@ mod grids;
 mod identify;
 mod json_text;
 pub mod key;
+mod loads;
 mod pages;
 mod parts;
 mod shape;
@@ -29,6 +30,7 @@ pub use identify::{
     IdentifyRequest,
 };
 pub use key::{Choice, Declared, Key, Kind, ProgramForm, Range};
+pub use loads::{LoadsRequest, Requirements};
 pub use pages::{LiveRequest, PaperRequest, ReportRequest, ValidateRequest};
 pub use parts::{
     Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, OneOrSeveral, Pose,
@@ -148,6 +150,7 @@ commands! {
     Gradient(GradientRequest) "gradient" Needed robot;
     Uncertainty(UncertaintyRequest) "uncertainty" Needed robot;
     Payload(PayloadRequest) "payload" Needed robot;
+    Loads(LoadsRequest) "loads" Needed robot;
     PoseError(PoseErrorRequest) "pose-error" Needed robot;
     Cable(CableRequest) "cable" Needed robot;
     Reduce(ReduceRequest) "reduce" Needed robot;

@@ -9,6 +9,7 @@ use crate::analyses::{
     frf,
     gradient::{self, GradientTable},
     identify::{self, Identified},
+    loads::{self, Loads},
     modes::{self, Modes},
     parameters::{self, ParameterList},
     payload::{self, Payload},
@@ -122,6 +123,7 @@ answers! {
     Gradient(GradientTable): of => gradient::run(robot()?, of)?, at at_rest => gradient::about(at_rest, of)?;
     Uncertainty(Uncertainties): of => uncertainty::run(of, watch)?;
     Payload(Payload): of => payload::run(robot()?, of)?;
+    Loads(Loads): of => loads::run(robot()?, of)?;
     PoseError(PoseErrors): of => pose_error::run(&robot()?, of, watch)?;
     Cable(CableResult): of => cable::run(robot()?, of, watch)?;
     Reduce(ReducedForm): of => reduce::run(robot()?, of, watch)?, at at_rest => reduce::about(at_rest, of, watch)?;

@@ -13,6 +13,7 @@ mod exact;
 mod gradients;
 mod identification;
 mod independent;
+mod load_factors;
 mod markdown;
 mod measured;
 mod paper;
@@ -136,6 +137,7 @@ pub fn sections() -> Result<Vec<Section>> {
         cube::section(&published)?,
         paper::section(&published)?,
         uncertainty::section()?,
+        load_factors::section(&reference::load_factors()?)?,
     ])
 }
 

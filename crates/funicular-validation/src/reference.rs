@@ -6,6 +6,7 @@ mod exact;
 mod gradients;
 mod identification;
 mod independent;
+mod load_factors;
 mod measured;
 mod published;
 mod stretch_loss;
@@ -27,6 +28,7 @@ pub(super) use identification::{IdentificationReference, MeasuredResponses, Plat
 pub(super) use independent::{
     ComplexMatrix, IndependentReference, IndependentRobot, Matrix, ModeList, ReferenceResponse, independent,
 };
+pub(super) use load_factors::{LoadFactorReference, LoadedPose, LoadedRobot, load_factors};
 pub(super) use measured::{MeasuredPose, measured};
 pub(super) use published::{
     BesselRow, ClosedFormRow, Cube, CubeRow, Fig2, FiniteElementRow, HungBetween, IsolatedCable, Published, published,

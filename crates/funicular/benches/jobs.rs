@@ -10,7 +10,7 @@ use funicular::math::Vec3;
 use funicular::response::{self, Quantity, Signal};
 use funicular::robot::parameters::Parameters;
 use funicular::robot::{Robot, RobotChange, State, TensionLimits};
-use funicular::statics::{self, StaticModel, TensionRule};
+use funicular::statics::{self, LoadCapacity, StaticModel, TensionRule};
 use funicular::{modes, robot::Pose};
 use std::hint::black_box;
 use std::time::Duration;
@@ -254,9 +254,32 @@ fn gradients(c: &mut Criterion) {
     });
 }
 
+/// Verdict, load factor and margin of a box of loads, one pose per iteration, from poses of CoGiRo whose dead load is held.
+fn load_factors(c: &mut Criterion) {
+    let limits = TensionLimits { minimum: Some(50.0), maximum: Some(1500.0) };
+    let mut robot =
+        Robot::from_toml(funicular_robots::COGIRO).expect("the library's robot").with_tension_limits(limits);
+    robot.required.force_w = Vec3::repeat(50.0);
+    robot.required.moment_w = Vec3::repeat(10.0);
+    let entry = |i: u32, root: f64| (f64::from(i + 1) * root).fract() * 2.0 - 1.0;
+    let pose = |i: u32| Pose::new([2.0 * entry(i, 2f64.sqrt()), entry(i, 3f64.sqrt()), 1.5], [0.0; 3]);
+    for model in [StaticModel::Ideal, StaticModel::Catenary] {
+        let held = |pose: Pose| Some((pose, statics::inverse(&robot, &pose, model).ok()?));
+        let poses: Vec<_> = (0..200).map(pose).filter_map(held).collect();
+        let mut i = 0;
+        c.bench_function(&format!("load factor: {}", model.name()), |b| {
+            b.iter(|| {
+                i = (i + 1) % poses.len();
+                let (pose, rest) = black_box(&poses[i]);
+                LoadCapacity::at(&robot, pose, model, Some(rest)).expect("a pose").load_factor_value().expect("held")
+            });
+        });
+    }
+}
+
 criterion_group! {
     name = jobs;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
-    targets = one_catenary, statics_both_ways, tension_distribution, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables, gradients
+    targets = one_catenary, statics_both_ways, tension_distribution, load_factors, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables, gradients
 }
 criterion_main!(jobs);

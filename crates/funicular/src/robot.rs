@@ -11,6 +11,7 @@ mod friction;
 mod motion;
 pub mod parameters;
 mod pulley;
+mod required;
 pub mod spec;
 mod support;
 mod winch;
@@ -23,6 +24,7 @@ pub use friction::PulleyFriction;
 pub use motion::{OutOfPlane, Plane, PlatformMotion};
 pub(crate) use pulley::Wheel;
 pub use pulley::{Pulley, PulleyContact};
+pub use required::{LoadShape, RequiredLoads, RequiredLoadsError, RequiredPayload};
 pub use support::{DrumPlace, Support};
 pub use winch::{Control, DrumSide, GuideWheel, Servo, Winch, WinchMode};
 pub use wind::{LineLoad, Wind};
@@ -43,6 +45,8 @@ pub struct Robot {
     pub platform: Platform,
     /// Load on the platform besides its weight and the wind.
     pub load: Load,
+    /// Loads that the robot has to bear in addition to all of these.
+    pub required: RequiredLoads,
     /// Steady wind on cables and platform.
     pub wind: Wind,
     /// Flexible supports of anchors, by name.

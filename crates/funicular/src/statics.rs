@@ -10,6 +10,8 @@
 //! | lengths from a pose, fully constrained (as many cables as degrees of freedom) | [`inverse`] |
 //! | lengths from a pose, redundantly constrained (more cables than degrees of freedom) | [`distribute_tensions`] by a [`TensionRule`] |
 //! | minimum and maximum payload that cables within their limits hold at a pose | [`payload_bound`] |
+//! | load factor, capacity margin and largest acceleration at a pose for the required loads | [`LoadCapacity`] |
+//! | whether straight cables could balance every load at a pose | [`wrench_closure`] |
 //! | nearest pose that fewer cables can hold (under-constrained) | [`nearest_equilibrium`] |
 //! | motions that no cable opposes, as with all cables at one point of the platform | [`free_motions`] |
 //! | stiffness of an equilibrium | [`tangent_stiffness`], in wind [`tangent_with_drag`] |
@@ -36,8 +38,10 @@ mod initial_pose; // start pose from the lengths
 mod loaded_cable; // cable with its load, before its length is known
 mod residual; // residual of the balance at a pose, and its rounding
 mod supports; // balance of flexible supports under the forces of their cables
+mod wrench_set; // wrenches that the cables can apply within their limits
 
 // Solvers.
+mod capacity; // loads that cables within their limits hold at a pose
 mod equilibria; // all equilibria of given lengths that a search finds
 mod forward; // lengths to pose, elastic cables
 mod ideal; // rigid cables: lengths to pose, pose to tensions
@@ -53,6 +57,7 @@ mod friction; // interval in which friction of pulleys leaves the equilibrium
 mod stiffness; // tangent stiffness and stability
 mod tension_gain; // nearness to a singular pose
 
+pub use capacity::{LoadCapacity, LoadFactor, WrenchClosure, wrench_closure};
 pub use drag::{antisymmetric_fraction, drag_effect, drag_stiffness, stiffness_along_coordinates, tangent_with_drag};
 pub use energy::energy;
 pub use equilibria::{Candidate, Candidates, all_equilibria, another_stable_equilibrium};
@@ -75,8 +80,8 @@ pub use solve::{Solution, inverse, solve, solve_at, solve_held, solve_held_at};
 pub use stiffness::tangent_stiffness;
 pub(crate) use supports::{SupportSide, on_support, support_side};
 pub use tension::{
-    LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, TensionPlace, TensionRule, distribute_tensions,
-    payload_bound,
+    LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, TensionRule, distribute_tensions, payload_bound,
 };
 pub(crate) use tension_gain::tension_gain_exceeds;
 pub use tension_gain::{inverse_condition, tension_gain};
+pub use wrench_set::TensionPlace;

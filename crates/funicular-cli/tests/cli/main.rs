@@ -13,6 +13,7 @@ mod gradient;
 mod identify;
 mod import;
 mod links;
+mod loads;
 mod messages;
 mod modes;
 mod motion;

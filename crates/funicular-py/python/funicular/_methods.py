@@ -106,6 +106,26 @@ def payload(of: Any, given: Given) -> Results:
     return _results.results(of._answer("payload", given))
 
 
+@declared(Robot, "loads", positional=("pose", "static_model"), others=_AS_REST)
+def loads(of: Any, given: Given) -> Results:
+    """Compares the loads that the cables hold at a pose with the required ones: verdict, load factor, what binds, margins.
+
+    All tensions within the limits count, not only those of a tension rule.
+
+    Returns
+    -------
+    The keys of the program's JSON: `closure`, `tension_factor`, `dead_load_held`, `capacity_margin_n`,
+    `acceleration_max_m_s2`, and `required` with `held`, `load_factor`, its bounds, the load that binds, and `cables`;
+    without `required` if nothing is required or the dead load is not held.
+
+    Raises
+    ------
+    StaticsError
+        The robot has no such pose, or no load factor was found.
+    """
+    return _results.results(of._answer("loads", given))
+
+
 @declared(Robot, "pose-error", positional=("mass_kg",), others=_AS_REST)
 def pose_error(of: Any, given: Given) -> Results:
     """Computes the distance of the poses of spring and catenary cables from those of ideal cables, over the platform

@@ -13,7 +13,8 @@ use anyhow::Result;
 use funicular::math::Vec3;
 use funicular::robot::{Pose, Robot, State};
 use funicular::statics::{
-    self, Equilibrium, PayloadBound, PayloadSide, RequestedPayload, StaticModel, StaticsError, TensionRange,
+    self, CableState, Equilibrium, LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, StaticModel,
+    StaticsError, TensionRange,
 };
 use serde::Serialize;
 
@@ -154,14 +155,8 @@ fn is_within_limits(robot: &Robot, rest: &Equilibrium) -> bool {
 
 impl BoundRow {
     fn of(robot: &Robot, bound: &PayloadBound) -> Self {
-        let cables = bound.cables.iter().enumerate().map(|(i, cable)| LoadedRow {
-            name: robot.cables[i].name.clone(),
-            tension_platform_n: cable.tension_platform,
-            tension_anchor_n: cable.tension_anchor,
-            limits: LimitNumbers::of(&TensionRange::of(robot, i, &cable.chord_w()).margin(cable)),
-            limit_place: bound.limits.iter().find(|of| of.cable == i).map(|of| of.place.name()),
-        });
-        Self { payload_kg: bound.mass, excluded_from_kg: bound.excluded_from, cables: cables.collect() }
+        let cables = LoadedRow::all(robot, &bound.cables, &bound.limits);
+        Self { payload_kg: bound.mass, excluded_from_kg: bound.excluded_from, cables }
     }
 }
 
@@ -173,6 +168,18 @@ struct BoundedRow<'a> {
 }
 
 impl LoadedRow {
+    /// Rows of cables with the limits that they reach.
+    pub(crate) fn all(robot: &Robot, cables: &[CableState], limits: &[LimitAtCable]) -> Vec<Self> {
+        let row = |(i, cable): (usize, &CableState)| Self {
+            name: robot.cables[i].name.clone(),
+            tension_platform_n: cable.tension_platform,
+            tension_anchor_n: cable.tension_anchor,
+            limits: LimitNumbers::of(&TensionRange::of(robot, i, &cable.chord_w()).margin(cable)),
+            limit_place: limits.iter().find(|of| of.cable == i).map(|of| of.place.name()),
+        };
+        cables.iter().enumerate().map(row).collect()
+    }
+
     /// Columns of the tensions with a payload, for reading.
     pub fn columns() -> Columns<Self> {
         Columns::new(Self::fields(|row: &Self| row))

@@ -1,6 +1,7 @@
 //! Groups of keys that several commands share.
 
 use super::key::declared;
+use super::loads::Requirements;
 use super::steps::Steps;
 use crate::names::{TensionRuleName, optional};
 use crate::values::{finite, not_negative, positive};
@@ -370,6 +371,9 @@ declared! {
         platform_share: f64 = PLATFORM_SHARE => (Number(Fraction));
         /// Centre of mass of the payload, platform frame [m].
         payload_center_m: Option<[f64; 3]> = None => (Vector).otherwise("that of the platform");
+        /// Required loads, for quantities that compare with them.
+        #[serde(flatten)]
+        required: Requirements = Requirements::default() => group;
         /// State and loads.
         #[serde(flatten)]
         state: State = State::default() => group;

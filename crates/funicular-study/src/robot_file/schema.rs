@@ -153,6 +153,7 @@ mod tests {
             let own = match table.header {
                 _ if named.is_some() => &properties[named.unwrap()]["additionalProperties"],
                 "[[cables]]" => &properties["cables"]["items"],
+                "[[required_loads]]" => &properties["required_loads"]["items"],
                 header if header.starts_with('[') => &properties[header.trim_matches(['[', ']'])],
                 _ => &schema,
             };

@@ -13,7 +13,8 @@ use funicular::pose_error::PoseDifference;
 use funicular::robot::parameters::Parameters;
 use funicular::robot::{Constraint, Robot};
 use funicular::statics::{
-    self, Equilibrium, LimitAtCable, PayloadSide, RequestedPayload, Stability, StaticModel, TensionRule,
+    self, Equilibrium, LimitAtCable, LoadCapacity, PayloadSide, RequestedPayload, Stability, StaticModel, StaticsError,
+    TensionRule,
 };
 use std::cell::OnceCell;
 
@@ -40,6 +41,8 @@ pub(super) struct PointEvaluation<'a> {
     exact: OnceCell<Result<Lowest, Status>>,
     /// Damped partner of the first mode of the platform, and true if its list is certified.
     damped_platform: OnceCell<Result<(DampedMode, bool), Status>>,
+    /// Loads that the cables hold at the pose.
+    capacity: OnceCell<Result<LoadCapacity<'a>, Status>>,
     /// First reason why a requested value is missing.
     missing: Option<Status>,
 }
@@ -57,7 +60,8 @@ impl<'a> PointEvaluation<'a> {
     ) -> Self {
         let (lowest, exact, damped_platform) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
         let missing = Status::note_for(robot, rest);
-        Self { robot, rest, hold, read, options, lowest, frequency_count, exact, damped_platform, missing }
+        let capacity = OnceCell::new();
+        Self { robot, rest, hold, read, options, lowest, frequency_count, exact, damped_platform, capacity, missing }
     }
 
     /// Numbers of the robot file of this point.
@@ -210,6 +214,26 @@ impl PointEvaluation<'_> {
             return Err(Status::new("no-decay", "the first mode of the platform does not decay: nothing damps it"));
         }
         Ok((mode.damping_ratio(), time))
+    }
+
+    /// Measure of the loads that the cables hold at the pose; `unlimited` says why there is none if it is infinite or
+    /// does not exist.
+    pub(super) fn of_capacity(
+        &self,
+        measure: impl FnOnce(&LoadCapacity) -> Result<Option<f64>, StaticsError>,
+        unlimited: &str,
+    ) -> Result<f64, Status> {
+        let Self { robot, rest, .. } = *self;
+        let found = self.capacity.get_or_init(|| {
+            LoadCapacity::at(robot, &rest.pose, self.options.static_model, Some(rest))
+                .map_err(|error| Status::of_error(&error))
+        });
+        let capacity = found.as_ref().map_err(Clone::clone)?;
+        let value = measure(capacity).map_err(|error| match error {
+            StaticsError::NothingRequired | StaticsError::NoLoadFactor => Status::new("required-load", &error),
+            _ => Status::new("dead-load", &error),
+        })?;
+        value.filter(|value| value.is_finite()).ok_or_else(|| Status::new("required-load", unlimited))
     }
 
     /// Adds the maximum payload and the limits that bind.

@@ -42,6 +42,8 @@ pub enum RobotPart {
     Cable(usize),
     /// The load on the platform.
     Load,
+    /// The required loads.
+    Required,
     /// The wind.
     Wind,
     /// The pose.
@@ -86,7 +88,12 @@ impl Parameter {
         // The first part of the meaning says what the number is, the others explain it.
         let meaning = self.about.split([',', ';', ':']).next().unwrap_or(self.about);
         let has_name = match self.part {
-            RobotPart::Robot | RobotPart::Platform | RobotPart::Load | RobotPart::Wind | RobotPart::State => false,
+            RobotPart::Robot
+            | RobotPart::Platform
+            | RobotPart::Load
+            | RobotPart::Required
+            | RobotPart::Wind
+            | RobotPart::State => false,
             RobotPart::Material
             | RobotPart::Pulley
             | RobotPart::Winch

@@ -18,6 +18,7 @@ mod materials;
 mod platform;
 pub(super) mod range;
 mod read;
+mod required;
 mod supports;
 mod tensor;
 mod winches;
@@ -72,6 +73,15 @@ const ROOT: &[Key] = &[
     Key::other("cables", "[[cables]]", KeyValue::Tables, "cables, one or more"),
     Key::other("loads", "[loads]", KeyValue::Table, "load on the platform besides its weight, fixed in the world")
         .without(Absent::Means("no load")),
+    Key::other("required", "[required]", KeyValue::Table, "loads that the robot has to bear at every pose")
+        .without(Absent::Means("only the dead load is required")),
+    Key::other(
+        "required_loads",
+        "[[required_loads]]",
+        KeyValue::Tables,
+        "further required loads, of which any one may act in addition to those of [required]",
+    )
+    .without(Absent::Means("none")),
     Key::other(
         "wind",
         "[wind]",
@@ -173,6 +183,8 @@ pub const TABLES: &[Table] = &[
     Table { header: "[supports.NAME]", keys: supports::SUPPORT },
     Table { header: "[[cables]]", keys: cables::KEYS },
     Table { header: "[loads]", keys: LOADS },
+    Table { header: "[required]", keys: required::REQUIRED },
+    Table { header: "[[required_loads]]", keys: LOADS },
     Table { header: "[wind]", keys: WIND },
     Table { header: "[state]", keys: STATE },
 ];
@@ -285,6 +297,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let motion = platform::motion(reader, &root);
     let platform = platform::read(reader, &root, motion);
     let load = read_load(reader, &root, motion);
+    let required = required::read(reader, &root, motion, LOADS);
     let wind = read_wind(reader, &root);
     let materials = materials::read(reader, &root);
     let drives = drives::read(reader, &root);
@@ -302,6 +315,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
         gravity_w: Vec3::from(gravity?),
         platform: platform?,
         load: load?,
+        required: required?,
         wind: wind?,
         supports,
         cables,

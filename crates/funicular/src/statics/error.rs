@@ -197,6 +197,19 @@ pub enum StaticsError {
          mass of the payload, or widen the limits (`minimum_tension_n`, `maximum_tension_n`)"
     )]
     NoPayload,
+    /// No load is required besides the dead load.
+    #[error(
+        "no loads are required, so there is no load factor: add a [required] table to the robot file, or give \
+         `required_force_n` or another required load"
+    )]
+    NothingRequired,
+    /// No multiple of a required load was found to be within the limits, although the dead load is.
+    #[error(
+        "no multiple of a required load was found that tensions within their limits hold, although they hold the dead \
+         load: its tensions are at their limits; choose another pose, or widen the limits (`minimum_tension_n`, \
+         `maximum_tension_n`)"
+    )]
+    NoLoadFactor,
     /// The weight of a payload does not act on the cables.
     #[error(
         "a payload has no weight that the cables carry: there is no gravity, or only gravity out of the plane of the \
@@ -420,6 +433,7 @@ impl StaticsError {
             Self::NotFoundWithinLimits { .. } => "not-found",
             Self::LimitsExclude { .. } => "limits-exclude",
             Self::NoPayload => "no-payload",
+            Self::NothingRequired | Self::NoLoadFactor => "required-load",
             Self::WeightlessPayload => "weightless-payload",
             Self::UnbalancedPayload { .. } => "unbalanced-payload",
             Self::NeedsMaximum { .. } => "needs-maximum",
@@ -458,6 +472,7 @@ impl StaticsError {
                 | Self::BeyondLimits(_)
                 | Self::NotFoundWithinLimits { .. }
                 | Self::NoPayload
+                | Self::NoLoadFactor
                 | Self::UnbalancedPayload { .. }
                 | Self::NotNearest { .. }
                 | Self::NearestBeyondLimits { .. }

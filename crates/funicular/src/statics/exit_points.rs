@@ -152,6 +152,18 @@ fn with_exit_points<T>(
     Err(StaticsError::NotConverged { iterations: MAX_ROUNDS, residual: moved, limit, x: p.x, y: p.y, z: p.z })
 }
 
+/// Robot whose cables end where those of an equilibrium leave their pulleys, with the limits of their free spans.
+pub(super) fn held_at(robot: &Robot, pose: &Pose, cables: &[CableState]) -> Robot {
+    let mut held = with_straight_loads(robot, pose);
+    for (i, state) in cables.iter().enumerate() {
+        let Some(span) = &state.hanging else { continue };
+        let contact = contact_of_span(span, &robot.cables[i].anchor, None);
+        held.cables[i].anchor = Anchor::from(exit_w(&robot.cables[i], contact.as_ref()));
+        held.cables[i].tension_limits = limits_of_span(robot, &held, i, state, contact);
+    }
+    held
+}
+
 /// Robot whose cables carry the drag of straight cables at the pose, wherever they leave their pulleys: the drag of all
 /// statics.
 fn with_straight_loads(robot: &Robot, pose: &Pose) -> Robot {

@@ -7,12 +7,13 @@
 //! balance, which has one or two dimensions for most robots: this takes microseconds, a general solver a tenth of a
 //! millisecond. With many cables it is solved in the space of the cables instead, see [`feasible_set`].
 
+mod balanced_pull;
 mod bounds;
-mod cable_at_pose;
 mod feasible_set;
 mod null_space;
 mod payload;
 mod proof;
+mod ray;
 mod search;
 mod stiffest;
 
@@ -25,12 +26,15 @@ use super::ideal;
 use super::limits::TensionRange;
 use super::model::StaticModel;
 pub(super) use super::obstacle::Obstacle;
+use super::wrench_set::CableAtPose;
 use crate::drive::CableAtRest;
 use crate::platform::Coordinates;
 use crate::robot::{Cable, Pose, Robot};
-use cable_at_pose::CableAtPose;
-pub use cable_at_pose::TensionPlace;
-pub use payload::{LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, payload_bound};
+pub(super) use balanced_pull::balanced_pull;
+pub(super) use payload::with_weight;
+pub use payload::{PayloadBound, PayloadSide, RequestedPayload, payload_bound};
+pub use ray::LimitAtCable;
+pub(super) use ray::{RaySearch, WrenchRay, equilibrium_of, limits_reached};
 use search::TensionSearch;
 
 /// Rule that selects one of all possible tension distributions of a robot with more cables than degrees of freedom.
@@ -171,7 +175,7 @@ fn at_exit_points(
 }
 
 /// Gives cables at a pose the tensions of an equilibrium.
-fn start_from(cables: &mut [CableAtPose], equilibrium: &Equilibrium) {
+pub(super) fn start_from(cables: &mut [CableAtPose], equilibrium: &Equilibrium) {
     for (cable, state) in cables.iter_mut().zip(&equilibrium.cables) {
         let tau = state.hanging.as_ref().map_or(state.tension_platform, |of| of.catenary.parallel_tension());
         cable.set(tau.max(cable.slackest));
@@ -183,7 +187,7 @@ fn start_from(cables: &mut [CableAtPose], equilibrium: &Equilibrium) {
 /// # Errors
 /// Fewer cables than degrees of freedom, a pose that the platform cannot have, coinciding ends, or limits or data that
 /// the rule excludes.
-fn cables_at(
+pub(super) fn cables_at(
     robot: &Robot,
     pose: &Pose,
     model: StaticModel,

@@ -1,5 +1,6 @@
 //! Equilibria, one file per topic as in the sources, and robots shared by several of them.
 
+mod capacity;
 mod energy;
 mod equilibria;
 mod forward;

@@ -100,6 +100,8 @@ fn colour_of(code: u8) -> &'static str {
         "unlimited" => "#d3efd0",
         "no-payload" => "#efd3dc",
         "no-derivative" => "#d9d9c3",
+        "dead-load" => "#c9c4e8",
+        "required-load" => "#cfe6df",
         "negative-tension" => colour::VERMILION,
         "tension-limits" => colour::PURPLE,
         "not-found" => "#8b2f6b",

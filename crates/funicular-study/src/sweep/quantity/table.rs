@@ -10,8 +10,11 @@ use funicular::math::rotation;
 use funicular::robot::{Constraint, Robot};
 use funicular::statics::{self, TensionRange};
 
+/// Reason why the cables have no margin.
+const NO_FACETS: &str = "no maximum tension limits the loads, or the cables do not span all degrees of freedom";
+
 /// Every quantity, in the order of the documentation.
-pub(super) static TABLE: [Definition; 27] = [
+pub(super) static TABLE: &[Definition] = &[
     Definition {
         name: "first-frequency",
         about: "lowest natural frequency",
@@ -239,6 +242,72 @@ pub(super) static TABLE: [Definition; 27] = [
             ]
         },
         values: |row, _, out| row.payload(out),
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "closure",
+        about: "1 if straight cables could balance every load with tensions that are high enough, otherwise 0",
+        documentation: "`closure`: 1 if straight cables could balance every load with tensions that are high enough \
+                        (wrench closure), otherwise 0; sag does not change it",
+        columns: |_, _| one("closure", "1", "1 if straight cables could balance every load, otherwise 0"),
+        values: |row, _, out| {
+            let closed = statics::wrench_closure(row.robot, &row.rest.pose).is_closed();
+            out.push(Value::real(Some(f64::from(u8::from(closed)))));
+        },
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "tension-factor",
+        about: "largest ratio of minimum to maximum tension with which straight cables balance each other without a load",
+        documentation: "`tension_factor`: largest ratio of the minimum to the maximum tension with which straight cables \
+                        balance each other without a load, from 0 to 1",
+        columns: |_, _| one("tension_factor", "1", "largest ratio of minimum to maximum tension without a load"),
+        values: |row, _, out| {
+            out.push(Value::real(Some(statics::wrench_closure(row.robot, &row.rest.pose).tension_factor)));
+        },
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "load-factor",
+        about: "largest multiple of the required loads that tensions within their limits hold",
+        documentation: "`load_factor`: largest multiple of the required loads (`[required]`, or options `required_…`) \
+                        that tensions within their limits hold in every combination, whatever the rule; all are held if \
+                        it is at least 1",
+        needs: RequiredModel::HeldPose,
+        columns: |_, _| one("load_factor", "1", "largest multiple of the required loads that is held"),
+        values: |row, _, out| {
+            let found = row.of_capacity(
+                |capacity| capacity.load_factor_value().map(Some),
+                "no maximum tension limits the required loads",
+            );
+            row.push(Some(found), out);
+        },
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "capacity-margin",
+        about: "radius of the largest ball of loads that can be added to every required load, negative outside",
+        documentation: "`capacity_margin_n`: radius of the largest ball of loads, moments over the platform's size, that \
+                        can be added to every required load; negative if one is not held",
+        needs: RequiredModel::HeldPose,
+        columns: |_, _| one("capacity_margin_n", "N", "radius of the largest ball of loads that can be added"),
+        values: |row, _, out| {
+            let found = row.of_capacity(|capacity| Ok(capacity.margin()), NO_FACETS);
+            row.push(Some(found), out);
+        },
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "acceleration-max",
+        about: "largest acceleration in every direction from rest, angular ones times the platform's size",
+        documentation: "`acceleration_max_m_s2`: largest acceleration of the platform in every direction from rest, \
+                        angular accelerations times the platform's size, with the dead load alone",
+        needs: RequiredModel::HeldPose,
+        columns: |_, _| one("acceleration_max_m_s2", "m/s²", "largest acceleration in every direction from rest"),
+        values: |row, _, out| {
+            let found = row.of_capacity(|capacity| Ok(capacity.largest_acceleration()), NO_FACETS);
+            row.push(Some(found), out);
+        },
         ..Definition::PLAIN
     },
     Definition {

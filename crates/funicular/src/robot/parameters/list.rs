@@ -82,11 +82,17 @@ pub(super) fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
 
     // Tables that may be absent, whose defaults count.
     let absent = DeTable::new();
-    for (part, name) in [(RobotPart::Load, "loads"), (RobotPart::Wind, "wind"), (RobotPart::State, "state")] {
+    let optional = [
+        (RobotPart::Load, "loads"),
+        (RobotPart::Required, "required"),
+        (RobotPart::Wind, "wind"),
+        (RobotPart::State, "state"),
+    ];
+    for (part, name) in optional {
         match root.get(name).map(Spanned::get_ref) {
             Some(DeValue::Table(entry)) => table(part, &format!("[{name}]"), &[name], entry),
-            // Without a pose, the orientation has no meaning either.
-            _ if part == RobotPart::State => {}
+            // Without a pose, the orientation has no meaning either, and most robots have no required loads.
+            _ if matches!(part, RobotPart::State | RobotPart::Required) => {}
             _ => table(part, &format!("[{name}]"), &[name], &absent),
         }
     }

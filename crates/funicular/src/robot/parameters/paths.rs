@@ -13,6 +13,7 @@ pub(super) fn key_of(path: &[&str]) -> Option<(&'static Key, usize)> {
                 (format!("[{kind}.NAME]"), key)
             }
             ["cables", _, key] => ("[[cables]]".to_owned(), key),
+            ["required_loads", _, key] => ("[[required_loads]]".to_owned(), key),
             [table, key] => (format!("[{table}]"), key),
             _ => return None,
         };
@@ -106,7 +107,7 @@ pub fn is_top_key(name: &str) -> bool {
     TABLES.iter().filter(|table| table.header == TOP).flat_map(|table| table.keys).any(|key| key.name == name)
 }
 
-/// True for a table at the top of the file that may be absent: `loads`, `wind` and `state`.
+/// True for a table at the top of the file that may be absent: `loads`, `required`, `wind` and `state`.
 pub fn is_optional_table(name: &str) -> bool {
     let root = TABLES.iter().filter(|table| table.header == TOP).flat_map(|table| table.keys);
     root.into_iter()

@@ -6,20 +6,12 @@
 //! tensions within the limits balance the platform, however the cables sag: (39a). Each maximum is a search in one
 //! variable, along the true curve of the cable.
 
-use super::cable_at_pose::CableAtPose;
+use crate::math::Vec6;
 use crate::math::active_set::Polyhedron;
-use crate::math::{Vec3, Vec6};
-use crate::robot::PlatformMotion;
-
-/// Maximum number of intervals halved for one direction.
-const MAX_HALVINGS: usize = 100;
+use crate::statics::wrench_set::WrenchSet;
 
 /// Maximum number of directions tried after the first.
 const MAX_CUTS: usize = 60;
-
-/// Sine of a chord's inclination up to which the unstrained length counts as a convex function of the tension; it is
-/// one up to 0.98.
-const STEEP: f64 = 0.95;
 
 /// Violation of a cut that counts as rounding; the cuts are unit vectors.
 const CUT_ROUNDING: f64 = 1e-9;
@@ -27,129 +19,6 @@ const CUT_ROUNDING: f64 = 1e-9;
 /// Change of a unit direction below which it counts as the direction before: then rounding decides, far below
 /// [`CUT_ROUNDING`].
 const SAME_DIRECTION: f64 = 1e-12;
-
-/// Rounding of the sum of all contributions, relative to their magnitudes.
-const ROUNDING: f64 = 1e-12;
-
-/// Range of a cable's tension.
-#[derive(Debug, Clone)]
-pub(super) struct ReachableTensions {
-    /// Cable at the minimum τ within its limits, not slacker than (37), and at the maximum.
-    ends: [CableAtPose; 2],
-}
-
-impl ReachableTensions {
-    /// Range of a cable in any state; `minimum` is its [`CableAtPose::at_minimum`].
-    pub(super) fn of(cable: &CableAtPose, minimum: f64) -> Self {
-        let mut ends = [cable.clone(), cable.clone()];
-        ends[0].set(minimum);
-        ends[1].at_maximum();
-        // The limits may be narrower than the variation of tension along a heavy rope.
-        if ends[1].tau() < minimum {
-            ends[1].set(minimum);
-        }
-        Self { ends }
-    }
-
-    fn seen(&self, y: &Vec6, motion: &PlatformMotion) -> DirectionalShare {
-        let cable = &self.ends[0];
-        let in_direction = |force_w: &Vec3| y.dot(&motion.reduced(&cable.wrench(force_w)));
-        let upward = in_direction(&cable.hanging.axes_w().1);
-        let sin = cable.sin();
-        DirectionalShare {
-            along: in_direction(&cable.hanging.chord_w().normalize()),
-            of_length: -0.5 * upward * cable.weight_per_length(),
-            convex_bend: upward * sin >= 0.0,
-            steep: sin.abs() > STEEP,
-        }
-    }
-
-    /// Minimum and maximum τ [N].
-    pub(super) fn limits(&self) -> [f64; 2] {
-        [self.ends[0].tau(), self.ends[1].tau()]
-    }
-}
-
-/// Contribution of a cable in one direction: `along τ + b D(τ) − ½ b w L0(τ)`, see (39b).
-#[derive(Debug, Clone, Copy)]
-struct DirectionalShare {
-    /// Contribution per τ of a straight cable.
-    along: f64,
-    /// Factor of the length, `−½ b w` [N/m, in the unit of y].
-    of_length: f64,
-    /// True if D enters as a convex function.
-    convex_bend: bool,
-    /// True if the length may not be a convex function of the tension.
-    steep: bool,
-}
-
-/// Contribution of a cable at one τ.
-#[derive(Debug, Clone, Copy)]
-struct SharePoint {
-    tau: f64,
-    /// Wrench of the cable, scaled, in the platform's coordinates.
-    wrench: Vec6,
-    /// Straight part, `along τ`.
-    straight: f64,
-    /// Contributions of D and of the length, each with its derivative with respect to τ.
-    bend: [f64; 2],
-    length: [f64; 2],
-}
-
-impl SharePoint {
-    fn of(cable: &CableAtPose, y: &Vec6, seen: &DirectionalShare, motion: &PlatformMotion) -> Self {
-        let wrench = motion.reduced(&cable.wrench(&cable.force().0));
-        let straight = seen.along * cable.tau();
-        let length = cable.length().map(|value| seen.of_length * value);
-        let slope = y.dot(&motion.reduced(&cable.column()));
-        let bend = [y.dot(&wrench) - straight - length[0], slope - seen.along - length[1]];
-        Self { tau: cable.tau(), wrench, straight, bend, length }
-    }
-
-    fn share(&self) -> f64 {
-        self.straight + self.bend[0] + self.length[0]
-    }
-}
-
-/// Interval of a cable's τ.
-#[derive(Debug, Clone, Copy)]
-struct TauInterval {
-    cable: usize,
-    ends: [SharePoint; 2],
-}
-
-impl TauInterval {
-    /// Upper bound of the contribution between the ends: (39b).
-    fn bound(&self, seen: &DirectionalShare) -> f64 {
-        let [from, to] = &self.ends;
-        let width = to.tau - from.tau;
-
-        // Straight lines above each part, by their values at both ends: a convex part is below its chord, a concave one
-        // below the tangent at either end.
-        let lines = |[p, q]: [[f64; 2]; 2], convex: bool| {
-            if convex { [[p[0], q[0]]; 2] } else { [[p[0], p[0] + p[1] * width], [q[0] - q[1] * width, q[0]]] }
-        };
-        let bends = lines([from.bend, to.bend], seen.convex_bend);
-        let lengths = if seen.steep {
-            // It is only known that the length falls.
-            [[from.length[0].max(to.length[0]); 2]; 2]
-        } else {
-            lines([from.length, to.length], seen.of_length >= 0.0)
-        };
-
-        // Minimum of the sums.
-        let above = |bend: &[f64; 2], length: &[f64; 2]| {
-            (from.straight + bend[0] + length[0]).max(to.straight + bend[1] + length[1])
-        };
-        let sums = bends.iter().flat_map(|bend| lengths.iter().map(move |length| above(bend, length)));
-        sums.fold(f64::INFINITY, f64::min)
-    }
-
-    fn best(&self) -> SharePoint {
-        let [from, to] = self.ends;
-        if from.share() > to.share() { from } else { to }
-    }
-}
 
 /// Result of the directions tried.
 pub(super) struct ProofResult {
@@ -161,9 +30,8 @@ pub(super) struct ProofResult {
 
 /// Load to be balanced by cables within their ranges; in the platform's coordinates, scaled.
 pub(super) struct Infeasibility<'a> {
-    pub reaches: &'a [ReachableTensions],
+    pub set: WrenchSet<'a>,
     pub load: Vec6,
-    pub motion: PlatformMotion,
 }
 
 impl Infeasibility<'_> {
@@ -174,13 +42,13 @@ impl Infeasibility<'_> {
     /// planes). There is no such direction if the load lies in the convex hull of the wrenches that these tensions
     /// balance; then no direction is a proof.
     pub(super) fn prove(&self, first: &Vec6) -> ProofResult {
-        let n = self.motion.count();
+        let n = self.set.motion.count();
         let mut seen: Vec<[f64; 6]> = Vec::new();
         let mut y = *first;
         let mut verdict = ProofResult { proved: false, max_shares: Vec::new() };
 
         for _ in 0..=MAX_CUTS {
-            let (proved, max_shares) = self.test_direction(&y);
+            let (proved, max_shares) = self.set.separates(&y, &self.load);
             if seen.is_empty() {
                 verdict.max_shares = max_shares.iter().map(|point| point.tau).collect();
             }
@@ -210,54 +78,5 @@ impl Infeasibility<'_> {
             y = next;
         }
         verdict
-    }
-
-    /// True if this direction proves that the load cannot be balanced.
-    pub(super) fn is_proof(&self, y: &Vec6) -> bool {
-        self.test_direction(y).0
-    }
-
-    /// True if one direction is a proof, with the points of maximum contribution of the cables in it.
-    fn test_direction(&self, y: &Vec6) -> (bool, Vec<SharePoint>) {
-        let mut parts: Vec<TauInterval> = Vec::with_capacity(self.reaches.len());
-        let seen: Vec<DirectionalShare> = self.reaches.iter().map(|reach| reach.seen(y, &self.motion)).collect();
-        for (cable, reach) in self.reaches.iter().enumerate() {
-            let end = |k: usize| SharePoint::of(&reach.ends[k], y, &seen[cable], &self.motion);
-            parts.push(TauInterval { cable, ends: [end(0), end(1)] });
-        }
-        let mut best: Vec<SharePoint> = parts.iter().map(TauInterval::best).collect();
-        let own = y.dot(&self.load);
-        let size = own.abs() + best.iter().map(|point| point.share().abs()).sum::<f64>();
-
-        for _ in 0..=MAX_HALVINGS {
-            // The sum of all upper bounds decides, …
-            let mut bounds: Vec<f64> = best.iter().map(SharePoint::share).collect();
-            for part in &parts {
-                bounds[part.cable] = bounds[part.cable].max(part.bound(&seen[part.cable]));
-            }
-            if own + bounds.iter().sum::<f64>() < -ROUNDING * size {
-                return (true, best);
-            }
-
-            // … or the sum of contributions that the cables do reach.
-            if own + best.iter().map(SharePoint::share).sum::<f64>() >= -ROUNDING * size {
-                break;
-            }
-
-            // Between the two, halve the interval with the largest uncertainty.
-            let excess = |part: &TauInterval| part.bound(&seen[part.cable]) - best[part.cable].share();
-            let widest = (0..parts.len()).max_by(|&a, &b| excess(&parts[a]).total_cmp(&excess(&parts[b])));
-            let Some(widest) = widest else { break };
-            let TauInterval { cable, ends: [from, to] } = parts[widest];
-            let mut there = self.reaches[cable].ends[0].clone();
-            there.set((from.tau * to.tau).sqrt());
-            let middle = SharePoint::of(&there, y, &seen[cable], &self.motion);
-            if middle.share() > best[cable].share() {
-                best[cable] = middle;
-            }
-            parts[widest].ends = [from, middle];
-            parts.push(TauInterval { cable, ends: [middle, to] });
-        }
-        (false, best)
     }
 }

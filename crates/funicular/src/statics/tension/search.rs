@@ -8,7 +8,6 @@ mod violation;
 pub(super) use margin::HOLDS;
 pub(super) use proximal_step::{ProximalStep, ProximalStepControl};
 
-use super::cable_at_pose::{CableAtPose, TensionByTau};
 use super::feasible_set::{FeasiblePoint, FeasibleSet, MIN_DIRECTIONS_IN_CABLE_SPACE};
 use super::null_space::Solutions;
 use crate::math::Vec6;
@@ -17,6 +16,7 @@ use crate::robot::{Pose, Robot};
 use crate::statics::error::StaticsError;
 use crate::statics::model::StaticModel;
 use crate::statics::residual::scaled_residual;
+use crate::statics::wrench_set::{CableAtPose, TensionByTau};
 use proximal_step::{SETBACK, SMALLER_CLIMB};
 
 /// Maximum number of iterations. Robots of the library take 2 to 5, cables that sag by a tenth of their chord and more

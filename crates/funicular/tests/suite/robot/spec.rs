@@ -498,6 +498,7 @@ fn the_table_of_keys_says_which_keys_are_required() {
     let file = robot_with_pose().replace("source = \"none\"", "# none")
         + "[loads]\nforce_n = [0, 0, 1]\nmoment_n_m = [0, 0, 1]\npoint_m = [0, 0, 1]\n\
            [wind]\nvelocity_m_s = [1, 0, 0]\nair_density_kg_m3 = 1.2\n\
+           [required]\nforce_n = [1, 1, 1]\npayload_max_kg = 5\n[[required_loads]]\nforce_n = [0, 0, 1]\n\
            [pulleys.fibre]\nradius_m = 0.01\nentry_direction = [0, 0, 1]\n\
            [winches.fibre]\ndrum_side_length_m = 2\nshaft_stiffness_n_m_per_rad = 800\ndrum_radius_m = 0.05\n\
            [guide_wheels.fibre]\nwinch = \"fibre\"\ndistance_m = 1\nradius_m = 0.05\ninertia_kg_m2 = 0.001\n\
@@ -541,7 +542,7 @@ fn the_table_of_keys_says_which_keys_are_required() {
     assert!(tried >= 23, "{tried}");
 
     for key in top_of_file().keys.iter().filter(|key| matches!(key.value, KeyValue::Table)) {
-        let is_optional = ["loads", "wind", "state"].contains(&key.name);
+        let is_optional = ["loads", "required", "wind", "state"].contains(&key.name);
         assert_eq!(key.absent != Absent::Refused, is_optional, "{}", key.name);
         assert_eq!(funicular::robot::parameters::is_optional_table(key.name), is_optional);
     }

@@ -8,9 +8,9 @@ use crate::platform::{Coordinates, load_wrench};
 use crate::statics::error::StaticsError;
 use crate::statics::limits::{Limit, LimitViolation};
 use crate::statics::obstacle::Obstacle;
-use crate::statics::tension::cable_at_pose::CableAtPose;
 use crate::statics::tension::feasible_set::FeasibleSet;
-use crate::statics::tension::proof::{Infeasibility, ReachableTensions};
+use crate::statics::tension::proof::Infeasibility;
+use crate::statics::wrench_set::{CableAtPose, ReachableTensions, WrenchSet, spread_start};
 
 /// Distance from a limit, over the size of the tensions, from which on an optimum has left the limit: well above
 /// [`VIOLATION`], by which the optima are relaxed, and below the millionth to which tensions are given.
@@ -54,7 +54,7 @@ impl TensionSearch<'_> {
             self.cables.iter().zip(&minima).map(|(cable, tau)| ReachableTensions::of(cable, *tau)).collect();
         let motion = self.robot.platform.motion;
         let load = Coordinates::of(self.robot).reduce(&load_wrench(self.robot, self.pose));
-        let claim = Infeasibility { reaches: &reaches, load, motion };
+        let claim = Infeasibility { set: WrenchSet { reaches: &reaches, motion }, load };
         let verdict = claim.prove(&optimum.multipliers);
         if verdict.proved {
             return Err(StaticsError::BeyondLimits(self.miss(&optimum)));
@@ -64,7 +64,7 @@ impl TensionSearch<'_> {
         let mut starts = 1;
         for k in 0..MAX_STARTS {
             starts += 1;
-            let start = if k == 0 { verdict.max_shares.clone() } else { self.spread(&reaches, k) };
+            let start = if k == 0 { verdict.max_shares.clone() } else { spread_start(&reaches, self.size, k) };
             self.set(&start);
             let Ok(found) = self.min_violation_above(&slackest) else { continue };
             if found.distance >= -VIOLATION * self.size {
@@ -77,21 +77,6 @@ impl TensionSearch<'_> {
             }
         }
         Err(StaticsError::NotFoundWithinLimits { miss: self.miss(&optimum), starts })
-    }
-
-    /// Start number `k` of tensions that spread over the range between the limits, evenly in their logarithms.
-    fn spread(&self, reaches: &[ReachableTensions], k: usize) -> Vec<f64> {
-        let cables = reaches.iter().zip(&self.cables).enumerate();
-        let tensions = cables.map(|(i, (reach, cable))| {
-            let [low, high] = reach.limits();
-            // Without a maximum, the upper end of the range is too high for a start.
-            let high = if cable.range.maximum.is_infinite() { high.min(self.size.max(2.0 * low)) } else { high };
-            let low = low.max(f64::MIN_POSITIVE);
-            // Multiples of irrational numbers have no pattern (Weyl).
-            let part = ((k as f64 + 1.0) * (i as f64 + 2.0).sqrt() * std::f64::consts::E).fract();
-            low * (high / low).max(1.0).powf(part)
-        });
-        tensions.collect()
     }
 
     /// Minimum violation if cables are continued by their tangents below these tensions.

@@ -7,13 +7,13 @@
 //! the affine qᵀ K(τ) q. Cables that sag are linearised about the last tensions; a step that does not increase the
 //! stiffness is shortened.
 
-use super::super::cable_at_pose::CableAtPose;
 use super::super::null_space::Solutions;
 use super::super::search::{Linear, TensionSearch};
 use super::{GAIN, min_eigenvalue, present};
 use crate::math::active_set::Polyhedron;
 use crate::math::{Mat6, Vec6, symmetric, symmetric_part};
 use crate::statics::error::StaticsError;
+use crate::statics::wrench_set::CableAtPose;
 
 /// Maximum number of linearisations; straight cables need two, sagging ones many more.
 const MAX_LINEARISATIONS: usize = 60;

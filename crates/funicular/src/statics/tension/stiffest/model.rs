@@ -5,11 +5,11 @@
 //! the balance, and the other eigenvectors. With r = 1 this is the Taylor series; a larger r keeps it valid where
 //! eigenvalues meet.
 
-use super::super::cable_at_pose::{CableAtPose, Rates};
 use super::super::null_space::Solutions;
 use super::super::search::{Linear, TensionSearch};
 use crate::math::active_set::Polyhedron;
 use crate::math::{DMat, Mat6, Vec6};
+use crate::statics::wrench_set::{CableAtPose, Rates};
 
 /// Relative distance from the minimum eigenvalue within which eigenvalues are kept together with it.
 const NEAR: f64 = 0.08;

@@ -15,7 +15,7 @@ use crate::statics::model::StaticModel;
 /// exactly τ cos α, the vertical force is nearly linear in τ, and above [`Catenary::MIN_TENSION_TO_WEIGHT`] every
 /// tension in the cable grows with τ. So limits at the ends are limits of τ.
 #[derive(Debug, Clone)]
-pub(super) struct CableAtPose {
+pub(in crate::statics) struct CableAtPose {
     pub hanging: HangingCable,
     lever_w: Vec3,
     coordinates: Coordinates,
@@ -57,14 +57,20 @@ impl TensionPlace {
 
 /// Tension at a point of the cable and its derivative with respect to τ.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct TensionByTau {
+pub(in crate::statics) struct TensionByTau {
     pub value: f64,
     pub slope: f64,
 }
 
 impl CableAtPose {
     /// Cable `i`, taut enough for its derivatives to be those of a taut cable; its ends must not coincide.
-    pub(super) fn new(robot: &Robot, i: usize, pose: &Pose, model: StaticModel, coordinates: Coordinates) -> Self {
+    pub(in crate::statics) fn new(
+        robot: &Robot,
+        i: usize,
+        pose: &Pose,
+        model: StaticModel,
+        coordinates: Coordinates,
+    ) -> Self {
         let cable = LoadedCable::at(robot, i, pose, model);
         let attachment_w = pose.point_w(&cable.cable.attachment_p);
         let chord_w = cable.chord_w(pose);
@@ -86,7 +92,7 @@ impl CableAtPose {
     }
 
     /// Hangs the cable with another τ [N].
-    pub(super) fn set(&mut self, tau: f64) {
+    pub(in crate::statics) fn set(&mut self, tau: f64) {
         let rope = self.hanging.catenary.rope();
         self.hanging.catenary = Catenary::with_parallel_tension(self.span, self.rise, rope, tau);
         self.length_rate = 1.0 / self.hanging.catenary.parallel_tension_by_length();
@@ -95,7 +101,7 @@ impl CableAtPose {
 
     /// Value of τ at which the minimum tension in the cable is at its limit, or the slackest τ if that is higher. Hangs
     /// the cable with it.
-    pub(super) fn at_minimum(&mut self) -> f64 {
+    pub(in crate::statics) fn at_minimum(&mut self) -> f64 {
         let mut tau = self.range.minimum.max(self.slackest);
         // The minimum tension is nearly linear in τ: 2 or 3 passes. The limit is a guard.
         for _ in 0..30 {
@@ -112,7 +118,7 @@ impl CableAtPose {
 
     /// Hangs the cable with the τ at which its maximum tension is at the limit; without a limit, with a τ equal to its
     /// axial stiffness, which stretches it to twice its length.
-    pub(super) fn at_maximum(&mut self) {
+    pub(in crate::statics) fn at_maximum(&mut self) {
         if self.range.maximum.is_infinite() {
             self.set(self.rope().axial_stiffness);
             return;
@@ -131,7 +137,7 @@ impl CableAtPose {
     }
 
     /// Place where the tension is at its minimum or maximum.
-    pub(super) fn place(&self, limit: Limit) -> TensionPlace {
+    pub(in crate::statics) fn place(&self, limit: Limit) -> TensionPlace {
         if self.rope().weight_per_length == 0.0 {
             return TensionPlace::Anywhere;
         }
@@ -149,7 +155,7 @@ impl CableAtPose {
     }
 
     /// Axial stiffness EA [N].
-    pub(super) fn axial_stiffness(&self) -> f64 {
+    pub(in crate::statics) fn axial_stiffness(&self) -> f64 {
         self.rope().axial_stiffness
     }
 
@@ -158,37 +164,37 @@ impl CableAtPose {
     }
 
     /// Parallel tension τ [N].
-    pub(super) fn tau(&self) -> f64 {
+    pub(in crate::statics) fn tau(&self) -> f64 {
         self.tau
     }
 
     /// Unstrained length [m] and its derivative with respect to τ [m/N].
-    pub(super) fn length(&self) -> [f64; 2] {
+    pub(in crate::statics) fn length(&self) -> [f64; 2] {
         [self.rope().unstrained_length, self.length_rate]
     }
 
     /// Load per unstrained length [N/m].
-    pub(super) fn weight_per_length(&self) -> f64 {
+    pub(in crate::statics) fn weight_per_length(&self) -> f64 {
         self.rope().weight_per_length
     }
 
     /// Sine of the chord's inclination, positive if the anchor is above the platform.
-    pub(super) fn sin(&self) -> f64 {
+    pub(in crate::statics) fn sin(&self) -> f64 {
         self.rise / self.hanging.chord_w().norm()
     }
 
     /// Force on the platform and lever arm, world axes.
-    pub(super) fn force(&self) -> (Vec3, Vec3) {
+    pub(in crate::statics) fn force(&self) -> (Vec3, Vec3) {
         (self.hanging.force_on_start_w(), self.lever_w)
     }
 
     /// Derivative of the cable's wrench with respect to τ; moments over ℓ.
-    pub(super) fn column(&self) -> Vec6 {
+    pub(in crate::statics) fn column(&self) -> Vec6 {
         wrench_of(&(self.hanging.force_by_length_w() * self.length_rate), &(self.lever_w / self.coordinates.ell()))
     }
 
     /// Minimum tension anywhere in the cable.
-    pub(super) fn min_tension(&self) -> TensionByTau {
+    pub(in crate::statics) fn min_tension(&self) -> TensionByTau {
         let [lower, _] = self.ends();
         let cos = self.span / self.hanging.chord_w().norm();
         if self.lowest_between_ends() {
@@ -199,7 +205,7 @@ impl CableAtPose {
     }
 
     /// Maximum tension anywhere in the cable.
-    pub(super) fn max_tension(&self) -> TensionByTau {
+    pub(in crate::statics) fn max_tension(&self) -> TensionByTau {
         self.ends()[1]
     }
 
@@ -222,12 +228,12 @@ impl CableAtPose {
     }
 
     /// Wrench of a force on the platform at its attachment; moments over ℓ.
-    pub(super) fn wrench(&self, force_w: &Vec3) -> Vec6 {
+    pub(in crate::statics) fn wrench(&self, force_w: &Vec3) -> Vec6 {
         wrench_of(force_w, &(self.lever_w / self.coordinates.ell()))
     }
 
     /// Wrench, scaled, that the symmetric part of a stiffness contribution gives for a scaled motion of the platform.
-    pub(super) fn applied(&self, share: &StiffnessContribution, motion: &Vec6) -> Vec6 {
+    pub(in crate::statics) fn applied(&self, share: &StiffnessContribution, motion: &Vec6) -> Vec6 {
         let lever = self.lever_w / self.coordinates.ell();
         let turn: Vec3 = motion.fixed_rows::<3>(3).into();
         let moved = motion.fixed_rows::<3>(0) + turn.cross(&lever);
@@ -241,7 +247,7 @@ impl CableAtPose {
     }
 
     /// First and second derivative of the cable's stiffness contribution with respect to τ, by central differences.
-    pub(super) fn rates(&self) -> Rates {
+    pub(in crate::statics) fn rates(&self) -> Rates {
         // The error of the differences grows with the square of the step, the rounding of the second ones with its
         // inverse square: here they are about equal.
         let step = 1e-4 * self.tau.abs().max(1e-9 * self.rope().axial_stiffness);
@@ -261,7 +267,7 @@ impl CableAtPose {
     }
 
     /// Derivative of the cable's contribution to the scaled stiffness of the platform with respect to τ.
-    pub(super) fn stiffness_by_tension(&self) -> Mat6 {
+    pub(in crate::statics) fn stiffness_by_tension(&self) -> Mat6 {
         let StiffnessContribution { stiffness_w, force_w } = self.rates().first;
         let mut total = Mat6::zeros();
         add_congruent(&mut total, &stiffness_w, &self.lever_w);
@@ -273,7 +279,7 @@ impl CableAtPose {
 /// Stiffness contribution of a cable to the platform: the stiffness of its end and the force at its lever arm, world
 /// axes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct StiffnessContribution {
+pub(in crate::statics) struct StiffnessContribution {
     pub stiffness_w: Mat3,
     pub force_w: Vec3,
 }
@@ -286,7 +292,7 @@ impl StiffnessContribution {
 
 /// Derivatives of a [`StiffnessContribution`] with respect to τ.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Rates {
+pub(in crate::statics) struct Rates {
     pub first: StiffnessContribution,
     pub second: StiffnessContribution,
 }

@@ -1,0 +1,99 @@
+//! Loads that a robot has to bear at every pose where it works.
+
+use super::{Load, LoadError, PlatformMotion};
+use crate::math::Vec3;
+use thiserror::Error;
+
+/// Required loads: everything that acts on the platform in addition to the dead load. The parts add up in every
+/// combination (Minkowski sum); the dead load alone is always required, too.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RequiredLoads {
+    /// Shape of the set of forces and moments.
+    pub shape: LoadShape,
+    /// Half widths of the force, world axes [N], not negative.
+    pub force_w: Vec3,
+    /// Half widths of the moment about the platform origin, world axes [N m], not negative.
+    pub moment_w: Vec3,
+    /// Loads of which any one may act; each has its own point of action.
+    pub listed: Vec<Load>,
+    /// Payload of uncertain mass and place.
+    pub payload: RequiredPayload,
+    /// Half widths of the acceleration of the platform origin from rest, world axes [m/s²], not negative.
+    pub acceleration_w: Vec3,
+    /// Half widths of the angular acceleration from rest, world axes [rad/s²], not negative.
+    pub angular_acceleration_w: Vec3,
+    /// Speed of wind from any horizontal direction on the platform [m/s]; its force is added to that of the robot's wind.
+    pub wind_speed: f64,
+}
+
+/// Payload of uncertain mass and centre of mass, carried by the platform.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RequiredPayload {
+    /// Minimum mass [kg]; it belongs to the dead load.
+    pub min_mass: f64,
+    /// Maximum mass [kg].
+    pub max_mass: f64,
+    /// Middle of the centres of mass, platform frame [m].
+    pub center_p: Vec3,
+    /// Half widths of the box of the centres of mass, platform frame [m], not negative.
+    pub center_reach_p: Vec3,
+}
+
+/// Shape of a set of forces and moments with given half widths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LoadShape {
+    /// Every component varies by itself.
+    #[default]
+    Box,
+    /// Ellipsoid with these half axes; equal half axes give a ball.
+    Ellipsoid,
+}
+
+/// Required loads that contradict themselves or the platform.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum RequiredLoadsError {
+    /// The range of the payload is reversed.
+    #[error(
+        "the minimum payload {min} kg is above the maximum payload {max} kg: exchange the two, or leave out the minimum"
+    )]
+    PayloadReversed {
+        /// Minimum [kg].
+        min: f64,
+        /// Maximum [kg].
+        max: f64,
+    },
+    /// A component that cannot act on a point mass.
+    #[error(
+        "a point mass does not turn: leave out the required moment, angular acceleration and centre of the payload"
+    )]
+    TurnsPointMass,
+    /// A listed load has no meaning for the platform.
+    #[error(transparent)]
+    Listed(#[from] LoadError),
+}
+
+impl RequiredLoads {
+    /// True if nothing is required but the dead load.
+    pub fn is_empty(&self) -> bool {
+        let no_vector = [self.force_w, self.moment_w, self.acceleration_w, self.angular_acceleration_w]
+            .iter()
+            .all(|of| *of == Vec3::zeros());
+        no_vector && self.listed.is_empty() && self.payload.max_mass == 0.0 && self.wind_speed == 0.0
+    }
+
+    /// Refuses loads that contradict themselves or have no meaning for a platform with this motion.
+    ///
+    /// # Errors
+    /// [`RequiredLoadsError`].
+    pub fn check(&self, motion: &PlatformMotion) -> Result<(), RequiredLoadsError> {
+        let RequiredPayload { min_mass: min, max_mass: max, center_p, center_reach_p } = self.payload;
+        if min > max {
+            return Err(RequiredLoadsError::PayloadReversed { min, max });
+        }
+        let turning = [self.moment_w, self.angular_acceleration_w, center_p, center_reach_p];
+        if *motion == PlatformMotion::PointMass && turning.iter().any(|of| *of != Vec3::zeros()) {
+            return Err(RequiredLoadsError::TurnsPointMass);
+        }
+        self.listed.iter().try_for_each(|load| Ok(load.check(motion)?))
+    }
+}

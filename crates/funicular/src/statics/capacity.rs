@@ -1,0 +1,162 @@
+//! Capacity of a pose: the loads that cables within their limits hold there, compared with the required ones.
+
+mod closure;
+mod load_factor;
+mod required_set;
+
+pub use closure::{WrenchClosure, wrench_closure};
+pub use load_factor::LoadFactor;
+
+use super::equilibrium::Equilibrium;
+use super::error::StaticsError;
+use super::exit_points;
+use super::limits::{LimitViolation, TensionRange};
+use super::model::StaticModel;
+use super::solve::inverse;
+use super::tension::{TensionRule, cables_at, with_weight};
+use super::wrench_set::{AvailableWrenches, Facet};
+use crate::math::Vec6;
+use crate::platform::{Coordinates, load_wrench};
+use crate::robot::{Pose, RequiredLoads, RequiredPayload, Robot};
+use required_set::RequiredSet;
+use std::borrow::Cow;
+
+/// Violation of a limit by the dead load, over the tension, that counts as rounding: tensions are found to a millionth.
+const BEYOND: f64 = 1e-6;
+
+/// Loads that cables within their limits hold at a pose, for comparison with the required loads of the robot.
+///
+/// # Example
+/// ```
+/// # use funicular::{math::Vec3, robot::{Pose, Robot}, statics::{LoadCapacity, StaticModel}};
+/// let mut robot = Robot::from_toml(funicular_robots::COGIRO)?;
+/// robot.required.force_w = Vec3::repeat(150.0); // N, every way along every axis
+/// robot.required.moment_w = Vec3::repeat(30.0); // N m
+/// let pose = Pose::new([0.0, 0.0, 1.5], [0.0; 3]);
+/// let capacity = LoadCapacity::at(&robot, &pose, StaticModel::Catenary, None)?;
+/// let factor = capacity.load_factor()?;
+/// assert!(factor.value > 1.0 && factor.upper_bound < 1.001 * factor.value);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # References
+/// docs/theory.md, equations (40f) to (40n).
+pub struct LoadCapacity<'a> {
+    /// Robot with the lightest payload as a part of its load.
+    loaded: Cow<'a, Robot>,
+    pose: Pose,
+    model: StaticModel,
+    /// Dead load held within the limits, or the reason why it is not.
+    rest: Result<Equilibrium, StaticsError>,
+    available: AvailableWrenches,
+    required: RequiredSet,
+}
+
+impl<'a> LoadCapacity<'a> {
+    /// Capacity at a pose for the required loads of the robot. `start` is an equilibrium of the robot at the pose, if it
+    /// is known; it saves time.
+    ///
+    /// # Errors
+    /// [`StaticsError`]: fewer cables than degrees of freedom, a pose that the platform cannot have, coinciding ends, or
+    /// limits that exclude each other. A dead load beyond the limits is no error here.
+    pub fn at(
+        robot: &'a Robot,
+        pose: &Pose,
+        model: StaticModel,
+        start: Option<&Equilibrium>,
+    ) -> Result<Self, StaticsError> {
+        let RequiredLoads { payload: RequiredPayload { min_mass, center_p, .. }, .. } = robot.required;
+        let is_loaded = min_mass > 0.0;
+        let loaded = if is_loaded {
+            Cow::Owned(with_weight(robot, pose, &center_p, min_mass * robot.gravity_w.norm()))
+        } else {
+            Cow::Borrowed(robot)
+        };
+
+        // The dead load.
+        let start = start.filter(|_| !is_loaded).cloned();
+        let rest = start.map_or_else(|| inverse(&loaded, pose, model), Ok);
+        let rest = rest.and_then(|rest| within_limits(&loaded, rest));
+
+        // The wrenches of cables that leave their pulleys as they do under the dead load.
+        let held = match &rest {
+            Ok(rest) if exit_points::depend_on_tensions(&loaded, model) => {
+                Cow::Owned(exit_points::held_at(&rest.settled(&loaded), pose, &rest.cables))
+            }
+            _ => Cow::Borrowed(&*loaded),
+        };
+        let cables = cables_at(&held, pose, model, &TensionRule::Lowest)?;
+        let load = Coordinates::of(robot).reduce(&load_wrench(&loaded, pose));
+        let available = AvailableWrenches::of(cables, &load, robot.platform.motion);
+
+        let required = RequiredSet::of(robot, pose, &robot.required);
+        Ok(Self { loaded, pose: *pose, model, rest, available, required })
+    }
+
+    fn robot(&self) -> &Robot {
+        &self.loaded
+    }
+
+    /// Equilibrium with the dead load and the lightest payload.
+    ///
+    /// # Errors
+    /// The reason why the cables do not hold the dead load within their limits.
+    pub fn dead_load(&self) -> Result<&Equilibrium, &StaticsError> {
+        self.rest.as_ref()
+    }
+
+    /// True if nothing is required but the dead load.
+    pub fn requires_nothing(&self) -> bool {
+        self.required.is_empty()
+    }
+
+    /// Capacity margin [N]: radius of the largest ball of wrenches, moments over ℓ, that the cables hold in addition to
+    /// every required load. Negative if a required load is not held; its magnitude is then a lower bound of the distance.
+    /// `None` if the cables do not span all degrees of freedom or are too many. Sagging cables count with the convex hull
+    /// of their curves, in the directions of the facets of straight ones.
+    ///
+    /// # References
+    /// docs/theory.md, equation (40h).
+    pub fn margin(&self) -> Option<f64> {
+        let margins = self.available.facets().iter().map(|facet| facet.outer - self.required.reach(&-facet.normal));
+        margins.reduce(f64::min)
+    }
+
+    /// Largest acceleration in every direction from rest [m/s²], with the dead load alone; angular accelerations count
+    /// times ℓ. Infinite without maximum tensions. `None` if the dead load is not held, or as [`Self::margin`].
+    ///
+    /// # References
+    /// docs/theory.md, equation (40o).
+    pub fn largest_acceleration(&self) -> Option<f64> {
+        let accelerations = RequiredSet::unit_accelerations(&self.loaded, &self.pose);
+        let ratio = |facet: &Facet| facet.outer / accelerations.reach(&-facet.normal);
+        let smallest = self.available.facets().iter().map(ratio).reduce(f64::min)?;
+        (self.rest.is_ok() && smallest >= 0.0).then_some(smallest)
+    }
+
+    /// Load in world axes about the platform origin (N, N m) from its reduced wrench.
+    fn unscaled(&self, reduced: &Vec6) -> Vec6 {
+        let coordinates = Coordinates::of(&self.loaded);
+        let scaled = coordinates.expand(reduced);
+        Vec6::from_fn(|i, _| if i < 3 { scaled[i] } else { scaled[i] * coordinates.ell() })
+    }
+}
+
+/// Equilibrium whose tensions are within their limits.
+///
+/// # Errors
+/// [`StaticsError::BeyondLimits`].
+fn within_limits(robot: &Robot, rest: Equilibrium) -> Result<Equilibrium, StaticsError> {
+    let mut miss = LimitViolation { by: 0.0, minimum_of: Vec::new(), maximum_of: Vec::new(), obstacle: None };
+    for (i, cable) in rest.cables.iter().enumerate() {
+        let margin = TensionRange::of(robot, i, &cable.chord_w()).margin(cable);
+        let distance = margin.distance();
+        if distance >= -BEYOND * margin.max.max(margin.range.minimum) {
+            continue;
+        }
+        miss.by = miss.by.max(-distance);
+        let of = if margin.min < margin.range.minimum { &mut miss.minimum_of } else { &mut miss.maximum_of };
+        of.push(robot.cables[i].name.clone());
+    }
+    if miss.by > 0.0 { Err(StaticsError::BeyondLimits(miss)) } else { Ok(rest) }
+}

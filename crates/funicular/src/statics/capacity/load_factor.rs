@@ -1,0 +1,291 @@
+//! Load factor: the largest multiple of the required loads that the cables hold in every combination.
+
+use super::LoadCapacity;
+use super::required_set::RequiredSet;
+use crate::math::{Vec6, order};
+use crate::platform::{Coordinates, load_size, load_wrench};
+use crate::robot::Robot;
+use crate::statics::equilibrium::CableState;
+use crate::statics::error::StaticsError;
+use crate::statics::exit_points;
+use crate::statics::tension::{
+    LimitAtCable, RaySearch, TensionRule, WrenchRay, cables_at, equilibrium_of, limits_reached, start_from,
+};
+use crate::statics::wrench_set::{CableAtPose, ReachableTensions, WrenchSet, spread_start};
+
+/// Gap between a multiple and its upper bound, over the multiple, above which the search begins again elsewhere: the
+/// bound itself is exact to about 1e-9.
+const OPEN_GAP: f64 = 1e-7;
+
+/// Gap over the multiple above which the search begins again several times. Without it, one of 300 poses of CoGiRo with
+/// heavy ropes (0.6 kg/m) had a multiple that is 1 % too small, with a gap of 26 %; the bends of the curves leave gaps of
+/// up to 1 % where there is no higher optimum.
+const WIDE_GAP: f64 = 0.02;
+
+/// Maximum number of further starts.
+const MAX_STARTS: usize = 12;
+
+/// Maximum number of directions tried for a set without vertices. Each step to the worst load of the last direction gains
+/// about two digits; robots of the library take 2 to 5.
+const MAX_DIRECTIONS: usize = 30;
+
+/// Change of the worst load, over its size, at which the search for a set without vertices ends.
+const SAME_LOAD: f64 = 1e-9;
+
+/// Largest multiple of the required loads.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadFactor {
+    /// Multiple up to which the cables hold all vertices of the required set with tensions within their limits; infinite
+    /// if no maximum tension limits it.
+    pub value: f64,
+    /// Multiple from which on it is proved that no tensions within the limits hold the load that binds; infinite as
+    /// `value`.
+    pub upper_bound: f64,
+    /// Multiple up to which the cables hold all of the set, not only its vertices. It differs from `value` only if cables
+    /// sag; `None` if too many cables, supports or pulleys leave it open.
+    pub lower_bound: Option<f64>,
+    /// Load that binds, of the multiple 1, in addition to the dead load, world axes about the platform origin (N, N m).
+    pub load: Vec6,
+    /// Tensions at their limits, in the order of the file.
+    pub limits: Vec<LimitAtCable>,
+    /// Cables with the dead load and the multiple of the load that binds; empty for an infinite multiple.
+    pub cables: Vec<CableState>,
+    /// Scaled residual of the balance with this load.
+    pub residual: f64,
+}
+
+/// Largest multiple of one load.
+struct HeldMultiple {
+    multiple: f64,
+    upper_bound: f64,
+    /// Direction in which the cables cannot reach more, reduced.
+    direction: Vec6,
+    limits: Vec<LimitAtCable>,
+    cables: Vec<CableState>,
+    residual: f64,
+}
+
+impl LoadCapacity<'_> {
+    /// Largest multiple of the required loads.
+    ///
+    /// With straight cables it follows from the facets; with sagging cables from the vertices that the facets leave open,
+    /// each by a search along the true curves of the cables.
+    ///
+    /// # Errors
+    /// [`StaticsError`]: the reason why the cables do not hold the dead load; nothing required; no convergence.
+    ///
+    /// # References
+    /// docs/theory.md, equations (40i) to (40l).
+    pub fn load_factor(&self) -> Result<LoadFactor, StaticsError> {
+        if self.required.is_empty() {
+            return Err(StaticsError::NothingRequired);
+        }
+        self.rest.as_ref().map_err(Clone::clone)?;
+
+        let lower_bound = self.smallest(&self.required, |facet| facet.inner);
+        let (load, held) = match self.required.vertices() {
+            Some(vertices) => self.worst_vertex(vertices)?,
+            None => self.worst_of_ball()?,
+        };
+        Ok(LoadFactor {
+            value: held.multiple,
+            upper_bound: held.upper_bound,
+            lower_bound: lower_bound.map(|lowest| lowest.min(held.multiple)),
+            load: self.unscaled(&load),
+            limits: held.limits,
+            cables: held.cables,
+            residual: held.residual,
+        })
+    }
+
+    /// Value of [`Self::load_factor`] alone, which takes a fraction of the time if cables are straight.
+    ///
+    /// # Errors
+    /// As [`Self::load_factor`].
+    pub fn load_factor_value(&self) -> Result<f64, StaticsError> {
+        self.rest.as_ref().map_err(Clone::clone)?;
+        match self.smallest(&self.required, |facet| facet.inner) {
+            Some(value) if self.available.is_straight() && !self.required.is_empty() => Ok(value),
+            _ => Ok(self.load_factor()?.value),
+        }
+    }
+
+    /// Smallest ratio of the reach of the cables to that of a set of loads over all facets; `None` without facets, or
+    /// with exit points that move with the tensions.
+    pub(super) fn smallest(&self, loads: &RequiredSet, reach: impl Fn(&super::Facet) -> f64) -> Option<f64> {
+        if exit_points::depend_on_tensions(self.robot(), self.model) || self.available.facets().is_empty() {
+            return None;
+        }
+        let ratios = self.available.facets().iter().map(|facet| {
+            let load = loads.reach(&-facet.normal);
+            if load > 0.0 { reach(facet) / load } else { f64::INFINITY }
+        });
+        Some(ratios.fold(f64::INFINITY, f64::min).max(0.0))
+    }
+
+    /// Vertex with the smallest multiple. Vertices are taken in the order of their lower bounds, until the bound of the
+    /// next one is above the smallest multiple so far.
+    fn worst_vertex(&self, vertices: Vec<Vec6>) -> Result<(Vec6, HeldMultiple), StaticsError> {
+        let single = |load: &Vec6| {
+            let ratio = |facet: &super::Facet| facet.inner / -facet.normal.dot(load);
+            let opposed = self.available.facets().iter().filter(|facet| facet.normal.dot(load) < 0.0);
+            opposed.map(ratio).fold(f64::INFINITY, f64::min)
+        };
+        let is_bounded = self.smallest(&self.required, |facet| facet.inner).is_some();
+        let mut bounded: Vec<(f64, Vec6)> = (vertices.into_iter().filter(|load| load.norm() > 0.0))
+            .map(|load| (if is_bounded { single(&load) } else { 0.0 }, load))
+            .collect();
+        order::sort_ascending(&mut bounded, |(bound, _)| *bound);
+
+        let mut worst: Option<(Vec6, HeldMultiple)> = None;
+        for (bound, load) in bounded {
+            if worst.as_ref().is_some_and(|(_, held)| bound >= held.multiple) {
+                break;
+            }
+            let held = self.largest_multiple(&load)?;
+            if worst.as_ref().is_none_or(|(_, least)| held.multiple < least.multiple) {
+                worst = Some((load, held));
+            }
+        }
+        worst.ok_or(StaticsError::NothingRequired)
+    }
+
+    /// Load with the smallest multiple of a set without vertices: the direction in which the cables reach no farther
+    /// gives the next load.
+    fn worst_of_ball(&self) -> Result<(Vec6, HeldMultiple), StaticsError> {
+        let ratio = |facet: &super::Facet| facet.reach / self.required.reach(&-facet.normal);
+        let facets = self.available.facets().iter().filter(|facet| self.required.reach(&-facet.normal) > 0.0);
+        let first = facets.min_by(|a, b| ratio(a).total_cmp(&ratio(b))).map(|facet| -facet.normal);
+        let down = Coordinates::of(self.robot()).reduce(&load_wrench(self.robot(), &self.pose));
+        let mut load = self.required.farthest(&first.unwrap_or(down));
+
+        let mut worst: Option<(Vec6, HeldMultiple)> = None;
+        for _ in 0..MAX_DIRECTIONS {
+            let held = self.largest_multiple(&load)?;
+            let next = self.required.farthest(&-held.direction);
+            if worst.as_ref().is_none_or(|(_, least)| held.multiple < least.multiple) {
+                worst = Some((load, held));
+            }
+            if (next - load).norm() <= SAME_LOAD * next.norm() {
+                break;
+            }
+            load = next;
+        }
+        worst.ok_or(StaticsError::NothingRequired)
+    }
+
+    /// Largest multiple of one reduced load that the cables hold in addition to the dead load.
+    fn largest_multiple(&self, load: &Vec6) -> Result<HeldMultiple, StaticsError> {
+        let (robot, model) = (self.robot(), self.model);
+        if !exit_points::depend_on_tensions(robot, model) {
+            return self.multiple_at_exit_points(robot, load);
+        }
+        let solve = |held: &Robot, _: Option<&HeldMultiple>| self.multiple_at_exit_points(held, load);
+        exit_points::with_places(robot, &self.pose, model, solve, |held| &mut held.cables, &[])
+    }
+
+    /// Largest multiple of cables that end at fixed points.
+    fn multiple_at_exit_points(&self, robot: &Robot, load: &Vec6) -> Result<HeldMultiple, StaticsError> {
+        let rest = self.rest.as_ref().map_err(Clone::clone)?;
+        let mut cables = cables_at(robot, &self.pose, self.model, &TensionRule::Lowest)?;
+        start_from(&mut cables, rest);
+        let mut best = self.multiple_from(robot, load, cables.clone())?;
+        let (reaches, _) = reaches_of(&mut cables);
+        let set = WrenchSet { reaches: &reaches, motion: robot.platform.motion };
+
+        // Another optimum may be higher: begin again from the tensions that reach farthest in the direction of the bound,
+        // and if the gap is wide, from others between the limits.
+        for k in 0..MAX_STARTS {
+            let open = if k == 0 { OPEN_GAP } else { WIDE_GAP };
+            if best.multiple.is_infinite() || best.upper_bound - best.multiple <= open * best.multiple {
+                break;
+            }
+            let start = if k == 0 { set.reach(&best.direction).1 } else { spread_start(&reaches, load_size(robot), k) };
+            for (cable, tau) in cables.iter_mut().zip(start) {
+                cable.set(tau);
+            }
+            let Ok(other) = self.multiple_from(robot, load, cables.clone()) else { continue };
+            let upper_bound = best.upper_bound.min(other.upper_bound);
+            if other.multiple > best.multiple {
+                best = other;
+            }
+            best.upper_bound = upper_bound.max(best.multiple);
+        }
+        Ok(best)
+    }
+
+    fn multiple_from(
+        &self,
+        robot: &Robot,
+        load: &Vec6,
+        cables: Vec<CableAtPose>,
+    ) -> Result<HeldMultiple, StaticsError> {
+        let (pose, size) = (&self.pose, load.norm());
+        let unit = load / size;
+        let mut search = RaySearch::new(robot, pose, self.model, cables, WrenchRay { unit, sign: 1.0, least: 0.0 });
+        let end = search.extreme()?.ok_or(StaticsError::NoLoadFactor)?;
+        let mut multiple = end.multiple / size;
+        if end.unlimited {
+            multiple = f64::INFINITY;
+        }
+
+        // No tensions reach farther in the direction of the multipliers: (40j).
+        let mut cables = search.into_cables_at(&end);
+        let limits = limits_reached(&cables, &end.held_by);
+        let (reaches, held) = reaches_of(&mut cables);
+        let direction = end.multipliers;
+        let set = WrenchSet { reaches: &reaches, motion: robot.platform.motion };
+        let own = Coordinates::of(robot).reduce(&load_wrench(robot, pose));
+        let along = -direction.dot(&unit);
+        let upper_bound = if end.unlimited || along <= 0.0 {
+            f64::INFINITY
+        } else {
+            (direction.dot(&own) + set.reach(&direction).0) / (along * size)
+        };
+        for (cable, tau) in cables.iter_mut().zip(held) {
+            cable.set(tau);
+        }
+
+        if multiple.is_infinite() {
+            return Ok(HeldMultiple {
+                multiple,
+                upper_bound,
+                direction,
+                limits: Vec::new(),
+                cables: Vec::new(),
+                residual: 0.0,
+            });
+        }
+        let loaded = self.with_extra(robot, &(load * multiple));
+        let rest = equilibrium_of(&loaded, pose, self.model, cables, 0);
+        Ok(HeldMultiple {
+            multiple,
+            upper_bound: upper_bound.max(multiple),
+            direction,
+            limits,
+            cables: rest.cables,
+            residual: rest.residual,
+        })
+    }
+
+    /// Robot with a further load, reduced.
+    fn with_extra(&self, robot: &Robot, load: &Vec6) -> Robot {
+        let extra = self.unscaled(load);
+        let mut own = robot.load;
+        // A force at the platform origin, moved to the point of the robot's own load.
+        let force_w = extra.fixed_rows::<3>(0).into_owned();
+        own.force_w += force_w;
+        own.moment_w += extra.fixed_rows::<3>(3).into_owned() - (self.pose.rot_wp * own.point_p).cross(&force_w);
+        robot.with_load(own)
+    }
+}
+
+/// Ranges of cables, and the tensions τ that they had [N].
+fn reaches_of(cables: &mut [CableAtPose]) -> (Vec<ReachableTensions>, Vec<f64>) {
+    let of = |cable: &mut CableAtPose| {
+        let tau = cable.tau();
+        let minimum = cable.at_minimum();
+        (ReachableTensions::of(cable, minimum), tau)
+    };
+    cables.iter_mut().map(of).unzip()
+}

@@ -1,0 +1,242 @@
+//! Loads that cables within their limits hold at a pose. Oracles: a linear problem per vertex against the facets, the
+//! program's own tension distributions just inside and just outside, and random loads inside the required set.
+
+use crate::random::Draw;
+use funicular::math::{Vec3, Vec6};
+use funicular::robot::{Load, LoadShape, Pose, RequiredPayload, Robot, TensionLimits};
+use funicular::statics::{self, LoadCapacity, StaticModel, StaticsError};
+
+fn cogiro() -> Robot {
+    Robot::from_toml(funicular_robots::COGIRO).unwrap()
+}
+
+fn ipanema() -> Robot {
+    let limits = TensionLimits { minimum: Some(100.0), maximum: Some(3000.0) };
+    Robot::from_toml(funicular_robots::IPANEMA2).unwrap().with_tension_limits(limits)
+}
+
+/// Poses spread over a box, without a pattern (Weyl).
+fn poses(count: usize, reach: [f64; 3], middle: [f64; 3]) -> Vec<Pose> {
+    let part =
+        |k: usize, i: usize| 2.0 * ((k as f64 + 1.0) * (i as f64 + 2.0).sqrt() * std::f64::consts::E).fract() - 1.0;
+    let pose = |k: usize| {
+        let position = std::array::from_fn(|i| middle[i] + reach[i] * part(k, i));
+        Pose::new(position, std::array::from_fn(|i| 10.0 * part(k, i + 3)))
+    };
+    (0..count).map(pose).collect()
+}
+
+fn with_box(mut robot: Robot, force: f64, moment: f64) -> Robot {
+    robot.required.force_w = Vec3::repeat(force);
+    robot.required.moment_w = Vec3::repeat(moment);
+    robot
+}
+
+fn load_of(wrench: &Vec6) -> Load {
+    Load {
+        force_w: wrench.fixed_rows::<3>(0).into_owned(),
+        moment_w: wrench.fixed_rows::<3>(3).into_owned(),
+        point_p: Vec3::zeros(),
+    }
+}
+
+/// Robot that bears a multiple of a load, about its origin.
+fn bearing(robot: &Robot, wrench: &Vec6, multiple: f64) -> Robot {
+    robot.with_load(load_of(&(wrench * multiple)))
+}
+
+fn box_vertices(force: f64, moment: f64) -> Vec<Vec6> {
+    let sign = |bits: usize, k: usize| if bits & (1 << k) == 0 { -1.0 } else { 1.0 };
+    (0..64).map(|bits| Vec6::from_fn(|k, _| sign(bits, k) * if k < 3 { force } else { moment })).collect()
+}
+
+#[test]
+fn the_load_factor_of_the_facets_is_the_smallest_of_one_linear_problem_per_vertex() {
+    let robots = [
+        (with_box(cogiro(), 150.0, 30.0), [3.0, 2.0, 1.0], [0.0, 0.0, 1.5], 12),
+        (with_box(ipanema(), 200.0, 40.0), [2.0, 1.5, 0.8], [0.0, 0.0, 1.0], 12),
+    ];
+    let mut held = 0;
+    for (robot, reach, middle, count) in robots {
+        let (force, moment) = (robot.required.force_w.x, robot.required.moment_w.x);
+        for pose in poses(count, reach, middle) {
+            let capacity = LoadCapacity::at(&robot, &pose, StaticModel::Ideal, None).unwrap();
+            let Ok(factor) = capacity.load_factor_value() else {
+                assert!(capacity.margin().unwrap() < 0.0);
+                continue;
+            };
+            held += 1;
+            let single = |vertex: &Vec6| {
+                let mut robot = robot.clone();
+                robot.required =
+                    funicular::robot::RequiredLoads { listed: vec![load_of(vertex)], ..Default::default() };
+                let capacity = LoadCapacity::at(&robot, &pose, StaticModel::Ideal, None).unwrap();
+                capacity.load_factor().unwrap().value
+            };
+            let least = box_vertices(force, moment).iter().map(single).fold(f64::INFINITY, f64::min);
+            // Rounding of a linear problem with tensions of some hundred newtons.
+            assert!((factor - least).abs() < 1e-12 * (1.0 + least), "{factor} {least}");
+            assert_eq!(factor >= 1.0, capacity.margin().unwrap() >= 0.0);
+
+            // An input that is off by one per cent shows.
+            let other = with_box(robot.clone(), 1.01 * force, 1.01 * moment);
+            let other = LoadCapacity::at(&other, &pose, StaticModel::Ideal, None).unwrap().load_factor_value().unwrap();
+            assert!((1.01 * other - factor).abs() < 1e-11 * (1.0 + factor), "{other} {factor}");
+        }
+    }
+    assert!(held >= 12, "{held}");
+}
+
+#[test]
+fn with_sag_the_binding_load_is_held_just_inside_the_load_factor_and_refused_just_outside() {
+    let heavy = {
+        let mut robot = cogiro().with_tension_limits(TensionLimits { minimum: Some(60.0), maximum: None });
+        robot.cables.iter_mut().for_each(|cable| cable.material.mass_per_length = 0.6);
+        with_box(robot, 100.0, 20.0)
+    };
+    let robots = [
+        (with_box(cogiro(), 150.0, 30.0), [2.0, 1.5, 0.5], [0.0, 0.0, 1.5]),
+        (with_box(ipanema(), 200.0, 40.0), [2.0, 1.0, 0.5], [0.0, 0.0, 1.0]),
+        (heavy, [2.0, 1.0, 0.5], [0.0, 0.0, 1.5]),
+    ];
+    let mut held = 0;
+    for (robot, reach, middle) in robots {
+        for pose in poses(4, reach, middle) {
+            let capacity = LoadCapacity::at(&robot, &pose, StaticModel::Catenary, None).unwrap();
+            let Ok(factor) = capacity.load_factor() else { continue };
+            held += 1;
+            assert!(factor.residual < statics::RESIDUAL_LIMIT && factor.upper_bound >= factor.value);
+            let lower = factor.lower_bound.unwrap();
+            assert!(lower <= factor.value && lower > 0.9 * factor.value, "{lower} {}", factor.value);
+            let solve = |multiple: f64| {
+                statics::inverse(&bearing(&robot, &factor.load, multiple), &pose, StaticModel::Catenary)
+            };
+            assert!(solve(0.999_999 * factor.value).is_ok(), "{}", factor.value);
+            if factor.upper_bound < (1.0 + 1e-7) * factor.value {
+                assert!(matches!(
+                    solve(1.000_001 * factor.value),
+                    Err(StaticsError::BeyondLimits(_) | StaticsError::NotFoundWithinLimits { .. })
+                ));
+            }
+        }
+    }
+    assert!(held >= 6, "{held}");
+}
+
+#[test]
+fn the_load_factor_of_light_ropes_tends_to_that_of_straight_ones() {
+    let pose = Pose::new([0.5, -0.4, 1.4], [2.0, -3.0, 5.0]);
+    let factor = |mass_per_length: f64, model| {
+        let mut robot = with_box(cogiro(), 150.0, 30.0);
+        robot.cables.iter_mut().for_each(|cable| cable.material.mass_per_length = mass_per_length);
+        LoadCapacity::at(&robot, &pose, model, None).unwrap().load_factor().unwrap().value
+    };
+    let straight = factor(0.0, StaticModel::Ideal);
+    // Elastic ropes without weight are straight.
+    assert!((factor(0.0, StaticModel::Catenary) / straight - 1.0).abs() < 1e-12);
+    let errors = [0.064, 0.0064, 0.00064].map(|mass| (factor(mass, StaticModel::Catenary) - straight).abs());
+    assert!(errors[0] > 1e-3 && errors[1] < 0.2 * errors[0] && errors[2] < 0.2 * errors[1], "{errors:?}");
+}
+
+#[test]
+fn the_margin_is_the_radius_of_the_largest_ball_of_loads_that_can_be_added() {
+    let robot = with_box(cogiro(), 50.0, 10.0);
+    let pose = Pose::new([0.5, -0.4, 1.4], [2.0, -3.0, 5.0]);
+    let margin = LoadCapacity::at(&robot, &pose, StaticModel::Ideal, None).unwrap().margin().unwrap();
+    assert!(margin > 1.0, "{margin}");
+    let ell = robot.platform_length();
+    let scaled = |unit: [f64; 6]| Vec6::from_fn(|k, _| if k < 3 { unit[k] } else { ell * unit[k] });
+    let factor = |radius: f64, shape| {
+        let mut robot = robot.clone();
+        let own = robot.required.clone();
+        robot.required = funicular::robot::RequiredLoads { shape, ..Default::default() };
+        robot.required.force_w = Vec3::repeat(radius);
+        robot.required.moment_w = Vec3::repeat(radius * ell);
+        robot.required.listed = box_vertices(own.force_w.x, own.moment_w.x).iter().map(load_of).collect();
+        LoadCapacity::at(&robot, &pose, StaticModel::Ideal, None).unwrap().load_factor().unwrap().value
+    };
+    // Vertices and a ball of this radius are just held together, and a box about the ball is not.
+    assert!((factor(margin, LoadShape::Ellipsoid) - 1.0).abs() < 1e-9);
+    assert!(factor(margin, LoadShape::Box) < 0.999);
+    let unit = scaled([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]) * (0.999 * margin);
+    assert!(statics::inverse(&bearing(&robot, &unit, 1.0), &pose, StaticModel::Ideal).is_ok());
+}
+
+#[test]
+fn no_payload_and_acceleration_inside_their_ranges_is_harder_to_hold_than_the_corners() {
+    for angular in [0.0, 0.8] {
+        let mut robot = cogiro();
+        robot.required.payload = RequiredPayload {
+            min_mass: 5.0,
+            max_mass: 40.0,
+            center_p: Vec3::new(0.0, 0.1, 0.2),
+            center_reach_p: Vec3::new(0.1, 0.2, 0.05),
+        };
+        robot.required.acceleration_w = Vec3::new(0.3, 0.4, 0.5);
+        robot.required.angular_acceleration_w = Vec3::repeat(angular);
+        let pose = Pose::new([0.3, -0.2, 1.4], [4.0, -3.0, 10.0]);
+        let margin = LoadCapacity::at(&robot, &pose, StaticModel::Ideal, None).unwrap().margin().unwrap();
+
+        let mut tightest = f64::INFINITY;
+        let mut draw = Draw(20_140_531);
+        for _ in 0..60 {
+            let mut axis = |middle: &Vec3, half: &Vec3| {
+                Vec3::from_fn(|j, _| draw.between(middle[j] - half[j], middle[j] + half[j]))
+            };
+            let payload = robot.required.payload;
+            let center_w = pose.rot_wp * axis(&payload.center_p, &payload.center_reach_p);
+            let a_w = axis(&Vec3::zeros(), &robot.required.acceleration_w);
+            let alpha_w = axis(&Vec3::zeros(), &robot.required.angular_acceleration_w);
+            let mass = draw.between(payload.min_mass, payload.max_mass);
+
+            // Newton and Euler, body by body.
+            let own_w = pose.rot_wp * robot.platform.center_of_mass_p;
+            let turned = pose.rot_wp.to_rotation_matrix()
+                * robot.platform.inertia_p
+                * pose.rot_wp.to_rotation_matrix().transpose();
+            let payload_w = (robot.gravity_w - a_w - alpha_w.cross(&center_w)) * mass;
+            let inertia_w = -(a_w + alpha_w.cross(&own_w)) * robot.platform.mass;
+            let force = payload_w + inertia_w;
+            let moment = center_w.cross(&payload_w) + own_w.cross(&inertia_w) - turned * alpha_w;
+            let mut loaded = robot.clone();
+            loaded.required = funicular::robot::RequiredLoads::default();
+            loaded.load = Load { force_w: force, moment_w: moment, point_p: Vec3::zeros() };
+            tightest =
+                tightest.min(LoadCapacity::at(&loaded, &pose, StaticModel::Ideal, None).unwrap().margin().unwrap());
+        }
+        assert!(tightest >= margin - 1e-9, "{tightest} {margin}");
+    }
+}
+
+#[test]
+fn a_dead_load_beyond_the_limits_has_no_load_factor_and_its_reason_is_given() {
+    let robot = with_box(cogiro(), 150.0, 30.0);
+    let pose = Pose::new([5.5, 4.0, 1.5], [0.0; 3]);
+    let capacity = LoadCapacity::at(&robot, &pose, StaticModel::Catenary, None).unwrap();
+    assert!(matches!(capacity.load_factor(), Err(StaticsError::BeyondLimits(_))));
+    assert!(
+        capacity.dead_load().is_err() && capacity.margin().unwrap() < 0.0 && capacity.largest_acceleration().is_none()
+    );
+    let nothing = cogiro();
+    let capacity =
+        LoadCapacity::at(&nothing, &Pose::new([0.0, 0.0, 1.5], [0.0; 3]), StaticModel::Catenary, None).unwrap();
+    assert_eq!(capacity.load_factor(), Err(StaticsError::NothingRequired));
+    assert!(capacity.requires_nothing() && capacity.margin().unwrap() > 0.0);
+}
+
+#[test]
+fn all_accelerations_up_to_the_largest_one_are_held_and_one_of_a_larger_one_is_not() {
+    let robot = cogiro();
+    let pose = Pose::new([0.5, -0.4, 1.4], [2.0, -3.0, 5.0]);
+    let most = LoadCapacity::at(&robot, &pose, StaticModel::Ideal, None).unwrap().largest_acceleration().unwrap();
+    let ell = robot.platform_length();
+    let factor = |accelerations: [f64; 2]| {
+        let mut robot = robot.clone();
+        robot.required.acceleration_w = Vec3::repeat(accelerations[0]);
+        robot.required.angular_acceleration_w = Vec3::repeat(accelerations[1] / ell);
+        LoadCapacity::at(&robot, &pose, StaticModel::Ideal, None).unwrap().load_factor().unwrap().value
+    };
+    // A box inside the ball, and the box about it.
+    let half = most / 6.0_f64.sqrt();
+    assert!(factor([half, half]) >= 1.0 && factor([most, most]) < 1.0);
+}
