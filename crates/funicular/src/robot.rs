@@ -13,6 +13,7 @@ pub mod parameters;
 mod pulley;
 pub mod spec;
 mod support;
+mod turbulence;
 mod winch;
 mod wind;
 
@@ -24,6 +25,7 @@ pub use motion::{OutOfPlane, Plane, PlatformMotion};
 pub(crate) use pulley::Wheel;
 pub use pulley::{Pulley, PulleyContact};
 pub use support::{DrumPlace, Support};
+pub use turbulence::{Turbulence, TurbulenceSpectrum};
 pub use winch::{Control, DrumSide, GuideWheel, Servo, Winch, WinchMode};
 pub use wind::{LineLoad, Wind};
 
@@ -45,6 +47,8 @@ pub struct Robot {
     pub load: Load,
     /// Steady wind on cables and platform.
     pub wind: Wind,
+    /// Turbulence about that wind; `None` if the file gives none.
+    pub turbulence: Option<Turbulence>,
     /// Flexible supports of anchors, by name.
     pub supports: Vec<Support>,
     /// The cables, in file order.

@@ -13,6 +13,7 @@ mod control_model;
 mod derivatives;
 mod drive;
 mod dynamics;
+mod gust;
 mod library;
 mod modes;
 mod platform;
