@@ -9,6 +9,7 @@ mod design;
 mod export;
 mod frf;
 mod gradient;
+mod gust;
 mod identify;
 mod import;
 mod loads;

@@ -25,6 +25,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "modes": ("`robot.equilibrium(…).modes(…)`", [Robot.equilibrium, Equilibrium.modes]),
     "frf": ("`robot.equilibrium(…).frf(…)`, `funicular.peaks(…)`", [Robot.equilibrium, Equilibrium.frf, funicular.peaks]),
     "settle": ("`robot.equilibrium(…).settle(…)`", [Robot.equilibrium, Equilibrium.settle]),
+    "gust": ("`robot.equilibrium(…).gust(…)`", [Robot.equilibrium, Equilibrium.gust]),
     "compare": ("`robot.equilibrium(…).compare(…)`", [Robot.equilibrium, Equilibrium.compare]),
     "gradient": ("`robot.equilibrium(…).gradient(…)`", [Robot.equilibrium, Equilibrium.gradient]),
     "uncertainty": ("`robot.uncertainty(…)`", [Robot.uncertainty]),

@@ -22,6 +22,10 @@ ROBOT = "robots/yuan2014-4mm.toml"
 WHOLE = "--cable-model catenary-dynamic --assembly consistent"
 RANGE = "--from-hz 0.5 --to-hz 8 --points 7"
 TENSIONS = "--pose 1,2,1.5,0,3,10 --tension-rule closest --target-tension-n 900 --min-tension-n 5 --max-tension-n 4000"
+GUSTY = (
+    "robots/stadium-camera.toml --set materials.rope-5mm.drag_coefficient=1.2 --set materials.rope-5mm.drag_diameter_m=0.005 "
+    "--wind-m-s 12,0,0 --turbulence kaimal --intensity 0.15,0.12,0.075 --length-scale-m 85,28,6.9"
+)
 MORE = [
     "funicular schema --of request",
     f"funicular statics {ROBOT} --all",
@@ -36,6 +40,8 @@ MORE = [
     f"funicular settle {ROBOT} --release-n 0,0,-1 --below-hz 2 {LENGTHS} --input-point-m 0.1,0,0 --output-point-m 0,0,0.1",
     f"funicular settle robots/cogiro.toml --release-n-m 5,0,0 --tolerance-m 1e-5 --below-hz 5 {TENSIONS} --hold-lengths-of-pose",
     f"funicular settle {ROBOT} --release-n 0,0,-0.5 --pose 0,0,0.5 --below-hz 3 {STATE} {WHOLE} --winches clamped",
+    f"funicular gust {GUSTY} --output z --output tension:2 --below-hz 1 --duration-s 300 --coherence-decay 3,8,8",
+    f"funicular gust {GUSTY} --output x --output-point-m 0,0,0 --below-hz 1 --mass-kg 15",
     f"funicular modes {ROBOT} --below-hz 2 --decay-percent 10",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",
@@ -233,7 +239,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
     *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "pose-error", "cable"),
-    *("settle", "reduce", "identify", "uncertainty"),
+    *("settle", "gust", "reduce", "identify", "uncertainty"),
 )
 
 
@@ -295,6 +301,8 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
             assert plain(rest.gradient(**own)) == theirs
         case "settle":
             assert plain(rest.settle(**own)) == theirs
+        case "gust":
+            assert plain(rest.gust(**own)) == theirs
         case "compare":
             assert plain(rest.compare(**own)) == theirs
         case "reduce":

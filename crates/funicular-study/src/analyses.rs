@@ -12,6 +12,7 @@ pub mod design;
 mod fields;
 pub mod frf;
 pub mod gradient;
+pub mod gust;
 pub mod identify;
 pub mod loads;
 pub mod modes;

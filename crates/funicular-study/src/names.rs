@@ -3,7 +3,7 @@
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::gradient::Hold;
-use funicular::robot::{LoadShape, WinchMode};
+use funicular::robot::{LoadShape, TurbulenceSpectrum, WinchMode};
 use funicular::statics::{StaticModel, TensionRule};
 use funicular::suggest::nearest;
 use serde::{Deserialize, Deserializer, Serializer};
@@ -100,6 +100,22 @@ pub(crate) fn listed(names: &[String]) -> String {
         shown.join(", "),
         if names.len() > SHOWN { ", …" } else { "" }
     )
+}
+
+impl Named for TurbulenceSpectrum {
+    const WHAT: &'static str = "spectrum of turbulence";
+    const ALL: &'static [Self] = &[Self::Kaimal, Self::VonKarman];
+
+    fn name(self) -> &'static str {
+        self.word()
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Kaimal => "Kaimal, as in IEC 61400-1",
+            Self::VonKarman => "Von Kármán",
+        }
+    }
 }
 
 impl Named for WinchMode {

@@ -45,8 +45,8 @@ pub use steps::{Steps, digits};
 pub use uncertainty::{DEFAULT_SAMPLES, UncertaintyRequest, pose_and_tensions};
 
 pub use vibration::{
-    CableRequest, CompareRequest, DEFAULT_INPUT, DEFAULT_OUTPUT, FrfRequest, ModesRequest, ReduceRequest,
-    SETTLED_WITHIN, SettleRequest,
+    CableRequest, CompareRequest, DEFAULT_INPUT, DEFAULT_OUTPUT, FrfRequest, GUST_DURATION, GustRequest, ModesRequest,
+    ReduceRequest, SETTLED_WITHIN, SettleRequest, TurbulenceOptions,
 };
 
 pub use parts::check;
@@ -146,6 +146,7 @@ commands! {
     Modes(ModesRequest) "modes" Needed robot;
     Frf(FrfRequest) "frf" Needed robot;
     Settle(SettleRequest) "settle" Needed robot;
+    Gust(GustRequest) "gust" Needed robot;
     Compare(CompareRequest) "compare" Needed robot;
     Gradient(GradientRequest) "gradient" Needed robot;
     Uncertainty(UncertaintyRequest) "uncertainty" Needed robot;

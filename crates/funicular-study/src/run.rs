@@ -8,6 +8,7 @@ use crate::analyses::{
     design::{self, Designed},
     frf,
     gradient::{self, GradientTable},
+    gust::{self, Gusty},
     identify::{self, Identified},
     loads::{self, Loads},
     modes::{self, Modes},
@@ -119,6 +120,7 @@ answers! {
     Modes(Modes): of => modes::run(robot()?, of)?, at at_rest => modes::about(at_rest, of)?;
     Frf(frf::Frf): of => frf::run(robot()?, of, watch)?;
     Settle(Settled): of => settle::run(robot()?, of)?, at at_rest => settle::about(at_rest, of)?;
+    Gust(Gusty): of => gust::run(robot()?, of)?, at at_rest => gust::about(at_rest, of)?;
     Compare(Compared): of => compare::run(robot()?, of)?, at at_rest => compare::about(at_rest, of)?;
     Gradient(GradientTable): of => gradient::run(robot()?, of)?, at at_rest => gradient::about(at_rest, of)?;
     Uncertainty(Uncertainties): of => uncertainty::run(of, watch)?;

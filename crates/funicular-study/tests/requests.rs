@@ -112,6 +112,20 @@ fn requests() -> Vec<Value> {
             ],
         ),
         of(
+            "gust",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &model,
+                &json!({
+                    "output": ["z", "tension:1"], "output_point_m": [0.1, 0.0, 0.0], "duration_s": 300.0, "below_hz": 5.0,
+                    "turbulence": "kaimal", "intensity": [0.15, 0.12, 0.075], "length_scale_m": [85.0, 28.0, 6.9],
+                    "coherence_decay": [3.0, 8.0, 8.0],
+                }),
+            ],
+        ),
+        of(
             "settle",
             &[
                 &robot,

@@ -53,6 +53,7 @@ pub mod compare;
 pub mod drive;
 pub mod dynamics;
 pub mod gradient;
+pub mod gust;
 pub mod math;
 pub mod modes;
 mod platform;

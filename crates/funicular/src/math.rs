@@ -87,6 +87,10 @@ pub type DMat = nalgebra::DMatrix<f64>;
 pub(crate) type DVec = nalgebra::DVector<f64>;
 /// Complex matrix of any size.
 pub type CDMat = nalgebra::DMatrix<Complex>;
+/// Complex vector of any length.
+pub(crate) type CDVec = nalgebra::DVector<Complex>;
+/// Factors of a complex matrix of any size, by elimination with exchanges.
+pub(crate) type CDLu = nalgebra::LU<Complex, nalgebra::Dyn, nalgebra::Dyn>;
 
 #[cfg(test)]
 mod tests {

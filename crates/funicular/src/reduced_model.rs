@@ -36,7 +36,7 @@ use crate::statics::Equilibrium;
 use channels::Channels;
 use expansion::Expansion;
 use massless::MasslessSupports;
-use matrices::{CoordinateLayout, Matrices};
+pub(crate) use matrices::{CoordinateLayout, Matrices};
 use std::f64::consts::TAU;
 use std::ops::Range;
 use steps::Steps;

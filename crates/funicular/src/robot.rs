@@ -14,6 +14,7 @@ mod pulley;
 mod required;
 pub mod spec;
 mod support;
+mod turbulence;
 mod winch;
 mod wind;
 
@@ -26,6 +27,7 @@ pub(crate) use pulley::Wheel;
 pub use pulley::{Pulley, PulleyContact};
 pub use required::{LoadShape, RequiredLoads, RequiredLoadsError, RequiredPayload};
 pub use support::{DrumPlace, Support};
+pub use turbulence::{Turbulence, TurbulenceSpectrum};
 pub use winch::{Control, DrumSide, GuideWheel, Servo, Winch, WinchMode};
 pub use wind::{LineLoad, Wind};
 
@@ -49,6 +51,8 @@ pub struct Robot {
     pub required: RequiredLoads,
     /// Steady wind on cables and platform.
     pub wind: Wind,
+    /// Turbulence about that wind; `None` if the file gives none.
+    pub turbulence: Option<Turbulence>,
     /// Flexible supports of anchors, by name.
     pub supports: Vec<Support>,
     /// The cables, in file order.

@@ -10,6 +10,7 @@ mod figures;
 mod files;
 mod frf;
 mod gradient;
+mod gust;
 mod identify;
 mod import;
 mod links;

@@ -481,6 +481,25 @@ def settle(of: Any, given: Given) -> Results:
     return _results.results(of._results("settle", given))
 
 
+@declared(Analyses, "gust", positional=("output",), headings=REST, others=_AS_MODES)
+def gust(of: Any, given: Given) -> Results:
+    """Computes the response to turbulent wind: r.m.s. values and expected peaks of motions and tensions, with their
+    spectra.
+
+    The drag is linear about the mean wind of the equilibrium, and its damping is included. Motions are about that
+    equilibrium.
+
+    Returns
+    -------
+    The keys of the program's JSON; lists of numbers are arrays.
+
+    References
+    ----------
+    docs/theory.md, equations (49f) to (49q).
+    """
+    return _results.results(of._results("gust", given))
+
+
 @declared(Analyses, "compare", positional=("below_hz",), headings=REST, others=_AS_MODES)
 def compare(of: Any, given: Given) -> Results:
     """Compares every cable model with the catenary-dynamic model: frequencies found, missed and wrong, and the

@@ -10,7 +10,7 @@ use funicular::cable::CableModel;
 use funicular::compare::TOLERANCE;
 use funicular::modes::PLATFORM_SHARE;
 use funicular::modes::damped::DECAY_PERCENT;
-use funicular::robot::WinchMode;
+use funicular::robot::{TurbulenceSpectrum, WinchMode};
 
 declared! {
     /// Every natural frequency below a limit, with a count that proves that none is missing.
@@ -140,6 +140,61 @@ declared! {
 
 /// Default of the distance within which a point has settled [m].
 pub const SETTLED_WITHIN: f64 = 1e-3;
+
+declared! {
+    /// Response to turbulent wind: r.m.s. values and expected peaks of motions and tensions, with their spectra.
+    pub struct GustRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
+        /// Output, see `frf`: a motion of the platform or of a point on a cable, or the tension at the platform, tension:3
+        /// (repeatable).
+        output: Vec<String> = Vec::new() =>
+            (List(ProgramForm::Output)).form("OUTPUT").otherwise("all displacements and rotations of the platform, and all tensions");
+        /// Point of the platform whose motion is measured, platform frame [m].
+        output_point_m: Option<[f64; 3]> = None => (Vector).otherwise("the origin");
+        /// Time for which the mean wind lasts, and in which peaks are expected [s].
+        duration_s: f64 = GUST_DURATION => (Number(Positive));
+        /// Upper limit of the frequencies [Hz]; faster gusts are left out.
+        below_hz: Option<f64> = None => (Number(Positive))
+            .otherwise("above the 20 lowest natural frequencies and the first mode of the platform");
+        /// Turbulence about the mean wind.
+        #[serde(flatten)]
+        gusts: TurbulenceOptions = TurbulenceOptions::default() => group;
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Linearisation.
+        #[serde(flatten)]
+        model: Model = Model::default() => group;
+    }
+    examples {
+        "funicular gust robots/stadium-camera.toml --set materials.rope-5mm.drag_coefficient=1.2 \\\n    --set materials.rope-5mm.drag_diameter_m=0.005 --set platform.drag_area_m2=0.3 --wind-m-s 12,0,0 \\\n    --turbulence kaimal --intensity 0.15,0.12,0.075 --length-scale-m 85,28,6.9 --below-hz 2",
+    }
+}
+
+/// Default of the time in which peaks are expected [s]: ten minutes, over which mean winds are taken.
+pub const GUST_DURATION: f64 = 600.0;
+
+declared! {
+    /// Turbulence about the mean wind. A value that is not given comes from the robot file.
+    #[derive(Copy)]
+    pub struct TurbulenceOptions {
+        /// Spectrum of the gusts.
+        #[serde(with = "optional")]
+        turbulence: Option<TurbulenceSpectrum> = None => (name::<TurbulenceSpectrum>()).form("SPECTRUM").under("Gusts")
+            .otherwise("from the robot file");
+        /// Standard deviation of the gusts along the mean wind, lateral and up, over the mean speed.
+        intensity: Option<[f64; 3]> = None => (Vector).form("ALONG,LATERAL,UP").under("Gusts").otherwise("from the robot file");
+        /// Length scales of the gusts along, lateral and up, each in the direction of the mean wind [m].
+        length_scale_m: Option<[f64; 3]> = None => (Vector).form("ALONG,LATERAL,UP").under("Gusts").otherwise("from the robot file");
+        /// Decay of the coherence with the distance along the mean wind, lateral and up.
+        coherence_decay: Option<[f64; 3]> = None => (Vector).form("ALONG,LATERAL,UP").under("Gusts")
+            .otherwise("from the robot file, or 0,10,10");
+    }
+}
 
 declared! {
     /// Comparison of all cable models, and the simplest model that is good enough.

@@ -2,23 +2,23 @@
 
 use super::{Coordinate, DampingAt, ReductionError};
 use crate::dynamics::{CableBlocks, CableRow, PlatformBlocks, SupportBlocks};
-use crate::math::{DMat, DVec, symmetric_part};
+use crate::math::{CDMat, Complex, DMat, DVec, symmetric_part};
 use crate::robot::Damping;
 use std::f64::consts::TAU;
 
 /// Order of the coordinates: the platform's, then per cable its clamped modes in plane and out of plane, then the
 /// supports.
-pub(super) struct CoordinateLayout {
-    pub(super) dof: usize,
-    pub(super) first_of_term: Vec<usize>,
+pub(crate) struct CoordinateLayout {
+    pub(crate) dof: usize,
+    pub(crate) first_of_term: Vec<usize>,
     /// First coordinate of the supports.
-    pub(super) first_support: usize,
-    pub(super) coordinates: Vec<Coordinate>,
+    pub(crate) first_support: usize,
+    pub(crate) coordinates: Vec<Coordinate>,
 }
 
 impl CoordinateLayout {
     /// Order for a robot with this number of support coordinates.
-    pub(super) fn new(dof: usize, cables: &[CableBlocks], supports: usize) -> Self {
+    pub(crate) fn new(dof: usize, cables: &[CableBlocks], supports: usize) -> Self {
         let mut coordinates: Vec<Coordinate> = (0..dof).map(Coordinate::Platform).collect();
         let mut first_of_term = Vec::with_capacity(cables.len());
         for blocks in cables {
@@ -40,7 +40,7 @@ impl CoordinateLayout {
     }
 
     /// Adds `factor` times a row of a cable, given by its index among the terms, to a row over all coordinates.
-    pub(super) fn add_row(&self, of_cable: &CableRow, term: usize, factor: f64, row: &mut [f64]) {
+    pub(crate) fn add_row(&self, of_cable: &CableRow, term: usize, factor: f64, row: &mut [f64]) {
         let at_modes = &mut row[self.first_of_term[term]..][..of_cable.modes.len()];
         at_modes.iter_mut().zip(&of_cable.modes).for_each(|(sum, entry)| *sum += factor * entry);
         of_cable.ends.iter().enumerate().for_each(|(i, entry)| row[self.end(i)] += factor * entry);
@@ -48,44 +48,62 @@ impl CoordinateLayout {
 }
 
 /// Matrices over all coordinates.
-pub(super) struct Matrices {
-    pub(super) mass: DMat,
+pub(crate) struct Matrices {
+    pub(crate) mass: DMat,
     /// Viscous damping.
-    pub(super) damping: DMat,
+    pub(crate) damping: DMat,
     /// Damping of cables with a constant damping ratio: the coefficient R of the damping `2ωR`.
-    pub(super) ratio: DMat,
+    pub(crate) ratio: DMat,
     /// Imaginary part of the stiffness of supports with a constant damping ratio, and of ropes with a constant loss
     /// factor.
-    pub(super) loss: DMat,
-    pub(super) stiffness: DMat,
+    pub(crate) loss: DMat,
+    pub(crate) stiffness: DMat,
     /// Mass of the drives; part of `mass`.
-    pub(super) drives: DMat,
+    pub(crate) drives: DMat,
     /// Motions of drives on which losses act.
-    pub(super) lossy: Vec<Vec<f64>>,
+    pub(crate) lossy: Vec<Vec<f64>>,
 }
 
 impl Matrices {
-    /// Matrices of the platform alone, with n coordinates in total.
-    pub(super) fn of_platform(platform: &PlatformBlocks, n: usize) -> Self {
-        let f = platform.mass.nrows();
-        let at_corner = |block: &DMat| {
-            let mut matrix = DMat::zeros(n, n);
-            matrix.view_mut((0, 0), (f, f)).copy_from(block);
-            matrix
-        };
+    /// Matrices without anything, with n coordinates.
+    pub(crate) fn zeros(n: usize) -> Self {
+        let zeros = || DMat::zeros(n, n);
         Self {
-            mass: at_corner(&platform.mass),
-            damping: at_corner(&platform.damping),
-            ratio: DMat::zeros(n, n),
-            loss: DMat::zeros(n, n),
-            stiffness: at_corner(&platform.stiffness),
-            drives: DMat::zeros(n, n),
+            mass: zeros(),
+            damping: zeros(),
+            ratio: zeros(),
+            loss: zeros(),
+            stiffness: zeros(),
+            drives: zeros(),
             lossy: Vec::new(),
         }
     }
 
+    /// Matrices of the platform alone, with n coordinates in total.
+    pub(crate) fn of_platform(platform: &PlatformBlocks, n: usize) -> Self {
+        let f = platform.mass.nrows();
+        let mut matrices = Self::zeros(n);
+        let Self { mass, damping, stiffness, .. } = &mut matrices;
+        for (matrix, block) in [(mass, &platform.mass), (damping, &platform.damping), (stiffness, &platform.stiffness)]
+        {
+            matrix.view_mut((0, 0), (f, f)).copy_from(block);
+        }
+        matrices
+    }
+
+    /// Dynamic stiffness `K − ω²M + iωC + 2iω²R + iS` at ω [rad/s], ω ≥ 0, with constant ratios and loss factors as
+    /// they are. At rest a loss factor has no effect.
+    pub(crate) fn dynamic_stiffness(&self, omega: f64) -> CDMat {
+        let (square, of_loss) = (omega * omega, if omega > 0.0 { 1.0 } else { 0.0 });
+        CDMat::from_fn(self.mass.nrows(), self.mass.ncols(), |i, j| {
+            let at = (i, j);
+            let lost = omega * self.damping[at] + 2.0 * square * self.ratio[at] + of_loss * self.loss[at];
+            Complex::new(self.stiffness[at] - square * self.mass[at], lost)
+        })
+    }
+
     /// Adds the flexible supports.
-    pub(super) fn add_supports(&mut self, supports: &SupportBlocks, layout: &CoordinateLayout) {
+    pub(crate) fn add_supports(&mut self, supports: &SupportBlocks, layout: &CoordinateLayout) {
         let (at, count) = (layout.first_support, supports.mass.nrows());
         let parts = [
             (&mut self.stiffness, &supports.stiffness),
@@ -103,7 +121,7 @@ impl Matrices {
     }
 
     /// Adds a cable, given by its index among the terms.
-    pub(super) fn add_cable(&mut self, cable: &CableBlocks, term: usize, layout: &CoordinateLayout) {
+    pub(crate) fn add_cable(&mut self, cable: &CableBlocks, term: usize, layout: &CoordinateLayout) {
         let f = cable.end_mass.nrows();
         let n = self.mass.nrows();
         let from = layout.first_of_term[term];
@@ -155,7 +173,7 @@ impl Matrices {
     }
 
     /// Viscous damping, including the replacement of constant ratios.
-    pub(super) fn all_damping(&self, at: DampingAt) -> Result<DMat, ReductionError> {
+    pub(crate) fn all_damping(&self, at: DampingAt) -> Result<DMat, ReductionError> {
         let by_ratio = match at {
             DampingAt::Hz(hz) => &self.ratio * (2.0 * TAU * hz) + &self.loss / (TAU * hz),
             DampingAt::NaturalFrequencies => {

@@ -22,8 +22,9 @@ mod required;
 mod supports;
 mod tensor;
 mod winches;
+mod wind;
 
-use super::{Cable, Load, PlatformMotion, Pose, Robot, State, Support, Wind};
+use super::{Cable, Load, PlatformMotion, Pose, Robot, State, Support};
 use crate::math::Vec3;
 use cables::CableEntry;
 pub use issue::{Issue, SpecError};
@@ -129,28 +130,6 @@ const LOADS: &[Key] = &[
     .or([0.0; 3]),
 ];
 
-/// Keys of `[wind]`.
-const WIND: &[Key] = &[
-    Key::numeric(
-        Shape::Vector,
-        "velocity_m_s",
-        "velocity_m_s = [8.0, 0.0, 0.0]",
-        "m/s",
-        Range::Magnitude(Wind::MAX_SPEED),
-        "velocity of the air, world axes",
-    )
-    .or([0.0; 3]),
-    Key::numeric(
-        Shape::Number,
-        "air_density_kg_m3",
-        "air_density_kg_m3 = 1.225",
-        "kg/m³",
-        Range::Positive,
-        "density of the air",
-    )
-    .or([Wind::AIR_DENSITY; 3]),
-];
-
 /// Keys of `[state]`.
 const STATE: &[Key] = &[
     Key::numeric(
@@ -185,7 +164,7 @@ pub const TABLES: &[Table] = &[
     Table { header: "[loads]", keys: LOADS },
     Table { header: "[required]", keys: required::REQUIRED },
     Table { header: "[[required_loads]]", keys: LOADS },
-    Table { header: "[wind]", keys: WIND },
+    Table { header: "[wind]", keys: wind::KEYS },
     Table { header: "[state]", keys: STATE },
 ];
 
@@ -298,7 +277,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let platform = platform::read(reader, &root, motion);
     let load = read_load(reader, &root, motion);
     let required = required::read(reader, &root, motion, LOADS);
-    let wind = read_wind(reader, &root);
+    let (wind, turbulence) = wind::read(reader, &root);
     let materials = materials::read(reader, &root);
     let drives = drives::read(reader, &root);
     let supports = supports::read(reader, &root);
@@ -317,6 +296,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
         load: load?,
         required: required?,
         wind: wind?,
+        turbulence: turbulence?,
         supports,
         cables,
         state,
@@ -399,30 +379,6 @@ fn read_load(reader: &mut Reader, root: &Section, motion: Option<PlatformMotion>
 
     let (force, moment, point) = (vector("force_n"), vector("moment_n_m"), vector("point_m"));
     Some(Load { force_w: force?, moment_w: moment?, point_p: point? })
-}
-
-/// Reads `[wind]`: velocity and density.
-fn read_wind(reader: &mut Reader, root: &Section) -> Option<Wind> {
-    let Some(value) = root.get("wind") else { return Some(Wind::default()) };
-    let table = reader.table("wind", "[wind]", value)?;
-    let section = reader.open("[wind]", value.span(), table, WIND);
-
-    let velocity = reader.vector_or_default(&section, "velocity_m_s");
-    if let (Some(velocity), Some(value)) = (velocity, section.get("velocity_m_s")) {
-        let speed = Vec3::from(velocity).norm();
-        if speed > Wind::MAX_SPEED {
-            reader
-                .issue(
-                    value.span(),
-                    format!("`velocity_m_s` is a wind of {speed} m/s, it must be at most {} m/s", Wind::MAX_SPEED),
-                )
-                .help("faster air is compressed, and drag no longer grows with its square");
-            return None;
-        }
-    }
-
-    let air_density = reader.number_or_default(&section, "air_density_kg_m3");
-    Some(Wind { velocity_w: Vec3::from(velocity?), air_density: air_density? })
 }
 
 /// Reads `[state]` or the cables' lengths, and checks them against the geometry. Also returns the angles of `[state]`

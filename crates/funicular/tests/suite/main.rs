@@ -14,6 +14,7 @@ mod derivatives;
 mod drive;
 mod dynamic_stiffness;
 mod dynamics;
+mod gust;
 mod library;
 mod modes;
 mod platform;

@@ -1,0 +1,58 @@
+//! `gust`: text and CSV.
+
+use crate::output::Printed;
+use crate::table::{Table, counted, significant};
+use funicular_study::analyses::gust::{AirDamping, GustRow, Gusty};
+
+/// Modes that the table shows.
+const SHOWN: usize = 8;
+
+impl Printed for Gusty {
+    fn text(&self) -> String {
+        let outputs = Table::of(&GustRow::columns(), &self.outputs);
+        let modes = Table::of(&AirDamping::columns(), self.modes.iter().take(SHOWN));
+        let [x, y, z] = self.mean_wind_m_s.map(|part| significant(part, 4));
+        let turbulence = &self.turbulence;
+        let three = |of: [f64; 3]| of.map(|part| significant(part, 3)).join(", ");
+        format!(
+            "{}: response to gusts below {} Hz\n{}\nMean wind {x}, {y}, {z} m/s, `{}` gusts along, lateral, up: intensity \
+             {}, length scales {} m, decay of coherence {}.\n\n{outputs}\n{}\n\n{modes}\n{} of {} shown.\n",
+            self.robot,
+            significant(self.below_hz, 4),
+            self.models.line(),
+            turbulence.spectrum,
+            three(turbulence.intensity),
+            three(turbulence.length_scale_m),
+            three(turbulence.coherence_decay),
+            self.about_extremes(),
+            self.modes.len().min(SHOWN),
+            counted(self.modes.len(), "mode"),
+        )
+    }
+}
+
+/// Sentences about the columns of extremes.
+trait AboutExtremes {
+    fn about_extremes(&self) -> String;
+}
+
+impl AboutExtremes for Gusty {
+    fn about_extremes(&self) -> String {
+        let duration = significant(self.duration_s, 4);
+        let mut text = format!(
+            "Motions are about the equilibrium in the mean wind. Smallest and largest: expected values within {duration} s; \
+             slack: probability that the tension falls to zero in that time."
+        );
+        if self.outputs.iter().any(|row| row.peak.is_none()) {
+            text += &format!(
+                "\nA dash: fewer than ten crossings of the mean are expected in {duration} s; a longer time has a peak."
+            );
+        }
+        let weakest = self.outputs.iter().filter(|row| row.is_tension());
+        let weakest = weakest.filter_map(|row| Some((row, row.smallest()?))).min_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((row, smallest)) = weakest {
+            text += &format!("\nSmallest expected tension: {} N ({}).", significant(smallest, 4), row.output);
+        }
+        text
+    }
+}

@@ -1,0 +1,204 @@
+//! Spectra over frequency, with frequencies where they are needed, and their moments.
+
+use super::{Densities, GustError, Gusts};
+
+/// Part of each moment by which one interval of the integration may be wrong. Some hundred intervals have errors far
+/// below it, so that r.m.s. values are right to about 1e-4.
+pub const SPECTRUM_TOLERANCE: f64 = 1e-5;
+
+/// Lowest frequency, times the longest time of the turbulence. Below it spectra of turbulence are constant to 1e-4.
+const LOWEST: f64 = 1e-4;
+
+/// Intervals per decade from which the integration starts.
+const PER_DECADE: f64 = 6.0;
+
+/// Maximum number of frequencies: one second of work for a robot with eight cables.
+const MAX_FREQUENCIES: usize = 20_000;
+
+/// Moments of one spectrum.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Moments {
+    /// Variance, `∫S df`.
+    pub variance: f64,
+    /// `∫f² S df` [Hz² times the variance's unit].
+    pub second: f64,
+    /// Variance without the dynamics of the robot; not a number without stiffness.
+    pub quasi_static: f64,
+}
+
+impl Moments {
+    /// Root mean square about the mean.
+    pub fn rms(&self) -> f64 {
+        self.variance.sqrt()
+    }
+
+    /// Rate at which the mean is crossed upwards [Hz]; zero for a quantity that does not move.
+    pub fn rate(&self) -> f64 {
+        if self.variance > 0.0 { (self.second / self.variance).sqrt() } else { 0.0 }
+    }
+
+    fn add(&mut self, factor: f64, of: &Self) {
+        self.variance += factor * of.variance;
+        self.second += factor * of.second;
+        self.quasi_static += factor * of.quasi_static;
+    }
+}
+
+/// Spectra of all outputs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spectra {
+    /// Frequencies [Hz], ascending.
+    pub frequencies_hz: Vec<f64>,
+    /// Densities at each of them.
+    pub densities: Vec<Densities>,
+    /// Moments of each output up to the last frequency.
+    pub moments: Vec<Moments>,
+}
+
+/// Sample of the integrands over ln f.
+#[derive(Clone)]
+struct Sample {
+    ln: f64,
+    densities: Densities,
+    /// Integrands of the moments of each output.
+    integrands: Vec<Moments>,
+}
+
+/// Interval with its middle.
+struct Interval {
+    from: Sample,
+    middle: Sample,
+    to: Sample,
+}
+
+impl Interval {
+    /// Simpson's rule for each output.
+    fn moments(&self) -> Vec<Moments> {
+        let width = (self.to.ln - self.from.ln) / 6.0;
+        (0..self.from.integrands.len())
+            .map(|k| {
+                let mut sum = Moments::default();
+                sum.add(width, &self.from.integrands[k]);
+                sum.add(4.0 * width, &self.middle.integrands[k]);
+                sum.add(width, &self.to.integrands[k]);
+                sum
+            })
+            .collect()
+    }
+}
+
+impl Gusts {
+    /// Spectra of all outputs up to a frequency [Hz], and their moments. Frequencies are added until every moment is
+    /// right to about 1e-4; `natural_hz`, the natural frequencies of the robot, are among the first, so that no peak is
+    /// missed.
+    ///
+    /// # Errors
+    /// [`GustError::Resonance`] and [`GustError::TooManyFrequencies`].
+    pub fn spectra(&self, up_to_hz: f64, natural_hz: &[f64]) -> Result<Spectra, GustError> {
+        let lowest = (LOWEST / self.field.longest_s()).min(0.1 * up_to_hz);
+        let mut samples = Vec::new();
+        let mut stack = self.first_intervals(lowest, up_to_hz, natural_hz, &mut samples)?;
+        let low = samples[0].clone();
+
+        // Sizes of the moments, for the tolerance.
+        let mut sizes = vec![Moments::default(); self.outputs.len()];
+        for interval in &stack {
+            sizes.iter_mut().zip(interval.moments()).for_each(|(sum, of)| sum.add(1.0, &of));
+        }
+        self.share_noise(&mut sizes);
+
+        // Below the lowest frequency the spectra are constant.
+        let mut moments: Vec<Moments> = low.integrands.clone();
+        while let Some(interval) = stack.pop() {
+            let whole = interval.moments();
+            let [left, right] = self.halves(interval, &mut samples)?;
+            let (mut halves, more) = (left.moments(), right.moments());
+            halves.iter_mut().zip(&more).for_each(|(sum, of)| sum.add(1.0, of));
+            let gap = |k: usize| {
+                let (size, new, old): (&Moments, &Moments, &Moments) = (&sizes[k], &halves[k], &whole[k]);
+                let is_near = |new: f64, old: f64, size: f64| (new - old).abs() <= 15.0 * SPECTRUM_TOLERANCE * size;
+                is_near(new.variance, old.variance, size.variance) && is_near(new.second, old.second, size.second)
+            };
+            if (0..halves.len()).all(gap) {
+                for (k, sum) in moments.iter_mut().enumerate() {
+                    sum.add(16.0 / 15.0, &halves[k]);
+                    sum.add(-1.0 / 15.0, &whole[k]);
+                }
+            } else {
+                if samples.len() >= MAX_FREQUENCIES {
+                    return Err(GustError::TooManyFrequencies { limit: MAX_FREQUENCIES });
+                }
+                stack.extend([left, right]);
+            }
+        }
+
+        samples.sort_by(|a, b| a.ln.total_cmp(&b.ln));
+        samples.dedup_by(|a, b| a.ln == b.ln);
+        let frequencies_hz = samples.iter().map(|sample| sample.ln.exp()).collect();
+        Ok(Spectra { frequencies_hz, densities: samples.into_iter().map(|of| of.densities).collect(), moments })
+    }
+
+    /// Intervals in equal ratios, with ends at the natural frequencies.
+    fn first_intervals(
+        &self,
+        lowest: f64,
+        highest: f64,
+        natural_hz: &[f64],
+        samples: &mut Vec<Sample>,
+    ) -> Result<Vec<Interval>, GustError> {
+        let decades = (highest / lowest).log10();
+        let count = (PER_DECADE * decades).ceil().max(1.0) as usize;
+        let mut ends: Vec<f64> =
+            (0..=count).map(|i| lowest.ln() + (highest / lowest).ln() * i as f64 / count as f64).collect();
+        ends.extend(natural_hz.iter().filter(|f| **f > lowest && **f < highest).map(|f| f.ln()));
+        ends.sort_by(f64::total_cmp);
+        // Modes that share a frequency are one end.
+        ends.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+
+        let ends = ends.iter().map(|ln| self.sample(*ln, samples)).collect::<Result<Vec<_>, _>>()?;
+        ends.windows(2)
+            .map(|pair| {
+                let middle = self.sample(0.5 * (pair[0].ln + pair[1].ln), samples)?;
+                Ok(Interval { from: pair[0].clone(), middle, to: pair[1].clone() })
+            })
+            .collect()
+    }
+
+    fn halves(&self, of: Interval, samples: &mut Vec<Sample>) -> Result<[Interval; 2], GustError> {
+        let Interval { from, middle, to } = of;
+        let first = self.sample(0.5 * (from.ln + middle.ln), samples)?;
+        let second = self.sample(0.5 * (middle.ln + to.ln), samples)?;
+        Ok([Interval { from, middle: first, to: middle.clone() }, Interval { from: middle, middle: second, to }])
+    }
+
+    fn sample(&self, ln: f64, samples: &mut Vec<Sample>) -> Result<Sample, GustError> {
+        let frequency_hz = ln.exp();
+        let densities = self.densities(frequency_hz)?;
+        let integrand = |(total, still): (&f64, &f64)| Moments {
+            variance: frequency_hz * total,
+            second: frequency_hz.powi(3) * total,
+            quasi_static: frequency_hz * still,
+        };
+        let integrands = densities.total.iter().zip(&densities.quasi_static).map(integrand).collect();
+        let sample = Sample { ln, densities, integrands };
+        samples.push(sample.clone());
+        Ok(sample)
+    }
+
+    /// Raises the sizes of outputs that move by rounding alone, as those that symmetry forbids, to a part of the
+    /// largest size: their spectra are noise, which no integration resolves.
+    fn share_noise(&self, sizes: &mut [Moments]) {
+        /// Square of the rounding of a solution, over the largest solution.
+        const NOISE: f64 = 1e-18;
+
+        let largest = sizes.iter().fold(Moments::default(), |largest, of| Moments {
+            variance: largest.variance.max(of.variance),
+            second: largest.second.max(of.second),
+            quasi_static: 0.0,
+        });
+        for size in sizes {
+            size.variance = size.variance.max(NOISE * largest.variance);
+            size.second = size.second.max(NOISE * largest.second);
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! Turbulence of the wind: how strong it is, over which frequencies it is spread, and over which distances it agrees.
+
+use std::f64::consts::TAU;
+
+/// Turbulence about the mean wind. Components are in the order along the mean wind, lateral, up.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Turbulence {
+    /// Shape of the spectra.
+    pub spectrum: TurbulenceSpectrum,
+    /// Intensity of each component: its standard deviation over the mean speed.
+    pub intensity: [f64; 3],
+    /// Length scale of each component along the mean wind [m].
+    pub length_scale: [f64; 3],
+    /// Decay of the coherence with the distance along the mean wind, lateral and up; zero for none.
+    pub coherence_decay: [f64; 3],
+    /// True if the gusts travel with the mean wind without change (frozen turbulence): a place downstream meets them
+    /// later.
+    pub is_frozen: bool,
+}
+
+/// Shape of the spectra of turbulence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TurbulenceSpectrum {
+    /// Kaimal, in the form of IEC 61400-1.
+    Kaimal,
+    /// Von Kármán, isotropic at high frequencies.
+    VonKarman,
+}
+
+impl TurbulenceSpectrum {
+    /// Words of the robot file, with their meaning.
+    pub const WORDS: [(&'static str, &'static str); 2] =
+        [("kaimal", "Kaimal, as in IEC 61400-1"), ("von-karman", "von Kármán")];
+
+    /// Spectrum of a word of the robot file.
+    pub fn of_word(word: &str) -> Option<Self> {
+        [Self::Kaimal, Self::VonKarman].into_iter().find(|of| of.word() == word)
+    }
+
+    /// Word of the robot file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Kaimal => "kaimal",
+            Self::VonKarman => "von-karman",
+        }
+    }
+}
+
+impl Turbulence {
+    /// Intensities of the lateral and the vertical component over that along the wind (IEC 61400-1).
+    pub const INTENSITY_RATIOS: [f64; 3] = [1.0, 0.8, 0.5];
+
+    /// Decay of the coherence that is usual for wind across the distance (Davenport).
+    pub const COHERENCE_DECAY: [f64; 3] = [0.0, 10.0, 10.0];
+
+    /// Highest intensity. Beyond it the wind turns round now and then, and drag is not linear in the gusts.
+    pub const MAX_INTENSITY: f64 = 0.5;
+
+    /// Length scales [m] of Kaimal's spectra at a height above the ground: those of IEC 61400-1, (8.1, 2.7, 0.66) times
+    /// 0.7 of the height, at most 42 m.
+    pub fn length_scales_at(height: f64) -> [f64; 3] {
+        let scale = (0.7 * height).min(42.0);
+        [8.1, 2.7, 0.66].map(|factor| factor * scale)
+    }
+
+    /// One-sided spectral density of a component (0 along, 1 lateral, 2 up) at a frequency [Hz] in a mean wind of a
+    /// speed [m/s], over the variance of the component [1/Hz]. Its integral over all frequencies is 1, to the rounding
+    /// of the published constants, 1.5e-4.
+    ///
+    /// # References
+    /// docs/theory.md, equations (49f) and (49g).
+    pub fn density_over_variance(&self, component: usize, frequency_hz: f64, speed: f64) -> f64 {
+        let time = self.length_scale[component] / speed;
+        let n = frequency_hz * time;
+        let shape = match (self.spectrum, component) {
+            (TurbulenceSpectrum::Kaimal, _) => (1.0 + 6.0 * n).powf(-5.0 / 3.0),
+            (TurbulenceSpectrum::VonKarman, 0) => (1.0 + 70.8 * n * n).powf(-5.0 / 6.0),
+            (TurbulenceSpectrum::VonKarman, _) => (1.0 + 755.2 * n * n) * (1.0 + 283.2 * n * n).powf(-11.0 / 6.0),
+        };
+        4.0 * time * shape
+    }
+
+    /// One-sided spectral density of a component at a frequency [Hz] in a mean wind of a speed [m/s], [m²/s].
+    pub fn density(&self, component: usize, frequency_hz: f64, speed: f64) -> f64 {
+        let deviation = self.intensity[component] * speed;
+        deviation * deviation * self.density_over_variance(component, frequency_hz, speed)
+    }
+
+    /// Distance over which the coherence falls to 1/e at 1 Hz and 1 m/s, inverse: the root of Σ (C_a Δ_a)² for a
+    /// distance along the mean wind, lateral and up [m].
+    ///
+    /// # References
+    /// docs/theory.md, equation (49h).
+    pub fn weighted_distance(&self, distance: [f64; 3]) -> f64 {
+        let square: f64 = distance.iter().zip(self.coherence_decay).map(|(d, decay)| (d * decay).powi(2)).sum();
+        square.sqrt()
+    }
+
+    /// Phase [rad] by which the gusts at a place this far downstream [m] lag behind, at a frequency [Hz] and a mean
+    /// speed [m/s].
+    pub fn lag(&self, downstream: f64, frequency_hz: f64, speed: f64) -> f64 {
+        if self.is_frozen { TAU * frequency_hz * downstream / speed } else { 0.0 }
+    }
+}

@@ -1,0 +1,343 @@
+//! Response to gusts: spectra, coherence, limits with closed forms, another program's numbers, and a simulation in time.
+
+use funicular::cable::catenary_dynamic::DriveSignal;
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::gust::{self, GustError, Gusts, PeakFactor, Spectra};
+use funicular::math::Vec3;
+use funicular::modes;
+use funicular::response::{self, Quantity, Signal};
+use funicular::robot::{Damping, Robot, StretchLoss, Turbulence, TurbulenceSpectrum, Wind};
+use funicular::statics::{self, Equilibrium, StaticModel};
+
+/// Gusts of a robot whose file says nothing about wind.
+struct Case {
+    text: &'static str,
+    velocity: [f64; 3],
+    drag_width: f64,
+    drag_area: f64,
+    damping: (Damping, StretchLoss),
+    turbulence: Turbulence,
+    up_to_hz: f64,
+}
+
+/// Stadium camera in 12 m/s: numbers of a separate program, one spectral element per rope (its file is sway.json).
+fn stadium() -> Case {
+    Case {
+        text: funicular_robots::STADIUM_CAMERA,
+        velocity: [12.0, 0.0, 0.0],
+        drag_width: 1.2 * 0.005,
+        drag_area: 0.3,
+        damping: (Damping::Ratio(0.01), StretchLoss { factor: 0.0, time: 1e-3 }),
+        turbulence: Turbulence {
+            spectrum: TurbulenceSpectrum::Kaimal,
+            intensity: [0.15, 0.12, 0.075],
+            length_scale: [85.05, 28.35, 6.93],
+            coherence_decay: Turbulence::COHERENCE_DECAY,
+            is_frozen: true,
+        },
+        up_to_hz: 4.0,
+    }
+}
+
+/// CoGiRo in 9.4 m/s, of the same program.
+fn cogiro() -> Case {
+    let speed = 8.0_f64.hypot(5.0);
+    Case {
+        text: funicular_robots::COGIRO,
+        velocity: [8.0, 5.0, 0.0],
+        drag_width: 1.1 * 0.004,
+        drag_area: 1.2,
+        damping: (Damping::Ratio(0.003), StretchLoss { factor: 0.01, time: 0.0 }),
+        turbulence: Turbulence {
+            spectrum: TurbulenceSpectrum::VonKarman,
+            intensity: [1.7, 1.3, 0.85].map(|deviation| deviation / speed),
+            length_scale: [60.0, 20.0, 12.0],
+            coherence_decay: Turbulence::COHERENCE_DECAY,
+            is_frozen: true,
+        },
+        up_to_hz: 12.0,
+    }
+}
+
+impl Case {
+    fn at_rest(&self) -> (Robot, Equilibrium, Dynamics) {
+        let mut robot = Robot::from_toml(self.text).unwrap();
+        for cable in &mut robot.cables {
+            (cable.material.damping, cable.material.stretch_loss) = self.damping;
+            cable.material.drag_width = Some(self.drag_width);
+        }
+        robot.platform.drag_area = self.drag_area;
+        robot.wind = Wind { velocity_w: self.velocity.into(), ..Wind::default() };
+        robot.turbulence = Some(self.turbulence.clone());
+        let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), self.up_to_hz).unwrap();
+        (robot, rest, dynamics)
+    }
+
+    fn spectra(&self, outputs: &[(Signal, Quantity)]) -> Spectra {
+        let (robot, rest, dynamics) = self.at_rest();
+        let gusts = Gusts::new(&robot, &rest, &dynamics, outputs, self.up_to_hz).unwrap();
+        gusts.spectra(self.up_to_hz, &natural(&dynamics, self.up_to_hz)).unwrap()
+    }
+
+    fn with(mut self, decay: [f64; 3], is_frozen: bool) -> Self {
+        (self.turbulence.coherence_decay, self.turbulence.is_frozen) = (decay, is_frozen);
+        self
+    }
+}
+
+fn natural(dynamics: &Dynamics, below_hz: f64) -> Vec<f64> {
+    modes::below(dynamics, below_hz).modes.iter().map(|mode| mode.frequency_hz).collect()
+}
+
+fn along(direction_w: Vec3) -> (Signal, Quantity) {
+    (Signal::Along { direction_w, point_p: Vec3::zeros() }, Quantity::Displacement)
+}
+
+fn tension(cable: usize) -> (Signal, Quantity) {
+    (Signal::Drive { cable, signal: DriveSignal::Tension }, Quantity::Displacement)
+}
+
+/// Motions of the platform, and tensions of the first and the last cable.
+fn measured(last: usize) -> Vec<(Signal, Quantity)> {
+    let [x, y, z] = [Vec3::x(), Vec3::y(), Vec3::z()].map(along);
+    vec![x, y, z, tension(0), tension(last)]
+}
+
+/// R.m.s. values of x, y, z [m] and of two tensions [N], crossing rates of x, y, z [Hz].
+type Reference = ([f64; 5], [f64; 3]);
+
+fn compare(case: Case, last: usize, (rms, rates): Reference, tolerances: [f64; 2], what: &str) {
+    let spectra = case.spectra(&measured(last));
+    // That program integrates from 1e-4 Hz, below which the spectra are constant.
+    let variance = |k: usize| spectra.moments[k].variance - 1e-4 * spectra.densities[0].total[k];
+    let mut worst = [0.0_f64; 2];
+    for (k, expected) in rms.iter().enumerate() {
+        worst[0] = worst[0].max((variance(k).sqrt() / expected - 1.0).abs());
+    }
+    for (k, expected) in rates.iter().enumerate() {
+        worst[1] = worst[1].max(((spectra.moments[k].second / variance(k)).sqrt() / expected - 1.0).abs());
+    }
+    println!("{what}: {} frequencies, {worst:?}", spectra.frequencies_hz.len());
+    assert!(worst[0] < tolerances[0] && worst[1] < tolerances[1], "{what}: {worst:?}");
+}
+
+#[test]
+fn spectra_of_turbulence_integrate_to_their_variance() {
+    for spectrum in [TurbulenceSpectrum::Kaimal, TurbulenceSpectrum::VonKarman] {
+        let turbulence = Turbulence { spectrum, ..stadium().turbulence };
+        for component in 0..3 {
+            // Trapezoids over ln f, far beyond both ends; the tail falls with f^(−2/3).
+            let (from, to, count) = (1e-7_f64.ln(), 1e9_f64.ln(), 200_000);
+            let step = (to - from) / f64::from(count);
+            let integral: f64 = (0..=count)
+                .map(|i| (from + step * f64::from(i)).exp())
+                .map(|f| step * f * turbulence.density_over_variance(component, f, 12.0))
+                .sum();
+            // The published constants are rounded.
+            assert!((integral - 1.0).abs() < 1.5e-4, "{spectrum:?} {component}: {integral}");
+        }
+    }
+}
+
+#[test]
+fn the_stadium_camera_agrees_with_another_program() {
+    // Its numbers are stated to 0.3 % (rates 2 %).
+    let coherent = ([0.0327036, 0.0269836, 0.119151, 20.1425, 20.1425], [0.192485, 0.310549, 0.197926]);
+    compare(stadium().with([0.0; 3], false), 3, coherent, [3e-3, 0.02], "coherent");
+    let decaying = ([0.0260934, 0.0231453, 0.0836657, 11.4592, 11.4592], [0.118298, 0.158107, 0.0911491]);
+    compare(stadium().with([0.0, 10.0, 10.0], false), 3, decaying, [3e-3, 0.02], "decaying");
+    let frozen = ([0.025537, 0.0222076, 0.0792354, 10.657, 10.657], [0.10145, 0.138894, 0.0827441]);
+    compare(stadium(), 3, frozen, [3e-3, 0.02], "frozen");
+}
+
+#[test]
+fn cogiro_agrees_with_another_program() {
+    let coherent = ([0.000111934, 0.000152974, 0.000162482, 11.6626, 6.71697], [3.88917, 3.76662, 4.40017]);
+    compare(cogiro().with([0.0; 3], false), 7, coherent, [1e-3, 1e-3], "coherent");
+    let decaying = ([0.000109612, 0.000152044, 0.000130693, 11.3177, 5.84535], [4.0187, 3.89115, 4.09538]);
+    compare(cogiro().with([0.0, 10.0, 10.0], false), 7, decaying, [1e-3, 1e-3], "decaying");
+    let frozen = ([0.000109427, 0.000151672, 0.000130597, 11.3011, 5.83683], [4.02151, 3.89225, 4.08539]);
+    compare(cogiro(), 7, frozen, [1e-3, 1e-3], "frozen");
+}
+
+#[test]
+fn modes_have_the_aerodynamic_damping_of_another_program() {
+    for (case, expected) in [
+        (stadium(), [0.3872970457, 0.3227356622, 0.2798672034, 0.3608750651, 0.3912831404, 0.3330729698]),
+        (cogiro(), [0.007013510656, 0.004027476732, 0.008147310455, 0.0163327078, 0.01135554859, 0.01206466221]),
+    ] {
+        let (robot, rest, dynamics) = case.at_rest();
+        let listed = modes::below(&dynamics, case.up_to_hz).modes;
+        let ours = gust::aerodynamic_damping_ratio(&robot, &rest, &dynamics, &listed[..6]).unwrap();
+        for (ours, expected) in ours.iter().zip(expected) {
+            assert!((ours / expected - 1.0).abs() < 1e-6, "{ours} {expected}");
+        }
+    }
+}
+
+#[test]
+fn peak_factors_are_those_of_davenport() {
+    let found = PeakFactor::new(0.192485, 600.0).unwrap();
+    assert!((found.mean - 3.26923).abs() < 1e-5, "{}", found.mean);
+    assert!(PeakFactor::new(0.0166, 600.0).is_none() && PeakFactor::new(f64::NAN, 600.0).is_none());
+    assert_eq!(gust::slack_probability(10.0, 0.0, 0.0, 600.0), 0.0);
+    let rare = gust::slack_probability(50.0, 10.0, 1.0, 600.0);
+    assert!((rare - 600.0 * (-12.5_f64).exp()).abs() < 1e-5 && gust::slack_probability(-1.0, 1.0, 1.0, 1.0) == 1.0);
+}
+
+#[test]
+fn a_robot_without_turbulence_wind_or_drag_is_refused() {
+    let (robot, rest, dynamics) = stadium().at_rest();
+    let refused = |robot: &Robot| Gusts::new(robot, &rest, &dynamics, &[along(Vec3::z())], 4.0).err().unwrap();
+    assert_eq!(refused(&Robot { turbulence: None, ..robot.clone() }), GustError::NoTurbulence);
+    assert_eq!(refused(&robot.with_wind(Wind::default())), GustError::NoWind);
+    let updraught = Wind { velocity_w: Vec3::new(0.0, 0.0, 5.0), ..Wind::default() };
+    assert_eq!(refused(&robot.with_wind(updraught)), GustError::NotLevel);
+    let mut still = robot.clone();
+    still.platform.drag_area = 0.0;
+    still.cables.iter_mut().for_each(|cable| cable.material.drag_width = None);
+    assert_eq!(refused(&still), GustError::NoDrag);
+}
+
+/// Point mass on the robot of the stadium, whose platform alone meets the wind.
+fn platform_alone() -> (Robot, Equilibrium, Dynamics) {
+    let case = Case { drag_width: 0.0, ..stadium() };
+    case.at_rest()
+}
+
+/// Limit: the gust at one point is a single force, and its aerodynamic damping that of dampers at the platform.
+#[test]
+fn gusts_on_the_platform_alone_are_a_single_force_and_dampers() {
+    let (robot, rest, dynamics) = platform_alone();
+    let gusts = Gusts::new(&robot, &rest, &dynamics, &[along(Vec3::z()), tension(1)], 4.0).unwrap();
+    let turbulence = robot.turbulence.as_ref().unwrap();
+
+    // ½ρ c_d A U, twice along the wind.
+    let across = 0.5 * 1.225 * 0.3 * 12.0;
+    let factors = [2.0 * across, across, across];
+    let mut damped = robot.clone();
+    damped.platform.translational_damping_p = factors.into();
+    let damped = Dynamics::about(&damped, &rest, Linearisation::default(), 4.0).unwrap();
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let inputs: Vec<Signal> = axes.map(|direction_w| along(direction_w).0).to_vec();
+    let signals: Vec<Signal> = inputs.iter().copied().chain([along(Vec3::z()).0, tension(1).0]).collect();
+    let mut ports = response::Port::all(&robot, &rest, &damped, &signals, false).unwrap();
+    let outputs: Vec<_> = ports.split_off(3).into_iter().map(|port| (port, Quantity::Displacement)).collect();
+
+    for hz in [0.01, 0.3, 0.4363, 0.8, 2.5] {
+        let responses = response::matrix(&damped, &[hz], &ports, &outputs).unwrap();
+        let found = gusts.densities(hz).unwrap();
+        for (k, found) in found.total.iter().enumerate() {
+            let of_component =
+                |c: usize| responses[3 * k + c][0].norm_sqr() * factors[c].powi(2) * turbulence.density(c, hz, 12.0);
+            let expected: f64 = (0..3).map(of_component).sum();
+            // The clamped modes far above are replaced by a few.
+            assert!((found / expected - 1.0).abs() < 1e-5, "{hz} {k}: {found} {expected}");
+        }
+    }
+}
+
+/// Closed form of the aerodynamic admittance of a line whose load moves one end: the shape is 1 − s/L.
+#[test]
+fn gusts_on_one_straight_cable_have_the_admittance_of_a_line() {
+    let (mut robot, ..) = platform_alone();
+    robot.platform.drag_area = 0.0;
+    // Across the wind, taut and without mass: the shape of slow motion is a straight line.
+    for cable in &mut robot.cables {
+        (cable.material.mass_per_length, cable.material.drag_width) = (0.0, None);
+    }
+    robot.cables[0].material.drag_width = Some(1e-9);
+    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 4.0).unwrap();
+    let chord = rest.cables[0].chord_w();
+
+    let density = |decay: [f64; 3], hz: f64| {
+        let mut robot = robot.clone();
+        let turbulence = robot.turbulence.as_mut().unwrap();
+        (turbulence.coherence_decay, turbulence.is_frozen) = (decay, false);
+        Gusts::new(&robot, &rest, &dynamics, &[along(Vec3::z())], 4.0).unwrap().densities(hz).unwrap().quasi_static[0]
+    };
+    for hz in [0.01, 0.1, 0.5] {
+        let b = hz / 12.0 * 10.0 * chord.y.hypot(chord.z);
+        // ∫∫ x x' e^{−b|x − x'|} over the square, over its value 1/4 for b = 0.
+        let line = 4.0 * 2.0 * (b.powi(3) / 3.0 - 0.5 * b * b + 1.0 - (1.0 + b) * (-b).exp()) / b.powi(4);
+        let found = density([0.0, 10.0, 10.0], hz) / density([0.0; 3], hz);
+        // Error of 16 cells, b²/16²/12 in the part of neighbouring cells.
+        assert!((found / line - 1.0).abs() < 4e-3, "{hz} Hz, b = {b}: {found} {line}");
+    }
+}
+
+/// Closed form: a taut string across the wind, twice as much in the direction of the wind.
+#[test]
+fn a_taut_string_has_its_aerodynamic_damping_in_closed_form() {
+    let (mut robot, ..) = platform_alone();
+    // A light load and hardly any gravity: the ropes are straight.
+    robot.gravity_w *= 1e-3;
+    robot.platform.mass = 1e6;
+    robot.platform.drag_area = 0.0;
+    robot.wind.velocity_w = Vec3::new(0.01, 0.0, 0.0);
+    let width = 1.2 * 0.005;
+    robot.cables.iter_mut().for_each(|cable| cable.material.drag_width = Some(width));
+    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 8.0).unwrap();
+    let listed = modes::below(&dynamics, 8.0).modes;
+    let ratios = gust::aerodynamic_damping_ratio(&robot, &rest, &dynamics, &listed).unwrap();
+
+    let axis = rest.cables[0].chord_w().normalize();
+    let across = (Vec3::x() - axis * axis.x).norm() * 0.01;
+    let mass = robot.cables[0].material.mass_per_length;
+    let mut seen = [false; 2];
+    for (mode, ratio) in listed.iter().zip(&ratios).filter(|(mode, _)| mode.platform_energy_fraction < 1e-3) {
+        let once = 1.225 * width * across / (4.0 * mass * mode.frequency_hz * std::f64::consts::TAU);
+        let factor = ratio / once;
+        // A mode polarised between both directions lies between.
+        assert!((1.0 - 1e-2..2.0 + 1e-2).contains(&factor), "{} Hz: {factor}", mode.frequency_hz);
+        seen[0] |= (factor - 1.0).abs() < 0.1;
+        seen[1] |= (factor - 2.0).abs() < 0.1;
+    }
+    assert!(seen.iter().any(|seen| *seen), "{ratios:?}");
+}
+
+/// Every number of the wind changes the result: by 1 % of it, and in the right direction.
+#[test]
+fn results_follow_every_number_of_the_wind() {
+    let rms = |case: Case| case.spectra(&[along(Vec3::z())]).moments[0].rms();
+    let plain = rms(stadium());
+    let mut intensity = stadium();
+    intensity.turbulence.intensity[0] *= 1.01;
+    let grown = rms(intensity) / plain;
+    // Nine tenths of the square come from gusts along the wind.
+    assert!((1.0085..1.01).contains(&grown), "{grown}");
+    let mut decay = stadium();
+    decay.turbulence.coherence_decay = decay.turbulence.coherence_decay.map(|decay| 1.01 * decay);
+    let less = rms(decay) / plain;
+    assert!(less < 1.0 - 5e-4 && less > 0.99, "{less}");
+    let mut length = stadium();
+    length.turbulence.length_scale[0] *= 1.01;
+    let longer = rms(length) / plain;
+    assert!((longer - 1.0).abs() > 1e-4, "{longer}");
+}
+
+/// Densities are never negative, and those of velocity and acceleration follow from those of the displacement.
+#[test]
+fn densities_are_positive_and_follow_by_differentiation() {
+    let (robot, rest, dynamics) = stadium().at_rest();
+    let up = |quantity| (along(Vec3::z()).0, quantity);
+    let on_cable = Signal::OnCable { cable: 2, fraction: 0.5, direction_w: Vec3::x() };
+    let outputs = [
+        up(Quantity::Displacement),
+        up(Quantity::Velocity),
+        up(Quantity::Acceleration),
+        (on_cable, Quantity::Displacement),
+        tension(0),
+    ];
+    let gusts = Gusts::new(&robot, &rest, &dynamics, &outputs, 4.0).unwrap();
+    for hz in [1e-4, 0.01, 0.3, 0.9, 2.0, 4.0] {
+        let found = gusts.densities(hz).unwrap().total;
+        assert!(found.iter().all(|density| *density > 0.0), "{hz}: {found:?}");
+        let square = (hz * std::f64::consts::TAU).powi(2);
+        assert!((found[1] / (found[0] * square) - 1.0).abs() < 1e-12);
+        assert!((found[2] / (found[0] * square * square) - 1.0).abs() < 1e-12);
+    }
+}
