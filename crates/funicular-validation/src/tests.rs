@@ -48,6 +48,11 @@ fn the_loss_of_the_stretch_is_that_of_the_independent_program() {
 }
 
 #[test]
+fn the_sway_after_commands_is_that_of_the_independent_program() {
+    check(super::sway::section(&reference::sway().unwrap()));
+}
+
+#[test]
 fn gradients_are_those_of_a_complex_step_through_a_separate_program() {
     check(gradients::section(&reference::gradients().unwrap()));
 }

@@ -10,6 +10,7 @@ mod null_vectors;
 mod supports;
 
 pub(crate) use blocks::{CableBlocks, CableRow, DrivePartBlock, PlatformBlocks, SupportBlocks};
+pub(crate) use complex_frequency::DampedMotion;
 pub use error::DynamicsError;
 pub(crate) use null_vectors::NullVector;
 
