@@ -17,6 +17,7 @@ use crate::request::{self, SettleRequest, check_vector};
 use crate::table::Column;
 use anyhow::{Result, bail};
 use command::{Command, CommandKind};
+use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Vec3, Vec6};
 use funicular::modes::damped::DampedModes;
@@ -237,6 +238,12 @@ impl<'a> Swing<'a> {
     }
 
     fn after_command(&self, command: &Command, request: &SettleRequest, warnings: &mut Vec<String>) -> Result<Moved> {
+        if self.linearisation.cable_model != CableModel::CatenaryDynamic {
+            bail!(
+                "the cable model `{}` has no length that is commanded: a stop and a move need `catenary-dynamic`, the default",
+                self.linearisation.cable_model.name()
+            );
+        }
         let motions = CommandedMotions::of(&self.dynamics, &self.modes, &self.damped, &self.arm_w)?;
         let without = motions.after(&command.lengths());
         let shaped = match shaping::kind(request)? {

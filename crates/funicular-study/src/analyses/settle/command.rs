@@ -57,6 +57,9 @@ const CHECKS_PER_PERIOD: f64 = 12.0;
 /// Maximum number of samples of the commanded lengths: an hour at 0.1 s, or 36 s at 1 ms.
 pub(super) const MAX_SAMPLES: f64 = 36_000.0;
 
+/// Part of a sample beyond the last one that counts as rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// Relative difference of lengths that counts as rounding.
 const SAME_LENGTH: f64 = 1e-6;
 
@@ -213,7 +216,7 @@ impl<'a> Command<'a> {
     /// Too many samples, lengths of the state that the tension rule does not give, or a pose that the cables cannot hold.
     pub(super) fn sampled(&self, step: f64) -> Result<Vec<LengthsRow>> {
         let end = self.profile.duration();
-        let count = (end / step).ceil();
+        let count = (end / step - ROUNDING).ceil().max(0.0);
         if count > MAX_SAMPLES {
             bail!(
                 "⟪sample_time_s⟫ {step} gives {count} samples of the lengths, and at most {MAX_SAMPLES} are computed: give a \
