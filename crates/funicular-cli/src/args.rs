@@ -9,7 +9,7 @@ use anyhow::{Context, Result};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 pub(crate) use files::{
     ChangeArgs, DesignArgs, DrawArgs, DrawModesArgs, FigureArgs, FileArgs, Format, IdentifyArgs, ImportArgs, MapArgs,
-    MergeArgs, NewArgs, OutputArgs, PageArgs, PlotArgs, ReduceArgs, RequestArgs, RunArgs, UncertaintyArgs,
+    MergeArgs, NewArgs, OutputArgs, PageArgs, PlotArgs, ReduceArgs, RequestArgs, RunArgs, SettleArgs, UncertaintyArgs,
 };
 use files::{OptionalRobotArgs, RobotArgs};
 use funicular_study::request::{self, CommandInfo, Declared, Experiment, Key, Request, RequestRobot, ResponsePoints};
@@ -142,6 +142,7 @@ fn with_files(name: &str, command: Command) -> Command {
         "modes" => DrawModesArgs::augment_args(command),
         "uncertainty" => UncertaintyArgs::augment_args(command),
         "reduce" => ReduceArgs::augment_args(command),
+        "settle" => SettleArgs::augment_args(command),
         "identify" => IdentifyArgs::augment_args(command),
         "design" => DesignArgs::augment_args(command),
         "map" => MapArgs::augment_args(command).mut_arg("grid", |arg| arg.required_unless_present("poses")),

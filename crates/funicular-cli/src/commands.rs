@@ -61,6 +61,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
             analysis::print_or_draw(&request, &drawn.output, drawn.figure, figure_mode, guard())
         }
         Request::Uncertainty(of) => uncertainty::run(of, &cli.files()?, &mut guard()),
+        Request::Settle(of) => settle::run(of, &request, &cli.files()?, guard()),
         Request::Reduce(of) => reduce::run(of, &cli.files()?, guard()),
         Request::Identify(of) => identify::run(of, &cli.files()?, &mut guard()),
         Request::Design(of) => design::run(of, &cli.files()?, &mut guard()),

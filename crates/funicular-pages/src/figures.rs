@@ -15,6 +15,7 @@ pub(crate) mod hull;
 mod making;
 pub(crate) mod map;
 mod pdf;
+mod settling;
 pub(crate) mod space;
 pub(crate) mod style;
 pub(crate) mod supports;

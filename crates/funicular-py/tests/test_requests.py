@@ -39,6 +39,8 @@ MORE = [
     f"funicular frf {ROBOT} --from-hz 0.5 --to-hz 2 --adaptive --input fz --input fx --output z --output rx",
     f"funicular settle {ROBOT} --release-n 0,0,-1 --below-hz 2 {LENGTHS} --input-point-m 0.1,0,0 --output-point-m 0,0,0.1",
     f"funicular settle robots/cogiro.toml --release-n-m 5,0,0 --tolerance-m 1e-5 --below-hz 5 {TENSIONS} --hold-lengths-of-pose",
+    f"funicular settle {ROBOT} --stop-m-s 0,0.1,0 --stop-rad-s 0,0,0.1 --profile-s 0.5,0.1 --below-hz 3",
+    f"funicular settle {ROBOT} --move-m 0,0.02,0 --move-deg 0,0,1 --profile-s 1,0.2 --below-hz 3 --shaper ei:0.05 --shape-modes-hz 1.02 --sample-time-s 0.1",
     f"funicular settle {ROBOT} --release-n 0,0,-0.5 --pose 0,0,0.5 --below-hz 3 {STATE} {WHOLE} --winches clamped",
     f"funicular gust {GUSTY} --output z --output tension:2 --below-hz 1 --duration-s 300 --coherence-decay 3,8,8",
     f"funicular gust {GUSTY} --output x --output-point-m 0,0,0 --below-hz 1 --mass-kg 15",

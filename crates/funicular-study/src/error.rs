@@ -3,7 +3,7 @@
 use crate::wording::{Warned, Words, message};
 use funicular::dynamics::DynamicsError;
 use funicular::gradient::GradientError;
-use funicular::modes::ReleaseError;
+use funicular::modes::DecayError;
 use funicular::reduced_model::ReductionError;
 use funicular::response::ResponseError;
 use funicular::robot::Robot;
@@ -79,7 +79,7 @@ impl ErrorKind {
                 error.downcast_ref().is_some_and(DynamicsError::is_no_solution)
                     || matches!(error.downcast_ref::<ResponseError>(), Some(ResponseError::Resonance { .. }))
                     || error.downcast_ref().is_some_and(ReductionError::is_no_solution)
-                    || error.downcast_ref().is_some_and(ReleaseError::is_no_solution)
+                    || error.downcast_ref().is_some_and(DecayError::is_no_solution)
                     || matches!(error.downcast_ref(), Some(FrictionError::Singular))
                     || matches!(error.downcast_ref(), Some(GradientError::Resonance { .. }))
                     || error.is::<NoSolution>()

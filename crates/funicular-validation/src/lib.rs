@@ -21,6 +21,7 @@ mod reference;
 mod robots;
 mod shapes;
 mod stretch_loss;
+mod sway;
 #[cfg(test)]
 mod tests;
 mod uncertainty;
@@ -129,6 +130,7 @@ pub fn sections() -> Result<Vec<Section>> {
         exact::section(&published, &reference::exact()?, &independent)?,
         damped::section(&reference::damped()?, &independent)?,
         stretch_loss::section(&reference::stretch_loss()?)?,
+        sway::section(&reference::sway()?)?,
         drives::section(&of_drives, driven::comparisons(&of_drives)?)?,
         gradients::section(&reference::gradients()?)?,
         measured::section(&reference::measured()?.grab)?,

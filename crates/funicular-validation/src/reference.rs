@@ -10,6 +10,7 @@ mod load_factors;
 mod measured;
 mod published;
 mod stretch_loss;
+mod sway;
 
 use anyhow::{Result, anyhow};
 use funicular::robot::{Robot, State};
@@ -35,6 +36,7 @@ pub(super) use published::{
 };
 
 pub(super) use stretch_loss::{ChangedRobot, LossyRobot, LossyRope, StretchLossReference, stretch_loss};
+pub(super) use sway::{ShapedSums, SwayReference, SwayingRobot, sway};
 
 /// Table of a reference file: a source and rows.
 #[derive(Deserialize)]

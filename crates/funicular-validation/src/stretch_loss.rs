@@ -32,7 +32,7 @@ pub(super) fn section(reference: &StretchLossReference) -> Result<Section> {
 }
 
 /// Robot of the library with the numbers of a case, its damping and its loss, at rest.
-fn at_rest(of: &ChangedRobot, xi: f64, loss: StretchLoss) -> Result<(Robot, Equilibrium)> {
+pub(super) fn at_rest(of: &ChangedRobot, xi: f64, loss: StretchLoss) -> Result<(Robot, Equilibrium)> {
     let text = match of.robot.as_str() {
         "yuan2014-4mm" => funicular_robots::YUAN2014_4MM,
         "cogiro" => funicular_robots::COGIRO,
@@ -70,7 +70,7 @@ fn modes_of(
 }
 
 /// Value of the list that is nearest by a distance.
-fn nearest<T>(list: &[T], distance: impl Fn(&T) -> f64) -> Result<&T> {
+pub(super) fn nearest<T>(list: &[T], distance: impl Fn(&T) -> f64) -> Result<&T> {
     list.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).context("an empty list")
 }
 

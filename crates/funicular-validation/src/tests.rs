@@ -53,6 +53,11 @@ fn load_factors_and_closure_are_those_of_the_independent_program() {
 }
 
 #[test]
+fn the_sway_after_commands_is_that_of_the_independent_program() {
+    check(super::sway::section(&reference::sway().unwrap()));
+}
+
+#[test]
 fn gradients_are_those_of_a_complex_step_through_a_separate_program() {
     check(gradients::section(&reference::gradients().unwrap()));
 }

@@ -289,7 +289,7 @@ impl DynamicCable {
     pub(crate) fn force_by_carrier(&self, motion: &CarrierMotion, omega: f64) -> [Complex; 3] {
         match self {
             Self::ShallowDynamic(cable) => cable.force_by_far_end(&motion.displacement, omega),
-            Self::CatenaryDynamic(cable) => cable.force_by_carrier(motion, omega),
+            Self::CatenaryDynamic(cable) => cable.force_by_carrier(motion, omega.into()),
         }
     }
 

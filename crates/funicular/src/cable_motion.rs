@@ -243,7 +243,7 @@ impl CableStations {
             (StationModel::CatenaryDynamic { .. }, None) => 0.0.into(),
             (StationModel::CatenaryDynamic { cable, stations, term }, Some(carrier)) => {
                 let Some(end) = dynamics.terms()[*term].form().by_poles() else { unreachable!("made of this term") };
-                let moved = stations.displacement(at, &end.motion_by_carrier(cable, carrier, omega));
+                let moved = stations.displacement(at, &end.motion_by_carrier(cable, carrier, omega.into()));
                 moved.iter().zip(self.local(direction_w)).map(|(u, component)| u * component).sum()
             }
         }
@@ -261,7 +261,7 @@ impl CableStations {
     ) -> Complex {
         let StationModel::CatenaryDynamic { cable, stations, term } = &self.model else { return 0.0.into() };
         let Some(end) = dynamics.terms()[*term].form().by_poles() else { unreachable!("made of this term") };
-        let Some(motion) = end.motion_by_signal(cable, signal, omega) else { return 0.0.into() };
+        let Some(motion) = end.motion_by_signal(cable, signal, omega.into()) else { return 0.0.into() };
         let moved = stations.displacement(at, &motion);
         moved.iter().zip(self.local(direction_w)).map(|(u, component)| u * component).sum()
     }

@@ -11,6 +11,7 @@ mod platform_frequency;
 mod supports;
 
 pub(crate) use blocks::{CableBlocks, CableRow, DrivePartBlock, PlatformBlocks, SupportBlocks};
+pub(crate) use complex_frequency::DampedMotion;
 pub use error::DynamicsError;
 pub(crate) use null_vectors::NullVector;
 

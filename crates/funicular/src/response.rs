@@ -265,7 +265,7 @@ impl<'a> OwnResponse<'a> {
                 let Some(form) = dynamics.terms()[*term].form().by_poles() else {
                     unreachable!("ports of drives are on catenary-dynamic cables")
                 };
-                form.signal_response(*from, *to, omega).unwrap_or_default()
+                form.signal_response(*from, *to, omega.into()).unwrap_or_default()
             }
         }
     }

@@ -97,6 +97,17 @@ pub(crate) struct DrawModesArgs {
     pub(crate) figure_mode: Option<usize>,
 }
 
+/// Decay that is printed or drawn, and the file of the commanded lengths.
+#[derive(Debug, Args)]
+pub(crate) struct SettleArgs {
+    #[command(flatten)]
+    pub(crate) drawn: DrawArgs,
+
+    /// Write the commanded lengths to FILE.csv: t_s, and unstrained_length_NAME_m of every cable [m]
+    #[arg(long, value_name = "FILE.csv", requires = "sample_time_s", help_heading = "Output")]
+    pub(crate) lengths: Option<PathBuf>,
+}
+
 /// Model whose matrices are written to files.
 #[derive(Debug, Args)]
 pub(crate) struct ReduceArgs {

@@ -1,34 +1,141 @@
-//! `settle`: text and CSV.
+//! `settle`: text, CSV, and the file of the commanded lengths.
 
-use crate::output::Printed;
+use super::analysis;
+use crate::args::SettleArgs;
+use crate::errors;
+use crate::output::{Content, Printed, Sink, Target};
 use crate::table::{Table, counted, decimals, significant};
-use funicular_study::analyses::settle::{Settled, SettlingMode};
+use anyhow::Result;
+use funicular_files::Guard;
+use funicular_files::endings::Kind;
+use funicular_study::analyses::settle::{self, Commanded, Held, Settled, SettlingMode, Shaping};
+use funicular_study::request::{Request, SettleRequest};
+use std::fmt::Write as _;
 
 /// Modes that the table shows.
 const SHOWN: usize = 12;
 
+/// Runs `settle`: prints or draws the decay, and writes the commanded lengths.
+pub(super) fn run(of: &SettleRequest, request: &Request, args: &SettleArgs, mut guard: Guard) -> Result<()> {
+    let Some(path) = &args.lengths else {
+        return analysis::print_or_draw(request, &args.drawn.output, args.drawn.figure, None, guard);
+    };
+    let robot = of.robot.read()?.robot;
+    let sink = Sink::open(&args.drawn.output, &[], &mut guard)?;
+    let content = Content { name: "the lengths", in_words: "CSV", fitting: &[Kind::Csv] };
+    let target = Target::open(Some(path), content, &mut guard)?;
+
+    let found = settle::run(robot, of)?;
+    if let Some(commanded) = &found.commanded {
+        target.write(lengths_csv(commanded).as_bytes())?;
+        errors::note(&format!("wrote {}", path.display()));
+    }
+    sink.write(&found)
+}
+
+/// Lengths over time, one column per cable.
+fn lengths_csv(commanded: &Commanded) -> String {
+    let mut text = String::from("t_s");
+    for cable in &commanded.cables {
+        let _ = write!(text, ",unstrained_length_{cable}_m");
+    }
+    text.push('\n');
+    for row in &commanded.lengths {
+        let _ = write!(text, "{}", row.t_s);
+        for length in &row.unstrained_lengths_m {
+            let _ = write!(text, ",{length}");
+        }
+        text.push('\n');
+    }
+    text
+}
+
 impl Printed for Settled {
     fn text(&self) -> String {
         let table = Table::of(&SettlingMode::columns(), self.modes.iter().take(SHOWN));
-        let [x, y, z] = self.held_m.map(|part| significant(1e3 * part, 4));
         let last = self.modes.iter().max_by(|a, b| a.settled_s.total_cmp(&b.settled_s));
         let last = last.filter(|mode| mode.settled_s > 0.0).map_or_else(String::new, |mode| {
             format!("; the mode at {} Hz lasts longest", decimals(mode.frequency_hz, 4))
         });
+        let (what, before) = match (&self.commanded, &self.held) {
+            (Some(commanded), _) => (format!("a {}", commanded.command), of_command(commanded)),
+            (None, Some(held)) => ("a release".to_owned(), of_release(held)),
+            (None, None) => (String::new(), String::new()),
+        };
+        let shaping = self.commanded.as_ref().and_then(|commanded| commanded.shaping.as_ref());
         format!(
-            "{}: decay after a release, modes below {} Hz\n{}\n\nDisplacement before the release, linear: {x}, {y}, {z} \
-             mm.\nWithin {} mm for good after {} s; by the sum of all amplitudes after {} s{last}.\nAll modes above the \
-             limit together move the point by at most {} mm at the release.\n\n{table}\n{} of {} shown.{}\n",
+            "{}: decay after {what}, modes below {} Hz\n{}\n\n{before}\nWithin {} mm for good after {} s; by the sum of all \
+             amplitudes after {} s{last}.\n{}\n{table}\n{} of {} shown.{}\n",
             self.robot,
             self.below_hz,
             self.models.line(),
             significant(1e3 * self.tolerance_m, 4),
             significant(self.settled_s, 4),
             significant(self.surely_settled_s, 4),
-            significant(1e3 * self.omitted_m, 3),
+            match &self.held {
+                Some(held) => of_omitted(held),
+                None => shaping.map_or_else(String::new, |shaping| of_shaper(shaping, self.tolerance_m)),
+            },
             self.modes.len().min(SHOWN),
             counted(self.modes.len(), "mode"),
             if self.damped_certified { "" } else { " NOT certified: no count proves the list of damped modes." },
         )
     }
+}
+
+fn of_omitted(held: &Held) -> String {
+    format!(
+        "All modes above the limit together move the point by at most {} mm at the release.\n",
+        significant(1e3 * held.omitted_m, 3)
+    )
+}
+
+/// Displacement before a release.
+fn of_release(held: &Held) -> String {
+    let [x, y, z] = held.held_m.map(|part| significant(1e3 * part, 4));
+    format!("Displacement before the release, linear: {x}, {y}, {z} mm.")
+}
+
+/// Duration and lowest tension of a command.
+fn of_command(of: &Commanded) -> String {
+    let lowest = &of.lowest_tension;
+    format!(
+        "The {} takes {} s; times are counted from its end. The lowest tension is {} N, in cable \"{}\" {} s after its start.",
+        of.command,
+        significant(of.duration_s, 4),
+        significant(lowest.tension_n, 4),
+        lowest.cable,
+        significant(lowest.t_s, 3),
+    )
+}
+
+/// Shaper, its impulses, and what it leaves.
+fn of_shaper(of: &Shaping, tolerance: f64) -> String {
+    if of.modes_hz.is_empty() {
+        return format!("Shaper {}: not needed, the sum of all amplitudes is within the tolerance.\n", of.shaper);
+    }
+    let modes: Vec<String> = of.modes_hz.iter().map(|frequency| decimals(*frequency, 4)).collect();
+    let impulses: Vec<String> = (of.impulses.iter())
+        .map(|impulse| format!("{} at {} s", decimals(impulse.part, 4), decimals(impulse.t_s, 4)))
+        .collect();
+    let mut text = format!(
+        "Shaper {} for {} Hz, {} s longer: {}.\nWithout it: within {} mm for good {} s after an end that is {} s earlier.\n",
+        of.shaper,
+        modes.join(", "),
+        significant(of.longer_s, 4),
+        impulses.join(", "),
+        significant(1e3 * tolerance, 3),
+        significant(of.settled_without_s, 4),
+        significant(of.longer_s, 4),
+    );
+    for row in &of.robustness {
+        let _ = writeln!(
+            text,
+            "All frequencies {:+.0} %: sum of the amplitudes {} mm, without the shaper {} mm.",
+            100.0 * (row.frequency_factor - 1.0),
+            significant(1e3 * row.amplitude_m, 3),
+            significant(1e3 * row.without_m, 3),
+        );
+    }
+    text
 }

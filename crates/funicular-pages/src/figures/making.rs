@@ -5,7 +5,7 @@ use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
 use super::space::{RobotShape, Space};
 use super::style::{self, GREY, ModelStyle, Symbol};
-use super::{Figure, FigureChoice, FigureContent};
+use super::{Figure, FigureChoice, FigureContent, settling};
 use crate::figure_style::{MODE_TICKS, ModeTick, rgb};
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -16,7 +16,7 @@ use funicular::modes::{self, Mode};
 use funicular::robot::Robot;
 use funicular_study::Watch;
 use funicular_study::analyses::modes::with_rigid_cables;
-use funicular_study::analyses::{compare, frf, statics};
+use funicular_study::analyses::{compare, frf, settle, statics};
 use funicular_study::at_rest::{self, AtRest, ModesBelow};
 use funicular_study::names::Named;
 use funicular_study::request::{self, Request};
@@ -31,7 +31,7 @@ pub struct RequestFigure {
 }
 
 /// Makes the figure of a request: the robot at its equilibrium for `statics`, the spectrum or the shape of one mode for
-/// `modes`, magnitude and phase for `frf`, the differences between the cable models for `compare`.
+/// `modes`, magnitude and phase for `frf`, the decay for `settle`, the differences between the cable models for `compare`.
 ///
 /// # Errors
 /// A command without a figure, a choice that does not fit the command, or the errors of the command.
@@ -48,10 +48,14 @@ pub fn of_request(
         Request::Statics(of) => equilibrium(robot, of),
         Request::Modes(of) => natural_frequencies(robot, of, choice),
         Request::Frf(of) => response(robot, of, watch),
+        Request::Settle(of) => {
+            let found = settle::run(robot, of)?;
+            Ok(chart(settling::chart(&found), found.warnings))
+        }
         Request::Compare(of) => comparison(robot, of),
         other => bail!(
-            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `compare` and `plot` write .svg and .pdf; give \
-             another ending",
+            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `settle`, `compare` and `plot` write .svg and .pdf; \
+             give another ending",
             other.command()
         ),
     }

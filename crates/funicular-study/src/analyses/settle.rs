@@ -1,4 +1,11 @@
-//! `settle`: how a point of the platform swings after a wrench is released, and when it has settled.
+//! `settle`: how a point of the platform swings after a release, a stop or a move, and when it has settled.
+
+mod command;
+mod release;
+mod shaping;
+
+pub use command::LowestTension;
+pub use shaping::Shaping;
 
 use super::fields::AXES;
 use super::found;
@@ -8,12 +15,16 @@ use crate::columns::{Columns, ResultTable, Tabled, column, parts};
 use crate::error::NoSolution;
 use crate::request::{self, SettleRequest, check_vector};
 use crate::table::Column;
-use crate::text::significant;
 use anyhow::{Result, bail};
+use command::{Command, CommandKind};
+use funicular::cable::CableModel;
+use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Vec3, Vec6};
-use funicular::modes::{self, Release};
-use funicular::robot::{Pose, Robot};
-use funicular::statics::{self, Stability, StaticModel};
+use funicular::modes::damped::DampedModes;
+use funicular::modes::{self, CommandedMotions, Decay, Modes, Release};
+use funicular::robot::Robot;
+use funicular::statics::{Equilibrium, Stability, StaticModel};
+use release::UnderWrench;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -26,17 +37,15 @@ pub struct Settled {
     #[serde(flatten)]
     pub models: Models,
     pub tolerance_m: f64,
-    /// Displacement of the point under the wrench, linear, world axes.
-    pub held_m: [f64; 3],
-    /// Displacement between the equilibria with the wrench and without it; absent if there is none with it, and with
-    /// ideal cables.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub held_exact_m: Option<[f64; 3]>,
-    /// Bound of what the modes above the limit add to the displacement at the release.
-    pub omitted_m: f64,
+    /// What happens before; absent for a release.
+    #[serde(flatten)]
+    pub commanded: Option<Commanded>,
+    /// The wrench and its displacement; absent for a command.
+    #[serde(flatten)]
+    pub held: Option<Held>,
     /// Maximum distance of the point from its rest in the history.
     pub peak_m: f64,
-    /// Last time at which the point is at the tolerance.
+    /// Last time at which the point is at the tolerance, since the release or the end of the command.
     pub settled_s: f64,
     /// Time from which on the sum of all amplitudes is within the tolerance.
     pub surely_settled_s: f64,
@@ -49,13 +58,55 @@ pub struct Settled {
     pub warnings: Vec<String>,
 }
 
+/// Displacement before a release.
+#[derive(Serialize)]
+pub struct Held {
+    /// Displacement of the point under the wrench, linear, world axes.
+    pub held_m: [f64; 3],
+    /// Displacement between the equilibria with the wrench and without it; absent if there is none with it, and with
+    /// ideal cables.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held_exact_m: Option<[f64; 3]>,
+    /// Bound of what the modes above the limit add to the displacement at the release.
+    pub omitted_m: f64,
+}
+
+/// Stop or move that the lengths command.
+#[derive(Serialize)]
+pub struct Commanded {
+    /// `stop` or `move`.
+    pub command: &'static str,
+    /// Time from its start to its end, with the shaper.
+    pub duration_s: f64,
+    pub lowest_tension: LowestTension,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shaping: Option<Shaping>,
+    /// Names of the cables, in the order of the lengths; absent without samples.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cables: Vec<String>,
+    /// Lengths over time, if they are requested.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub lengths: Vec<LengthsRow>,
+}
+
+/// Commanded unstrained lengths at one time.
+#[derive(Serialize)]
+pub struct LengthsRow {
+    /// Time since the start of the command.
+    pub t_s: f64,
+    pub unstrained_lengths_m: Vec<f64>,
+}
+
 /// Part of a mode in the motion.
 #[derive(Serialize)]
 pub struct SettlingMode {
     pub frequency_hz: f64,
     pub damping_ratio: f64,
-    /// Amplitude at the release: half of the long axis of the ellipse on which the point moves.
+    /// Amplitude at the release or the end of the command: half of the long axis of the ellipse on which the point moves.
     pub amplitude_m: f64,
+    /// Amplitude without the shaper; absent without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub amplitude_without_m: Option<f64>,
     /// Time in which this amplitude alone falls to the tolerance; zero if it is smaller.
     pub settled_s: f64,
 }
@@ -77,15 +128,18 @@ const MAX_POINTS: f64 = 20_000.0;
 /// Part of the largest amplitude below which a mode does not make the steps of the history finer.
 const SMALL: f64 = 1e-3;
 
-/// Relative difference of the linear displacement from that of the equilibrium under the wrench from which on linear
-/// motion is in doubt. A release of 1.95 kg from the robot of Yuan 2014 has 0.19, and its linear history is wrong by 0.18.
-const NOT_LINEAR: f64 = 0.1;
+/// Least relative change of a frequency of the platform on the way for which the linear motion about the end is in doubt. A
+/// move of 0.18 m of the robot of Yuan 2014 has the right amplitude then, and a history that is wrong by a quarter.
+const FREQUENCIES_DIFFER: f64 = 0.1;
 
-/// Computes the decay after a release.
+/// Frequencies of the platform that are compared.
+const COMPARED: usize = 6;
+
+/// Computes the decay after a release, a stop or a move.
 ///
 /// # Errors
-/// A request without a wrench, a robot without such an equilibrium, a slack cable, an equilibrium to which nothing
-/// returns, or modes whose decay has no closed form.
+/// A request without any of these or with several, a robot without such an equilibrium, a slack cable, an equilibrium to
+/// which nothing returns, or modes whose decay has no closed form.
 pub fn run(robot: Robot, request: &SettleRequest) -> Result<Settled> {
     checked(request)?;
     about(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request)
@@ -98,61 +152,185 @@ pub fn run(robot: Robot, request: &SettleRequest) -> Result<Settled> {
 pub fn about(at_rest: &AtRest, request: &SettleRequest) -> Result<Settled> {
     checked(request)?;
     check_rest(at_rest)?;
-    let under_wrench = UnderWrench::of(at_rest, request);
-    let at_rest = &*at_rest.vibrating();
-    let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
-    let limit = match request.below_hz {
-        Some(given) => at_rest.modes_limit(Some(given), linearisation)?,
-        None => at_rest.response_limit(linearisation)?,
+    let (swing, mut warnings) = Swing::of(at_rest, request)?;
+    let command = Command::of(at_rest, request)?;
+    let moved = match &command {
+        Some(command) => swing.after_command(command, request, &mut warnings)?,
+        None => swing.after_release(request, &mut warnings)?,
     };
-    let ModesBelow { dynamics, modes: found, mut warnings } =
-        at_rest.modes_with_strains(linearisation, limit, modes::MAX_MODES)?;
-    warnings.extend(at_rest.without_damping());
-    let damped = modes::damped::damped_modes(&dynamics, &found);
-    let ratios: Vec<f64> = damped.modes.iter().map(modes::damped::DampedMode::damping_ratio).collect();
-    warnings.extend(modes::caveat_of_stretch(&at_rest.robot, &found.modes, &ratios, modes::PLATFORM_SHARE));
 
-    let arm_w = |point: Option<[f64; 3]>| at_rest.equilibrium.pose.rot_wp * Vec3::from(point.unwrap_or_default());
-    let force = Vec3::from(request.release_n.unwrap_or_default());
-    let moment =
-        arm_w(request.points.input_point_m).cross(&force) + Vec3::from(request.release_n_m.unwrap_or_default());
-    let wrench = Vec6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
-    let release = Release::of(&dynamics, &found, &damped, &wrench, &arm_w(request.points.output_point_m))?;
-
-    let tolerance = request.tolerance_m;
-    let (settled_s, surely_settled_s) = (release.settled(tolerance), release.surely_settled(tolerance));
-    warnings.extend(under_wrench.as_ref().and_then(|under| under.caveat(&release.held)));
-    let held_exact_m = under_wrench.and_then(|under| Some(under.found?.0.into()));
-    let history = history(&release, surely_settled_s);
+    let (decay, tolerance) = (&moved.decay, request.tolerance_m);
+    let surely_settled_s = decay.surely_settled(tolerance);
+    let history = history(decay, surely_settled_s);
     let distance = |row: &HistoryRow| Vec3::new(row.x_m, row.y_m, row.z_m).norm();
+    let held = moved.held.as_ref().map_or(0.0, |held| Vec3::from(held.held_m).norm());
     Ok(Settled {
         robot: at_rest.robot.name.clone(),
-        below_hz: limit,
-        models: Models::of(at_rest, linearisation),
+        below_hz: swing.limit,
+        models: Models::of(at_rest, swing.linearisation),
         tolerance_m: tolerance,
-        held_m: release.held.into(),
-        held_exact_m,
-        omitted_m: release.omitted,
-        peak_m: history.iter().map(distance).fold(release.held.norm(), f64::max),
-        settled_s,
+        peak_m: history.iter().map(distance).fold(held, f64::max),
+        settled_s: decay.settled(tolerance),
         surely_settled_s,
-        damped_certified: damped.certified,
-        modes: settling_modes(&release, tolerance),
+        damped_certified: swing.damped.certified,
+        modes: settling_modes(decay, moved.without.as_ref(), tolerance),
         history,
+        commanded: moved.commanded,
+        held: moved.held,
         warnings,
     })
 }
 
+/// Free motions of a robot at equilibrium.
+struct Swing<'a> {
+    at_rest: &'a AtRest,
+    linearisation: Linearisation,
+    limit: f64,
+    dynamics: Dynamics,
+    modes: Modes,
+    damped: DampedModes,
+    /// Point whose motion counts, from the platform origin, world axes.
+    arm_w: Vec3,
+}
+
+/// Motion after a release or a command.
+struct Moved {
+    decay: Decay,
+    held: Option<Held>,
+    commanded: Option<Commanded>,
+    /// Motion after the command without its shaper; `None` without one.
+    without: Option<Decay>,
+}
+
+impl<'a> Swing<'a> {
+    /// Free motions, with warnings.
+    fn of(at_rest: &'a AtRest, request: &SettleRequest) -> Result<(Self, Vec<String>)> {
+        let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
+        let limit = match request.below_hz {
+            Some(given) => at_rest.modes_limit(Some(given), linearisation)?,
+            None => at_rest.response_limit(linearisation)?,
+        };
+        let ModesBelow { dynamics, modes, mut warnings } =
+            at_rest.modes_with_strains(linearisation, limit, modes::MAX_MODES)?;
+        warnings.extend(at_rest.without_damping());
+        let damped = modes::damped::damped_modes(&dynamics, &modes);
+        let ratios: Vec<f64> = damped.modes.iter().map(modes::damped::DampedMode::damping_ratio).collect();
+        warnings.extend(modes::caveat_of_stretch(&at_rest.robot, &modes.modes, &ratios, modes::PLATFORM_SHARE));
+        let point_p = Vec3::from(request.points.output_point_m.unwrap_or_default());
+        let arm_w = at_rest.equilibrium.pose.rot_wp * point_p;
+        Ok((Self { at_rest, linearisation, limit, dynamics, modes, damped, arm_w }, warnings))
+    }
+
+    fn after_release(&self, request: &SettleRequest, warnings: &mut Vec<String>) -> Result<Moved> {
+        let force = Vec3::from(request.release_n.unwrap_or_default());
+        let point_p = Vec3::from(request.points.input_point_m.unwrap_or_default());
+        let arm_w = self.at_rest.equilibrium.pose.rot_wp * point_p;
+        let moment = arm_w.cross(&force) + Vec3::from(request.release_n_m.unwrap_or_default());
+        let wrench = Vec6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
+        let Release { decay, held, omitted } =
+            Release::of(&self.dynamics, &self.modes, &self.damped, &wrench, &self.arm_w)?;
+
+        let under_wrench = UnderWrench::of(self.at_rest, request);
+        warnings.extend(under_wrench.as_ref().and_then(|under| under.caveat(&held)));
+        let held_exact_m = under_wrench.and_then(|under| Some(under.found?.0.into()));
+        let held = Held { held_m: held.into(), held_exact_m, omitted_m: omitted };
+        Ok(Moved { decay, held: Some(held), commanded: None, without: None })
+    }
+
+    fn after_command(&self, command: &Command, request: &SettleRequest, warnings: &mut Vec<String>) -> Result<Moved> {
+        if self.linearisation.cable_model != CableModel::CatenaryDynamic {
+            bail!(
+                "the cable model `{}` has no length that is commanded: a stop and a move need `catenary-dynamic`, the default",
+                self.linearisation.cable_model.name()
+            );
+        }
+        let motions = CommandedMotions::of(&self.dynamics, &self.modes, &self.damped, &self.arm_w)?;
+        let without = motions.after(&command.lengths());
+        let shaped = match shaping::kind(request)? {
+            Some(kind) => Some(shaping::chosen(kind, request, &without)?),
+            None => None,
+        };
+        let command = match &shaped {
+            Some((shaper, _)) => command.shaped(shaper),
+            None => command.clone(),
+        };
+        let lowest_tension = command.lowest_tension(&motions)?;
+        warnings.extend(self.frequencies_at(&command.start()?)?);
+
+        let name = request.shaper.as_deref().unwrap_or_default();
+        let tolerance = request.tolerance_m;
+        let shaping = shaped.map(|(shaper, modes)| Shaping::of(name, &shaper, modes, &without, tolerance));
+        let lengths = request.sample_time_s.map(|step| command.sampled(step)).transpose()?.unwrap_or_default();
+        let cables = &self.at_rest.robot.cables;
+        let commanded = Commanded {
+            command: command.kind.name(),
+            duration_s: command.profile.duration(),
+            lowest_tension,
+            cables: if lengths.is_empty() { Vec::new() } else { cables.iter().map(|of| of.name.clone()).collect() },
+            lengths,
+            shaping,
+        };
+        let decay = motions.after(&command.lengths());
+        let without = commanded.shaping.is_some().then_some(without);
+        Ok(Moved { decay, held: None, commanded: Some(commanded), without })
+    }
+
+    /// Warning if the frequencies of the platform at the start of a command are others than at its end.
+    fn frequencies_at(&self, start: &Equilibrium) -> Result<Option<String>> {
+        let (robot, start) = start.with_dynamic_stiffness(&self.at_rest.robot);
+        let dynamics = Dynamics::about(&robot, &start, self.linearisation, self.limit)?;
+        let of_platform = |found: &Modes| -> Vec<f64> {
+            let moves = |mode: &&modes::Mode| mode.platform_energy_fraction >= modes::PLATFORM_SHARE;
+            found.modes.iter().filter(moves).take(COMPARED).map(|mode| mode.frequency_hz).collect()
+        };
+        let (from, to) = (of_platform(&modes::below(&dynamics, self.limit)), of_platform(&self.modes));
+        let change = |(from, to): &(f64, f64)| (from / to - 1.0).abs();
+        let worst = from.into_iter().zip(to).max_by(|a, b| change(a).total_cmp(&change(b)));
+        Ok(worst.filter(|pair| change(pair) > FREQUENCIES_DIFFER).map(|(from, to)| {
+            format!(
+                "a frequency of the platform is {from:.4} Hz at the start of the motion and {to:.4} Hz at its end, where the \
+                 motion is linear: amplitudes have the right size, the history does not; a shaper is made for the end"
+            )
+        }))
+    }
+}
+
 fn checked(request: &SettleRequest) -> Result<()> {
     request.points.check()?;
-    check_vector("release_n", request.release_n)?;
-    check_vector("release_n_m", request.release_n_m)?;
-    request::check_positive("tolerance_m", request.tolerance_m)?;
-    let parts = [request.release_n, request.release_n_m].into_iter().flatten().flatten();
-    if parts.into_iter().all(|part| part == 0.0) {
-        bail!("nothing is released: give the force ⟪release_n⟫, as 0,0,-20, or the moment ⟪release_n_m⟫");
+    for (name, vector) in [
+        ("release_n", request.release_n),
+        ("release_n_m", request.release_n_m),
+        ("stop_m_s", request.stop_m_s),
+        ("stop_rad_s", request.stop_rad_s),
+        ("move_m", request.move_m),
+        ("move_deg", request.move_deg),
+    ] {
+        check_vector(name, vector)?;
     }
-    Ok(())
+    request::check_positive("tolerance_m", request.tolerance_m)?;
+
+    let moves = |parts: [Option<[f64; 3]>; 2]| parts.into_iter().flatten().flatten().any(|part| part != 0.0);
+    let release = [request.release_n, request.release_n_m];
+    let (stop, moved) = ([request.stop_m_s, request.stop_rad_s], [request.move_m, request.move_deg]);
+    let given = [release, stop, moved].iter().filter(|parts| parts.iter().any(Option::is_some)).count();
+    if given > 1 {
+        bail!("give a release, a stop or a move, not several: the motions of each add up, because they are linear");
+    }
+    match CommandKind::of(request) {
+        None if !moves(release) => bail!(
+            "nothing is released: give the force ⟪release_n⟫, as 0,0,-20, or the moment ⟪release_n_m⟫; or a motion that ends, \
+             ⟪stop_m_s⟫ or ⟪move_m⟫"
+        ),
+        None => command::refuse_for_release(request),
+        Some(CommandKind::Stop) if !moves(stop) => {
+            bail!("nothing stops: give the velocity before, ⟪stop_m_s⟫, as 0,0.2,0")
+        }
+        Some(CommandKind::Move) if !moves(moved) => bail!("nothing moves: give the displacement ⟪move_m⟫, as 0,0.2,0"),
+        Some(kind) => {
+            shaping::kind(request)?;
+            command::check_profile(kind, request)
+        }
+    }
 }
 
 /// Refuses an equilibrium about which nothing swings linearly, or to which nothing returns.
@@ -161,7 +339,7 @@ fn check_rest(AtRest { robot, equilibrium, .. }: &AtRest) -> Result<()> {
     if let Some(i) = (0..robot.cables.len()).find(is_slack) {
         let name = &robot.cables[i].name;
         return Err(NoSolution(format!(
-            "cable \"{name}\" is slack after the release: it pulls in one direction only, and the linear motion does not \
+            "cable \"{name}\" is slack at rest: it pulls in one direction only, and the linear motion does not \
              know that; choose a state without slack cables, or the static model `catenary`"
         ))
         .into());
@@ -175,95 +353,28 @@ fn check_rest(AtRest { robot, equilibrium, .. }: &AtRest) -> Result<()> {
     Ok(())
 }
 
-/// Equilibrium under the wrench, before the release.
-struct UnderWrench {
-    /// Displacement of the point from its rest, and the names of the cables that are slack; `None` if there is no such
-    /// equilibrium.
-    found: Option<(Vec3, Vec<String>)>,
-}
-
-impl UnderWrench {
-    /// `None` for ideal cables, which no wrench displaces.
-    fn of(AtRest { robot, equilibrium, .. }: &AtRest, request: &SettleRequest) -> Option<Self> {
-        if equilibrium.model == StaticModel::Ideal {
-            return None;
-        }
-        let [force, moment] = [request.release_n, request.release_n_m].map(|of| Vec3::from(of.unwrap_or_default()));
-        let point_p = Vec3::from(request.points.input_point_m.unwrap_or_default());
-        let mut loaded = robot.clone();
-        let load = &mut loaded.load;
-        load.moment_w += moment;
-        if load.force_w == Vec3::zeros() {
-            load.point_p = point_p;
-        } else {
-            // Two forces at different points: the arm of the released one is that at rest.
-            load.moment_w += (equilibrium.pose.rot_wp * (point_p - load.point_p)).cross(&force);
-        }
-        load.force_w += force;
-
-        let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
-        let under = statics::forward(&loaded, &lengths, equilibrium.model, Some(&equilibrium.pose)).ok();
-        let measured_p = Vec3::from(request.points.output_point_m.unwrap_or_default());
-        let place = |pose: &Pose| pose.position_w + pose.rot_wp * measured_p;
-        let found = under.map(|under| {
-            let slack = under.cables.iter().zip(&robot.cables).filter(|(state, _)| state.is_slack());
-            let names = slack.map(|(_, cable)| format!("\"{}\"", cable.name)).collect();
-            (place(&under.pose) - place(&equilibrium.pose), names)
-        });
-        Some(Self { found })
-    }
-
-    /// Caveat if the linear displacement is not that of the equilibrium, or a cable is slack there.
-    fn caveat(&self, linear: &Vec3) -> Option<String> {
-        let Some((exact, slack)) = &self.found else {
-            return Some(
-                "there is no equilibrium with this force or moment at these lengths: the linear motion after its release \
-                 is not what happens; release less"
-                    .to_owned(),
-            );
-        };
-        if !slack.is_empty() {
-            return Some(format!(
-                "before the release {} slack: the linear motion does not know that; release less",
-                if let [one] = &slack[..] {
-                    format!("cable {one} is")
-                } else {
-                    format!("cables {} are", slack.join(", "))
-                }
-            ));
-        }
-        let gap = (linear - exact).norm() / exact.norm();
-        (gap > NOT_LINEAR).then(|| {
-            format!(
-                "the release is not small: the linear displacement before it is {} mm, that of the equilibrium {} mm; \
-                 amplitudes and the history are wrong by as much",
-                significant(1e3 * linear.norm(), 4),
-                significant(1e3 * exact.norm(), 4)
-            )
-        })
-    }
-}
-
-fn settling_modes(release: &Release, tolerance: f64) -> Vec<SettlingMode> {
-    let mut all: Vec<SettlingMode> = (release.motions.iter())
-        .map(|motion| {
+fn settling_modes(decay: &Decay, without: Option<&Decay>, tolerance: f64) -> Vec<SettlingMode> {
+    let mut all: Vec<SettlingMode> = (decay.motions.iter().enumerate())
+        .map(|(k, motion)| {
             let (size, rate) = (motion.size(), motion.rate());
             SettlingMode {
                 frequency_hz: motion.omega.norm() / TAU,
                 damping_ratio: rate / motion.omega.norm(),
                 amplitude_m: size,
+                amplitude_without_m: without.map(|without| without.motions[k].size()),
                 settled_s: if size > tolerance { (size / tolerance).ln() / rate } else { 0.0 },
             }
         })
         .collect();
-    all.sort_by(|a, b| b.amplitude_m.total_cmp(&a.amplitude_m));
+    let loudness = |mode: &SettlingMode| mode.amplitude_without_m.unwrap_or(mode.amplitude_m);
+    all.sort_by(|a, b| loudness(b).total_cmp(&loudness(a)));
     all
 }
 
 /// Motion up to the sure time, with enough points per period of every mode that counts.
-fn history(release: &Release, until: f64) -> Vec<HistoryRow> {
-    let largest = release.motions.iter().map(modes::DecayingMotion::size).fold(0.0, f64::max);
-    let counts = release.motions.iter().filter(|motion| motion.size() >= SMALL * largest);
+fn history(decay: &Decay, until: f64) -> Vec<HistoryRow> {
+    let largest = decay.motions.iter().map(modes::DecayingMotion::size).fold(0.0, f64::max);
+    let counts = decay.motions.iter().filter(|motion| motion.size() >= SMALL * largest);
     let (fastest, slowest) = counts.fold((0.0_f64, f64::INFINITY), |(fastest, slowest), motion| {
         (fastest.max(motion.omega.re), slowest.min(motion.omega.re))
     });
@@ -276,8 +387,8 @@ fn history(release: &Release, until: f64) -> Vec<HistoryRow> {
     (0..=points as usize)
         .map(|i| {
             let t_s = until * i as f64 / points;
-            let [x_m, y_m, z_m] = release.at(t_s).into();
-            HistoryRow { t_s, x_m, y_m, z_m, envelope_m: release.envelope(t_s) }
+            let [x_m, y_m, z_m] = decay.at(t_s).into();
+            HistoryRow { t_s, x_m, y_m, z_m, envelope_m: decay.envelope(t_s) }
         })
         .collect()
 }
@@ -286,7 +397,7 @@ impl HistoryRow {
     fn columns() -> Columns<Self> {
         let place = |row: &Self| [row.x_m, row.y_m, row.z_m];
         Columns::new([
-            column("t_s", "s", "time since the release", |row: &Self| row.t_s),
+            column("t_s", "s", "time since the release or the end of the command", |row: &Self| row.t_s),
             parts("{}_m", AXES, "m", "displacement of the point from its rest, {}", place),
             column("envelope_m", "m", "bound of its distance from its rest", |row: &Self| row.envelope_m),
         ])
@@ -304,11 +415,14 @@ impl SettlingMode {
                 "%",
                 |mode, style| style.significant(100.0 * mode.damping_ratio, 3),
             ),
-            column("amplitude_m", "m", "amplitude at the release", |mode: &Self| mode.amplitude_m).shown(
-                "amplitude",
-                "mm",
-                |mode, style| style.significant(1e3 * mode.amplitude_m, 3),
-            ),
+            column("amplitude_m", "m", "amplitude at the release or the end of the command", |mode: &Self| {
+                mode.amplitude_m
+            })
+            .shown("amplitude", "mm", |mode, style| style.significant(1e3 * mode.amplitude_m, 3)),
+            column("amplitude_without_m", "m", "amplitude without the shaper", |mode: &Self| mode.amplitude_without_m)
+                .shown("without shaper", "mm", |mode, style| {
+                    mode.amplitude_without_m.map_or_else(String::new, |size| style.significant(1e3 * size, 3))
+                }),
             column("settled_s", "s", "time in which this amplitude alone falls to the tolerance", |mode: &Self| {
                 mode.settled_s
             })

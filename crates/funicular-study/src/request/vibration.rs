@@ -106,7 +106,10 @@ declared! {
 }
 
 declared! {
-    /// How a point of the platform swings after a force or moment on it is released, and when it has settled.
+    /// How a point of the platform swings after a release, a stop or a move, when it has settled, and input shapers against it.
+    ///
+    /// The state is that at the end: the rest after the release, the pose at which the stop or the move ends. The motion is
+    /// linear about it.
     pub struct SettleRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
@@ -114,6 +117,25 @@ declared! {
         release_n: Option<[f64; 3]> = None => (Vector).otherwise("none");
         /// Moment on the platform that is released, world axes [N m].
         release_n_m: Option<[f64; 3]> = None => (Vector).otherwise("none");
+        /// Velocity of the platform before it stops, world axes [m/s]; its lengths command it.
+        stop_m_s: Option<[f64; 3]> = None => (Vector).otherwise("none");
+        /// Angular velocity of the platform before it stops, world axes [rad/s].
+        stop_rad_s: Option<[f64; 3]> = None => (Vector).otherwise("none");
+        /// Displacement of the platform from rest to rest, world axes [m]; its lengths command it.
+        move_m: Option<[f64; 3]> = None => (Vector).otherwise("none");
+        /// Rotation vector of the platform from rest to rest, world axes [degrees].
+        move_deg: Option<[f64; 3]> = None => (Vector).otherwise("none");
+        /// Times of the stop or the move [s], each at most the one before: from the begin of the acceleration to that of the
+        /// deceleration (for a stop the deceleration itself), of each acceleration, and of each change of the acceleration.
+        /// The command takes their sum; without them a stop is sudden.
+        profile_s: Option<Vec<f64>> = None => (Commas(ProgramForm::NotNegative)).form("T1[,T2[,T3]]").otherwise("none");
+        /// Input shaper of the stop or the move: zv, zvd, or ei:V, which leaves the fraction V of a vibration, as in ei:0.05.
+        shaper: Option<String> = None => (Text).form("zv|zvd|ei:V").otherwise("none");
+        /// Natural frequencies of the modes whose vibration the shaper cancels [Hz].
+        shape_modes_hz: Option<Vec<f64>> = None => (Commas(ProgramForm::Positive)).form("F1,F2,…")
+            .otherwise("the modes with the largest amplitudes, at most three, until their sum is within the tolerance");
+        /// Time between the samples of the commanded lengths, which are then listed [s].
+        sample_time_s: Option<f64> = None => (Number(Positive)).otherwise("no samples");
         /// Points of the platform.
         #[serde(flatten)]
         points: ResponsePoints = ResponsePoints::default() => group;
@@ -135,6 +157,8 @@ declared! {
     examples {
         "funicular settle robots/yuan2014-4mm.toml --release-n 0,0,-20 --below-hz 10",
         "funicular settle robots/cogiro.toml --release-n 0,0,-196 --tolerance-m 1e-4 --below-hz 20 -o settling.csv",
+        "funicular settle robots/yuan2014-4mm.toml --stop-m-s 0,0.2,0 --profile-s 0.4,0.1 --below-hz 10",
+        "funicular settle robots/yuan2014-4mm.toml --move-m 0,0.05,0 --profile-s 1.2,0.3,0.1 --below-hz 10 \\\n    --shaper zv --tolerance-m 1e-4 --sample-time-s 0.01 --lengths lengths.csv",
     }
 }
 

@@ -379,13 +379,17 @@ impl CatenaryDynamicEnd {
     }
 
     /// Square ω_c² of the complex frequency of the cable at ω [rad/s], [rad²/s²].
-    fn square(&self, omega: f64) -> Complex {
-        let (re, im) = self.damping.square(omega, self.mass_per_length);
-        Complex::new(re, im)
+    fn square(&self, omega: Complex) -> Complex {
+        self.damping.square_with_slope(omega, self.mass_per_length).0
     }
 
     /// Damped stiffness at ω [rad/s], [N/m].
     pub fn damped(&self, omega: f64) -> LocalStiffness<Complex> {
+        self.damped_at(omega.into())
+    }
+
+    /// Damped stiffness at a complex ω of positive real part [rad/s], [N/m].
+    pub(crate) fn damped_at(&self, omega: Complex) -> LocalStiffness<Complex> {
         let square = self.square(omega);
         let mut stiffness = self.local(|of| of.damped(square), |of| of.damped(square), |of| of.damped(square));
         if let Some(added) = self.drive_stiffness(omega) {

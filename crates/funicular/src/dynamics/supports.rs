@@ -70,7 +70,7 @@ impl CableOnSupport {
     /// Forces on the motions of the drive by a motion of the frame beside that of the ends, at ω [rad/s].
     fn forces_beside_ends(&self, form: &CatenaryDynamicEnd, moved: &CarrierMotion, omega: f64) -> Vec<Complex> {
         let along_drum_side = if self.moves_like(moved) { 0.0 } else { moved.along_drum_side };
-        form.forces_at(&CarrierMotion { along_drum_side, ..*moved }, omega)
+        form.forces_at(&CarrierMotion { along_drum_side, ..*moved }, omega.into())
     }
 
     /// Mass [kg m] between the entry point of a drum side from the ground, along it, and a base that moves with the

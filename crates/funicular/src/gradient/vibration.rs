@@ -405,7 +405,7 @@ impl SignalPlace {
     fn forces(&self, dynamics: &Dynamics, omega: f64) -> Option<(usize, Vec<Complex>)> {
         let Self::Drive { cable, term, signal, .. } = self else { return None };
         let form = dynamics.terms()[*term].form().by_poles()?;
-        Some((*cable, form.signal_forces(*signal, omega)?))
+        Some((*cable, form.signal_forces(*signal, omega.into())?))
     }
 
     /// Adds the turn of the arm r with the platform, `((dφ × r) × u)·θ = dφ·(r × (u × θ))`, for a rotation θ.

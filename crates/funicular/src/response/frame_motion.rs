@@ -196,7 +196,9 @@ impl FrameMotion {
     pub(super) fn of_drive(&self, dynamics: &Dynamics, term: usize, output: DriveSignal, omega: f64) -> Complex {
         let moved = self.cables.iter().find(|moved| moved.term == term);
         match (moved, dynamics.terms()[term].form().by_poles()) {
-            (Some(moved), Some(cable)) => cable.response_to_carrier(&moved.motion, output, omega).unwrap_or_default(),
+            (Some(moved), Some(cable)) => {
+                cable.response_to_carrier(&moved.motion, output, omega.into()).unwrap_or_default()
+            }
             _ => Complex::new(0.0, 0.0),
         }
     }

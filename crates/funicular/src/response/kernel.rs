@@ -159,7 +159,7 @@ fn catenary_dynamic(form: &CatenaryDynamicEnd, omega: &Lane) -> LocalStiffness<C
 #[inline(never)]
 fn add_drive(k: &mut LocalStiffness<Complexes>, form: &CatenaryDynamicEnd, omega: &Lane) {
     for (i, omega) in omega.iter().enumerate() {
-        let Some(added) = form.drive_stiffness(*omega) else { continue };
+        let Some(added) = form.drive_stiffness((*omega).into()) else { continue };
         let entries = [
             (&mut k.axial, added.axial),
             (&mut k.coupling, added.coupling),

@@ -185,7 +185,7 @@ impl Port {
     fn drive_vector(&self, dynamics: &Dynamics, omega: f64) -> Option<CVec6> {
         let Self::Drive { term, signal, lever_w } = self else { return None };
         let form = dynamics.terms()[*term].form().by_poles()?;
-        let local = form.signal_vector(*signal, omega)?;
+        let local = form.signal_vector(*signal, omega.into())?;
         let axes = [form.axes.e, form.axes.n, form.axes.b];
         let mut vector = CVec6::zeros();
         for (axis, entry) in axes.iter().zip(local) {
@@ -214,7 +214,7 @@ impl Port {
                     return Some(forces);
                 };
                 for (force, motion) in forces[first..].iter_mut().zip(&motions) {
-                    *force = form.signal_by_carrier(motion, *signal, omega).unwrap_or_default();
+                    *force = form.signal_by_carrier(motion, *signal, omega.into()).unwrap_or_default();
                 }
             }
             Self::Cable { stations, station, direction_w } => {

@@ -1,5 +1,6 @@
 //! Natural frequencies against other algorithms and identities.
 
+mod command;
 mod damped;
 mod fundamental;
 mod release;

@@ -57,7 +57,7 @@ impl CatenaryDynamicEnd {
     }
 
     /// Forces of [`forces_by_carrier`](Self::forces_by_carrier) at ω [rad/s], with the loss of the drum side.
-    pub(crate) fn forces_at(&self, motion: &CarrierMotion, omega: f64) -> Vec<Complex> {
+    pub(crate) fn forces_at(&self, motion: &CarrierMotion, omega: Complex) -> Vec<Complex> {
         let square = self.square(omega);
         let mut forces = self.forces_by_carrier(motion).iter().map(|(still, mass)| *still + square * *mass).collect();
         let [at_drum, at_wheel, _] = motion.of_drum_side(self.drum_side_ratio());
@@ -71,7 +71,7 @@ impl CatenaryDynamicEnd {
         &self,
         cable: &CatenaryDynamic,
         motion: &CarrierMotion,
-        omega: f64,
+        omega: Complex,
     ) -> InternalMotion {
         self.motion_by_far_end(cable, motion.displacement, self.forces_at(motion, omega), omega)
     }
@@ -83,13 +83,13 @@ impl CatenaryDynamicEnd {
         &self,
         cable: &CatenaryDynamic,
         signal: DriveSignal,
-        omega: f64,
+        omega: Complex,
     ) -> Option<InternalMotion> {
         let [start, far_end] = self.ends_of_signal(signal);
         if signal == DriveSignal::Tension {
             let square = self.square(omega);
             let moved = InternalMotion::new(cable, start.map(Complex::from), square);
-            return Some(moved.with_drive(cable, &self.beyond_undamped(omega.into(), 1.0), square));
+            return Some(moved.with_drive(cable, &self.beyond_undamped(omega, 1.0), square));
         }
         let Some(chain) = self.chain() else {
             return Some(self.motion_by_far_end(cable, far_end, Vec::new(), omega));
@@ -118,7 +118,7 @@ impl CatenaryDynamicEnd {
         cable: &CatenaryDynamic,
         far_end: [f64; 3],
         mut given: Vec<Complex>,
-        omega: f64,
+        omega: Complex,
     ) -> InternalMotion {
         let (held, square) = ([Complex::new(0.0, 0.0); 3], self.square(omega));
         let mut found = InternalMotion::between(cable, held, far_end.map(Complex::from), square);
@@ -127,7 +127,7 @@ impl CatenaryDynamicEnd {
 
         // Forces on the motions of the drive: the given ones less those of the losses.
         let at = DriveAt::at(cable, drive, self.motions(), square, &NearRanges::default());
-        let delta = self.beyond_undamped(omega.into(), 1.0).values();
+        let delta = self.beyond_undamped(omega, 1.0).values();
         let mut free: Vec<Complex> = (DriveAt::by_carrier(cable, drive, delta.len(), square).iter())
             .map(|row| row.iter().zip(far_end).map(|(t, c)| t * c).sum())
             .collect();
@@ -148,7 +148,7 @@ impl CatenaryDynamicEnd {
     }
 
     /// Force on the held platform end in (e, n, b) for a motion of the carrier at ω [rad/s].
-    pub(crate) fn force_by_carrier(&self, motion: &CarrierMotion, omega: f64) -> [Complex; 3] {
+    pub(crate) fn force_by_carrier(&self, motion: &CarrierMotion, omega: Complex) -> [Complex; 3] {
         let square = self.square(omega);
         let mut force = [Complex::new(0.0, 0.0); 3];
 
@@ -187,7 +187,7 @@ impl CatenaryDynamicEnd {
         &self,
         motion: &CarrierMotion,
         output: DriveSignal,
-        omega: f64,
+        omega: Complex,
     ) -> Option<Complex> {
         if output == DriveSignal::Tension {
             return Some(self.tension_of(&self.force_by_carrier(motion, omega)));
@@ -208,7 +208,7 @@ impl CatenaryDynamicEnd {
         chain: &DriveChain,
         motion: &CarrierMotion,
         signal: DriveSignal,
-        omega: f64,
+        omega: Complex,
     ) -> Option<Complex> {
         let row = self.output_row(chain, signal, omega)?;
         let (motions, losses, mut free, given) = self.drive_under_carrier(motion, omega)?;
@@ -218,7 +218,7 @@ impl CatenaryDynamicEnd {
     }
 
     /// Force on a motion of the carrier per displacement of the drum side's end at the drum towards the platform.
-    fn drum_side_by_carrier(&self, motion: &CarrierMotion, omega: f64) -> Complex {
+    fn drum_side_by_carrier(&self, motion: &CarrierMotion, omega: Complex) -> Complex {
         let ratio = self.drum_side_ratio();
         self.drum_tension_of_ends(motion.of_drum_side(ratio), omega) / ratio
     }
@@ -241,7 +241,12 @@ impl CatenaryDynamicEnd {
 
     /// Force on the carrier along a motion per unit of an input, the platform end held, at ω [rad/s]; by reciprocity
     /// the output of such a motion. `None` if the cable has no such signal.
-    pub(crate) fn signal_by_carrier(&self, motion: &CarrierMotion, signal: DriveSignal, omega: f64) -> Option<Complex> {
+    pub(crate) fn signal_by_carrier(
+        &self,
+        motion: &CarrierMotion,
+        signal: DriveSignal,
+        omega: Complex,
+    ) -> Option<Complex> {
         if signal != DriveSignal::Length {
             return self.response_to_carrier(motion, signal, omega);
         }
@@ -256,7 +261,7 @@ impl CatenaryDynamicEnd {
     }
 
     /// Tension at a far end without a drive, which moves with its carrier; `None` if the end couples the families.
-    fn tension_at_moved_end(&self, motion: &CarrierMotion, omega: f64) -> Option<Complex> {
+    fn tension_at_moved_end(&self, motion: &CarrierMotion, omega: Complex) -> Option<Complex> {
         let ([h, v], square, [e, n, _]) = (self.directions.to_platform, self.square(omega), motion.displacement);
         let of = |i: usize, j: usize| self.in_plane().entry(i, j, square);
         let force = |i: usize| of(i, 2) * e + of(i, 3) * n;
@@ -269,7 +274,7 @@ impl CatenaryDynamicEnd {
     fn drive_under_carrier(
         &self,
         motion: &CarrierMotion,
-        omega: f64,
+        omega: Complex,
     ) -> Option<(DriveAt, DriveLosses, Vec<Complex>, Vec<Complex>)> {
         let (motions, losses) = self.motions_with_losses(omega)?;
         let free = self.free_by_far_end(motion.displacement, omega)?;

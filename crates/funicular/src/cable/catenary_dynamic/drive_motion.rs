@@ -326,12 +326,12 @@ impl CatenaryDynamicEnd {
 
     /// Stiffness at ω [rad/s] by the losses that the undamped model of the drive leaves out [N/m]; `None` without
     /// losses.
-    pub(crate) fn drive_stiffness(&self, omega: f64) -> Option<LocalStiffness<Complex>> {
+    pub(crate) fn drive_stiffness(&self, omega: Complex) -> Option<LocalStiffness<Complex>> {
         if !self.has_drive_losses() {
             return None;
         }
         let drive = self.drive_at(self.square(omega), &NearRanges::default())?;
-        let added = drive.added(&self.beyond_undamped(omega.into(), 1.0).values());
+        let added = drive.added(&self.beyond_undamped(omega, 1.0).values());
         Some(LocalStiffness {
             axial: added[0][0],
             coupling: added[0][1],

@@ -96,9 +96,9 @@ impl EndDirections {
 impl CatenaryDynamicEnd {
     /// Vector of a signal at ω [rad/s] in (e, n, b): the force on the held platform end per unit of an input, and by
     /// reciprocity the output per motion of the platform end. `None` if the cable has no such signal.
-    pub(crate) fn signal_vector(&self, signal: DriveSignal, omega: f64) -> Option<[Complex; 3]> {
+    pub(crate) fn signal_vector(&self, signal: DriveSignal, omega: Complex) -> Option<[Complex; 3]> {
         if signal == DriveSignal::Tension {
-            let k = self.damped(omega);
+            let k = self.damped_at(omega);
             let [h, v] = self.directions.from_platform;
             let [along, normal] = k.across;
             return Some([
@@ -128,7 +128,7 @@ impl CatenaryDynamicEnd {
 
     /// Tension at a far end that is held per motion (e, n, b) of the platform end, or the force on that one per motion
     /// of the far end towards the platform [N/m]. `None` for an end that couples the families.
-    fn at_held_end(&self, omega: f64) -> Option<[Complex; 3]> {
+    fn at_held_end(&self, omega: Complex) -> Option<[Complex; 3]> {
         let (square, [h, v], family) = (self.square(omega), self.directions.to_platform, &self.cable.in_plane);
         let towards = |i: usize| -(family.entry(i, 2, square) * h + family.entry(i, 3, square) * v);
         let mut row = [towards(0), towards(1), Complex::new(0.0, 0.0)];
@@ -148,7 +148,7 @@ impl CatenaryDynamicEnd {
 
     /// Motions of the drive at ω [rad/s], and the forces on them by their losses for a displacement of the far end, the
     /// platform end held. `None` without losses.
-    fn lost_by_far_end(&self, displacement: [f64; 3], omega: f64) -> Option<(DriveAt, Vec<Complex>)> {
+    fn lost_by_far_end(&self, displacement: [f64; 3], omega: Complex) -> Option<(DriveAt, Vec<Complex>)> {
         if !self.has_drive_losses() {
             return None;
         }
@@ -159,7 +159,7 @@ impl CatenaryDynamicEnd {
     }
 
     /// Motions of the drive without its losses for a displacement of the far end, the platform end held.
-    pub(super) fn free_by_far_end(&self, displacement: [f64; 3], omega: f64) -> Option<Vec<Complex>> {
+    pub(super) fn free_by_far_end(&self, displacement: [f64; 3], omega: Complex) -> Option<Vec<Complex>> {
         let drive = self.cable.drive.as_ref()?;
         let rows = DriveAt::by_carrier(&self.cable, drive, self.motions(), self.square(omega));
         Some(rows.iter().map(|row| row.iter().zip(displacement).map(|(t, c)| t * c).sum()).collect())
@@ -167,13 +167,13 @@ impl CatenaryDynamicEnd {
 
     /// Force along a far end without a drive, towards the platform, by the losses of the cable, if the far end has this
     /// displacement, at ω [rad/s].
-    pub(super) fn lost_at_far_end(&self, displacement: [f64; 3], omega: f64) -> Complex {
+    pub(super) fn lost_at_far_end(&self, displacement: [f64; 3], omega: Complex) -> Complex {
         let found = self.lost_by_far_end(displacement, omega).zip(self.free_by_far_end(self.far_end_along(), omega));
         found.map_or(0.0.into(), |((_, lost), along)| lost.iter().zip(along).map(|(lost, z)| lost * z).sum())
     }
 
     /// Tension at the drum per motion of the drive [N/m]; `None` without a drum side.
-    fn drum_tension_row(&self, chain: &DriveChain, omega: f64) -> Option<Vec<Complex>> {
+    fn drum_tension_row(&self, chain: &DriveChain, omega: Complex) -> Option<Vec<Complex>> {
         let (end, square) = (chain.drum_end.as_ref()?, self.square(omega));
         let mut row: Vec<Complex> = end.by_motion.iter().map(|(k, mass)| (square * *mass - k) * end.ratio).collect();
         self.add_on_drum_side(&mut row, [-end.ratio, 0.0], omega);
@@ -182,8 +182,8 @@ impl CatenaryDynamicEnd {
 
     /// Adds the forces of the loss of the drum side to forces on the motions of the drive: those that act while
     /// these motions are at rest, and the ends of the drum side, at the drum and at the wheel, move against them.
-    pub(super) fn add_on_drum_side(&self, forces: &mut Vec<Complex>, against: [f64; 2], omega: f64) {
-        let (loss, (chain, along)) = (self.stretch_loss.at(omega.into()).0, self.motions_along());
+    pub(super) fn add_on_drum_side(&self, forces: &mut Vec<Complex>, against: [f64; 2], omega: Complex) {
+        let (loss, (chain, along)) = (self.stretch_loss.at(omega).0, self.motions_along());
         let first = chain + self.cable.stretch.moments;
         if first == along || !self.stretch_loss.is_some() {
             return;
@@ -195,7 +195,7 @@ impl CatenaryDynamicEnd {
     }
 
     /// Row of an output over the motions of the drive.
-    pub(super) fn output_row(&self, chain: &DriveChain, output: DriveSignal, omega: f64) -> Option<Vec<Complex>> {
+    pub(super) fn output_row(&self, chain: &DriveChain, output: DriveSignal, omega: Complex) -> Option<Vec<Complex>> {
         match output {
             DriveSignal::DrumTension => self.drum_tension_row(chain, omega),
             _ => self.forces_of(chain, output, omega),
@@ -204,7 +204,7 @@ impl CatenaryDynamicEnd {
 
     /// Tension at the drum when the ends of the drum side move, the motions of the drive held: its end at the drum and
     /// that at the wheel, both towards the platform, and the whole drum side along itself. Zero without a drum side.
-    pub(super) fn drum_tension_of_ends(&self, [at_drum, at_wheel, whole]: [f64; 3], omega: f64) -> Complex {
+    pub(super) fn drum_tension_of_ends(&self, [at_drum, at_wheel, whole]: [f64; 3], omega: Complex) -> Complex {
         let Some(end) = self.chain().and_then(|chain| chain.drum_end.as_ref()) else { return Complex::new(0.0, 0.0) };
         let square = self.square(omega);
         let force = |(k, mass): (f64, f64), motion: f64| (square * mass - k) * motion;
@@ -217,18 +217,18 @@ impl CatenaryDynamicEnd {
     }
 
     /// Force of the loss of the drum side at its end at the drum, when its ends move.
-    fn lost_on_drum(&self, at_drum: f64, at_wheel: f64, omega: f64) -> Complex {
+    fn lost_on_drum(&self, at_drum: f64, at_wheel: f64, omega: Complex) -> Complex {
         if !self.has_strains() || !self.stretch_loss.is_some() {
             return 0.0.into();
         }
         let stretches = self.chain().map_or(&[][..], |chain| &chain.stretches);
         let of = |of: &ChainStretch| of.stiffness * of.by([at_drum, at_wheel]) * -of.by_ends[0];
-        self.stretch_loss.at(omega.into()).0 * stretches.iter().map(of).sum::<f64>()
+        self.stretch_loss.at(omega).0 * stretches.iter().map(of).sum::<f64>()
     }
 
     /// Output per input of signals of this cable, its platform end held, at ω [rad/s]. `None` if the cable has no such
     /// signals.
-    pub(crate) fn signal_response(&self, input: DriveSignal, output: DriveSignal, omega: f64) -> Option<Complex> {
+    pub(crate) fn signal_response(&self, input: DriveSignal, output: DriveSignal, omega: Complex) -> Option<Complex> {
         if output == DriveSignal::Tension {
             return Some(self.tension_of(&self.signal_vector(input, omega)?));
         }
@@ -266,20 +266,20 @@ impl CatenaryDynamicEnd {
 
     /// Forces on the motions of the drive per unit of an input, and by reciprocity the row of drum and motor; `None`
     /// for tensions, and for a cable without such a signal.
-    pub(crate) fn signal_forces(&self, signal: DriveSignal, omega: f64) -> Option<Vec<Complex>> {
+    pub(crate) fn signal_forces(&self, signal: DriveSignal, omega: Complex) -> Option<Vec<Complex>> {
         let mut forces = self.forces_of(self.chain()?, signal, omega)?;
         forces.resize(self.motions(), Complex::new(0.0, 0.0));
         Some(forces)
     }
 
-    pub(super) fn motions_with_losses(&self, omega: f64) -> Option<(DriveAt, DriveLosses)> {
+    pub(super) fn motions_with_losses(&self, omega: Complex) -> Option<(DriveAt, DriveLosses)> {
         let motions = self.drive_at(self.square(omega), &NearRanges::default())?;
-        Some((motions, self.beyond_undamped(omega.into(), 1.0)))
+        Some((motions, self.beyond_undamped(omega, 1.0)))
     }
 
     /// Forces on the motions of the drive per unit of an input [N/m or 1]; for drum and motor also the row of their
     /// motion.
-    pub(super) fn forces_of(&self, chain: &DriveChain, signal: DriveSignal, omega: f64) -> Option<Vec<Complex>> {
+    pub(super) fn forces_of(&self, chain: &DriveChain, signal: DriveSignal, omega: Complex) -> Option<Vec<Complex>> {
         let mut forces = DriveForce::of(chain, signal)?.at(omega, self.square(omega));
         if signal == DriveSignal::Length && chain.drum.is_none() {
             self.add_on_drum_side(&mut forces, [-self.directions.stretch, 0.0], omega);
@@ -331,11 +331,9 @@ impl DriveForce {
     }
 
     /// Force at ω [rad/s] with `square` = ω_c².
-    fn at(&self, omega: f64, square: Complex) -> Vec<Complex> {
-        let delayed = Complex::from_polar(1.0, -omega * self.delay);
+    fn at(&self, omega: Complex, square: Complex) -> Vec<Complex> {
+        let (rate_of, delayed) = (Complex::i() * omega, (-Complex::i() * omega * self.delay).exp());
         let parts = self.constant.iter().zip(&self.rate).zip(&self.square);
-        parts
-            .map(|((constant, rate), moved)| Complex::new(*constant, omega * rate) * delayed + square * *moved)
-            .collect()
+        parts.map(|((constant, rate), moved)| (rate_of * *rate + *constant) * delayed + square * *moved).collect()
     }
 }

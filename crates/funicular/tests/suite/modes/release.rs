@@ -2,7 +2,7 @@
 
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{DMat, Vec3, Vec6};
-use funicular::modes::{self, Release, ReleaseError, damped};
+use funicular::modes::{self, DecayError, Release, damped};
 use funicular::reduced_model::{DampingAt, RequestedModel, reduce};
 use funicular::response::{Quantity, Signal};
 use funicular::robot::{Damping, Robot, StretchLoss};
@@ -11,7 +11,7 @@ use funicular::statics::{self, StaticModel};
 const BELOW_HZ: f64 = 25.0;
 
 /// Exponential of a matrix times a time: a series for a small fraction of it, squared again and again.
-fn exponential(matrix: &DMat, time: f64) -> DMat {
+pub(super) fn exponential(matrix: &DMat, time: f64) -> DMat {
     let halvings = (matrix.norm() * time).max(1.0).log2().ceil() as i32 + 2;
     let small = matrix * (time / 2_f64.powi(halvings));
     let n = matrix.nrows();
@@ -58,13 +58,13 @@ fn the_decay_is_that_of_the_complete_matrices() {
     state.view_mut((n, n), (n, n)).copy_from(&(-&inverse * &model.damping));
     let peak = release.held.norm();
     assert!(((&model.output * &held).norm() / peak - 1.0).abs() < 1e-9);
-    assert!((release.at(0.0) - release.held).norm() <= release.omitted);
+    assert!((release.decay.at(0.0) - release.held).norm() <= release.omitted);
     let (mut time, mut forward) = (0.1, exponential(&state, 0.1));
     for _ in 0..6 {
         let moved = forward.view((0, 0), (n, n)) * &held;
         let expected = &model.output * moved;
         let expected = Vec3::new(expected[0], expected[1], expected[2]);
-        let gap = (release.at(time) - expected).norm();
+        let gap = (release.decay.at(time) - expected).norm();
         assert!(gap <= release.omitted + 1e-6 * peak, "{time} s: {gap:e}, omitted {:e}, {peak:e}", release.omitted);
         (time, forward) = (2.0 * time, &forward * &forward);
     }
@@ -72,14 +72,14 @@ fn the_decay_is_that_of_the_complete_matrices() {
 
     // Times of settling: no sample beyond them is farther away.
     for tolerance in [0.5 * peak, 0.02 * peak, 1e-4 * peak] {
-        let (exact, sure) = (release.settled(tolerance), release.surely_settled(tolerance));
+        let (exact, sure) = (release.decay.settled(tolerance), release.decay.surely_settled(tolerance));
         assert!(exact <= sure && sure < 100.0, "{exact} {sure}");
         let after = (0..20_000).map(|i| exact + 1e-6 + (sure - exact) * f64::from(i) / 2e4);
-        assert!(after.clone().all(|time| release.at(time).norm() < tolerance), "{tolerance}");
-        assert!((release.at(exact).norm() / tolerance - 1.0).abs() < 1e-6 || exact == 0.0);
-        assert!((release.envelope(sure) / tolerance - 1.0).abs() < 1e-6);
+        assert!(after.clone().all(|time| release.decay.at(time).norm() < tolerance), "{tolerance}");
+        assert!((release.decay.at(exact).norm() / tolerance - 1.0).abs() < 1e-6 || exact == 0.0);
+        assert!((release.decay.envelope(sure) / tolerance - 1.0).abs() < 1e-6);
     }
-    assert!(release.settled(10.0 * peak) <= 0.0);
+    assert!(release.decay.settled(10.0 * peak) <= 0.0);
 }
 
 #[test]
@@ -91,5 +91,5 @@ fn what_does_not_decay_is_refused() {
     let found = modes::below(&dynamics, 9.0);
     let damped = damped::damped_modes(&dynamics, &found);
     let released = Release::of(&dynamics, &found, &damped, &Vec6::z(), &Vec3::zeros());
-    assert!(matches!(released, Err(ReleaseError::NoDecay { .. })), "{released:?}");
+    assert!(matches!(released, Err(DecayError::NoDecay { .. })), "{released:?}");
 }

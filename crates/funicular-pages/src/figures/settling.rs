@@ -1,0 +1,74 @@
+//! Figure of `settle`: distance of the point from its rest over time, with the bound of all modes and the tolerance.
+
+use super::axis::ChartAxis;
+use super::chart::{Chart, Entry, Layer, Panel, Sample};
+use super::drawing::Stroke;
+use super::style::{self, GREY};
+use funicular_study::analyses::settle::{HistoryRow, Settled};
+use funicular_study::text::significant;
+
+/// Room above the highest curve, as a part of it.
+const ABOVE: f64 = 0.08;
+
+/// Motion after one command.
+struct Course<'a> {
+    name: &'static str,
+    /// Time of the end of the command [s].
+    end: f64,
+    history: &'a [HistoryRow],
+    settled: f64,
+}
+
+/// Distance over the time since the release or the start of the command: with and without the shaper.
+pub(super) fn chart(found: &Settled) -> Chart {
+    let courses = courses(found);
+    let last = courses.iter().filter_map(|of| Some(of.end + of.history.last()?.t_s)).fold(0.0, f64::max);
+    let last = if last > 0.0 { last } else { 1.0 };
+    let tolerance = 1e3 * found.tolerance_m;
+    let highest = courses.iter().flat_map(|of| of.history).map(|row| 1e3 * row.envelope_m).fold(tolerance, f64::max);
+
+    let (mut layers, mut legend) = (Vec::new(), Vec::new());
+    for (i, of) in courses.iter().enumerate() {
+        let stroke = style::curve(i);
+        let bound = Stroke { dashes: vec![3.0, 1.5], width: 0.6 * stroke.width, ..stroke.clone() };
+        let points = |value: fn(&HistoryRow) -> f64| -> Vec<(f64, f64)> {
+            of.history.iter().map(|row| (of.end + row.t_s, 1e3 * value(row))).collect()
+        };
+        layers
+            .push(Layer::Line { points: points(|row| row.x_m.hypot(row.y_m).hypot(row.z_m)), stroke: stroke.clone() });
+        layers.push(Layer::Line { points: points(|row| row.envelope_m), stroke: bound.clone() });
+        let at = of.end + of.settled;
+        layers
+            .push(Layer::Line { points: vec![(at, 0.0), (at, tolerance)], stroke: Stroke::solid(stroke.colour, 2.0) });
+        let text = format!("{}: within {} mm for good at {} s", of.name, significant(tolerance, 3), significant(at, 4));
+        legend.push(Entry { text, sample: Sample::Line(stroke) });
+        legend.push(Entry { text: format!("{}: sum of all amplitudes", of.name), sample: Sample::Line(bound) });
+    }
+    let band = Stroke::solid(GREY, style::AXIS_WIDTH);
+    layers.push(Layer::Line { points: vec![(0.0, tolerance), (last, tolerance)], stroke: band.clone() });
+    legend.push(Entry { text: "tolerance".to_owned(), sample: Sample::Line(band) });
+
+    let y = ChartAxis::linear("distance from rest [mm]", 0.0, highest * (1.0 + ABOVE));
+    Chart {
+        title: format!("{}: decay", found.robot),
+        x: ChartAxis::linear("time [s]", 0.0, last),
+        panels: vec![Panel::new(y, 0.6, layers)],
+        legend,
+        colour_bar: None,
+    }
+}
+
+fn courses(found: &Settled) -> Vec<Course<'_>> {
+    let Some(commanded) = &found.commanded else {
+        return vec![Course { name: "release", end: 0.0, history: &found.history, settled: found.settled_s }];
+    };
+    let own = |name| Course { name, end: commanded.duration_s, history: &found.history, settled: found.settled_s };
+    let Some(shaping) = &commanded.shaping else { return vec![own(commanded.command)] };
+    let without = Course {
+        name: "without shaper",
+        end: commanded.duration_s - shaping.longer_s,
+        history: &shaping.history_without,
+        settled: shaping.settled_without_s,
+    };
+    vec![own("with shaper"), without]
+}

@@ -1,0 +1,139 @@
+//! Sway of robots after a release, a stop and a shaped move.
+
+use super::reference::{ShapedSums, SwayReference, SwayingRobot};
+use super::stretch_loss::{at_rest, nearest};
+use super::{Bound, Case, Comparison, Section};
+use anyhow::{Result, bail};
+use funicular::dynamics::{Dynamics, Linearisation};
+use funicular::math::{Vec3, Vec6};
+use funicular::modes::{self, CommandedMotions, Decay, LengthCommand, Profile, Release, Shaper, ShaperKind, damped};
+use funicular::robot::StretchLoss;
+use std::f64::consts::TAU;
+
+/// Factors of all frequencies in the sums of shaped commands.
+const FACTORS: [f64; 3] = [0.9, 1.0, 1.1];
+
+/// Vibration that the shaper `ei` of the other program leaves.
+const VIBRATION: f64 = 0.05;
+
+/// Relative digits of the exact times of settling in the table.
+const DIGITS_OF_TIMES: f64 = 1e-5;
+
+pub(super) fn section(reference: &SwayReference) -> Result<Section> {
+    let mut rows = Vec::new();
+    for of in &reference.robots {
+        rows.extend(of_robot(&reference.source, of)?);
+    }
+    Ok(Section {
+        title: "Sway after a release, a stop and a shaped move, computed independently",
+        note: "Amplitudes of the platform origin mode by mode, the largest first, its position a second later, and the times from \
+               which on it is within a tolerance, exactly and by the sum of all amplitudes. Lengths are commanded with boxes of \
+               speed, acceleration and jerk; shapers are also tried with all frequencies a tenth lower and higher.",
+        rows,
+    })
+}
+
+fn of_robot(source: &str, of: &SwayingRobot) -> Result<Vec<Comparison>> {
+    let (robot, rest) = at_rest(&of.changed, of.xi, StretchLoss { factor: of.eta, time: 0.0 })?;
+    let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), of.below_hz)?;
+    let found = modes::below(&dynamics, of.below_hz);
+    let damped = damped::damped_modes(&dynamics, &found);
+    if !damped.certified {
+        bail!("{}: the damped list is not certified", robot.name);
+    }
+    let case = Case { name: of.id.clone(), source };
+    let (accuracy, bound) = (of.relative_accuracy, Bound::Digits("accuracy of the other program"));
+
+    let [x, y, z] = of.release.force_n;
+    let release = Release::of(&dynamics, &found, &damped, &Vec6::new(x, y, z, 0.0, 0.0, 0.0), &Vec3::zeros())?;
+    let theirs = &of.release;
+    let at_1s = release.decay.at(1.0);
+    let mut rows = vec![
+        case.together("deflection [m]", &theirs.static_deflection_m, release.held.as_slice(), accuracy, bound),
+        case.together("amplitudes, release [m]", &theirs.amplitudes_m, &loudest(&release.decay), accuracy, bound),
+        case.together("place after 1 s, release [m]", &theirs.position_at_1s_m, at_1s.as_slice(), accuracy, bound),
+    ];
+    let times = theirs.settle.iter().map(|of| (of.tolerance_m, of.bound_s, of.exact_s)).collect::<Vec<_>>();
+    rows.extend(settling(&case, "release", &times, &release.decay, 0.0));
+
+    let motions = CommandedMotions::of(&dynamics, &found, &damped, &Vec3::zeros())?;
+    let theirs = &of.stop;
+    let command = LengthCommand::Stop { rates: theirs.rates_m_s.clone(), profile: Profile::new(&theirs.durations_s) };
+    let stop = motions.after(&command);
+    let at_1s = stop.at(1.0);
+    rows.extend([
+        case.together("amplitudes, stop [m]", &theirs.amplitudes_m, &loudest(&stop), accuracy, bound),
+        case.relative("sum of all amplitudes, stop [m]", &[theirs.sum_m], &[stop.envelope(0.0)], accuracy, bound),
+        case.together("place 1 s after the stop [m]", &theirs.position_1s_after_m, at_1s.as_slice(), accuracy, bound),
+    ]);
+    let times = theirs.settle.iter().map(|of| (of.tolerance_m, of.bound_s, of.exact_s)).collect::<Vec<_>>();
+    rows.extend(settling(&case, "stop", &times, &stop, command.duration()));
+
+    let theirs = &of.shaped;
+    let profile = Profile::new(&theirs.durations_s);
+    let after = |profile: Profile| motions.after(&LengthCommand::Move { by: theirs.change_m.clone(), profile });
+    let plain = after(profile.clone());
+    rows.push(case.together("amplitudes, move [m]", &theirs.amplitudes_m, &loudest(&plain), accuracy, bound));
+    for row in &theirs.shapers {
+        let shaper = shaper(row, &plain)?;
+        let sums = FACTORS.map(|factor| sum(&plain, &shaper, factor));
+        let name = format!("{} of {} mode(s)", row.shaper, row.modes_hz.len());
+        rows.push(case.relative(&format!("sums, {name} [m]"), &row.sums_m, &sums, accuracy, bound));
+        let times = [(theirs.tolerance_m, row.bound_s, row.exact_s)];
+        rows.extend(settling(&case, &name, &times, &after(profile.shaped(&shaper)), shaper.duration()));
+    }
+    Ok(rows)
+}
+
+/// The six largest amplitudes [m].
+fn loudest(decay: &Decay) -> Vec<f64> {
+    let mut sizes: Vec<f64> = decay.motions.iter().map(modes::DecayingMotion::size).collect();
+    sizes.sort_by(|a, b| b.total_cmp(a));
+    sizes.truncate(6);
+    sizes
+}
+
+/// Times of settling, by the bound and exactly, from `earlier` before the beginning of the decay on [s].
+fn settling(case: &Case, name: &str, theirs: &[(f64, f64, f64)], decay: &Decay, earlier: f64) -> Vec<Comparison> {
+    let bound = Bound::Digits("digits of the table");
+    let ours = |time: fn(&Decay, f64) -> f64| -> Vec<f64> {
+        theirs.iter().map(|(tolerance, ..)| time(decay, *tolerance) + earlier).collect()
+    };
+    let [bounds, exact]: [Vec<f64>; 2] =
+        [theirs.iter().map(|of| of.1).collect(), theirs.iter().map(|of| of.2).collect()];
+    vec![
+        case.together(
+            &format!("settled by the sum, {name} [s]"),
+            &bounds,
+            &ours(Decay::surely_settled),
+            DIGITS_OF_TIMES,
+            bound,
+        ),
+        case.together(&format!("settled, {name} [s]"), &exact, &ours(Decay::settled), DIGITS_OF_TIMES, bound),
+    ]
+}
+
+fn shaper(of: &ShapedSums, plain: &Decay) -> Result<Shaper> {
+    let kind = match of.shaper.as_str() {
+        "zv" => ShaperKind::Zv,
+        "zvd" => ShaperKind::Zvd,
+        "ei" => ShaperKind::Ei(VIBRATION),
+        other => bail!("no shaper {other}"),
+    };
+    let mut shaper = Shaper::none();
+    for hz in &of.modes_hz {
+        let mode = nearest(&plain.motions, |mode| (mode.omega.norm() / TAU / hz - 1.0).abs())?;
+        let Some(own) = Shaper::of_mode(kind, mode.omega) else { bail!("{hz} Hz does not oscillate") };
+        shaper = shaper.convolved(&own);
+    }
+    Ok(shaper)
+}
+
+/// Sum of all amplitudes after a shaper with all frequencies times a factor, counted from the end without the shaper.
+fn sum(plain: &Decay, shaper: &Shaper, factor: f64) -> f64 {
+    let of = |mode: &modes::DecayingMotion| {
+        let omega = mode.omega * factor;
+        mode.size() * shaper.left(omega) * (omega.im * shaper.duration()).exp()
+    };
+    plain.motions.iter().map(of).sum()
+}

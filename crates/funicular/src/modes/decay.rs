@@ -1,0 +1,216 @@
+//! Free decay of a point of the platform: a sum over the damped modes, and the times from which on it is small
+//! (docs/theory.md, equations (46f) and (46g)).
+
+use super::Modes;
+use super::damped::DampedModes;
+use crate::dynamics::{DampedMotion, Dynamics};
+use crate::math::{Complex, Vec3, Vec6};
+use thiserror::Error;
+
+/// Decay of the motion of a point of the platform, relative to its rest: `y(t) = Σ 2 Re(A_k e^{λ_k t})`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decay {
+    /// Decaying motions, in the order of the damped modes; those with the platform at rest are left out.
+    pub motions: Vec<DecayingMotion>,
+}
+
+/// Motion of a point in one damped mode.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DecayingMotion {
+    /// Index of the mode among the undamped modes of the list; `None` for a damped mode without such a partner.
+    pub mode: Option<usize>,
+    /// Complex frequency ω [rad/s]; λ = iω.
+    pub omega: Complex,
+    /// Complex amplitude A at time zero, world axes [m].
+    pub amplitude: [Complex; 3],
+}
+
+/// Reason for which a decay has no closed form.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum DecayError {
+    /// The closed form of the shallow-dynamic cable has no motions at complex frequencies.
+    #[error("the cable model `shallow-dynamic` has no motions at complex frequencies: choose `catenary-dynamic`")]
+    Model,
+    /// A cable has no commanded length, by its index in the order of the file.
+    #[error(
+        "cable number {} has no length that is commanded: every cable needs mass and the cable model `catenary-dynamic`", .0 + 1
+    )]
+    NoLength(usize),
+    /// A mode does not oscillate.
+    #[error(
+        "motions that are damped so strongly that they do not oscillate ({0}) have no place in the closed form of a decay: \
+         give winches and platform less damping"
+    )]
+    Overdamped(usize),
+    /// A mode does not decay.
+    #[error(
+        "the mode at {frequency_hz:.4} Hz does not decay: give the ropes `damping_ratio` and `axial_loss_factor`, or the \
+         platform `translational_damping_n_s_m`"
+    )]
+    NoDecay {
+        /// Frequency [Hz].
+        frequency_hz: f64,
+    },
+    /// Modes share a complex frequency.
+    #[error(
+        "modes of the platform share the complex frequency at {frequency_hz:.4} Hz: their motions cannot be parted"
+    )]
+    Shared {
+        /// Frequency [Hz].
+        frequency_hz: f64,
+    },
+}
+
+impl DecayError {
+    /// True if the request is valid, but the robot has no such decay.
+    pub fn is_no_solution(&self) -> bool {
+        !matches!(self, Self::Model | Self::NoLength(_))
+    }
+}
+
+/// Fraction of the tolerance below which the last crossing counts as found.
+const AT_TOLERANCE: f64 = 1e-9;
+
+/// Maximum number of steps back in time: ten thousand periods with a hundred steps.
+const MAX_STEPS: usize = 1_000_000;
+
+impl DecayingMotion {
+    /// Rate of decay, −Re λ [1/s].
+    pub fn rate(&self) -> f64 {
+        self.omega.im
+    }
+
+    /// Amplitude at time zero [m]: half of the long axis of the ellipse on which the point moves.
+    pub fn size(&self) -> f64 {
+        let (re, im) = (Vec3::from(self.amplitude.map(|a| a.re)), Vec3::from(self.amplitude.map(|a| a.im)));
+        let (a, b, c) = (re.norm_squared(), re.dot(&im), im.norm_squared());
+        let largest = 0.5 * (a + c) + (0.25 * (a - c) * (a - c) + b * b).sqrt();
+        2.0 * largest.sqrt()
+    }
+
+    /// Bound of its speed at time zero [m/s].
+    fn speed(&self) -> f64 {
+        let norm = self.amplitude.iter().map(Complex::norm_sqr).sum::<f64>().sqrt();
+        2.0 * norm * self.omega.norm()
+    }
+}
+
+impl Decay {
+    /// Displacement of the point from its rest at a time [m].
+    pub fn at(&self, time: f64) -> Vec3 {
+        let mut sum = Vec3::zeros();
+        for motion in &self.motions {
+            let factor = (Complex::i() * motion.omega * time).exp() * 2.0;
+            sum += Vec3::from(motion.amplitude.map(|amplitude| (amplitude * factor).re));
+        }
+        sum
+    }
+
+    /// Bound of the distance of the point from its rest at a time [m].
+    pub fn envelope(&self, time: f64) -> f64 {
+        self.motions.iter().map(|motion| motion.size() * (-motion.rate() * time).exp()).sum()
+    }
+
+    /// Time from which on the bound of the distance is at most `tolerance` [m]: the point stays within it.
+    pub fn surely_settled(&self, tolerance: f64) -> f64 {
+        if self.envelope(0.0) <= tolerance {
+            return 0.0;
+        }
+        let slowest = self.motions.iter().map(DecayingMotion::rate).fold(f64::INFINITY, f64::min);
+        let mut after = 1.0 / slowest;
+        while self.envelope(after) > tolerance {
+            after *= 2.0;
+        }
+        let mut before = 0.0;
+        while after - before > 1e-12 * after {
+            let middle = 0.5 * (before + after);
+            if self.envelope(middle) > tolerance { before = middle } else { after = middle }
+        }
+        after
+    }
+
+    /// Last time at which the point is at the distance `tolerance` [m] from its rest; zero if it never is.
+    ///
+    /// From the sure time backwards: within the remaining distance over the largest speed, no crossing is possible.
+    pub fn settled(&self, tolerance: f64) -> f64 {
+        let speed = |time: f64| -> f64 {
+            self.motions.iter().map(|motion| motion.speed() * (-motion.rate() * time).exp()).sum()
+        };
+        let mut time = self.surely_settled(tolerance);
+        for _ in 0..MAX_STEPS {
+            let left = tolerance - self.at(time).norm();
+            if time <= 0.0 || left <= AT_TOLERANCE * tolerance {
+                break;
+            }
+            let step = left / speed(time);
+            time -= left / speed(time - step);
+        }
+        time.max(0.0)
+    }
+}
+
+/// Motion at a pole of the response, of the robot without forces.
+pub(super) struct PoleMotion {
+    /// Index of the mode among the undamped modes of the list.
+    pub(super) mode: Option<usize>,
+    /// Complex frequency ω [rad/s]; λ = iω.
+    pub(super) omega: Complex,
+    /// Motion, and the derivative of its quadratic form by ω.
+    pub(super) found: DampedMotion,
+}
+
+impl PoleMotion {
+    /// Product of the motion of the platform with a scaled vector, see [`scaled`].
+    pub(super) fn along(&self, row: &Vec6) -> Complex {
+        (0..6).map(|k| self.found.platform[k] * row[k]).sum()
+    }
+
+    /// Motion of a point along the world axes, as scaled vectors of [`point_rows`].
+    pub(super) fn of_point(&self, rows: &[Vec6; 3]) -> [Complex; 3] {
+        rows.each_ref().map(|row| self.along(row))
+    }
+}
+
+/// Motions at all poles, without modes in which the platform rests.
+///
+/// # Errors
+/// [`DecayError`].
+pub(super) fn pole_motions(
+    dynamics: &Dynamics,
+    undamped: &Modes,
+    damped: &DampedModes,
+) -> Result<Vec<PoleMotion>, DecayError> {
+    if damped.overdamped > 0 {
+        return Err(DecayError::Overdamped(damped.overdamped));
+    }
+    let by_poles = dynamics.terms().iter().all(|term| term.form().by_poles().is_some());
+    let partners = damped.modes.iter().enumerate().map(|(i, mode)| (Some(i), mode));
+    let moves = |mode: &Option<usize>| mode.is_none_or(|i: usize| undamped.modes[i].platform_energy_fraction != 0.0);
+    partners
+        .chain(damped.others.iter().map(|mode| (None, mode)))
+        .filter(|(mode, _)| moves(mode))
+        .map(|(mode, of)| {
+            let frequency_hz = of.frequency_hz();
+            if of.omega.im <= 0.0 {
+                return Err(DecayError::NoDecay { frequency_hz });
+            }
+            let refused = if by_poles { DecayError::Shared { frequency_hz } } else { DecayError::Model };
+            let found = dynamics.damped_motion(of.omega).ok_or(refused)?;
+            Ok(PoleMotion { mode, omega: of.omega, found })
+        })
+        .collect()
+}
+
+/// Scaled vectors of the displacement of a point at `arm_w` from the platform origin along the world axes [m].
+pub(super) fn point_rows(dynamics: &Dynamics, arm_w: &Vec3) -> [Vec6; 3] {
+    [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| {
+        let moment = arm_w.cross(&axis);
+        scaled(dynamics, &Vec6::new(axis.x, axis.y, axis.z, moment.x, moment.y, moment.z))
+    })
+}
+
+/// Scaled vector over the platform's coordinates of a vector about its origin.
+pub(super) fn scaled(dynamics: &Dynamics, vector: &Vec6) -> Vec6 {
+    let scale = dynamics.scale();
+    dynamics.coordinates().motion().reduced(&Vec6::from_fn(|i, _| vector[i] / scale[i]))
+}

@@ -1,0 +1,136 @@
+//! Course of a commanded change over time: boxes convolved with each other, which bound rate, acceleration and jerk, and
+//! the impulses of a shaper (docs/theory.md, equation (46j)).
+
+use super::shaper::{Impulse, Shaper};
+use crate::math::Complex;
+
+/// Course over time of a change from nothing to all of it, from t = 0 on.
+///
+/// The rate is a chain of unit boxes, convolved: the longest is the time from the beginning of the acceleration to that of
+/// the deceleration, the second the time of each acceleration, the third that of each change of the acceleration. Without boxes the
+/// change is a step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    /// Durations of the boxes [s], all positive.
+    boxes: Vec<f64>,
+    /// Parts of the change, each of which begins at its time.
+    impulses: Vec<Impulse>,
+}
+
+/// Magnitude of x up to which a series gives `(eˣ − 1)/x` and its successors: the closed form has lost two digits there, and
+/// [`TERMS`] terms of the series leave 1e-19.
+const SMALL: f64 = 0.5;
+const TERMS: u32 = 16;
+
+impl Profile {
+    /// Course with boxes of these durations [s], in any order; zeros are no boxes.
+    pub fn new(boxes: &[f64]) -> Self {
+        let boxes = boxes.iter().copied().filter(|duration| *duration > 0.0).collect();
+        Self { boxes, impulses: vec![Impulse { time: 0.0, amplitude: 1.0 }] }
+    }
+
+    /// The course after a shaper.
+    #[must_use]
+    pub fn shaped(&self, shaper: &Shaper) -> Self {
+        let own = Shaper { impulses: self.impulses.clone() };
+        Self { boxes: self.boxes.clone(), impulses: own.convolved(shaper).impulses }
+    }
+
+    /// Time after which nothing changes [s].
+    pub fn duration(&self) -> f64 {
+        self.boxes.iter().sum::<f64>() + self.last_impulse()
+    }
+
+    /// Part of the change that is done at a time [s], 0 to 1.
+    pub fn done(&self, time: f64) -> f64 {
+        let own: f64 = self.boxes.iter().sum();
+        let done = |t: f64| {
+            if t >= own {
+                1.0
+            } else if t <= 0.0 {
+                0.0
+            } else {
+                self.truncated(t, self.boxes.len())
+            }
+        };
+        self.impulses.iter().map(|impulse| impulse.amplitude * done(time - impulse.time)).sum()
+    }
+
+    /// Integral of the part that is not done yet, from a time [s] on: the way of a stop from unit speed.
+    pub fn remaining(&self, time: f64) -> f64 {
+        let own: f64 = self.boxes.iter().sum();
+        let left = |t: f64| if t >= own { 0.0 } else { 0.5 * own - t + self.truncated(t, self.boxes.len() + 1) };
+        self.impulses.iter().map(|impulse| impulse.amplitude * left(time - impulse.time)).sum()
+    }
+
+    /// Integral of order `order` − n of the chain of n boxes convolved.
+    fn truncated(&self, time: f64, order: usize) -> f64 {
+        let sum: f64 = self.corners().map(|(sign, at)| sign * power((time - at).max(0.0), order)).sum();
+        sum / self.boxes.iter().product::<f64>()
+    }
+
+    /// Sign and time of every corner of the chain: one per subset of the boxes.
+    fn corners(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        (0..1_u32 << self.boxes.len()).map(|subset| {
+            let chosen = self.boxes.iter().enumerate().filter(move |(j, _)| subset >> j & 1 == 1);
+            chosen.fold((1.0, 0.0), |(sign, at), (_, duration)| (-sign, at + duration))
+        })
+    }
+
+    fn last_impulse(&self) -> f64 {
+        self.impulses.iter().map(|impulse| impulse.time).fold(0.0, f64::max)
+    }
+
+    /// `∫ r(τ) e^{λ(T−τ)} dτ` with the rate r, at the end T of the course.
+    pub(super) fn at_end(&self, lambda: Complex) -> Complex {
+        let shaped = Shaper { impulses: self.impulses.clone() }.at_end(lambda);
+        self.boxes.iter().map(|duration| mean_exponential(lambda * *duration)).product::<Complex>() * shaped
+    }
+
+    /// `∫ r(τ) e^{λ(t−τ)} dτ` over τ up to a time t [s].
+    pub(super) fn until(&self, lambda: Complex, time: f64) -> Complex {
+        let end = self.duration();
+        if time >= end {
+            return self.at_end(lambda) * (lambda * (time - end)).exp();
+        }
+        let order = self.boxes.len();
+        let area: f64 = self.boxes.iter().product();
+        let mut sum = Complex::new(0.0, 0.0);
+        for impulse in &self.impulses {
+            let since = time - impulse.time;
+            for (sign, at) in self.corners().filter(|(_, at)| since >= *at) {
+                sum += remainder(lambda, since - at, order) * (sign * impulse.amplitude / area);
+            }
+        }
+        sum
+    }
+}
+
+/// `xᵏ/k!`.
+fn power<T: Copy + std::ops::Div<f64, Output = T> + std::iter::Product>(x: T, k: usize) -> T {
+    (1..=k).map(|j| x / j as f64).product()
+}
+
+/// `(eˣ − 1)/x`.
+pub(super) fn mean_exponential(x: Complex) -> Complex {
+    remainder(x, 1.0, 1)
+}
+
+/// `(e^{λt} − Σ_{m<n} (λt)^m/m!)/λⁿ`: the response of `ẏ = λ y` to `t^{n−1}/(n−1)!`.
+fn remainder(lambda: Complex, time: f64, order: usize) -> Complex {
+    let x = lambda * time;
+    if order == 0 {
+        return x.exp();
+    }
+    if x.norm() <= SMALL {
+        // tⁿ/n! (1 + x/(n+1) + x²/((n+1)(n+2)) + …).
+        let (mut term, mut sum) = (Complex::new(1.0, 0.0), Complex::new(1.0, 0.0));
+        for k in 1..=TERMS {
+            term *= x / (order as f64 + f64::from(k));
+            sum += term;
+        }
+        return sum * power(time, order);
+    }
+    let polynomial: Complex = (0..order).map(|m| power(x, m)).sum();
+    (x.exp() - polynomial) / (0..order).map(|_| lambda).product::<Complex>()
+}
