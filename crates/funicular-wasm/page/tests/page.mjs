@@ -1076,6 +1076,31 @@ test("bars say which value moves a frequency most, as differences of the native 
   await page.click("#modes tr[aria-current] button");
 });
 
+test("a stop is computed with and without a shaper, as the program does it", async () => {
+  await choose("cogiro");
+  await page.fill("#stop-speed", "0.5");
+  await page.fill("#stop-time", "0.2");
+  await page.selectOption("#stop-shaper", "zv");
+  await page.click("#stop-form button");
+  await page.waitForFunction(() => /without it \(broken line\)/.test(document.getElementById("stop").textContent));
+  const told = await text("#stop p");
+  const [shaped, without] = /([\d.e-]+) s after the end of the stop; without it \(broken line\) after ([\d.e-]+) s/
+    .exec(told)
+    .slice(1)
+    .map(Number);
+  const robot = { text: readFileSync(new URL("cogiro.toml", library), "utf8") };
+  const answer = native({ command: "settle", robot, stop_m_s: [0.5, 0, 0], profile_s: [0.2], shaper: "zv" });
+  near(shaped, answer.settled_s, 0.01, "with the shaper");
+  near(without, answer.shaping.settled_without_s, 0.01, "without");
+  assert.ok(shaped < without, told);
+  assert.equal(await page.locator("#stop path.now, #stop path.past").count(), 2);
+  await page.screenshot({ path: join(pictures, "stop.png") });
+  await page.fill("#stop-speed", "fast");
+  await page.click("#stop-form button");
+  assert.match(await text("#stop-form .field-message"), /“fast” is not a speed in metres per second/);
+  await page.fill("#stop-speed", "0.5");
+});
+
 test("a released payload swings from the static displacement of the complete model", async () => {
   for (const robot of ["cogiro", "ipanema2", "cogiro-winches"]) {
     await choose(robot);
