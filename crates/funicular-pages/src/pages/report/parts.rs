@@ -204,7 +204,8 @@ fn modes_with_held_exits(
     if !robot.has_supports() && equilibrium.cables.iter().all(|state| state.drive.is_none()) {
         return None;
     }
-    let (mut robot, mut equilibrium) = (robot.clone(), equilibrium.clone());
+    let (robot, equilibrium) = equilibrium.with_dynamic_stiffness(robot);
+    let (mut robot, mut equilibrium) = (robot.into_owned(), equilibrium.into_owned());
     for (cable, state) in robot.cables.iter_mut().zip(&mut equilibrium.cables) {
         cable.anchor = Anchor::from(state.anchor_w);
         state.unstrained_length = state.free_length();

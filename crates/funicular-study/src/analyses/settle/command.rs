@@ -100,7 +100,7 @@ pub(super) fn check_profile(kind: CommandKind, request: &SettleRequest) -> Resul
             times.len()
         );
     }
-    if let Some([before, time]) = times.array_windows().find(|[before, time]| time > before) {
+    if let Some((before, time)) = times.iter().zip(times.iter().skip(1)).find(|(before, time)| time > before) {
         bail!(
             "⟪profile_s⟫: the time {time} s is longer than the one before it, {before} s: give the longest first, as \
              1.2,0.3,0.1"
