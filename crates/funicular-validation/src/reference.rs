@@ -36,7 +36,7 @@ pub(super) use published::{
 };
 
 pub(super) use stretch_loss::{ChangedRobot, LossyRobot, LossyRope, StretchLossReference, stretch_loss};
-pub(super) use sway::{ShapedSums, SwayReference, SwayingRobot, sway};
+pub(super) use sway::{ShapedSum, SwayReference, SwayingRobot, sway};
 
 /// Table of a reference file: a source and rows.
 #[derive(Deserialize)]

@@ -128,12 +128,9 @@ const MAX_POINTS: f64 = 20_000.0;
 /// Part of the largest amplitude below which a mode does not make the steps of the history finer.
 const SMALL: f64 = 1e-3;
 
-/// Least relative change of a frequency of the platform on the way for which the linear motion about the end is in doubt. A
-/// move of 0.18 m of the robot of Yuan 2014 has the right amplitude then, and a history that is wrong by a quarter.
+/// Least relative change of the frequency of the platform on the way for which the linear motion about the end is in
+/// doubt. A move of 0.18 m of the robot of Yuan 2014 has the right amplitude then, and a history that is wrong by a quarter.
 const FREQUENCIES_DIFFER: f64 = 0.1;
-
-/// Frequencies of the platform that are compared.
-const COMPARED: usize = 6;
 
 /// Computes the decay after a release, a stop or a move.
 ///
@@ -275,20 +272,16 @@ impl<'a> Swing<'a> {
         Ok(Moved { decay, held: None, commanded: Some(commanded), without })
     }
 
-    /// Warning if the frequencies of the platform at the start of a command are others than at its end.
+    /// Warning if the frequency of the platform at the start of a command is another than at its end.
     fn frequencies_at(&self, start: &Equilibrium) -> Result<Option<String>> {
         let (robot, start) = start.with_dynamic_stiffness(&self.at_rest.robot);
         let dynamics = Dynamics::about(&robot, &start, self.linearisation, self.limit)?;
-        let of_platform = |found: &Modes| -> Vec<f64> {
-            let moves = |mode: &&modes::Mode| mode.platform_energy_fraction >= modes::PLATFORM_SHARE;
-            found.modes.iter().filter(moves).take(COMPARED).map(|mode| mode.frequency_hz).collect()
-        };
-        let (from, to) = (of_platform(&modes::below(&dynamics, self.limit)), of_platform(&self.modes));
-        let change = |(from, to): &(f64, f64)| (from / to - 1.0).abs();
-        let worst = from.into_iter().zip(to).max_by(|a, b| change(a).total_cmp(&change(b)));
-        Ok(worst.filter(|pair| change(pair) > FREQUENCIES_DIFFER).map(|(from, to)| {
+        // The smooth frequency: lists of modes at two poses do not pair by number.
+        let pair = dynamics.platform_frequency().zip(self.dynamics.platform_frequency());
+        let differs = pair.filter(|(from, to)| (from / to - 1.0).abs() > FREQUENCIES_DIFFER);
+        Ok(differs.map(|(from, to)| {
             format!(
-                "a frequency of the platform is {from:.4} Hz at the start of the motion and {to:.4} Hz at its end, where the \
+                "the frequency of the platform is {from:.4} Hz at the start of the motion and {to:.4} Hz at its end, where the \
                  motion is linear: amplitudes have the right size, the history does not; a shaper is made for the end"
             )
         }))

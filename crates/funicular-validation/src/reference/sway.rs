@@ -65,15 +65,15 @@ pub(crate) struct AfterShapedMove {
     pub(crate) durations_s: Vec<f64>,
     pub(crate) amplitudes_m: Vec<f64>,
     pub(crate) tolerance_m: f64,
-    pub(crate) shapers: Vec<ShapedSums>,
+    pub(crate) shapers: Vec<ShapedSum>,
 }
 
-/// Sums of all amplitudes with all frequencies times 0.9, 1 and 1.1, and times of settling from the end without the shaper.
+/// Sum of all amplitudes at the end, and times of settling from the end without the shaper.
 #[derive(Deserialize)]
-pub(crate) struct ShapedSums {
+pub(crate) struct ShapedSum {
     pub(crate) shaper: String,
     pub(crate) modes_hz: Vec<f64>,
-    pub(crate) sums_m: [f64; 3],
+    pub(crate) sum_m: f64,
     pub(crate) bound_s: f64,
     pub(crate) exact_s: f64,
 }
