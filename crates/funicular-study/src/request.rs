@@ -24,7 +24,7 @@ mod vibration;
 pub use design::{ChangeValue, DesignRequest};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest};
 pub use gradient::{GradientRequest, frequencies};
-pub use grids::{MapRequest, MergeRequest, PlotRequest, SweepRequest};
+pub use grids::{EachPoint, MapRequest, MergeRequest, PlotRequest, SweepRequest};
 pub use identify::{
     DEFAULT_DAMPING_NOISE, DEFAULT_FREQUENCY_NOISE, DEFAULT_RESPONSE_NOISE, DEFAULT_STARTS, Experiment, FitValue,
     IdentifyRequest,
@@ -33,8 +33,8 @@ pub use key::{Choice, Declared, Key, Kind, ProgramForm, Range};
 pub use loads::{LoadsRequest, Requirements};
 pub use pages::{LiveRequest, PaperRequest, ReportRequest, ValidateRequest};
 pub use parts::{
-    Axis, Change, EachPoint, FrequencyRange, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, OneOrSeveral, Pose,
-    ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
+    Axis, Change, FrequencyRange, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, OneOrSeveral, Pose, ResponsePoints,
+    ResponseRange, RobotText, State, Tensions, Terms,
 };
 pub use shape::schema;
 pub use source_file::{MAX_BYTES, SourceFile};

@@ -1,7 +1,36 @@
 //! Requests over many poses or values of the robot file, and about their files.
 
 use super::key::declared;
-use super::parts::{Axis, EachPoint, RobotText};
+use super::loads::Requirements;
+use super::parts::{Axis, MAX_HZ, Model, RobotText, State, Tensions};
+use funicular::modes::PLATFORM_SHARE;
+
+declared! {
+    /// Quantities and options of every point of a map or sweep.
+    pub struct EachPoint {
+        /// Quantities to compute at every point, described in docs/sweeps.md
+        quantities: Vec<String> = vec!["tension-min".to_owned(), "tension-max".to_owned()] =>
+            (Commas(ProgramForm::Quantity)).form("Q,Q,…").option("quantity");
+        /// Upper limit of the search for natural frequencies [Hz].
+        up_to_hz: f64 = MAX_HZ => (Number(Positive));
+        /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform.
+        platform_share: f64 = PLATFORM_SHARE => (Number(Fraction));
+        /// Centre of mass of the payload, platform frame [m].
+        payload_center_m: Option<[f64; 3]> = None => (Vector).otherwise("that of the platform");
+        /// Required loads, for quantities that compare with them.
+        #[serde(flatten)]
+        required: Requirements = Requirements::default() => group;
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+        /// Linearisation.
+        #[serde(flatten)]
+        model: Model = Model::default() => group;
+    }
+}
 
 declared! {
     /// Tensions, frequencies, stiffness over the workspace, with one row per pose.

@@ -1,7 +1,6 @@
 //! Groups of keys that several commands share.
 
 use super::key::declared;
-use super::loads::Requirements;
 use super::steps::Steps;
 use crate::names::{TensionRuleName, optional};
 use crate::values::{finite, not_negative, positive};
@@ -9,7 +8,6 @@ use anyhow::{Result, anyhow, bail};
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::math::{Quaternion, Rotation, rotation};
-use funicular::modes::PLATFORM_SHARE;
 use funicular::robot::WinchMode;
 use funicular::statics::StaticModel;
 use serde::{Deserialize, Serialize};
@@ -358,33 +356,6 @@ impl Axis {
 /// Default of the upper limit of the search for natural frequencies [Hz]: far above the first frequency of any cable
 /// robot, and low enough that a search ends.
 pub const MAX_HZ: f64 = 1000.0;
-
-declared! {
-    /// Quantities and options of every point of a map or sweep.
-    pub struct EachPoint {
-        /// Quantities to compute at every point, described in docs/sweeps.md
-        quantities: Vec<String> = vec!["tension-min".to_owned(), "tension-max".to_owned()] =>
-            (Commas(ProgramForm::Quantity)).form("Q,Q,…").option("quantity");
-        /// Upper limit of the search for natural frequencies [Hz].
-        up_to_hz: f64 = MAX_HZ => (Number(Positive));
-        /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform.
-        platform_share: f64 = PLATFORM_SHARE => (Number(Fraction));
-        /// Centre of mass of the payload, platform frame [m].
-        payload_center_m: Option<[f64; 3]> = None => (Vector).otherwise("that of the platform");
-        /// Required loads, for quantities that compare with them.
-        #[serde(flatten)]
-        required: Requirements = Requirements::default() => group;
-        /// State and loads.
-        #[serde(flatten)]
-        state: State = State::default() => group;
-        /// Rule and limits of tensions.
-        #[serde(flatten)]
-        tensions: Tensions = Tensions::default() => group;
-        /// Linearisation.
-        #[serde(flatten)]
-        model: Model = Model::default() => group;
-    }
-}
 
 declared! {
     /// Rope values that files of other programs may lack. A value given here takes precedence over the files.
