@@ -24,7 +24,7 @@ impl Printed for Gusty {
             three(turbulence.intensity),
             three(turbulence.length_scale_m),
             three(turbulence.coherence_decay),
-            self.about_extremes(),
+            about_extremes(self),
             self.modes.len().min(SHOWN),
             counted(self.modes.len(), "mode"),
         )
@@ -32,27 +32,18 @@ impl Printed for Gusty {
 }
 
 /// Sentences about the columns of extremes.
-trait AboutExtremes {
-    fn about_extremes(&self) -> String;
-}
-
-impl AboutExtremes for Gusty {
-    fn about_extremes(&self) -> String {
-        let duration = significant(self.duration_s, 4);
-        let mut text = format!(
-            "Motions are about the equilibrium in the mean wind. Smallest and largest: expected values within {duration} s; \
-             slack: probability that the tension falls to zero in that time."
-        );
-        if self.outputs.iter().any(|row| row.peak.is_none()) {
-            text += &format!(
-                "\nA dash: fewer than ten crossings of the mean are expected in {duration} s; a longer time has a peak."
-            );
-        }
-        let weakest = self.outputs.iter().filter(|row| row.is_tension());
-        let weakest = weakest.filter_map(|row| Some((row, row.smallest()?))).min_by(|a, b| a.1.total_cmp(&b.1));
-        if let Some((row, smallest)) = weakest {
-            text += &format!("\nSmallest expected tension: {} N ({}).", significant(smallest, 4), row.output);
-        }
-        text
-    }
+fn about_extremes(found: &Gusty) -> String {
+    let duration = significant(found.duration_s, 4);
+    let columns = format!(
+        "Motions are about the equilibrium in the mean wind. Smallest and largest: expected values within {duration} s; \
+         slack: probability that the tension falls to zero in that time."
+    );
+    let dash = (found.outputs.iter().any(|row| row.peak.is_none())).then(|| {
+        format!("A dash: fewer than ten crossings of the mean are expected in {duration} s; a longer time has a peak.")
+    });
+    let tensions = found.outputs.iter().filter(|row| row.is_tension());
+    let weakest = tensions.filter_map(|row| Some((row, row.smallest()?))).min_by(|a, b| a.1.total_cmp(&b.1));
+    let weakest = weakest
+        .map(|(row, smallest)| format!("Smallest expected tension: {} N ({}).", significant(smallest, 4), row.output));
+    [Some(columns), dash, weakest].into_iter().flatten().collect::<Vec<_>>().join("\n")
 }

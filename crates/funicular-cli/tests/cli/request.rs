@@ -5,7 +5,7 @@ use super::{robot, run, run_with, stderr, stdout, succeed};
 /// Command lines that print their result.
 fn command_lines() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
-    let lines: [&[&str]; 20] = [
+    let lines: [&[&str]; 21] = [
         &["check", &cogiro],
         &["parameters", &cogiro, "--set", "platform.center_of_mass_m.x=0.1"],
         &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],

@@ -131,7 +131,7 @@ pub fn about(at_rest: &AtRest, request: &GustRequest) -> Result<Gusty> {
     let signals: Vec<(Signal, Quantity)> = outputs.iter().map(|(output, signal)| (*signal, output.quantity)).collect();
     let gusts = Gusts::new(robot, equilibrium, &dynamics, &signals, limit)?;
     let natural: Vec<f64> = found.modes.iter().map(|mode| mode.frequency_hz).collect();
-    let spectra = gusts.spectra(limit, &natural).map_err(no_solution)?;
+    let spectra = gusts.spectra(limit, &natural).map_err(|error| no_solution(&error))?;
     let in_air = gust::aerodynamic_damping_ratio(robot, equilibrium, &dynamics, &found.modes)?;
 
     Ok(Gusty {
@@ -247,7 +247,7 @@ fn refuse_slack(AtRest { robot, equilibrium, .. }: &AtRest) -> Result<()> {
 }
 
 /// A response that is not finite, or whose integration does not end, is no fault of the request.
-fn no_solution(error: gust::GustError) -> anyhow::Error {
+fn no_solution(error: &gust::GustError) -> anyhow::Error {
     NoSolution(error.to_string()).into()
 }
 

@@ -25,7 +25,7 @@ impl PeakFactor {
     /// A. G. Davenport, Proc. Inst. Civ. Eng. 28, 1964; docs/theory.md, equation (49p).
     pub fn new(rate: f64, duration: f64) -> Option<Self> {
         let crossings = rate * duration;
-        if !(crossings >= MIN_CROSSINGS) {
+        if crossings.is_nan() || crossings < MIN_CROSSINGS {
             return None;
         }
         let root = (2.0 * crossings.ln()).sqrt();

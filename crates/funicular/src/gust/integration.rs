@@ -105,7 +105,7 @@ impl Gusts {
         for interval in &stack {
             sizes.iter_mut().zip(interval.moments()).for_each(|(sum, of)| sum.add(1.0, &of));
         }
-        self.share_noise(&mut sizes);
+        share_noise(&mut sizes);
 
         // Below the lowest frequency the spectra are constant.
         let mut moments: Vec<Moments> = low.integrands.clone();
@@ -133,7 +133,6 @@ impl Gusts {
         }
 
         samples.sort_by(|a, b| a.ln.total_cmp(&b.ln));
-        samples.dedup_by(|a, b| a.ln == b.ln);
         let frequencies_hz = samples.iter().map(|sample| sample.ln.exp()).collect();
         Ok(Spectra { frequencies_hz, densities: samples.into_iter().map(|of| of.densities).collect(), moments })
     }
@@ -184,21 +183,21 @@ impl Gusts {
         samples.push(sample.clone());
         Ok(sample)
     }
+}
 
-    /// Raises the sizes of outputs that move by rounding alone, as those that symmetry forbids, to a part of the
-    /// largest size: their spectra are noise, which no integration resolves.
-    fn share_noise(&self, sizes: &mut [Moments]) {
-        /// Square of the rounding of a solution, over the largest solution.
-        const NOISE: f64 = 1e-18;
+/// Raises the sizes of outputs that move by rounding alone, as those that symmetry forbids, to a part of the
+/// largest size: their spectra are noise, which no integration resolves.
+fn share_noise(sizes: &mut [Moments]) {
+    /// Square of the rounding of a solution, over the largest solution.
+    const NOISE: f64 = 1e-18;
 
-        let largest = sizes.iter().fold(Moments::default(), |largest, of| Moments {
-            variance: largest.variance.max(of.variance),
-            second: largest.second.max(of.second),
-            quasi_static: 0.0,
-        });
-        for size in sizes {
-            size.variance = size.variance.max(NOISE * largest.variance);
-            size.second = size.second.max(NOISE * largest.second);
-        }
+    let largest = sizes.iter().fold(Moments::default(), |largest, of| Moments {
+        variance: largest.variance.max(of.variance),
+        second: largest.second.max(of.second),
+        quasi_static: 0.0,
+    });
+    for size in sizes {
+        size.variance = size.variance.max(NOISE * largest.variance);
+        size.second = size.second.max(NOISE * largest.second);
     }
 }
