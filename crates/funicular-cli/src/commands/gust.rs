@@ -34,21 +34,16 @@ impl Printed for Gusty {
 /// Sentences about the columns of extremes.
 fn about_extremes(found: &Gusty) -> String {
     let duration = significant(found.duration_s, 4);
-    let mut sentences = vec![format!(
+    let columns = format!(
         "Motions are about the equilibrium in the mean wind. Smallest and largest: expected values within {duration} s; \
          slack: probability that the tension falls to zero in that time."
-    )];
-    if found.outputs.iter().any(|row| row.peak.is_none()) {
-        sentences.push(format!(
-            "A dash: fewer than ten crossings of the mean are expected in {duration} s; a longer time has a peak."
-        ));
-    }
+    );
+    let dash = (found.outputs.iter().any(|row| row.peak.is_none())).then(|| {
+        format!("A dash: fewer than ten crossings of the mean are expected in {duration} s; a longer time has a peak.")
+    });
     let tensions = found.outputs.iter().filter(|row| row.is_tension());
     let weakest = tensions.filter_map(|row| Some((row, row.smallest()?))).min_by(|a, b| a.1.total_cmp(&b.1));
-    sentences.extend(
-        weakest.map(|(row, smallest)| {
-            format!("Smallest expected tension: {} N ({}).", significant(smallest, 4), row.output)
-        }),
-    );
-    sentences.join("\n")
+    let weakest = weakest
+        .map(|(row, smallest)| format!("Smallest expected tension: {} N ({}).", significant(smallest, 4), row.output));
+    [Some(columns), dash, weakest].into_iter().flatten().collect::<Vec<_>>().join("\n")
 }

@@ -133,7 +133,6 @@ impl Gusts {
         }
 
         samples.sort_by(|a, b| a.ln.total_cmp(&b.ln));
-        samples.dedup_by(|a, b| a.ln.to_bits() == b.ln.to_bits());
         let frequencies_hz = samples.iter().map(|sample| sample.ln.exp()).collect();
         Ok(Spectra { frequencies_hz, densities: samples.into_iter().map(|of| of.densities).collect(), moments })
     }
