@@ -10,7 +10,7 @@ use funicular::robot::{Damping, Robot, StretchLoss, Turbulence, TurbulenceSpectr
 use funicular::statics::{self, Equilibrium, StaticModel};
 
 /// Gusts of a robot whose file says nothing about wind.
-struct Case {
+struct WindyRobot {
     text: &'static str,
     velocity: [f64; 3],
     drag_width: f64,
@@ -21,8 +21,8 @@ struct Case {
 }
 
 /// Stadium camera in 12 m/s: numbers of a separate program, one spectral element per rope (its file is sway.json).
-fn stadium() -> Case {
-    Case {
+fn stadium() -> WindyRobot {
+    WindyRobot {
         text: funicular_robots::STADIUM_CAMERA,
         velocity: [12.0, 0.0, 0.0],
         drag_width: 1.2 * 0.005,
@@ -40,9 +40,9 @@ fn stadium() -> Case {
 }
 
 /// CoGiRo in 9.4 m/s, of the same program.
-fn cogiro() -> Case {
+fn cogiro() -> WindyRobot {
     let speed = 8.0_f64.hypot(5.0);
-    Case {
+    WindyRobot {
         text: funicular_robots::COGIRO,
         velocity: [8.0, 5.0, 0.0],
         drag_width: 1.1 * 0.004,
@@ -59,7 +59,7 @@ fn cogiro() -> Case {
     }
 }
 
-impl Case {
+impl WindyRobot {
     fn at_rest(&self) -> (Robot, Equilibrium, Dynamics) {
         let mut robot = Robot::from_toml(self.text).unwrap();
         for cable in &mut robot.cables {
@@ -105,9 +105,9 @@ fn measured(last: usize) -> Vec<(Signal, Quantity)> {
 }
 
 /// R.m.s. values of x, y, z [m] and of two tensions [N], crossing rates of x, y, z [Hz].
-type Reference = ([f64; 5], [f64; 3]);
+type NumbersOfSway = ([f64; 5], [f64; 3]);
 
-fn compare(case: Case, last: usize, (rms, rates): Reference, tolerances: [f64; 2], what: &str) {
+fn compare(case: &WindyRobot, last: usize, (rms, rates): NumbersOfSway, tolerances: [f64; 2], what: &str) {
     let spectra = case.spectra(&measured(last));
     // That program integrates from 1e-4 Hz, below which the spectra are constant.
     let variance = |k: usize| spectra.moments[k].variance - 1e-4 * spectra.densities[0].total[k];
@@ -144,21 +144,21 @@ fn spectra_of_turbulence_integrate_to_their_variance() {
 fn the_stadium_camera_agrees_with_another_program() {
     // Its numbers are stated to 0.3 % (rates 2 %).
     let coherent = ([0.0327036, 0.0269836, 0.119151, 20.1425, 20.1425], [0.192485, 0.310549, 0.197926]);
-    compare(stadium().with([0.0; 3], false), 3, coherent, [3e-3, 0.02], "coherent");
+    compare(&stadium().with([0.0; 3], false), 3, coherent, [3e-3, 0.02], "coherent");
     let decaying = ([0.0260934, 0.0231453, 0.0836657, 11.4592, 11.4592], [0.118298, 0.158107, 0.0911491]);
-    compare(stadium().with([0.0, 10.0, 10.0], false), 3, decaying, [3e-3, 0.02], "decaying");
+    compare(&stadium().with([0.0, 10.0, 10.0], false), 3, decaying, [3e-3, 0.02], "decaying");
     let frozen = ([0.025537, 0.0222076, 0.0792354, 10.657, 10.657], [0.10145, 0.138894, 0.0827441]);
-    compare(stadium(), 3, frozen, [3e-3, 0.02], "frozen");
+    compare(&stadium(), 3, frozen, [3e-3, 0.02], "frozen");
 }
 
 #[test]
 fn cogiro_agrees_with_another_program() {
     let coherent = ([0.000111934, 0.000152974, 0.000162482, 11.6626, 6.71697], [3.88917, 3.76662, 4.40017]);
-    compare(cogiro().with([0.0; 3], false), 7, coherent, [1e-3, 1e-3], "coherent");
+    compare(&cogiro().with([0.0; 3], false), 7, coherent, [1e-3, 1e-3], "coherent");
     let decaying = ([0.000109612, 0.000152044, 0.000130693, 11.3177, 5.84535], [4.0187, 3.89115, 4.09538]);
-    compare(cogiro().with([0.0, 10.0, 10.0], false), 7, decaying, [1e-3, 1e-3], "decaying");
+    compare(&cogiro().with([0.0, 10.0, 10.0], false), 7, decaying, [1e-3, 1e-3], "decaying");
     let frozen = ([0.000109427, 0.000151672, 0.000130597, 11.3011, 5.83683], [4.02151, 3.89225, 4.08539]);
-    compare(cogiro(), 7, frozen, [1e-3, 1e-3], "frozen");
+    compare(&cogiro(), 7, frozen, [1e-3, 1e-3], "frozen");
 }
 
 #[test]
@@ -181,9 +181,10 @@ fn peak_factors_are_those_of_davenport() {
     let found = PeakFactor::new(0.192485, 600.0).unwrap();
     assert!((found.mean - 3.26923).abs() < 1e-5, "{}", found.mean);
     assert!(PeakFactor::new(0.0166, 600.0).is_none() && PeakFactor::new(f64::NAN, 600.0).is_none());
-    assert_eq!(gust::slack_probability(10.0, 0.0, 0.0, 600.0), 0.0);
+    assert!(gust::slack_probability(10.0, 0.0, 0.0, 600.0).abs() < f64::MIN_POSITIVE);
     let rare = gust::slack_probability(50.0, 10.0, 1.0, 600.0);
-    assert!((rare - 600.0 * (-12.5_f64).exp()).abs() < 1e-5 && gust::slack_probability(-1.0, 1.0, 1.0, 1.0) == 1.0);
+    assert!((rare - 600.0 * (-12.5_f64).exp()).abs() < 1e-5);
+    assert!((gust::slack_probability(-1.0, 1.0, 1.0, 1.0) - 1.0).abs() < f64::EPSILON);
 }
 
 #[test]
@@ -202,7 +203,7 @@ fn a_robot_without_turbulence_wind_or_drag_is_refused() {
 
 /// Point mass on the robot of the stadium, whose platform alone meets the wind.
 fn platform_alone() -> (Robot, Equilibrium, Dynamics) {
-    let case = Case { drag_width: 0.0, ..stadium() };
+    let case = WindyRobot { drag_width: 0.0, ..stadium() };
     case.at_rest()
 }
 
@@ -303,7 +304,7 @@ fn a_taut_string_has_its_aerodynamic_damping_in_closed_form() {
 /// Every number of the wind changes the result: by 1 % of it, and in the right direction.
 #[test]
 fn results_follow_every_number_of_the_wind() {
-    let rms = |case: Case| case.spectra(&[along(Vec3::z())]).moments[0].rms();
+    let rms = |case: WindyRobot| case.spectra(&[along(Vec3::z())]).moments[0].rms();
     let plain = rms(stadium());
     let mut intensity = stadium();
     intensity.turbulence.intensity[0] *= 1.01;
