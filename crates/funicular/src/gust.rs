@@ -25,7 +25,7 @@ use crate::response::{Quantity, Signal, along};
 use crate::robot::Robot;
 use crate::statics::Equilibrium;
 use cable::{GustyCable, motion_w};
-use field::{Distances, Field, Place};
+use field::{Distances, GustPlace, TurbulentField};
 use solved::{OutputRow, Solved, products};
 use std::f64::consts::TAU;
 use thiserror::Error;
@@ -103,7 +103,7 @@ pub(crate) struct Setting<'a> {
 }
 
 /// Output of the response.
-enum Output {
+enum GustOutput {
     /// Motion of the platform or of a point on a cable.
     Motion(OutputRow),
     /// Tension of a cable at the platform.
@@ -135,15 +135,15 @@ enum Output {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Gusts {
-    field: Field,
-    places: Vec<Place>,
+    field: TurbulentField,
+    places: Vec<GustPlace>,
     distances: Distances,
     /// Platform and supports, without the cables whose matrices stand below.
     ends: Matrices,
     /// Generalised forces on the platform per velocity of the air along, lateral and up [N s/m].
     platform_loads: DMat,
     cables: Vec<GustyCable>,
-    outputs: Vec<(Output, Quantity)>,
+    outputs: Vec<(GustOutput, Quantity)>,
     /// Outputs per velocity of the air at every place, at rest; empty if the robot has no stiffness.
     at_rest: Vec<Vec<Complex>>,
 }
@@ -174,7 +174,7 @@ impl Gusts {
         outputs: &[(Signal, Quantity)],
         up_to_hz: f64,
     ) -> Result<Self, GustError> {
-        let field = Field::of(robot)?;
+        let field = TurbulentField::of(robot)?;
         check(robot, dynamics)?;
         let dynamics = &dynamics.with_poles_below(KEPT * highest(dynamics, up_to_hz), &[]);
         let setting = Setting { robot, equilibrium, dynamics };
@@ -192,7 +192,7 @@ impl Gusts {
         let platform_loads = platform_loads(&setting, &field, &mut ends);
         let pose = &equilibrium.pose;
         let center_w = pose.position_w + pose.rot_wp * robot.platform.center_of_mass_p;
-        let mut places = vec![Place { center_w, extent_w: Vec3::zeros() }];
+        let mut places = vec![GustPlace { center_w, extent_w: Vec3::zeros() }];
         places.extend(cables.iter().flat_map(|cable| cable.cells.iter().cloned()));
         let distances = field.distances(&places);
 
@@ -218,7 +218,7 @@ impl Gusts {
         let both: Vec<&Vec<Complex>> = transfers.iter().chain(&self.at_rest).collect();
         let powers = self.powers(&both, frequency_hz);
         let of_gusts = self.field.densities(frequency_hz);
-        let density = |(k, (_, quantity)): (usize, &(Output, Quantity))| {
+        let density = |(k, (_, quantity)): (usize, &(GustOutput, Quantity))| {
             let by_time = quantity.factor(omega).norm_sqr();
             move |powers: &[[f64; 3]]| -> f64 {
                 let sum: f64 = powers.get(k).map_or(f64::NAN, |of| of.iter().zip(of_gusts).map(|(p, s)| p * s).sum());
@@ -239,10 +239,10 @@ impl Gusts {
     }
 
     /// One output per velocity of the air.
-    fn transfer(&self, output: &Output, stiffness: &[CDMat], solved: &Solved) -> Option<Vec<Complex>> {
+    fn transfer(&self, output: &GustOutput, stiffness: &[CDMat], solved: &Solved) -> Option<Vec<Complex>> {
         let row = match output {
-            Output::Motion(row) => row.clone(),
-            Output::Tension(i) => {
+            GustOutput::Motion(row) => row.clone(),
+            GustOutput::Tension(i) => {
                 let row = self.cables[*i].tension_row(&stiffness[*i])?;
                 OutputRow::of_cable(*i, &self.cables[*i], &row, self.ends.mass.nrows())
             }
@@ -254,7 +254,7 @@ impl Gusts {
             let at = |coordinate: usize| of_coordinate(cable, &ends, modes, coordinate);
             let mut of_cable = products(&cable.loads, at);
             // The gusts on the end of the cable do not come through it.
-            if let (Output::Tension(of), Some(pull)) = (output, &cable.pull)
+            if let (GustOutput::Tension(of), Some(pull)) = (output, &cable.pull)
                 && *of == i
             {
                 let direct = products(&cable.loads, |coordinate| pull[coordinate].into());
@@ -336,7 +336,7 @@ fn ends_of(dynamics: &Dynamics) -> Matrices {
 }
 
 /// Generalised forces on the platform per velocity of the air; adds its aerodynamic damping.
-fn platform_loads(setting: &Setting, field: &Field, ends: &mut Matrices) -> DMat {
+fn platform_loads(setting: &Setting, field: &TurbulentField, ends: &mut Matrices) -> DMat {
     let Setting { robot, equilibrium, dynamics } = *setting;
     let by_velocity = robot.wind.pressure_by_velocity_w() * robot.platform.drag_area;
     let motion = dynamics.coordinates().motion();
@@ -350,12 +350,12 @@ fn platform_loads(setting: &Setting, field: &Field, ends: &mut Matrices) -> DMat
 }
 
 /// Output of a signal.
-fn output(setting: &Setting, cables: &[GustyCable], ends: usize, signal: &Signal) -> Result<Output, GustError> {
+fn output(setting: &Setting, cables: &[GustyCable], ends: usize, signal: &Signal) -> Result<GustOutput, GustError> {
     let Setting { robot, equilibrium, dynamics } = *setting;
     if let Some(vector) = signal.platform_vector(&equilibrium.pose) {
         let reduced = dynamics.coordinates().motion().reduced(&vector);
         let row: Vec<f64> = (0..ends).map(|j| if j < dynamics.dof() { reduced[j] } else { 0.0 }).collect();
-        return Ok(Output::Motion(OutputRow::of_ends(&row)));
+        return Ok(GustOutput::Motion(OutputRow::of_ends(&row)));
     }
     match signal {
         Signal::OnCable { cable, fraction, direction_w } => {
@@ -363,13 +363,13 @@ fn output(setting: &Setting, cables: &[GustyCable], ends: usize, signal: &Signal
             let towards = direction_w.normalize();
             let row = motion_w(dynamics, &stations, 0).tr_mul(&DVec::from_column_slice(towards.as_slice()));
             let row: Vec<Complex> = row.iter().map(|entry| Complex::from(*entry)).collect();
-            Ok(Output::Motion(OutputRow::of_cable(*cable, &cables[*cable], &row, ends)))
+            Ok(GustOutput::Motion(OutputRow::of_cable(*cable, &cables[*cable], &row, ends)))
         }
         Signal::Drive { cable, signal: DriveSignal::Tension } => {
             if cables[*cable].pull.is_none() {
                 return Err(GustError::Tension { cable: robot.cables[*cable].name.clone() });
             }
-            Ok(Output::Tension(*cable))
+            Ok(GustOutput::Tension(*cable))
         }
         _ => Err(GustError::Output),
     }

@@ -1,6 +1,6 @@
 //! One cable in gusts: its matrices with aerodynamic damping, and the loads of the gusts on its cells.
 
-use super::field::{Field, Place};
+use super::field::{GustPlace, TurbulentField};
 use super::{GustError, Setting};
 use crate::cable::EndStiffness;
 use crate::cable_motion::CableStations;
@@ -27,7 +27,7 @@ pub(super) struct GustyCable {
     /// the lateral and one for that up.
     pub(super) loads: DMat,
     /// Its cells; none if the wind does not act on it.
-    pub(super) cells: Vec<Place>,
+    pub(super) cells: Vec<GustPlace>,
     /// Motion of the platform by which the end moves along the cable, over its coordinates.
     pub(super) pull: Option<DVec>,
     /// True if its stiffness does not depend on frequency: the platform's matrices have it, too.
@@ -72,7 +72,7 @@ impl GustyCable {
     /// Cable `i`, with the blocks of its vibration; `None` for a cable whose stiffness does not depend on frequency.
     pub(super) fn new(
         setting: &Setting,
-        field: &Field,
+        field: &TurbulentField,
         i: usize,
         blocks: Option<&CableBlocks>,
     ) -> Result<Self, GustError> {
@@ -105,7 +105,7 @@ impl GustyCable {
                     of_cell += force * &axes;
                 }
                 // As the drag, the places are those of a straight cable.
-                cells.push(Place { center_w: state.attachment_w + extent_w * (cell as f64 + 0.5), extent_w });
+                cells.push(GustPlace { center_w: state.attachment_w + extent_w * (cell as f64 + 0.5), extent_w });
             }
         }
 

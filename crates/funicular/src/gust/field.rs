@@ -11,7 +11,7 @@ const MIN_LEVEL: f64 = 0.1;
 const MIN_COHERENCE: f64 = 1e-9;
 
 /// Turbulence about the mean wind of a robot.
-pub(super) struct Field {
+pub(super) struct TurbulentField {
     turbulence: Turbulence,
     /// Mean speed [m/s].
     speed: f64,
@@ -19,9 +19,9 @@ pub(super) struct Field {
     pub(super) axes: Mat3,
 }
 
-/// Place at which gusts act: a cell of a cable, or the platform.
+/// GustPlace at which gusts act: a cell of a cable, or the platform.
 #[derive(Debug, Clone)]
-pub(super) struct Place {
+pub(super) struct GustPlace {
     /// Centre, world axes [m].
     pub(super) center_w: Vec3,
     /// Extent of the cell along its cable, world axes [m]; zero for the platform.
@@ -31,7 +31,7 @@ pub(super) struct Place {
 /// Weighted distances between places, a row per place with the places from itself on.
 pub(super) struct Distances(Vec<Vec<f64>>);
 
-impl Field {
+impl TurbulentField {
     /// Turbulence of a robot in its wind.
     pub(super) fn of(robot: &Robot) -> Result<Self, GustError> {
         let turbulence = robot.turbulence.clone().ok_or(GustError::NoTurbulence)?;
@@ -60,8 +60,8 @@ impl Field {
     }
 
     /// Weighted distances between all places.
-    pub(super) fn distances(&self, places: &[Place]) -> Distances {
-        let between = |a: &Place, b: &Place| self.weighted(&(a.center_w - b.center_w));
+    pub(super) fn distances(&self, places: &[GustPlace]) -> Distances {
+        let between = |a: &GustPlace, b: &GustPlace| self.weighted(&(a.center_w - b.center_w));
         Distances(
             (0..places.len()).map(|p| places[p..].iter().map(|other| between(&places[p], other)).collect()).collect(),
         )
@@ -77,7 +77,7 @@ impl Field {
     ///
     /// # References
     /// docs/theory.md, equation (49l).
-    pub(super) fn factor(&self, place: &Place, frequency_hz: f64) -> Complex {
+    pub(super) fn factor(&self, place: &GustPlace, frequency_hz: f64) -> Complex {
         let lag = |w: &Vec3| self.turbulence.lag(self.axes.column(0).dot(w), frequency_hz, self.speed);
         let decay = self.weighted(&place.extent_w) * frequency_hz / self.speed;
         Complex::from_polar(mean_over_cell(decay, lag(&place.extent_w)).sqrt(), -lag(&place.center_w))

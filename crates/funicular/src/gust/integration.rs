@@ -64,14 +64,14 @@ struct Sample {
     integrands: Vec<Moments>,
 }
 
-/// Interval with its middle.
-struct Interval {
+/// SpectrumInterval with its middle.
+struct SpectrumInterval {
     from: Sample,
     middle: Sample,
     to: Sample,
 }
 
-impl Interval {
+impl SpectrumInterval {
     /// Simpson's rule for each output.
     fn moments(&self) -> Vec<Moments> {
         let width = (self.to.ln - self.from.ln) / 6.0;
@@ -144,7 +144,7 @@ impl Gusts {
         highest: f64,
         natural_hz: &[f64],
         samples: &mut Vec<Sample>,
-    ) -> Result<Vec<Interval>, GustError> {
+    ) -> Result<Vec<SpectrumInterval>, GustError> {
         let decades = (highest / lowest).log10();
         let count = (PER_DECADE * decades).ceil().max(1.0) as usize;
         let mut ends: Vec<f64> =
@@ -158,16 +158,19 @@ impl Gusts {
         ends.windows(2)
             .map(|pair| {
                 let middle = self.sample(0.5 * (pair[0].ln + pair[1].ln), samples)?;
-                Ok(Interval { from: pair[0].clone(), middle, to: pair[1].clone() })
+                Ok(SpectrumInterval { from: pair[0].clone(), middle, to: pair[1].clone() })
             })
             .collect()
     }
 
-    fn halves(&self, of: Interval, samples: &mut Vec<Sample>) -> Result<[Interval; 2], GustError> {
-        let Interval { from, middle, to } = of;
+    fn halves(&self, of: SpectrumInterval, samples: &mut Vec<Sample>) -> Result<[SpectrumInterval; 2], GustError> {
+        let SpectrumInterval { from, middle, to } = of;
         let first = self.sample(0.5 * (from.ln + middle.ln), samples)?;
         let second = self.sample(0.5 * (middle.ln + to.ln), samples)?;
-        Ok([Interval { from, middle: first, to: middle.clone() }, Interval { from: middle, middle: second, to }])
+        Ok([
+            SpectrumInterval { from, middle: first, to: middle.clone() },
+            SpectrumInterval { from: middle, middle: second, to },
+        ])
     }
 
     fn sample(&self, ln: f64, samples: &mut Vec<Sample>) -> Result<Sample, GustError> {
