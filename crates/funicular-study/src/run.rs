@@ -150,8 +150,9 @@ mod tests {
 
     #[test]
     fn every_column_has_a_meaning_and_a_name_of_its_own_that_ends_with_its_unit() {
-        const ENDINGS: [(&str, &str); 10] = [
+        const ENDINGS: [(&str, &str); 11] = [
             ("_n", "N"),
+            ("_n_m", "N m"),
             ("_m", "m"),
             ("_hz", "Hz"),
             ("_kg", "kg"),

@@ -37,6 +37,12 @@ fn requests() -> Vec<Value> {
     let lengths = joined(&[&loads, &json!({ "lengths_m": [6.9, 0.1 + 0.2, 6.8], "hold_lengths_of_pose": false })]);
     let share = json!({ "platform_share": 0.7 });
     let center = json!({ "payload_center_m": [0.0, 0.1, -0.2] });
+    let required = json!({
+        "required_shape": "ellipsoid", "required_force_n": [100.0, 100.0, 50.0], "required_moment_n_m": [10.0, 10.0, 5.0],
+        "required_payload_min_kg": 1.0, "required_payload_max_kg": 30.0, "required_payload_center_m": [0.0, 0.0, -0.3],
+        "required_payload_center_reach_m": [0.05, 0.05, 0.1], "required_acceleration_m_s2": [1.0, 1.0, 0.5],
+        "required_angular_acceleration_rad_s2": [0.1, 0.1, 0.2], "required_wind_speed_m_s": 8.0,
+    });
     let turned = json!({
         "pose": { "position_m": [1.0, 2.0, 1.5], "quaternion_wxyz": [0.6, 0.0, 0.0, 0.8] }, "hold_lengths_of_pose": true,
     });
@@ -135,6 +141,9 @@ fn requests() -> Vec<Value> {
                 &points,
                 &json!({
                     "release_n": [0.0, 0.0, -20.0], "release_n_m": [0.5, 0.0, 0.0], "tolerance_m": 1e-4, "below_hz": 20.0,
+                    "stop_m_s": [0.1, 0.0, 0.0], "stop_rad_s": [0.0, 0.0, 0.2], "move_m": [0.0, 0.05, 0.0],
+                    "move_deg": [0.0, 1.0, 0.0], "profile_s": [1.2, 0.3, 0.1], "shaper": "ei:0.05",
+                    "shape_modes_hz": [1.02, 1.36], "sample_time_s": 0.01,
                 }),
             ],
         ),
@@ -153,6 +162,7 @@ fn requests() -> Vec<Value> {
             ],
         ),
         of("payload", &[&robot, &state, &tensions, &center]),
+        of("loads", &[&robot, &state, &tensions, &required]),
         of(
             "gradient",
             &[

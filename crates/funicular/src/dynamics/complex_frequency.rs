@@ -20,7 +20,7 @@ use crate::math::{CDMat, CMat6, CVec6, Complex, Vec6, order};
 
 /// What is computed of a bordered dynamic stiffness.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Purpose {
+enum BorderedFor {
     /// Motions: all are unknowns, and the derivative belongs to them.
     Motion,
     /// Logarithmic derivative of the determinant: the motions of drives are no unknowns where that loses no digits;
@@ -62,7 +62,7 @@ impl Dynamics {
     /// one.
     pub(crate) fn damped_motion(&self, omega: Complex) -> Option<DampedMotion> {
         let no_poles = vec![Vec::new(); self.terms.len()];
-        let Bordered { value, slope, .. } = self.bordered(omega, 1.0, &no_poles, Purpose::Motion);
+        let Bordered { value, slope, .. } = self.bordered(omega, 1.0, &no_poles, BorderedFor::Motion);
         // Poles near ω, as the border has them.
         let mut near = Vec::new();
         for (t, term) in self.terms.iter().enumerate() {
@@ -131,7 +131,7 @@ impl Dynamics {
     /// The zeros of f are the damped natural frequencies, with their multiplicity, and f has no pole in their region.
     /// `losses` is the fraction of the damping that acts: 1 all, 0 none.
     pub(crate) fn logarithmic_slope(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> Complex {
-        let Bordered { value, slope, pole_slope, .. } = self.bordered(omega, losses, poles, Purpose::Slope);
+        let Bordered { value, slope, pole_slope, .. } = self.bordered(omega, losses, poles, BorderedFor::Slope);
         match value.lu().solve(&slope) {
             Some(solved) => solved.trace() + pole_slope,
             None => Complex::new(f64::INFINITY, 0.0),
@@ -140,13 +140,13 @@ impl Dynamics {
 
     /// Phase of f of [`logarithmic_slope`](Self::logarithmic_slope) [rad], up to multiples of 2π.
     pub(crate) fn phase(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> f64 {
-        let Bordered { value, pole_phase, .. } = self.bordered(omega, losses, poles, Purpose::Determinant);
+        let Bordered { value, pole_phase, .. } = self.bordered(omega, losses, poles, BorderedFor::Determinant);
         value.lu().determinant().arg() + pole_phase
     }
 
     /// Bordered dynamic stiffness at a complex ω [rad/s] with the fraction `losses` of the damping. `poles` are the
     /// squares of the clamped frequencies of each cable whose factors complete the determinant.
-    fn bordered(&self, omega: Complex, losses: f64, poles: &[Vec<f64>], purpose: Purpose) -> Bordered {
+    fn bordered(&self, omega: Complex, losses: f64, poles: &[Vec<f64>], purpose: BorderedFor) -> Bordered {
         let mut parts = BorderedParts::of_platform(self, omega, losses, purpose);
         for (t, poles) in poles.iter().enumerate() {
             parts.add_cable(t, poles);
@@ -161,7 +161,7 @@ struct BorderedParts<'d> {
     omega: Complex,
     /// Fraction of the damping that acts.
     losses: f64,
-    purpose: Purpose,
+    purpose: BorderedFor,
     /// Stiffness of platform and cables without the poles near ω.
     value: CMat6,
     slope: CMat6,
@@ -190,7 +190,7 @@ struct BorderRow {
 
 impl<'d> BorderedParts<'d> {
     /// Platform without cables.
-    fn of_platform(dynamics: &'d Dynamics, omega: Complex, losses: f64, purpose: Purpose) -> Self {
+    fn of_platform(dynamics: &'d Dynamics, omega: Complex, losses: f64, purpose: BorderedFor) -> Self {
         let i = Complex::i();
         let Dynamics { constant, mass, .. } = dynamics;
         let damping = dynamics.platform_damping * losses;
@@ -222,7 +222,7 @@ impl<'d> BorderedParts<'d> {
         // Stiffness without the poles near ω.
         let (stiffness, near) = term.form.complex_beside_poles(square.0, NEAR_POLE_FRACTION);
         add_local(&mut self.value, term, &stiffness);
-        if self.purpose != Purpose::Determinant {
+        if self.purpose != BorderedFor::Determinant {
             let mass = term.form.complex_mass_beside_poles(square.0, NEAR_POLE_FRACTION);
             add_local(&mut self.slope, term, &mass.map(|mass| -square.1 * mass));
         }
@@ -274,7 +274,7 @@ impl<'d> BorderedParts<'d> {
         let first_drive = first_support + dynamics.supports().map_or(0, Supports::count);
         let drives: Vec<(DriveRows, Option<EliminatedDrive>)> = (self.drives.into_iter())
             .map(|drive| {
-                let found = if self.purpose == Purpose::Motion { None } else { EliminatedDrive::of(&drive) };
+                let found = if self.purpose == BorderedFor::Motion { None } else { EliminatedDrive::of(&drive) };
                 (drive, found)
             })
             .collect();

@@ -328,12 +328,12 @@ mod tests {
     use super::*;
 
     /// Exponential decay `a e^{−b t}` with a residual that does not exist for b < 0.
-    struct Decay {
+    struct MeasuredDecay {
         times: Vec<f64>,
         values: Vec<f64>,
     }
 
-    impl LeastSquaresProblem for Decay {
+    impl LeastSquaresProblem for MeasuredDecay {
         fn residuals(&mut self, x: &[f64]) -> Option<Vec<f64>> {
             (x[1] >= 0.0)
                 .then(|| self.times.iter().zip(&self.values).map(|(t, v)| x[0] * (-x[1] * t).exp() - v).collect())
@@ -353,7 +353,7 @@ mod tests {
         let mut refused = 0;
         let times: Vec<f64> = (0..20).map(|i| f64::from(i) * 0.2).collect();
         let values = times.iter().map(|t| 3.0 * (-0.05 * t).exp()).collect();
-        let mut problem = Decay { times, values };
+        let mut problem = MeasuredDecay { times, values };
         let unbounded = [(f64::NEG_INFINITY, f64::INFINITY); 2];
         // Undamped steps from many starts lead to b < 0.
         for start in [[3.0, 0.5], [2.0, 1.0], [5.0, 1.0], [3.0, 2.0]] {

@@ -175,6 +175,7 @@ fn defaults(key: &Key, shape: Shape, table: &DeTable, robot: &Robot) -> Vec<KeyN
             *motion != PlatformMotion::PointMass
         }
         "damping_ratio" => !table.contains_key("viscous_damping_n_s_m2"),
+        "coherence_decay" => robot.turbulence.is_some(),
         _ => true,
     };
     let Some(default) = key.default_numbers().filter(|_| means_something) else { return Vec::new() };

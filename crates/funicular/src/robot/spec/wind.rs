@@ -135,7 +135,7 @@ fn read_turbulence(reader: &mut Reader, section: &Section, mean: Option<&Wind>) 
         return None;
     }
 
-    let intensity = reader.required(section, "intensity").and_then(|value| reader.vector(section, "intensity", value));
+    let intensity = read_intensity(reader, section);
     let length_scale =
         reader.required(section, "length_scale_m").and_then(|value| reader.vector(section, "length_scale_m", value));
     let coherence_decay = reader.vector_or_default(section, "coherence_decay");
@@ -147,4 +147,15 @@ fn read_turbulence(reader: &mut Reader, section: &Section, mean: Option<&Wind>) 
         coherence_decay: coherence_decay?,
         is_frozen: is_frozen?,
     }))
+}
+
+/// Reads the intensities, which are fractions.
+fn read_intensity(reader: &mut Reader, section: &Section) -> Option<[f64; 3]> {
+    let value = reader.required(section, "intensity")?;
+    let intensity = reader.vector(section, "intensity", value)?;
+    let Some(most) = intensity.iter().find(|part| **part >= Turbulence::MAX_INTENSITY) else { return Some(intensity) };
+    reader
+        .issue(value.span(), format!("`intensity` has {most}, it must be below {}", Turbulence::MAX_INTENSITY))
+        .help("it is a fraction of the mean speed, not per cent: 15 % is 0.15");
+    None
 }

@@ -8,8 +8,8 @@ use funicular::math::{Complex, DMat, Vec3};
 use funicular::modes::{self, CommandedMotions, Decay, LengthCommand, Profile, Shaper, ShaperKind, damped};
 use funicular::reduced_model::{DampingAt, RequestedModel, SecondOrder, reduce};
 use funicular::response::{Quantity, Signal};
-use funicular::robot::{Damping, Robot, StretchLoss};
-use funicular::statics::{self, StaticModel};
+use funicular::robot::{Damping, Robot, State, StretchLoss};
+use funicular::statics::{self, Equilibrium, StaticModel, TensionRule};
 use std::f64::consts::{PI, TAU};
 
 const BELOW_HZ: f64 = 16.0;
@@ -17,20 +17,33 @@ const BELOW_HZ: f64 = 16.0;
 /// Step of the exact integration [s]; all times of the tests are multiples of it.
 const STEP: f64 = 0.02;
 
-/// Rates or changes of the lengths of CoGiRo, of different sizes and signs [m/s or m].
-const RATES: [f64; 8] = [0.7, 0.5, -0.3, 0.2, -0.7, 0.1, -0.4, 0.6];
+/// Motion of the platform of CoGiRo in a second, or as a whole: translation and rotation vector [m, rad].
+const MOTION: [[f64; 3]; 2] = [[0.4, -0.3, 0.2], [0.05, -0.04, 0.1]];
+
+/// Rates or changes of the lengths with which the platform of a robot at rest moves by [`MOTION`].
+fn rates_of(robot: &Robot, rest: &Equilibrium) -> Vec<f64> {
+    const STEP: f64 = 1e-3;
+    let lengths = |step: f64| {
+        let [shift, turn] = MOTION.map(|part| Vec3::from(part) * step);
+        let state = State::Pose(rest.pose.moved(&shift, &turn));
+        let found = statics::solve_at(robot, &state, StaticModel::Catenary, &TensionRule::Lowest).unwrap();
+        found.equilibrium.cables.into_iter().map(|cable| cable.unstrained_length)
+    };
+    lengths(STEP).zip(lengths(-STEP)).map(|(after, before)| (after - before) / (2.0 * STEP)).collect()
+}
 
 fn column(values: &[f64]) -> DMat {
     DMat::from_column_slice(values.len(), 1, values)
 }
 
-/// Robot whose losses matrices have exactly, its free motions at a point, and its complete matrices.
-struct Case {
+/// Robot whose losses matrices have exactly: rates of its lengths, its free motions at a point, and its complete matrices.
+struct CommandedRobot {
+    rates: Vec<f64>,
     motions: CommandedMotions,
     model: SecondOrder,
 }
 
-impl Case {
+impl CommandedRobot {
     fn of(mut robot: Robot) -> Self {
         for cable in &mut robot.cables {
             cable.material.damping = Damping::Viscous(0.05);
@@ -52,11 +65,11 @@ impl Case {
         let mut outputs = [Vec3::x(), Vec3::y(), Vec3::z()].map(along).to_vec();
         outputs.push((drive(1, DriveSignal::Tension), Quantity::Displacement));
         let model = reduce(&robot, &rest, &dynamics, &inputs, &outputs, requested, &mut |_| true).unwrap();
-        Self { motions, model }
+        Self { rates: rates_of(&robot, &rest), motions, model }
     }
 
     /// Generator of the state (motion, velocity, a cubic polynomial with its derivatives, which is the course of lengths that
-    /// change by [`RATES`]), and its exponential over a [`STEP`].
+    /// change by [`rates`](Self::rates)), and its exponential over a [`STEP`].
     fn generator(&self) -> [DMat; 2] {
         let (model, n) = (&self.model, self.model.mass.nrows());
         let inverse = model.mass.clone().cholesky().unwrap().inverse();
@@ -75,7 +88,7 @@ impl Case {
     /// Forces per course of the lengths, its rate and its acceleration.
     fn forces(&self) -> [DMat; 3] {
         let model = &self.model;
-        [&model.input, &model.input_rates[0], &model.input_rates[1]].map(|matrix| matrix * column(&RATES))
+        [&model.input, &model.input_rates[0], &model.input_rates[1]].map(|matrix| matrix * column(&self.rates))
     }
 
     /// Outputs at each of `times` for a course that is a cubic polynomial from each of its `pieces` on: time, value, and
@@ -108,7 +121,7 @@ impl Case {
 
     fn outputs(&self, slope: &DMat, state: &DMat) -> DMat {
         let (model, n) = (&self.model, self.model.mass.nrows());
-        let direct = |k: usize| &model.feedthrough[k] * column(&RATES) * state[2 * n + k];
+        let direct = |k: usize| &model.feedthrough[k] * column(&self.rates) * state[2 * n + k];
         &model.output * state.rows(0, n)
             + &model.output_rates[0] * state.rows(n, n)
             + &model.output_rates[1] * slope.rows(n, n)
@@ -138,7 +151,7 @@ impl Case {
                 let t = time - from;
                 a + t * (b + t * (c / 2.0 + t * d / 6.0))
             });
-            let lengths: Vec<f64> = RATES.iter().map(|rate| rate * scalar.unwrap()).collect();
+            let lengths: Vec<f64> = self.rates.iter().map(|rate| rate * scalar.unwrap()).collect();
             let gap = &expected[i] - self.still(&lengths);
             let gap = (Vec3::new(gap[0], gap[1], gap[2]), gap[3]);
             // The modes above the limit, which the sum has not, answer to the acceleration: 3e-4 of the peak.
@@ -179,14 +192,14 @@ fn pieces(boxes: &[f64], order: usize) -> Vec<(f64, [f64; 4])> {
 
 #[test]
 fn moves_and_stops_are_those_of_the_complete_matrices() {
-    let case = Case::of(Robot::from_toml(funicular_robots::COGIRO).unwrap());
+    let case = CommandedRobot::of(Robot::from_toml(funicular_robots::COGIRO).unwrap());
     let boxes = [0.5, 0.24, 0.1];
     let generator = case.generator();
-    let moved = LengthCommand::Move { by: RATES.to_vec(), profile: Profile::new(&boxes) };
+    let moved = LengthCommand::Move { by: case.rates.clone(), profile: Profile::new(&boxes) };
     case.compare(&moved, &generator, &pieces(&boxes, 3));
 
     // A stop: the steady motion less the integral of the part of the speed that is lost.
-    let stop = LengthCommand::Stop { rates: RATES.to_vec(), profile: Profile::new(&boxes[..2]) };
+    let stop = LengthCommand::Stop { rates: case.rates.clone(), profile: Profile::new(&boxes[..2]) };
     let lost = pieces(&boxes[..2], 3);
     let steady = lost.iter().map(|(at, [a, b, c, d])| (*at, [at - a, 1.0 - b, -c, -d])).collect::<Vec<_>>();
     case.compare(&stop, &generator, &steady);
@@ -195,22 +208,22 @@ fn moves_and_stops_are_those_of_the_complete_matrices() {
 /// A change of one per cent in one rate is seen: the comparison above is not blind.
 #[test]
 fn a_rate_that_is_wrong_by_one_per_cent_is_seen() {
-    let case = Case::of(Robot::from_toml(funicular_robots::COGIRO).unwrap());
+    let case = CommandedRobot::of(Robot::from_toml(funicular_robots::COGIRO).unwrap());
     let stop = |rates: &[f64]| {
         case.motions.after(&LengthCommand::Stop { rates: rates.to_vec(), profile: Profile::new(&[0.5, 0.24]) })
     };
-    let mut wrong = RATES;
+    let mut wrong = case.rates.clone();
     wrong[2] *= 1.01;
-    let [right, wrong] = [stop(&RATES), stop(&wrong)].map(|decay| decay.at(0.0));
+    let [right, wrong] = [stop(&case.rates), stop(&wrong)].map(|decay| decay.at(0.0));
     assert!((right - wrong).norm() > 1e-3 * right.norm(), "{right} {wrong}");
 }
 
 #[test]
 fn samples_of_a_course_are_the_course() {
-    let case = Case::of(Robot::from_toml(funicular_robots::COGIRO).unwrap());
-    let (boxes, by) = ([0.5, 0.24, 0.1], RATES);
+    let case = CommandedRobot::of(Robot::from_toml(funicular_robots::COGIRO).unwrap());
+    let (boxes, by) = ([0.5, 0.24, 0.1], case.rates.clone());
     let profile = Profile::new(&boxes);
-    let moved = case.motions.after(&LengthCommand::Move { by: by.to_vec(), profile: profile.clone() });
+    let moved = case.motions.after(&LengthCommand::Move { by: by.clone(), profile: profile.clone() });
     // Lines over a step h follow a vibration of ω to (ωh)²/12 of it: 25 Hz, 1 ms, 2e-3.
     let times: Vec<f64> = (0..=840).map(|i| f64::from(i) * 1e-3).collect();
     let lengths = times.iter().map(|t| by.iter().map(|by| by * profile.done(*t)).collect()).collect();
@@ -227,9 +240,9 @@ fn size(decay: &Decay) -> f64 {
 
 #[test]
 fn limits_of_stops_and_moves() {
-    let case = Case::of(Robot::from_toml(funicular_robots::COGIRO).unwrap());
+    let case = CommandedRobot::of(Robot::from_toml(funicular_robots::COGIRO).unwrap());
     let stop = |boxes: &[f64]| {
-        case.motions.after(&LengthCommand::Stop { rates: RATES.to_vec(), profile: Profile::new(boxes) })
+        case.motions.after(&LengthCommand::Stop { rates: case.rates.clone(), profile: Profile::new(boxes) })
     };
     // A stop in no time, and in nearly none.
     let (sudden, short) = (stop(&[]), stop(&[1e-7, 1e-8]));
@@ -241,9 +254,9 @@ fn limits_of_stops_and_moves() {
 
 #[test]
 fn a_shaper_cancels_its_mode_and_keeps_the_others_apart() {
-    let case = Case::of(Robot::from_toml(funicular_robots::COGIRO).unwrap());
+    let case = CommandedRobot::of(Robot::from_toml(funicular_robots::COGIRO).unwrap());
     let plain = Profile::new(&[0.5, 0.24, 0.1]);
-    let after = |profile: Profile| case.motions.after(&LengthCommand::Move { by: RATES.to_vec(), profile });
+    let after = |profile: Profile| case.motions.after(&LengthCommand::Move { by: case.rates.clone(), profile });
     let without = after(plain.clone());
     let mut loud: Vec<usize> = (0..without.motions.len()).collect();
     loud.sort_by(|a, b| without.motions[*b].size().total_cmp(&without.motions[*a].size()));
@@ -286,8 +299,8 @@ fn shapers_are_as_robust_as_their_closed_forms_say() {
 /// A box of one period takes all of a vibration but about its damping ratio, (1 − e^{−2πζ'})/2π in the mode's own ζ'.
 #[test]
 fn a_box_of_one_period_leaves_the_damping_ratio() {
-    let case = Case::of(Robot::from_toml(funicular_robots::COGIRO).unwrap());
-    let after = |profile| case.motions.after(&LengthCommand::Move { by: RATES.to_vec(), profile });
+    let case = CommandedRobot::of(Robot::from_toml(funicular_robots::COGIRO).unwrap());
+    let after = |profile| case.motions.after(&LengthCommand::Move { by: case.rates.clone(), profile });
     let step = after(Profile::new(&[]));
     for (k, motion) in step.motions.iter().enumerate().take(4) {
         let shaped = after(Profile::new(&[TAU / motion.omega.re]));
