@@ -4,8 +4,9 @@ use crate::at_rest::AtRest;
 use crate::request::{FrequencyRange, MAX_HZ, ResponseRange, check};
 use crate::values::{not_negative, positive};
 use anyhow::{Result, anyhow, bail};
-use funicular::dynamics::Linearisation;
+use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes::{self, LowestError};
+use std::f64::consts::TAU;
 
 /// Maximum number of frequencies of one range.
 pub const MAX_POINTS: usize = 1_000_000;
@@ -19,6 +20,13 @@ pub const LOWEST: usize = 20;
 
 /// Default end of a response over the frequency of the platform's first mode.
 const BEYOND_PLATFORM: f64 = 1.5;
+
+/// Default limit of the modes that take part in the sway of the platform over its highest frequency: modes that veer with
+/// cables lie a few per cent above it.
+const BEYOND_SWAY: f64 = 1.2;
+
+/// Maximum number of modes below that limit: their damped list takes some seconds.
+const MOST_OF_SWAY: usize = 1000;
 
 /// Default first frequency of a response with equal ratios, over the last one.
 const FIRST_OVER_LAST: f64 = 1e-3;
@@ -59,6 +67,18 @@ impl AtRest {
         // Without a mode of the platform the lowest natural frequencies are the range.
         let first = found.ok().and_then(|(_, list)| Some(list.modes[list.first_platform(share)?].frequency_hz));
         Ok(first.map_or(limit, |hz| limit.max(rounded_up(BEYOND_PLATFORM * hz))))
+    }
+
+    /// Limit [Hz] of the modes that take part in the sway of the platform: above all frequencies of the platform on cables
+    /// that follow it as at rest, unless there are too many modes below it.
+    pub(crate) fn sway_limit(&self, linearisation: Linearisation) -> Result<f64> {
+        let limit = self.response_limit(linearisation)?;
+        let AtRest { robot, equilibrium, .. } = &*self.vibrating();
+        let of_platform = Dynamics::about(robot, equilibrium, linearisation, limit)?.platform_frequencies();
+        let Some(highest) = of_platform.and_then(|all| all.last().copied()) else { return Ok(limit) };
+        let wanted = limit.max(rounded_up(BEYOND_SWAY * highest));
+        let count = Dynamics::about(robot, equilibrium, linearisation, wanted)?.modes_below(wanted * TAU);
+        Ok(if count <= MOST_OF_SWAY { wanted } else { limit })
     }
 
     /// Frequencies of a response, with limits that follow from the robot where the request leaves them out.

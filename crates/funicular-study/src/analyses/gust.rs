@@ -125,7 +125,7 @@ pub fn about(at_rest: &AtRest, request: &GustRequest) -> Result<Gusty> {
     let linearisation = at_rest::linearisation(&request.model, equilibrium.model);
     let limit = match request.below_hz {
         Some(given) => at_rest.modes_limit(Some(given), linearisation)?,
-        None => at_rest.response_limit(linearisation)?,
+        None => at_rest.sway_limit(linearisation)?,
     };
     let ModesBelow { dynamics, modes: found, warnings } =
         at_rest.modes_below(linearisation, limit, modes::MAX_MODES)?;

@@ -205,7 +205,7 @@ impl<'a> Swing<'a> {
         let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
         let limit = match request.below_hz {
             Some(given) => at_rest.modes_limit(Some(given), linearisation)?,
-            None => at_rest.response_limit(linearisation)?,
+            None => at_rest.sway_limit(linearisation)?,
         };
         let ModesBelow { dynamics, modes, mut warnings } =
             at_rest.modes_with_strains(linearisation, limit, modes::MAX_MODES)?;

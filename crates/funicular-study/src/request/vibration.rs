@@ -143,7 +143,7 @@ declared! {
         tolerance_m: f64 = SETTLED_WITHIN => (Number(Positive));
         /// Upper limit of the frequencies of the modes that take part [Hz].
         below_hz: Option<f64> = None =>
-            (Number(Positive)).otherwise("the lowest 20 modes, and twice the first mode of the platform if that is higher");
+            (Number(Positive)).otherwise("above all modes of the platform");
         /// State and loads.
         #[serde(flatten)]
         state: State = State::default() => group;
@@ -180,7 +180,7 @@ declared! {
         duration_s: f64 = GUST_DURATION => (Number(Positive));
         /// Upper limit of the frequencies [Hz]; faster gusts are left out.
         below_hz: Option<f64> = None => (Number(Positive))
-            .otherwise("above the 20 lowest natural frequencies and the first mode of the platform");
+            .otherwise("above all modes of the platform");
         /// Turbulence about the mean wind.
         #[serde(flatten)]
         gusts: TurbulenceOptions = TurbulenceOptions::default() => group;

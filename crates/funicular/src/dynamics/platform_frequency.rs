@@ -15,6 +15,12 @@ impl Dynamics {
     /// # References
     /// docs/theory.md, equations (35d) and (35e).
     pub fn platform_frequency(&self) -> Option<f64> {
+        self.platform_frequencies()?.first().copied()
+    }
+
+    /// All frequencies of the platform as [`platform_frequency`](Self::platform_frequency), one per degree of freedom,
+    /// ascending [Hz].
+    pub fn platform_frequencies(&self) -> Option<Vec<f64>> {
         let mut mass = self.mass;
         for term in &self.terms {
             add_local(&mut mass, term, &term.form.effective_mass(0.0));
@@ -26,7 +32,7 @@ impl Dynamics {
         let factor = mass.cholesky()?;
         let half: Mat6 = factor.l().solve_lower_triangular(&self.dynamic_stiffness(0.0))?;
         let whole: Mat6 = factor.l().solve_lower_triangular(&half.transpose())?;
-        let square = symmetric::eigen(&whole, dof).0[0];
-        (square > 0.0).then(|| square.sqrt() / TAU)
+        let squares = symmetric::eigenvalues(&whole, dof);
+        squares.iter().all(|square| *square > 0.0).then(|| squares.iter().map(|square| square.sqrt() / TAU).collect())
     }
 }

@@ -12,7 +12,7 @@ use funicular::robot::{Damping, Robot, State, StretchLoss};
 use funicular::statics::{self, Equilibrium, StaticModel, TensionRule};
 use std::f64::consts::{PI, TAU};
 
-const BELOW_HZ: f64 = 16.0;
+const BELOW_HZ: f64 = 40.0;
 
 /// Step of the exact integration [s]; all times of the tests are multiples of it.
 const STEP: f64 = 0.02;
