@@ -200,8 +200,8 @@ impl CommandedMotions {
     }
 
     /// Difference of the tension of each cable at the platform from that of the lengths at rest, at each of several times
-    /// since the start of a command [s], ascending [N]. The viscous force of a stretch that the lengths force upon the
-    /// cables at rest is left out: lengths of poses within the tension rule have hardly any.
+    /// since the start of a command [s], ascending [N]. The force that moves the ropes themselves during the command is
+    /// left out: at most their mass times the acceleration of their lengths, and their damping times its rate.
     pub fn tensions_beside_static(&self, command: &LengthCommand, times: &[f64]) -> Vec<Vec<f64>> {
         let cables = self.motions.first().map_or(0, |motion| motion.tensions.len());
         let mut found = vec![vec![0.0; cables]; times.len()];
