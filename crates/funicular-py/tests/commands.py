@@ -10,14 +10,14 @@ import funicular
 
 # Options for the place and the form of a result, which do not change the computation.
 OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--matrices", "--resume", "--discard", "--part", "--threads"}
-OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--designed", "--page", "--samples-file"}
+OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--designed", "--page", "--samples-file", "--lengths"}
 # Options without a value.
 SWITCHES = {
     *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
     *("--platform", "--hold-lengths-of-pose", "--friction-interval", "--rigid-cables"),
 }
 # Options that may be given several times.
-LISTS = {"reduce": {"--input", "--output"}, "identify": {"--profile"}}
+LISTS = {"reduce": {"--input", "--output"}, "gust": {"--output"}, "identify": {"--profile"}}
 
 
 def commands(executable: str) -> list[str]:
@@ -68,7 +68,7 @@ def value(command: str, option: str, text: str) -> Any:
         return steps(text)
     if option in ("--of", "--by", "--tolerances", "--deviations") and command != "schema":
         return text.split(",")
-    if option in ("--weights", "--avoid-hz"):
+    if option in ("--weights", "--avoid-hz", "--profile-s", "--shape-modes-hz"):
         return [float(part) for part in text.replace(":", ",").split(",")]
     if option in ("--input", "--output", "--name", "--rope") or re.search("[a-z]{2}", text):
         return text

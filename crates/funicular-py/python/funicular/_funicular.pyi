@@ -220,6 +220,49 @@ class Analyses:
         NoSolutionError
             A cable is slack, or the equilibrium indifferent: it has no derivatives.
         """
+    def gust(self, /, output: str | Sequence[str] | None = None, *, output_point_m: ArrayLike | None = None, duration_s: SupportsFloat | SupportsIndex | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, turbulence: Literal['kaimal', 'von-karman'] | None = None, intensity: ArrayLike | None = None, length_scale_m: ArrayLike | None = None, coherence_decay: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
+        """
+        Computes the response to turbulent wind: r.m.s. values and expected peaks of motions and tensions, with their
+        spectra.
+
+        The drag is linear about the mean wind of the equilibrium, and its damping is included. Motions are about that
+        equilibrium.
+
+        Parameters
+        ----------
+        output
+            Output, see `frf`: a motion of the platform or of a point on a cable, or the tension at the platform,
+            tension:3 (repeatable); if not given: all displacements and rotations of the platform, and all tensions.
+        output_point_m
+            Point of the platform whose motion is measured, platform frame [m]; if not given: the origin.
+        duration_s
+            Time for which the mean wind lasts, and in which peaks are expected [s]; 600 if not given.
+        below_hz
+            Upper limit of the frequencies [Hz]; faster gusts are left out; if not given: above all modes of the
+            platform.
+        turbulence
+            Spectrum of the gusts: `kaimal` (kaimal, as in IEC 61400-1); `von-karman` (von Kármán); if not given: from
+            the robot file.
+        intensity
+            Standard deviation of the gusts along the mean wind, lateral and up, over the mean speed; if not given: from
+            the robot file.
+        length_scale_m
+            Length scales of the gusts along, lateral and up, each in the direction of the mean wind [m]; if not given:
+            from the robot file.
+        coherence_decay
+            Decay of the coherence with the distance along the mean wind, lateral and up; if not given: from the robot
+            file, or 0,10,10.
+
+        The other parameters are those of `Equilibrium.stiffness`.
+
+        Returns
+        -------
+        The keys of the program's JSON; lists of numbers are arrays.
+
+        References
+        ----------
+        docs/theory.md, equations (49f) to (49q).
+        """
     def live(self, /, path: str | PathLike[str] | None = None, *, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Live:
         """
         Makes a page in HTML on which the platform can be dragged, which notebooks show.
@@ -334,11 +377,12 @@ class Analyses:
 
         The other parameters are those of `Equilibrium.stiffness`.
         """
-    def settle(self, /, release_n: ArrayLike | None = None, *, release_n_m: ArrayLike | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
+    def settle(self, /, release_n: ArrayLike | None = None, *, release_n_m: ArrayLike | None = None, stop_m_s: ArrayLike | None = None, stop_rad_s: ArrayLike | None = None, move_m: ArrayLike | None = None, move_deg: ArrayLike | None = None, profile_s: ArrayLike | None = None, shaper: str | None = None, shape_modes_hz: ArrayLike | None = None, sample_time_s: SupportsFloat | SupportsIndex | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
         """
-        Computes how a point of the platform swings after a force or moment on it is released, and when it has settled.
+        Computes how a point of the platform swings after a release, a stop or a move, and when it has settled.
 
-        The motion is linear about the equilibrium without the force, in closed form over the damped modes.
+        The motion is linear about the equilibrium at the end, in closed form over the damped modes. A stop and a move are
+        commanded by the lengths; an input shaper splits them so that their vibrations cancel.
 
         Parameters
         ----------
@@ -346,6 +390,26 @@ class Analyses:
             Force on the platform that is released, at `input_point_m`, world axes [N]; if not given: none.
         release_n_m
             Moment on the platform that is released, world axes [N m]; if not given: none.
+        stop_m_s
+            Velocity of the platform before it stops, world axes [m/s]; its lengths command it; if not given: none.
+        stop_rad_s
+            Angular velocity of the platform before it stops, world axes [rad/s]; if not given: none.
+        move_m
+            Displacement of the platform from rest to rest, world axes [m]; its lengths command it; if not given: none.
+        move_deg
+            Rotation vector of the platform from rest to rest, world axes [degrees]; if not given: none.
+        profile_s
+            Times of the stop or the move [s], each at most the one before: from the begin of the acceleration to that
+            of the deceleration (for a stop the deceleration itself), of each acceleration, and of each change of the
+            acceleration. The command takes their sum; without them a stop is sudden; if not given: none.
+        shaper
+            Input shaper of the stop or the move: zv, zvd, or ei:V, which leaves the fraction V of a vibration, as in
+            ei:0.05; if not given: none.
+        shape_modes_hz
+            Natural frequencies of the modes whose vibration the shaper cancels [Hz]; if not given: the modes with the
+            largest amplitudes, at most three, until their sum is within the tolerance.
+        sample_time_s
+            Time between the samples of the commanded lengths, which are then listed [s]; if not given: no samples.
         input_point_m
             Point where the force acts, platform frame [m]; if not given: the origin.
         output_point_m
@@ -353,8 +417,8 @@ class Analyses:
         tolerance_m
             Distance from its rest within which the point has settled [m]; 0.001 if not given.
         below_hz
-            Upper limit of the frequencies of the modes that take part [Hz]; if not given: the lowest 20 modes, and
-            twice the first mode of the platform if that is higher.
+            Upper limit of the frequencies of the modes that take part [Hz]; if not given: above all modes of the
+            platform.
 
         The other parameters are those of `Equilibrium.stiffness`.
 
@@ -364,7 +428,7 @@ class Analyses:
 
         References
         ----------
-        docs/theory.md, equations (46f) to (46h).
+        docs/theory.md, equations (46f) to (46n).
         """
     def state_space(self, /, input: str | Sequence[str] | None = None, output: str | Sequence[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, order: SupportsIndex | None = None, damping_at_hz: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> StateSpaceModel:
         """
@@ -1069,7 +1133,51 @@ class Robot(Analyses):
         StaticsError
             The robot has no equilibrium at any start.
         """
-    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: str | Sequence[str] | None = None, *, poses: ArrayLike | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def loads(self, /, pose: Pose | ArrayLike | None = None, static_model: StaticModel = "catenary", *, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> Results:
+        """
+        Compares the loads that the cables hold at a pose with the required ones: verdict, load factor, what binds, margins.
+
+        All tensions within the limits count, not only those of a tension rule.
+
+        Parameters
+        ----------
+        required_force_n
+            Largest required force, both ways along each world axis [N].
+        required_moment_n_m
+            Largest required moment about the platform origin, both ways about each world axis [N m].
+        required_shape
+            Shape of the set of required forces and moments: `box` (every component varies by itself); `ellipsoid`
+            (ellipsoid with these half axes; a ball if they are equal); if not given: from the robot file, or box.
+        required_payload_min_kg
+            Minimum required payload [kg], which is always carried.
+        required_payload_max_kg
+            Maximum required payload [kg].
+        required_payload_center_m
+            Middle of the centres of mass of the required payload, platform frame [m].
+        required_payload_center_reach_m
+            Largest distance of the centre of mass of the payload from this middle, both ways along each axis of the
+            platform [m].
+        required_acceleration_m_s2
+            Largest required acceleration of the platform origin from rest, both ways along each world axis [m/s²].
+        required_angular_acceleration_rad_s2
+            Largest required angular acceleration from rest, both ways about each world axis [rad/s²].
+        required_wind_speed_m_s
+            Speed of the required wind from every horizontal direction on the platform [m/s].
+
+        The other parameters are those of `Robot.equilibrium`.
+
+        Returns
+        -------
+        The keys of the program's JSON: `closure`, `tension_factor`, `dead_load_held`, `capacity_margin_n`,
+        `acceleration_max_m_s2`, and `required` with `held`, `load_factor`, its bounds, the load that binds, and `cables`;
+        without `required` if nothing is required or the dead load is not held.
+
+        Raises
+        ------
+        StaticsError
+            The robot has no such pose, or no load factor was found.
+        """
+    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: str | Sequence[str] | None = None, *, poses: ArrayLike | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over poses, one row per pose.
 
@@ -1093,6 +1201,28 @@ class Robot(Analyses):
             if not given.
         payload_center_m
             Centre of mass of the payload, platform frame [m]; if not given: that of the platform.
+        required_force_n
+            Largest required force, both ways along each world axis [N].
+        required_moment_n_m
+            Largest required moment about the platform origin, both ways about each world axis [N m].
+        required_shape
+            Shape of the set of required forces and moments: `box` (every component varies by itself); `ellipsoid`
+            (ellipsoid with these half axes; a ball if they are equal); if not given: from the robot file, or box.
+        required_payload_min_kg
+            Minimum required payload [kg], which is always carried.
+        required_payload_max_kg
+            Maximum required payload [kg].
+        required_payload_center_m
+            Middle of the centres of mass of the required payload, platform frame [m].
+        required_payload_center_reach_m
+            Largest distance of the centre of mass of the payload from this middle, both ways along each axis of the
+            platform [m].
+        required_acceleration_m_s2
+            Largest required acceleration of the platform origin from rest, both ways along each world axis [m/s²].
+        required_angular_acceleration_rad_s2
+            Largest required angular acceleration from rest, both ways about each world axis [rad/s²].
+        required_wind_speed_m_s
+            Speed of the required wind from every horizontal direction on the platform [m/s].
         file
             File of the rows: .parquet, .csv or .vti. It is written when all rows are there; until then FILE.partial
             holds them, also after a crash. The rows of a Parquet file are read into memory at their first use.
@@ -1174,7 +1304,7 @@ class Robot(Analyses):
         -------
         The keys of the program's JSON: `points` with one entry for each mass.
         """
-    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: str | Sequence[str] | None = None, *, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: str | Sequence[str] | None = None, *, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over values of the robot file, one row per combination, as the program's `sweep`.
 
@@ -1193,6 +1323,28 @@ class Robot(Analyses):
             if not given.
         payload_center_m
             Centre of mass of the payload, platform frame [m]; if not given: that of the platform.
+        required_force_n
+            Largest required force, both ways along each world axis [N].
+        required_moment_n_m
+            Largest required moment about the platform origin, both ways about each world axis [N m].
+        required_shape
+            Shape of the set of required forces and moments: `box` (every component varies by itself); `ellipsoid`
+            (ellipsoid with these half axes; a ball if they are equal); if not given: from the robot file, or box.
+        required_payload_min_kg
+            Minimum required payload [kg], which is always carried.
+        required_payload_max_kg
+            Maximum required payload [kg].
+        required_payload_center_m
+            Middle of the centres of mass of the required payload, platform frame [m].
+        required_payload_center_reach_m
+            Largest distance of the centre of mass of the payload from this middle, both ways along each axis of the
+            platform [m].
+        required_acceleration_m_s2
+            Largest required acceleration of the platform origin from rest, both ways along each world axis [m/s²].
+        required_angular_acceleration_rad_s2
+            Largest required angular acceleration from rest, both ways about each world axis [rad/s²].
+        required_wind_speed_m_s
+            Speed of the required wind from every horizontal direction on the platform [m/s].
 
         The other parameters are those of `map`.
         """
