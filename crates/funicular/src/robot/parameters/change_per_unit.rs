@@ -15,6 +15,8 @@ const WITHOUT_DERIVATIVE: &[(&str, &[&str])] = &[
     ("cables", &["minimum_tension_n", "maximum_tension_n"]),
     // No equilibrium depends on it, and derivatives of vibration are refused beside it.
     ("materials", &["dynamic_axial_stiffness_n"]),
+    // Results with derivatives are those of the mean wind.
+    ("wind", &["intensity", "length_scale_m", "coherence_decay"]),
     // Results with derivatives are those of the dead load.
     (
         "required",
@@ -377,6 +379,7 @@ mod tests {
         [materials.rope]
         youngs_modulus_pa = 100e9
         diameter_m = 0.004
+        dynamic_axial_stiffness_n = 2e6
         mass_kg_per_m = 0.07
         damping_ratio = 0.003
         axial_loss_factor = 0.02
@@ -432,6 +435,10 @@ mod tests {
         [wind]
         velocity_m_s = [8.0, 0.0, 0.0]
         air_density_kg_m3 = 1.2
+        turbulence = "kaimal"
+        intensity = [0.15, 0.12, 0.075]
+        length_scale_m = [85.0, 28.0, 6.9]
+        coherence_decay = [0.0, 10.0, 10.0]
         "#,
         r#"
         name = "keys that exclude others"
