@@ -50,7 +50,7 @@ pub(super) static TABLE: &[Definition] = &[
                         of slow motion, with the share of its mass that then moves. It is smooth from pose to pose. Its \
                         square is the mean of the squares of all natural frequencies, weighted by the kinetic energy \
                         that each mode has in this motion: beside a mode of the cables it lies between the frequencies \
-                        of the pair ([theory](theory.md), equations (35d) and (35e))",
+                        of the pair (theory, equations (35d) and (35e))",
         needs: RequiredModel::Elastic,
         columns: |_, _| {
             let about = "lowest frequency of the platform on cables that follow it as at rest";
