@@ -37,7 +37,7 @@ pub struct Settled {
     #[serde(flatten)]
     pub models: Models,
     pub tolerance_m: f64,
-    /// What happens before; absent for a release.
+    /// Stop or move before the decay; absent for a release.
     #[serde(flatten)]
     pub commanded: Option<Commanded>,
     /// The wrench and its displacement; absent for a command.

@@ -27,7 +27,7 @@ pub(super) struct Command<'a> {
     by: Vec<f64>,
 }
 
-/// What ends at rest.
+/// Kind of the motion that ends at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum CommandKind {
     Stop,

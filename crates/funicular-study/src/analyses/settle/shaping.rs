@@ -21,7 +21,7 @@ pub struct Shaping {
     pub robustness: Vec<Robustness>,
     /// Last time at which the point is at the tolerance without the shaper, since the end of the command without it.
     pub settled_without_s: f64,
-    /// The same by the sum of all amplitudes.
+    /// Time from which on the sum of all amplitudes without the shaper is within the tolerance.
     pub surely_settled_without_s: f64,
     /// Motion from the end of the command without it.
     pub history_without: Vec<HistoryRow>,
@@ -34,13 +34,13 @@ pub struct ImpulseRow {
     pub part: f64,
 }
 
-/// What is left if all frequencies are multiplied by a factor and the shaper is not.
+/// Vibration that is left if all frequencies are multiplied by a factor, with the shaper unchanged.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Robustness {
     pub frequency_factor: f64,
     /// Sum of all amplitudes at the end of the shaped command.
     pub amplitude_m: f64,
-    /// The same without the shaper.
+    /// Sum of all amplitudes at the end of the command without the shaper.
     pub without_m: f64,
 }
 
