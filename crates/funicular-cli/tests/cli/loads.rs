@@ -18,7 +18,7 @@ fn the_binding_load_is_held_just_below_the_load_factor_and_refused_just_above() 
     assert!(factor <= number(&required["load_factor_upper_bound"]));
     assert!(factor >= number(&required["load_factor_lower_bound"]));
 
-    // A payload of this mass in `payload`.
+    // `statics` under multiples of the load that binds.
     let robot = robot("cogiro.toml");
     let with = |multiple: f64| {
         let vector = |key: &str| {
