@@ -194,13 +194,13 @@ fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<Si
     if request.rigid_cables {
         return about_rigid_cables(at_rest, request);
     }
-    let at_rest = &*at_rest.vibrating();
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
     let limit = at_rest.modes_limit(request.below_hz, linearisation)?;
     let ModesBelow { dynamics, modes: found, mut warnings } =
         at_rest.modes_with_strains(linearisation, limit, modes::MAX_MODES)?;
-    let AtRest { robot, .. } = at_rest;
     warnings.extend(at_rest.without_damping());
+    let at_rest = &*at_rest.vibrating();
+    let AtRest { robot, .. } = at_rest;
 
     // Damping, and the peaks that depend on it.
     let mut rows: Vec<ModeRow> = found.modes.iter().cloned().map(ModeRow::from).collect();

@@ -51,7 +51,11 @@ pub struct ModesBelow {
 impl AtRest {
     /// Robot and equilibrium with the stiffness of slow loads alone.
     pub(crate) fn slow(&self) -> (Cow<'_, Robot>, Cow<'_, Equilibrium>) {
-        (without_dynamic_stiffness(&self.robot), Cow::Borrowed(&self.equilibrium))
+        let mut robot = Cow::Borrowed(&self.robot);
+        if robot.has_dynamic_stiffness() {
+            robot.to_mut().cables.iter_mut().for_each(|cable| cable.material.dynamic_axial_stiffness = None);
+        }
+        (robot, Cow::Borrowed(&self.equilibrium))
     }
 
     /// Ports of the linearised robot for the input and the output of a response.
@@ -116,13 +120,4 @@ impl AtRest {
         warnings.extend(modes.caveat());
         Ok(ModesBelow { dynamics, modes, warnings })
     }
-}
-
-/// Robot whose ropes have one stiffness only, that of slow loads.
-fn without_dynamic_stiffness(robot: &Robot) -> Cow<'_, Robot> {
-    let mut robot = Cow::Borrowed(robot);
-    if robot.has_dynamic_stiffness() {
-        robot.to_mut().cables.iter_mut().for_each(|cable| cable.material.dynamic_axial_stiffness = None);
-    }
-    robot
 }

@@ -118,7 +118,8 @@ impl Responses {
     /// # Errors
     /// An undamped resonance at a frequency, or a response of zero.
     pub(super) fn new(requested: &RequestedResponse, at_rest: &AtRest, dynamics: &Dynamics) -> Result<Self> {
-        let values = requested.values(&at_rest.robot, &at_rest.equilibrium, dynamics)?;
+        let AtRest { robot, equilibrium, .. } = &*at_rest.vibrating();
+        let values = requested.values(robot, equilibrium, dynamics)?;
         if let Some((hz, _)) = requested.at_hz.iter().zip(&values).find(|(_, value)| value.norm() < f64::MIN_POSITIVE) {
             bail!(
                 "the response at {hz} Hz is zero, and has no decibels: choose another ⟪input⟫ or ⟪output⟫, or leave \

@@ -48,8 +48,9 @@ pub(super) fn values(
 ) -> Vec<f64> {
     let modes = kinds.iter().filter_map(|kind| kind.mode()).max().map_or(0, |last| last + 1);
     let is_unstable = matches!(rest.stability, Stability::Unstable { .. });
+    let (stiffer, vibrating) = rest.with_dynamic_stiffness(robot);
     let found = (modes > 0 && !is_unstable)
-        .then(|| modes::lowest(robot, rest, linearisation, modes, crate::request::MAX_HZ).ok())
+        .then(|| modes::lowest(&stiffer, &vibrating, linearisation, modes, crate::request::MAX_HZ).ok())
         .flatten();
     let needs_damping = kinds.iter().any(|kind| matches!(kind, Measure::Damping(_)));
     let damped = found
@@ -57,7 +58,8 @@ pub(super) fn values(
         .filter(|_| needs_damping)
         .map(|(dynamics, found)| modes::damped::damped_modes(dynamics, found).modes);
 
-    let of_responses = responses.filter(|_| !is_unstable).and_then(|of| of.changes(robot, rest, linearisation));
+    let of_responses =
+        responses.filter(|_| !is_unstable).and_then(|of| of.changes(&stiffer, &vibrating, linearisation));
 
     let value = |kind: &Measure| match *kind {
         Measure::Response(hz, part) => {
