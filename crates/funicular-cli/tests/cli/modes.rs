@@ -167,3 +167,28 @@ fn a_platform_on_few_rigid_cables_swings_in_the_motions_that_they_leave_free() {
         assert!(output.status.code() == Some(2) && stderr(&output).contains(says), "{more}: {}", stderr(&output));
     }
 }
+
+/// A second stiffness for vibration: equilibria keep the first, frequencies follow it, also those of sampled robots, and
+/// what differentiates vibration says that it does not.
+#[test]
+fn a_second_stiffness_moves_the_frequencies_and_not_the_equilibrium() {
+    let cogiro = robot("cogiro.toml");
+    let stiffer = ["--set", "materials.wire-rope-4mm.dynamic_axial_stiffness_n=1.2e6"];
+    let with = |line: &[&str]| json(&[line, &stiffer].concat());
+    assert_eq!(json(&["statics", &cogiro])["cables"], with(&["statics", &cogiro])["cables"]);
+
+    let modes = ["modes", &cogiro, "--below-hz", "8"];
+    let platform = |value: &serde_json::Value| number(&value["first_platform_mode"]["frequency_hz"]);
+    let ratio = platform(&with(&modes)) / platform(&json(&modes));
+    // 96 % of the stiffness of this mode is stretch: √(1 + 0.96 (1200/820.51 − 1)).
+    assert!((ratio - 1.2015).abs() < 3e-3, "{ratio}");
+
+    let of = ["--deviations", "materials.wire-rope-4mm.dynamic_axial_stiffness_n=10%", "--of", "frequencies"];
+    let sampled = with(&[&["uncertainty", &cogiro, "--below-hz", "6", "--samples", "40"][..], &of].concat());
+    let deviates = |row: &serde_json::Value| row["deviation"].as_f64().is_some_and(|deviation| deviation > 0.1);
+    assert!(sampled["poses"][0]["results"].as_array().unwrap().iter().any(deviates), "{sampled}");
+
+    let refused = run(&[&["gradient", &cogiro, "--below-hz", "5"][..], &stiffer].concat());
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("has a second one for vibration"), "{}", stderr(&refused));
+}
