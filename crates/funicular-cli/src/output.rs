@@ -236,17 +236,21 @@ impl Sink {
                         }
                     }
                 } else {
-                    let mut table = csv::Writer::from_writer(bytes);
-                    let ResultTable { columns, mut rows } = results.table();
-                    table.write_record(columns.iter().map(|column| &column.name))?;
-                    rows.try_for_each(|row| table.serialize(row))?;
-                    bytes = table.into_inner().map_err(|error| anyhow!("{}", error.error()))?;
+                    bytes = as_csv(results.table())?;
                 }
             }
         }
 
         Ok(bytes)
     }
+}
+
+/// Table as CSV with a header.
+pub(crate) fn as_csv(ResultTable { columns, mut rows }: ResultTable<'_>) -> Result<Vec<u8>> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    table.write_record(columns.iter().map(|column| &column.name))?;
+    rows.try_for_each(|row| table.serialize(row))?;
+    table.into_inner().map_err(|error| anyhow!("{}", error.error()))
 }
 
 fn as_json<R: Printed>(out: &mut Vec<u8>, results: &R) -> Result<(), NoSolution> {

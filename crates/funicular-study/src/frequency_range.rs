@@ -21,8 +21,8 @@ pub const LOWEST: usize = 20;
 /// Default end of a response over the frequency of the platform's first mode.
 const BEYOND_PLATFORM: f64 = 1.5;
 
-/// Default limit of the modes that take part in the sway of the platform over its highest frequency: modes that veer with
-/// cables lie a few per cent above it.
+/// Default limit of the modes that take part in the sway of the platform over its highest frequency: modes that veer
+/// with cables lie a few per cent above it.
 const BEYOND_SWAY: f64 = 1.2;
 
 /// Maximum number of modes below that limit: their damped list takes some seconds.
@@ -69,8 +69,8 @@ impl AtRest {
         Ok(first.map_or(limit, |hz| limit.max(rounded_up(BEYOND_PLATFORM * hz))))
     }
 
-    /// Limit [Hz] of the modes that take part in the sway of the platform: above all frequencies of the platform on cables
-    /// that follow it as at rest, unless there are too many modes below it.
+    /// Limit [Hz] of the modes that take part in the sway of the platform: above all frequencies of the platform on
+    /// cables that follow it as at rest, unless there are too many modes below it.
     pub(crate) fn sway_limit(&self, linearisation: Linearisation) -> Result<f64> {
         let limit = self.response_limit(linearisation)?;
         let AtRest { robot, equilibrium, .. } = &*self.vibrating();

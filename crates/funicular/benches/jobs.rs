@@ -254,7 +254,8 @@ fn gradients(c: &mut Criterion) {
     });
 }
 
-/// Verdict, load factor and margin of a box of loads, one pose per iteration, from poses of CoGiRo whose dead load is held.
+/// Verdict, load factor and margin of a box of loads, one pose per iteration, from poses of CoGiRo whose dead load is
+/// held.
 fn load_factors(c: &mut Criterion) {
     let limits = TensionLimits { minimum: Some(50.0), maximum: Some(1500.0) };
     let mut robot =

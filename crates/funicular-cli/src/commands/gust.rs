@@ -15,8 +15,8 @@ impl Printed for Gusty {
         let turbulence = &self.turbulence;
         let three = |of: [f64; 3]| of.map(|part| significant(part, 3)).join(", ");
         format!(
-            "{}: response to gusts below {} Hz\n{}\nMean wind {x}, {y}, {z} m/s, `{}` gusts along, lateral, up: intensity \
-             {}, length scales {} m, decay of coherence {}.\n\n{outputs}\n{}\n\n{modes}\n{} of {} shown.\n",
+            "{}: response to gusts below {} Hz\n{}\nMean wind {x}, {y}, {z} m/s, `{}` gusts along, lateral, up: \
+             intensity {}, length scales {} m, decay of coherence {}.\n\n{outputs}\n{}\n\n{modes}\n{} of {} shown.\n",
             self.robot,
             significant(self.below_hz, 4),
             self.models.line(),
@@ -35,8 +35,8 @@ impl Printed for Gusty {
 fn about_extremes(found: &Gusty) -> String {
     let duration = significant(found.duration_s, 4);
     let columns = format!(
-        "Motions are about the equilibrium in the mean wind. Smallest and largest: expected values within {duration} s; \
-         slack: probability that the tension falls to zero in that time."
+        "Motions are about the equilibrium in the mean wind. Smallest and largest: expected values within {duration} \
+         s; slack: probability that the tension falls to zero in that time."
     );
     let dash = (found.outputs.iter().any(|row| row.peak.is_none())).then(|| {
         format!("A dash: fewer than ten crossings of the mean are expected in {duration} s; a longer time has a peak.")

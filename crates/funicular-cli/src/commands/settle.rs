@@ -3,7 +3,7 @@
 use super::analysis;
 use crate::args::SettleArgs;
 use crate::errors;
-use crate::output::{Content, Printed, Sink, Target};
+use crate::output::{Content, Printed, Sink, Target, as_csv};
 use crate::table::{Table, counted, decimals, significant};
 use anyhow::Result;
 use funicular_files::Guard;
@@ -27,32 +27,15 @@ pub(super) fn run(of: &SettleRequest, request: &Request, args: &SettleArgs, mut 
 
     let found = settle::run(robot, of)?;
     if let Some(commanded) = &found.commanded {
-        target.write(lengths_csv(commanded).as_bytes())?;
+        target.write(&as_csv(commanded.lengths_table())?)?;
         errors::note(&format!("wrote {}", path.display()));
     }
     sink.write(&found)
 }
 
-/// Lengths over time, one column per cable.
-fn lengths_csv(commanded: &Commanded) -> String {
-    let mut text = String::from("t_s");
-    for cable in &commanded.cables {
-        let _ = write!(text, ",unstrained_length_{cable}_m");
-    }
-    text.push('\n');
-    for row in &commanded.lengths {
-        let _ = write!(text, "{}", row.t_s);
-        for length in &row.unstrained_lengths_m {
-            let _ = write!(text, ",{length}");
-        }
-        text.push('\n');
-    }
-    text
-}
-
 impl Printed for Settled {
     fn text(&self) -> String {
-        let table = Table::of(&SettlingMode::columns(), self.modes.iter().take(SHOWN));
+        let table = Table::of(&SettlingMode::columns(&self.modes), self.modes.iter().take(SHOWN));
         let last = self.modes.iter().max_by(|a, b| a.settled_s.total_cmp(&b.settled_s));
         let last = last.filter(|mode| mode.settled_s > 0.0).map_or_else(String::new, |mode| {
             format!("; the mode at {} Hz lasts longest", decimals(mode.frequency_hz, 4))
@@ -64,8 +47,8 @@ impl Printed for Settled {
         };
         let shaping = self.commanded.as_ref().and_then(|commanded| commanded.shaping.as_ref());
         format!(
-            "{}: decay after {what}, modes below {} Hz\n{}\n\n{before}\nWithin {} mm for good after {} s; by the sum of all \
-             amplitudes after {} s{last}.\n{}\n{table}\n{} of {} shown.{}\n",
+            "{}: decay after {what}, modes below {} Hz\n{}\n\n{before}\nWithin {} mm for good after {} s; by the sum \
+             of all amplitudes after {} s{last}.\n{}\n{table}\n{} of {} shown.{}\n",
             self.robot,
             self.below_hz,
             self.models.line(),
@@ -100,7 +83,8 @@ fn of_release(held: &Held) -> String {
 fn of_command(of: &Commanded) -> String {
     let lowest = &of.lowest_tension;
     format!(
-        "The {} takes {} s; times are counted from its end. The lowest tension is {} N, in cable \"{}\" {} s after its start.",
+        "The {} takes {} s; times are counted from its end. The lowest tension is {} N, in cable \"{}\" {} s after its \
+         start.",
         of.command,
         significant(of.duration_s, 4),
         significant(lowest.tension_n, 4),
@@ -119,7 +103,8 @@ fn of_shaper(of: &Shaping, tolerance: f64) -> String {
         .map(|impulse| format!("{} at {} s", decimals(impulse.part, 4), decimals(impulse.t_s, 4)))
         .collect();
     let mut text = format!(
-        "Shaper {} for {} Hz, {} s longer: {}.\nWithout it: within {} mm for good {} s after an end that is {} s earlier.\n",
+        "Shaper {} for {} Hz, {} s longer: {}.\nWithout it: within {} mm for good {} s after an end that is {} s \
+         earlier.\n",
         of.shaper,
         modes.join(", "),
         significant(of.longer_s, 4),

@@ -168,8 +168,8 @@ fn a_platform_on_few_rigid_cables_swings_in_the_motions_that_they_leave_free() {
     }
 }
 
-/// A second stiffness for vibration: equilibria keep the first, frequencies follow it, also those of sampled robots, and
-/// what differentiates vibration says that it does not.
+/// A second stiffness for vibration: equilibria keep the first, frequencies follow it, also those of sampled robots,
+/// and what differentiates vibration says that it does not.
 #[test]
 fn a_second_stiffness_moves_the_frequencies_and_not_the_equilibrium() {
     let cogiro = robot("cogiro.toml");

@@ -84,7 +84,8 @@ fn a_shaper_makes_a_move_quiet() {
     let settled = |of: &serde_json::Value| number(&of["settled_s"]);
     assert!(settled(&shaped) < 0.1 * settled(&plain), "{} {}", settled(&shaped), settled(&plain));
 
-    // The command is longer by half a period of each mode; its two modes are silent, and what it says of the plain one holds.
+    // The command is longer by half a period of each mode; its two modes are silent, and what it says of the plain one
+    // holds.
     let shaping = &shaped["shaping"];
     let longer = number(&shaping["longer_s"]);
     assert!((longer - 0.5 / 1.0207 - 0.5 / 1.3571).abs() < 1e-3, "{longer}");
@@ -109,7 +110,8 @@ fn a_shaper_makes_a_move_quiet() {
     assert!(text.contains("decay after a move") && text.contains("Shaper zvd"), "{text}");
 }
 
-/// The lengths of a stop begin with the speed of inverse statics, end at rest at the lengths of the pose, and are smooth.
+/// The lengths of a stop begin with the speed of inverse statics, end at rest at the lengths of the pose, and are
+/// smooth.
 #[test]
 fn the_commanded_lengths_begin_at_speed_and_end_at_rest() {
     let folder = tempfile::tempdir().unwrap();

@@ -31,7 +31,8 @@ pub struct RequestFigure {
 }
 
 /// Makes the figure of a request: the robot at its equilibrium for `statics`, the spectrum or the shape of one mode for
-/// `modes`, magnitude and phase for `frf`, the decay for `settle`, the differences between the cable models for `compare`.
+/// `modes`, magnitude and phase for `frf`, the decay for `settle`, the differences between the cable models for
+/// `compare`.
 ///
 /// # Errors
 /// A command without a figure, a choice that does not fit the command, or the errors of the command.
@@ -54,8 +55,8 @@ pub fn of_request(
         }
         Request::Compare(of) => comparison(robot, of),
         other => bail!(
-            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `settle`, `compare` and `plot` write .svg and .pdf; \
-             give another ending",
+            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `settle`, `compare` and `plot` write .svg and \
+             .pdf; give another ending",
             other.command()
         ),
     }

@@ -175,8 +175,8 @@ fn turbulence(robot: &Robot, options: &TurbulenceOptions) -> Result<Turbulence> 
     let of_file = robot.turbulence.as_ref();
     let Some(spectrum) = options.turbulence.or(of_file.map(|of| of.spectrum)) else {
         bail!(
-            "the wind has no turbulence: give ⟪turbulence⟫, ⟪intensity⟫ and ⟪length_scale_m⟫, or these keys in [wind] of \
-             the robot file"
+            "the wind has no turbulence: give ⟪turbulence⟫, ⟪intensity⟫ and ⟪length_scale_m⟫, or these keys in [wind] \
+             of the robot file"
         );
     };
     let (Some(intensity), Some(length_scale)) = (
@@ -240,8 +240,8 @@ fn refuse_slack(AtRest { robot, equilibrium, .. }: &AtRest) -> Result<()> {
     slack.map_or(Ok(()), |i| {
         let name = &robot.cables[i].name;
         Err(NoSolution(format!(
-            "cable \"{name}\" is slack in the mean wind: it pulls in one direction only, and the linear response does not \
-             know that; choose a state without slack cables, or less wind"
+            "cable \"{name}\" is slack in the mean wind: it pulls in one direction only, and the linear response does \
+             not know that; choose a state without slack cables, or less wind"
         ))
         .into())
     })

@@ -11,6 +11,7 @@ use crate::table::Column;
 use anyhow::{Result, bail};
 use funicular::robot::{Pose, Robot, State};
 use funicular::statics::{self, LoadCapacity, LoadFactor, WrenchClosure};
+use funicular::warnings;
 use serde::Serialize;
 
 /// Results of `loads`.
@@ -101,7 +102,7 @@ pub fn run(robot: Robot, request: &LoadsRequest) -> Result<Loads> {
         platform_length_m: robot.platform_length(),
         acceleration_max_m_s2: finite(capacity.largest_acceleration()),
         required,
-        warnings: Vec::new(),
+        warnings: warnings::of_robot(&robot).iter().map(ToString::to_string).collect(),
     })
 }
 

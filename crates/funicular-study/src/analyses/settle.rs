@@ -102,7 +102,8 @@ pub struct LengthsRow {
 pub struct SettlingMode {
     pub frequency_hz: f64,
     pub damping_ratio: f64,
-    /// Amplitude at the release or the end of the command: half of the long axis of the ellipse on which the point moves.
+    /// Amplitude at the release or the end of the command: half of the long axis of the ellipse on which the point
+    /// moves.
     pub amplitude_m: f64,
     /// Amplitude without the shaper; absent without one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -129,14 +130,15 @@ const MAX_POINTS: f64 = 20_000.0;
 const SMALL: f64 = 1e-3;
 
 /// Least relative change of the frequency of the platform on the way for which the linear motion about the end is in
-/// doubt. A move of 0.18 m of the robot of Yuan 2014 has the right amplitude then, and a history that is wrong by a quarter.
+/// doubt. A move of 0.18 m of the robot of Yuan 2014 has the right amplitude then, and a history that is wrong by a
+/// quarter.
 const FREQUENCIES_DIFFER: f64 = 0.1;
 
 /// Computes the decay after a release, a stop or a move.
 ///
 /// # Errors
-/// A request without any of these or with several, a robot without such an equilibrium, a slack cable, an equilibrium to
-/// which nothing returns, or modes whose decay has no closed form.
+/// A request without any of these or with several, a robot without such an equilibrium, a slack cable, an equilibrium
+/// to which nothing returns, or modes whose decay has no closed form.
 pub fn run(robot: Robot, request: &SettleRequest) -> Result<Settled> {
     checked(request)?;
     about(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request)
@@ -158,7 +160,8 @@ pub fn about(at_rest: &AtRest, request: &SettleRequest) -> Result<Settled> {
 
     let (decay, tolerance) = (&moved.decay, request.tolerance_m);
     let surely_settled_s = decay.surely_settled(tolerance);
-    let history = history(decay, surely_settled_s);
+    let without_s = moved.without.as_ref().map_or(0.0, |decay| decay.surely_settled(tolerance));
+    let history = history(decay, surely_settled_s.max(without_s));
     let distance = |row: &HistoryRow| Vec3::new(row.x_m, row.y_m, row.z_m).norm();
     let held = moved.held.as_ref().map_or(0.0, |held| Vec3::from(held.held_m).norm());
     Ok(Settled {
@@ -237,7 +240,8 @@ impl<'a> Swing<'a> {
     fn after_command(&self, command: &Command, request: &SettleRequest, warnings: &mut Vec<String>) -> Result<Moved> {
         if self.linearisation.cable_model != CableModel::CatenaryDynamic {
             bail!(
-                "the cable model `{}` has no length that is commanded: a stop and a move need `catenary-dynamic`, the default",
+                "the cable model `{}` has no length that is commanded: a stop and a move need `catenary-dynamic`, the \
+                 default",
                 self.linearisation.cable_model.name()
             );
         }
@@ -281,8 +285,9 @@ impl<'a> Swing<'a> {
         let differs = pair.filter(|(from, to)| (from / to - 1.0).abs() > FREQUENCIES_DIFFER);
         Ok(differs.map(|(from, to)| {
             format!(
-                "the frequency of the platform is {from:.4} Hz at the start of the motion and {to:.4} Hz at its end, where the \
-                 motion is linear: amplitudes have the right size, the history does not; a shaper is made for the end"
+                "the frequency of the platform is {from:.4} Hz at the start of the motion and {to:.4} Hz at its end, \
+                 where the motion is linear: amplitudes have the right size, the history does not; a shaper is made \
+                 for the end"
             )
         }))
     }
@@ -311,8 +316,8 @@ fn checked(request: &SettleRequest) -> Result<()> {
     }
     match CommandKind::of(request) {
         None if !moves(release) => bail!(
-            "nothing is released: give the force ⟪release_n⟫, as 0,0,-20, or the moment ⟪release_n_m⟫; or a motion that ends, \
-             ⟪stop_m_s⟫ or ⟪move_m⟫"
+            "nothing is released: give the force ⟪release_n⟫, as 0,0,-20, or the moment ⟪release_n_m⟫; or a motion \
+             that ends, ⟪stop_m_s⟫ or ⟪move_m⟫"
         ),
         None => command::refuse_for_release(request),
         Some(CommandKind::Stop) if !moves(stop) => {
@@ -397,9 +402,27 @@ impl HistoryRow {
     }
 }
 
+impl Commanded {
+    /// Table of the commanded lengths over time.
+    pub fn lengths_table(&self) -> ResultTable<'_> {
+        let columns = Columns::new([
+            column("t_s", "s", "time since the start of the command", |row: &LengthsRow| row.t_s),
+            parts(
+                "unstrained_length_{}_m",
+                &self.cables,
+                "m",
+                "commanded unstrained length of cable {}",
+                |row: &LengthsRow| row.unstrained_lengths_m.clone(),
+            ),
+        ]);
+        ResultTable::new(columns, &self.lengths)
+    }
+}
+
 impl SettlingMode {
     /// Columns of the modes that take part.
-    pub fn columns() -> Columns<Self> {
+    pub fn columns(modes: &[Self]) -> Columns<Self> {
+        let is_shaped = modes.iter().any(|mode| mode.amplitude_without_m.is_some());
         Columns::new([
             column("frequency_hz", "Hz", "frequency of the damped mode", |mode: &Self| mode.frequency_hz)
                 .decimals("f", "Hz", 4),
@@ -415,7 +438,8 @@ impl SettlingMode {
             column("amplitude_without_m", "m", "amplitude without the shaper", |mode: &Self| mode.amplitude_without_m)
                 .shown("without shaper", "mm", |mode, style| {
                     mode.amplitude_without_m.map_or_else(String::new, |size| style.significant(1e3 * size, 3))
-                }),
+                })
+                .read_if(is_shaped),
             column("settled_s", "s", "time in which this amplitude alone falls to the tolerance", |mode: &Self| {
                 mode.settled_s
             })

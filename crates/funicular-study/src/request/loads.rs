@@ -7,7 +7,8 @@ use anyhow::Result;
 use funicular::robot::LoadShape;
 
 declared! {
-    /// Loads that the robot has to bear in addition to the dead load; they replace those of [required] in the robot file.
+    /// Loads that the robot has to bear in addition to the dead load; they replace those of [required] in the robot
+    /// file.
     #[derive(Copy)]
     pub struct Requirements {
         /// Largest required force, both ways along each world axis [N].
@@ -60,7 +61,8 @@ impl Requirements {
 }
 
 declared! {
-    /// Loads that the cables hold at a pose, compared with the required ones: verdict, load factor, what binds, margins.
+    /// Loads that the cables hold at a pose, compared with the required ones: verdict, load factor, what binds,
+    /// margins.
     ///
     /// All tensions within the limits count, not only those of a tension rule.
     pub struct LoadsRequest {

@@ -106,10 +106,11 @@ declared! {
 }
 
 declared! {
-    /// How a point of the platform swings after a release, a stop or a move, when it has settled, and input shapers against it.
+    /// How a point of the platform swings after a release, a stop or a move, when it has settled, and input shapers
+    /// against it.
     ///
-    /// The state is that at the end: the rest after the release, the pose at which the stop or the move ends. The motion is
-    /// linear about it.
+    /// The state is that at the end: the rest after the release, the pose at which the stop or the move ends. The
+    /// motion is linear about it.
     pub struct SettleRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
@@ -125,11 +126,12 @@ declared! {
         move_m: Option<[f64; 3]> = None => (Vector).otherwise("none");
         /// Rotation vector of the platform from rest to rest, world axes [degrees].
         move_deg: Option<[f64; 3]> = None => (Vector).otherwise("none");
-        /// Times of the stop or the move [s], each at most the one before: from the begin of the acceleration to that of the
-        /// deceleration (for a stop the deceleration itself), of each acceleration, and of each change of the acceleration.
-        /// The command takes their sum; without them a stop is sudden.
+        /// Times of the stop or the move [s], each at most the one before: from the begin of the acceleration to that
+        /// of the deceleration (for a stop the deceleration itself), of each acceleration, and of each change of the
+        /// acceleration. The command takes their sum; without them a stop is sudden.
         profile_s: Option<Vec<f64>> = None => (Commas(ProgramForm::NotNegative)).form("T1[,T2[,T3]]").otherwise("none");
-        /// Input shaper of the stop or the move: zv, zvd, or ei:V, which leaves the fraction V of a vibration, as in ei:0.05.
+        /// Input shaper of the stop or the move: zv, zvd, or ei:V, which leaves the fraction V of a vibration, as in
+        /// ei:0.05.
         shaper: Option<String> = None => (Text).form("zv|zvd|ei:V").otherwise("none");
         /// Natural frequencies of the modes whose vibration the shaper cancels [Hz].
         shape_modes_hz: Option<Vec<f64>> = None => (Commas(ProgramForm::Positive)).form("F1,F2,…")
@@ -170,8 +172,8 @@ declared! {
     pub struct GustRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Output, see `frf`: a motion of the platform or of a point on a cable, or the tension at the platform, tension:3
-        /// (repeatable).
+        /// Output, see `frf`: a motion of the platform or of a point on a cable, or the tension at the platform,
+        /// tension:3 (repeatable).
         output: Vec<String> = Vec::new() =>
             (List(ProgramForm::Output)).form("OUTPUT").otherwise("all displacements and rotations of the platform, and all tensions");
         /// Point of the platform whose motion is measured, platform frame [m].

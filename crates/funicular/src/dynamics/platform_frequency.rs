@@ -7,8 +7,9 @@ use std::f64::consts::TAU;
 impl Dynamics {
     /// Lowest natural frequency of the platform if each cable follows it in the shape of slow motion, with the share of
     /// its mass that then moves [Hz]. It changes continuously from pose to pose, also where the first mode of the
-    /// platform veers with modes of the cables: its square is the mean of the squares of all natural frequencies, weighted
-    /// by the kinetic energy that each mode has in this motion. So it is not below the lowest natural frequency.
+    /// platform veers with modes of the cables: its square is the mean of the squares of all natural frequencies,
+    /// weighted by the kinetic energy that each mode has in this motion. So it is not below the lowest natural
+    /// frequency.
     ///
     /// `None` if some motion has no mass or no positive stiffness. The mass of flexible supports is left out.
     ///

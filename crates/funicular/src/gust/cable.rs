@@ -8,8 +8,8 @@ use crate::dynamics::{CableBlocks, Dynamics};
 use crate::math::{CDMat, Complex, DMat, DVec, Mat3, Vec3, Vec6, legendre};
 use crate::reduced_model::{CoordinateLayout, Matrices};
 
-/// Cells of a cable. With 16 the r.m.s. values of a robot over a stadium differ by up to 3e-4 from those with 48, tensions by
-/// 8e-4.
+/// Cells of a cable. With 16 the r.m.s. values of a robot over a stadium differ by up to 3e-4 from those with 48,
+/// tensions by 8e-4.
 pub(super) const CELLS: usize = 16;
 
 /// Points of the Gauss rule in a cell: shapes with fewer than three half waves per cell are integrated to 1e-3.

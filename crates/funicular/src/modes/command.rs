@@ -1,7 +1,8 @@
 //! What commanded lengths leave behind: free motions after a move, a stop, or any table of lengths.
 //!
 //! The response to lengths is its static value and a sum over the poles, each driven by the rates of the lengths:
-//! `(R_k/λ_k) ∫ ℓ̇ e^{λ_k(t−τ)} dτ` (docs/theory.md, equation (46i)). R_k has the row of the length command at the pole.
+//! `(R_k/λ_k) ∫ ℓ̇ e^{λ_k(t−τ)} dτ` (docs/theory.md, equation (46i)). R_k has the row of the length command at the
+//! pole.
 
 use super::Modes;
 use super::damped::DampedModes;
@@ -146,8 +147,8 @@ impl CommandedMotion {
     }
 }
 
-/// Product of a free motion with the row of a signal of cable `i` at its complex frequency: platform and supports move, and
-/// what lies between them follows.
+/// Product of a free motion with the row of a signal of cable `i` at its complex frequency: platform and supports move,
+/// and what lies between them follows.
 fn signal_at(dynamics: &Dynamics, free: &PoleMotion, i: usize, signal: DriveSignal) -> Option<Complex> {
     let t = dynamics.terms().iter().position(|term| term.cable() == i)?;
     let (term, omega) = (&dynamics.terms()[t], free.omega);
@@ -186,8 +187,8 @@ impl CommandedMotions {
         Decay { motions }
     }
 
-    /// Difference of the point from the static place of the lengths at each of several times since the start of a command
-    /// [s], ascending; world axes [m].
+    /// Difference of the point from the static place of the lengths at each of several times since the start of a
+    /// command [s], ascending; world axes [m].
     pub fn beside_static(&self, command: &LengthCommand, times: &[f64]) -> Vec<Vec3> {
         let mut found = vec![Vec3::zeros(); times.len()];
         for motion in &self.motions {
@@ -199,9 +200,10 @@ impl CommandedMotions {
         found
     }
 
-    /// Difference of the tension of each cable at the platform from that of the lengths at rest, at each of several times
-    /// since the start of a command [s], ascending [N]. The force that moves the ropes themselves during the command is
-    /// left out: at most their mass times the acceleration of their lengths, and their damping times its rate.
+    /// Difference of the tension of each cable at the platform from that of the lengths at rest, at each of several
+    /// times since the start of a command [s], ascending [N]. The force that moves the ropes themselves during the
+    /// command is left out: at most their mass times the acceleration of their lengths, and their damping times its
+    /// rate.
     pub fn tensions_beside_static(&self, command: &LengthCommand, times: &[f64]) -> Vec<Vec<f64>> {
         let cables = self.motions.first().map_or(0, |motion| motion.tensions.len());
         let mut found = vec![vec![0.0; cables]; times.len()];

@@ -38,14 +38,14 @@ pub enum DecayError {
     NoLength(usize),
     /// A mode does not oscillate.
     #[error(
-        "motions that are damped so strongly that they do not oscillate ({0}) have no place in the closed form of a decay: \
-         give winches and platform less damping"
+        "motions that are damped so strongly that they do not oscillate ({0}) have no place in the closed form of a \
+         decay: give winches and platform less damping"
     )]
     Overdamped(usize),
     /// A mode does not decay.
     #[error(
-        "the mode at {frequency_hz:.4} Hz does not decay: give the ropes `damping_ratio` and `axial_loss_factor`, or the \
-         platform `translational_damping_n_s_m`"
+        "the mode at {frequency_hz:.4} Hz does not decay: give the ropes `damping_ratio` and `axial_loss_factor`, or \
+         the platform `translational_damping_n_s_m`"
     )]
     NoDecay {
         /// Frequency [Hz].

@@ -1,14 +1,14 @@
-//! Course of a commanded change over time: boxes convolved with each other, which bound rate, acceleration and jerk, and
-//! the impulses of a shaper (docs/theory.md, equation (46j)).
+//! Course of a commanded change over time: boxes convolved with each other, which bound rate, acceleration and jerk,
+//! and the impulses of a shaper (docs/theory.md, equation (46j)).
 
 use super::shaper::{Impulse, Shaper};
 use crate::math::Complex;
 
 /// Course over time of a change from nothing to all of it, from t = 0 on.
 ///
-/// The rate is a chain of unit boxes, convolved: the longest is the time from the beginning of the acceleration to that of
-/// the deceleration, the second the time of each acceleration, the third that of each change of the acceleration. Without boxes the
-/// change is a step.
+/// The rate is a chain of unit boxes, convolved: the longest is the time from the beginning of the acceleration to that
+/// of the deceleration, the second the time of each acceleration, the third that of each change of the acceleration.
+/// Without boxes the change is a step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     /// Durations of the boxes [s], all positive.
@@ -17,8 +17,8 @@ pub struct Profile {
     impulses: Vec<Impulse>,
 }
 
-/// Magnitude of x up to which a series gives `(eˣ − 1)/x` and its successors: the closed form has lost two digits there, and
-/// [`TERMS`] terms of the series leave 1e-19.
+/// Magnitude of x up to which a series gives `(eˣ − 1)/x` and its successors: the closed form has lost two digits
+/// there, and [`TERMS`] terms of the series leave 1e-19.
 const SMALL: f64 = 0.5;
 const TERMS: u32 = 16;
 

@@ -1,5 +1,5 @@
-//! Input shapers: a command is split into a few parts that follow each other, so that the vibrations that they excite in
-//! one mode cancel (docs/theory.md, equations (46l) and (46m)).
+//! Input shapers: a command is split into a few parts that follow each other, so that the vibrations that they excite
+//! in one mode cancel (docs/theory.md, equations (46l) and (46m)).
 
 use crate::math::Complex;
 use std::f64::consts::TAU;
@@ -20,8 +20,8 @@ pub enum ShaperKind {
     Zv,
     /// No vibration and no slope of it over the frequency: three impulses over a period.
     Zvd,
-    /// At the frequency of the mode this fraction of the vibration, and as little over a wider range of frequencies: three
-    /// impulses over a period.
+    /// At the frequency of the mode this fraction of the vibration, and as little over a wider range of frequencies:
+    /// three impulses over a period.
     Ei(f64),
 }
 
@@ -42,7 +42,8 @@ impl Shaper {
         Self { impulses: vec![Impulse { time: 0.0, amplitude: 1.0 }] }
     }
 
-    /// Shaper for a damped mode with the complex frequency ω [rad/s], λ = iω; `None` for a motion that does not oscillate.
+    /// Shaper for a damped mode with the complex frequency ω [rad/s], λ = iω; `None` for a motion that does not
+    /// oscillate.
     pub fn of_mode(kind: ShaperKind, omega: Complex) -> Option<Self> {
         if omega.re <= 0.0 || !omega.re.is_finite() {
             return None;
@@ -77,8 +78,8 @@ impl Shaper {
         self.impulses.iter().map(|impulse| impulse.time).fold(0.0, f64::max)
     }
 
-    /// Part of the vibration of a mode with the complex frequency ω [rad/s] that is left at the end of the shaper, relative
-    /// to that of the same command without it at its own end, which is earlier.
+    /// Part of the vibration of a mode with the complex frequency ω [rad/s] that is left at the end of the shaper,
+    /// relative to that of the same command without it at its own end, which is earlier.
     pub fn left(&self, omega: Complex) -> f64 {
         self.at_end(Complex::i() * omega).norm()
     }

@@ -22,7 +22,8 @@ pub struct RequiredLoads {
     pub acceleration_w: Vec3,
     /// Half widths of the angular acceleration from rest, world axes [rad/s²], not negative.
     pub angular_acceleration_w: Vec3,
-    /// Speed of wind from any horizontal direction on the platform [m/s]; its force is added to that of the robot's wind.
+    /// Speed of wind from any horizontal direction on the platform [m/s]; its force is added to that of the robot's
+    /// wind.
     pub wind_speed: f64,
 }
 

@@ -53,12 +53,12 @@ pub struct LoadCapacity<'a> {
 }
 
 impl<'a> LoadCapacity<'a> {
-    /// Capacity at a pose for the required loads of the robot. `start` is an equilibrium of the robot at the pose, if it
-    /// is known; it saves time.
+    /// Capacity at a pose for the required loads of the robot. `start` is an equilibrium of the robot at the pose, if
+    /// it is known; it saves time.
     ///
     /// # Errors
-    /// [`StaticsError`]: fewer cables than degrees of freedom, a pose that the platform cannot have, coinciding ends, or
-    /// limits that exclude each other. A dead load beyond the limits is no error here.
+    /// [`StaticsError`]: fewer cables than degrees of freedom, a pose that the platform cannot have, coinciding ends,
+    /// or limits that exclude each other. A dead load beyond the limits is no error here.
     pub fn at(
         robot: &'a Robot,
         pose: &Pose,
@@ -111,9 +111,9 @@ impl<'a> LoadCapacity<'a> {
     }
 
     /// Capacity margin [N]: radius of the largest ball of wrenches, moments over ℓ, that the cables hold in addition to
-    /// every required load. Negative if a required load is not held; its magnitude is then a lower bound of the distance.
-    /// `None` if the cables do not span all degrees of freedom or are too many. Sagging cables count with the convex hull
-    /// of their curves, in the directions of the facets of straight ones.
+    /// every required load. Negative if a required load is not held; its magnitude is then a lower bound of the
+    /// distance. `None` if the cables do not span all degrees of freedom or are too many. Sagging cables count with the
+    /// convex hull of their curves, in the directions of the facets of straight ones.
     ///
     /// # References
     /// docs/theory.md, equation (40h).

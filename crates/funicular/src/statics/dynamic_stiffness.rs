@@ -1,7 +1,7 @@
 //! Ropes that are stiffer in vibration than under a slow load: the robot that vibrates about an equilibrium.
 //!
-//! In vibration such a rope behaves about its tension like a rope with the dynamic stiffness that has this tension at the
-//! same ends and the same mass. Its unstrained length and what it has per unstrained length follow from that
+//! In vibration such a rope behaves about its tension like a rope with the dynamic stiffness that has this tension at
+//! the same ends and the same mass. Its unstrained length and what it has per unstrained length follow from that
 //! (docs/theory.md, equations (27h) to (27j)). Every analysis of vibration then needs one axial stiffness only.
 
 use super::collect::with_stability;

@@ -48,8 +48,8 @@ fn the_robot_that_vibrates_has_the_tensions_of_the_equilibrium() {
     }
 }
 
-/// Tensions of six cables on a free platform follow from balance alone. So a robot whose ropes have the higher stiffness
-/// from the beginning has the same tensions at the same pose, and vibrates alike.
+/// Tensions of six cables on a free platform follow from balance alone. So a robot whose ropes have the higher
+/// stiffness from the beginning has the same tensions at the same pose, and vibrates alike.
 #[test]
 fn a_robot_of_one_stiffness_at_the_same_pose_vibrates_alike() {
     for text in [funicular_robots::YUAN2014_4MM, funicular_robots::YUAN2014_DYNAMIC_TEST] {

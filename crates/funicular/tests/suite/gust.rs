@@ -1,4 +1,5 @@
-//! Response to gusts: spectra, coherence, limits with closed forms, another program's numbers, and a simulation in time.
+//! Response to gusts: spectra, coherence, limits with closed forms, another program's numbers, and a simulation in
+//! time.
 
 use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::dynamics::{Dynamics, Linearisation};
@@ -264,8 +265,8 @@ fn gusts_on_one_straight_cable_have_the_admittance_of_a_line() {
         // ∫∫ x x' e^{−b|x − x'|} over the square, over its value 1/4 for b = 0.
         let line = 4.0 * 2.0 * (b.powi(3) / 3.0 - 0.5 * b * b + 1.0 - (1.0 + b) * (-b).exp()) / b.powi(4);
         let found = density([0.0, 10.0, 10.0], hz) / density([0.0; 3], hz);
-        // The sum over cells knows the interior of a long line; at its end, where the load is 1, it lacks 1/(6·16²) of the
-        // square of the load, whose coherent value is 1/4.
+        // The sum over cells knows the interior of a long line; at its end, where the load is 1, it lacks 1/(6·16²) of
+        // the square of the load, whose coherent value is 1/4.
         assert!((found - line).abs() < 4.0 / (6.0 * 256.0), "{hz} Hz, b = {b}: {found} {line}");
     }
 }

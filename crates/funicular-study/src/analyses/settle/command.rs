@@ -1,4 +1,5 @@
-//! Motions of the platform that the lengths command, a stop or a move: rates, lengths along the path, and tensions on it.
+//! Motions of the platform that the lengths command, a stop or a move: rates, lengths along the path, and tensions on
+//! it.
 
 use super::LengthsRow;
 use crate::at_rest::{AtRest, check_pose};
@@ -43,8 +44,8 @@ pub struct LowestTension {
     pub tension_n: f64,
 }
 
-/// Displacement for the derivative of the lengths, relative to the longest cable: the error of the central difference is a
-/// sixth of its square, that of the equilibria about 1e-12 over it.
+/// Displacement for the derivative of the lengths, relative to the longest cable: the error of the central difference
+/// is a sixth of its square, that of the equilibria about 1e-12 over it.
 const STEP: f64 = 1e-4;
 
 /// Equilibria along a path for its static tensions; between them lie straight lines.
@@ -148,8 +149,8 @@ impl<'a> Command<'a> {
         Ok(Some(command))
     }
 
-    /// Change of each length per unit of the motion at its end [m or m/s]: of inverse statics with the tension rule, so that
-    /// sag and tensions follow.
+    /// Change of each length per unit of the motion at its end [m or m/s]: of inverse statics with the tension rule, so
+    /// that sag and tensions follow.
     fn rates(&self) -> Result<Vec<f64>> {
         let cables = &self.at_rest.equilibrium.cables;
         let longest = cables.iter().map(|cable| cable.unstrained_length).fold(0.0, f64::max);
@@ -213,14 +214,15 @@ impl<'a> Command<'a> {
     /// Lengths at equal steps of time, from the start to the end [m].
     ///
     /// # Errors
-    /// Too many samples, lengths of the state that the tension rule does not give, or a pose that the cables cannot hold.
+    /// Too many samples, lengths of the state that the tension rule does not give, or a pose that the cables cannot
+    /// hold.
     pub(super) fn sampled(&self, step: f64) -> Result<Vec<LengthsRow>> {
         let end = self.profile.duration();
         let count = (end / step - ROUNDING).ceil().max(0.0);
         if count > MAX_SAMPLES {
             bail!(
-                "⟪sample_time_s⟫ {step} gives {count} samples of the lengths, and at most {MAX_SAMPLES} are computed: give a \
-                 longer time"
+                "⟪sample_time_s⟫ {step} gives {count} samples of the lengths, and at most {MAX_SAMPLES} are computed: \
+                 give a longer time"
             );
         }
         self.check_rest()?;
@@ -244,8 +246,8 @@ impl<'a> Command<'a> {
         };
         let Some((i, by_rule, held)) = pairs.enumerate().find_map(differs) else { return Ok(()) };
         bail!(
-            "cable \"{}\" is {} m long at rest, and the rule of tensions gives {} m at the same pose: the lengths of a motion \
-             follow from poses by this rule; give ⟪pose⟫, or leave out ⟪sample_time_s⟫",
+            "cable \"{}\" is {} m long at rest, and the rule of tensions gives {} m at the same pose: the lengths of a \
+             motion follow from poses by this rule; give ⟪pose⟫, or leave out ⟪sample_time_s⟫",
             self.at_rest.robot.cables[i].name,
             significant(held, 6),
             significant(by_rule, 6)
@@ -277,9 +279,9 @@ impl<'a> Command<'a> {
         let cable = self.at_rest.robot.cables[i].name.clone();
         if tension_n <= 0.0 {
             return Err(NoSolution(format!(
-                "cable \"{cable}\" becomes slack {} s after the start of the motion: its tension would be {} N, and a cable \
-                 pulls in one direction only. The linear motion does not know that; only a simulation in time can tell what \
-                 happens. Move more slowly: give longer times in ⟪profile_s⟫, or more tension",
+                "cable \"{cable}\" becomes slack {} s after the start of the motion: its tension would be {} N, and a \
+                 cable pulls in one direction only. The linear motion does not know that; only a simulation in time \
+                 can tell what happens. Move more slowly: give longer times in ⟪profile_s⟫, or more tension",
                 significant(t_s, 3),
                 significant(tension_n, 3)
             ))

@@ -8,7 +8,8 @@ use funicular::robot::Pose;
 use funicular::statics::{self, StaticModel};
 
 /// Relative difference of the linear displacement from that of the equilibrium under the wrench from which on linear
-/// motion is in doubt. A release of 1.95 kg from the robot of Yuan 2014 has 0.19, and its linear history is wrong by 0.18.
+/// motion is in doubt. A release of 1.95 kg from the robot of Yuan 2014 has 0.19, and its linear history is wrong by
+/// 0.18.
 const NOT_LINEAR: f64 = 0.1;
 
 /// Equilibrium under the wrench, before the release.
@@ -53,8 +54,8 @@ impl UnderWrench {
     pub(super) fn caveat(&self, linear: &Vec3) -> Option<String> {
         let Some((exact, slack)) = &self.found else {
             return Some(
-                "there is no equilibrium with this force or moment at these lengths: the linear motion after its release \
-                 is not what happens; release less"
+                "there is no equilibrium with this force or moment at these lengths: the linear motion after its \
+                 release is not what happens; release less"
                     .to_owned(),
             );
         };

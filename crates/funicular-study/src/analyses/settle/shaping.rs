@@ -77,7 +77,8 @@ pub(super) fn kind(request: &SettleRequest) -> Result<Option<ShaperKind>> {
             let vibration: f64 = other.strip_prefix("ei:").and_then(|v| v.parse().ok()).ok_or_else(refused)?;
             if !(vibration > 0.0 && vibration < 1.0) {
                 bail!(
-                    "⟪shaper⟫ `{text}`: the vibration that may be left is {vibration}; give a fraction between 0 and 1, as in ei:0.05"
+                    "⟪shaper⟫ `{text}`: the vibration that may be left is {vibration}; give a fraction between 0 and \
+                     1, as in ei:0.05"
                 );
             }
             ShaperKind::Ei(vibration)

@@ -47,10 +47,10 @@ pub(super) static TABLE: &[Definition] = &[
         name: "platform-frequency",
         about: "lowest frequency of the platform on cables that follow it as at rest; smooth from pose to pose",
         documentation: "`platform_frequency_hz`: lowest frequency of the platform if each cable follows it in the shape \
-                        of slow motion, with the share of its mass that then moves. It is smooth from pose to pose. Its \
-                        square is the mean of the squares of all natural frequencies, weighted by the kinetic energy \
-                        that each mode has in this motion: beside a mode of the cables it lies between the frequencies \
-                        of the pair (theory, equations (35d) and (35e))",
+                        of slow motion, with the share of its mass that then moves. It is smooth from pose to pose. \
+                        Its square is the mean of the squares of all natural frequencies, weighted by the kinetic \
+                        energy that each mode has in this motion: beside a mode of the cables it lies between the \
+                        frequencies of the pair (theory, equations (35d) and (35e))",
         needs: RequiredModel::Elastic,
         columns: |_, _| {
             let about = "lowest frequency of the platform on cables that follow it as at rest";
@@ -271,8 +271,8 @@ pub(super) static TABLE: &[Definition] = &[
         name: "load-factor",
         about: "largest multiple of the required loads that tensions within their limits hold",
         documentation: "`load_factor`: largest multiple of the required loads (`[required]`, or options `required_…`) \
-                        that tensions within their limits hold in every combination, whatever the rule; all are held if \
-                        it is at least 1",
+                        that tensions within their limits hold in every combination, whatever the rule; all are held \
+                        if it is at least 1",
         needs: RequiredModel::HeldPose,
         columns: |_, _| one("load_factor", "1", "largest multiple of the required loads that is held"),
         values: |row, _, out| {

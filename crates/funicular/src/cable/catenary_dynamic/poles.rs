@@ -171,7 +171,8 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
         sums
     }
 
-    /// Entries of minus the derivative of the stiffness by x at the complex x = ω_c² [kg], without the poles `left_out`.
+    /// Entries of minus the derivative of the stiffness by x at the complex x = ω_c² [kg], without the poles
+    /// `left_out`.
     pub(crate) fn damped_mass_without(&self, x: Complex, left_out: Range<usize>) -> [Complex; E] {
         let mut masses = self.start_mass().map(Complex::from);
         for k in (0..left_out.start).chain(left_out.end..self.poles.len()) {

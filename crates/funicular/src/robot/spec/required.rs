@@ -44,8 +44,15 @@ pub(super) const REQUIRED: &[Key] = &[
         "minimum payload, which is always carried",
     )
     .or([0.0; 3]),
-    Key::numeric(Shape::Number, "payload_max_kg", "payload_max_kg = 300.0", "kg", Range::NotNegative, "maximum payload")
-        .or([0.0; 3]),
+    Key::numeric(
+        Shape::Number,
+        "payload_max_kg",
+        "payload_max_kg = 300.0",
+        "kg",
+        Range::NotNegative,
+        "maximum payload",
+    )
+    .or([0.0; 3]),
     Key::numeric(
         Shape::Vector,
         "payload_center_m",
@@ -61,7 +68,8 @@ pub(super) const REQUIRED: &[Key] = &[
         "payload_center_reach_m = [0.1, 0.1, 0.0]",
         "m",
         Range::NotNegative,
-        "largest distance of the centre of mass of the payload from this middle, both ways along each axis of the platform",
+        "largest distance of the centre of mass of the payload from this middle, both ways along each axis of the \
+         platform",
     )
     .or([0.0; 3]),
     Key::numeric(

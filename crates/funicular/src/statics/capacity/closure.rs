@@ -28,8 +28,8 @@ impl WrenchClosure {
     }
 }
 
-/// Wrench closure at a pose, with straight cables. Sag does not change it: the forces of sagging cables approach those of
-/// straight ones as the tensions grow.
+/// Wrench closure at a pose, with straight cables. Sag does not change it: the forces of sagging cables approach those
+/// of straight ones as the tensions grow.
 ///
 /// # Example
 /// ```

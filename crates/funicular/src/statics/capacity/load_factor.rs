@@ -17,15 +17,15 @@ use crate::statics::wrench_set::{CableAtPose, ReachableTensions, WrenchSet, spre
 /// bound itself is exact to about 1e-9.
 const OPEN_GAP: f64 = 1e-7;
 
-/// Gap over the multiple above which the search begins again several times. The bends of heavy ropes leave gaps of up to
-/// 1 % where there is no higher optimum. At 316 poses of CoGiRo with ropes of 0.6 kg/m no other start was better.
+/// Gap over the multiple above which the search begins again several times. The bends of heavy ropes leave gaps of up
+/// to 1 % where there is no higher optimum. At 316 poses of CoGiRo with ropes of 0.6 kg/m no other start was better.
 const WIDE_GAP: f64 = 0.02;
 
 /// Maximum number of further starts.
 const MAX_STARTS: usize = 12;
 
-/// Maximum number of directions tried for a set without vertices. Each step to the worst load of the last direction gains
-/// about two digits; robots of the library take 2 to 5.
+/// Maximum number of directions tried for a set without vertices. Each step to the worst load of the last direction
+/// gains about two digits; robots of the library take 2 to 5.
 const MAX_DIRECTIONS: usize = 30;
 
 /// Change of the worst load, over its size, at which the search for a set without vertices ends.
@@ -34,14 +34,14 @@ const SAME_LOAD: f64 = 1e-9;
 /// Largest multiple of the required loads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadFactor {
-    /// Multiple up to which the cables hold all vertices of the required set with tensions within their limits; infinite
-    /// if no maximum tension limits it.
+    /// Multiple up to which the cables hold all vertices of the required set with tensions within their limits;
+    /// infinite if no maximum tension limits it.
     pub value: f64,
     /// Multiple from which on it is proved that no tensions within the limits hold the load that binds; infinite as
     /// `value`.
     pub upper_bound: f64,
-    /// Multiple up to which the cables hold all of the set, not only its vertices. It differs from `value` only if cables
-    /// sag; `None` if too many cables, supports or pulleys leave it open.
+    /// Multiple up to which the cables hold all of the set, not only its vertices. It differs from `value` only if
+    /// cables sag; `None` if too many cables, supports or pulleys leave it open.
     pub lower_bound: Option<f64>,
     /// Load that binds, of the multiple 1, in addition to the dead load, world axes about the platform origin (N, N m).
     pub load: Vec6,
@@ -67,8 +67,8 @@ struct HeldMultiple {
 impl LoadCapacity<'_> {
     /// Largest multiple of the required loads.
     ///
-    /// With straight cables it follows from the facets; with sagging cables from the vertices that the facets leave open,
-    /// each by a search along the true curves of the cables.
+    /// With straight cables it follows from the facets; with sagging cables from the vertices that the facets leave
+    /// open, each by a search along the true curves of the cables.
     ///
     /// # Errors
     /// [`StaticsError`]: the reason why the cables do not hold the dead load; nothing required; no convergence.
@@ -192,8 +192,8 @@ impl LoadCapacity<'_> {
         let (reaches, _) = reaches_of(&mut cables);
         let set = WrenchSet { reaches: &reaches, motion: robot.platform.motion };
 
-        // Another optimum may be higher: begin again from the tensions that reach farthest in the direction of the bound,
-        // and if the gap is wide, from others between the limits.
+        // Another optimum may be higher: begin again from the tensions that reach farthest in the direction of the
+        // bound, and if the gap is wide, from others between the limits.
         for k in 0..MAX_STARTS {
             let open = if k == 0 { OPEN_GAP } else { WIDE_GAP };
             if best.multiple.is_infinite() || best.upper_bound - best.multiple <= open * best.multiple {

@@ -1,8 +1,8 @@
 //! Payload: the minimum and the maximum mass that the cables hold at a pose in addition to the platform, all tensions
 //! within their limits.
 //!
-//! The weight of the payload is the multiple of a wrench, whose extreme is searched ([`RaySearch`]). Every set of tensions
-//! within the limits counts, whatever a rule would choose.
+//! The weight of the payload is the multiple of a wrench, whose extreme is searched ([`RaySearch`]). Every set of
+//! tensions within the limits counts, whatever a rule would choose.
 
 use super::TensionRule;
 use super::ray::{CONVERGED, LimitAtCable, RayEnd, RaySearch, WrenchRay, equilibrium_of, limits_reached};

@@ -1,8 +1,8 @@
 //! Extreme multiple of a wrench that the cables hold in addition to the load: the end of a ray in the set of wrenches.
 //!
 //! The multiple is one more unknown of the balance, beside the tensions, and the objective is this unknown. The balance
-//! and the limits are linearised about the last tensions, the linear problem is solved exactly, and so on: with straight
-//! cables one step is the solution, with sagging cables three to five are.
+//! and the limits are linearised about the last tensions, the linear problem is solved exactly, and so on: with
+//! straight cables one step is the solution, with sagging cables three to five are.
 
 use super::feasible_set::{FeasiblePoint, FeasibleSet, MIN_DIRECTIONS_IN_CABLE_SPACE};
 use super::null_space::Solutions;
@@ -26,9 +26,9 @@ const MAX_ITERATIONS: usize = 100;
 /// Change of tensions and multiple in a step, over their size, at which the iteration ends.
 pub(in crate::statics) const CONVERGED: f64 = 1e-10;
 
-/// Multiples beyond the extreme one, over the size of the tensions, for which the proof is attempted, nearest first. The
-/// shares of sagging cables are not quite concave in the tension. This costs some 1e-5 for taut cables, and up to 1e-3
-/// for robots whose lower cables are nearly slack.
+/// Multiples beyond the extreme one, over the size of the tensions, for which the proof is attempted, nearest first.
+/// The shares of sagging cables are not quite concave in the tension. This costs some 1e-5 for taut cables, and up to
+/// 1e-3 for robots whose lower cables are nearly slack.
 const BEYOND: [f64; 7] = [1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3];
 
 /// Relative distance within which a tension counts as at its limit, in the list of limits that bind.

@@ -1,5 +1,5 @@
-//! Wrenches of cables whose curves are replaced by their chords: a zonotope, with bounds of what the curves add to it and
-//! take from it.
+//! Wrenches of cables whose curves are replaced by their chords: a zonotope, with bounds of what the curves add to it
+//! and take from it.
 
 use super::cable_at_pose::CableAtPose;
 use super::facets::facet_normals;
@@ -7,8 +7,8 @@ use super::reach::ReachableTensions;
 use crate::math::{Mat6, Vec6};
 use crate::robot::PlatformMotion;
 
-/// Number of steps of the search for the bulge of a curve. Each shortens the interval by 0.618: its value, which is flat
-/// at the maximum, is then known to its rounding.
+/// Number of steps of the search for the bulge of a curve. Each shortens the interval by 0.618: its value, which is
+/// flat at the maximum, is then known to its rounding.
 const BULGE_STEPS: usize = 24;
 
 /// Share of a chord in a normal, over its length, below which the chord lies in the facet.
@@ -91,8 +91,8 @@ impl AvailableWrenches {
         Facet { normal: *normal, reach, outer, inner }
     }
 
-    /// Part of every chord by which its limits are tightened, so that a Newton step from a point of the chords to one of
-    /// the curves stays within the limits: (40k).
+    /// Part of every chord by which its limits are tightened, so that a Newton step from a point of the chords to one
+    /// of the curves stays within the limits: (40k).
     fn tightening(&self, changes: &[Vec6], dof: usize) -> Vec<f64> {
         let height = |bulge: &(Vec6, [f64; 2])| bulge.1[0].max(bulge.1[1]);
         if self.is_straight() {

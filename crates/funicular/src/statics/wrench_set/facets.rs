@@ -2,8 +2,8 @@
 
 use crate::math::Vec6;
 
-/// Maximum number of subsets of columns whose hyperplanes are formed: 30 cables with six degrees of freedom have 142506,
-/// which take a tenth of a second.
+/// Maximum number of subsets of columns whose hyperplanes are formed: 30 cables with six degrees of freedom have
+/// 142506, which take a tenth of a second.
 const MAX_SUBSETS: usize = 200_000;
 
 /// Volume of unit columns below which they count as dependent: their common normal is then known to less than seven
@@ -53,8 +53,8 @@ const BLADES: usize = 64;
 /// Exterior product of some columns: coefficients of sets of as many axes.
 type Blade = [f64; BLADES];
 
-/// Adds the normals of all sets of columns that extend a product of `depth` columns by columns from `units`. Products of
-/// the first columns are shared, which makes 56 normals of eight cables a matter of microseconds.
+/// Adds the normals of all sets of columns that extend a product of `depth` columns by columns from `units`. Products
+/// of the first columns are shared, which makes 56 normals of eight cables a matter of microseconds.
 fn add_normals(units: &[Vec6], dof: usize, depth: u32, product: &Blade, normals: &mut Vec<Vec6>) {
     let all = (1_usize << dof) - 1;
     if depth as usize == dof - 1 {

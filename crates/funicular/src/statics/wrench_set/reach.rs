@@ -21,8 +21,8 @@ pub(in crate::statics) struct WrenchSet<'a> {
 }
 
 impl WrenchSet<'_> {
-    /// Upper bound of the contribution of all cables in the direction `y` [N, in the unit of y], and the tensions τ that
-    /// contribute most [N].
+    /// Upper bound of the contribution of all cables in the direction `y` [N, in the unit of y], and the tensions τ
+    /// that contribute most [N].
     pub(in crate::statics) fn reach(&self, y: &Vec6) -> (f64, Vec<f64>) {
         let (mut bound, mut tensions) = (0.0, Vec::with_capacity(self.reaches.len()));
         for reach in self.reaches {

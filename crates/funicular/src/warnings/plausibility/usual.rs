@@ -49,8 +49,8 @@ pub const DAMPING_RATIO: [f64; 2] = [5e-4, 0.05];
 pub const VISCOUS_DAMPING: [f64; 2] = [0.0, 6.3];
 
 /// Axial stiffness in vibration over that under a slow load. Of polyester mooring ropes it is much higher (J. Offshore
-/// Mech. Arct. Eng. 137(6), 2015, 061401); four times is the most that was met. Outside: the two exchanged, or kN given as
-/// N.
+/// Mech. Arct. Eng. 137(6), 2015, 061401); four times is the most that was met. Outside: the two exchanged, or kN given
+/// as N.
 pub const STIFFNESS_RATIO: [f64; 2] = [1.0, 6.0];
 
 /// Loss factor of the stretch of a rope. Dampers of high-damping rubber reach 0.3, braided fibre ropes are below.

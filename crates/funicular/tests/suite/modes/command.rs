@@ -1,5 +1,5 @@
-//! Motion after commanded lengths against the exponential of complete matrices with the command as a polynomial, shapers
-//! against their zeros and their known slopes, courses against each other.
+//! Motion after commanded lengths against the exponential of complete matrices with the command as a polynomial,
+//! shapers against their zeros and their known slopes, courses against each other.
 
 use super::release::exponential;
 use funicular::cable::catenary_dynamic::DriveSignal;
@@ -39,7 +39,8 @@ fn column(values: &[f64]) -> DMat {
     DMat::from_column_slice(values.len(), 1, values)
 }
 
-/// Robot whose losses matrices have exactly: rates of its lengths, its free motions at a point, and its complete matrices.
+/// Robot whose losses matrices have exactly: rates of its lengths, its free motions at a point, and its complete
+/// matrices.
 struct CommandedRobot {
     rates: Vec<f64>,
     /// Length and mass of each cable [m, kg].
@@ -77,8 +78,8 @@ impl CommandedRobot {
         Self { rates: rates_of(&robot, &rest), ropes, motions, model }
     }
 
-    /// Generator of the state (motion, velocity, a cubic polynomial with its derivatives, which is the course of lengths that
-    /// change by [`rates`](Self::rates)), and its exponential over a [`STEP`].
+    /// Generator of the state (motion, velocity, a cubic polynomial with its derivatives, which is the course of
+    /// lengths that change by [`rates`](Self::rates)), and its exponential over a [`STEP`].
     fn generator(&self) -> [DMat; 2] {
         let (model, n) = (&self.model, self.model.mass.nrows());
         let inverse = model.mass.clone().cholesky().unwrap().inverse();
@@ -100,8 +101,8 @@ impl CommandedRobot {
         [&model.input, &model.input_rates[0], &model.input_rates[1]].map(|matrix| matrix * column(&self.rates))
     }
 
-    /// Outputs at each of `times` for a course that is a cubic polynomial from each of its `pieces` on: time, value, and
-    /// three derivatives there. The state at the first piece is that of a steady motion.
+    /// Outputs at each of `times` for a course that is a cubic polynomial from each of its `pieces` on: time, value,
+    /// and three derivatives there. The state at the first piece is that of a steady motion.
     fn integrated(&self, [state, forward]: &[DMat; 2], pieces: &[(f64, [f64; 4])], times: &[f64]) -> Vec<DMat> {
         let (model, n, forces) = (&self.model, self.model.mass.nrows(), self.forces());
         let [value, rate, ..] = pieces[0].1;
@@ -145,15 +146,16 @@ impl CommandedRobot {
         &self.model.output * moved.unwrap() + &self.model.feedthrough[0] * column(lengths)
     }
 
-    /// Bound of the force that moves the ropes themselves at a speed and an acceleration of the course [N]: their damping and
-    /// their mass, as if all of each rope moved like its length.
+    /// Bound of the force that moves the ropes themselves at a speed and an acceleration of the course [N]: their
+    /// damping and their mass, as if all of each rope moved like its length.
     fn of_ropes(&self, [speed, acceleration]: [f64; 2]) -> f64 {
         let of =
             |(rate, [length, mass]): (&f64, &[f64; 2])| rate.abs() * (DAMPING * length * speed + mass * acceleration);
         self.rates.iter().zip(&self.ropes).map(of).sum()
     }
 
-    /// Compares the closed form with the matrices: three components of the point, and a tension. `fastest` are the highest speed and acceleration of the course.
+    /// Compares the closed form with the matrices: three components of the point, and a tension. `fastest` are the
+    /// highest speed and acceleration of the course.
     fn compare(&self, command: &LengthCommand, generator: &[DMat; 2], pieces: &[(f64, [f64; 4])], fastest: [f64; 2]) {
         let end = command.duration();
         let times: Vec<f64> = [0.24, 0.5, end, end + 0.08, end + 0.4, end + 3.0].to_vec();
@@ -187,7 +189,8 @@ impl CommandedRobot {
     }
 }
 
-/// Pieces of the integral of order `order` of boxes convolved, which is a cubic polynomial: corner, value and derivatives.
+/// Pieces of the integral of order `order` of boxes convolved, which is a cubic polynomial: corner, value and
+/// derivatives.
 fn pieces(boxes: &[f64], order: usize) -> Vec<(f64, [f64; 4])> {
     let area: f64 = boxes.iter().product();
     let mut corners: Vec<(f64, f64)> = vec![(0.0, 1.0 / area)];
