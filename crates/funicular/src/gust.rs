@@ -124,13 +124,17 @@ enum GustOutput {
 ///
 /// let wind = "[wind]\nvelocity_m_s = [12.0, 0.0, 0.0]\nturbulence = \"kaimal\"\nintensity = [0.15, 0.12, 0.075]\n\
 ///             length_scale_m = [85.05, 28.35, 6.93]";
-/// let file = funicular_robots::STADIUM_CAMERA.replace("maximum_tension_n", "drag_coefficient = 1.2\ndrag_diameter_m =
-/// 0.005\nmaximum_tension_n"); let robot = Robot::from_toml(&format!("{file}\n{wind}"))?; let rest =
-/// statics::solve(&robot, StaticModel::Catenary, None)?.equilibrium; let dynamics = Dynamics::about(&robot, &rest,
-/// Linearisation::default(), 2.0)?; let up = Signal::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() }; let
-/// gusts = Gusts::new(&robot, &rest, &dynamics, &[(up, Quantity::Displacement)], 2.0)?; let natural: Vec<f64> =
-/// modes::below(&dynamics, 2.0).modes.iter().map(|mode| mode.frequency_hz).collect(); let spectra = gusts.spectra(2.0,
-/// &natural)?; assert!((spectra.moments[0].rms() - 0.0676).abs() < 2e-4); // m
+/// let rope = "drag_coefficient = 1.2\ndrag_diameter_m = 0.005\nmaximum_tension_n";
+/// let file = funicular_robots::STADIUM_CAMERA.replace("maximum_tension_n", rope);
+/// let robot = Robot::from_toml(&format!("{file}\n{wind}"))?;
+/// let rest = statics::solve(&robot, StaticModel::Catenary, None)?.equilibrium;
+/// let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 2.0)?;
+///
+/// let up = Signal::Along { direction_w: Vec3::z(), point_p: Vec3::zeros() };
+/// let gusts = Gusts::new(&robot, &rest, &dynamics, &[(up, Quantity::Displacement)], 2.0)?;
+/// let natural: Vec<f64> = modes::below(&dynamics, 2.0).modes.iter().map(|mode| mode.frequency_hz).collect();
+/// let spectra = gusts.spectra(2.0, &natural)?;
+/// assert!((spectra.moments[0].rms() - 0.0676).abs() < 2e-4); // m
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Gusts {
