@@ -4,6 +4,7 @@
 mod analysis;
 mod cable;
 mod check;
+mod clearance;
 mod compare;
 mod design;
 mod export;

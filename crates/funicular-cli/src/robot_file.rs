@@ -2,7 +2,7 @@
 
 use crate::args::ChangeArgs;
 use anyhow::{Context, Result, bail};
-use funicular_files::Guard;
+use funicular_files::{Guard, beside};
 use funicular_study::request::RobotText;
 use funicular_study::robot_file::{self, MAX_BYTES};
 use std::fs::File;
@@ -19,11 +19,13 @@ pub(crate) fn read(path: Option<&Path>, changes: &ChangeArgs) -> Result<RobotTex
         Some(path) if path.as_os_str() == "-" => {
             let name = "<stdin>".to_owned();
             let text = limited(io::stdin().lock(), &name)?;
+            let text = robot_file::with_meshes(&name, text, beside(Path::new("")))?;
             (name, text)
         }
         Some(path) => {
             let name = path.display().to_string();
             let text = limited(open(path, &name)?, &name)?;
+            let text = robot_file::with_meshes(&name, text, beside(path.parent().unwrap_or(Path::new(""))))?;
             (name, text)
         }
     };

@@ -17,6 +17,7 @@ mod guard;
 mod journal;
 pub mod mat;
 mod merge;
+mod mesh_files;
 #[cfg(feature = "parquet")]
 mod parquet;
 #[cfg(not(feature = "parquet"))]
@@ -34,6 +35,7 @@ mod vti;
 
 pub use guard::Guard;
 pub use merge::merge;
+pub use mesh_files::beside;
 pub use reader::SweepFile;
 pub use resumable_writer::{Begin, Job, Opened};
 #[cfg(feature = "arrow")]

@@ -6,6 +6,7 @@
 //! of the printed page. A PDF has the letters of its font embedded. The same figure always gives the same bytes.
 
 pub(crate) mod axis;
+pub(crate) mod bodies;
 pub(crate) mod chart;
 mod contour;
 pub(crate) mod drawing;

@@ -3,6 +3,7 @@
 use crate::arrays::{Number, TextKeyed};
 use crate::dict_to_toml;
 use crate::errors;
+use funicular_files::beside;
 use funicular_study::request::RobotText;
 use funicular_study::robot_file::{self, MAX_BYTES};
 use pyo3::prelude::*;
@@ -22,8 +23,9 @@ pub(crate) fn of_file(path: &Path) -> PyResult<(String, String)> {
     let bytes: Vec<u8> = read().map_err(|error: io::Error| {
         io::Error::new(error.kind(), format!("cannot read the robot file {name}: {error}"))
     })?;
-    let text = robot_file::decode(&name, bytes).map_err(|error| errors::change(format!("{error:#}")))?;
-    Ok((name, text))
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let text = robot_file::decode(&name, bytes).and_then(|text| robot_file::with_meshes(&name, text, beside(folder)));
+    Ok((name, text.map_err(|error| errors::change(format!("{error:#}")))?))
 }
 
 /// Text with further changes: values by their paths, and the mass of the platform [kg].

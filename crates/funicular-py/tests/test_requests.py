@@ -69,6 +69,8 @@ MORE = [
     f"funicular loads robots/cogiro.toml --pose 1,1,1.5 {REQUIRED}",
     f"funicular map robots/cogiro.toml --grid x=0:1:2 --grid y=1 --grid z=1.5 --quantity load-factor {REQUIRED}",
     f"funicular sweep robots/cogiro.toml --vary platform.mass_kg=80,90 --quantity load-factor {REQUIRED}",
+    f"funicular clearance robots/cogiro.toml {TENSIONS} {STATE}",
+    "funicular clearance robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250",
     f"funicular statics robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --set platform.mass_kg=200",
     f"funicular stiffness robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
     f"funicular modes robots/cogiro.toml --below-hz 5 {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --platform-share 0.9",
@@ -250,7 +252,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
-    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "pose-error", "cable"),
+    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "clearance", "pose-error", "cable"),
     *("settle", "gust", "reduce", "identify", "uncertainty"),
 )
 
@@ -291,6 +293,9 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
         return
     if command == "loads":
         assert plain(robot.loads(**keywords)) == theirs
+        return
+    if command == "clearance":
+        assert plain(robot.clearance(**keywords)) == theirs
         return
     if command == "identify":
         assert plain(robot.identify(**keywords).to_dict()) == theirs

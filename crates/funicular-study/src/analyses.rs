@@ -7,6 +7,7 @@
 
 pub mod cable;
 pub mod check;
+pub mod clearance;
 pub mod compare;
 pub mod design;
 mod fields;

@@ -39,7 +39,8 @@ pub use parts::{
 pub use shape::schema;
 pub use source_file::{MAX_BYTES, SourceFile};
 pub use statics::{
-    CheckRequest, ParametersRequest, PayloadRequest, PoseErrorRequest, StaticsRequest, StiffnessRequest,
+    CheckRequest, ClearanceRequest, ParametersRequest, PayloadRequest, PoseErrorRequest, StaticsRequest,
+    StiffnessRequest,
 };
 pub use steps::{Steps, digits};
 pub use uncertainty::{DEFAULT_SAMPLES, UncertaintyRequest, pose_and_tensions};
@@ -152,6 +153,7 @@ commands! {
     Uncertainty(UncertaintyRequest) "uncertainty" Needed robot;
     Payload(PayloadRequest) "payload" Needed robot;
     Loads(LoadsRequest) "loads" Needed robot;
+    Clearance(ClearanceRequest) "clearance" Needed robot;
     PoseError(PoseErrorRequest) "pose-error" Needed robot;
     Cable(CableRequest) "cable" Needed robot;
     Reduce(ReduceRequest) "reduce" Needed robot;

@@ -4,6 +4,7 @@ use crate::analyses::{
     Found,
     cable::{self, CableResult},
     check::{self, Checked},
+    clearance::{self, Clearances},
     compare::{self, Compared},
     design::{self, Designed},
     frf,
@@ -126,6 +127,7 @@ answers! {
     Uncertainty(Uncertainties): of => uncertainty::run(of, watch)?;
     Payload(Payload): of => payload::run(robot()?, of)?;
     Loads(Loads): of => loads::run(robot()?, of)?;
+    Clearance(Clearances): of => clearance::run(robot()?, of)?;
     PoseError(PoseErrors): of => pose_error::run(&robot()?, of, watch)?;
     Cable(CableResult): of => cable::run(robot()?, of, watch)?;
     Reduce(ReducedForm): of => reduce::run(robot()?, of, watch)?, at at_rest => reduce::about(at_rest, of, watch)?;

@@ -163,6 +163,7 @@ fn requests() -> Vec<Value> {
         ),
         of("payload", &[&robot, &state, &tensions, &center]),
         of("loads", &[&robot, &state, &tensions, &required]),
+        of("clearance", &[&robot, &state, &tensions]),
         of(
             "gradient",
             &[

@@ -6,6 +6,7 @@
 mod catenary;
 mod cube;
 mod damped;
+mod distances;
 mod driven;
 mod drives;
 mod dynamics;
@@ -140,6 +141,7 @@ pub fn sections() -> Result<Vec<Section>> {
         paper::section(&published)?,
         uncertainty::section()?,
         load_factors::section(&reference::load_factors()?)?,
+        distances::section(&reference::distances()?)?,
     ])
 }
 

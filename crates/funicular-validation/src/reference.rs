@@ -1,6 +1,7 @@
 //! Contents of the files in crates/funicular-validation/reference.
 
 mod damped;
+mod distances;
 mod drives;
 mod exact;
 mod gradients;
@@ -19,6 +20,7 @@ use serde::Deserialize;
 pub(super) use damped::{
     Damped, DampedRobot, ModeShape, PointRobot, ReferencePoint, RopeDamping, ShapesOfRobot, damped,
 };
+pub(super) use distances::{DistanceReference, MeasuredPairs, PairsAtPose, distances};
 pub(super) use drives::{
     CableToWinch, DriveParts, DrivenCable, DrivenRobot, Drives, FrictionCorner, FrictionHalfWidths, RobotWithWinches,
     SaggingOverPulley, ServoDamped, StraightOverPulley, drives,

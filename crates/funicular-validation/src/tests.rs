@@ -48,6 +48,11 @@ fn the_loss_of_the_stretch_is_that_of_the_independent_program() {
 }
 
 #[test]
+fn distances_are_those_of_the_independent_program() {
+    check(super::distances::section(&reference::distances().unwrap()));
+}
+
+#[test]
 fn load_factors_and_closure_are_those_of_the_independent_program() {
     check(super::load_factors::section(&reference::load_factors().unwrap()));
 }

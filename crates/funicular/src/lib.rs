@@ -49,6 +49,7 @@
 pub mod cable;
 pub mod cable_motion;
 pub mod catenary;
+pub mod clearance;
 pub mod compare;
 pub mod drive;
 pub mod dynamics;

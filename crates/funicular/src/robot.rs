@@ -5,6 +5,7 @@
 //! coordinates, and `rot_wp` turns platform coordinates into world coordinates: neighbouring letters cancel.
 
 mod anchor;
+mod body;
 mod change;
 mod constraint;
 mod friction;
@@ -19,6 +20,8 @@ mod winch;
 mod wind;
 
 pub use anchor::Anchor;
+pub use body::{Body, ClosedMesh, MeshError, RequiredClearance, Solid};
+pub(crate) use body::{from_vector, vector};
 pub use change::{CableChange, GuideWheelChange, PulleyChange, RobotChange, SupportChange, WinchChange};
 pub use constraint::Constraint;
 pub use friction::PulleyFriction;
@@ -55,6 +58,10 @@ pub struct Robot {
     pub turbulence: Option<Turbulence>,
     /// Flexible supports of anchors, by name.
     pub supports: Vec<Support>,
+    /// Bodies that stand in the world.
+    pub obstacles: Vec<Body>,
+    /// Distances that have to be kept free; `None` if the file gives none.
+    pub clearance: Option<RequiredClearance>,
     /// The cables, in file order.
     pub cables: Vec<Cable>,
     /// State given by the file: unstrained lengths or a pose.
@@ -76,6 +83,8 @@ pub struct Platform {
     pub drag_area: f64,
     /// Centre of mass in the platform frame [m].
     pub center_of_mass_p: Vec3,
+    /// Bodies that move with the platform, in its frame; without any, the convex hull of the attachments is its body.
+    pub bodies: Vec<Body>,
     /// Motions that the platform can make.
     pub motion: PlatformMotion,
     /// Viscous damping of its translation along the platform's axes, at the platform origin [N s/m].
@@ -244,6 +253,14 @@ impl Cable {
         self.chord_w(pose).norm() + self.anchor.length_beyond(&pose.point_w(&self.attachment_p))
     }
 
+    /// Radius of the rope [m]: half of the diameter for its drag, or that of its cross-section; zero if the file gives
+    /// neither.
+    pub fn radius(&self) -> f64 {
+        let RopeDimensions { section, drag_diameter } = self.material.dimensions;
+        let of_section = || section.map(|section| (section.area() / std::f64::consts::PI).sqrt());
+        drag_diameter.map(|diameter| 0.5 * diameter).or_else(of_section).unwrap_or(0.0)
+    }
+
     /// Tension limits: those of the cable, else those of its rope; the breaking load is the maximum if no other is
     /// given.
     pub fn limits(&self) -> TensionLimits {
@@ -300,6 +317,12 @@ impl Robot {
     /// True if the stretch of a rope has a loss.
     pub(crate) fn has_stretch_loss(&self) -> bool {
         self.cables.iter().any(|cable| cable.material.stretch_loss.is_some())
+    }
+
+    /// True if poses of the robot are judged by distances: its file has obstacles, bodies of the platform or
+    /// `[clearance]`.
+    pub fn judges_clearance(&self) -> bool {
+        self.clearance.is_some() || !self.obstacles.is_empty() || !self.platform.bodies.is_empty()
     }
 
     /// True if a number of the robot damps vibration: a rope that has mass, the platform, a winch or a support. Without

@@ -8,6 +8,7 @@ use plausibility::Implausible;
 use crate::cable::catenary_dynamic::CatenaryDynamic;
 use crate::cable::shallow_dynamic::ShallowDynamic;
 use crate::cable::{CableModel, LocalAxes, SHALLOW_SAG_LIMIT, Sag, shallow_static};
+use crate::clearance::{Clearance, Surroundings};
 use crate::robot::{Cable, Pose, Robot};
 use crate::statics::{self, CableState, Equilibrium, Limit, Stability, StaticModel, TensionMargin, TensionRange};
 use std::f64::consts::TAU;
@@ -56,6 +57,15 @@ pub enum Warning {
         limit: Limit,
         /// Value of the limit [N].
         value: f64,
+    },
+    /// Cables, platform and obstacles are nearer to each other than the file allows.
+    Interference {
+        /// Nearest pair in words.
+        pair: String,
+        /// Distance between its surfaces [m].
+        distance: f64,
+        /// Required distance [m].
+        required: f64,
     },
     /// There is wind, but the file gives no drag coefficient of some ropes.
     NoDrag {
@@ -196,6 +206,7 @@ impl fmt::Display for Warning {
             Self::BeyondLimit { cable, tension, limit, value } => {
                 f.write_str(&beyond_limit(cable, *tension, *limit, *value))
             }
+            Self::Interference { pair, distance, required } => f.write_str(&too_near(pair, *distance, *required)),
             Self::NoDrag { ropes } => {
                 let ropes: Vec<String> = ropes.iter().map(|rope| format!("\"{rope}\"")).collect();
                 write!(
@@ -247,6 +258,16 @@ fn beyond_limit(cable: &str, tension: f64, limit: Limit, value: f64) -> String {
         "cable \"{cable}\" has a tension of {range} {tension:.1} N, {side} its `{name}` of {value} N: choose another \
          pose, load or lengths, or another limit"
     )
+}
+
+/// Text about things that are too near to each other.
+fn too_near(pair: &str, distance: f64, required: f64) -> String {
+    let apart = if distance > 0.0 {
+        format!("are {distance:.4} m apart, {required} m are required")
+    } else {
+        "touch".to_owned()
+    };
+    format!("{pair} {apart}: choose another pose, or other attachments and anchors; `clearance` shows all pairs")
 }
 
 /// Text about a pose at or near a singular one.
@@ -361,6 +382,8 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
         warnings.extend(of_tension(robot, i, &TensionRange::of(robot, i, &state.chord_w()).margin(state)));
     }
 
+    warnings.extend(of_clearance(robot, equilibrium));
+
     // Wind on ropes without a drag coefficient.
     if robot.wind.velocity_w.norm() > 0.0 {
         let mut ropes: Vec<String> = Vec::new();
@@ -384,6 +407,18 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
         warnings.push(Warning::Unstable { directions, min_stiffness });
     }
     warnings
+}
+
+/// Warning that cables, platform and obstacles are nearer to each other than the file allows. A file that says nothing
+/// about distances is not judged.
+pub fn of_clearance(robot: &Robot, equilibrium: &Equilibrium) -> Option<Warning> {
+    if !robot.judges_clearance() {
+        return None;
+    }
+    let around = Surroundings::of(robot);
+    let least = around.least(equilibrium, None).filter(|least| least.margin() < 0.0)?;
+    let Clearance { pair, distance, required, .. } = least;
+    Some(Warning::Interference { pair: around.pair_text(pair), distance, required })
 }
 
 /// Warnings about a cable model at an equilibrium for frequencies up to `below_hz` [Hz].

@@ -1,6 +1,7 @@
 //! The robot in space: parallel projection, hanging cables, the platform between its attachments, a floor with scales.
 
 use super::axis::{nice_step, round_numbers};
+use super::bodies::BodySurface;
 use super::drawing::{Align, BLACK, Colour, Drawing, Label, PaperPoint, Stroke, WHITE};
 use super::drive::DriveLines;
 use super::hull::faces;
@@ -22,6 +23,8 @@ pub(crate) struct Space {
     drives: Vec<DriveLines>,
     /// Flexible supports at rest.
     supports: Vec<SupportAtRest>,
+    /// Edges of obstacles, and of bodies of the platform at rest.
+    edges: Vec<[Vec3; 2]>,
     /// Names of the cables at their anchors, and the sides on which they stand.
     names: Vec<(String, &'static str)>,
     /// Corners of each face of the platform.
@@ -71,6 +74,9 @@ impl Space {
         let labels = joined(&anchors, &names, &places, reach);
         let drives = DriveLines::all(&robot.cables, &equilibrium.cables);
         let points = rest.cables.iter().flatten().chain(&rest.corners).chain(&anchors).copied();
+        let mut bodies = BodySurface::obstacles(robot);
+        bodies.extend(BodySurface::of_platform(robot, &equilibrium.pose));
+        let points = points.chain(bodies.iter().flat_map(BodySurface::points));
         let points: Vec<Vec3> = points.chain(drives.iter().flat_map(DriveLines::points)).collect();
         Self {
             title: robot.name.clone(),
@@ -81,6 +87,7 @@ impl Space {
             moved,
             drives,
             supports: SupportAtRest::all(robot, equilibrium),
+            edges: bodies.iter().flat_map(BodySurface::edges).collect(),
             head,
         }
     }
@@ -97,6 +104,8 @@ impl Space {
             drawing.text(label, [0.5 * size, (1.1 + 1.35 * k as f64) * size], Align::Start, fitting, BLACK);
         }
         self.draw_scales(&mut drawing, &view, style);
+        let edges = self.edges.iter().map(|edge| edge.map(|point| view.at(point)).to_vec()).collect();
+        drawing.lines(edges, Stroke::solid(GREY, AXIS_WIDTH));
         self.draw_drives(&mut drawing, &view, style);
 
         if let Some(moved) = &self.moved {

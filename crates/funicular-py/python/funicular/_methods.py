@@ -126,6 +126,24 @@ def loads(of: Any, given: Given) -> Results:
     return _results.results(of._answer("loads", given))
 
 
+@declared(Robot, "clearance", positional=("pose", "static_model"), others=_AS_REST)
+def clearance(of: Any, given: Given) -> Results:
+    """Computes the distances between the sagging cables, the platform and obstacles: what is nearest, where, and what is
+    too near.
+
+    Returns
+    -------
+    The keys of the program's JSON: `free`, and `pairs` with `kind`, `first`, `second`, `distance_m`, `required_m`,
+    `margin_m` and `points_m`, the pair with the least margin first.
+
+    Raises
+    ------
+    StaticsError
+        The robot has no such equilibrium.
+    """
+    return _results.results(of._answer("clearance", given))
+
+
 @declared(Robot, "pose-error", positional=("mass_kg",), others=_AS_REST)
 def pose_error(of: Any, given: Given) -> Results:
     """Computes the distance of the poses of spring and catenary cables from those of ideal cables, over the platform

@@ -64,6 +64,27 @@ declared! {
 }
 
 declared! {
+    /// Distances between the sagging cables, the platform and obstacles: what is nearest, where, and what is too near.
+    ///
+    /// Obstacles, bodies of the platform and required distances are given in the robot file.
+    pub struct ClearanceRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+    }
+    examples {
+        "funicular clearance robots/cogiro.toml --pose 2,1,1.5",
+        "funicular clearance robots/cogiro.toml --pose 2,1,1.5,0,0,20 --set clearance.cables_m=0.05 --format csv",
+        "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=1.5 --quantity clearance -o free.parquet",
+    }
+}
+
+declared! {
     /// 6×6 stiffness at one frequency, static at 0 Hz.
     pub struct StiffnessRequest {
         /// Robot file.

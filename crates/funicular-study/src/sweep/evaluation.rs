@@ -5,6 +5,7 @@ use super::options::Options;
 use super::status::Status;
 use crate::table::Value;
 use funicular::cable::CableModel;
+use funicular::clearance::Surroundings;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::Hold;
 use funicular::modes::Kind;
@@ -234,6 +235,21 @@ impl PointEvaluation<'_> {
             _ => Status::new("dead-load", &error),
         })?;
         value.filter(|value| value.is_finite()).ok_or_else(|| Status::new("required-load", unlimited))
+    }
+
+    /// Adds the least distance between cables, platform and obstacles, its margin and the pair.
+    pub(super) fn clearance(&mut self, out: &mut Vec<Value>) {
+        let around = Surroundings::of(self.robot);
+        match around.least(self.rest, None) {
+            Some(least) => {
+                out.extend([least.distance, least.margin()].map(|value| Value::real(Some(value))));
+                out.push(Value::Text(around.pair_text(least.pair).into()));
+            }
+            None => {
+                out.extend([Value::Nothing, Value::Nothing, Value::Nothing]);
+                self.note_missing(Status::new("no-comparison", "there is no pair of things whose distance counts"));
+            }
+        }
     }
 
     /// Adds the maximum payload and the limits that bind.

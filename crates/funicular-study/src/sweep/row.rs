@@ -33,7 +33,8 @@ pub(super) fn cells(
             let hold = held_quantity(point);
             let (values, missing) = quantity_values(robot, &equilibrium, hold, read, quantities, options);
 
-            head(true, missing, out);
+            let interference = Status::of_interference(robot, &equilibrium);
+            head(interference.is_none(), interference.or(missing), out);
             if with_distance {
                 out.push(Value::real(requested_pose.map(|(_, distance)| distance)));
             }

@@ -13,7 +13,7 @@ pub(super) struct Status {
 }
 
 /// Every code that a row can have, with its meaning.
-pub const CODES: [(&str, &str); 21] = [
+pub const CODES: [(&str, &str); 22] = [
     ("ok", "all requested quantities are there"),
     ("out-of-plane", "infeasible: a planar platform cannot have this pose"),
     ("coinciding-ends", "infeasible: a cable has no length between its ends, or ends inside the wheel of its pulley"),
@@ -25,6 +25,11 @@ pub const CODES: [(&str, &str); 21] = [
     (
         "tension-limits",
         "infeasible: no tensions are within the limits, or a tension is beyond a limit or breaking load",
+    ),
+    (
+        "interference",
+        "infeasible: cables, platform and obstacles are nearer to each other than the file allows; the quantities are \
+         there",
     ),
     ("not-found", "infeasible: no tensions within the limits were found, without a proof that there are none"),
     ("not-converged", "infeasible: no equilibrium was found"),
@@ -70,6 +75,11 @@ impl Status {
             Warning::Breaks { .. } | Warning::BeyondLimit { .. } => Some(Self::new("tension-limits", warning)),
             _ => None,
         })
+    }
+
+    /// Status of an equilibrium at which cables, platform and obstacles are too near to each other. It has quantities.
+    pub(super) fn of_interference(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
+        warnings::of_clearance(robot, equilibrium).map(|warning| Self::new("interference", &warning))
     }
 
     /// Status of a feasible equilibrium with a caveat: unstable, or with a slack cable.

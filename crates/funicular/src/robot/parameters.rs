@@ -44,6 +44,10 @@ pub enum RobotPart {
     Load,
     /// The required loads.
     Required,
+    /// A body of the platform or an obstacle; its name is the second key of the path.
+    Body,
+    /// The required distances.
+    Clearance,
     /// The wind.
     Wind,
     /// The pose.
@@ -92,6 +96,7 @@ impl Parameter {
             | RobotPart::Platform
             | RobotPart::Load
             | RobotPart::Required
+            | RobotPart::Clearance
             | RobotPart::Wind
             | RobotPart::State => false,
             RobotPart::Material
@@ -99,6 +104,7 @@ impl Parameter {
             | RobotPart::Winch
             | RobotPart::GuideWheel
             | RobotPart::Support
+            | RobotPart::Body
             | RobotPart::Cable(_) => true,
         };
         let name = self.keys.get(1).filter(|_| has_name).map_or_else(String::new, |name| format!(" ({name})"));

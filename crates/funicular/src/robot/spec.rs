@@ -8,6 +8,7 @@
 //! Every number is finite and at most 1e12 in magnitude; a quantity that has to be positive is at least 1e-12. No robot
 //! comes near these limits, and within them no product in the analyses overflows.
 
+mod bodies;
 mod cables;
 mod drives;
 mod guide_wheels;
@@ -83,6 +84,27 @@ const ROOT: &[Key] = &[
         "further required loads, of which any one may act in addition to those of [required]",
     )
     .without(Absent::Means("none")),
+    Key::other(
+        "platform_bodies",
+        "[platform_bodies.frame]",
+        KeyValue::NamedTables,
+        "bodies that move with the platform, each with a name: what cables and obstacles must not touch",
+    )
+    .without(Absent::Means("the convex hull of the attachments")),
+    Key::other(
+        "obstacles",
+        "[obstacles.column]",
+        KeyValue::NamedTables,
+        "bodies that stand in the world, each with a name: what cables and platform must not touch",
+    )
+    .without(Absent::Means("no obstacles")),
+    Key::other(
+        "clearance",
+        "[clearance]",
+        KeyValue::Table,
+        "distances that cables, platform and obstacles keep from each other",
+    )
+    .without(Absent::Means("none, and poses are judged by distances only if the file has obstacles or bodies")),
     Key::other(
         "wind",
         "[wind]",
@@ -164,6 +186,9 @@ pub const TABLES: &[Table] = &[
     Table { header: "[loads]", keys: LOADS },
     Table { header: "[required]", keys: required::REQUIRED },
     Table { header: "[[required_loads]]", keys: LOADS },
+    Table { header: "[platform_bodies.NAME]", keys: bodies::BODY },
+    Table { header: "[obstacles.NAME]", keys: bodies::BODY },
+    Table { header: "[clearance]", keys: bodies::CLEARANCE },
     Table { header: "[wind]", keys: wind::KEYS },
     Table { header: "[state]", keys: STATE },
 ];
@@ -277,6 +302,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let platform = platform::read(reader, &root, motion);
     let load = read_load(reader, &root, motion);
     let required = required::read(reader, &root, motion, LOADS);
+    let bodies = bodies::read(reader, &root, motion);
     let (wind, turbulence) = wind::read(reader, &root);
     let materials = materials::read(reader, &root);
     let drives = drives::read(reader, &root);
@@ -288,16 +314,20 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let (state, written_angles_deg) = state_and_angles?;
     let (cables, supports) = on_supports(cables, supports?);
     refuse_huge_wheels(reader, table, &cables, &state);
+    let mut platform = platform?;
+    let (obstacles, clearance) = bodies::placed(reader, bodies?, &mut platform, &cables, &state)?;
     Some(Robot {
         name: name?,
         source: source?,
         gravity_w: Vec3::from(gravity?),
-        platform: platform?,
+        platform,
         load: load?,
         required: required?,
         wind: wind?,
         turbulence: turbulence?,
         supports,
+        obstacles,
+        clearance,
         cables,
         state,
         written_angles_deg,

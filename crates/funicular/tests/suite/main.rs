@@ -8,6 +8,7 @@ mod architecture;
 mod cable;
 mod cable_motion;
 mod catenary;
+mod clearance;
 mod compare;
 mod control_model;
 mod derivatives;

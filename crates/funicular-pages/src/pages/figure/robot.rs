@@ -1,6 +1,7 @@
 //! Figures of the robot in space, to scale and with hanging cables.
 
 use super::{PageFigure, colour, plain, rounded};
+use crate::figures::bodies::BodySurface;
 use crate::figures::drive::DriveLines;
 use crate::figures::hull::faces;
 use crate::figures::supports::SupportAtRest;
@@ -40,13 +41,19 @@ pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
     let supported = if supports.is_empty() { "" } else { " Crosses with a bar to their anchors: flexible supports." };
     data.extend(supports.iter().flat_map(support));
 
+    let mut bodies = BodySurface::obstacles(robot);
+    let obstacles = if bodies.is_empty() { "" } else { " Grey bodies: obstacles." };
+    bodies.extend(BodySurface::of_platform(robot, &equilibrium.pose));
+    points.extend(bodies.iter().flat_map(BodySurface::points));
+    data.extend(bodies.iter().filter(|body| !body.triangles.is_empty()).map(surface));
+
     let scene = scene(&points, true, WIDE);
     PageFigure::new(
         "figure-robot",
         400,
         format!(
             "The robot at its equilibrium, with one scale for all three axes. Lines: cables; squares: anchors with the \
-             cables' names; dark body: the platform, spanned by the attachments.{driven}{supported} Drag to rotate, \
+             cables' names; dark body: the platform, spanned by the attachments.{driven}{supported}{obstacles} Drag to rotate, \
              scroll to zoom, point at a cable for its length and tension."
         ),
         &data,
@@ -269,6 +276,20 @@ fn platform(robot: &Robot, equilibrium: &Equilibrium, names: bool) -> Vec<Value>
         "hovertemplate": hover,
     }));
     data
+}
+
+/// Surface of an obstacle or of a body of the platform.
+fn surface(body: &BodySurface) -> Value {
+    let corners: Vec<Vec3> = body.points().collect();
+    let [x, y, z] = coordinates(&corners);
+    let every_third = |from: usize| (from..corners.len()).step_by(3).collect::<Vec<usize>>();
+    json!({
+        "type": "mesh3d", "x": x, "y": y, "z": z, "color": "#999999", "opacity": 0.35, "flatshading": true,
+        "i": every_third(0), "j": every_third(1), "k": every_third(2),
+        "hovertemplate": format!("{}<extra></extra>", plain(&body.name)),
+        // For the script that saves the figure as lines.
+        "meta": {"faces": (0..body.triangles.len()).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect::<Vec<_>>()},
+    })
 }
 
 /// Body spanned by the attachments: a polygon if they lie in a plane, otherwise their convex hull.

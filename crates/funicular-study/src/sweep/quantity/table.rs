@@ -245,6 +245,23 @@ pub(super) static TABLE: &[Definition] = &[
         ..Definition::PLAIN
     },
     Definition {
+        name: "clearance",
+        about: "least distance between cables, platform and obstacles, and the pair",
+        documentation: "`clearance_m`: distance between the surfaces of the pair of cables, platform and obstacles that \
+                        is nearest to its required distance or below it; `clearance_margin_m`: distance beyond the \
+                        required one; `clearance_pair`: the pair in words",
+        columns: |_, _| {
+            let about = "pair of cables, platform and obstacles with the least margin";
+            vec![
+                column("clearance_m".to_owned(), "m", "distance of the pair with the least margin"),
+                column("clearance_margin_m".to_owned(), "m", "its distance beyond the required one"),
+                Column { kind: ColumnKind::Text, ..column("clearance_pair".to_owned(), "", about) },
+            ]
+        },
+        values: |row, _, out| row.clearance(out),
+        ..Definition::PLAIN
+    },
+    Definition {
         name: "closure",
         about: "1 if straight cables could balance every load with tensions that are high enough, otherwise 0",
         documentation: "`closure`: 1 if straight cables could balance every load with tensions that are high enough \

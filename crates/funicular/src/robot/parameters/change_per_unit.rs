@@ -32,9 +32,16 @@ const WITHOUT_DERIVATIVE: &[(&str, &[&str])] = &[
             "wind_speed_m_s",
         ],
     ),
+    // Distances are results without derivatives.
+    ("platform_bodies", BODY),
+    ("obstacles", BODY),
+    ("clearance", &["cables_m", "platform_m", "obstacles_m", "from_end_m"]),
     // Results with derivatives are those without friction.
     ("pulleys", &["friction_coefficient", "efficiency", "bearing_friction_coefficient", "bearing_radius_m"]),
 ];
+
+/// Keys of numbers of a body.
+const BODY: &[&str] = &["position_m", "roll_pitch_yaw_deg", "size_m", "diameter_m", "length_m"];
 
 impl Parameters {
     /// Change of the robot per unit of a parameter, in the unit of the file: the direction for derivatives of results
@@ -488,6 +495,28 @@ mod tests {
         acceleration_m_s2 = [0.1, 0.1, 0.1]
         angular_acceleration_rad_s2 = [0.1, 0.1, 0.1]
         wind_speed_m_s = 3.0
+        [clearance]
+        cables_m = 0.01
+        platform_m = 0.02
+        obstacles_m = 0.03
+        from_end_m = 0.04
+        [platform_bodies.frame]
+        size_m = [0.1, 0.1, 0.1]
+        position_m = [0.0, 0.0, -0.1]
+        roll_pitch_yaw_deg = [0.0, 0.0, 10.0]
+        [platform_bodies.tool]
+        shape = "cylinder"
+        diameter_m = 0.1
+        length_m = 0.2
+        [obstacles.column]
+        shape = "cylinder"
+        diameter_m = 0.1
+        length_m = 0.2
+        position_m = [5.0, 0.0, 0.1]
+        roll_pitch_yaw_deg = [0.0, 0.0, 10.0]
+        [obstacles.crate]
+        size_m = [0.1, 0.1, 0.1]
+        position_m = [6.0, 0.0, 0.1]
         [[cables]]
         name = "2"
         material = "other"

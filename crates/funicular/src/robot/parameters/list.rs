@@ -61,6 +61,8 @@ pub(super) fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
         ("winches", RobotPart::Winch),
         ("guide_wheels", RobotPart::GuideWheel),
         ("supports", RobotPart::Support),
+        ("platform_bodies", RobotPart::Body),
+        ("obstacles", RobotPart::Body),
     ];
     for (kind, part) in named {
         let Some(DeValue::Table(tables)) = root.get(kind).map(Spanned::get_ref) else { continue };
@@ -85,14 +87,15 @@ pub(super) fn list_of(root: &DeTable, robot: &Robot) -> Vec<Parameter> {
     let optional = [
         (RobotPart::Load, "loads"),
         (RobotPart::Required, "required"),
+        (RobotPart::Clearance, "clearance"),
         (RobotPart::Wind, "wind"),
         (RobotPart::State, "state"),
     ];
     for (part, name) in optional {
         match root.get(name).map(Spanned::get_ref) {
             Some(DeValue::Table(entry)) => table(part, &format!("[{name}]"), &[name], entry),
-            // Without a pose, the orientation has no meaning either, and most robots have no required loads.
-            _ if matches!(part, RobotPart::State | RobotPart::Required) => {}
+            // Without a pose, the orientation has no meaning either, and most robots have no requirements.
+            _ if matches!(part, RobotPart::State | RobotPart::Required | RobotPart::Clearance) => {}
             _ => table(part, &format!("[{name}]"), &[name], &absent),
         }
     }

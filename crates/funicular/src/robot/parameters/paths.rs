@@ -9,9 +9,12 @@ pub(super) fn key_of(path: &[&str]) -> Option<(&'static Key, usize)> {
     (1..=path.len()).rev().find_map(|count| {
         let (header, key) = match path[..count] {
             [key] => (TOP.to_owned(), key),
-            [kind @ ("materials" | "pulleys" | "winches" | "guide_wheels" | "supports"), _, key] => {
-                (format!("[{kind}.NAME]"), key)
-            }
+            [
+                kind @ ("materials" | "pulleys" | "winches" | "guide_wheels" | "supports" | "platform_bodies"
+                | "obstacles"),
+                _,
+                key,
+            ] => (format!("[{kind}.NAME]"), key),
             ["cables", _, key] => ("[[cables]]".to_owned(), key),
             ["required_loads", _, key] => ("[[required_loads]]".to_owned(), key),
             [table, key] => (format!("[{table}]"), key),
@@ -107,7 +110,7 @@ pub fn is_top_key(name: &str) -> bool {
     TABLES.iter().filter(|table| table.header == TOP).flat_map(|table| table.keys).any(|key| key.name == name)
 }
 
-/// True for a table at the top of the file that may be absent: `loads`, `required`, `wind` and `state`.
+/// True for a table at the top of the file that may be absent: `loads`, `required`, `clearance`, `wind` and `state`.
 pub fn is_optional_table(name: &str) -> bool {
     let root = TABLES.iter().filter(|table| table.header == TOP).flat_map(|table| table.keys);
     root.into_iter()

@@ -220,6 +220,7 @@ pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformM
         inertia_p: inertia?,
         drag_area: drag_area?,
         center_of_mass_p: Vec3::from(center_of_mass?),
+        bodies: Vec::new(),
         motion: motion?,
     })
 }

@@ -502,7 +502,9 @@ fn the_table_of_keys_says_which_keys_are_required() {
            [pulleys.fibre]\nradius_m = 0.01\nentry_direction = [0, 0, 1]\n\
            [winches.fibre]\ndrum_side_length_m = 2\nshaft_stiffness_n_m_per_rad = 800\ndrum_radius_m = 0.05\n\
            [guide_wheels.fibre]\nwinch = \"fibre\"\ndistance_m = 1\nradius_m = 0.05\ninertia_kg_m2 = 0.001\n\
-           [supports.fibre]\nstiffness_n_per_m = 1e6\nmass_kg = 20\n";
+           [supports.fibre]\nstiffness_n_per_m = 1e6\nmass_kg = 20\n\
+           [platform_bodies.fibre]\nsize_m = [1, 1, 1]\n[obstacles.fibre]\nsize_m = [1, 1, 1]\nposition_m = [50, 0, 0]\n\
+           [clearance]\ncables_m = 0.1\nfrom_end_m = 0.1\n";
     let behind = "pulley = \"fibre\"\nwinch = \"fibre\"\nsupport = \"fibre\"\n";
     let file = file.replacen("[[cables]]\n", &format!("[[cables]]\n{behind}"), 1);
     Robot::from_toml(&file).unwrap();
@@ -542,7 +544,7 @@ fn the_table_of_keys_says_which_keys_are_required() {
     assert!(tried >= 23, "{tried}");
 
     for key in top_of_file().keys.iter().filter(|key| matches!(key.value, KeyValue::Table)) {
-        let is_optional = ["loads", "required", "wind", "state"].contains(&key.name);
+        let is_optional = ["loads", "required", "clearance", "wind", "state"].contains(&key.name);
         assert_eq!(key.absent != Absent::Refused, is_optional, "{}", key.name);
         assert_eq!(funicular::robot::parameters::is_optional_table(key.name), is_optional);
     }

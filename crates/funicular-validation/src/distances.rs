@@ -1,0 +1,77 @@
+//! Distances between cables, straight and sagging.
+
+use super::reference::{DistanceReference, MeasuredPairs, PairsAtPose};
+use super::{Bound, Case, Comparison, DifferenceKind, Section};
+use anyhow::{Result, bail};
+use funicular::clearance::{ClearancePair, Surroundings};
+use funicular::robot::{Pose, RequiredClearance, Robot, State, TensionLimits};
+use funicular::statics::{self, StaticModel};
+
+/// Maximum difference of distances between straight cables [m]: the reference prints 13 digits.
+const STRAIGHT: f64 = 1e-11;
+
+/// Maximum difference of distances between sagging cables [m]: the other program ends its search at 2e-9 m.
+const SAGGING: f64 = 3e-9;
+
+pub(super) fn section(reference: &DistanceReference) -> Result<Section> {
+    let mut rows = Vec::new();
+    for of in &reference.robots {
+        let text = match of.robot.as_str() {
+            "cogiro" => funicular_robots::COGIRO,
+            "ipanema2" => funicular_robots::IPANEMA2,
+            other => bail!("the comparisons use no robot {other}"),
+        };
+        let [minimum, maximum] = of.tension_limits_n.map(Some);
+        let mut robot = Robot::from_toml(text)?.with_tension_limits(TensionLimits { minimum, maximum });
+        robot.clearance = Some(RequiredClearance { from_end: Some(0.0), ..RequiredClearance::default() });
+        let case = Case { name: of.id.clone(), source: &reference.source };
+        rows.extend(distances(&case, &robot, of)?);
+    }
+    Ok(Section {
+        title: "Distances between cables, computed independently",
+        note: "Least distance of the centre lines of every pair of cables at random poses, with tensions by the rule \
+               `lowest`. The other program halves arcs until bounds from their chords meet.",
+        rows,
+    })
+}
+
+/// Distances of straight and of sagging cables.
+fn distances(case: &Case, robot: &Robot, of: &MeasuredPairs) -> Result<[Comparison; 2]> {
+    let kinds = [
+        ("distances of straight cables; the least is shown [m]", StaticModel::Ideal, STRAIGHT),
+        ("distances of sagging cables; the least is shown [m]", StaticModel::Catenary, SAGGING),
+    ];
+    let compared = kinds.map(|(quantity, model, tolerance)| {
+        let mut pairs: Vec<(f64, f64)> = Vec::new();
+        for row in &of.rows {
+            pairs.extend(at_pose(robot, row, model)?);
+        }
+        let worst = super::worst(pairs.iter().map(|(their, our)| (our - their).abs()));
+        let Some((their, our)) = pairs.iter().min_by(|a, b| a.0.total_cmp(&b.0)) else { bail!("no pairs") };
+        let difference = (worst, DifferenceKind::Absolute);
+        Ok(case.row(quantity, (&[*their], &[*our]), difference, tolerance, Bound::Digits("end of the other search")))
+    });
+    let [straight, sagging] = compared;
+    Ok([straight?, sagging?])
+}
+
+/// Distances of a pose: those of the reference with those of the program.
+fn at_pose(robot: &Robot, row: &PairsAtPose, model: StaticModel) -> Result<Vec<(f64, f64)>> {
+    let [x, y, z, roll, pitch, yaw] = row.pose;
+    let state = State::Pose(Pose::new([x, y, z], [roll, pitch, yaw]));
+    let posed = Robot { state, ..robot.clone() };
+    // The lengths of the sagging cables hold the straight ones, too: only their ends count.
+    let rest = statics::solve(&posed, StaticModel::Catenary, None)?.equilibrium;
+    let mut rest = rest;
+    if model == StaticModel::Ideal {
+        rest.cables.iter_mut().for_each(|cable| cable.hanging = None);
+    }
+    let radii: Vec<f64> = robot.cables.iter().map(funicular::robot::Cable::radius).collect();
+    let found = Surroundings::of(&posed).clearances(&rest);
+    let distance = |i: usize, j: usize| {
+        let of_pair = found.iter().find(|found| found.pair == ClearancePair::Cables(i - 1, j - 1));
+        of_pair.map_or(f64::NAN, |found| found.distance + radii[i - 1] + radii[j - 1])
+    };
+    let theirs = |straight: f64, sagging: f64| if model == StaticModel::Ideal { straight } else { sagging };
+    Ok(row.pairs.iter().map(|(i, j, straight, sagging)| (theirs(*straight, *sagging), distance(*i, *j))).collect())
+}

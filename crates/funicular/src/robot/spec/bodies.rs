@@ -1,0 +1,288 @@
+//! `[obstacles.NAME]`, `[platform_bodies.NAME]` and `[clearance]`: what cables and platform must not touch.
+
+use super::key::{Absent, Key, KeyValue, Shape};
+use super::range::Range;
+use super::read::{Named, Reader, Section, Value, shortened};
+use crate::math::Vec3;
+use crate::robot::{Body, Cable, ClosedMesh, Platform, PlatformMotion, Pose, RequiredClearance, Solid, State};
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use std::io::Cursor;
+
+/// Largest size of a mesh over the size of its robot: a hall has up to ten, and millimetres read as metres make even a
+/// part of a fiftieth of the robot larger.
+const LARGEST_MESH: f64 = 20.0;
+
+/// Units of the numbers of an STL file, which does not say them.
+const UNITS: &[(&str, &str)] = &[("m", "metres"), ("mm", "millimetres")];
+
+/// Beginning of a mesh that stands in the robot file itself.
+const IN_THE_FILE: &str = "data:model/stl";
+
+/// Keys of `[obstacles.NAME]` and `[platform_bodies.NAME]`.
+pub(super) const BODY: &[Key] = &[
+    Key::other("shape", r#"shape = "box""#, KeyValue::Word(Solid::WORDS), "shape of the body")
+        .without(Absent::DefaultWord("box")),
+    Key::numeric(
+        Shape::Vector,
+        "position_m",
+        "position_m = [2.0, 0.0, 1.5]",
+        "m",
+        Range::Any,
+        "origin of the body's own frame: for an obstacle in the world, for a part of the platform in its frame",
+    )
+    .or([0.0; 3]),
+    Key::numeric(
+        Shape::Angles,
+        "roll_pitch_yaw_deg",
+        "roll_pitch_yaw_deg = [0.0, 0.0, 30.0]",
+        "degrees",
+        Range::Any,
+        "orientation of the body's own frame, R = Rz(yaw) Ry(pitch) Rx(roll)",
+    )
+    .or([0.0; 3]),
+    Key::numeric(Shape::Vector, "size_m", "size_m = [0.4, 0.4, 3.0]", "m", Range::Positive, "edges of a box")
+        .without(Absent::Depends("required for a box, else refused")),
+    Key::numeric(Shape::Number, "diameter_m", "diameter_m = 0.4", "m", Range::Positive, "diameter of a cylinder")
+        .without(Absent::Depends("required for a cylinder, else refused")),
+    Key::numeric(Shape::Number, "length_m", "length_m = 3.0", "m", Range::Positive, "length of a cylinder")
+        .without(Absent::Depends("required for a cylinder, else refused")),
+    Key::other(
+        "file",
+        r#"file = "column.stl""#,
+        KeyValue::Name,
+        "STL file of a mesh, binary or text, relative to the folder of the robot file",
+    )
+    .without(Absent::Depends("required for a mesh, else refused")),
+    Key::other("file_unit", r#"file_unit = "mm""#, KeyValue::Word(UNITS), "unit of the numbers of the STL file")
+        .without(Absent::DefaultWord("m")),
+];
+
+/// Keys of `[clearance]`.
+pub(super) const CLEARANCE: &[Key] = &[
+    Key::numeric(
+        Shape::Number,
+        "cables_m",
+        "cables_m = 0.02",
+        "m",
+        Range::NotNegative,
+        "required distance between the surfaces of two cables",
+    )
+    .or([0.0; 3]),
+    Key::numeric(
+        Shape::Number,
+        "platform_m",
+        "platform_m = 0.02",
+        "m",
+        Range::NotNegative,
+        "required distance between a cable and the platform",
+    )
+    .or([0.0; 3]),
+    Key::numeric(
+        Shape::Number,
+        "obstacles_m",
+        "obstacles_m = 0.05",
+        "m",
+        Range::NotNegative,
+        "required distance of cables and platform from obstacles",
+    )
+    .or([0.0; 3]),
+    Key::numeric(
+        Shape::Number,
+        "from_end_m",
+        "from_end_m = 0.1",
+        "m",
+        Range::NotNegative,
+        "length at the end of a cable that is not compared with what this end is mounted on: an end that is nearer than \
+         this to another cable, to the platform or to an obstacle",
+    )
+    .without(Absent::Means("a tenth of the mean distance of the attachments from the platform origin")),
+];
+
+/// Obstacles, parts of the platform, and the distances that they need.
+pub(super) struct Bodies<'t> {
+    obstacles: Named<Body>,
+    parts: Named<Body>,
+    clearance: Option<RequiredClearance>,
+    /// Table of the obstacles, to report one at its place.
+    obstacles_at: Option<&'t Value<'t>>,
+}
+
+/// Reads obstacles, parts of the platform and required distances.
+pub(super) fn read<'t>(reader: &mut Reader, root: &Section<'t>, motion: Option<PlatformMotion>) -> Option<Bodies<'t>> {
+    let mut named = |kind: &str, singular: &str| match root.get(kind) {
+        Some(value) => reader.named_tables(kind, singular, value, BODY, read_one),
+        None => Some(Named::new()),
+    };
+    let (obstacles, parts) = (named("obstacles", "obstacle"), named("platform_bodies", "platform body"));
+    let clearance = read_clearance(reader, root);
+
+    let parts = parts?;
+    let refused = match motion? {
+        PlatformMotion::PointMass if !parts.is_empty() => {
+            Some("a point mass has no extent: remove [platform_bodies], or set `motion = \"rigid\"`")
+        }
+        _ if parts.values().flatten().any(|body| body.solid == Solid::HalfSpace) => {
+            Some("a platform cannot carry a half space: give its bodies as boxes, cylinders or meshes")
+        }
+        _ => None,
+    };
+    if let Some(message) = refused {
+        reader.issue(root.get("platform_bodies").map_or(0..0, toml::Spanned::span), message);
+        return None;
+    }
+    Some(Bodies { obstacles: obstacles?, parts, clearance: clearance?, obstacles_at: root.get("obstacles") })
+}
+
+/// Reads `[clearance]`. The outer `None` is a refused value; the inner one a file without the table.
+#[expect(clippy::option_option, reason = "outside: refused, an issue is reported; inside: not given")]
+fn read_clearance(reader: &mut Reader, root: &Section) -> Option<Option<RequiredClearance>> {
+    let Some(value) = root.get("clearance") else { return Some(None) };
+    let table = reader.table("clearance", "[clearance]", value)?;
+    let section = reader.open("[clearance]", value.span(), table, CLEARANCE);
+    let [cables, platform, obstacles] =
+        ["cables_m", "platform_m", "obstacles_m"].map(|key| reader.number_or_default(&section, key));
+    let from_end = match section.get("from_end_m") {
+        Some(value) => Some(reader.number_of(&section, "from_end_m", value)?),
+        None => None,
+    };
+    Some(Some(RequiredClearance { cables: cables?, platform: platform?, obstacles: obstacles?, from_end }))
+}
+
+/// Reads a body.
+fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Body> {
+    let position = reader.vector_or_default(section, "position_m");
+    let angles = reader.vector_or_default(section, "roll_pitch_yaw_deg");
+    let word = reader.word(section, "shape")?;
+
+    let own: &[&str] = match word {
+        "box" => &["size_m"],
+        "cylinder" => &["diameter_m", "length_m"],
+        "mesh" => &["file", "file_unit"],
+        _ => &[],
+    };
+    let of_shapes = ["size_m", "diameter_m", "length_m", "file", "file_unit"];
+    let foreign = of_shapes.into_iter().filter(|key| !own.contains(key));
+    if let Some((key, value)) = foreign.into_iter().find_map(|key| Some((key, section.get(key)?))) {
+        reader
+            .issue(value.span(), format!("`{key}` does not go with `shape = \"{word}\"`"))
+            .help("remove the line, or write the shape that it belongs to");
+        return None;
+    }
+
+    let mut number = |key: &str| reader.required(section, key).and_then(|value| reader.number_of(section, key, value));
+    let solid = match word {
+        "cylinder" => {
+            let (diameter, length) = (number("diameter_m"), number("length_m"));
+            Solid::Cylinder { radius: 0.5 * diameter?, half_length: 0.5 * length? }
+        }
+        "half-space" => Solid::HalfSpace,
+        "mesh" => Solid::Mesh(mesh(reader, section)?),
+        _ => {
+            let value = reader.required(section, "size_m")?;
+            Solid::Box { half: Vec3::from(reader.vector(section, "size_m", value)?) * 0.5 }
+        }
+    };
+    Some(Body { name: name.to_owned(), pose: Pose::new(position?, angles?), solid })
+}
+
+/// Reads the mesh of a body.
+fn mesh(reader: &mut Reader, section: &Section) -> Option<ClosedMesh> {
+    let value = reader.required(section, "file")?;
+    let text = reader.text("file", value)?;
+    let scale = if reader.word(section, "file_unit")? == "mm" { 1e-3 } else { 1.0 };
+
+    let Some(data) = text.strip_prefix(IN_THE_FILE) else {
+        reader.issue(value.span(), format!("the mesh \"{}\" has not been read", shortened(&text))).help(
+            "give the robot as a file, so that its meshes are found beside it, or write the STL file into the text as \
+             \"data:model/stl;base64,…\"",
+        );
+        return None;
+    };
+    let (head, encoded) = data.split_once("base64,").unwrap_or((data, ""));
+    let name = head.split(';').find_map(|part| part.strip_prefix("name=")).unwrap_or("in the file");
+    // The place is that of the table: the line of the mesh is its whole content.
+    let mut refuse = |message: &str, help: &str| {
+        let message = format!("the mesh \"{}\" of {} {message}", shortened(name), section.label());
+        reader.issue(section.span.clone(), message).help(help);
+    };
+
+    let bytes = BASE64_STANDARD.decode(encoded).ok();
+    let Some(Ok(stl)) = bytes.map(|bytes| stl_io::read_stl(&mut Cursor::new(bytes))) else {
+        refuse("is no STL file", "export it as STL, binary or text");
+        return None;
+    };
+    if stl.vertices.iter().any(|vertex| vertex.0.iter().any(|number| !number.is_finite())) {
+        refuse("has corners that are no numbers", "export it again");
+        return None;
+    }
+    let corner = |i: usize| Vec3::from(stl.vertices[i].0.map(|number| f64::from(number) * scale));
+    let triangles: Vec<[Vec3; 3]> = stl.faces.iter().map(|face| face.vertices.map(corner)).collect();
+    match ClosedMesh::of_triangles(&triangles) {
+        Ok(mesh) => Some(mesh),
+        Err(error) => {
+            refuse(
+                &error.to_string(),
+                "repair it in the program that made it, or describe the body by boxes and cylinders",
+            );
+            None
+        }
+    }
+}
+
+/// Obstacles and parts of the platform of a robot, whose anchors and platform lie outside the obstacles.
+pub(super) fn placed(
+    reader: &mut Reader,
+    bodies: Bodies,
+    platform: &mut Platform,
+    cables: &[Cable],
+    state: &State,
+) -> Option<(Vec<Body>, Option<RequiredClearance>)> {
+    let Bodies { obstacles, parts, clearance, obstacles_at } = bodies;
+    platform.bodies = parts.into_values().collect::<Option<Vec<Body>>>()?;
+    let obstacles = obstacles.into_values().collect::<Option<Vec<Body>>>()?;
+    let span_of = |name: &str| {
+        let table = obstacles_at.and_then(|value| value.get_ref().as_table()?.get(name));
+        table.map_or(0..0, toml::Spanned::span)
+    };
+
+    let size = size_of(cables, state);
+    let from_end = clearance.and_then(|clearance| clearance.from_end).unwrap_or_else(|| {
+        0.1 * cables.iter().map(|cable| cable.attachment_p.norm()).sum::<f64>() / cables.len().max(1) as f64
+    });
+    for body in platform.bodies.iter().chain(&obstacles) {
+        if let Solid::Mesh(mesh) = &body.solid
+            && mesh.size() > LARGEST_MESH * size
+            && size > 0.0
+        {
+            let message =
+                format!("the mesh of \"{}\" is {:.4} m large, and the robot {size:.4} m", body.name, mesh.size());
+            reader.issue(span_of(&body.name), message).help("if the file is in millimetres, add `file_unit = \"mm\"`");
+            return None;
+        }
+    }
+    for obstacle in &obstacles {
+        let around = |what: String| format!("the obstacle \"{}\" is around {what}", obstacle.name);
+        let help = "a cable that begins inside an obstacle can never be free of it: make the obstacle smaller, or describe \
+                    a room by half spaces, one for each wall";
+        if let Some(cable) = cables.iter().find(|cable| obstacle.depth_inside(&cable.anchor.point_w) > from_end) {
+            reader.issue(span_of(&obstacle.name), around(format!("the anchor of cable \"{}\"", cable.name))).help(help);
+            return None;
+        }
+        if let State::Pose(pose) = state
+            && obstacle.depth_inside(&pose.position_w) > 0.0
+        {
+            let what = "the origin of the platform at the pose of [state]".to_owned();
+            reader.issue(span_of(&obstacle.name), around(what)).help(help);
+            return None;
+        }
+    }
+    Some((obstacles, clearance))
+}
+
+/// Largest distance of an anchor from another or from the platform [m].
+fn size_of(cables: &[Cable], state: &State) -> f64 {
+    let platform_w = if let State::Pose(pose) = state { Some(pose.position_w) } else { None };
+    let points: Vec<Vec3> = cables.iter().map(|cable| cable.anchor.point_w).chain(platform_w).collect();
+    points.iter().flat_map(|one| points.iter().map(move |other| (other - one).norm())).fold(0.0, f64::max)
+}

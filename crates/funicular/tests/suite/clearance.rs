@@ -1,0 +1,216 @@
+//! Distances between cables, platform and obstacles. Oracles: dense samples of the curves, closed forms, one shape as
+//! another, and the symmetry of hall and robot.
+
+use crate::random::Draw;
+use funicular::clearance::{BODY_TOLERANCE, Clearance, ClearanceKind, ClearancePair, Surroundings, TOLERANCE};
+use funicular::math::Vec3;
+use funicular::robot::{Body, Pose, RequiredClearance, Robot, Solid, State};
+use funicular::statics::{self, CableState, Equilibrium, StaticModel};
+
+fn cogiro() -> Robot {
+    Robot::from_toml(funicular_robots::COGIRO).unwrap()
+}
+
+/// Robot at a pose with tensions by the rule `lowest`, from a minimum tension [N].
+fn at_rest(robot: &Robot, pose: Pose, minimum: f64) -> (Robot, Equilibrium) {
+    let limits = funicular::robot::TensionLimits { minimum: Some(minimum), maximum: Some(5000.0) };
+    let posed = Robot { state: State::Pose(pose), ..robot.with_tension_limits(limits) };
+    let rest = statics::solve(&posed, StaticModel::Catenary, None).unwrap().equilibrium;
+    (posed, rest)
+}
+
+fn poses(draw: &mut Draw, count: usize) -> Vec<Pose> {
+    let mut within = |reach: f64, middle: f64| middle + reach * draw.between(-1.0, 1.0);
+    (0..count)
+        .map(|_| {
+            let position = [within(4.0, 0.0), within(3.0, 0.0), within(1.0, 1.8)];
+            Pose::new(position, [within(5.0, 0.0), within(5.0, 0.0), within(15.0, 0.0)])
+        })
+        .collect()
+}
+
+/// Points of a cable at equal distances.
+fn sampled(cable: &CableState, count: usize) -> Vec<Vec3> {
+    let hanging = cable.hanging.as_ref().unwrap();
+    let length = hanging.catenary.rope().unstrained_length;
+    (0..=count).map(|k| hanging.point_w(length * k as f64 / count as f64)).collect()
+}
+
+fn of_pair(all: &[Clearance], pair: ClearancePair) -> Clearance {
+    *all.iter().find(|of| of.pair == pair).unwrap()
+}
+
+fn without_ends(mut robot: Robot) -> Robot {
+    robot.clearance = Some(RequiredClearance { from_end: Some(0.0), ..RequiredClearance::default() });
+    robot
+}
+
+#[test]
+fn no_sampled_points_of_two_cables_are_nearer_than_their_distance() {
+    let robot = without_ends(cogiro());
+    let mut draw = Draw(42);
+    for minimum in [4.0, 100.0] {
+        for pose in poses(&mut draw, 4) {
+            let (robot, rest) = at_rest(&robot, pose, minimum);
+            let found = Surroundings::of(&robot).clearances(&rest);
+            let points: Vec<Vec<Vec3>> = rest.cables.iter().map(|cable| sampled(cable, 1500)).collect();
+            for (i, j) in (0..8).flat_map(|i| (i + 1..8).map(move |j| (i, j))) {
+                let radii = robot.cables[i].radius() + robot.cables[j].radius();
+                let distance = of_pair(&found, ClearancePair::Cables(i, j)).distance + radii;
+                let apart = |p: &Vec3| points[j].iter().map(|q| (p - q).norm_squared()).fold(f64::INFINITY, f64::min);
+                let sampled = points[i].iter().map(apart).fold(f64::INFINITY, f64::min).sqrt();
+                // The nearest samples are half a step away along both cables: across, that is of second order.
+                let step = rest.cables[i].chord().max(rest.cables[j].chord()) / 1500.0;
+                let coarse = step * step / distance + 1e-9;
+                assert!(distance <= sampled + TOLERANCE, "{i} {j}: {distance} {sampled}");
+                assert!(distance >= sampled - coarse, "{i} {j}: {distance} {sampled}");
+            }
+        }
+    }
+}
+
+#[test]
+fn two_ropes_in_one_vertical_plane_cross_where_a_sag_passes_a_chord() {
+    // A slack rope between two points at 3 m and a tight one below its ends, in the same plane: the slack one sags
+    // through it twice, so the distance is zero although the chords are 0.2 m apart.
+    let (robot, mut rest) = at_rest(&without_ends(cogiro()), Pose::new([0.0, 0.0, 1.5], [0.0; 3]), 100.0);
+    let rope = rest.cables[1].hanging.as_ref().unwrap().catenary.rope();
+    let between = |from: Vec3, to: Vec3, unstrained_length: f64| {
+        let rope = funicular::catenary::Rope { unstrained_length, ..rope };
+        funicular::catenary::space::HangingCable::new(from, to, Vec3::z(), rope).unwrap()
+    };
+    let slack = between(Vec3::new(-4.0, 0.0, 3.0), Vec3::new(4.0, 0.0, 3.0), 8.2);
+    let tight = between(Vec3::new(-3.9, 0.0, 2.8), Vec3::new(3.9, 0.0, 2.8), 7.79);
+    for (cable, hanging) in rest.cables.iter_mut().zip([slack, tight]) {
+        (cable.attachment_w, cable.anchor_w) = (hanging.start_w, hanging.end_w);
+        cable.hanging = Some(hanging);
+    }
+    let found = of_pair(&Surroundings::of(&robot).clearances(&rest), ClearancePair::Cables(0, 1));
+    assert!((found.distance + 2.0 * robot.cables[0].radius()).abs() < TOLERANCE, "{found:?}");
+    assert!((found.points_w[0] - found.points_w[1]).norm() < TOLERANCE);
+}
+
+/// Box of the triangles of its surface.
+fn mesh_of_box(half: [f64; 3]) -> Solid {
+    let corner = |bits: usize| Vec3::from_fn(|k, _| if bits & (1 << k) == 0 { -half[k] } else { half[k] });
+    let faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let triangles: Vec<[Vec3; 3]> =
+        faces.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).map(|face| face.map(corner)).collect();
+    Solid::Mesh(funicular::robot::ClosedMesh::of_triangles(&triangles).unwrap())
+}
+
+fn column(name: &str, pose: Pose, solid: Solid) -> Body {
+    Body { name: name.to_owned(), pose, solid }
+}
+
+#[test]
+fn a_box_is_as_far_as_the_mesh_of_its_surface_and_as_samples_say() {
+    let half = [0.3, 0.4, 1.5];
+    let mut draw = Draw(7);
+    for pose in poses(&mut draw, 6) {
+        let mut robot = cogiro();
+        let place = Pose::new([draw.between(-6.0, 6.0), draw.between(-4.0, 4.0), 1.5], [5.0, -8.0, 30.0]);
+        robot.obstacles =
+            vec![column("box", place, Solid::Box { half: half.into() }), column("mesh", place, mesh_of_box(half))];
+        let (robot, rest) = at_rest(&robot, pose, 100.0);
+        let found = Surroundings::of(&robot).clearances(&rest);
+        for i in 0..8 {
+            let [of_box, of_mesh] =
+                [0, 1].map(|obstacle| of_pair(&found, ClearancePair::CableAndObstacle { cable: i, obstacle }).distance);
+            assert!((of_box - of_mesh).abs() < 2.0 * BODY_TOLERANCE, "{of_box} {of_mesh}");
+
+            // Distance of a point from a box in closed form.
+            let outside = |point_w: &Vec3| {
+                let local = place.rot_wp.inverse() * (point_w - place.position_w);
+                Vec3::from_fn(|k, _| (local[k].abs() - half[k]).max(0.0)).norm()
+            };
+            let sampled = sampled(&rest.cables[i], 20_000).iter().map(outside).fold(f64::INFINITY, f64::min);
+            let distance = of_box + robot.cables[i].radius();
+            assert!(distance <= sampled + BODY_TOLERANCE && distance > sampled - 1e-3, "{distance} {sampled}");
+        }
+    }
+}
+
+#[test]
+fn a_cylinder_and_a_half_space_are_as_far_as_their_closed_forms_say() {
+    let mut draw = Draw(11);
+    for pose in poses(&mut draw, 4) {
+        let mut robot = cogiro();
+        let place = Pose::new([draw.between(-6.0, 6.0), draw.between(-4.0, 4.0), 1.0], [20.0, 10.0, 0.0]);
+        let floor = Pose::new([0.0, 0.0, -0.5], [0.0, 0.0, 0.0]);
+        robot.obstacles = vec![
+            column("tube", place, Solid::Cylinder { radius: 0.2, half_length: 0.8 }),
+            column("floor", floor, Solid::HalfSpace),
+        ];
+        let (robot, rest) = at_rest(&robot, pose, 4.0);
+        let found = Surroundings::of(&robot).clearances(&rest);
+        for i in 0..8 {
+            let distance = |obstacle: usize| {
+                of_pair(&found, ClearancePair::CableAndObstacle { cable: i, obstacle }).distance
+                    + robot.cables[i].radius()
+            };
+            let points = sampled(&rest.cables[i], 20_000);
+            let to_tube = |point_w: &Vec3| {
+                let local = place.rot_wp.inverse() * (point_w - place.position_w);
+                let across = (local.x.hypot(local.y) - 0.2).max(0.0);
+                across.hypot((local.z.abs() - 0.8).max(0.0))
+            };
+            let sampled = points.iter().map(to_tube).fold(f64::INFINITY, f64::min);
+            assert!(distance(0) <= sampled + BODY_TOLERANCE && distance(0) > sampled - 1e-3);
+            let lowest = points.iter().map(|point| point.z + 0.5).fold(f64::INFINITY, f64::min);
+            assert!((distance(1) - lowest).abs() < 1e-6, "{} {lowest}", distance(1));
+        }
+        let platform = of_pair(&found, ClearancePair::PlatformAndObstacle { body: 0, obstacle: 1 });
+        let attachments = robot.cables.iter().map(|cable| pose.point_w(&cable.attachment_p).z + 0.5);
+        assert!((platform.distance - attachments.fold(f64::INFINITY, f64::min)).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn the_least_margin_is_that_of_all_pairs_and_moves_with_the_required_distance() {
+    let mut robot = cogiro();
+    robot.obstacles = vec![column(
+        "column",
+        Pose::new([3.0, 0.5, 1.5], [0.0; 3]),
+        Solid::Cylinder { radius: 0.15, half_length: 1.5 },
+    )];
+    robot.clearance = Some(RequiredClearance { cables: 0.01, platform: 0.02, obstacles: 0.03, from_end: Some(0.05) });
+    let mut draw = Draw(3);
+    for pose in poses(&mut draw, 8) {
+        let (robot, rest) = at_rest(&robot, pose, 100.0);
+        let around = Surroundings::of(&robot);
+        let all = around.clearances(&rest);
+        for kind in [None, Some(ClearanceKind::Cables), Some(ClearanceKind::Platform), Some(ClearanceKind::Obstacles)] {
+            let of_kind = all.iter().filter(|of| kind.is_none_or(|kind| of.pair.kind() == kind));
+            let least = of_kind.map(Clearance::margin).fold(f64::INFINITY, f64::min);
+            let found = around.least(&rest, kind).unwrap();
+            assert!((found.margin() - least).abs() < 2.0 * BODY_TOLERANCE, "{kind:?}: {} {least}", found.margin());
+        }
+    }
+}
+
+#[test]
+fn a_cable_through_a_closed_mesh_and_one_inside_it_touch_it() {
+    let mut robot = cogiro();
+    // A hall of 40 m about everything: all cables are inside, none touches a wall.
+    robot.obstacles = vec![column("hall", Pose::new([0.0; 3], [0.0; 3]), mesh_of_box([20.0, 20.0, 20.0]))];
+    let (robot, rest) = at_rest(&robot, Pose::new([0.0, 0.0, 1.5], [0.0; 3]), 100.0);
+    let found = Surroundings::of(&robot).clearances(&rest);
+    for cable in 0..8 {
+        let inside = of_pair(&found, ClearancePair::CableAndObstacle { cable, obstacle: 0 });
+        assert!(inside.distance <= 0.0, "{inside:?}");
+    }
+    assert!(of_pair(&found, ClearancePair::PlatformAndObstacle { body: 0, obstacle: 0 }).distance <= 0.0);
+}
+
+#[test]
+fn flat_and_small_platforms_have_the_hull_that_they_can_have() {
+    for text in [funicular_robots::STADIUM_CAMERA, funicular_robots::YUAN2014_4MM] {
+        let robot = Robot::from_toml(text).unwrap();
+        let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+        let around = Surroundings::of(&robot);
+        let found = around.clearances(&rest);
+        assert!(!found.is_empty());
+        assert!(found.iter().all(|of| of.distance.is_finite()), "{found:?}");
+    }
+}
