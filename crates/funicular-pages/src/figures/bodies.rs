@@ -37,19 +37,35 @@ impl BodySurface {
         self.triangles.iter().flatten().copied()
     }
 
-    /// Edges between triangles that meet at an angle [m].
-    pub(crate) fn edges(&self) -> Vec<[Vec3; 2]> {
+    /// Edges that a line drawing shows from a direction: those between triangles that meet at an angle, and the outline [m].
+    pub(crate) fn edges(&self, towards: &Vec3) -> Vec<[Vec3; 2]> {
+        // Corners to a micrometre, so that triangles share them.
         let key = |point: &Vec3| [point.x, point.y, point.z].map(|number| (number * 1e6).round() as i64);
-        let mut edges: BTreeMap<[[i64; 3]; 2], ([Vec3; 2], Vec<Vec3>)> = BTreeMap::new();
+        let mut edges: BTreeMap<[[i64; 3]; 2], EdgeOfTriangles> = BTreeMap::new();
         for [a, b, c] in &self.triangles {
             let normal = (b - a).cross(&(c - a)).normalize();
             for [from, to] in [[a, b], [b, c], [c, a]] {
                 let mut ends = [key(from), key(to)];
                 ends.sort_unstable();
-                edges.entry(ends).or_insert_with(|| ([*from, *to], Vec::new())).1.push(normal);
+                let new = || EdgeOfTriangles { ends: [*from, *to], normals: Vec::new() };
+                edges.entry(ends).or_insert_with(new).normals.push(normal);
             }
         }
-        let is_sharp = |normals: &[Vec3]| normals.len() != 2 || normals[0].dot(&normals[1]) < SMOOTH;
-        edges.into_values().filter(|(_, normals)| is_sharp(normals)).map(|(ends, _)| ends).collect()
+        edges.into_values().filter(|edge| edge.is_shown(towards)).map(|edge| edge.ends).collect()
+    }
+}
+
+/// Edge with the normals of its triangles.
+struct EdgeOfTriangles {
+    ends: [Vec3; 2],
+    normals: Vec<Vec3>,
+}
+
+impl EdgeOfTriangles {
+    fn is_shown(&self, towards: &Vec3) -> bool {
+        match self.normals[..] {
+            [one, other] => one.dot(&other) < SMOOTH || (one.dot(towards) > 0.0) != (other.dot(towards) > 0.0),
+            _ => true,
+        }
     }
 }

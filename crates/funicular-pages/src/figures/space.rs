@@ -87,7 +87,7 @@ impl Space {
             moved,
             drives,
             supports: SupportAtRest::all(robot, equilibrium),
-            edges: bodies.iter().flat_map(BodySurface::edges).collect(),
+            edges: bodies.iter().flat_map(|body| body.edges(&Vec3::from(EYE))).collect(),
             head,
         }
     }

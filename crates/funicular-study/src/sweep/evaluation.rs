@@ -240,15 +240,12 @@ impl PointEvaluation<'_> {
     /// Adds the least distance between cables, platform and obstacles, its margin and the pair.
     pub(super) fn clearance(&mut self, out: &mut Vec<Value>) {
         let around = Surroundings::of(self.robot);
-        match around.least(self.rest, None) {
-            Some(least) => {
-                out.extend([least.distance, least.margin()].map(|value| Value::real(Some(value))));
-                out.push(Value::Text(around.pair_text(least.pair).into()));
-            }
-            None => {
-                out.extend([Value::Nothing, Value::Nothing, Value::Nothing]);
-                self.note_missing(Status::new("no-comparison", "there is no pair of things whose distance counts"));
-            }
+        if let Some(least) = around.least(self.rest, None) {
+            out.extend([least.distance, least.margin()].map(|value| Value::real(Some(value))));
+            out.push(Value::Text(around.pair_text(least.pair).into()));
+        } else {
+            out.extend([Value::Nothing, Value::Nothing, Value::Nothing]);
+            self.note_missing(Status::new("no-comparison", "there is no pair of things whose distance counts"));
         }
     }
 

@@ -46,6 +46,7 @@ pub(super) struct ArcBounds {
 }
 
 /// Point of a span with its derivatives by the place on it.
+#[expect(clippy::struct_field_names, reason = "the letter names the frame, as everywhere")]
 pub(super) struct PointOnSpan {
     pub(super) point_w: Vec3,
     pub(super) slope_w: Vec3,
