@@ -71,6 +71,7 @@ MORE = [
     f"funicular sweep robots/cogiro.toml --vary platform.mass_kg=80,90 --quantity load-factor {REQUIRED}",
     f"funicular clearance robots/cogiro.toml {TENSIONS} {STATE}",
     "funicular clearance robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250",
+    "funicular clearance robots/cogiro.toml --pose 0,0,1.5 --move-to 1,0.5,1.5,0,0,10",
     f"funicular statics robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --set platform.mass_kg=200",
     f"funicular stiffness robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
     f"funicular modes robots/cogiro.toml --below-hz 5 {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --platform-share 0.9",

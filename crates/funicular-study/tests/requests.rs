@@ -163,7 +163,7 @@ fn requests() -> Vec<Value> {
         ),
         of("payload", &[&robot, &state, &tensions, &center]),
         of("loads", &[&robot, &state, &tensions, &required]),
-        of("clearance", &[&robot, &state, &tensions]),
+        of("clearance", &[&robot, &state, &tensions, &json!({ "move_to": [0.1, 0.0, 0.5, 0.0, 0.0, 5.0] })]),
         of(
             "gradient",
             &[

@@ -5,6 +5,7 @@
 //! Every distance is certified: no other pair of points is nearer by more than [`TOLERANCE`].
 
 mod cable_pair;
+mod moves;
 mod solid;
 mod span;
 
@@ -15,6 +16,8 @@ use parry3d_f64::shape::{ConvexPolyhedron, Segment, SharedShape, TriMesh};
 use solid::PlacedBody;
 use span::FreeSpan;
 use std::sync::Arc;
+
+pub use moves::{Crossing, OnTheWay, StraightMove, WAY_TOLERANCE, straight_crossings};
 
 /// Bound of the error of a distance between two cables [m].
 pub const TOLERANCE: f64 = 1e-10;

@@ -3,13 +3,16 @@
 use super::fields::AXES;
 use super::found;
 use super::shared::PoseRow;
-use crate::at_rest;
+use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, ResultTable, Tabled, column, parts};
-use crate::request::ClearanceRequest;
+use crate::error::NoSolution;
+use crate::request::{self, ClearanceRequest};
 use crate::table::Column;
-use anyhow::Result;
-use funicular::clearance::{Clearance, ClearancePair, HULL, Surroundings};
-use funicular::robot::Robot;
+use crate::text::significant;
+use anyhow::{Result, bail};
+use funicular::clearance::{Clearance, ClearancePair, HULL, OnTheWay, StraightMove, Surroundings};
+use funicular::robot::{Pose, Robot, State};
+use funicular::statics;
 use serde::Serialize;
 
 /// Results of `clearance`.
@@ -19,6 +22,9 @@ pub struct Clearances {
     pub robot: String,
     pub static_model: &'static str,
     pub pose: PoseRow,
+    /// End of the move; absent without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub move_to: Option<PoseRow>,
     /// True if every pair keeps its required distance.
     pub free: bool,
     /// All pairs, that with the least margin first.
@@ -27,7 +33,7 @@ pub struct Clearances {
     pub warnings: Vec<String>,
 }
 
-/// Pair of things with its distance.
+/// Pair of things with its distance, on a move the least one.
 #[derive(Serialize)]
 pub struct ClearanceRow {
     /// Kind of the pair: `cables`, `platform` or `obstacles`.
@@ -42,27 +48,65 @@ pub struct ClearanceRow {
     pub margin_m: f64,
     /// Nearest points, on the centre lines of cables.
     pub points_m: [[f64; 3]; 2],
+    /// Fraction of the move where the margin is least.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fraction: Option<f64>,
+    /// Fractions of the move at which the two cables cross each other.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub crossing_fractions: Vec<f64>,
 }
 
-/// Computes the distances of all pairs at the equilibrium.
+/// Computes the distances of all pairs at the equilibrium, or the least ones on a move from there.
 ///
 /// # Errors
-/// A robot without such an equilibrium.
+/// A robot without such an equilibrium, or a move on which the cables do not hold the platform everywhere.
 pub fn run(robot: Robot, request: &ClearanceRequest) -> Result<Clearances> {
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     let (robot, rest) = (&at_rest.robot, &at_rest.equilibrium);
     let around = Surroundings::of(robot);
-    let mut found = around.clearances(rest);
-    found.sort_by(|a, b| a.margin().total_cmp(&b.margin()));
+    let end = request.move_to.map(|pose| move_end(&at_rest, request, pose)).transpose()?;
+    let mut pairs = match &end {
+        None => around.clearances(rest).iter().map(|of| ClearanceRow::of(robot, &around, of)).collect(),
+        Some(end) => on_the_way(&at_rest, &around, end)?,
+    };
+    pairs.sort_by(|a, b| a.margin_m.total_cmp(&b.margin_m));
 
     Ok(Clearances {
         robot: robot.name.clone(),
         static_model: rest.model.name(),
         pose: PoseRow::of(&rest.pose),
-        free: found.iter().all(|of| of.margin() >= 0.0),
-        pairs: found.iter().map(|of| ClearanceRow::of(robot, &around, of)).collect(),
+        move_to: end.as_ref().map(PoseRow::of),
+        free: pairs.iter().all(|pair| pair.margin_m >= 0.0),
+        pairs,
         warnings: at_rest.warnings(None),
     })
+}
+
+/// End of the requested move.
+fn move_end(at_rest: &AtRest, request: &ClearanceRequest, pose: request::Pose) -> Result<Pose> {
+    if request.state.hold_lengths_of_pose || matches!(at_rest.robot.state, State::Lengths(_)) {
+        bail!("a move goes from pose to pose: give the first one as ⟪pose⟫, without lengths");
+    }
+    let end = pose.to_robot()?;
+    at_rest::check_pose(&at_rest.robot, &end)?;
+    Ok(end)
+}
+
+/// Pairs on the way from the pose of an equilibrium to another one.
+fn on_the_way(at_rest: &AtRest, around: &Surroundings, end: &Pose) -> Result<Vec<ClearanceRow>> {
+    let AtRest { robot, equilibrium: rest, rule, .. } = at_rest;
+    let rule = rule.clone().unwrap_or_default();
+    let rest_at =
+        |pose: &Pose| statics::solve_at(robot, &State::Pose(*pose), rest.model, &rule).map(|found| found.equilibrium);
+    let found = around.on_the_way(&StraightMove::between(&rest.pose, end), rest_at).map_err(|(fraction, error)| {
+        NoSolution(format!("at {} % of the move: {error}", significant(100.0 * fraction, 4)))
+    })?;
+    let row = |of: &OnTheWay| ClearanceRow {
+        fraction: Some(of.fraction),
+        crossing_fractions: of.crossings.clone(),
+        ..ClearanceRow::of(robot, around, &of.least)
+    };
+    Ok(found.iter().map(row).collect())
 }
 
 impl ClearanceRow {
@@ -84,11 +128,13 @@ impl ClearanceRow {
             required_m: found.required,
             margin_m: found.margin(),
             points_m: found.points_w.map(Into::into),
+            fraction: None,
+            crossing_fractions: Vec::new(),
         }
     }
 
-    /// Columns of the pairs.
-    pub fn columns() -> Columns<Self> {
+    /// Columns of the pairs; those of a move are read if there is one.
+    pub fn columns(moves: bool) -> Columns<Self> {
         Columns::new([
             column("kind", "", "kind of the pair: cables, platform or obstacles", |row: &Self| row.kind).plain("kind"),
             column("first", "", "name of the first cable, or of a body of the platform", |row: &Self| {
@@ -99,6 +145,17 @@ impl ClearanceRow {
                 .plain("second"),
             column("distance_m", "m", "distance between the surfaces", |row: &Self| row.distance_m)
                 .decimals("distance", "m", 4),
+            column("fraction", "1", "fraction of the move where the margin is least", |row: &Self| row.fraction)
+                .decimals("at part of way", "", 4)
+                .read_if(moves),
+            column(
+                "crosses_at",
+                "1",
+                "first fraction of the move at which the cables cross each other",
+                |row: &Self| row.crossing_fractions.first().copied(),
+            )
+            .decimals("crosses at", "", 6)
+            .read_if(moves),
             column("required_m", "m", "required distance", |row: &Self| row.required_m).decimals("required", "m", 4),
             column("margin_m", "m", "distance beyond the required one", |row: &Self| row.margin_m).read_if(false),
             parts(
@@ -117,11 +174,11 @@ impl ClearanceRow {
 
 impl Tabled for Clearances {
     fn tables() -> Vec<(&'static str, Vec<Column>)> {
-        vec![("", ClearanceRow::columns().described())]
+        vec![("", ClearanceRow::columns(true).described())]
     }
 
     fn table(&self) -> ResultTable<'_> {
-        ResultTable::new(ClearanceRow::columns(), &self.pairs)
+        ResultTable::new(ClearanceRow::columns(self.move_to.is_some()), &self.pairs)
     }
 }
 

@@ -70,6 +70,9 @@ declared! {
     pub struct ClearanceRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
+        /// Pose x,y,z[,roll,pitch,yaw] [m, degrees] to which the platform moves, straight and with one turn; the
+        /// distances are then the least on the way, and cables that cross each other are shown.
+        move_to: Option<Pose> = None => (Pose);
         /// State and loads.
         #[serde(flatten)]
         state: State = State::default() => group;
@@ -79,6 +82,7 @@ declared! {
     }
     examples {
         "funicular clearance robots/cogiro.toml --pose 2,1,1.5",
+        "funicular clearance robots/cogiro.toml --pose 0,0,1.5 --move-to 5,3,1.5,0,0,30",
         "funicular clearance robots/cogiro.toml --pose 2,1,1.5,0,0,20 --set clearance.cables_m=0.05 --format csv",
         "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=1.5 --quantity clearance -o free.parquet",
     }

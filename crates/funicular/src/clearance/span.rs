@@ -62,6 +62,16 @@ impl<'a> FreeSpan<'a> {
         Self { hanging, start_w: state.attachment_w, end_w: state.anchor_w, length, from_end, radius }
     }
 
+    /// End on the platform [m].
+    pub(super) fn start_w(&self) -> Vec3 {
+        self.start_w
+    }
+
+    /// End at the anchor [m].
+    pub(super) fn end_w(&self) -> Vec3 {
+        self.end_w
+    }
+
     /// Point at a place [m].
     pub(super) fn point(&self, s: f64) -> Vec3 {
         match self.hanging {

@@ -2,7 +2,10 @@
 //! another, and the symmetry of hall and robot.
 
 use crate::random::Draw;
-use funicular::clearance::{BODY_TOLERANCE, Clearance, ClearanceKind, ClearancePair, Surroundings, TOLERANCE};
+use funicular::clearance::{
+    BODY_TOLERANCE, Clearance, ClearanceKind, ClearancePair, StraightMove, Surroundings, TOLERANCE, WAY_TOLERANCE,
+    straight_crossings,
+};
 use funicular::math::Vec3;
 use funicular::robot::{Body, Pose, RequiredClearance, Robot, Solid, State};
 use funicular::statics::{self, CableState, Equilibrium, StaticModel};
@@ -212,5 +215,136 @@ fn flat_and_small_platforms_have_the_hull_that_they_can_have() {
         let found = around.clearances(&rest);
         assert!(!found.is_empty());
         assert!(found.iter().all(|of| of.distance.is_finite()), "{found:?}");
+    }
+}
+
+/// Robot IPAnema 3 of WireX with ropes; its unit tests give the moves (github.com/gldkhoward/WireX, wcUnitTest.py and
+/// GeometryGenerator.cpp).
+fn ipanema3() -> Robot {
+    let upper = [[-3.8, 1.75, 3.25], [3.8, 1.75, 3.25], [3.8, -1.75, 3.25], [-3.8, -1.75, 3.25]];
+    let lower = [[-4.0, 1.5, 0.25], [4.0, 1.5, 0.25], [4.0, -1.5, 0.25], [-4.0, -1.5, 0.25]];
+    let below = [[-0.55, 0.25, 0.0], [0.55, 0.25, 0.0], [0.55, -0.25, 0.0], [-0.55, -0.25, 0.0]];
+    let above = [[-0.75, 0.15, 0.5], [0.75, 0.15, 0.5], [0.75, -0.15, 0.5], [-0.75, -0.15, 0.5]];
+    let mut text = "name = \"IPAnema 3\"\n[platform]\nmass_kg = 20\ninertia_kg_m2 = [1, 1, 1]\n[materials.rope]\n\
+                    axial_stiffness_n = 4e5\nmass_kg_per_m = 0.02\ndrag_diameter_m = 0.006\ndrag_coefficient = 1.2\n\
+                    minimum_tension_n = 100\nmaximum_tension_n = 3000\n"
+        .to_owned();
+    for (k, (anchor, attachment)) in upper.iter().chain(&lower).zip(below.iter().chain(&above)).enumerate() {
+        text += &format!(
+            "[[cables]]\nname = \"{}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\nattachment_m = {attachment:?}\n",
+            k + 1
+        );
+    }
+    Robot::from_toml(&text).unwrap()
+}
+
+#[test]
+fn straight_cables_cross_on_the_moves_of_wirex_where_a_bisection_finds_it() {
+    // Fractions by the independent program of the reference: sign changes of the triple product, bisected.
+    let centre = Pose::new([0.0, 0.0, 1.5], [0.0; 3]);
+    let crossings = |to: [f64; 3]| {
+        straight_crossings(&ipanema3(), &StraightMove::between(&centre, &Pose::new(to, [0.0; 3])))
+            .into_iter()
+            .map(|of| ([of.cables[0] + 1, of.cables[1] + 1], of.fraction, of.along))
+            .collect::<Vec<_>>()
+    };
+    let expected = [
+        (
+            [-4.0, -2.0, 0.0],
+            vec![
+                ([4, 8], 0.339_464_721_471_864_57, [0.823_855_421_086_043_9, 0.917_751_095_030_903]),
+                ([1, 8], 0.848_101_673_582_894_5, [0.949_230_911_120_501, 0.274_730_791_481_393_8]),
+            ],
+        ),
+        (
+            [-4.0, -2.0, 1.2],
+            vec![([4, 8], 0.364_447_237_965_447_65, [0.811_091_710_982_063_6, 0.909_331_711_323_446_5])],
+        ),
+    ];
+    for (to, expected) in expected {
+        let found = crossings(to);
+        assert_eq!(found.len(), expected.len(), "{found:?}");
+        for (found, expected) in found.iter().zip(&expected) {
+            assert_eq!(found.0, expected.0);
+            assert!((found.1 - expected.1).abs() < 1e-12, "{found:?} {expected:?}");
+            assert!(
+                (found.2[0] - expected.2[0]).abs() < 1e-9 && (found.2[1] - expected.2[1]).abs() < 1e-9,
+                "{found:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn crossings_of_a_turning_move_are_all_sign_changes_of_dense_stations() {
+    let robot = ipanema3();
+    let mut draw = Draw(5);
+    let mut met = 0;
+    for _ in 0..40 {
+        let mut pose = || {
+            let position = [draw.between(-3.0, 3.0), draw.between(-1.4, 1.4), draw.between(0.4, 2.4)];
+            Pose::new(position, [draw.between(-20.0, 20.0), draw.between(-20.0, 20.0), draw.between(-60.0, 60.0)])
+        };
+        let straight = StraightMove::between(&pose(), &pose());
+        let found = straight_crossings(&robot, &straight);
+        met += found.len();
+        // Gap of the segments from station to station: zero where they cross.
+        for crossing in &found {
+            let pose = straight.pose(crossing.fraction);
+            let place = |k: usize| {
+                let cable = &robot.cables[crossing.cables[k]];
+                let end = pose.point_w(&cable.attachment_p);
+                cable.anchor.point_w + (end - cable.anchor.point_w) * crossing.along[k]
+            };
+            assert!((place(0) - place(1)).norm() < 1e-9, "{crossing:?}");
+        }
+        for (i, j) in (0..8).flat_map(|i| (i + 1..8).map(move |j| (i, j))) {
+            let side = |fraction: f64| {
+                let pose = straight.pose(fraction);
+                let line = |k: usize| {
+                    let cable = &robot.cables[k];
+                    (cable.anchor.point_w, pose.point_w(&cable.attachment_p) - cable.anchor.point_w)
+                };
+                let ((a, d), (b, e)) = (line(i), line(j));
+                let normal = d.cross(&e);
+                let (s, t) = ((b - a).cross(&e).dot(&normal), (b - a).cross(&d).dot(&normal));
+                let inside = [s, t].iter().all(|place| (0.0..normal.norm_squared()).contains(place));
+                ((b - a).dot(&normal), inside)
+            };
+            let values: Vec<(f64, bool)> = (0..=2000).map(|k| side(f64::from(k) / 2000.0)).collect();
+            let changes = values.windows(2).filter(|two| two[0].0 * two[1].0 < 0.0 && two[0].1 && two[1].1).count();
+            let ours = found.iter().filter(|of| of.cables == [i, j]).count();
+            assert!(ours >= changes, "{i} {j}: {ours} {changes}");
+        }
+    }
+    assert!(met > 5, "{met}");
+}
+
+#[test]
+fn sagging_cables_cross_near_the_straight_ones_and_nothing_is_nearer_than_found() {
+    let robot = without_ends(ipanema3());
+    let straight =
+        StraightMove::between(&Pose::new([0.0, 0.0, 1.5], [0.0; 3]), &Pose::new([-2.0, -1.0, 1.3], [0.0; 3]));
+    let expected = straight_crossings(&robot, &straight);
+    let rest_at = |pose: &Pose| {
+        statics::solve_at(&robot, &State::Pose(*pose), StaticModel::Catenary, &statics::TensionRule::Lowest)
+            .map(|found| found.equilibrium)
+    };
+    let around = Surroundings::of(&robot);
+    let found = around.on_the_way(&straight, rest_at).unwrap();
+    let crossing: Vec<_> = found.iter().filter(|of| !of.crossings.is_empty()).collect();
+    assert_eq!(crossing.len(), expected.len(), "{crossing:?} {expected:?}");
+    for (found, expected) in crossing.iter().zip(&expected) {
+        assert!(matches!(found.least.pair, ClearancePair::Cables(i, j) if [i, j] == expected.cables));
+        // Sag of millimetres moves the crossing by a fraction of the move.
+        assert!((found.crossings[0] - expected.fraction).abs() < 0.02, "{found:?} {expected:?}");
+        assert!(found.least.distance < 0.0);
+    }
+    for k in 0..=300 {
+        let rest = rest_at(&straight.pose(f64::from(k) / 300.0)).unwrap();
+        for clearance in around.clearances(&rest) {
+            let least = found.iter().find(|of| of.least.pair == clearance.pair).unwrap().least;
+            assert!(clearance.distance >= least.distance - WAY_TOLERANCE, "{k}: {clearance:?} {least:?}");
+        }
     }
 }

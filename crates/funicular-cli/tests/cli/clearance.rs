@@ -1,0 +1,121 @@
+//! `clearance`: distances at a pose and on a move, obstacles from STL files, status and warning.
+
+use super::{csv, json, number, robot, run, stderr, succeed};
+use std::fs;
+use std::path::Path;
+
+/// Binary STL file of a box about its origin; `faces` of its twelve triangles.
+fn stl(half: [f32; 3], faces: usize) -> Vec<u8> {
+    let corner = |bits: usize| -> [f32; 3] {
+        std::array::from_fn(|k| if bits & (1 << k) == 0 { -half[k] } else { half[k] })
+    };
+    let quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let triangles = quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).take(faces);
+    let mut bytes = vec![b' '; 80];
+    bytes.extend(u32::try_from(faces).unwrap().to_le_bytes());
+    for triangle in triangles {
+        bytes.extend([0; 12]);
+        bytes.extend(triangle.map(corner).iter().flatten().flat_map(|number| number.to_le_bytes()));
+        bytes.extend([0; 2]);
+    }
+    bytes
+}
+
+/// Robot file with more tables in a folder; its path.
+fn with_tables(folder: &Path, tables: &str) -> String {
+    let path = folder.join("my hall.toml");
+    fs::write(&path, format!("{}\n{tables}", fs::read_to_string(robot("cogiro.toml")).unwrap())).unwrap();
+    path.display().to_string()
+}
+
+const COLUMN: &str = "[clearance]\nobstacles_m = 0.1\n[obstacles.column]\nshape = \"mesh\"\nfile = \"column.stl\"\n\
+                      position_m = [3.0, 1.0, 1.5]\n";
+
+#[test]
+fn a_column_from_a_file_is_the_box_that_it_shows_in_every_command() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("column.stl"), stl([200.0, 200.0, 1500.0], 12)).unwrap();
+    let meshed = with_tables(folder.path(), &format!("{COLUMN}file_unit = \"mm\"\n"));
+    let of_mesh = json(&["clearance", &meshed, "--pose", "1,0.5,1.5"]);
+    assert_eq!(of_mesh["free"].as_bool(), Some(true));
+
+    let other = tempfile::tempdir().unwrap();
+    let boxed = COLUMN.replace("\"mesh\"\nfile = \"column.stl\"", "\"box\"\nsize_m = [0.4, 0.4, 3.0]");
+    let of_box = json(&["clearance", &with_tables(other.path(), &boxed), "--pose", "1,0.5,1.5"]);
+    let distances = |found: &serde_json::Value| -> Vec<f64> {
+        found["pairs"].as_array().unwrap().iter().map(|pair| number(&pair["distance_m"])).collect()
+    };
+    for (one, two) in distances(&of_mesh).iter().zip(distances(&of_box)) {
+        // The numbers of the file have 24 bits.
+        assert!((one - two).abs() < 1e-6, "{one} {two}");
+    }
+
+    // Beside the column: a warning, and an infeasible row that has its numbers.
+    let warned = run(&["statics", &meshed, "--pose", "2.2,0.8,1.5"]);
+    assert!(warned.status.success() && stderr(&warned).contains("the obstacle \"column\" touch"), "{}", stderr(&warned));
+    let grid = ["--grid", "x=1,2.2", "--grid", "y=0.8", "--grid", "z=1.5", "--quantity", "clearance,tension-max"];
+    let (header, rows) = csv(&[&["map", &meshed], &grid[..]].concat());
+    let value = |row: usize, name: &str| rows[row][header.iter().position(|column| column == name).unwrap()].clone();
+    assert_eq!((value(0, "status").as_str(), value(0, "feasible").as_str()), ("ok", "true"));
+    assert_eq!((value(1, "status").as_str(), value(1, "feasible").as_str()), ("interference", "false"));
+    assert!(value(1, "clearance_margin_m").parse::<f64>().unwrap() < -0.1 && !value(1, "tension_max_n").is_empty());
+
+    // The report carries the mesh with it.
+    let page = folder.path().join("page.html").display().to_string();
+    succeed(&["report", &meshed, "--pose", "1,0.5,1.5", "-o", &page]);
+    assert!(fs::read_to_string(page).unwrap().contains("Grey bodies: obstacles"));
+}
+
+#[test]
+fn a_move_through_the_column_is_seen_and_one_beside_it_is_free() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("column.stl"), stl([0.2, 0.2, 1.5], 12)).unwrap();
+    let hall = with_tables(folder.path(), COLUMN);
+    let found = json(&["clearance", &hall, "--pose", "1,0.5,1.5", "--move-to", "4.5,1,1.5"]);
+    let worst = &found["pairs"][0];
+    assert_eq!(found["free"].as_bool(), Some(false));
+    assert!(number(&worst["fraction"]) > 0.1 && worst["second"] == "column", "{worst}");
+    let free = json(&["clearance", &hall, "--pose", "1,0.5,1.5", "--move-to", "0,-1,1.8,0,0,10"]);
+    assert_eq!(free["free"].as_bool(), Some(true));
+
+    let ways: [(&[&str], i32, &str); 3] = [
+        (&["--move-to", "30,0,1"], 1, "% of the move"),
+        (&["--move-to", "1,0,1", "--hold-lengths-of-pose"], 2, "from pose to pose"),
+        (&["--move-to", "1,nan,1"], 2, "move-to"),
+    ];
+    for (more, code, words) in ways {
+        let output = run(&[&["clearance", &hall, "--pose", "1,0.5,1.5"], more].concat());
+        assert!(output.status.code() == Some(code) && stderr(&output).contains(words), "{more:?}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn meshes_and_obstacles_that_make_no_sense_are_refused_with_their_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = [("open.stl", stl([0.2, 0.2, 1.5], 11)), ("empty.stl", stl([1.0; 3], 0)), ("mm.stl", stl([2000.0; 3], 12))];
+    for (name, bytes) in files {
+        fs::write(folder.path().join(name), bytes).unwrap();
+    }
+    fs::write(folder.path().join("text.stl"), "no mesh").unwrap();
+    let mesh = |file: &str| COLUMN.replace("column.stl", file);
+    let cases = [
+        (mesh("open.stl"), "is open: 3 of its edges"),
+        (mesh("empty.stl"), "has no triangles"),
+        (mesh("text.stl"), "is no STL file"),
+        (mesh("mm.stl"), "add `file_unit = \"mm\"`"),
+        (mesh("none.stl"), "cannot be read"),
+        ("[obstacles.room]\nsize_m = [40, 40, 40]\n".to_owned(), "is around the anchor of cable"),
+        ("[obstacles.ball]\nshape = \"ball\"\n".to_owned(), "the words are"),
+        ("[obstacles.box]\nsize_m = [1, 0, 1]\n".to_owned(), "must be positive"),
+        ("[obstacles.box]\nsize_m = [1, 1, 1]\ndiameter_m = 2\n".to_owned(), "does not go with"),
+        ("[obstacles.box]\n".to_owned(), "has no `size_m`"),
+        ("[platform_bodies.wall]\nshape = \"half-space\"\n".to_owned(), "cannot carry a half space"),
+        ("[clearance]\ncables_m = -1\n".to_owned(), "must not be negative"),
+        ("[clearance]\ncable_m = 1\n".to_owned(), "did you mean `cables_m`"),
+    ];
+    for (tables, words) in cases {
+        let output = run(&["clearance", &with_tables(folder.path(), &tables), "--pose", "1,0.5,1.5"]);
+        let message = stderr(&output);
+        assert!(output.status.code() == Some(2) && message.contains(words), "{tables}: {message}");
+    }
+}

@@ -1,0 +1,345 @@
+//! Straight moves between two poses: what comes too near on the way, and which cables cross each other.
+
+use super::{Clearance, ClearancePair, Placed, Surroundings};
+use crate::math::{Rotation, Vec3};
+use crate::robot::{Pose, Robot};
+use crate::statics::{CableState, Equilibrium};
+
+/// Bound of the least distance on the way [m]: nowhere on the way a pair is nearer by more than this, for straight cables
+/// surely, and with sag as far as it changes evenly between two stations.
+pub const WAY_TOLERANCE: f64 = 2e-3;
+
+/// Least part of a move between two stations, a guard.
+const MIN_STEP: f64 = 1.0 / 16384.0;
+
+/// Number of halvings that find a crossing: 1e-15 of the move.
+const HALVINGS: usize = 50;
+
+/// Distance of the centre lines at which two cables count as crossing [m]: what remains after the halvings.
+const CROSSED: f64 = 1e-6;
+
+/// Move along a straight line with one turn about a fixed axis, both in proportion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StraightMove {
+    from: Pose,
+    /// Translation [m] and rotation vector [rad], world axes.
+    translation_w: Vec3,
+    turn_w: Vec3,
+}
+
+impl StraightMove {
+    /// Move from one pose to another by the shorter turn.
+    pub fn between(from: &Pose, to: &Pose) -> Self {
+        let turn_w = (to.rot_wp * from.rot_wp.inverse()).scaled_axis();
+        Self { from: *from, translation_w: to.position_w - from.position_w, turn_w }
+    }
+
+    /// Pose at a fraction of the move.
+    pub fn pose(&self, fraction: f64) -> Pose {
+        Pose {
+            position_w: self.from.position_w + self.translation_w * fraction,
+            rot_wp: Rotation::from_scaled_axis(self.turn_w * fraction) * self.from.rot_wp,
+        }
+    }
+
+    /// Bound of the way of a point of the platform at a distance from its origin, over the fraction [m].
+    fn way(&self, lever: f64) -> f64 {
+        self.translation_w.norm() + self.turn_w.norm() * lever
+    }
+}
+
+/// Crossing of two straight cables on a move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crossing {
+    /// Indices of the cables.
+    pub cables: [usize; 2],
+    /// Fraction of the move.
+    pub fraction: f64,
+    /// Place of the crossing on each cable, from its anchor (0) to the platform (1).
+    pub along: [f64; 2],
+    /// Place in the world [m].
+    pub point_w: Vec3,
+}
+
+/// Pair on the way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OnTheWay {
+    /// Least margin on the way.
+    pub least: Clearance,
+    /// Fraction of the move where it is least.
+    pub fraction: f64,
+    /// Fractions at which the centre lines of two cables cross.
+    pub crossings: Vec<f64>,
+}
+
+/// All crossings of straight cables with fixed anchors on a move, in the order of the move.
+///
+/// # Example
+/// ```
+/// use funicular::clearance::{StraightMove, straight_crossings};
+/// use funicular::robot::{Pose, Robot};
+///
+/// let robot = Robot::from_toml(funicular_robots::COGIRO)?;
+/// let straight = StraightMove::between(&Pose::new([0.0, 0.0, 1.5], [0.0; 3]), &Pose::new([2.0, 1.0, 1.5], [0.0; 3]));
+/// assert!(straight_crossings(&robot, &straight).is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # References
+/// docs/theory.md, equations (40s) and (40t).
+pub fn straight_crossings(robot: &Robot, straight: &StraightMove) -> Vec<Crossing> {
+    let fixed: Vec<usize> = (0..robot.cables.len()).filter(|i| robot.cables[*i].anchor.is_fixed()).collect();
+    let mut found = Vec::new();
+    for (k, i) in fixed.iter().enumerate() {
+        for j in &fixed[k + 1..] {
+            let pair = StraightPair { robot, straight, cables: [*i, *j] };
+            found.extend(pair.zeros().into_iter().filter_map(|fraction| pair.crossing(fraction)));
+        }
+    }
+    found.sort_by(|a, b| a.fraction.total_cmp(&b.fraction));
+    found
+}
+
+/// Two straight cables on a move.
+struct StraightPair<'a> {
+    robot: &'a Robot,
+    straight: &'a StraightMove,
+    cables: [usize; 2],
+}
+
+impl StraightPair<'_> {
+    /// Anchors, and vectors from the anchors to the attachments.
+    fn lines(&self, fraction: f64) -> ([Vec3; 2], [Vec3; 2]) {
+        let pose = self.straight.pose(fraction);
+        let anchors = self.cables.map(|i| self.robot.cables[i].anchor.point_w);
+        let ends = self.cables.map(|i| pose.point_w(&self.robot.cables[i].attachment_p));
+        (anchors, [ends[0] - anchors[0], ends[1] - anchors[1]])
+    }
+
+    /// Triple product (40s), zero where the lines of the cables meet.
+    fn product(&self, fraction: f64) -> f64 {
+        let (anchors, along) = self.lines(fraction);
+        (anchors[1] - anchors[0]).dot(&along[0].cross(&along[1]))
+    }
+
+    /// Zeros of the triple product in the move, ascending.
+    fn zeros(&self) -> Vec<f64> {
+        if self.straight.turn_w.norm() == 0.0 {
+            // Linear in the fraction.
+            let (first, last) = (self.product(0.0), self.product(1.0));
+            let zero = first / (first - last);
+            return if first != last && (0.0..=1.0).contains(&zero) { vec![zero] } else { Vec::new() };
+        }
+
+        // Bounds of the first and second derivative isolate all zeros.
+        let (anchors, start) = self.lines(0.0);
+        let levers = self.cables.map(|i| self.robot.cables[i].attachment_p.norm());
+        let ways = levers.map(|lever| self.straight.way(lever));
+        let bends = levers.map(|lever| self.straight.turn_w.norm_squared() * lever);
+        let lengths = [start[0].norm() + ways[0], start[1].norm() + ways[1]];
+        let between = (anchors[1] - anchors[0]).norm();
+        let slope = between * (ways[0] * lengths[1] + lengths[0] * ways[1]);
+        let bend = between * (bends[0] * lengths[1] + 2.0 * ways[0] * ways[1] + lengths[0] * bends[1]);
+        let mut zeros = Vec::new();
+        self.isolate([0.0, 1.0], [slope, bend], &mut zeros);
+        zeros.sort_by(f64::total_cmp);
+        zeros.dedup_by(|a, b| (*a - *b).abs() < MIN_STEP * MIN_STEP);
+        zeros
+    }
+
+    /// Adds the zeros in an interval, for bounds of the first and second derivative over the fraction.
+    fn isolate(&self, [low, high]: [f64; 2], bounds: [f64; 2], zeros: &mut Vec<f64>) {
+        let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+        let [first, last] = [self.product(low), self.product(high)];
+        if self.product(middle).abs() > bounds[0] * half {
+            return;
+        }
+        // The secant has the slope of some point inside, from which the slope changes by less than this.
+        let is_monotone = ((last - first) / (high - low)).abs() > 2.0 * bounds[1] * half;
+        if is_monotone || half < MIN_STEP * MIN_STEP {
+            if first * last <= 0.0 {
+                zeros.push(bisected([low, high], first, |fraction| Some(self.product(fraction))));
+            }
+            return;
+        }
+        self.isolate([low, middle], bounds, zeros);
+        self.isolate([middle, high], bounds, zeros);
+    }
+
+    /// Crossing at a zero of the triple product, if the lines meet between the ends of both cables.
+    fn crossing(&self, fraction: f64) -> Option<Crossing> {
+        let (anchors, along) = self.lines(fraction);
+        let normal = along[0].cross(&along[1]);
+        let square = normal.norm_squared();
+        let between = anchors[1] - anchors[0];
+        let places = [between.cross(&along[1]).dot(&normal) / square, between.cross(&along[0]).dot(&normal) / square];
+        let inside = places.iter().all(|place| (0.0..1.0).contains(place));
+        inside.then(|| Crossing {
+            cables: self.cables,
+            fraction,
+            along: places,
+            point_w: anchors[0] + along[0] * places[0],
+        })
+    }
+}
+
+/// Zero of a function between two places at which its signs differ, by halving; `first` is its value at the first place.
+/// Ends where the function has no value.
+fn bisected([mut low, mut high]: [f64; 2], first: f64, mut value: impl FnMut(f64) -> Option<f64>) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        match value(middle) {
+            Some(found) if found == 0.0 => return middle,
+            Some(found) if (found < 0.0) == (first < 0.0) => low = middle,
+            Some(_) => high = middle,
+            None => break,
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Distances of all pairs at one place of a move.
+struct Station {
+    fraction: f64,
+    /// Distances of the pairs, in their order; `None` without one.
+    clearances: Vec<Option<Clearance>>,
+    /// Signs of the pairs of cables: the side on which the first passes the second.
+    sides: Vec<f64>,
+    /// Largest distance of each cable from its chord [m].
+    sagittas: Vec<f64>,
+}
+
+impl Surroundings<'_> {
+    /// Every pair on a move, with its least margin, where it is, and where cables cross. `rest_at` gives the equilibrium at a
+    /// pose.
+    ///
+    /// # Errors
+    /// Fraction of the move and error of the first pose without an equilibrium.
+    ///
+    /// # References
+    /// docs/theory.md, equation (40u).
+    pub fn on_the_way<E>(
+        &self,
+        straight: &StraightMove,
+        mut rest_at: impl FnMut(&Pose) -> Result<Equilibrium, E>,
+    ) -> Result<Vec<OnTheWay>, (f64, E)> {
+        let mut station = |fraction: f64| match rest_at(&straight.pose(fraction)) {
+            Ok(rest) => Ok(self.station(fraction, &rest)),
+            Err(error) => Err((fraction, error)),
+        };
+        let mut stations = vec![station(0.0)?, station(1.0)?];
+        let pairs: Vec<ClearancePair> = stations[0].clearances.iter().flatten().map(|of| of.pair).collect();
+        let ways: Vec<f64> = pairs.iter().map(|pair| self.way_of(*pair, straight)).collect();
+
+        // Stations between those where some pair may be nearer than known so far.
+        let mut found: Vec<Option<OnTheWay>> = vec![None; stations[0].clearances.len()];
+        stations.iter().for_each(|station| keep_least(&mut found, station));
+        let mut at = 0;
+        while at + 1 < stations.len() {
+            let [one, other] = [&stations[at], &stations[at + 1]];
+            if other.fraction - one.fraction > MIN_STEP && may_be_nearer(&found, one, other, &ways) {
+                let middle = station(0.5 * (one.fraction + other.fraction))?;
+                keep_least(&mut found, &middle);
+                stations.insert(at + 1, middle);
+            } else {
+                at += 1;
+            }
+        }
+
+        // Cables that change sides between two stations cross, unless one passes an end of the other.
+        for neighbours in stations.windows(2) {
+            for (k, found) in found.iter_mut().enumerate().filter_map(|(k, found)| Some((k, found.as_mut()?))) {
+                let ends = [neighbours[0].sides[k], neighbours[1].sides[k]];
+                if ends[0] * ends[1] >= 0.0 {
+                    continue;
+                }
+                let between = [neighbours[0].fraction, neighbours[1].fraction];
+                let crossing =
+                    bisected(between, ends[0], |fraction| station(fraction).ok().map(|station| station.sides[k]));
+                let at_crossing = station(crossing)?;
+                let Some(clearance) = at_crossing.clearances[k] else { continue };
+                if clearance.points_w[0].metric_distance(&clearance.points_w[1]) < CROSSED {
+                    found.crossings.push(crossing);
+                    if clearance.margin() < found.least.margin() {
+                        (found.least, found.fraction) = (clearance, crossing);
+                    }
+                }
+            }
+        }
+        Ok(found.into_iter().flatten().collect())
+    }
+
+    /// Distances at a place of a move.
+    fn station(&self, fraction: f64, rest: &Equilibrium) -> Station {
+        let at = self.at(rest);
+        let pairs = at.pairs();
+        let clearances: Vec<Option<Clearance>> = pairs.iter().map(|pair| at.clearance(*pair, f64::INFINITY)).collect();
+        let sides = clearances.iter().map(|found| found.map_or(0.0, |found| at.side(&found))).collect();
+        let sagittas = rest.cables.iter().map(|cable| self.sagitta(cable)).collect();
+        Station { fraction, clearances, sides, sagittas }
+    }
+
+    /// Largest distance of a cable from its chord [m].
+    fn sagitta(&self, cable: &CableState) -> f64 {
+        let span = super::FreeSpan::of(cable, 0.0, self.from_end);
+        span.arc([0.0, span.length]).sagitta
+    }
+
+    /// Bound of the change of a pair's distance over the fraction of a move, with straight cables [m]: each point of a
+    /// cable moves by its share of the way of the attachment.
+    fn way_of(&self, pair: ClearancePair, straight: &StraightMove) -> f64 {
+        let lever = |i: usize| self.robot.cables[i].attachment_p.norm();
+        let turn = straight.turn_w.norm();
+        match pair {
+            ClearancePair::Cables(i, j) => straight.translation_w.norm() + turn * (lever(i) + lever(j)),
+            ClearancePair::CableAndPlatform { cable, .. } => straight.way(lever(cable)) + turn * self.platform_reach(),
+            ClearancePair::CableAndObstacle { cable, .. } => straight.way(lever(cable)),
+            ClearancePair::PlatformAndObstacle { .. } => straight.way(self.platform_reach()),
+        }
+    }
+
+    /// Largest distance of a point of the platform from its origin [m].
+    fn platform_reach(&self) -> f64 {
+        let attachments = self.robot.cables.iter().map(|cable| cable.attachment_p.norm());
+        let bodies = self.robot.platform.bodies.iter().flat_map(|body| body.triangles());
+        attachments.chain(bodies.flatten().map(|corner| corner.norm())).fold(0.0, f64::max)
+    }
+}
+
+/// Keeps the least margin of every pair.
+fn keep_least(found: &mut [Option<OnTheWay>], station: &Station) {
+    for (found, clearance) in found.iter_mut().zip(&station.clearances) {
+        let Some(least) = *clearance else { continue };
+        let known = found.as_ref().map_or(f64::INFINITY, |known| known.least.margin());
+        if least.margin() < known {
+            *found = Some(OnTheWay { least, fraction: station.fraction, crossings: Vec::new() });
+        }
+    }
+}
+
+/// True if some pair may be nearer between two stations than known so far, by more than the tolerance, (40u).
+fn may_be_nearer(found: &[Option<OnTheWay>], one: &Station, other: &Station, ways: &[f64]) -> bool {
+    let step = other.fraction - one.fraction;
+    let sag = |i: usize| (one.sagittas[i] - other.sagittas[i]).abs();
+    let of_pairs = found
+        .iter()
+        .zip(one.clearances.iter().zip(&other.clearances))
+        .filter_map(|(found, (a, b))| Some((found.as_ref()?.least.margin(), (*a)?, (*b)?)));
+    of_pairs.zip(ways).any(|((known, a, b), way)| {
+        let sag = match a.pair {
+            ClearancePair::Cables(i, j) => sag(i) + sag(j),
+            ClearancePair::CableAndPlatform { cable, .. } | ClearancePair::CableAndObstacle { cable, .. } => sag(cable),
+            ClearancePair::PlatformAndObstacle { .. } => 0.0,
+        };
+        0.5 * (a.margin() + b.margin() - way * step) - sag < known - WAY_TOLERANCE
+    })
+}
+
+impl Placed<'_> {
+    /// Side on which the first of two cables passes the second at their nearest points; zero for other pairs.
+    fn side(&self, found: &Clearance) -> f64 {
+        let ClearancePair::Cables(i, j) = found.pair else { return 0.0 };
+        let along = |k: usize| self.spans[k].end_w() - self.spans[k].start_w();
+        along(i).cross(&along(j)).dot(&(found.points_w[0] - found.points_w[1]))
+    }
+}
