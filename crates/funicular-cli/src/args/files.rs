@@ -97,9 +97,15 @@ pub(crate) struct DrawModesArgs {
     pub(crate) figure_mode: Option<usize>,
 }
 
-/// Decay that is printed or drawn, and the file of the commanded lengths.
+/// Trajectory of a decay, which is printed or drawn, and the file of the commanded lengths.
 #[derive(Debug, Args)]
 pub(crate) struct SettleArgs {
+    /// Trajectory in a CSV file that the lengths command, from rest to rest: columns t_s, and either x_m, y_m, z_m and
+    /// optionally roll_deg, pitch_deg, yaw_deg, or unstrained_length_NAME_m of every cable, as --lengths writes them;
+    /// between the rows the lengths change in straight lines [default of the state: the last row]
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) trajectory: Option<PathBuf>,
+
     #[command(flatten)]
     pub(crate) drawn: DrawArgs,
 

@@ -16,6 +16,7 @@ use funicular::modes::{self, Mode};
 use funicular::robot::Robot;
 use funicular_study::Watch;
 use funicular_study::analyses::modes::with_rigid_cables;
+use funicular_study::analyses::settle::Settled;
 use funicular_study::analyses::{compare, frf, settle, statics};
 use funicular_study::at_rest::{self, AtRest, ModesBelow};
 use funicular_study::names::Named;
@@ -51,7 +52,7 @@ pub fn of_request(
         Request::Frf(of) => response(robot, of, watch),
         Request::Settle(of) => {
             let found = settle::run(robot, of)?;
-            Ok(chart(settling::chart(&found), found.warnings))
+            Ok(RequestFigure { figure: of_decay(&found), warnings: found.warnings })
         }
         Request::Compare(of) => comparison(robot, of),
         other => bail!(
@@ -60,6 +61,11 @@ pub fn of_request(
             other.command()
         ),
     }
+}
+
+/// Makes the figure of a decay that has been computed before.
+pub fn of_decay(found: &Settled) -> Figure {
+    Figure(FigureContent::Chart(settling::chart(found)))
 }
 
 fn chart(chart: Chart, warnings: Vec<String>) -> RequestFigure {
