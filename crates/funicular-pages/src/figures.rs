@@ -11,6 +11,7 @@ mod contour;
 pub(crate) mod drawing;
 pub(crate) mod drive;
 mod font;
+mod gusts;
 pub(crate) mod hull;
 mod making;
 pub(crate) mod map;

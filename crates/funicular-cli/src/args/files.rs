@@ -114,6 +114,19 @@ pub(crate) struct SettleArgs {
     pub(crate) lengths: Option<PathBuf>,
 }
 
+/// Measured spectra of gusts, and the response that is printed or drawn.
+#[derive(Debug, Args)]
+pub(crate) struct GustArgs {
+    /// Measured spectra of the gusts in a CSV file, one-sided, in place of --turbulence: columns frequency_hz, and
+    /// along_m2_s, lateral_m2_s, up_m2_s [m²/s² per Hz], straight between the rows and constant below the first; with
+    /// --intensity their integrals are compared with it
+    #[arg(long, value_name = "FILE.csv", help_heading = "Gusts")]
+    pub(crate) spectrum: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) drawn: DrawArgs,
+}
+
 /// Model whose matrices are written to files.
 #[derive(Debug, Args)]
 pub(crate) struct ReduceArgs {

@@ -2,20 +2,17 @@
 
 use crate::args::{Cli, DrawArgs, SettleArgs};
 use crate::errors;
+use crate::number_table;
 use crate::output::{Content, FigureSink, Printed, Sink, Target, as_csv};
 use crate::table::{Table, counted, decimals, significant};
-use anyhow::{Context, Result, anyhow};
-use funicular::robot::Robot;
+use anyhow::Result;
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
-use funicular_formats::number_columns;
 use funicular_pages::figures;
 use funicular_study::analyses::settle::{self, Commanded, Held, Settled, SettlingMode, Shaping};
 use funicular_study::request::{NumberColumns, Request, SettleRequest};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
-use std::fs;
-use std::path::Path;
 
 /// Modes that the table shows.
 const SHOWN: usize = 12;
@@ -24,22 +21,11 @@ const SHOWN: usize = 12;
 pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
     let mut request = cli.request(further)?;
     if let (Request::Settle(of), Some(path)) = (&mut request, cli.files::<SettleArgs>()?.trajectory) {
-        of.trajectory = Some(trajectory(&path, &of.robot.read()?.robot)?);
+        let robot = of.robot.read()?.robot;
+        let check = |columns: &NumberColumns| settle::check_trajectory(columns, &robot);
+        of.trajectory = Some(number_table::read(&path, "the trajectory", check)?);
     }
     Ok(request)
-}
-
-/// Columns of the file of a trajectory.
-fn trajectory(path: &Path, robot: &Robot) -> Result<NumberColumns> {
-    let shown = path.display();
-    let bytes = fs::read(path).with_context(|| format!("cannot read the trajectory {shown}"))?;
-    let table = number_columns::read(&shown.to_string(), &bytes)?;
-    settle::check_trajectory(&table.columns, robot).map_err(|fault| {
-        let line =
-            fault.row.and_then(|row| table.lines.get(row)).map_or(String::new(), |line| format!(", line {line}"));
-        anyhow!("{shown}{line}: {}", fault.text)
-    })?;
-    Ok(table.columns)
 }
 
 /// Runs `settle`: prints or draws the decay, and writes the commanded lengths.

@@ -11,7 +11,7 @@ mod trajectory;
 pub use payloads::WithPayload;
 pub use shaping::Shaping;
 pub use tension::LowestTension;
-pub use trajectory::{TrajectoryFault, check as check_trajectory};
+pub use trajectory::check as check_trajectory;
 
 use super::fields::AXES;
 use super::found;

@@ -192,6 +192,10 @@ declared! {
         /// Upper limit of the frequencies [Hz]; faster gusts are left out.
         below_hz: Option<f64> = None => (Number(Positive))
             .otherwise("above all modes of the platform");
+        /// Measured spectra of the gusts in place of ⟪turbulence⟫, one-sided: columns frequency_hz, and along_m2_s, lateral_m2_s
+        /// and up_m2_s [m²/s² per Hz], straight between the rows and constant below the first. With ⟪intensity⟫ their integrals
+        /// are compared with it.
+        spectrum: Option<NumberColumns> = None => (Columns).under("Gusts");
         /// Turbulence about the mean wind.
         #[serde(flatten)]
         gusts: TurbulenceOptions = TurbulenceOptions::default() => group;

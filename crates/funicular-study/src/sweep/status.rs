@@ -13,7 +13,7 @@ pub(super) struct Status {
 }
 
 /// Every code that a row can have, with its meaning.
-pub const CODES: [(&str, &str); 21] = [
+pub const CODES: [(&str, &str); 22] = [
     ("ok", "all requested quantities are there"),
     ("out-of-plane", "infeasible: a planar platform cannot have this pose"),
     ("coinciding-ends", "infeasible: a cable has no length between its ends, or ends inside the wheel of its pulley"),
@@ -45,6 +45,7 @@ pub const CODES: [(&str, &str); 21] = [
     ("no-derivative", "the equilibrium or the result has no derivative here"),
     ("dead-load", "a tension with the dead load is beyond its limit, so no required load counts"),
     ("required-load", "nothing is required, or nothing limits the required loads"),
+    ("no-gusts", "the robot file has no turbulence, or there is no linear response to it"),
 ];
 
 impl Status {

@@ -102,6 +102,7 @@ fn colour_of(code: u8) -> &'static str {
         "no-derivative" => "#d9d9c3",
         "dead-load" => "#c9c4e8",
         "required-load" => "#cfe6df",
+        "no-gusts" => "#d9d6ec",
         "negative-tension" => colour::VERMILION,
         "tension-limits" => colour::PURPLE,
         "not-found" => "#8b2f6b",

@@ -7,13 +7,16 @@ use super::motion::{on_the_way, tangent};
 use crate::at_rest::{AtRest, check_pose};
 use crate::names::suggestion;
 use crate::request::{self, NumberColumns, SettleRequest, State};
+use crate::table_fault::TableFault;
 use crate::text::significant;
 use crate::values::{finite, positive};
 use anyhow::{Result, bail};
 use funicular::modes::{LengthCommand, Shaper};
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{self, Equilibrium};
-use thiserror::Error;
+
+/// Key of the request.
+const KEY: &str = "trajectory";
 
 /// Column of the times.
 const TIME: &str = "t_s";
@@ -23,16 +26,6 @@ const POSE: [&str; 6] = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"
 
 /// Part of the duration below which two times of a shaped trajectory are one.
 const SAME_TIME: f64 = 1e-9;
-
-/// Fault of a trajectory.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("⟪trajectory⟫{}: {text}", row.map_or_else(String::new, |row| format!(", row {}", row + 1)))]
-pub struct TrajectoryFault {
-    /// Index of the row; `None` for a fault of the table.
-    pub row: Option<usize>,
-    /// What is wrong, and what to do.
-    pub text: String,
-}
 
 /// Rows of a trajectory.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,14 +61,14 @@ pub(super) struct Trajectory<'a> {
 /// # Errors
 /// The first fault: a column that is missing or unknown, fewer than two rows, times that do not rise, a pose that the
 /// platform cannot have, or a length that is none.
-pub fn check(columns: &NumberColumns, robot: &Robot) -> Result<(), TrajectoryFault> {
+pub fn check(columns: &NumberColumns, robot: &Robot) -> Result<(), TableFault> {
     Rows::read(columns, robot).map(drop)
 }
 
 /// State at the end of a trajectory, for a request that gives neither pose nor lengths.
 ///
 /// # Errors
-/// A [`TrajectoryFault`].
+/// A [`TableFault`].
 pub(super) fn state(robot: &Robot, request: &SettleRequest) -> Result<State> {
     let mut state = request.state.clone();
     let Some(columns) = &request.trajectory else { return Ok(state) };
@@ -93,8 +86,8 @@ pub(super) fn state(robot: &Robot, request: &SettleRequest) -> Result<State> {
 }
 
 impl Rows {
-    fn read(columns: &NumberColumns, robot: &Robot) -> Result<Self, TrajectoryFault> {
-        let fault = |text: String| TrajectoryFault { row: None, text };
+    fn read(columns: &NumberColumns, robot: &Robot) -> Result<Self, TableFault> {
+        let fault = |text: String| TableFault { key: KEY, row: None, text };
         let of_lengths: Vec<String> =
             robot.cables.iter().map(|cable| format!("unstrained_length_{}_m", cable.name)).collect();
         let known: Vec<String> =
@@ -129,21 +122,16 @@ impl Rows {
     }
 
     /// Rows of the columns `names`; a column that is not there holds zeros.
-    fn of_columns(
-        columns: &NumberColumns,
-        holds: Holds,
-        names: &[&str],
-        robot: &Robot,
-    ) -> Result<Self, TrajectoryFault> {
+    fn of_columns(columns: &NumberColumns, holds: Holds, names: &[&str], robot: &Robot) -> Result<Self, TableFault> {
         let count = columns[TIME].len();
         if let Some((name, values)) = columns.iter().find(|(_, values)| values.len() != count) {
             let text =
                 format!("`{name}` has {} values and `{TIME}` {count}: give as many in all columns", values.len());
-            return Err(TrajectoryFault { row: None, text });
+            return Err(TableFault { key: KEY, row: None, text });
         }
         if count < 2 || count as f64 > MAX_SAMPLES {
             let text = format!("there are {count} rows: give at least two and at most {MAX_SAMPLES}");
-            return Err(TrajectoryFault { row: None, text });
+            return Err(TableFault { key: KEY, row: None, text });
         }
         let value = |name: &str, row: usize| columns.get(name).map_or(0.0, |values| values[row]);
         let rows = Self {
@@ -152,7 +140,7 @@ impl Rows {
             values: (0..count).map(|row| names.iter().map(|name| value(name, row)).collect()).collect(),
         };
         for row in 0..count {
-            rows.check_row(columns, row, names, robot).map_err(|text| TrajectoryFault { row: Some(row), text })?;
+            rows.check_row(columns, row, names, robot).map_err(|text| TableFault { key: KEY, row: Some(row), text })?;
         }
         Ok(rows)
     }
@@ -224,7 +212,7 @@ impl<'a> Trajectory<'a> {
     /// Trajectory of a table, which ends at the lengths at rest within the tolerance [m].
     ///
     /// # Errors
-    /// A [`TrajectoryFault`], poses or lengths that the cables cannot hold, or another end.
+    /// A [`TableFault`], poses or lengths that the cables cannot hold, or another end.
     pub(super) fn of(at_rest: &'a AtRest, columns: &NumberColumns, tolerance: f64) -> Result<Self> {
         let found = Self::along(at_rest, Rows::read(columns, &at_rest.robot)?)?;
         let (end, rest) = (&found.lengths[found.lengths.len() - 1], unstrained(&at_rest.equilibrium));
