@@ -14,7 +14,7 @@ const MAX_CURVES: usize = 3;
 const ABOVE: f64 = 0.08;
 
 /// Part of the first frequency with a visible variance: below it nothing is drawn.
-const VISIBLE: f64 = 1e-3;
+const VISIBLE: f64 = 1e-2;
 
 /// One panel per unit with its outputs of the largest r.m.s. values, and the natural frequencies below.
 pub(super) fn chart(found: &Gusty) -> Chart {
