@@ -60,6 +60,7 @@ MORE = [
     f"--length-scale-m 50,20,5 --below-hz 1 --output z --pose 0,0,0.5 {STATE} {WHOLE} --winches clamped",
     f"funicular gust robots/cogiro.toml --set platform.drag_area_m2=1 --wind-m-s 5,0,0 --turbulence kaimal "
     f"--intensity 0.1,0.1,0.1 --length-scale-m 50,20,5 --below-hz 1 --output z {TENSIONS} --hold-lengths-of-pose",
+    f"funicular gust {ROBOT} --set platform.drag_area_m2=0.1 --wind-m-s 8,0,0 --spectrum gusts.csv --below-hz 1 --output z",
     f"funicular modes {ROBOT} --below-hz 2 --decay-percent 10",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",
@@ -183,6 +184,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     poses = "x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0.5,0.25,1.5,0,1,2\n0,0,2,0,0,0\n"
     (tmp_path / "trajectory.csv").write_text(poses)
     (tmp_path / "lengths.csv").write_text(LENGTHS_OVER_TIME)
+    (tmp_path / "gusts.csv").write_text("frequency_hz,along_m2_s,lateral_m2_s,up_m2_s\n0.01,40,20,10\n0.1,8,6,4\n1,0.2,0.2,0.1\n")
     (tmp_path / "response.csv").write_text("frequency_hz,a1_re,a1_im\n1,-5.16e-4,0\n2,-2.55e-3,0\n2.5,-7e-3,2e-4\n")
     (tmp_path / "test.uff").write_text(UNIVERSAL_FILE)
     (tmp_path / "states.json").write_text(json.dumps(STATES))

@@ -220,7 +220,7 @@ class Analyses:
         NoSolutionError
             A cable is slack, or the equilibrium indifferent: it has no derivatives.
         """
-    def gust(self, /, output: str | Sequence[str] | None = None, *, output_point_m: ArrayLike | None = None, duration_s: SupportsFloat | SupportsIndex | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, turbulence: Literal['kaimal', 'von-karman'] | None = None, intensity: ArrayLike | None = None, length_scale_m: ArrayLike | None = None, coherence_decay: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
+    def gust(self, /, output: str | Sequence[str] | None = None, *, output_point_m: ArrayLike | None = None, duration_s: SupportsFloat | SupportsIndex | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, spectrum: str | PathLike[str] | Mapping[str, ArrayLike] | None = None, turbulence: Literal['kaimal', 'von-karman'] | None = None, intensity: ArrayLike | None = None, length_scale_m: ArrayLike | None = None, coherence_decay: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
         """
         Computes the response to turbulent wind: r.m.s. values and expected peaks of motions and tensions, with their
         spectra.
@@ -240,6 +240,10 @@ class Analyses:
         below_hz
             Upper limit of the frequencies [Hz]; faster gusts are left out; if not given: above all modes of the
             platform.
+        spectrum
+            Measured spectra of the gusts in place of `turbulence`, one-sided: columns frequency_hz, and along_m2_s, lateral_m2_s
+            and up_m2_s [m²/s² per Hz], straight between the rows and constant below the first. With `intensity` their integrals
+            are compared with it.
         turbulence
             Spectrum of the gusts: `kaimal` (kaimal, as in IEC 61400-1); `von-karman` (von Kármán); if not given: from
             the robot file.
