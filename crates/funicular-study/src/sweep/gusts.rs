@@ -10,7 +10,7 @@ use funicular::math::Vec3;
 use funicular::modes;
 use funicular::response::{Quantity, Signal};
 use funicular::robot::Robot;
-use funicular::statics::Equilibrium;
+use funicular::statics::{CableState, Equilibrium};
 
 /// Code of a point without a response.
 const CODE: &str = "no-gusts";
@@ -40,7 +40,7 @@ pub(super) fn at_point(
     if robot.turbulence.is_none() {
         return Err(Status::new(CODE, "the robot file has no turbulence: give it `turbulence` in [wind]"));
     }
-    if rest.cables.iter().any(|cable| cable.is_slack()) {
+    if rest.cables.iter().any(CableState::is_slack) {
         return Err(Status::new(CODE, "a cable is slack in the mean wind, and the linear response does not know that"));
     }
     let (robot, equilibrium) = (robot.clone(), rest.clone());

@@ -415,8 +415,8 @@ fn a_measured_spectrum_of_the_formula_has_its_response() {
     let case = stadium();
     let by_formula = case.spectra(&measured(3));
     let mut read = stadium();
-    let count = (read.up_to_hz / 1e-5).ln() / 1.01_f64.ln();
-    let hz: Vec<f64> = (0..=count as usize).map(|k| 1e-5 * 1.01_f64.powi(k as i32)).chain([read.up_to_hz]).collect();
+    let next = |hz: &f64| Some(hz * 1.01).filter(|hz| *hz < case.up_to_hz);
+    let hz: Vec<f64> = std::iter::successors(Some(1e-5), next).chain([case.up_to_hz]).collect();
     let of_row = |hz: &f64| [0, 1, 2].map(|component| case.turbulence.density(component, *hz, 12.0));
     let spectrum = MeasuredSpectrum::new(hz.clone(), hz.iter().map(of_row).collect()).unwrap();
     // Kaimal has the part (1 + 6n)^(-2/3) of its variance above n = f L/U.

@@ -1,7 +1,7 @@
 //! A stop or a move: the lengths that inverse statics commands along a line of poses.
 
 use super::LengthsRow;
-use super::command::{MotionKind, mixed, no_solution_or_input, sample_times, tensions, unstrained};
+use super::rows::{mixed, no_solution_or_input, sample_times, tensions, unstrained};
 use crate::at_rest::{AtRest, check_pose};
 use crate::request::SettleRequest;
 use crate::text::significant;
@@ -11,13 +11,20 @@ use funicular::modes::{LengthCommand, Profile, Shaper};
 use funicular::robot::{Pose, State};
 use funicular::statics::{self, Equilibrium};
 
+/// Kind of the motion that ends at rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum MotionKind {
+    Stop,
+    Move,
+}
+
 /// Motion of the platform along a line of poses, which ends at the pose of the robot at rest.
 #[derive(Clone)]
 pub(super) struct Motion<'a> {
     at_rest: &'a AtRest,
     pub(super) kind: MotionKind,
     /// Translation and rotation vector, world axes: of the whole move [m, rad], or per second before the stop.
-    motion: [Vec3; 2],
+    whole: [Vec3; 2],
     /// Course of the change, or of the loss of speed.
     pub(super) profile: Profile,
     /// Change of each length with the move [m], or rate before the stop [m/s].
@@ -46,7 +53,7 @@ impl<'a> Motion<'a> {
             MotionKind::Move => [of(request.move_m), of(request.move_deg).map(f64::to_radians)],
         };
         let profile = Profile::new(request.profile_s.as_deref().unwrap_or_default());
-        let mut command = Self { at_rest, kind, motion, profile, by: Vec::new() };
+        let mut command = Self { at_rest, kind, whole: motion, profile, by: Vec::new() };
         check_pose(&at_rest.robot, &command.pose(1.0))?;
         command.by = tangent(at_rest, &motion)?;
         Ok(command)
@@ -54,7 +61,7 @@ impl<'a> Motion<'a> {
 
     /// Pose from which the part `left` of the motion is left, in units of the motion.
     fn pose(&self, left: f64) -> Pose {
-        before_end(self.at_rest, &self.motion, left)
+        before_end(self.at_rest, &self.whole, left)
     }
 
     /// Equilibrium from which the part `left` of the motion is left.

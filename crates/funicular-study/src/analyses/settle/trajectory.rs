@@ -2,8 +2,8 @@
 //! rows.
 
 use super::LengthsRow;
-use super::command::{MAX_SAMPLES, mixed, no_solution_or_input, sample_times, tensions, unstrained};
 use super::motion::{on_the_way, tangent};
+use super::rows::{MAX_SAMPLES, mixed, no_solution_or_input, sample_times, tensions, unstrained};
 use crate::at_rest::{AtRest, check_pose};
 use crate::names::suggestion;
 use crate::request::{self, NumberColumns, SettleRequest, State};
@@ -251,7 +251,9 @@ impl<'a> Trajectory<'a> {
             lengths.push(own);
             start = found;
         }
-        [&mut still, &mut lengths, &mut linear].into_iter().for_each(|of| of.reverse());
+        for of in [&mut still, &mut lengths, &mut linear] {
+            of.reverse();
+        }
         Ok(Self { at_rest, rows, lengths, linear, start, still })
     }
 
