@@ -2,7 +2,8 @@
 //!
 //! [`import`] makes a robot file of their descriptions of a robot, and [`new_robot`] one to start from. [`export`] writes
 //! the robot at rest for them. [`measurements`] reads measured responses and frequencies for `identify`, and
-//! [`uff_writing`] writes computed ones in the same format. [`number_columns`] reads tables of numbers. Requests and results are those of [`funicular_study`].
+//! [`uff_writing`] writes computed ones in the same format. [`number_columns`] reads tables of numbers. Requests and
+//! results are those of [`funicular_study`].
 
 pub mod csv_lines;
 pub mod export;

@@ -68,7 +68,8 @@ pub enum GustError {
     Output,
     /// The tension has no row in the coordinates of the platform.
     #[error(
-        "cable \"{cable}\" is slack or pulls out of the plane of the platform: its tension in gusts is not known; choose outputs without it"
+        "cable \"{cable}\" is slack or pulls out of the plane of the platform: its tension in gusts is not \
+         known; choose outputs without it"
     )]
     Tension {
         /// Name of the cable.

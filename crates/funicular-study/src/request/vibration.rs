@@ -128,8 +128,8 @@ declared! {
         /// Rotation vector of the platform from rest to rest, world axes [degrees].
         move_deg: Option<[f64; 3]> = None => (Vector).otherwise("none");
         /// Trajectory that the lengths command, from rest to rest: columns t_s [s], and either x_m, y_m, z_m, roll_deg,
-        /// pitch_deg, yaw_deg or unstrained_length_NAME_m of every cable [m]; between the rows the lengths change in straight
-        /// lines. Without a pose and lengths the state is that of the last row.
+        /// pitch_deg, yaw_deg or unstrained_length_NAME_m of every cable [m]; between the rows the lengths change in
+        /// straight lines. Without a pose and lengths the state is that of the last row.
         trajectory: Option<NumberColumns> = None => (Columns);
         /// Times of the stop or the move [s], each at most the one before: from the begin of the acceleration to that
         /// of the deceleration (for a stop the deceleration itself), of each acceleration, and of each change of the
@@ -141,8 +141,8 @@ declared! {
         /// Natural frequencies of the modes whose vibration the shaper cancels [Hz].
         shape_modes_hz: Option<Vec<f64>> = None => (Commas(ProgramForm::Positive)).form("F1,F2,…")
             .otherwise("the modes with the largest amplitudes, at most three, until their sum is within the tolerance");
-        /// Payloads [kg] with which the vibration after the same lengths is listed as well. Their centre of mass is that of
-        /// the `[required]` payload of the file, or that of the platform.
+        /// Payloads [kg] with which the vibration after the same lengths is listed as well. Their centre of mass is that
+        /// of the `[required]` payload of the file, or that of the platform.
         robust_payload_kg: Option<Vec<f64>> = None => (Commas(ProgramForm::NotNegative)).form("M1,M2,…").otherwise("none");
         /// Time between the samples of the commanded lengths, which are then listed [s].
         sample_time_s: Option<f64> = None => (Number(Positive)).otherwise("no samples");
@@ -192,9 +192,9 @@ declared! {
         /// Upper limit of the frequencies [Hz]; faster gusts are left out.
         below_hz: Option<f64> = None => (Number(Positive))
             .otherwise("above all modes of the platform");
-        /// Measured spectra of the gusts in place of ⟪turbulence⟫, one-sided: columns frequency_hz, and along_m2_s, lateral_m2_s
-        /// and up_m2_s [m²/s² per Hz], straight between the rows and constant below the first. With ⟪intensity⟫ their integrals
-        /// are compared with it.
+        /// Measured spectra of the gusts in place of ⟪turbulence⟫, one-sided: columns frequency_hz, and along_m2_s,
+        /// lateral_m2_s and up_m2_s [m²/s² per Hz], straight between the rows and constant below the first. With
+        /// ⟪intensity⟫ their integrals are compared with it.
         spectrum: Option<NumberColumns> = None => (Columns).under("Gusts");
         /// Turbulence about the mean wind.
         #[serde(flatten)]
