@@ -62,7 +62,8 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
             analysis::print_or_draw(&request, &drawn.output, drawn.figure, figure_mode, guard())
         }
         Request::Uncertainty(of) => uncertainty::run(of, &cli.files()?, &mut guard()),
-        Request::Settle(of) => settle::run(of, &request, &cli.files()?, guard()),
+        Request::Gust(_) => gust::run(&request, &cli.files()?, guard()),
+        Request::Settle(of) => settle::run(of, &cli.files()?, guard()),
         Request::Reduce(of) => reduce::run(of, &cli.files()?, guard()),
         Request::Identify(of) => identify::run(of, &cli.files()?, &mut guard()),
         Request::Design(of) => design::run(of, &cli.files()?, &mut guard()),
@@ -95,6 +96,8 @@ fn request_of(cli: &Cli) -> Result<Request> {
         "identify" => identify::request(cli, further),
         "design" => design::request(cli, further),
         "map" => map::request(cli, further),
+        "settle" => settle::request(cli, further),
+        "gust" => gust::request(cli, further),
         "merge" => merge::request(cli, further),
         "plot" => page::plot_request(cli, further),
         "new" => new_robot::request(cli, further),

@@ -4,6 +4,7 @@ mod args;
 mod commands;
 mod errors;
 mod interrupt;
+mod number_table;
 mod output;
 mod pose_csv;
 mod progress;

@@ -2,13 +2,15 @@
 //!
 //! [`import`] makes a robot file of their descriptions of a robot, and [`new_robot`] one to start from. [`export`] writes
 //! the robot at rest for them. [`measurements`] reads measured responses and frequencies for `identify`, and
-//! [`uff_writing`] writes computed ones in the same format. Requests and results are those of [`funicular_study`].
+//! [`uff_writing`] writes computed ones in the same format. [`number_columns`] reads tables of numbers. Requests and
+//! results are those of [`funicular_study`].
 
 pub mod csv_lines;
 pub mod export;
 pub mod import;
 pub mod measurements;
 pub mod new_robot;
+pub mod number_columns;
 pub mod uff_writing;
 
 /// Example of README.md, which is tested like those of the documentation.

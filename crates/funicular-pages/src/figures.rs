@@ -12,6 +12,7 @@ mod contour;
 pub(crate) mod drawing;
 pub(crate) mod drive;
 mod font;
+mod gusts;
 pub(crate) mod hull;
 mod making;
 pub(crate) mod map;
@@ -23,7 +24,7 @@ pub(crate) mod supports;
 mod svg;
 pub(crate) mod view;
 
-pub use making::{RequestFigure, of_request};
+pub use making::{RequestFigure, of_decay, of_request};
 
 pub use crate::figure_style::{DEFAULT_FONT_SIZE_PT, DEFAULT_WIDTH_MM, FONT_SIZE_LIMITS_PT, WIDTH_LIMITS_MM, WIDTHS};
 

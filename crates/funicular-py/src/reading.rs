@@ -7,6 +7,7 @@ use crate::labels::Names;
 use crate::pose::{PoseLike, PyPose};
 use crate::sweep;
 use crate::texts::Texts;
+use funicular_formats::number_columns;
 use funicular_study::names::no_such;
 use funicular_study::request::{self, Choice, Declared, Experiment, Key, Pose, ProgramForm, commands};
 use funicular_study::wording::{Words, told};
@@ -14,7 +15,9 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyInt, PyList, PyMapping, PyString, PyTuple};
 use serde_json::{Map, Value as Json, json};
 use std::convert::Infallible;
+use std::path::PathBuf;
 use std::sync::LazyLock;
+use std::{fs, io};
 
 /// Kinds of the values of requests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,6 +45,8 @@ enum Kind {
     OneOrPerCable,
     Pose,
     Poses,
+    /// Columns by their names, or a CSV file with them.
+    Columns,
     /// First value, last value and their number.
     Masses,
     /// Axes with their values.
@@ -64,6 +69,7 @@ impl Kind {
             request::Kind::Vector => Self::Vector,
             request::Kind::Pose => Self::Pose,
             request::Kind::Poses => Self::Poses,
+            request::Kind::Columns => Self::Columns,
             request::Kind::Tensor => Self::Inertia,
             request::Kind::Name(what, choices) => Self::Name(what, choices),
             request::Kind::Text => Self::Text,
@@ -125,6 +131,7 @@ impl Kind {
             Self::Pose => "Pose | ArrayLike",
             Self::Masses => "tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsIndex]",
             Self::Axes => "Mapping[str, ArrayLike]",
+            Self::Columns => "str | PathLike[str] | Mapping[str, ArrayLike]",
             Self::Sizes | Self::Any => "Any",
         }
     }
@@ -249,6 +256,7 @@ fn of_kind(kind: Kind, name: &str, value: &Bound<'_, PyAny>, cables: &[String]) 
             }
             json!(poses)
         }
+        Kind::Columns => columns(name, value)?,
         Kind::Masses => json!(value.extract::<arrays::FirstLastCount>()?.masses(name, usize::MAX)?),
         // A request in JSON has a list of axes.
         Kind::Axes if value.cast::<PyList>().is_ok() => any(name, value, 0)?,
@@ -324,6 +332,23 @@ pub(crate) fn sizes(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Vec<String
              texts, as in [\"platform.mass_kg=1%\"]"
         ))
     })
+}
+
+/// Columns of a file, of a mapping or of a data frame.
+fn columns(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Json> {
+    if let Ok(path) = value.extract::<PathBuf>() {
+        let shown = path.display().to_string();
+        let bytes =
+            fs::read(&path).map_err(|error| io::Error::new(error.kind(), format!("cannot read {shown}: {error}")))?;
+        return Ok(json!(number_columns::read(&shown, &bytes).map_err(|error| errors::study(&error))?.columns));
+    }
+    if value.hasattr("columns")? && value.hasattr("to_dict")? {
+        return any(name, &value.call_method1("to_dict", ("list",))?, 0);
+    }
+    if value.cast::<PyMapping>().is_err() {
+        return Err(Unusable::value(value, "give a CSV file, or a mapping from names of columns to rows").named(name));
+    }
+    any(name, value, 0)
 }
 
 /// Any value that JSON can hold, also arrays and numbers of NumPy.

@@ -32,6 +32,11 @@ REQUIRED = (
     "--required-payload-center-reach-m 0.1,0.1,0 --required-acceleration-m-s2 1,1,1 "
     "--required-angular-acceleration-rad-s2 0.2,0.2,0.2"
 )
+LENGTHS_OVER_TIME = """t_s,unstrained_length_1_m,unstrained_length_2_m,unstrained_length_3_m,unstrained_length_4_m,unstrained_length_5_m,unstrained_length_6_m
+0,6.86,6.568,6.753,6.666,6.801,6.604
+0.5,6.862,6.566,6.755,6.664,6.801,6.604
+1,6.863,6.565,6.756,6.663,6.801,6.604
+"""
 MORE = [
     "funicular schema --of request",
     f"funicular statics {ROBOT} --all",
@@ -47,6 +52,7 @@ MORE = [
     f"funicular settle robots/cogiro.toml --release-n-m 5,0,0 --tolerance-m 1e-5 --below-hz 5 {TENSIONS} --hold-lengths-of-pose",
     f"funicular settle {ROBOT} --stop-m-s 0,0.1,0 --stop-rad-s 0,0,0.1 --profile-s 0.5,0.1 --below-hz 3",
     f"funicular settle {ROBOT} --move-m 0,0.02,0 --move-deg 0,0,1 --profile-s 1,0.2 --below-hz 3 --shaper ei:0.05 --shape-modes-hz 1.02 --sample-time-s 0.1",
+    f"funicular settle {ROBOT} --trajectory lengths.csv --below-hz 2 --robust-payload-kg 0.5,1",
     f"funicular settle {ROBOT} --release-n 0,0,-0.5 --pose 0,0,0.5 --below-hz 3 {STATE} {WHOLE} --winches clamped",
     f"funicular gust {GUSTY} --output z --output tension:2 --below-hz 1 --duration-s 300 --coherence-decay 3,8,8",
     f"funicular gust {GUSTY} --output x --output-point-m 0,0,0 --below-hz 1 --mass-kg 15",
@@ -54,6 +60,7 @@ MORE = [
     f"--length-scale-m 50,20,5 --below-hz 1 --output z --pose 0,0,0.5 {STATE} {WHOLE} --winches clamped",
     f"funicular gust robots/cogiro.toml --set platform.drag_area_m2=1 --wind-m-s 5,0,0 --turbulence kaimal "
     f"--intensity 0.1,0.1,0.1 --length-scale-m 50,20,5 --below-hz 1 --output z {TENSIONS} --hold-lengths-of-pose",
+    f"funicular gust {ROBOT} --set platform.drag_area_m2=0.1 --wind-m-s 8,0,0 --spectrum gusts.csv --below-hz 1 --output z",
     f"funicular modes {ROBOT} --below-hz 2 --decay-percent 10",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",
@@ -179,6 +186,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (tmp_path / name).symlink_to(ROOT / name)
     poses = "x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0.5,0.25,1.5,0,1,2\n0,0,2,0,0,0\n"
     (tmp_path / "trajectory.csv").write_text(poses)
+    (tmp_path / "lengths.csv").write_text(LENGTHS_OVER_TIME)
+    (tmp_path / "gusts.csv").write_text("frequency_hz,along_m2_s,lateral_m2_s,up_m2_s\n0.01,40,20,10\n0.1,8,6,4\n1,0.2,0.2,0.1\n")
     (tmp_path / "response.csv").write_text("frequency_hz,a1_re,a1_im\n1,-5.16e-4,0\n2,-2.55e-3,0\n2.5,-7e-3,2e-4\n")
     (tmp_path / "test.uff").write_text(UNIVERSAL_FILE)
     (tmp_path / "states.json").write_text(json.dumps(STATES))

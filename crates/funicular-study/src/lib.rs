@@ -49,6 +49,7 @@ pub mod set_values;
 pub mod signals;
 pub mod sweep;
 pub mod table;
+mod table_fault;
 pub mod text;
 pub mod values;
 mod watch;
@@ -58,6 +59,7 @@ pub mod written;
 pub use error::{Cancelled, Error, ErrorKind, NoSolution};
 pub use request::Request;
 pub use run::{Results, run, run_at, run_on};
+pub use table_fault::TableFault;
 pub use watch::{Silent, Watch};
 
 /// Example of README.md, which is tested like those of the documentation.

@@ -8,6 +8,7 @@ mod digest;
 mod error;
 mod evaluation;
 mod frequency;
+mod gusts;
 mod options;
 mod plan;
 mod points;

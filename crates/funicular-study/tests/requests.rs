@@ -128,6 +128,9 @@ fn requests() -> Vec<Value> {
                     "output": ["z", "tension:1"], "output_point_m": [0.1, 0.0, 0.0], "duration_s": 300.0, "below_hz": 5.0,
                     "turbulence": "kaimal", "intensity": [0.15, 0.12, 0.075], "length_scale_m": [85.0, 28.0, 6.9],
                     "coherence_decay": [3.0, 8.0, 8.0],
+                    "spectrum": {
+                        "frequency_hz": [0.01, 1.0], "along_m2_s": [40.0, 0.2], "lateral_m2_s": [20.0, 0.2], "up_m2_s": [10.0, 0.1],
+                    },
                 }),
             ],
         ),
@@ -144,6 +147,8 @@ fn requests() -> Vec<Value> {
                     "stop_m_s": [0.1, 0.0, 0.0], "stop_rad_s": [0.0, 0.0, 0.2], "move_m": [0.0, 0.05, 0.0],
                     "move_deg": [0.0, 1.0, 0.0], "profile_s": [1.2, 0.3, 0.1], "shaper": "ei:0.05",
                     "shape_modes_hz": [1.02, 1.36], "sample_time_s": 0.01,
+                    "trajectory": { "t_s": [0.0, 1.0], "x_m": [0.0, 0.1], "y_m": [0.0, 0.0], "z_m": [0.5, 0.5] },
+                    "robust_payload_kg": [0.5, 1.0],
                 }),
             ],
         ),

@@ -67,7 +67,10 @@ pub enum GustError {
     #[error("the response to gusts has motions of the platform and of points on cables, and tensions at the platform")]
     Output,
     /// The tension has no row in the coordinates of the platform.
-    #[error("cable \"{cable}\" is slack or pulls out of the plane of the platform: its tension in gusts is not known")]
+    #[error(
+        "cable \"{cable}\" is slack or pulls out of the plane of the platform: its tension in gusts is not \
+         known; choose outputs without it"
+    )]
     Tension {
         /// Name of the cable.
         cable: String,

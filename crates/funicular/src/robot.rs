@@ -30,7 +30,7 @@ pub(crate) use pulley::Wheel;
 pub use pulley::{Pulley, PulleyContact};
 pub use required::{LoadShape, RequiredLoads, RequiredLoadsError, RequiredPayload};
 pub use support::{DrumPlace, Support};
-pub use turbulence::{Turbulence, TurbulenceSpectrum};
+pub use turbulence::{MeasuredSpectrum, MeasuredSpectrumError, Turbulence, TurbulenceSpectrum};
 pub use winch::{Control, DrumSide, GuideWheel, Servo, Winch, WinchMode};
 pub use wind::{LineLoad, Wind};
 

@@ -97,15 +97,34 @@ pub(crate) struct DrawModesArgs {
     pub(crate) figure_mode: Option<usize>,
 }
 
-/// Decay that is printed or drawn, and the file of the commanded lengths.
+/// Trajectory of a decay, which is printed or drawn, and the file of the commanded lengths.
 #[derive(Debug, Args)]
 pub(crate) struct SettleArgs {
+    /// Trajectory in a CSV file that the lengths command, from rest to rest: columns t_s, and either x_m, y_m, z_m and
+    /// optionally roll_deg, pitch_deg, yaw_deg, or unstrained_length_NAME_m of every cable, as --lengths writes them;
+    /// between the rows the lengths change in straight lines [default of the state: the last row]
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) trajectory: Option<PathBuf>,
+
     #[command(flatten)]
     pub(crate) drawn: DrawArgs,
 
     /// Write the commanded lengths to FILE.csv: t_s, and unstrained_length_NAME_m of every cable [m]
     #[arg(long, value_name = "FILE.csv", requires = "sample_time_s", help_heading = "Output")]
     pub(crate) lengths: Option<PathBuf>,
+}
+
+/// Measured spectra of gusts, and the response that is printed or drawn.
+#[derive(Debug, Args)]
+pub(crate) struct GustArgs {
+    /// Measured spectra of the gusts in a CSV file, one-sided, in place of --turbulence: columns frequency_hz, and
+    /// along_m2_s, lateral_m2_s, up_m2_s [m²/s² per Hz], straight between the rows and constant below the first; with
+    /// --intensity their integrals are compared with it
+    #[arg(long, value_name = "FILE.csv", help_heading = "Gusts")]
+    pub(crate) spectrum: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) drawn: DrawArgs,
 }
 
 /// Model whose matrices are written to files.

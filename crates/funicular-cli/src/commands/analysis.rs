@@ -22,7 +22,7 @@ pub(super) fn print_or_draw(
     mut guard: Guard,
 ) -> Result<()> {
     let others: &[Kind] = match request {
-        Request::Statics(_) | Request::Settle(_) | Request::Compare(_) => &[Kind::Svg, Kind::Pdf],
+        Request::Statics(_) | Request::Gust(_) | Request::Compare(_) => &[Kind::Svg, Kind::Pdf],
         Request::Modes(_) | Request::Frf(_) => &[Kind::Svg, Kind::Pdf, Kind::Uff],
         _ => &[],
     };

@@ -1,11 +1,35 @@
-//! `gust`: text and CSV.
+//! `gust`: measured spectra, text and CSV.
 
+use super::analysis;
+use crate::args::{Cli, GustArgs};
+use crate::number_table;
 use crate::output::Printed;
 use crate::table::{Table, counted, significant};
-use funicular_study::analyses::gust::{AirDamping, GustRow, Gusty};
+use anyhow::Result;
+use funicular_files::Guard;
+use funicular_study::analyses::gust::{self, AirDamping, GustRow, Gusty};
+use funicular_study::request::Request;
+use serde_json::{Map, Value};
 
 /// Modes that the table shows.
 const SHOWN: usize = 8;
+
+/// Request of a response to gusts. Errors of measured spectra name the line in the file.
+pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
+    let mut request = cli.request(further)?;
+    if let (Request::Gust(of), Some(path)) = (&mut request, cli.files::<GustArgs>()?.spectrum) {
+        of.spectrum = Some(number_table::read(&path, "the spectra", gust::check_spectrum)?);
+    }
+    Ok(request)
+}
+
+/// Runs `gust`: prints the response, or draws its spectra.
+pub(super) fn run(request: &Request, args: &GustArgs, mut guard: Guard) -> Result<()> {
+    if let Some(spectrum) = &args.spectrum {
+        guard.reads("the spectra", spectrum);
+    }
+    analysis::print_or_draw(request, &args.drawn.output, args.drawn.figure, None, guard)
+}
 
 impl Printed for Gusty {
     fn text(&self) -> String {
@@ -14,15 +38,16 @@ impl Printed for Gusty {
         let [x, y, z] = self.mean_wind_m_s.map(|part| significant(part, 4));
         let turbulence = &self.turbulence;
         let three = |of: [f64; 3]| of.map(|part| significant(part, 3)).join(", ");
+        let scales =
+            turbulence.length_scale_m.map_or_else(String::new, |of| format!(" length scales {} m,", three(of)));
         format!(
             "{}: response to gusts below {} Hz\n{}\nMean wind {x}, {y}, {z} m/s, `{}` gusts along, lateral, up: \
-             intensity {}, length scales {} m, decay of coherence {}.\n\n{outputs}\n{}\n\n{modes}\n{} of {} shown.\n",
+             intensity {},{scales} decay of coherence {}.\n\n{outputs}\n{}\n\n{modes}\n{} of {} shown.\n",
             self.robot,
             significant(self.below_hz, 4),
             self.models.line(),
             turbulence.spectrum,
             three(turbulence.intensity),
-            three(turbulence.length_scale_m),
             three(turbulence.coherence_decay),
             about_extremes(self),
             self.modes.len().min(SHOWN),

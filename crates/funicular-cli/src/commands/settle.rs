@@ -1,36 +1,60 @@
 //! `settle`: text, CSV, and the file of the commanded lengths.
 
-use super::analysis;
-use crate::args::SettleArgs;
+use crate::args::{Cli, DrawArgs, SettleArgs};
 use crate::errors;
-use crate::output::{Content, Printed, Sink, Target, as_csv};
+use crate::number_table;
+use crate::output::{Content, FigureSink, Printed, Sink, Target, as_csv};
 use crate::table::{Table, counted, decimals, significant};
 use anyhow::Result;
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
+use funicular_pages::figures;
 use funicular_study::analyses::settle::{self, Commanded, Held, Settled, SettlingMode, Shaping};
-use funicular_study::request::{Request, SettleRequest};
+use funicular_study::request::{NumberColumns, Request, SettleRequest};
+use serde_json::{Map, Value};
 use std::fmt::Write as _;
 
 /// Modes that the table shows.
 const SHOWN: usize = 12;
 
+/// Request of a decay. Errors of its trajectory name the line in the file.
+pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
+    let mut request = cli.request(further)?;
+    if let (Request::Settle(of), Some(path)) = (&mut request, cli.files::<SettleArgs>()?.trajectory) {
+        let robot = of.robot.read()?.robot;
+        let check = |columns: &NumberColumns| settle::check_trajectory(columns, &robot);
+        of.trajectory = Some(number_table::read(&path, "the trajectory", check)?);
+    }
+    Ok(request)
+}
+
 /// Runs `settle`: prints or draws the decay, and writes the commanded lengths.
-pub(super) fn run(of: &SettleRequest, request: &Request, args: &SettleArgs, mut guard: Guard) -> Result<()> {
-    let Some(path) = &args.lengths else {
-        return analysis::print_or_draw(request, &args.drawn.output, args.drawn.figure, None, guard);
-    };
+pub(super) fn run(of: &SettleRequest, args: &SettleArgs, mut guard: Guard) -> Result<()> {
+    if let Some(trajectory) = &args.trajectory {
+        guard.reads("the trajectory", trajectory);
+    }
+    // Errors of the robot file are reported before errors of the destinations.
     let robot = of.robot.read()?.robot;
-    let sink = Sink::open(&args.drawn.output, &[], &mut guard)?;
+    let DrawArgs { output, figure } = &args.drawn;
+    let path = output.output_file.as_deref().filter(|_| output.format.is_none());
+    let drawn = FigureSink::open(path, *figure, &mut guard)?;
+    let printed = match drawn {
+        Some(_) => None,
+        None => Some(Sink::open(output, &[Kind::Svg, Kind::Pdf], &mut guard)?),
+    };
     let content = Content { name: "the lengths", in_words: "CSV", fitting: &[Kind::Csv] };
-    let target = Target::open(Some(path), content, &mut guard)?;
+    let lengths = args.lengths.as_deref().map(|path| Target::open(Some(path), content, &mut guard)).transpose()?;
 
     let found = settle::run(robot, of)?;
-    if let Some(commanded) = &found.commanded {
+    if let (Some(target), Some(path), Some(commanded)) = (lengths, &args.lengths, &found.commanded) {
         target.write(&as_csv(commanded.lengths_table())?)?;
         errors::note(&format!("wrote {}", path.display()));
     }
-    sink.write(&found)
+    if let Some(drawn) = drawn {
+        drawn.write(&figures::of_decay(&found))?;
+        found.warnings.iter().for_each(|warning| errors::warn(warning));
+    }
+    printed.map_or(Ok(()), |sink| sink.write(&found))
 }
 
 impl Printed for Settled {
@@ -82,7 +106,7 @@ fn of_release(held: &Held) -> String {
 /// Duration and lowest tension of a command.
 fn of_command(of: &Commanded) -> String {
     let lowest = &of.lowest_tension;
-    format!(
+    let mut text = format!(
         "The {} takes {} s; times are counted from its end. The lowest tension is {} N, in cable \"{}\" {} s after its \
          start.",
         of.command,
@@ -90,7 +114,22 @@ fn of_command(of: &Commanded) -> String {
         significant(lowest.tension_n, 4),
         lowest.cable,
         significant(lowest.t_s, 3),
-    )
+    );
+    for row in &of.payloads {
+        let without = row
+            .without_m
+            .map_or_else(String::new, |size| format!(", without the shaper {} mm", significant(1e3 * size, 3)));
+        let _ = write!(
+            text,
+            "\nWith a payload of {} kg: sum of the amplitudes {} mm{without}, most of it at {} Hz; within the tolerance \
+             for good after {} s.",
+            row.payload_kg,
+            significant(1e3 * row.amplitude_m, 3),
+            decimals(row.frequency_hz, 4),
+            significant(row.settled_s, 4),
+        );
+    }
+    text
 }
 
 /// Shaper, its impulses, and what it leaves.

@@ -1,6 +1,7 @@
 //! `settle`: decay after a release.
 
 use super::{csv, json, json_of, number, numbers, robot, run, run_with, stderr, succeed, yuan};
+use std::fmt::Write as _;
 
 /// Small release at the robot of Yuan 2014.
 const SMALL: [&str; 6] = ["settle", "ROBOT", "--release-n", "0,0,-1", "--below-hz", "6"];
@@ -142,8 +143,8 @@ fn the_commanded_lengths_begin_at_speed_and_end_at_rest() {
 #[test]
 fn commands_that_make_no_sense_are_refused() {
     for (more, expected) in [
-        (&["--release-n", "0,0,-1"][..], "give a release, a stop or a move, not several"),
-        (&["--stop-m-s", "0,1,0"], "give a release, a stop or a move, not several"),
+        (&["--release-n", "0,0,-1"][..], "give a release, a stop, a move or a trajectory, not several"),
+        (&["--stop-m-s", "0,1,0"], "give a release, a stop, a move or a trajectory, not several"),
         (&["--profile-s", "0"], "a move takes time"),
         (&["--profile-s", "0.3,1.2"], "longer than the one before"),
         (&["--profile-s=-1"], "--profile-s"),
@@ -193,4 +194,168 @@ fn a_release_that_is_not_small_is_warned_of() {
     assert!(stderr(&large).contains("the release is not small: the linear displacement"), "{}", stderr(&large));
     let small = run(&SMALL);
     assert!(!stderr(&small).contains("the release is not small"), "{}", stderr(&small));
+}
+
+/// Lengths of the short move, at steps of 10 ms.
+fn lengths_of_the_move(folder: &std::path::Path) -> String {
+    let path = folder.join("lengths.csv").to_str().unwrap().to_owned();
+    let output = run(&[&MOVE[..], &["--sample-time-s", "0.01", "--lengths", &path]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    path
+}
+
+fn largest_amplitude(of: &serde_json::Value) -> f64 {
+    number(&of["modes"][0]["amplitude_m"])
+}
+
+/// The oracle is the move in closed form. Straight lines of h = 10 ms have `sin²(ωh/2)/(ωh/2)²` of the spectrum of the
+/// move, which is 1 − ω²h²/12, or 1 − 6e-4 at 1.36 Hz.
+#[test]
+fn a_trajectory_of_the_lengths_of_a_move_has_the_motion_of_the_move() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = lengths_of_the_move(folder.path());
+    let line = ["settle", "ROBOT", "--below-hz", "3", "--trajectory", &path];
+    let (moved, read) = (json(&with(&[])), json(&line));
+    assert_eq!(read["command"], "trajectory");
+    assert!((number(&read["duration_s"]) - number(&moved["duration_s"])).abs() < 1e-9);
+    let (a, b) = (largest_amplitude(&moved), largest_amplitude(&read));
+    assert!((b / a - 1.0).abs() < 1e-3, "{a} {b}");
+    let lowest = |of: &serde_json::Value| number(&of["lowest_tension"]["tension_n"]);
+    assert!((lowest(&read) / lowest(&moved) - 1.0).abs() < 1e-3, "{} {}", lowest(&read), lowest(&moved));
+
+    // Poses give the same lengths: a straight line with the course of the move, of which the lengths are known.
+    let rows = std::fs::read_to_string(&path).unwrap();
+    let poses = folder.path().join("poses.csv");
+    let profile = |t: f64| {
+        // Rate of the boxes 1.2, 0.3 and 0.1 s, summed in small steps.
+        let boxed = |t: f64, of: f64| (t / of).clamp(0.0, 1.0);
+        let (fine, h) = (64_u32, 1.0 / 64.0);
+        let nodes = || (0..fine).map(move |k| (f64::from(k) + 0.5) * h);
+        nodes().map(|a| nodes().map(|b| boxed(t - 0.3 * a - 0.1 * b, 1.2)).sum::<f64>()).sum::<f64>() * h * h
+    };
+    let rest = json(&["statics", "ROBOT"]);
+    let [place, angles] = ["position_m", "roll_pitch_yaw_deg"].map(|key| numbers(&rest["pose"][key]));
+    let mut text = "t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n".to_owned();
+    for line in rows.lines().skip(1) {
+        let t: f64 = line.split(',').next().unwrap().parse().unwrap();
+        let y = place[1] - 0.02 * (1.0 - profile(t));
+        writeln!(text, "{t},{},{y},{},{},{},{}", place[0], place[2], angles[0], angles[1], angles[2]).unwrap();
+    }
+    std::fs::write(&poses, text).unwrap();
+    let by_poses = json(&["settle", "ROBOT", "--below-hz", "3", "--trajectory", poses.to_str().unwrap()]);
+    let c = largest_amplitude(&by_poses);
+    assert!((c / b - 1.0).abs() < 1e-3, "{b} {c}");
+}
+
+/// The shaper of the table cancels the modes of the move. It acts on the lengths, and a mean of lengths has not quite
+/// the mean pose: the square of 20 mm over 2 m is left.
+#[test]
+fn a_shaper_makes_a_trajectory_quiet() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = lengths_of_the_move(folder.path());
+    let more = ["--shaper", "zv", "--shape-modes-hz", "1.0207,1.3571", "--tolerance-m", "1e-4"];
+    let shaped = json(&[&["settle", "ROBOT", "--below-hz", "3", "--trajectory", &path][..], &more].concat());
+    for mode in &shaped["modes"].as_array().unwrap()[..2] {
+        assert!(number(&mode["amplitude_m"]) < 1e-4 * number(&mode["amplitude_without_m"]), "{mode}");
+    }
+}
+
+#[test]
+fn a_trajectory_that_is_none_is_refused_with_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("way.csv");
+    let good = std::fs::read_to_string(lengths_of_the_move(folder.path())).unwrap();
+    let header = good.lines().next().unwrap();
+    let row = |t: &str, more: &str| format!("{t},{}{more}\n", good.lines().nth(1).unwrap().split_once(',').unwrap().1);
+    let poses = "t_s,x_m,y_m,z_m\n0,0,0,0.5\n1,0,0,0.51\n";
+    for (text, expected) in [
+        (format!("{header}\n{}", row("0", "")), "there are 1 rows: give at least two"),
+        (format!("{header}\n{}\n{}", row("0", ""), row("0", "")), "line 4: the time 0 s is not after the one before"),
+        (format!("{header}\n{}{}", row("1", ""), row("0.5", "")), "line 3: the time 0.5 s is not after"),
+        (format!("{header}\n{}{}", row("0", ""), row("nan", "")), "line 3, column `t_s`"),
+        (format!("{header}\n{}{}", row("0", ""), row("1", ",3")), "line 3: 8 values, but 7 in the header"),
+        (good.replace("unstrained_length_2_m", "unstrained_length_9_m"), "a column `unstrained_length_9_m`"),
+        (good.replace("t_s,", "time,"), "there is a column `time`"),
+        (poses.replace(",z_m", ",yaw_deg"), "there is no column `z_m`"),
+        (poses.replace("x_m", "unstrained_length_1_m"), "columns of poses and of lengths"),
+        (poses.replace("0.51", "1e300"), "line 3, column `z_m`"),
+        (
+            header.replace(",unstrained_length_2_m", "") + "\n0,1,1,1,1,1\n1,1,1,1,1,1\n",
+            "no column `unstrained_length_2_m`",
+        ),
+        (format!("{header}\n0,1,1,1,1,1,1\n1,1,1,-1,1,1,1\n"), "line 3: `unstrained_length_3_m`"),
+    ] {
+        std::fs::write(&path, &text).unwrap();
+        let output = run(&["settle", "ROBOT", "--trajectory", path.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(2), "{text}: {}", stderr(&output));
+        assert!(stderr(&output).contains(expected), "{text}: {}", stderr(&output));
+    }
+
+    // Another end than the rest, another option of a command, and another command.
+    std::fs::write(&path, poses).unwrap();
+    for (more, expected) in [
+        (&["--pose", "0,0,0.5"][..], "at rest it is"),
+        (&["--profile-s", "1"], "is used by a stop or a move"),
+        (&["--stop-m-s", "0,1,0"], "not several"),
+    ] {
+        let output = run(&[&["settle", "ROBOT", "--trajectory", path.to_str().unwrap()], more].concat());
+        assert_eq!(output.status.code(), Some(2), "{more:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(expected), "{more:?}: {}", stderr(&output));
+    }
+}
+
+/// The figure and the lengths of one run.
+#[test]
+fn a_figure_and_the_lengths_are_written_together() {
+    let folder = tempfile::tempdir().unwrap();
+    let [figure, lengths] = ["x.svg", "x.csv"].map(|name| folder.path().join(name).to_str().unwrap().to_owned());
+    let output = run(&[&MOVE[..], &["--sample-time-s", "0.1", "--lengths", &lengths, "-o", &figure]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(std::fs::read_to_string(figure).unwrap().contains("end of the command"));
+    assert!(std::fs::read_to_string(lengths).unwrap().starts_with("t_s,"));
+}
+
+/// The motion while the command runs begins at rest and goes on into the motion after it.
+#[test]
+fn the_history_holds_the_motion_during_the_command() {
+    let found = json(&with(&[]));
+    let during = found["during"].as_array().unwrap();
+    let place = |row: &serde_json::Value| ["x_m", "y_m", "z_m"].map(|key| number(&row[key]));
+    assert!((number(&during[0]["t_s"]) + number(&found["duration_s"])).abs() < 1e-12);
+    assert!(place(&during[0]).iter().all(|part| *part == 0.0), "{:?}", during[0]);
+    let most = during.iter().map(|row| place(row)[1].abs()).fold(0.0, f64::max);
+    let (before, after) = (place(during.last().unwrap()), place(&found["history"][0]));
+    let next = place(&found["history"][1]);
+    for k in 0..3 {
+        assert!((after[k] - before[k]).abs() <= 2.0 * (next[k] - after[k]).abs() + 0.05 * most, "{before:?} {after:?}");
+    }
+    let (header, rows) = csv(&with(&[]));
+    assert_eq!(header, ["t_s", "x_m", "y_m", "z_m", "envelope_m"]);
+    assert!(rows[0][4].is_empty() && rows[0][0].starts_with('-'), "{:?}", rows[0]);
+}
+
+/// The same lengths with a payload: the robot with its mass, at rest with these lengths, is the oracle.
+#[test]
+fn payloads_have_the_vibration_of_the_robot_that_carries_them() {
+    let found = json(&with(&["--robust-payload-kg", "0,1"]));
+    let payloads = found["payloads"].as_array().unwrap();
+    let sum = |of: &serde_json::Value| -> f64 {
+        of["modes"].as_array().unwrap().iter().map(|mode| number(&mode["amplitude_m"])).sum()
+    };
+    assert!((number(&payloads[0]["amplitude_m"]) / sum(&found) - 1.0).abs() < 1e-6, "{payloads:?}");
+
+    // The centre of mass of this platform does not change, and its inertia only by the rounding of a mass without extent.
+    let folder = tempfile::tempdir().unwrap();
+    let path = lengths_of_the_move(folder.path());
+    let mass = number(
+        &json(&["parameters", "ROBOT"])["parameters"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .find(|row| row["path"] == "platform.mass_kg")
+            .unwrap()["value"],
+    ) + 1.0;
+    let heavier = json(&["settle", "ROBOT", "--below-hz", "3", "--trajectory", &path, "--mass-kg", &mass.to_string()]);
+    assert!((number(&payloads[1]["amplitude_m"]) / sum(&heavier) - 1.0).abs() < 0.05, "{payloads:?}");
+    assert!((number(&payloads[1]["frequency_hz"]) / number(&heavier["modes"][0]["frequency_hz"]) - 1.0).abs() < 1e-6);
 }

@@ -5,7 +5,7 @@ use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
 use super::space::{RobotShape, Space};
 use super::style::{self, GREY, ModelStyle, Symbol};
-use super::{Figure, FigureChoice, FigureContent, settling};
+use super::{Figure, FigureChoice, FigureContent, gusts, settling};
 use crate::figure_style::{MODE_TICKS, ModeTick, rgb};
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -16,7 +16,8 @@ use funicular::modes::{self, Mode};
 use funicular::robot::Robot;
 use funicular_study::Watch;
 use funicular_study::analyses::modes::with_rigid_cables;
-use funicular_study::analyses::{compare, frf, settle, statics};
+use funicular_study::analyses::settle::Settled;
+use funicular_study::analyses::{compare, frf, gust, settle, statics};
 use funicular_study::at_rest::{self, AtRest, ModesBelow};
 use funicular_study::names::Named;
 use funicular_study::request::{self, Request};
@@ -31,8 +32,8 @@ pub struct RequestFigure {
 }
 
 /// Makes the figure of a request: the robot at its equilibrium for `statics`, the spectrum or the shape of one mode for
-/// `modes`, magnitude and phase for `frf`, the decay for `settle`, the differences between the cable models for
-/// `compare`.
+/// `modes`, magnitude and phase for `frf`, the decay for `settle`, the spectra for `gust`, the differences
+/// between the cable models for `compare`.
 ///
 /// # Errors
 /// A command without a figure, a choice that does not fit the command, or the errors of the command.
@@ -51,15 +52,24 @@ pub fn of_request(
         Request::Frf(of) => response(robot, of, watch),
         Request::Settle(of) => {
             let found = settle::run(robot, of)?;
-            Ok(chart(settling::chart(&found), found.warnings))
+            Ok(RequestFigure { figure: of_decay(&found), warnings: found.warnings })
+        }
+        Request::Gust(of) => {
+            let found = gust::run(robot, of)?;
+            Ok(chart(gusts::chart(&found), found.warnings))
         }
         Request::Compare(of) => comparison(robot, of),
         other => bail!(
-            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `settle`, `compare` and `plot` write .svg and \
-             .pdf; give another ending",
+            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `settle`, `gust`, `compare` and `plot` write \
+             .svg and .pdf; give another ending",
             other.command()
         ),
     }
+}
+
+/// Makes the figure of a decay that has been computed before.
+pub fn of_decay(found: &Settled) -> Figure {
+    Figure(FigureContent::Chart(settling::chart(found)))
 }
 
 fn chart(chart: Chart, warnings: Vec<String>) -> RequestFigure {

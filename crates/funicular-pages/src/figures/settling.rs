@@ -1,4 +1,5 @@
-//! Figure of `settle`: distance of the point from its rest over time, with the bound of all modes and the tolerance.
+//! Figure of `settle`: distance of the point from its rest over time, while a command runs and after it, with the bound
+//! of all modes and the tolerance.
 
 use super::axis::ChartAxis;
 use super::chart::{Chart, Entry, Layer, Panel, Sample};
@@ -15,6 +16,8 @@ struct Course<'a> {
     name: &'static str,
     /// Time of the end of the command [s].
     end: f64,
+    /// Motion while the command runs; empty for a release, and for a command that is only compared.
+    during: &'a [HistoryRow],
     history: &'a [HistoryRow],
     settled: f64,
 }
@@ -25,18 +28,24 @@ pub(super) fn chart(found: &Settled) -> Chart {
     let last = courses.iter().filter_map(|of| Some(of.end + of.history.last()?.t_s)).fold(0.0, f64::max);
     let last = if last > 0.0 { last } else { 1.0 };
     let tolerance = 1e3 * found.tolerance_m;
-    let highest = courses.iter().flat_map(|of| of.history).map(|row| 1e3 * row.envelope_m).fold(tolerance, f64::max);
+    let rows = courses.iter().flat_map(|of| of.during.iter().chain(of.history));
+    let highest = rows.map(|row| 1e3 * row.envelope_m.unwrap_or_else(|| distance(row))).fold(tolerance, f64::max);
 
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
     for (i, of) in courses.iter().enumerate() {
         let stroke = style::curve(i);
         let bound = Stroke { dashes: vec![3.0, 1.5], width: 0.6 * stroke.width, ..stroke.clone() };
-        let points = |value: fn(&HistoryRow) -> f64| -> Vec<(f64, f64)> {
-            of.history.iter().map(|row| (of.end + row.t_s, 1e3 * value(row))).collect()
-        };
-        layers
-            .push(Layer::Line { points: points(|row| row.x_m.hypot(row.y_m).hypot(row.z_m)), stroke: stroke.clone() });
-        layers.push(Layer::Line { points: points(|row| row.envelope_m), stroke: bound.clone() });
+        let point = |row: &HistoryRow, value: f64| (of.end + row.t_s, 1e3 * value);
+        let moved = of.during.iter().chain(of.history).map(|row| point(row, distance(row)));
+        layers.push(Layer::Line { points: moved.collect(), stroke: stroke.clone() });
+        let bounded = of.history.iter().filter_map(|row| Some(point(row, row.envelope_m?)));
+        layers.push(Layer::Line { points: bounded.collect(), stroke: bound.clone() });
+        if !of.during.is_empty() {
+            let ends = vec![(of.end, 0.0), (of.end, highest)];
+            let stroke = Stroke { dashes: vec![1.0, 1.5], ..Stroke::solid(GREY, style::AXIS_WIDTH) };
+            layers.push(Layer::Line { points: ends, stroke: stroke.clone() });
+            legend.push(Entry { text: "end of the command".to_owned(), sample: Sample::Line(stroke) });
+        }
         let at = of.end + of.settled;
         layers
             .push(Layer::Line { points: vec![(at, 0.0), (at, tolerance)], stroke: Stroke::solid(stroke.colour, 2.0) });
@@ -58,15 +67,28 @@ pub(super) fn chart(found: &Settled) -> Chart {
     }
 }
 
+/// Distance of the point from its rest [m].
+fn distance(row: &HistoryRow) -> f64 {
+    row.x_m.hypot(row.y_m).hypot(row.z_m)
+}
+
 fn courses(found: &Settled) -> Vec<Course<'_>> {
     let Some(commanded) = &found.commanded else {
-        return vec![Course { name: "release", end: 0.0, history: &found.history, settled: found.settled_s }];
+        let (history, settled) = (&found.history, found.settled_s);
+        return vec![Course { name: "release", end: 0.0, during: &[], history, settled }];
     };
-    let own = |name| Course { name, end: commanded.duration_s, history: &found.history, settled: found.settled_s };
+    let own = |name| Course {
+        name,
+        end: commanded.duration_s,
+        during: &commanded.during,
+        history: &found.history,
+        settled: found.settled_s,
+    };
     let Some(shaping) = &commanded.shaping else { return vec![own(commanded.command)] };
     let without = Course {
         name: "without shaper",
         end: commanded.duration_s - shaping.longer_s,
+        during: &[],
         history: &shaping.history_without,
         settled: shaping.settled_without_s,
     };

@@ -220,7 +220,7 @@ class Analyses:
         NoSolutionError
             A cable is slack, or the equilibrium indifferent: it has no derivatives.
         """
-    def gust(self, /, output: str | Sequence[str] | None = None, *, output_point_m: ArrayLike | None = None, duration_s: SupportsFloat | SupportsIndex | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, turbulence: Literal['kaimal', 'von-karman'] | None = None, intensity: ArrayLike | None = None, length_scale_m: ArrayLike | None = None, coherence_decay: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
+    def gust(self, /, output: str | Sequence[str] | None = None, *, output_point_m: ArrayLike | None = None, duration_s: SupportsFloat | SupportsIndex | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, spectrum: str | PathLike[str] | Mapping[str, ArrayLike] | None = None, turbulence: Literal['kaimal', 'von-karman'] | None = None, intensity: ArrayLike | None = None, length_scale_m: ArrayLike | None = None, coherence_decay: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
         """
         Computes the response to turbulent wind: r.m.s. values and expected peaks of motions and tensions, with their
         spectra.
@@ -240,6 +240,10 @@ class Analyses:
         below_hz
             Upper limit of the frequencies [Hz]; faster gusts are left out; if not given: above all modes of the
             platform.
+        spectrum
+            Measured spectra of the gusts in place of `turbulence`, one-sided: columns frequency_hz, and along_m2_s, lateral_m2_s
+            and up_m2_s [m²/s² per Hz], straight between the rows and constant below the first. With `intensity` their integrals
+            are compared with it.
         turbulence
             Spectrum of the gusts: `kaimal` (kaimal, as in IEC 61400-1); `von-karman` (von Kármán); if not given: from
             the robot file.
@@ -377,12 +381,12 @@ class Analyses:
 
         The other parameters are those of `Equilibrium.stiffness`.
         """
-    def settle(self, /, release_n: ArrayLike | None = None, *, release_n_m: ArrayLike | None = None, stop_m_s: ArrayLike | None = None, stop_rad_s: ArrayLike | None = None, move_m: ArrayLike | None = None, move_deg: ArrayLike | None = None, profile_s: ArrayLike | None = None, shaper: str | None = None, shape_modes_hz: ArrayLike | None = None, sample_time_s: SupportsFloat | SupportsIndex | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
+    def settle(self, /, release_n: ArrayLike | None = None, *, release_n_m: ArrayLike | None = None, stop_m_s: ArrayLike | None = None, stop_rad_s: ArrayLike | None = None, move_m: ArrayLike | None = None, move_deg: ArrayLike | None = None, trajectory: str | PathLike[str] | Mapping[str, ArrayLike] | None = None, profile_s: ArrayLike | None = None, shaper: str | None = None, shape_modes_hz: ArrayLike | None = None, robust_payload_kg: ArrayLike | None = None, sample_time_s: SupportsFloat | SupportsIndex | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
         """
-        Computes how a point of the platform swings after a release, a stop or a move, and when it has settled.
+        Computes how a point of the platform swings after a release, a stop, a move or a trajectory, and when it has settled.
 
-        The motion is linear about the equilibrium at the end, in closed form over the damped modes. A stop and a move are
-        commanded by the lengths; an input shaper splits them so that their vibrations cancel.
+        The motion is linear about the equilibrium at the end, in closed form over the damped modes. A stop, a move and a
+        trajectory are commanded by the lengths; an input shaper splits them so that their vibrations cancel.
 
         Parameters
         ----------
@@ -398,16 +402,23 @@ class Analyses:
             Displacement of the platform from rest to rest, world axes [m]; its lengths command it; if not given: none.
         move_deg
             Rotation vector of the platform from rest to rest, world axes [degrees]; if not given: none.
+        trajectory
+            Trajectory that the lengths command, from rest to rest: columns t_s [s], and either x_m, y_m, z_m, roll_deg,
+            pitch_deg, yaw_deg or unstrained_length_NAME_m of every cable [m]; between the rows the lengths change in straight
+            lines. Without a pose and lengths the state is that of the last row.
         profile_s
             Times of the stop or the move [s], each at most the one before: from the begin of the acceleration to that
             of the deceleration (for a stop the deceleration itself), of each acceleration, and of each change of the
             acceleration. The command takes their sum; without them a stop is sudden; if not given: none.
         shaper
-            Input shaper of the stop or the move: zv, zvd, or ei:V, which leaves the fraction V of a vibration, as in
-            ei:0.05; if not given: none.
+            Input shaper of the command: zv, zvd, or ei:V, which leaves the fraction V of a vibration, as in ei:0.05; if not
+            given: none.
         shape_modes_hz
             Natural frequencies of the modes whose vibration the shaper cancels [Hz]; if not given: the modes with the
             largest amplitudes, at most three, until their sum is within the tolerance.
+        robust_payload_kg
+            Payloads [kg] with which the vibration after the same lengths is listed as well. Their centre of mass is that of
+            the `[required]` payload of the file, or that of the platform; if not given: none.
         sample_time_s
             Time between the samples of the commanded lengths, which are then listed [s]; if not given: no samples.
         input_point_m

@@ -484,10 +484,10 @@ def receptance(of: Any, given: Given, hz: ArrayLike) -> NDArray[complex128]:
 
 @declared(Analyses, "settle", positional=("release_n",), headings=REST, others=_AS_MODES)
 def settle(of: Any, given: Given) -> Results:
-    """Computes how a point of the platform swings after a release, a stop or a move, and when it has settled.
+    """Computes how a point of the platform swings after a release, a stop, a move or a trajectory, and when it has settled.
 
-    The motion is linear about the equilibrium at the end, in closed form over the damped modes. A stop and a move are
-    commanded by the lengths; an input shaper splits them so that their vibrations cancel.
+    The motion is linear about the equilibrium at the end, in closed form over the damped modes. A stop, a move and a
+    trajectory are commanded by the lengths; an input shaper splits them so that their vibrations cancel.
 
     Returns
     -------

@@ -1,5 +1,9 @@
 //! `gust`: motions and tensions in turbulent wind, with their expected peaks.
 
+mod measured;
+
+pub use measured::check as check_spectrum;
+
 use super::fields::AXES;
 use super::found;
 use super::shared::Models;
@@ -41,7 +45,9 @@ pub struct Gusty {
 pub struct TurbulenceRow {
     pub spectrum: &'static str,
     pub intensity: [f64; 3],
-    pub length_scale_m: [f64; 3],
+    /// Absent for measured spectra.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_scale_m: Option<[f64; 3]>,
     pub coherence_decay: [f64; 3],
     pub frozen: bool,
 }
@@ -77,8 +83,15 @@ pub struct GustRow {
     /// Probability that the tension falls to zero within the duration; tensions alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slack_probability: Option<f64>,
+    /// Part of the variance nearest to each mode of `modes`, in their order.
+    pub share_by_mode: Vec<f64>,
     /// Spectral density, unit squared per Hz.
     pub density: Vec<f64>,
+    /// Spectral density without the dynamics of the robot; empty without stiffness.
+    pub slow_density: Vec<f64>,
+    /// Frequency and share of the mode with the largest share.
+    #[serde(skip)]
+    pub main_mode: Option<(f64, f64)>,
 }
 
 impl GustRow {
@@ -117,7 +130,10 @@ pub fn about(at_rest: &AtRest, request: &GustRequest) -> Result<Gusty> {
     checked(request)?;
     let at_rest = &*at_rest.vibrating();
     let AtRest { equilibrium, .. } = at_rest;
-    let turbulence = turbulence(&at_rest.robot, &request.gusts)?;
+    let turbulence = match &request.spectrum {
+        Some(columns) => measured::turbulence(&at_rest.robot, columns, &request.gusts)?,
+        None => turbulence(&at_rest.robot, &request.gusts)?,
+    };
     let robot = &Robot { turbulence: Some(turbulence), ..at_rest.robot.clone() };
     let outputs = outputs(robot, request)?;
     refuse_slack(at_rest)?;
@@ -127,9 +143,10 @@ pub fn about(at_rest: &AtRest, request: &GustRequest) -> Result<Gusty> {
         Some(given) => at_rest.modes_limit(Some(given), linearisation)?,
         None => at_rest.sway_limit(linearisation)?,
     };
-    let ModesBelow { dynamics, modes: found, warnings } =
+    let ModesBelow { dynamics, modes: found, mut warnings } =
         at_rest.modes_below(linearisation, limit, modes::MAX_MODES)?;
     let signals: Vec<(Signal, Quantity)> = outputs.iter().map(|(output, signal)| (*signal, output.quantity)).collect();
+    warnings.extend(measured::caveat(robot, limit));
     let gusts = Gusts::new(robot, equilibrium, &dynamics, &signals, limit)?;
     let natural: Vec<f64> = found.modes.iter().map(|mode| mode.frequency_hz).collect();
     let spectra = gusts.spectra(limit, &natural).map_err(|error| no_solution(&error))?;
@@ -144,7 +161,10 @@ pub fn about(at_rest: &AtRest, request: &GustRequest) -> Result<Gusty> {
         duration_s: request.duration_s,
         modes: found.modes.iter().zip(in_air).map(AirDamping::of).collect(),
         outputs: (outputs.iter().enumerate())
-            .map(|(k, (output, signal))| row(at_rest, output, signal, &spectra, k, request.duration_s))
+            .map(|(k, (output, signal))| GustRow {
+                main_mode: main_mode(&natural, &spectra, k),
+                ..row(at_rest, output, signal, &spectra, k, request.duration_s)
+            })
             .collect(),
         frequency_hz: spectra.frequencies_hz,
         warnings,
@@ -189,16 +209,22 @@ fn turbulence(robot: &Robot, options: &TurbulenceOptions) -> Result<Turbulence> 
         );
     };
     let of_file_or = of_file.map_or(Turbulence::COHERENCE_DECAY, |of| of.coherence_decay);
-    if robot.wind.velocity_w == Vec3::zeros() {
-        bail!("there is no mean wind, so the gusts have no direction and no length in time: give ⟪wind_m_s⟫");
-    }
+    refuse_calm(robot)?;
     Ok(Turbulence {
         spectrum,
+        measured: None,
         intensity,
         length_scale,
         coherence_decay: options.coherence_decay.unwrap_or(of_file_or),
         is_frozen: of_file.is_none_or(|of| of.is_frozen),
     })
+}
+
+fn refuse_calm(robot: &Robot) -> Result<()> {
+    if robot.wind.velocity_w == Vec3::zeros() {
+        bail!("there is no mean wind, so the gusts have no direction and no length in time: give ⟪wind_m_s⟫");
+    }
+    Ok(())
 }
 
 /// Outputs of a request with their signals: all motions that the platform has and all tensions if it names none.
@@ -283,17 +309,33 @@ fn row(
         peak: factor.map(|factor| factor.mean * rms),
         peak_deviation: factor.map(|factor| factor.deviation * rms),
         slack_probability: mean.map(|mean| gust::slack_probability(mean, rms, rate_hz, duration)),
+        share_by_mode: spectra.by_mode[k].iter().map(|part| share(*part, moments.variance)).collect(),
         density: spectra.densities.iter().map(|of| of.total[k]).collect(),
+        slow_density: spectra.densities.iter().map(|of| of.quasi_static[k]).take_while(|of| of.is_finite()).collect(),
+        main_mode: None,
     }
+}
+
+/// Part of a variance; zero for an output that does not move.
+fn share(part: f64, variance: f64) -> f64 {
+    if variance > 0.0 { part / variance } else { 0.0 }
+}
+
+/// Frequency of the mode nearest to which output `k` has most of its variance, and this part.
+fn main_mode(natural_hz: &[f64], spectra: &Spectra, k: usize) -> Option<(f64, f64)> {
+    let parts = natural_hz.iter().copied().zip(spectra.by_mode[k].iter().copied());
+    let (hz, part) = parts.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((hz, share(part, spectra.moments[k].variance)))
 }
 
 impl TurbulenceRow {
     fn of(robot: &Robot) -> Option<Self> {
-        let Turbulence { spectrum, intensity, length_scale, coherence_decay, is_frozen } = robot.turbulence.as_ref()?;
+        let Turbulence { spectrum, intensity, length_scale, coherence_decay, is_frozen, measured } =
+            robot.turbulence.as_ref()?;
         Some(Self {
-            spectrum: spectrum.word(),
+            spectrum: if measured.is_some() { "measured" } else { spectrum.word() },
             intensity: *intensity,
-            length_scale_m: *length_scale,
+            length_scale_m: measured.is_none().then_some(*length_scale),
             coherence_decay: *coherence_decay,
             frozen: *is_frozen,
         })
@@ -335,6 +377,12 @@ impl GustRow {
             column("rms", "", "r.m.s. value about the mean", |row: &Self| row.rms).significant("r.m.s.", "", 4),
             column("quasi_static_rms", "", "r.m.s. value without dynamics", |row: &Self| row.quasi_static_rms)
                 .significant("slow gusts", "", 4),
+            column("main_mode_hz", "Hz", "mode nearest to which most of the variance is", |row: &Self| {
+                row.main_mode.map(|(hz, _)| hz)
+            })
+            .significant("mostly near", "Hz", 3),
+            column("main_share", "1", "part of the variance there", |row: &Self| row.main_mode.map(|(_, part)| part))
+                .significant("part", "1", 2),
             column("rate_hz", "Hz", "rate of crossings", |row: &Self| row.rate_hz).significant("rate", "Hz", 3),
             column("smallest", "", "expected smallest value", Self::smallest).significant("smallest", "", 4),
             column("largest", "", "expected largest value", Self::largest).significant("largest", "", 4),
@@ -349,6 +397,7 @@ struct DensityAt<'a> {
     row: &'a GustRow,
     hz: f64,
     density: f64,
+    slow: Option<f64>,
 }
 
 impl DensityAt<'_> {
@@ -359,6 +408,7 @@ impl DensityAt<'_> {
             column("density", "", "spectral density, one-sided: unit of the output squared per Hz", |at: &Self| {
                 at.density
             }),
+            column("slow_density", "", "the same without the dynamics of the robot", |at: &Self| at.slow),
             column("unit", "", "unit of the output", |at: &Self| at.row.unit.clone()),
         ])
     }
@@ -371,10 +421,11 @@ impl Tabled for Gusty {
 
     fn table(&self) -> ResultTable<'_> {
         let rows = self.outputs.iter().flat_map(|row| {
-            self.frequency_hz.iter().zip(&row.density).map(move |(hz, density)| DensityAt {
+            self.frequency_hz.iter().zip(&row.density).enumerate().map(move |(i, (hz, density))| DensityAt {
                 row,
                 hz: *hz,
                 density: *density,
+                slow: row.slow_density.get(i).copied(),
             })
         });
         ResultTable::new(DensityAt::columns(), rows)

@@ -1,11 +1,18 @@
-//! `settle`: how a point of the platform swings after a release, a stop or a move, and when it has settled.
+//! `settle`: how a point of the platform swings after a release or a command, and when it has settled.
 
 mod command;
+mod motion;
+mod payloads;
 mod release;
+mod rows;
 mod shaping;
+mod tension;
+mod trajectory;
 
-pub use command::LowestTension;
+pub use payloads::WithPayload;
 pub use shaping::Shaping;
+pub use tension::LowestTension;
+pub use trajectory::check as check_trajectory;
 
 use super::fields::AXES;
 use super::found;
@@ -21,9 +28,10 @@ use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Vec3, Vec6};
 use funicular::modes::damped::DampedModes;
-use funicular::modes::{self, CommandedMotions, Decay, Modes, Release};
+use funicular::modes::{self, CommandedMotions, Decay, LengthCommand, Modes, Release};
 use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, Stability, StaticModel};
+use motion::MotionKind;
 use release::UnderWrench;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -37,7 +45,7 @@ pub struct Settled {
     #[serde(flatten)]
     pub models: Models,
     pub tolerance_m: f64,
-    /// Stop or move before the decay; absent for a release.
+    /// Command before the decay; absent for a release.
     #[serde(flatten)]
     pub commanded: Option<Commanded>,
     /// The wrench and its displacement; absent for a command.
@@ -53,7 +61,11 @@ pub struct Settled {
     pub damped_certified: bool,
     /// Modes that take part, the largest amplitude first.
     pub modes: Vec<SettlingMode>,
+    /// Motion from the release or the end of the command on.
     pub history: Vec<HistoryRow>,
+    /// Rows while the command runs, if there is one, and after it.
+    #[serde(skip)]
+    whole: Vec<HistoryRow>,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
@@ -71,16 +83,21 @@ pub struct Held {
     pub omitted_m: f64,
 }
 
-/// Stop or move that the lengths command.
+/// Command of the lengths.
 #[derive(Serialize)]
 pub struct Commanded {
-    /// `stop` or `move`.
+    /// `stop`, `move` or `trajectory`.
     pub command: &'static str,
     /// Time from its start to its end, with the shaper.
     pub duration_s: f64,
     pub lowest_tension: LowestTension,
+    /// Motion while the command runs, at negative times.
+    pub during: Vec<HistoryRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shaping: Option<Shaping>,
+    /// What the same lengths leave with payloads, if they are requested.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub payloads: Vec<WithPayload>,
     /// Names of the cables, in the order of the lengths; absent without samples.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cables: Vec<String>,
@@ -112,14 +129,18 @@ pub struct SettlingMode {
     pub settled_s: f64,
 }
 
-/// Position of the point relative to its rest at one time, and the bound of its distance.
-#[derive(Serialize)]
+/// Displacement of the point at one time from where the lengths of this time hold it at rest, and the bound of its
+/// distance.
+#[derive(Clone, Serialize)]
 pub struct HistoryRow {
+    /// Time since the release or the end of the command.
     pub t_s: f64,
     pub x_m: f64,
     pub y_m: f64,
     pub z_m: f64,
-    pub envelope_m: f64,
+    /// Absent while a command runs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub envelope_m: Option<f64>,
 }
 
 /// Points per period of the fastest mode that takes part, and maximum number of points.
@@ -134,14 +155,15 @@ const SMALL: f64 = 1e-3;
 /// quarter.
 const FREQUENCIES_DIFFER: f64 = 0.1;
 
-/// Computes the decay after a release, a stop or a move.
+/// Computes the decay after a release or a command.
 ///
 /// # Errors
 /// A request without any of these or with several, a robot without such an equilibrium, a slack cable, an equilibrium
 /// to which nothing returns, or modes whose decay has no closed form.
 pub fn run(robot: Robot, request: &SettleRequest) -> Result<Settled> {
     checked(request)?;
-    about(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request)
+    let state = trajectory::state(&robot, request)?;
+    about(&at_rest::equilibrium(robot, &request.robot, &state, &request.tensions)?, request)
 }
 
 /// Computes the decay of a robot at equilibrium. The state of the request is not used.
@@ -164,6 +186,8 @@ pub fn about(at_rest: &AtRest, request: &SettleRequest) -> Result<Settled> {
     let history = history(decay, surely_settled_s.max(without_s));
     let distance = |row: &HistoryRow| Vec3::new(row.x_m, row.y_m, row.z_m).norm();
     let held = moved.held.as_ref().map_or(0.0, |held| Vec3::from(held.held_m).norm());
+    let during = moved.commanded.as_ref().map_or(&[][..], |commanded| &commanded.during);
+    let whole = [during, &history].concat();
     Ok(Settled {
         robot: at_rest.robot.name.clone(),
         below_hz: swing.limit,
@@ -175,6 +199,7 @@ pub fn about(at_rest: &AtRest, request: &SettleRequest) -> Result<Settled> {
         damped_certified: swing.damped.certified,
         modes: settling_modes(decay, moved.without.as_ref(), tolerance),
         history,
+        whole,
         commanded: moved.commanded,
         held: moved.held,
         warnings,
@@ -237,25 +262,22 @@ impl<'a> Swing<'a> {
         Ok(Moved { decay, held: Some(held), commanded: None, without: None })
     }
 
-    fn after_command(&self, command: &Command, request: &SettleRequest, warnings: &mut Vec<String>) -> Result<Moved> {
+    fn after_command(&self, unshaped: &Command, request: &SettleRequest, warnings: &mut Vec<String>) -> Result<Moved> {
         if self.linearisation.cable_model != CableModel::CatenaryDynamic {
             bail!(
-                "the cable model `{}` has no length that is commanded: a stop and a move need `catenary-dynamic`, the \
-                 default",
+                "the cable model `{}` has no length that is commanded: commands need `catenary-dynamic`, the default",
                 self.linearisation.cable_model.name()
             );
         }
         let motions = CommandedMotions::of(&self.dynamics, &self.modes, &self.damped, &self.arm_w)?;
-        let without = motions.after(&command.lengths());
+        let without = motions.after(&unshaped.lengths());
         let shaped = match shaping::kind(request)? {
             Some(kind) => Some(shaping::chosen(kind, request, &without)?),
             None => None,
         };
-        let command = match &shaped {
-            Some((shaper, _)) => command.shaped(shaper),
-            None => command.clone(),
-        };
-        let lowest_tension = command.lowest_tension(&motions)?;
+        let shaped_command = shaped.as_ref().map(|(shaper, _)| unshaped.shaped(shaper)).transpose()?;
+        let command = shaped_command.as_ref().unwrap_or(unshaped);
+        let lowest_tension = LowestTension::of(self.at_rest, command, &motions)?;
         warnings.extend(self.frequencies_at(&command.start()?)?);
 
         let name = request.shaper.as_deref().unwrap_or_default();
@@ -263,10 +285,13 @@ impl<'a> Swing<'a> {
         let shaping = shaped.map(|(shaper, modes)| Shaping::of(name, &shaper, modes, &without, tolerance));
         let lengths = request.sample_time_s.map(|step| command.sampled(step)).transpose()?.unwrap_or_default();
         let cables = &self.at_rest.robot.cables;
+        let lengths_without = unshaped.lengths();
         let commanded = Commanded {
-            command: command.kind.name(),
-            duration_s: command.profile.duration(),
+            command: command.name(),
+            duration_s: command.duration(),
             lowest_tension,
+            during: during(&motions, &command.lengths()),
+            payloads: self.with_payloads(request, &command.lengths(), shaping.is_some().then_some(&lengths_without))?,
             cables: if lengths.is_empty() { Vec::new() } else { cables.iter().map(|of| of.name.clone()).collect() },
             lengths,
             shaping,
@@ -311,22 +336,27 @@ fn checked(request: &SettleRequest) -> Result<()> {
     let release = [request.release_n, request.release_n_m];
     let (stop, moved) = ([request.stop_m_s, request.stop_rad_s], [request.move_m, request.move_deg]);
     let given = [release, stop, moved].iter().filter(|parts| parts.iter().any(Option::is_some)).count();
-    if given > 1 {
-        bail!("give a release, a stop or a move, not several: the motions of each add up, because they are linear");
+    if given + usize::from(request.trajectory.is_some()) > 1 {
+        bail!(
+            "give a release, a stop, a move or a trajectory, not several: the motions of each add up, because they are \
+             linear"
+        );
     }
     match CommandKind::of(request) {
         None if !moves(release) => bail!(
             "nothing is released: give the force ⟪release_n⟫, as 0,0,-20, or the moment ⟪release_n_m⟫; or a motion \
-             that ends, ⟪stop_m_s⟫ or ⟪move_m⟫"
+             that ends, ⟪stop_m_s⟫, ⟪move_m⟫ or ⟪trajectory⟫"
         ),
         None => command::refuse_for_release(request),
-        Some(CommandKind::Stop) if !moves(stop) => {
+        Some(CommandKind::Motion(MotionKind::Stop)) if !moves(stop) => {
             bail!("nothing stops: give the velocity before, ⟪stop_m_s⟫, as 0,0.2,0")
         }
-        Some(CommandKind::Move) if !moves(moved) => bail!("nothing moves: give the displacement ⟪move_m⟫, as 0,0.2,0"),
+        Some(CommandKind::Motion(MotionKind::Move)) if !moves(moved) => {
+            bail!("nothing moves: give the displacement ⟪move_m⟫, as 0,0.2,0")
+        }
         Some(kind) => {
             shaping::kind(request)?;
-            command::check_profile(kind, request)
+            command::check_times(kind, request)
         }
     }
 }
@@ -381,14 +411,36 @@ fn history(decay: &Decay, until: f64) -> Vec<HistoryRow> {
     }
     // At least one period of the slowest mode is shown.
     let until = until.max(TAU / slowest);
-    let points = (until * fastest / TAU * POINTS_PER_PERIOD).clamp(2.0, MAX_POINTS).ceil();
+    let points = points_in(until, fastest);
     (0..=points as usize)
         .map(|i| {
             let t_s = until * i as f64 / points;
             let [x_m, y_m, z_m] = decay.at(t_s).into();
-            HistoryRow { t_s, x_m, y_m, z_m, envelope_m: decay.envelope(t_s) }
+            HistoryRow { t_s, x_m, y_m, z_m, envelope_m: Some(decay.envelope(t_s)) }
         })
         .collect()
+}
+
+/// Number of steps in which a history shows the fastest mode that counts.
+fn points_in(until: f64, fastest: f64) -> f64 {
+    (until * fastest / TAU * POINTS_PER_PERIOD).clamp(2.0, MAX_POINTS).ceil()
+}
+
+/// Motion while a command runs, up to its end.
+fn during(motions: &CommandedMotions, command: &LengthCommand) -> Vec<HistoryRow> {
+    let end = command.duration();
+    let left = motions.after(command).motions;
+    let largest = left.iter().map(modes::DecayingMotion::size).fold(0.0, f64::max);
+    let counts = left.iter().filter(|motion| motion.size() >= SMALL * largest);
+    let points = points_in(end, counts.fold(0.0, |fastest, motion| fastest.max(motion.omega.re)));
+    // The end itself is the first row of the history after it.
+    let times: Vec<f64> = (0..points as usize).map(|i| end * i as f64 / points).collect();
+    let beside = motions.beside_static(command, &times);
+    let row = |(time, place): (&f64, Vec3)| {
+        let [x_m, y_m, z_m] = place.into();
+        HistoryRow { t_s: time - end, x_m, y_m, z_m, envelope_m: None }
+    };
+    if end > 0.0 { times.iter().zip(beside).map(row).collect() } else { Vec::new() }
 }
 
 impl HistoryRow {
@@ -396,8 +448,19 @@ impl HistoryRow {
         let place = |row: &Self| [row.x_m, row.y_m, row.z_m];
         Columns::new([
             column("t_s", "s", "time since the release or the end of the command", |row: &Self| row.t_s),
-            parts("{}_m", AXES, "m", "displacement of the point from its rest, {}", place),
-            column("envelope_m", "m", "bound of its distance from its rest", |row: &Self| row.envelope_m),
+            parts(
+                "{}_m",
+                AXES,
+                "m",
+                "displacement of the point from its rest with the lengths of this time, {}",
+                place,
+            ),
+            column(
+                "envelope_m",
+                "m",
+                "bound of its distance from its rest, from the end of a command on",
+                |row: &Self| row.envelope_m,
+            ),
         ])
     }
 }
@@ -454,7 +517,7 @@ impl Tabled for Settled {
     }
 
     fn table(&self) -> ResultTable<'_> {
-        ResultTable::new(HistoryRow::columns(), &self.history)
+        ResultTable::new(HistoryRow::columns(), &self.whole)
     }
 }
 

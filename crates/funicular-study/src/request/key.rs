@@ -113,6 +113,8 @@ pub enum Kind {
     Sizes,
     /// Poses, each x, y, z [m], roll, pitch, yaw [degrees]; the program reads them from a file.
     Poses,
+    /// Columns of numbers by their names; the program reads them from a CSV file.
+    Columns,
     /// Value that the program writes in a form of its own.
     Written(ProgramForm),
     /// List of such values; the option can be given several times.
@@ -220,7 +222,7 @@ impl Key {
         if !self.required {
             self.default = default.cloned().unwrap_or_default();
         }
-        if self.option.is_empty() && !matches!(self.kind, Kind::Data(_) | Kind::Poses) {
+        if self.option.is_empty() && !matches!(self.kind, Kind::Data(_) | Kind::Poses | Kind::Columns) {
             self.option = name.replace('_', "-");
         }
         if self.option == Self::NOT_IN_PROGRAM {

@@ -62,6 +62,7 @@ fn of_kind(kind: &Kind) -> Value {
         Kind::Text => text(),
         Kind::Texts | Kind::Sizes => texts(),
         Kind::Poses => poses(),
+        Kind::Columns => columns(),
         Kind::Written(form) => of_form(*form),
         Kind::List(form) => list(&of_form(*form)),
         Kind::OneOrMore(form) | Kind::Commas(form) => {
@@ -136,6 +137,10 @@ fn pose() -> Value {
 
 fn poses() -> Value {
     list(&numbers(Range::Finite, Some(6)))
+}
+
+fn columns() -> Value {
+    json!({ "type": "object", "additionalProperties": numbers(Range::Finite, None) })
 }
 
 fn mass_range() -> Value {

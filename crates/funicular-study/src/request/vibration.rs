@@ -3,7 +3,8 @@
 use super::MAX_STATIONS;
 use super::key::{Key, declared};
 use super::parts::{
-    FrequencyRange, Model, OneOrSeveral, ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
+    FrequencyRange, Model, NumberColumns, OneOrSeveral, ResponsePoints, ResponseRange, RobotText, State, Tensions,
+    Terms,
 };
 use crate::names::{ModelForm, optional};
 use funicular::cable::CableModel;
@@ -106,11 +107,11 @@ declared! {
 }
 
 declared! {
-    /// How a point of the platform swings after a release, a stop or a move, when it has settled, and input shapers
-    /// against it.
+    /// How a point of the platform swings after a release, a stop, a move or a trajectory, when it has settled, and input
+    /// shapers against it.
     ///
-    /// The state is that at the end: the rest after the release, the pose at which the stop or the move ends. The
-    /// motion is linear about it.
+    /// The state is that at the end: the rest after the release, the pose at which the command ends. The motion is
+    /// linear about it.
     pub struct SettleRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
@@ -126,16 +127,23 @@ declared! {
         move_m: Option<[f64; 3]> = None => (Vector).otherwise("none");
         /// Rotation vector of the platform from rest to rest, world axes [degrees].
         move_deg: Option<[f64; 3]> = None => (Vector).otherwise("none");
+        /// Trajectory that the lengths command, from rest to rest: columns t_s [s], and either x_m, y_m, z_m, roll_deg,
+        /// pitch_deg, yaw_deg or unstrained_length_NAME_m of every cable [m]; between the rows the lengths change in
+        /// straight lines. Without a pose and lengths the state is that of the last row.
+        trajectory: Option<NumberColumns> = None => (Columns);
         /// Times of the stop or the move [s], each at most the one before: from the begin of the acceleration to that
         /// of the deceleration (for a stop the deceleration itself), of each acceleration, and of each change of the
         /// acceleration. The command takes their sum; without them a stop is sudden.
         profile_s: Option<Vec<f64>> = None => (Commas(ProgramForm::NotNegative)).form("T1[,T2[,T3]]").otherwise("none");
-        /// Input shaper of the stop or the move: zv, zvd, or ei:V, which leaves the fraction V of a vibration, as in
+        /// Input shaper of the command: zv, zvd, or ei:V, which leaves the fraction V of a vibration, as in
         /// ei:0.05.
         shaper: Option<String> = None => (Text).form("zv|zvd|ei:V").otherwise("none");
         /// Natural frequencies of the modes whose vibration the shaper cancels [Hz].
         shape_modes_hz: Option<Vec<f64>> = None => (Commas(ProgramForm::Positive)).form("F1,F2,…")
             .otherwise("the modes with the largest amplitudes, at most three, until their sum is within the tolerance");
+        /// Payloads [kg] with which the vibration after the same lengths is listed as well. Their centre of mass is that
+        /// of the `[required]` payload of the file, or that of the platform.
+        robust_payload_kg: Option<Vec<f64>> = None => (Commas(ProgramForm::NotNegative)).form("M1,M2,…").otherwise("none");
         /// Time between the samples of the commanded lengths, which are then listed [s].
         sample_time_s: Option<f64> = None => (Number(Positive)).otherwise("no samples");
         /// Points of the platform.
@@ -161,6 +169,7 @@ declared! {
         "funicular settle robots/cogiro.toml --release-n 0,0,-196 --tolerance-m 1e-4 --below-hz 20 -o settling.csv",
         "funicular settle robots/yuan2014-4mm.toml --stop-m-s 0,0.2,0 --profile-s 0.4,0.1 --below-hz 10",
         "funicular settle robots/yuan2014-4mm.toml --move-m 0,0.05,0 --profile-s 1.2,0.3,0.1 --below-hz 10 \\\n    --shaper zv --tolerance-m 1e-4 --sample-time-s 0.01 --lengths lengths.csv",
+        "funicular settle robots/yuan2014-4mm.toml --trajectory lengths.csv --below-hz 10 --robust-payload-kg 0.5,1",
     }
 }
 
@@ -183,6 +192,10 @@ declared! {
         /// Upper limit of the frequencies [Hz]; faster gusts are left out.
         below_hz: Option<f64> = None => (Number(Positive))
             .otherwise("above all modes of the platform");
+        /// Measured spectra of the gusts in place of ⟪turbulence⟫, one-sided: columns frequency_hz, and along_m2_s,
+        /// lateral_m2_s and up_m2_s [m²/s² per Hz], straight between the rows and constant below the first. With
+        /// ⟪intensity⟫ their integrals are compared with it.
+        spectrum: Option<NumberColumns> = None => (Columns).under("Gusts");
         /// Turbulence about the mean wind.
         #[serde(flatten)]
         gusts: TurbulenceOptions = TurbulenceOptions::default() => group;

@@ -1,6 +1,7 @@
 //! Equilibrium of one point with the results that several quantities share.
 
 use super::frequency::{self, Lowest};
+use super::gusts::{self, PointInGusts};
 use super::options::Options;
 use super::status::Status;
 use crate::table::Value;
@@ -44,6 +45,8 @@ pub(super) struct PointEvaluation<'a> {
     damped_platform: OnceCell<Result<(DampedMode, bool), Status>>,
     /// Loads that the cables hold at the pose.
     capacity: OnceCell<Result<LoadCapacity<'a>, Status>>,
+    /// Response to the gusts of the robot file.
+    in_gusts: OnceCell<Result<PointInGusts, Status>>,
     /// First reason why a requested value is missing.
     missing: Option<Status>,
 }
@@ -61,8 +64,21 @@ impl<'a> PointEvaluation<'a> {
     ) -> Self {
         let (lowest, exact, damped_platform) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
         let missing = Status::note_for(robot, rest);
-        let capacity = OnceCell::new();
-        Self { robot, rest, hold, read, options, lowest, frequency_count, exact, damped_platform, capacity, missing }
+        let (capacity, in_gusts) = (OnceCell::new(), OnceCell::new());
+        Self {
+            robot,
+            rest,
+            hold,
+            read,
+            options,
+            lowest,
+            frequency_count,
+            exact,
+            damped_platform,
+            capacity,
+            in_gusts,
+            missing,
+        }
     }
 
     /// Numbers of the robot file of this point.
@@ -215,6 +231,13 @@ impl PointEvaluation<'_> {
             return Err(Status::new("no-decay", "the first mode of the platform does not decay: nothing damps it"));
         }
         Ok((mode.damping_ratio(), time))
+    }
+
+    /// Number of the response to gusts; it is missing for fewer than ten expected crossings.
+    pub(super) fn of_gusts(&self, number: impl FnOnce(&PointInGusts) -> Option<f64>) -> Result<f64, Status> {
+        let find = || gusts::at_point(self.robot, self.rest, self.options.linearisation);
+        let found = self.in_gusts.get_or_init(find).as_ref().map_err(Clone::clone)?;
+        number(found).ok_or_else(|| Status::new("no-gusts", "too few crossings of the mean are expected for a peak"))
     }
 
     /// Measure of the loads that the cables hold at the pose; `unlimited` says why there is none if it is infinite or

@@ -10,6 +10,9 @@ const MIN_LEVEL: f64 = 0.1;
 /// Coherence below which two places count as independent: far below the part that any result shows.
 const MIN_COHERENCE: f64 = 1e-9;
 
+/// Frequency, times the longest time of the turbulence, below which spectra of turbulence are constant to 1e-4.
+const CONSTANT_BELOW: f64 = 1e-4;
+
 /// Turbulence about the mean wind of a robot.
 pub(super) struct TurbulentField {
     turbulence: Turbulence,
@@ -54,9 +57,18 @@ impl TurbulentField {
         std::array::from_fn(|component| self.turbulence.density(component, frequency_hz, self.speed))
     }
 
-    /// Largest length scale over the mean speed [s]: the longest gusts last a few times as long.
-    pub(super) fn longest_s(&self) -> f64 {
-        self.turbulence.length_scale.iter().fold(0.0_f64, |longest, length| longest.max(length / self.speed))
+    /// Frequency below which the spectra are constant [Hz].
+    pub(super) fn lowest_hz(&self) -> f64 {
+        if let Some(measured) = &self.turbulence.measured {
+            return measured.frequencies_hz()[0];
+        }
+        let times = self.turbulence.length_scale.iter().map(|length| length / self.speed);
+        CONSTANT_BELOW / times.fold(0.0_f64, f64::max)
+    }
+
+    /// Measured frequencies [Hz], between which the spectra are straight; none for a formula.
+    pub(super) fn measured_hz(&self) -> &[f64] {
+        self.turbulence.measured.as_ref().map_or(&[], |measured| measured.frequencies_hz())
     }
 
     /// Weighted distances between all places.

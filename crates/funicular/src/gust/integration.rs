@@ -6,9 +6,6 @@ use super::{Densities, GustError, Gusts};
 /// below it, so that r.m.s. values are right to about 1e-4.
 pub const SPECTRUM_TOLERANCE: f64 = 1e-5;
 
-/// Lowest frequency, times the longest time of the turbulence. Below it spectra of turbulence are constant to 1e-4.
-const LOWEST: f64 = 1e-4;
-
 /// Intervals per decade from which the integration starts.
 const PER_DECADE: f64 = 6.0;
 
@@ -53,6 +50,9 @@ pub struct Spectra {
     pub densities: Vec<Densities>,
     /// Moments of each output up to the last frequency.
     pub moments: Vec<Moments>,
+    /// Variance of each output nearest to each natural frequency, in their order: up to the geometric mean with the next
+    /// one. Their sum is the variance; empty without natural frequencies.
+    pub by_mode: Vec<Vec<f64>>,
 }
 
 /// Sample of the integrands over ln f.
@@ -88,14 +88,17 @@ impl SpectrumInterval {
 }
 
 impl Gusts {
-    /// Spectra of all outputs up to a frequency [Hz], and their moments. Frequencies are added until every moment is
-    /// right to about 1e-4; `natural_hz`, the natural frequencies of the robot, are among the first, so that no peak is
-    /// missed.
+    /// Spectra of all outputs up to a frequency [Hz] or the last measured one of the gusts, and their moments. Frequencies
+    /// are added until every moment is right to about 1e-4; `natural_hz`, the natural frequencies of the robot,
+    /// ascending, are among the first, so that no peak is missed.
     ///
     /// # Errors
     /// [`GustError::Resonance`] and [`GustError::TooManyFrequencies`].
     pub fn spectra(&self, up_to_hz: f64, natural_hz: &[f64]) -> Result<Spectra, GustError> {
-        let lowest = (LOWEST / self.field.longest_s()).min(0.1 * up_to_hz);
+        let up_to_hz = self.field.measured_hz().last().map_or(up_to_hz, |last| last.min(up_to_hz));
+        let lowest = self.field.lowest_hz().min(0.1 * up_to_hz);
+        let edges: Vec<f64> =
+            natural_hz.iter().zip(natural_hz.iter().skip(1)).map(|(a, b)| 0.5 * (a.ln() + b.ln())).collect();
         let mut samples = Vec::new();
         let mut stack = self.first_intervals(lowest, up_to_hz, natural_hz, &mut samples)?;
         let low = samples[0].clone();
@@ -109,8 +112,14 @@ impl Gusts {
 
         // Below the lowest frequency the spectra are constant.
         let mut moments: Vec<Moments> = low.integrands.clone();
+        let mut by_mode = vec![vec![0.0; natural_hz.len()]; self.outputs.len()];
+        let mut add_to_mode = |k: usize, ln: f64, variance: f64| {
+            let mode = edges.partition_point(|edge| *edge <= ln);
+            by_mode[k].get_mut(mode).into_iter().for_each(|sum| *sum += variance);
+        };
+        low.integrands.iter().enumerate().for_each(|(k, of)| add_to_mode(k, low.ln, of.variance));
         while let Some(interval) = stack.pop() {
-            let whole = interval.moments();
+            let (whole, middle) = (interval.moments(), interval.middle.ln);
             let [left, right] = self.halves(interval, &mut samples)?;
             let (mut halves, more) = (left.moments(), right.moments());
             halves.iter_mut().zip(&more).for_each(|(sum, of)| sum.add(1.0, of));
@@ -123,6 +132,7 @@ impl Gusts {
                 for (k, sum) in moments.iter_mut().enumerate() {
                     sum.add(16.0 / 15.0, &halves[k]);
                     sum.add(-1.0 / 15.0, &whole[k]);
+                    add_to_mode(k, middle, (16.0 * halves[k].variance - whole[k].variance) / 15.0);
                 }
             } else {
                 if samples.len() >= MAX_FREQUENCIES {
@@ -134,10 +144,11 @@ impl Gusts {
 
         samples.sort_by(|a, b| a.ln.total_cmp(&b.ln));
         let frequencies_hz = samples.iter().map(|sample| sample.ln.exp()).collect();
-        Ok(Spectra { frequencies_hz, densities: samples.into_iter().map(|of| of.densities).collect(), moments })
+        let densities = samples.into_iter().map(|of| of.densities).collect();
+        Ok(Spectra { frequencies_hz, densities, moments, by_mode })
     }
 
-    /// Intervals in equal ratios, with ends at the natural frequencies.
+    /// Intervals in equal ratios, with ends at the natural frequencies, between them, and at measured frequencies.
     fn first_intervals(
         &self,
         lowest: f64,
@@ -149,7 +160,9 @@ impl Gusts {
         let count = (PER_DECADE * decades).ceil().max(1.0) as usize;
         let mut ends: Vec<f64> =
             (0..=count).map(|i| lowest.ln() + (highest / lowest).ln() * i as f64 / count as f64).collect();
-        ends.extend(natural_hz.iter().filter(|f| **f > lowest && **f < highest).map(|f| f.ln()));
+        let between = natural_hz.iter().zip(natural_hz.iter().skip(1)).map(|(a, b)| (a * b).sqrt());
+        let more = natural_hz.iter().copied().chain(between).chain(self.field.measured_hz().iter().copied());
+        ends.extend(more.filter(|f| *f > lowest && *f < highest).map(f64::ln));
         ends.sort_by(f64::total_cmp);
         // Modes that share a frequency are one end.
         ends.dedup_by(|a, b| (*a - *b).abs() < 1e-9);

@@ -1,6 +1,7 @@
 //! Turbulence of the wind: how strong it is, over which frequencies it is spread, and over which distances it agrees.
 
 use std::f64::consts::TAU;
+use thiserror::Error;
 
 /// Turbulence about the mean wind. Components are in the order along the mean wind, lateral, up.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,6 +17,103 @@ pub struct Turbulence {
     /// True if the gusts travel with the mean wind without change (frozen turbulence): a place downstream meets them
     /// later.
     pub is_frozen: bool,
+    /// Measured spectra, which replace shape, intensity and length scales.
+    pub measured: Option<MeasuredSpectrum>,
+}
+
+/// Measured one-sided spectral densities of the components, straight between the measured frequencies and constant
+/// below the first. Gusts faster than the last are not known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredSpectrum {
+    frequencies_hz: Vec<f64>,
+    densities: Vec<[f64; 3]>,
+}
+
+/// Reason why numbers are no measured spectrum, with the index of its row.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum MeasuredSpectrumError {
+    /// Too few or too many rows.
+    #[error(
+        "there are {count} frequencies: give at least two and at most {}, with means over neighbouring ones",
+        MeasuredSpectrum::MAX_ROWS
+    )]
+    Rows {
+        /// Number of rows.
+        count: usize,
+    },
+    /// A frequency that is not positive, or not above the one before.
+    #[error("the frequency {frequency_hz} Hz is not above the one before, {before_hz} Hz: give rising frequencies")]
+    Falling {
+        /// Index of the row.
+        row: usize,
+        /// Frequency [Hz].
+        frequency_hz: f64,
+        /// Frequency before, or zero.
+        before_hz: f64,
+    },
+    /// A density that is negative or not finite.
+    #[error("the density {density} m²/s is negative or not finite: a spectral density is zero or more")]
+    Density {
+        /// Index of the row.
+        row: usize,
+        /// Density [m²/s].
+        density: f64,
+    },
+}
+
+impl MeasuredSpectrum {
+    /// Maximum number of rows: the response is computed at each, in about a millisecond.
+    pub const MAX_ROWS: usize = 2000;
+
+    /// Spectrum from ascending frequencies [Hz] and the densities of the components at each [m²/s].
+    ///
+    /// # Errors
+    /// [`MeasuredSpectrumError`].
+    pub fn new(frequencies_hz: Vec<f64>, densities: Vec<[f64; 3]>) -> Result<Self, MeasuredSpectrumError> {
+        let count = frequencies_hz.len().min(densities.len());
+        if !(2..=Self::MAX_ROWS).contains(&count) {
+            return Err(MeasuredSpectrumError::Rows { count });
+        }
+        let mut before_hz = 0.0;
+        for (row, frequency_hz) in frequencies_hz.iter().copied().enumerate() {
+            if !(frequency_hz > before_hz && frequency_hz.is_finite()) {
+                return Err(MeasuredSpectrumError::Falling { row, frequency_hz, before_hz });
+            }
+            before_hz = frequency_hz;
+        }
+        for (row, of_row) in densities.iter().enumerate() {
+            if let Some(density) = of_row.iter().copied().find(|density| !(*density >= 0.0 && density.is_finite())) {
+                return Err(MeasuredSpectrumError::Density { row, density });
+            }
+        }
+        Ok(Self { frequencies_hz, densities })
+    }
+
+    /// Measured frequencies [Hz], ascending.
+    pub fn frequencies_hz(&self) -> &[f64] {
+        &self.frequencies_hz
+    }
+
+    /// Density of a component at a frequency [Hz], [m²/s]; beyond the last frequency that of the last.
+    pub fn density(&self, component: usize, frequency_hz: f64) -> f64 {
+        let (at, of) = (&self.frequencies_hz, |row: usize| self.densities[row][component]);
+        let next = at.partition_point(|hz| *hz <= frequency_hz);
+        if next == 0 || next == at.len() {
+            return of(next.saturating_sub(1));
+        }
+        let part = (frequency_hz - at[next - 1]) / (at[next] - at[next - 1]);
+        of(next - 1) * (1.0 - part) + of(next) * part
+    }
+
+    /// Variance of a component up to the last frequency [m²/s²].
+    pub fn variance(&self, component: usize) -> f64 {
+        let below = self.frequencies_hz[0] * self.densities[0][component];
+        let between = |k: usize| {
+            let width = self.frequencies_hz[k] - self.frequencies_hz[k - 1];
+            0.5 * width * (self.densities[k - 1][component] + self.densities[k][component])
+        };
+        below + (1..self.densities.len()).map(between).sum::<f64>()
+    }
 }
 
 /// Shape of the spectra of turbulence.
@@ -82,6 +180,9 @@ impl Turbulence {
 
     /// One-sided spectral density of a component at a frequency [Hz] in a mean wind of a speed [m/s], [m²/s].
     pub fn density(&self, component: usize, frequency_hz: f64, speed: f64) -> f64 {
+        if let Some(measured) = &self.measured {
+            return measured.density(component, frequency_hz);
+        }
         let deviation = self.intensity[component] * speed;
         deviation * deviation * self.density_over_variance(component, frequency_hz, speed)
     }

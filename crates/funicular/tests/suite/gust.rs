@@ -1,13 +1,17 @@
 //! Response to gusts: spectra, coherence, limits with closed forms, another program's numbers, and a simulation in
 //! time.
 
+mod kinds;
+
 use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gust::{self, GustError, Gusts, PeakFactor, Spectra};
 use funicular::math::Vec3;
 use funicular::modes;
 use funicular::response::{self, Quantity, Signal};
-use funicular::robot::{Damping, Robot, StretchLoss, Turbulence, TurbulenceSpectrum, Wind};
+use funicular::robot::{
+    Damping, MeasuredSpectrum, MeasuredSpectrumError, Robot, StretchLoss, Turbulence, TurbulenceSpectrum, Wind,
+};
 use funicular::statics::{self, Equilibrium, StaticModel};
 
 /// Gusts of a robot whose file says nothing about wind.
@@ -35,6 +39,7 @@ fn stadium() -> WindyRobot {
             length_scale: [85.05, 28.35, 6.93],
             coherence_decay: Turbulence::COHERENCE_DECAY,
             is_frozen: true,
+            measured: None,
         },
         up_to_hz: 4.0,
     }
@@ -55,6 +60,7 @@ fn cogiro() -> WindyRobot {
             length_scale: [60.0, 20.0, 12.0],
             coherence_decay: Turbulence::COHERENCE_DECAY,
             is_frozen: true,
+            measured: None,
         },
         up_to_hz: 12.0,
     }
@@ -400,4 +406,60 @@ fn a_simulation_in_time_has_the_rms_value_of_the_spectrum() {
     let variance = sums[1] / samples - (sums[0] / samples).powi(2);
     // 700 s have seven periods of the slowest wave: a few per cent of the variance.
     assert!((variance / expected - 1.0).abs() < 0.05, "{variance} {expected}");
+}
+
+/// A table of the formula is the formula: the error of straight lines is the curvature between two rows, (ln 1.01)²/12 of
+/// the density, and rows end at the limit of the frequencies.
+#[test]
+fn a_measured_spectrum_of_the_formula_has_its_response() {
+    let case = stadium();
+    let by_formula = case.spectra(&measured(3));
+    let mut read = stadium();
+    let next = |hz: &f64| Some(hz * 1.01).filter(|hz| *hz < case.up_to_hz);
+    let hz: Vec<f64> = std::iter::successors(Some(1e-5), next).chain([case.up_to_hz]).collect();
+    let of_row = |hz: &f64| [0, 1, 2].map(|component| case.turbulence.density(component, *hz, 12.0));
+    let spectrum = MeasuredSpectrum::new(hz.clone(), hz.iter().map(of_row).collect()).unwrap();
+    // Kaimal has the part (1 + 6n)^(-2/3) of its variance above n = f L/U.
+    let tail = |length: f64| (1.0 + 6.0 * read.up_to_hz * length / 12.0).powf(-2.0 / 3.0);
+    for component in 0..3 {
+        let variance = (read.turbulence.intensity[component] * 12.0).powi(2);
+        let expected = variance * (1.0 - tail(read.turbulence.length_scale[component]));
+        assert!((spectrum.variance(component) / expected - 1.0).abs() < 1e-4, "{component}");
+    }
+    (read.turbulence.measured, read.turbulence.intensity) = (Some(spectrum), [0.0; 3]);
+    let by_table = read.spectra(&measured(3));
+    for (k, (a, b)) in by_formula.moments.iter().zip(&by_table.moments).enumerate() {
+        assert!((a.rms() / b.rms() - 1.0).abs() < 1e-4, "{k}: {} {}", a.rms(), b.rms());
+    }
+}
+
+#[test]
+fn numbers_that_are_no_spectrum_are_refused() {
+    let new = |hz: &[f64], of: &[f64]| MeasuredSpectrum::new(hz.to_vec(), of.iter().map(|of| [*of; 3]).collect());
+    assert!(new(&[0.1, 0.2], &[1.0, 0.0]).is_ok());
+    assert_eq!(new(&[0.1], &[1.0]), Err(MeasuredSpectrumError::Rows { count: 1 }));
+    assert!(matches!(new(&[0.1, 0.1], &[1.0; 2]), Err(MeasuredSpectrumError::Falling { row: 1, .. })));
+    assert!(matches!(new(&[0.0, 0.1], &[1.0; 2]), Err(MeasuredSpectrumError::Falling { row: 0, .. })));
+    assert!(matches!(new(&[0.1, 0.2], &[1.0, -1.0]), Err(MeasuredSpectrumError::Density { row: 1, .. })));
+}
+
+/// The variance near a mode is the integral over its band, by the trapezoidal rule over many equal steps.
+#[test]
+fn the_variance_by_modes_is_the_integral_over_their_bands() {
+    let case = cogiro();
+    let (robot, rest, dynamics) = case.at_rest();
+    let gusts = Gusts::new(&robot, &rest, &dynamics, &[along(Vec3::x())], case.up_to_hz).unwrap();
+    let natural = natural(&dynamics, case.up_to_hz);
+    let spectra = gusts.spectra(case.up_to_hz, &natural).unwrap();
+    let sum: f64 = spectra.by_mode[0].iter().sum();
+    assert!((sum / spectra.moments[0].variance - 1.0).abs() < 1e-12);
+    // Slow gusts are nearest to the first mode; of the others the one with the largest part.
+    let part = |k: &usize| spectra.by_mode[0][*k];
+    let k = (1..natural.len() - 1).max_by(|a, b| part(a).total_cmp(&part(b))).unwrap();
+    let (from, to) = ((natural[k - 1] * natural[k]).sqrt(), (natural[k] * natural[k + 1]).sqrt());
+    let steps = 4000;
+    let density = |i: u32| gusts.densities(from + (to - from) * f64::from(i) / f64::from(steps)).unwrap().total[0];
+    let inner: f64 = (1..steps).map(density).sum();
+    let expected = (0.5 * (density(0) + density(steps)) + inner) * (to - from) / f64::from(steps);
+    assert!((spectra.by_mode[0][k] / expected - 1.0).abs() < 1e-3, "{} {expected}", spectra.by_mode[0][k]);
 }

@@ -21,7 +21,7 @@ use std::fmt::Write;
 
 /// Drive behind the cables of a robot of these tests.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Behind {
+pub(super) enum Behind {
     /// Fixed ends.
     Nothing,
     /// Pulleys and drums on the supports.
@@ -35,7 +35,7 @@ impl Behind {
 }
 
 /// CoGiRo on four posts with two cables each.
-fn cogiro(behind: Behind) -> Robot {
+pub(super) fn cogiro(behind: Behind) -> Robot {
     let mut text = funicular_robots::COGIRO.to_owned();
     for (name, post) in ["1", "2", "3", "4", "5", "6", "7", "8"].into_iter().zip("aabbccdd".chars()) {
         let drive = if behind == Behind::Nothing { "" } else { "pulley = \"wheel\"\nwinch = \"drum\"\n" };

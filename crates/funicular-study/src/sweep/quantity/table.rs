@@ -328,6 +328,72 @@ pub(super) static TABLE: &[Definition] = &[
         ..Definition::PLAIN
     },
     Definition {
+        name: "gust-rms",
+        about: "r.m.s. distance of the platform origin from its mean place in gusts",
+        documentation: "`gust_rms_m`: r.m.s. distance of the platform origin from its mean place in the gusts of the robot \
+                        file (`turbulence` in `[wind]`), as `gust` computes it",
+        columns: |_, _| one("gust_rms_m", "m", "r.m.s. distance of the platform origin from its mean place in gusts"),
+        values: |row, _, out| {
+            let found = row.of_gusts(|of| Some(of.rms));
+            row.push(Some(found), out);
+        },
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "gust-peak",
+        about: "largest expected peak of the platform origin along x, y or z in gusts, within ten minutes",
+        documentation: "`gust_peak_m`: largest of the expected peaks of the platform origin along x, y and z in these gusts, \
+                        within ten minutes",
+        columns: |_, _| {
+            one(
+                "gust_peak_m",
+                "m",
+                "largest expected peak of the platform origin along x, y or z in gusts, within ten minutes",
+            )
+        },
+        values: |row, _, out| {
+            let found = row.of_gusts(|of| of.peak);
+            row.push(Some(found), out);
+        },
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "gust-tension-min",
+        about: "smallest expected tension of a cable at the platform in gusts, within ten minutes",
+        documentation: "`gust_tension_min_n`: smallest expected tension of a cable at its platform end in these gusts, within \
+                        ten minutes; negative if a cable becomes slack",
+        columns: |_, _| {
+            one(
+                "gust_tension_min_n",
+                "N",
+                "smallest expected tension of a cable at the platform in gusts, within ten minutes",
+            )
+        },
+        values: |row, _, out| {
+            let found = row.of_gusts(|of| of.tension_min);
+            row.push(Some(found), out);
+        },
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "gust-slack",
+        about: "largest probability that a cable becomes slack in gusts, within ten minutes",
+        documentation: "`gust_slack_probability`: largest probability that the tension of a cable falls to zero in these \
+                        gusts, within ten minutes",
+        columns: |_, _| {
+            one(
+                "gust_slack_probability",
+                "1",
+                "largest probability that a cable becomes slack in gusts, within ten minutes",
+            )
+        },
+        values: |row, _, out| {
+            let found = row.of_gusts(|of| Some(of.slack_probability));
+            row.push(Some(found), out);
+        },
+        ..Definition::PLAIN
+    },
+    Definition {
         name: "stiffness-min",
         about: "minimum eigenvalue of the static stiffness, rotations scaled by the platform's size",
         documentation: "`stiffness_min_n_per_m`: minimum eigenvalue of the static stiffness, rotations scaled by the \

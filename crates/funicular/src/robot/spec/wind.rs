@@ -146,6 +146,7 @@ fn read_turbulence(reader: &mut Reader, section: &Section, mean: Option<&Wind>) 
         length_scale: length_scale?,
         coherence_decay: coherence_decay?,
         is_frozen: is_frozen?,
+        measured: None,
     }))
 }
 

@@ -341,8 +341,9 @@ fn linearised(robot: &Robot, rest: &Equilibrium, winches: WinchMode, cable_model
 }
 
 /// True if the error of a derivative is that of the differences: 1e-8 of the largest derivative of the row, and the
-/// `bound` of the differences: what the extrapolation adds, and noise of the value over the step. The noise is what forward statics leaves: responses of
-/// light cables in wind scatter by 6e-10, and differences by this over their step, while the gradient stays the same.
+/// `bound` of the differences: what the extrapolation adds, and noise of the value over the step. The noise is what forward
+/// statics leaves: responses of light cables in wind scatter by 6e-10, and differences by this over their step, while the
+/// gradient stays the same.
 fn agrees(ours: f64, (difference, bound): (f64, f64), largest: f64) -> bool {
     (ours - difference).abs() <= 1e-8 * largest + bound
 }
@@ -398,11 +399,19 @@ fn signals() -> ([Signal; 2], [(Signal, Quantity); 2]) {
     ([first, second], [(out, Quantity::Acceleration), (first, Quantity::Displacement)])
 }
 
+/// Steps, over that of the differences, whose second differences are the noise of the values: nothing is curved there.
+const SCATTER: [f64; 2] = [1e-9, 2e-9];
+
 /// Maximum number of halvings of a step of differences.
 const MAX_HALVINGS: i32 = 8;
 
-/// Central differences at steps that are halved, extrapolated twice, and a bound of their error besides the `noise` of
-/// the first eighth of the step. The bound is infinite where no step is short enough.
+/// Sum of the magnitudes of the weights with which an extrapolated difference takes the noise of its values over the last
+/// step: 64/45 of the last central difference, 20/45 and 1/45 of the two before, whose steps are twice and four times as
+/// long. Values whose noise has these signs exist: it is the same computation that scatters by its last iteration.
+const WEIGHTS: f64 = (64.0 + 20.0 / 2.0 + 1.0 / 4.0) / 45.0;
+
+/// Central differences at steps that are halved, extrapolated twice, and a bound of their error from the `noise` of
+/// the values. The bound is infinite where no step is short enough.
 ///
 /// A response has complex poles at its resonances, a frequency has branch points where it comes near another. The
 /// central differences beside one at the distance ρ are those of `1/(1 − x)`, `x = (h/ρ)²`, at a step h. What the last
@@ -439,8 +448,7 @@ fn differences_within_resonance(
             let change =
                 |from: &[f64], to: &[f64]| number.clone().map(|i| (to[i] - from[i]).powi(2)).sum::<f64>().sqrt();
             let (added, added_before) = (change(&finer, &now), change(&fine, &finer));
-            // Noise grows with the inverse of the step.
-            let noise_here = noise[i] * 2_f64.powi(halvings - 3);
+            let noise_here = WEIGHTS * noise[i] / h;
             if 4.0 * added <= SHORT * added_before || added_before <= noise_here {
                 (best[i], bound[i]) = (now[i], change(&before, &now) + noise_here);
             }
@@ -450,6 +458,26 @@ fn differences_within_resonance(
         }
     }
     Some((best, bound))
+}
+
+/// Noise of each value: these digits of its size, or half of the second difference at steps too short for curvature, which
+/// shows where the iterations of forward statics end. Most robots have less than 1e-9, one with motors under constant
+/// torque and a light drum side 9e-8.
+fn noise(
+    here: &[f64],
+    digits: f64,
+    at: &dyn Fn(f64) -> Option<Vec<f64>>,
+    step: f64,
+    size_of_number: &dyn Fn(&[f64], usize) -> f64,
+) -> Vec<f64> {
+    let pairs: Vec<_> = SCATTER.iter().filter_map(|part| Some((at(-part * step)?, at(part * step)?))).collect();
+    let scatter = |(low, high): &(Vec<f64>, Vec<f64>), i: usize| {
+        let halves: Vec<f64> = (0..here.len()).map(|i| 0.5 * (low[i] + high[i]) - here[i]).collect();
+        size_of_number(&halves, i)
+    };
+    let of_value =
+        |i: usize| pairs.iter().map(|pair| scatter(pair, i)).fold(digits * size_of_number(here, i), f64::max);
+    (0..here.len()).map(of_value).collect()
 }
 
 /// Compares the derivatives of `values` along changes with differences: every `count`-th change from the number `first`
@@ -468,14 +496,15 @@ fn compare(
     // Noise and the largest derivative are those of the complex number: its real part alone can be small by chance.
     let size_of_number =
         |values: &[f64], i: usize| values[i - i % parts..][..parts].iter().map(|part| part.powi(2)).sum::<f64>().sqrt();
-    let noise: Vec<f64> = (0..here.len()).map(|i| digits * size_of_number(&here, i) / (0.125 * step)).collect();
     let rows: Vec<Vec<f64>> = (0..all.len()).map(ours).collect();
     let (mut compared, mut passed_over) = (0, 0);
     for (d, (what, change)) in all.iter().enumerate().skip(first).step_by(count) {
-        let found = differences_within_resonance(step, &noise, parts, |h| {
+        let at = |h: f64| {
             let (robot, at) = changed(robot, rest, change, h)?;
             values(&robot, &at)
-        });
+        };
+        let noise = noise(&here, digits, &at, step, &size_of_number);
+        let found = differences_within_resonance(step, &noise, parts, at);
         let Some((differences, bound)) = found else { continue };
         for (i, difference) in differences.iter().enumerate() {
             if bound[i].is_infinite() {

@@ -1,0 +1,126 @@
+//! Vibration that the same lengths leave if the platform carries a payload: the command is made for the robot without
+//! it.
+
+use super::{Swing, check_rest};
+use crate::at_rest::AtRest;
+use crate::error::{ErrorKind, NoSolution};
+use crate::request::SettleRequest;
+use anyhow::{Result, anyhow};
+use funicular::math::{Mat3, Vec3};
+use funicular::modes::{CommandedMotions, Decay, DecayingMotion, LengthCommand};
+use funicular::robot::Robot;
+use funicular::statics;
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// Vibration with a payload.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct WithPayload {
+    pub payload_kg: f64,
+    /// Frequency of the mode with the largest amplitude.
+    pub frequency_hz: f64,
+    /// Sum of all amplitudes at the end of the command.
+    pub amplitude_m: f64,
+    /// Sum of all amplitudes at the end of the command without its shaper; absent without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub without_m: Option<f64>,
+    /// Last time at which the point is at the tolerance, since the end of the command.
+    pub settled_s: f64,
+}
+
+impl Swing<'_> {
+    /// Vibration after lengths, and after those without the shaper, with each payload of a request.
+    ///
+    /// # Errors
+    /// A payload with which the lengths have no such rest; the message names it.
+    pub(super) fn with_payloads(
+        &self,
+        request: &SettleRequest,
+        lengths: &LengthCommand,
+        without: Option<&LengthCommand>,
+    ) -> Result<Vec<WithPayload>> {
+        let row = |payload: &f64| {
+            self.with_payload(request, lengths, without, *payload).map_err(|error| {
+                let text = format!("with a payload of {payload} kg: {error}");
+                match ErrorKind::of(&error) {
+                    ErrorKind::NoSolution => NoSolution(text).into(),
+                    _ => anyhow!(text),
+                }
+            })
+        };
+        request.robust_payload_kg.as_deref().unwrap_or_default().iter().map(row).collect()
+    }
+
+    fn with_payload(
+        &self,
+        request: &SettleRequest,
+        lengths: &LengthCommand,
+        without: Option<&LengthCommand>,
+        payload_kg: f64,
+    ) -> Result<WithPayload> {
+        let AtRest { robot, equilibrium, .. } = self.at_rest;
+        let robot = carrying(robot, payload_kg);
+        let at_end: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
+        let equilibrium = statics::forward(&robot, &at_end, equilibrium.model, Some(&equilibrium.pose))?;
+        let at_rest = AtRest { robot, equilibrium, requested_pose: None, rule: None, held_pose: None };
+        check_rest(&at_rest)?;
+
+        let (swing, _) = Swing::of(&at_rest, request)?;
+        let motions = CommandedMotions::of(&swing.dynamics, &swing.modes, &swing.damped, &swing.arm_w)?;
+        let decay = motions.after(lengths);
+        let largest = decay.motions.iter().max_by(|a, b| a.size().total_cmp(&b.size()));
+        Ok(WithPayload {
+            payload_kg,
+            frequency_hz: largest.map_or(0.0, |motion| motion.omega.norm() / TAU),
+            amplitude_m: sum(&decay),
+            without_m: without.map(|lengths| sum(&motions.after(lengths))),
+            settled_s: decay.settled(request.tolerance_m),
+        })
+    }
+}
+
+fn sum(decay: &Decay) -> f64 {
+    decay.motions.iter().map(DecayingMotion::size).sum()
+}
+
+/// Robot whose platform carries a payload without extent.
+fn carrying(robot: &Robot, mass: f64) -> Robot {
+    let mut robot = robot.clone();
+    let required = robot.required.payload;
+    let platform = &mut robot.platform;
+    let center_p = if required.max_mass > 0.0 { required.center_p } else { platform.center_of_mass_p };
+    let (own, arm) = (platform.mass, center_p - platform.center_of_mass_p);
+    let both = own + mass;
+    platform.mass = both;
+    platform.center_of_mass_p += arm * (mass / both);
+    // Two point masses about their common centre.
+    platform.inertia_p += about_center(&arm) * (own * mass / both);
+    robot
+}
+
+/// Inertia of a unit mass about a point that is `arm` away.
+fn about_center(arm: &Vec3) -> Mat3 {
+    Mat3::identity() * arm.norm_squared() - arm * arm.transpose()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The kinetic energy of platform and payload, with a velocity and an angular velocity of the platform origin.
+    #[test]
+    fn a_payload_adds_the_energy_of_its_mass() {
+        let mut robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
+        robot.required.payload.max_mass = 5.0;
+        robot.required.payload.center_p = Vec3::new(0.3, -0.2, 0.1);
+        let (velocity, turning) = (Vec3::new(0.4, 0.7, -0.2), Vec3::new(1.0, -2.0, 0.5));
+        let energy = |robot: &Robot| {
+            let platform = &robot.platform;
+            let at_center = velocity + turning.cross(&platform.center_of_mass_p);
+            0.5 * platform.mass * at_center.norm_squared() + 0.5 * turning.dot(&(platform.inertia_p * turning))
+        };
+        let at_payload = velocity + turning.cross(&robot.required.payload.center_p);
+        let expected = energy(&robot) + 0.5 * 5.0 * at_payload.norm_squared();
+        assert!((energy(&carrying(&robot, 5.0)) / expected - 1.0).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,46 @@
+//! Rows of numbers over the time of a command, and numbers of the equilibria on the way.
+
+use crate::error::NoSolution;
+use anyhow::{Result, anyhow, bail};
+use funicular::statics::{Equilibrium, StaticsError};
+
+/// Maximum number of samples of the commanded lengths: an hour at 0.1 s, or 36 s at 1 ms.
+pub(super) const MAX_SAMPLES: f64 = 36_000.0;
+
+/// Part of a sample beyond the last one that counts as rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Times in equal steps from 0 to the end of a command or the first step after it [s].
+///
+/// # Errors
+/// Too many samples.
+pub(super) fn sample_times(end: f64, step: f64) -> Result<impl Iterator<Item = f64>> {
+    let count = (end / step - ROUNDING).ceil().max(0.0);
+    if count > MAX_SAMPLES {
+        bail!(
+            "⟪sample_time_s⟫ {step} gives {count} samples of the lengths, and at most {MAX_SAMPLES} are computed: give \
+             a longer time"
+        );
+    }
+    Ok((0..=count as usize).map(move |i| i as f64 * step))
+}
+
+/// Row between two rows, at a part of the way from the first to the second.
+pub(super) fn mixed(from: &[f64], to: &[f64], part: f64) -> Vec<f64> {
+    from.iter().zip(to).map(|(from, to)| from * (1.0 - part) + to * part).collect()
+}
+
+/// Tension of each cable at the platform [N].
+pub(super) fn tensions(of: &Equilibrium) -> Vec<f64> {
+    of.cables.iter().map(|cable| cable.tension_platform).collect()
+}
+
+/// Unstrained length of each cable [m].
+pub(super) fn unstrained(of: &Equilibrium) -> Vec<f64> {
+    of.cables.iter().map(|cable| cable.unstrained_length).collect()
+}
+
+/// Error with a text of its own that keeps its exit code.
+pub(super) fn no_solution_or_input(error: &StaticsError, text: String) -> anyhow::Error {
+    if error.is_no_solution() { NoSolution(text).into() } else { anyhow!(text) }
+}

@@ -1,0 +1,306 @@
+//! A trajectory: poses or unstrained lengths over time from a table, with straight lines of the lengths between its
+//! rows.
+
+use super::LengthsRow;
+use super::motion::{on_the_way, tangent};
+use super::rows::{MAX_SAMPLES, mixed, no_solution_or_input, sample_times, tensions, unstrained};
+use crate::at_rest::{AtRest, check_pose};
+use crate::names::suggestion;
+use crate::request::{self, NumberColumns, SettleRequest, State};
+use crate::table_fault::TableFault;
+use crate::text::significant;
+use crate::values::{finite, positive};
+use anyhow::{Result, bail};
+use funicular::modes::{LengthCommand, Shaper};
+use funicular::robot::{Pose, Robot};
+use funicular::statics::{self, Equilibrium};
+
+/// Key of the request.
+const KEY: &str = "trajectory";
+
+/// Column of the times.
+const TIME: &str = "t_s";
+
+/// Columns of poses; the angles may be left out.
+const POSE: [&str; 6] = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"];
+
+/// Part of the duration below which two times of a shaped trajectory are one.
+const SAME_TIME: f64 = 1e-9;
+
+/// Rows of a trajectory.
+#[derive(Debug, Clone, PartialEq)]
+struct Rows {
+    holds: Holds,
+    /// Times since the first row [s], rising.
+    times: Vec<f64>,
+    /// Pose [m, degrees] or unstrained lengths [m] at each time.
+    values: Vec<Vec<f64>>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Holds {
+    Poses,
+    Lengths,
+}
+
+/// Lengths over time, which begin and end at rest.
+pub(super) struct Trajectory<'a> {
+    at_rest: &'a AtRest,
+    rows: Rows,
+    /// Unstrained lengths at each time [m].
+    lengths: Vec<Vec<f64>>,
+    /// Lengths at each time of a robot that is linear about the end, relative to those at the end [m].
+    linear: Vec<Vec<f64>>,
+    start: Equilibrium,
+    /// Tensions at rest with the lengths of each time [N].
+    still: Vec<Vec<f64>>,
+}
+
+/// Checks the table of a trajectory for a robot.
+///
+/// # Errors
+/// The first fault: a column that is missing or unknown, fewer than two rows, times that do not rise, a pose that the
+/// platform cannot have, or a length that is none.
+pub fn check(columns: &NumberColumns, robot: &Robot) -> Result<(), TableFault> {
+    Rows::read(columns, robot).map(drop)
+}
+
+/// State at the end of a trajectory, for a request that gives neither pose nor lengths.
+///
+/// # Errors
+/// A [`TableFault`].
+pub(super) fn state(robot: &Robot, request: &SettleRequest) -> Result<State> {
+    let mut state = request.state.clone();
+    let Some(columns) = &request.trajectory else { return Ok(state) };
+    let rows = Rows::read(columns, robot)?;
+    if state.pose.is_some() || state.lengths_m.is_some() {
+        return Ok(state);
+    }
+    let last = rows.values.last().cloned().unwrap_or_default();
+    match (rows.holds, <[f64; 6]>::try_from(last.as_slice())) {
+        (Holds::Poses, Ok(pose)) => state.pose = Some(request::Pose::Angles(pose)),
+        _ if state.hold_lengths_of_pose => {}
+        _ => state.lengths_m = Some(last),
+    }
+    Ok(state)
+}
+
+impl Rows {
+    fn read(columns: &NumberColumns, robot: &Robot) -> Result<Self, TableFault> {
+        let fault = |text: String| TableFault { key: KEY, row: None, text };
+        let of_lengths: Vec<String> =
+            robot.cables.iter().map(|cable| format!("unstrained_length_{}_m", cable.name)).collect();
+        let known: Vec<String> =
+            [TIME].iter().chain(&POSE).map(|name| (*name).to_owned()).chain(of_lengths.clone()).collect();
+        if let Some(unknown) = columns.keys().find(|name| !known.contains(name)) {
+            return Err(fault(format!(
+                "there is a column `{unknown}`{}: a trajectory has {TIME}, and either x_m, y_m, z_m, roll_deg, pitch_deg, \
+                 yaw_deg or unstrained_length_NAME_m of every cable; drop other columns",
+                suggestion(unknown, &known)
+            )));
+        }
+        let is_there = |name: &str| columns.contains_key(name);
+        let [poses, lengths] = [POSE.iter().any(|name| is_there(name)), of_lengths.iter().any(|name| is_there(name))];
+        let holds = match (poses, lengths) {
+            (true, true) => {
+                return Err(fault("there are columns of poses and of lengths: keep those of one".to_owned()));
+            }
+            (true, false) => Holds::Poses,
+            _ => Holds::Lengths,
+        };
+        let needed: Vec<&str> = match holds {
+            Holds::Poses => POSE[..3].to_vec(),
+            Holds::Lengths => of_lengths.iter().map(String::as_str).collect(),
+        };
+        if let Some(missing) = [TIME].iter().chain(&needed).find(|name| !is_there(name)) {
+            return Err(fault(format!(
+                "there is no column `{missing}`: give {TIME}, and either x_m, y_m, z_m and, where the platform turns, \
+                 angles, or the length of every cable"
+            )));
+        }
+        Self::of_columns(columns, holds, &if holds == Holds::Poses { POSE.to_vec() } else { needed }, robot)
+    }
+
+    /// Rows of the columns `names`; a column that is not there holds zeros.
+    fn of_columns(columns: &NumberColumns, holds: Holds, names: &[&str], robot: &Robot) -> Result<Self, TableFault> {
+        let count = columns[TIME].len();
+        if let Some((name, values)) = columns.iter().find(|(_, values)| values.len() != count) {
+            let text =
+                format!("`{name}` has {} values and `{TIME}` {count}: give as many in all columns", values.len());
+            return Err(TableFault { key: KEY, row: None, text });
+        }
+        if count < 2 || count as f64 > MAX_SAMPLES {
+            let text = format!("there are {count} rows: give at least two and at most {MAX_SAMPLES}");
+            return Err(TableFault { key: KEY, row: None, text });
+        }
+        let value = |name: &str, row: usize| columns.get(name).map_or(0.0, |values| values[row]);
+        let rows = Self {
+            holds,
+            times: columns[TIME].iter().map(|time| time - columns[TIME][0]).collect(),
+            values: (0..count).map(|row| names.iter().map(|name| value(name, row)).collect()).collect(),
+        };
+        for row in 0..count {
+            rows.check_row(columns, row, names, robot).map_err(|text| TableFault { key: KEY, row: Some(row), text })?;
+        }
+        Ok(rows)
+    }
+
+    fn check_row(&self, columns: &NumberColumns, row: usize, names: &[&str], robot: &Robot) -> Result<(), String> {
+        let time = columns[TIME][row];
+        finite(time).map_err(|reason| format!("`{TIME}`: {reason}"))?;
+        if row > 0 && time <= columns[TIME][row - 1] {
+            let before = columns[TIME][row - 1];
+            return Err(format!("the time {time} s is not after the one before, {before} s: give rising times"));
+        }
+        for (name, value) in names.iter().zip(&self.values[row]) {
+            let checked = if self.holds == Holds::Lengths { positive(*value) } else { finite(*value) };
+            checked.map_err(|reason| format!("`{name}`: {reason}"))?;
+        }
+        match self.holds {
+            Holds::Poses => check_pose(robot, &self.pose(row)).map_err(|error| error.to_string()),
+            Holds::Lengths => Ok(()),
+        }
+    }
+
+    fn pose(&self, row: usize) -> Pose {
+        let value = |k: usize| self.values[row].get(k).copied().unwrap_or_default();
+        Pose::new([0, 1, 2].map(value), [3, 4, 5].map(value))
+    }
+
+    /// Values at a time, by straight lines; constant before and after.
+    fn at(&self, time: f64) -> Vec<f64> {
+        along(&self.times, time, |row| &self.values[row])
+    }
+
+    /// Rows after a shaper: the sum of the delayed parts at every time at which a part has a corner.
+    fn shaped(&self, shaper: &Shaper) -> Result<Self> {
+        let duration = self.times.last().copied().unwrap_or_default() + shaper.duration();
+        let impulses = &shaper.impulses;
+        let mut times: Vec<f64> =
+            impulses.iter().flat_map(|impulse| self.times.iter().map(move |time| time + impulse.time)).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup_by(|later, time| *later - *time <= SAME_TIME * duration);
+        if times.len() as f64 > MAX_SAMPLES {
+            bail!(
+                "⟪trajectory⟫ has {} rows with the shaper, and at most {MAX_SAMPLES} are computed: give fewer rows",
+                times.len()
+            );
+        }
+        let sum = |time: f64| {
+            let mut sum = vec![0.0; self.values[0].len()];
+            for impulse in impulses {
+                let part = self.at(time - impulse.time);
+                sum.iter_mut().zip(part).for_each(|(sum, part)| *sum += impulse.amplitude * part);
+            }
+            sum
+        };
+        Ok(Self { holds: self.holds, values: times.iter().map(|time| sum(*time)).collect(), times })
+    }
+}
+
+/// Values at a time, by straight lines between the rows at ascending times; constant before and after.
+fn along<'a>(times: &[f64], time: f64, row: impl Fn(usize) -> &'a Vec<f64>) -> Vec<f64> {
+    let next = times.partition_point(|at| *at <= time);
+    if next == 0 || next == times.len() {
+        return row(next.saturating_sub(1)).clone();
+    }
+    let part = (time - times[next - 1]) / (times[next] - times[next - 1]);
+    mixed(row(next - 1), row(next), part)
+}
+
+impl<'a> Trajectory<'a> {
+    /// Trajectory of a table, which ends at the lengths at rest within the tolerance [m].
+    ///
+    /// # Errors
+    /// A [`TableFault`], poses or lengths that the cables cannot hold, or another end.
+    pub(super) fn of(at_rest: &'a AtRest, columns: &NumberColumns, tolerance: f64) -> Result<Self> {
+        let found = Self::along(at_rest, Rows::read(columns, &at_rest.robot)?)?;
+        let (end, rest) = (&found.lengths[found.lengths.len() - 1], unstrained(&at_rest.equilibrium));
+        let Some(i) = (0..rest.len()).find(|i| (end[*i] - rest[*i]).abs() > tolerance) else { return Ok(found) };
+        bail!(
+            "⟪trajectory⟫ ends with cable \"{}\" {} m long, and at rest it is {} m long, which differs by more than \
+             ⟪tolerance_m⟫: the motion is about the rest at the end; give the last row as ⟪pose⟫ or ⟪lengths_m⟫, or \
+             leave both out",
+            at_rest.robot.cables[i].name,
+            significant(end[i], 6),
+            significant(rest[i], 6)
+        )
+    }
+
+    fn along(at_rest: &'a AtRest, rows: Rows) -> Result<Self> {
+        let (mut still, mut lengths, mut linear) = (Vec::new(), Vec::new(), Vec::new());
+        let mut start = at_rest.equilibrium.clone();
+        // From the end on, where the platform is at rest: lengths are followed from pose to pose.
+        for row in (0..rows.times.len()).rev() {
+            // Lengths that differ from those of the tension rule stretch the cables against each other.
+            let (found, beside) = match rows.holds {
+                Holds::Poses => (on_the_way(at_rest, &rows.pose(row))?, None),
+                Holds::Lengths => {
+                    let found = with_lengths(at_rest, &rows.values[row], &start.pose, rows.times[row])?;
+                    let by_rule = unstrained(&on_the_way(at_rest, &found.pose)?);
+                    (found, Some(by_rule))
+                }
+            };
+            let own = unstrained(&found);
+            let way = linear_lengths(at_rest, &found.pose)?;
+            linear.push(match beside {
+                Some(by_rule) => way.iter().zip(own.iter().zip(by_rule)).map(|(way, (a, b))| way + a - b).collect(),
+                None => way,
+            });
+            still.push(tensions(&found));
+            lengths.push(own);
+            start = found;
+        }
+        for of in [&mut still, &mut lengths, &mut linear] {
+            of.reverse();
+        }
+        Ok(Self { at_rest, rows, lengths, linear, start, still })
+    }
+
+    /// Trajectory after a shaper, which acts on the values of the table: on the poses, if it has poses.
+    ///
+    /// # Errors
+    /// Too many rows, or poses or lengths that the cables cannot hold.
+    pub(super) fn shaped(&self, shaper: &Shaper) -> Result<Self> {
+        Self::along(self.at_rest, self.rows.shaped(shaper)?)
+    }
+
+    /// Lengths over time of a robot that is linear about the end: the real ones are curved along the path, which it would
+    /// take for a stretch.
+    pub(super) fn lengths(&self) -> LengthCommand {
+        LengthCommand::Samples { times: self.rows.times.clone(), lengths: self.linear.clone() }
+    }
+
+    pub(super) fn start(&self) -> &Equilibrium {
+        &self.start
+    }
+
+    /// Lengths at equal steps of time [m].
+    ///
+    /// # Errors
+    /// Too many samples.
+    pub(super) fn sampled(&self, step: f64) -> Result<Vec<LengthsRow>> {
+        let times = &self.rows.times;
+        let at = |t_s: f64| along(times, t_s, |row| &self.lengths[row]);
+        let end = times[times.len() - 1];
+        Ok(sample_times(end, step)?.map(|t_s| LengthsRow { t_s, unstrained_lengths_m: at(t_s) }).collect())
+    }
+
+    /// Tensions at rest with the lengths of several times [N].
+    pub(super) fn still_at(&self, times: &[f64]) -> Vec<Vec<f64>> {
+        times.iter().map(|time| along(&self.rows.times, *time, |row| &self.still[row])).collect()
+    }
+}
+
+/// Change of the lengths from the end to a pose with the derivatives at the end [m].
+fn linear_lengths(at_rest: &AtRest, pose: &Pose) -> Result<Vec<f64>> {
+    let end = &at_rest.equilibrium.pose;
+    tangent(at_rest, &[pose.position_w - end.position_w, (pose.rot_wp * end.rot_wp.inverse()).scaled_axis()])
+}
+
+/// Equilibrium with the lengths of a time, near a pose.
+fn with_lengths(at_rest: &AtRest, lengths: &[f64], near: &Pose, time: f64) -> Result<Equilibrium> {
+    statics::forward(&at_rest.robot, lengths, at_rest.equilibrium.model, Some(near)).map_err(|error| {
+        no_solution_or_input(&error, format!("{} s after the start of the trajectory: {error}", significant(time, 4)))
+    })
+}
