@@ -6,9 +6,8 @@ use std::path::Path;
 
 /// Binary STL file of a box about its origin; `faces` of its twelve triangles.
 fn stl(half: [f32; 3], faces: usize) -> Vec<u8> {
-    let corner = |bits: usize| -> [f32; 3] {
-        std::array::from_fn(|k| if bits & (1 << k) == 0 { -half[k] } else { half[k] })
-    };
+    let corner =
+        |bits: usize| -> [f32; 3] { std::array::from_fn(|k| if bits & (1 << k) == 0 { -half[k] } else { half[k] }) };
     let quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
     let triangles = quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).take(faces);
     let mut bytes = vec![b' '; 80];
@@ -52,7 +51,11 @@ fn a_column_from_a_file_is_the_box_that_it_shows_in_every_command() {
 
     // Beside the column: a warning, and an infeasible row that has its numbers.
     let warned = run(&["statics", &meshed, "--pose", "2.2,0.8,1.5"]);
-    assert!(warned.status.success() && stderr(&warned).contains("the obstacle \"column\" touch"), "{}", stderr(&warned));
+    assert!(
+        warned.status.success() && stderr(&warned).contains("the obstacle \"column\" touch"),
+        "{}",
+        stderr(&warned)
+    );
     let grid = ["--grid", "x=1,2.2", "--grid", "y=0.8", "--grid", "z=1.5", "--quantity", "clearance,tension-max"];
     let (header, rows) = csv(&[&["map", &meshed], &grid[..]].concat());
     let value = |row: usize, name: &str| rows[row][header.iter().position(|column| column == name).unwrap()].clone();
@@ -92,7 +95,8 @@ fn a_move_through_the_column_is_seen_and_one_beside_it_is_free() {
 #[test]
 fn meshes_and_obstacles_that_make_no_sense_are_refused_with_their_place() {
     let folder = tempfile::tempdir().unwrap();
-    let files = [("open.stl", stl([0.2, 0.2, 1.5], 11)), ("empty.stl", stl([1.0; 3], 0)), ("mm.stl", stl([2000.0; 3], 12))];
+    let files =
+        [("open.stl", stl([0.2, 0.2, 1.5], 11)), ("empty.stl", stl([1.0; 3], 0)), ("mm.stl", stl([2000.0; 3], 12))];
     for (name, bytes) in files {
         fs::write(folder.path().join(name), bytes).unwrap();
     }

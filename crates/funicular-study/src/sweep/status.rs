@@ -13,7 +13,7 @@ pub(super) struct Status {
 }
 
 /// Every code that a row can have, with its meaning.
-pub const CODES: [(&str, &str); 22] = [
+pub const CODES: &[(&str, &str)] = &[
     ("ok", "all requested quantities are there"),
     ("out-of-plane", "infeasible: a planar platform cannot have this pose"),
     ("coinciding-ends", "infeasible: a cable has no length between its ends, or ends inside the wheel of its pulley"),
