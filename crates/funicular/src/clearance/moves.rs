@@ -2,7 +2,7 @@
 
 use super::{Clearance, ClearancePair, Placed, Surroundings};
 use crate::math::{Rotation, Vec3};
-use crate::robot::{Pose, Robot};
+use crate::robot::{Body, Pose, Robot};
 use crate::statics::{CableState, Equilibrium};
 
 /// Bound of the least distance on the way [m]: nowhere on the way a pair is nearer by more than this, for straight cables
@@ -128,7 +128,8 @@ impl StraightPair<'_> {
             // Linear in the fraction.
             let (first, last) = (self.product(0.0), self.product(1.0));
             let zero = first / (first - last);
-            return if first != last && (0.0..=1.0).contains(&zero) { vec![zero] } else { Vec::new() };
+            // Not a number if the lines of the cables stay in one plane.
+            return if (0.0..=1.0).contains(&zero) { vec![zero] } else { Vec::new() };
         }
 
         // Bounds of the first and second derivative isolate all zeros.
@@ -189,7 +190,7 @@ fn bisected([mut low, mut high]: [f64; 2], first: f64, mut value: impl FnMut(f64
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
         match value(middle) {
-            Some(found) if found == 0.0 => return middle,
+            Some(0.0) => return middle,
             Some(found) if (found < 0.0) == (first < 0.0) => low = middle,
             Some(_) => high = middle,
             None => break,
@@ -233,7 +234,9 @@ impl Surroundings<'_> {
 
         // Stations between those where some pair may be nearer than known so far.
         let mut found: Vec<Option<OnTheWay>> = vec![None; stations[0].clearances.len()];
-        stations.iter().for_each(|station| keep_least(&mut found, station));
+        for station in &stations {
+            keep_least(&mut found, station);
+        }
         let mut at = 0;
         while at + 1 < stations.len() {
             let [one, other] = [&stations[at], &stations[at + 1]];
@@ -301,7 +304,7 @@ impl Surroundings<'_> {
     /// Largest distance of a point of the platform from its origin [m].
     fn platform_reach(&self) -> f64 {
         let attachments = self.robot.cables.iter().map(|cable| cable.attachment_p.norm());
-        let bodies = self.robot.platform.bodies.iter().flat_map(|body| body.triangles());
+        let bodies = self.robot.platform.bodies.iter().flat_map(Body::triangles);
         attachments.chain(bodies.flatten().map(|corner| corner.norm())).fold(0.0, f64::max)
     }
 }

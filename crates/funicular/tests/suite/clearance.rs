@@ -225,17 +225,17 @@ fn ipanema3() -> Robot {
     let lower = [[-4.0, 1.5, 0.25], [4.0, 1.5, 0.25], [4.0, -1.5, 0.25], [-4.0, -1.5, 0.25]];
     let below = [[-0.55, 0.25, 0.0], [0.55, 0.25, 0.0], [0.55, -0.25, 0.0], [-0.55, -0.25, 0.0]];
     let above = [[-0.75, 0.15, 0.5], [0.75, 0.15, 0.5], [0.75, -0.15, 0.5], [-0.75, -0.15, 0.5]];
-    let mut text = "name = \"IPAnema 3\"\n[platform]\nmass_kg = 20\ninertia_kg_m2 = [1, 1, 1]\n[materials.rope]\n\
+    let head = "name = \"IPAnema 3\"\n[platform]\nmass_kg = 20\ninertia_kg_m2 = [1, 1, 1]\n[materials.rope]\n\
                     axial_stiffness_n = 4e5\nmass_kg_per_m = 0.02\ndrag_diameter_m = 0.006\ndrag_coefficient = 1.2\n\
-                    minimum_tension_n = 100\nmaximum_tension_n = 3000\n"
-        .to_owned();
-    for (k, (anchor, attachment)) in upper.iter().chain(&lower).zip(below.iter().chain(&above)).enumerate() {
-        text += &format!(
+                    minimum_tension_n = 100\nmaximum_tension_n = 3000\n";
+    let ends = upper.iter().chain(&lower).zip(below.iter().chain(&above)).enumerate();
+    let cables = ends.map(|(k, (anchor, attachment))| {
+        format!(
             "[[cables]]\nname = \"{}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\nattachment_m = {attachment:?}\n",
             k + 1
-        );
-    }
-    Robot::from_toml(&text).unwrap()
+        )
+    });
+    Robot::from_toml(&format!("{head}{}", cables.collect::<String>())).unwrap()
 }
 
 #[test]
