@@ -241,9 +241,9 @@ class Analyses:
             Upper limit of the frequencies [Hz]; faster gusts are left out; if not given: above all modes of the
             platform.
         spectrum
-            Measured spectra of the gusts in place of `turbulence`, one-sided: columns frequency_hz, and along_m2_s, lateral_m2_s
-            and up_m2_s [m²/s² per Hz], straight between the rows and constant below the first. With `intensity` their integrals
-            are compared with it.
+            Measured spectra of the gusts in place of `turbulence`, one-sided: columns frequency_hz, and along_m2_s,
+            lateral_m2_s and up_m2_s [m²/s² per Hz], straight between the rows and constant below the first. With
+            `intensity` their integrals are compared with it.
         turbulence
             Spectrum of the gusts: `kaimal` (kaimal, as in IEC 61400-1); `von-karman` (von Kármán); if not given: from
             the robot file.
@@ -404,21 +404,21 @@ class Analyses:
             Rotation vector of the platform from rest to rest, world axes [degrees]; if not given: none.
         trajectory
             Trajectory that the lengths command, from rest to rest: columns t_s [s], and either x_m, y_m, z_m, roll_deg,
-            pitch_deg, yaw_deg or unstrained_length_NAME_m of every cable [m]; between the rows the lengths change in straight
-            lines. Without a pose and lengths the state is that of the last row.
+            pitch_deg, yaw_deg or unstrained_length_NAME_m of every cable [m]; between the rows the lengths change in
+            straight lines. Without a pose and lengths the state is that of the last row.
         profile_s
             Times of the stop or the move [s], each at most the one before: from the begin of the acceleration to that
             of the deceleration (for a stop the deceleration itself), of each acceleration, and of each change of the
             acceleration. The command takes their sum; without them a stop is sudden; if not given: none.
         shaper
-            Input shaper of the command: zv, zvd, or ei:V, which leaves the fraction V of a vibration, as in ei:0.05; if not
-            given: none.
+            Input shaper of the command: zv, zvd, or ei:V, which leaves the fraction V of a vibration, as in ei:0.05; if
+            not given: none.
         shape_modes_hz
             Natural frequencies of the modes whose vibration the shaper cancels [Hz]; if not given: the modes with the
             largest amplitudes, at most three, until their sum is within the tolerance.
         robust_payload_kg
-            Payloads [kg] with which the vibration after the same lengths is listed as well. Their centre of mass is that of
-            the `[required]` payload of the file, or that of the platform; if not given: none.
+            Payloads [kg] with which the vibration after the same lengths is listed as well. Their centre of mass is
+            that of the `[required]` payload of the file, or that of the platform; if not given: none.
         sample_time_s
             Time between the samples of the commanded lengths, which are then listed [s]; if not given: no samples.
         input_point_m
@@ -980,6 +980,29 @@ class Robot(Analyses):
         ------
         RobotFileError
             The file has no such path, or the value is wrong there.
+        """
+    def clearance(self, /, pose: Pose | ArrayLike | None = None, static_model: StaticModel = "catenary", *, move_to: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> Results:
+        """
+        Computes the distances between the sagging cables, the platform and obstacles: what is nearest, where, and what is
+        too near.
+
+        Parameters
+        ----------
+        move_to
+            Pose x,y,z[,roll,pitch,yaw] [m, degrees] to which the platform moves, straight and with one turn; the
+            distances are then the least on the way, and cables that cross each other are shown.
+
+        The other parameters are those of `Robot.equilibrium`.
+
+        Returns
+        -------
+        The keys of the program's JSON: `free`, and `pairs` with `kind`, `first`, `second`, `distance_m`, `required_m`,
+        `margin_m` and `points_m`, the pair with the least margin first.
+
+        Raises
+        ------
+        StaticsError
+            The robot has no such equilibrium.
         """
     def design(self, /, change: Any, *, goal: Goal = "first", poses: ArrayLike | None = None, weights: ArrayLike | None = None, min_frequency_hz: SupportsFloat | SupportsIndex | None = None, min_stiffness_n_per_m: SupportsFloat | SupportsIndex | None = None, avoid_hz: ArrayLike | None = None, max_iterations: SupportsIndex | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Designed:
         """
