@@ -207,6 +207,41 @@ fn a_cable_through_a_closed_mesh_and_one_inside_it_touch_it() {
 }
 
 #[test]
+fn a_cable_that_pierces_a_small_body_touches_it_straight_or_sagging() {
+    let pose = Pose::new([1.0, 0.5, 1.5], [0.0; 3]);
+    for model in [StaticModel::Ideal, StaticModel::Catenary] {
+        for along in [0.21, 0.5, 0.83] {
+            let (mut robot, rest) = at_rest(&cogiro(), pose, 100.0);
+            let cable = &rest.cables[2];
+            let hanging = cable.hanging.as_ref().unwrap();
+            let place = match model {
+                StaticModel::Ideal => cable.attachment_w + cable.chord_w() * along,
+                _ => hanging.point_w(along * hanging.catenary.rope().unstrained_length),
+            };
+            // The cable passes 3 mm beside the middle of bodies of 2 cm.
+            let place = Pose::new((place + Vec3::new(0.002, -0.002, 0.001)).into(), [10.0, 20.0, 30.0]);
+            robot.obstacles = vec![
+                column("box", place, Solid::Box { half: Vec3::repeat(0.01) }),
+                column("mesh", place, mesh_of_box([0.01; 3])),
+                column("tube", place, Solid::Cylinder { radius: 0.01, half_length: 0.01 }),
+            ];
+            let mut rest = rest.clone();
+            if model == StaticModel::Ideal {
+                rest.cables.iter_mut().for_each(|cable| cable.hanging = None);
+            }
+            let around = Surroundings::of(&robot);
+            let found = around.clearances(&rest, None);
+            for obstacle in 0..3 {
+                let pierced = of_pair(&found, ClearancePair::CableAndObstacle { cable: 2, obstacle });
+                let inside = pierced.distance + robot.cables[2].radius();
+                assert!((0.0..=BODY_TOLERANCE).contains(&inside), "{model:?} {along} {obstacle}: {inside}");
+            }
+            assert!(around.least(&rest, Some(ClearanceKind::Obstacles)).unwrap().margin() <= BODY_TOLERANCE);
+        }
+    }
+}
+
+#[test]
 fn flat_and_small_platforms_have_the_hull_that_they_can_have() {
     for text in [funicular_robots::STADIUM_CAMERA, funicular_robots::YUAN2014_4MM] {
         let robot = Robot::from_toml(text).unwrap();
