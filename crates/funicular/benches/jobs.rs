@@ -273,7 +273,7 @@ fn distances(c: &mut Criterion) {
         black_box(&rests[i])
     };
     c.bench_function("distances: all pairs of eight cables", |b| {
-        b.iter(|| around.clearances(next(), Some(ClearanceKind::Cables)))
+        b.iter(|| around.clearances(next(), Some(ClearanceKind::Cables)));
     });
     c.bench_function("distances: the least between cables", |b| {
         b.iter(|| around.least(next(), Some(ClearanceKind::Cables)));
