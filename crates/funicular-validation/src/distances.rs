@@ -67,7 +67,7 @@ fn at_pose(robot: &Robot, row: &PairsAtPose, model: StaticModel) -> Result<Vec<(
         rest.cables.iter_mut().for_each(|cable| cable.hanging = None);
     }
     let radii: Vec<f64> = robot.cables.iter().map(funicular::robot::Cable::radius).collect();
-    let found = Surroundings::of(&posed).clearances(&rest);
+    let found = Surroundings::of(&posed).clearances(&rest, None);
     let distance = |i: usize, j: usize| {
         let of_pair = found.iter().find(|found| found.pair == ClearancePair::Cables(i - 1, j - 1));
         of_pair.map_or(f64::NAN, |found| found.distance + radii[i - 1] + radii[j - 1])

@@ -13,11 +13,12 @@
 use crate::layout;
 use anyhow::{Result, anyhow, bail};
 use funicular::cable_motion::CableStations;
+use funicular::clearance::Surroundings;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes::{self, LowestError, Mode, Modes, PlatformModeError};
 use funicular::response;
-use funicular::robot::{self, PlatformMotion, Robot, State};
+use funicular::robot::{self, Body, PlatformMotion, Robot, State};
 use funicular::statics;
 use funicular_study::analyses::{check, frf};
 use funicular_study::at_rest::{self, AtRest};
@@ -170,6 +171,7 @@ impl Session {
         let numbers = numbers(&at_rest, vibration.as_ref().map(|(_, modes)| modes), size);
         let text = json!({
             "no_modes": reason,
+            "clearance": nearest(&at_rest),
             "tension_rule": at_rest.rule.as_ref().map(statics::TensionRule::name),
             "static_model": at_rest.equilibrium.model.name(),
             "cable_model": linearisation.cable_model.name(),
@@ -352,8 +354,35 @@ fn description(robot: &Robot, text: &str) -> Value {
         "motion": motion,
         "degrees_of_freedom": robot.platform.motion.count(),
         "platform_share": modes::PLATFORM_SHARE,
+        "obstacles": bodies(&robot.obstacles),
+        "platform_bodies": bodies(&robot.platform.bodies),
         "check": check::run(robot.clone()),
     })
+}
+
+/// Bodies with the corners of the triangles of their surfaces, in the frame in which they stand [m]; without half spaces.
+fn bodies(of: &[Body]) -> Vec<Value> {
+    let with_surface = of.iter().map(|body| (body, body.triangles())).filter(|(_, triangles)| !triangles.is_empty());
+    let corners = |triangles: Vec<[Vec3; 3]>| -> Vec<f64> {
+        triangles.iter().flatten().flat_map(|corner| corner.iter().copied()).collect()
+    };
+    with_surface.map(|(body, triangles)| json!({ "name": body.name, "corners": corners(triangles) })).collect()
+}
+
+/// Pair of cables, platform and obstacles with the least margin, for a robot that is judged by distances.
+fn nearest(AtRest { robot, equilibrium, .. }: &AtRest) -> Option<Value> {
+    if !robot.judges_clearance() {
+        return None;
+    }
+    let around = Surroundings::of(robot);
+    let least = around.least(equilibrium, None)?;
+    Some(json!({
+        "pair": around.pair_text(least.pair),
+        "distance_m": least.distance,
+        "required_m": least.required,
+        "margin_m": least.margin(),
+        "points_m": least.points_w.map(|point| [point.x, point.y, point.z]),
+    }))
 }
 
 /// Numbers of a frame in the order that the documentation of this file gives.

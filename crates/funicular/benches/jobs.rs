@@ -4,13 +4,14 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use funicular::cable::CableModel;
 use funicular::catenary::{Catenary, Rope};
+use funicular::clearance::{ClearanceKind, Surroundings};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::{Gradients, Hold};
 use funicular::math::Vec3;
 use funicular::response::{self, Quantity, Signal};
 use funicular::robot::parameters::Parameters;
 use funicular::robot::{Robot, RobotChange, State, TensionLimits};
-use funicular::statics::{self, LoadCapacity, StaticModel, TensionRule};
+use funicular::statics::{self, Equilibrium, LoadCapacity, StaticModel, TensionRule};
 use funicular::{modes, robot::Pose};
 use std::hint::black_box;
 use std::time::Duration;
@@ -254,6 +255,31 @@ fn gradients(c: &mut Criterion) {
     });
 }
 
+/// Distances of all pairs of the eight cables of CoGiRo and of the pair with the least one, one pose per iteration.
+fn distances(c: &mut Criterion) {
+    let robot = Robot::from_toml(funicular_robots::COGIRO).expect("the library's robot");
+    let rests: Vec<Equilibrium> = (0..64)
+        .filter_map(|k| {
+            let turn = 2.4 * f64::from(k);
+            let reach = 0.4 * f64::from(k).sqrt();
+            let pose = Pose::new([reach * turn.cos(), 0.7 * reach * turn.sin(), 1.5], [0.0, 0.0, 5.0 * turn.sin()]);
+            statics::inverse(&robot, &pose, StaticModel::Catenary).ok()
+        })
+        .collect();
+    let around = Surroundings::of(&robot);
+    let mut i = 0;
+    let mut next = || {
+        i = (i + 1) % rests.len();
+        black_box(&rests[i])
+    };
+    c.bench_function("distances: all pairs of eight cables", |b| {
+        b.iter(|| around.clearances(next(), Some(ClearanceKind::Cables)));
+    });
+    c.bench_function("distances: the least between cables", |b| {
+        b.iter(|| around.least(next(), Some(ClearanceKind::Cables)));
+    });
+}
+
 /// Verdict, load factor and margin of a box of loads, one pose per iteration, from poses of CoGiRo whose dead load is
 /// held.
 fn load_factors(c: &mut Criterion) {
@@ -281,6 +307,6 @@ fn load_factors(c: &mut Criterion) {
 criterion_group! {
     name = jobs;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
-    targets = one_catenary, statics_both_ways, tension_distribution, load_factors, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables, gradients
+    targets = one_catenary, statics_both_ways, tension_distribution, load_factors, distances, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables, gradients
 }
 criterion_main!(jobs);

@@ -181,17 +181,18 @@ impl<'a> Surroundings<'a> {
         }
     }
 
-    /// Distances of all pairs at an equilibrium. A pair whose cable is shorter than the ends that are left out has none.
-    pub fn clearances(&self, rest: &Equilibrium) -> Vec<Clearance> {
+    /// Distances of all pairs at an equilibrium, of one kind or of all. A pair whose cable is shorter than the ends that
+    /// are left out has none.
+    pub fn clearances(&self, rest: &Equilibrium, kind: Option<ClearanceKind>) -> Vec<Clearance> {
         let at = self.at(rest);
-        at.pairs().into_iter().filter_map(|pair| at.clearance(pair, f64::INFINITY)).collect()
+        at.pairs_of(kind).filter_map(|pair| at.clearance(pair, f64::INFINITY)).collect()
     }
 
     /// Pair with the least margin at an equilibrium, of one kind or of all; `None` without such a pair.
     pub fn least(&self, rest: &Equilibrium, kind: Option<ClearanceKind>) -> Option<Clearance> {
         let at = self.at(rest);
         let mut least: Option<Clearance> = None;
-        for pair in at.pairs().into_iter().filter(|pair| kind.is_none_or(|kind| pair.kind() == kind)) {
+        for pair in at.pairs_of(kind) {
             // Pairs that are surely farther apart need no exact distance.
             let enough = least.map_or(f64::INFINITY, |least| least.margin());
             let found = at.clearance(pair, enough);
@@ -266,6 +267,11 @@ struct Placed<'a> {
 }
 
 impl Placed<'_> {
+    /// Pairs of one kind or of all.
+    fn pairs_of(&self, kind: Option<ClearanceKind>) -> impl Iterator<Item = ClearancePair> {
+        self.pairs().into_iter().filter(move |pair| kind.is_none_or(|kind| pair.kind() == kind))
+    }
+
     /// All pairs: cables, then cables and platform, then obstacles.
     fn pairs(&self) -> Vec<ClearancePair> {
         let (cables, bodies, obstacles) = (self.spans.len(), self.platform.len(), self.of.obstacles.len());

@@ -66,7 +66,7 @@ pub fn run(robot: Robot, request: &ClearanceRequest) -> Result<Clearances> {
     let around = Surroundings::of(robot);
     let end = request.move_to.map(|pose| move_end(&at_rest, request, pose)).transpose()?;
     let mut pairs = match &end {
-        None => around.clearances(rest).iter().map(|of| ClearanceRow::of(robot, &around, of)).collect(),
+        None => around.clearances(rest, None).iter().map(|of| ClearanceRow::of(robot, &around, of)).collect(),
         Some(end) => on_the_way(&at_rest, &around, end)?,
     };
     pairs.sort_by(|a, b| a.margin_m.total_cmp(&b.margin_m));

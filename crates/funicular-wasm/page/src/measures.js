@@ -33,6 +33,14 @@ export const MEASURES = [
     unit: "N",
     of: (frame) => Math.min(...frame.cables.map((cable) => cable.lowest)),
   },
+  {
+    name: "clearance",
+    column: "clearance_m",
+    label: "Clearance",
+    unit: "m",
+    // A frame of a file that says nothing of distances has none.
+    of: (frame) => frame.about.clearance?.distance_m,
+  },
   { name: "payload-max", column: "payload_max_kg", label: "Maximum payload", unit: "kg", of: () => undefined },
   {
     name: "stiffness-min",

@@ -163,6 +163,11 @@ function showFrame() {
   if (frame.stable === false) {
     parts.push("This equilibrium is unstable.");
   }
+  const nearest = frame.about.clearance;
+  if (nearest) {
+    const words = nearest.margin_m < 0 ? "Too near" : "Nearest";
+    parts.push(`${words}: ${nearest.pair}, ${short(nearest.distance_m, 3)} m (${nearest.required_m} m required).`);
+  }
   if (frame.about.no_modes) {
     parts.push(`No natural frequencies: ${frame.about.no_modes}`);
   }

@@ -37,6 +37,7 @@ import { rotation } from "./frame.js";
 import { Grab } from "./grab.js";
 import { Ground } from "./ground.js";
 import { Playback } from "./motion.js";
+import { Obstacles } from "./obstacles.js";
 
 const FIELD_OF_VIEW = 35;
 const VIEW_HALF = 0.44; // of the size of the robot: half of what the view shows of it at first
@@ -196,7 +197,9 @@ export class View {
     this.addFixed(anchors, low);
     this.addPlatform();
     this.drives = new Drives(cables, about.check.supports ?? [], this.size);
-    this.fixed.add(this.drives.group);
+    this.obstacles = new Obstacles(about);
+    this.fixed.add(this.drives.group, this.obstacles.group);
+    this.platform.add(this.obstacles.onPlatform);
     for (const { name } of cables) {
       const material = new LineMaterial({ linewidth: WIDTH, vertexColors: false, dashScale: 60 / this.size });
       const line = new Line2(new LineGeometry(), material);
@@ -273,6 +276,7 @@ export class View {
     this.platformMaterial?.color.set(color("--platform"));
     this.edgeMaterial?.color.set(color("--ink"));
     this.drives?.recolor(color);
+    this.obstacles?.recolor(color);
     this.ground.recolor(color);
     this.draw();
   }
@@ -317,6 +321,7 @@ export class View {
     this.platformMaterial.opacity = OPACITY;
     this.ground.setPlumb(frame.position);
     this.drives.setFrame(frame);
+    this.obstacles.setFrame(frame);
     this.moveSupports(() => new Vector3());
     const top = Math.max(...frame.cables.map((cable) => cable.highest), 1e-9);
     this.markLimiting(limitingCable(frame));

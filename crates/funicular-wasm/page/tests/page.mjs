@@ -1229,6 +1229,34 @@ test("pulleys, drums, guide wheels and supports stand where they are", async () 
   await page.click(`#modes tbody tr:nth-child(${drive + 1}) button`);
 });
 
+test("obstacles stand in the view, and the nearest pair is named and drawn", async () => {
+  const file = join(folder, "column.toml");
+  const column = `
+[obstacles.column]
+shape = "cylinder"
+position_m = [3.0, 2.0, 1.5]
+diameter_m = 0.4
+length_m = 3.0
+[obstacles.floor]
+shape = "half-space"
+position_m = [0.0, 0.0, -0.5]
+`;
+  writeFileSync(file, HALL + column);
+  await framed(() => page.setInputFiles("#files", file));
+  assert.match(await text("#state"), /(Nearest|Too near): .+ m \(0 m required\)/);
+  const found = await page.evaluate(() => {
+    const { obstacles } = window.funicular.view;
+    const bodies = obstacles.group.children.filter((child) => child.isMesh);
+    const { clearance } = window.funicular.frame.about;
+    const drawn = Array.from(obstacles.near.geometry.getAttribute("position").array.slice(0, 6));
+    return { names: bodies.map(({ name }) => name), shown: obstacles.near.visible, drawn, points: clearance.points_m.flat() };
+  });
+  assert.deepEqual(found.names, ["column"]);
+  assert.ok(found.shown);
+  found.drawn.forEach((value, k) => assert.ok(Math.abs(value - found.points[k]) < 1e-5, `${value} ${found.points[k]}`));
+  await page.screenshot({ path: join(pictures, "obstacles.png") });
+});
+
 test("keys are completed in the editor", async () => {
   await choose("cogiro");
   await page.click("#tab-file");

@@ -198,6 +198,10 @@ impl<'a> FreeSpan<'a> {
             if of_point.distance < best.0 {
                 *best = (of_point.distance, [point_w, of_point.point_w]);
             }
+            // A straight arc is its chord, whose nearest point is not known where it touches the body.
+            if arc.sagitta <= 0.5 * BODY_TOLERANCE && near.distance < best.0 {
+                *best = (near.distance, [near.point_w; 2]);
+            }
             queue.push(Waiting { lower: near.distance - arc.sagitta, arc });
         };
 

@@ -55,7 +55,7 @@ fn no_sampled_points_of_two_cables_are_nearer_than_their_distance() {
     for minimum in [4.0, 100.0] {
         for pose in poses(&mut draw, 4) {
             let (robot, rest) = at_rest(&robot, pose, minimum);
-            let found = Surroundings::of(&robot).clearances(&rest);
+            let found = Surroundings::of(&robot).clearances(&rest, None);
             let points: Vec<Vec<Vec3>> = rest.cables.iter().map(|cable| sampled(cable, 1500)).collect();
             for (i, j) in (0..8).flat_map(|i| (i + 1..8).map(move |j| (i, j))) {
                 let radii = robot.cables[i].radius() + robot.cables[j].radius();
@@ -88,7 +88,7 @@ fn two_ropes_in_one_vertical_plane_cross_where_a_sag_passes_a_chord() {
         (cable.attachment_w, cable.anchor_w) = (hanging.start_w, hanging.end_w);
         cable.hanging = Some(hanging);
     }
-    let found = of_pair(&Surroundings::of(&robot).clearances(&rest), ClearancePair::Cables(0, 1));
+    let found = of_pair(&Surroundings::of(&robot).clearances(&rest, None), ClearancePair::Cables(0, 1));
     assert!((found.distance + 2.0 * robot.cables[0].radius()).abs() < TOLERANCE, "{found:?}");
     assert!((found.points_w[0] - found.points_w[1]).norm() < TOLERANCE);
 }
@@ -116,7 +116,7 @@ fn a_box_is_as_far_as_the_mesh_of_its_surface_and_as_samples_say() {
         robot.obstacles =
             vec![column("box", place, Solid::Box { half: half.into() }), column("mesh", place, mesh_of_box(half))];
         let (robot, rest) = at_rest(&robot, pose, 100.0);
-        let found = Surroundings::of(&robot).clearances(&rest);
+        let found = Surroundings::of(&robot).clearances(&rest, None);
         for i in 0..8 {
             let [of_box, of_mesh] =
                 [0, 1].map(|obstacle| of_pair(&found, ClearancePair::CableAndObstacle { cable: i, obstacle }).distance);
@@ -146,7 +146,7 @@ fn a_cylinder_and_a_half_space_are_as_far_as_their_closed_forms_say() {
             column("floor", floor, Solid::HalfSpace),
         ];
         let (robot, rest) = at_rest(&robot, pose, 4.0);
-        let found = Surroundings::of(&robot).clearances(&rest);
+        let found = Surroundings::of(&robot).clearances(&rest, None);
         for i in 0..8 {
             let distance = |obstacle: usize| {
                 of_pair(&found, ClearancePair::CableAndObstacle { cable: i, obstacle }).distance
@@ -182,7 +182,7 @@ fn the_least_margin_is_that_of_all_pairs_and_moves_with_the_required_distance() 
     for pose in poses(&mut draw, 8) {
         let (robot, rest) = at_rest(&robot, pose, 100.0);
         let around = Surroundings::of(&robot);
-        let all = around.clearances(&rest);
+        let all = around.clearances(&rest, None);
         for kind in [None, Some(ClearanceKind::Cables), Some(ClearanceKind::Platform), Some(ClearanceKind::Obstacles)] {
             let of_kind = all.iter().filter(|of| kind.is_none_or(|kind| of.pair.kind() == kind));
             let least = of_kind.map(Clearance::margin).fold(f64::INFINITY, f64::min);
@@ -198,7 +198,7 @@ fn a_cable_through_a_closed_mesh_and_one_inside_it_touch_it() {
     // A hall of 40 m about everything: all cables are inside, none touches a wall.
     robot.obstacles = vec![column("hall", Pose::new([0.0; 3], [0.0; 3]), mesh_of_box([20.0, 20.0, 20.0]))];
     let (robot, rest) = at_rest(&robot, Pose::new([0.0, 0.0, 1.5], [0.0; 3]), 100.0);
-    let found = Surroundings::of(&robot).clearances(&rest);
+    let found = Surroundings::of(&robot).clearances(&rest, None);
     for cable in 0..8 {
         let inside = of_pair(&found, ClearancePair::CableAndObstacle { cable, obstacle: 0 });
         assert!(inside.distance <= 0.0, "{inside:?}");
@@ -207,12 +207,47 @@ fn a_cable_through_a_closed_mesh_and_one_inside_it_touch_it() {
 }
 
 #[test]
+fn a_cable_that_pierces_a_small_body_touches_it_straight_or_sagging() {
+    let pose = Pose::new([1.0, 0.5, 1.5], [0.0; 3]);
+    for model in [StaticModel::Ideal, StaticModel::Catenary] {
+        for along in [0.21, 0.5, 0.83] {
+            let (mut robot, rest) = at_rest(&cogiro(), pose, 100.0);
+            let cable = &rest.cables[2];
+            let hanging = cable.hanging.as_ref().unwrap();
+            let place = match model {
+                StaticModel::Ideal => cable.attachment_w + cable.chord_w() * along,
+                _ => hanging.point_w(along * hanging.catenary.rope().unstrained_length),
+            };
+            // The cable passes 3 mm beside the middle of bodies of 2 cm.
+            let place = Pose::new((place + Vec3::new(0.002, -0.002, 0.001)).into(), [10.0, 20.0, 30.0]);
+            robot.obstacles = vec![
+                column("box", place, Solid::Box { half: Vec3::repeat(0.01) }),
+                column("mesh", place, mesh_of_box([0.01; 3])),
+                column("tube", place, Solid::Cylinder { radius: 0.01, half_length: 0.01 }),
+            ];
+            let mut rest = rest.clone();
+            if model == StaticModel::Ideal {
+                rest.cables.iter_mut().for_each(|cable| cable.hanging = None);
+            }
+            let around = Surroundings::of(&robot);
+            let found = around.clearances(&rest, None);
+            for obstacle in 0..3 {
+                let pierced = of_pair(&found, ClearancePair::CableAndObstacle { cable: 2, obstacle });
+                let inside = pierced.distance + robot.cables[2].radius();
+                assert!((0.0..=BODY_TOLERANCE).contains(&inside), "{model:?} {along} {obstacle}: {inside}");
+            }
+            assert!(around.least(&rest, Some(ClearanceKind::Obstacles)).unwrap().margin() <= BODY_TOLERANCE);
+        }
+    }
+}
+
+#[test]
 fn flat_and_small_platforms_have_the_hull_that_they_can_have() {
     for text in [funicular_robots::STADIUM_CAMERA, funicular_robots::YUAN2014_4MM] {
         let robot = Robot::from_toml(text).unwrap();
         let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
         let around = Surroundings::of(&robot);
-        let found = around.clearances(&rest);
+        let found = around.clearances(&rest, None);
         assert!(!found.is_empty());
         assert!(found.iter().all(|of| of.distance.is_finite()), "{found:?}");
     }
@@ -373,7 +408,7 @@ fn sagging_cables_cross_near_the_straight_ones_and_nothing_is_nearer_than_found(
         }
         for k in 0..=300 {
             let Ok(rest) = rest_at(&straight.pose(f64::from(k) / 300.0)) else { continue };
-            for clearance in around.clearances(&rest) {
+            for clearance in around.clearances(&rest, None) {
                 let least = found.iter().find(|of| of.least.pair == clearance.pair).unwrap().least;
                 assert!(clearance.distance >= least.distance - WAY_TOLERANCE, "{k}: {clearance:?} {least:?}");
             }
