@@ -14,7 +14,7 @@ use crate::robot::{Body, RequiredClearance, Robot, vector};
 use crate::statics::Equilibrium;
 use parry3d_f64::shape::{ConvexPolyhedron, Segment, SharedShape, TriMesh};
 use solid::PlacedBody;
-use span::FreeSpan;
+use span::{FreeSpan, SpanEnd};
 use std::sync::Arc;
 
 pub use moves::{Crossing, OnTheWay, StraightMove, WAY_TOLERANCE, straight_crossings};
@@ -298,10 +298,10 @@ impl Placed<'_> {
                 (near.distance - radii, near.points_w)
             }
             ClearancePair::CableAndPlatform { cable, body } => {
-                self.spans[cable].nearest_on(&self.platform[body], enough + required)?
+                self.spans[cable].nearest_on(&self.platform[body], SpanEnd::Platform, enough + required)?
             }
             ClearancePair::CableAndObstacle { cable, obstacle } => {
-                self.spans[cable].nearest_on(&self.of.obstacles[obstacle], enough + required)?
+                self.spans[cable].nearest_on(&self.of.obstacles[obstacle], SpanEnd::Anchor, enough + required)?
             }
             ClearancePair::PlatformAndObstacle { body, obstacle } => {
                 self.platform[body].nearest_to(&self.of.obstacles[obstacle])

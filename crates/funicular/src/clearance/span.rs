@@ -22,6 +22,13 @@ pub(super) struct FreeSpan<'a> {
     pub(super) radius: f64,
 }
 
+/// End of a span.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum SpanEnd {
+    Platform,
+    Anchor,
+}
+
 /// Part of a span.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Arc {
@@ -182,11 +189,14 @@ impl<'a> FreeSpan<'a> {
         (range[0] < range[1]).then_some(range)
     }
 
-    /// Distance of the surface of the cable from a body and the nearest points; `None` if nothing is compared, or if the
-    /// distance is surely above `enough`.
-    pub(super) fn nearest_on(&self, body: &PlacedBody, enough: f64) -> Option<(f64, [Vec3; 2])> {
+    /// Distance of the surface of the cable from a body, on which one of its ends may be mounted, and the nearest points;
+    /// `None` if nothing is compared, or if the distance is surely above `enough`.
+    pub(super) fn nearest_on(&self, body: &PlacedBody, mounted: SpanEnd, enough: f64) -> Option<(f64, [Vec3; 2])> {
         let at = |point_w: &Vec3| body.nearest_to_segment(point_w, point_w).distance;
-        let range = self.compared([at(&self.start_w), at(&self.end_w)])?;
+        let range = self.compared(match mounted {
+            SpanEnd::Platform => [at(&self.start_w), f64::INFINITY],
+            SpanEnd::Anchor => [f64::INFINITY, at(&self.end_w)],
+        })?;
 
         let mut best = (f64::INFINITY, [Vec3::zeros(); 2]);
         let mut queue = BinaryHeap::new();
@@ -200,7 +210,8 @@ impl<'a> FreeSpan<'a> {
             }
             // A straight arc is its chord, whose nearest point is not known where it touches the body.
             if arc.sagitta <= 0.5 * BODY_TOLERANCE && near.distance < best.0 {
-                *best = (near.distance, [near.point_w; 2]);
+                let on_chord_w = arc.points_w[0] + (arc.points_w[1] - arc.points_w[0]) * near.fraction;
+                *best = (near.distance, [on_chord_w, near.point_w]);
             }
             queue.push(Waiting { lower: near.distance - arc.sagitta, arc });
         };

@@ -211,7 +211,8 @@ pub struct RequiredClearance {
     pub platform: f64,
     /// Between an obstacle and a cable or the platform.
     pub obstacles: f64,
-    /// Length of cable at an end that is not compared with what this end is mounted on; `None` for a tenth of the
+    /// Length of cable at an end that is not compared with what this end is mounted on: the platform, an obstacle nearer
+    /// than this to the anchor, a cable whose same end is nearer than this; `None` for a tenth of the
     /// platform's length.
     pub from_end: Option<f64>,
 }

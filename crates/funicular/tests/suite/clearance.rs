@@ -122,6 +122,11 @@ fn a_box_is_as_far_as_the_mesh_of_its_surface_and_as_samples_say() {
                 [0, 1].map(|obstacle| of_pair(&found, ClearancePair::CableAndObstacle { cable: i, obstacle }).distance);
             assert!((of_box - of_mesh).abs() < 2.0 * BODY_TOLERANCE, "{of_box} {of_mesh}");
 
+            // The points are as far apart as the distance says.
+            let near = of_pair(&found, ClearancePair::CableAndObstacle { cable: i, obstacle: 0 });
+            let apart = (near.points_w[0] - near.points_w[1]).norm();
+            assert!((apart - near.distance - robot.cables[i].radius()).abs() < 2.0 * BODY_TOLERANCE, "{near:?}");
+
             // Distance of a point from a box in closed form.
             let outside = |point_w: &Vec3| {
                 let local = place.rot_wp.inverse() * (point_w - place.position_w);

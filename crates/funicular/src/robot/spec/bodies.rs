@@ -93,8 +93,8 @@ pub(super) const CLEARANCE: &[Key] = &[
         "from_end_m = 0.1",
         "m",
         Range::NotNegative,
-        "length at the end of a cable that is not compared with what this end is mounted on: an end that is nearer than \
-         this to another cable, to the platform or to an obstacle",
+        "length at the end of a cable that is not compared with what this end is mounted on: the platform, an obstacle \
+         that is nearer than this to the anchor, or a cable whose same end is nearer than this",
     )
     .without(Absent::Means("a tenth of the mean distance of the attachments from the platform origin")),
 ];
