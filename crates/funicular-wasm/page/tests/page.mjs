@@ -1249,7 +1249,12 @@ position_m = [0.0, 0.0, -0.5]
     const bodies = obstacles.group.children.filter((child) => child.isMesh);
     const { clearance } = window.funicular.frame.about;
     const drawn = Array.from(obstacles.near.geometry.getAttribute("position").array.slice(0, 6));
-    return { names: bodies.map(({ name }) => name), shown: obstacles.near.visible, drawn, points: clearance.points_m.flat() };
+    return {
+      names: bodies.map(({ name }) => name),
+      shown: obstacles.near.visible,
+      drawn,
+      points: clearance.points_m.flat(),
+    };
   });
   assert.deepEqual(found.names, ["column"]);
   assert.ok(found.shown);
