@@ -10,6 +10,6 @@ pub struct TableFault {
     pub key: &'static str,
     /// Index of the row; `None` for a fault of the whole table.
     pub row: Option<usize>,
-    /// What is wrong, and what to do.
+    /// Fault and remedy.
     pub text: String,
 }

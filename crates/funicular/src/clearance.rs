@@ -1,7 +1,7 @@
 //! Distances between sagging cables, platform and obstacles.
 //!
 //! The free span of a cable is a plane convex curve. An arc of it stays within its sagitta of its chord, so distances
-//! between chords enclose those between curves, and halving an arc quarters the sagitta (docs/theory.md, section 16).
+//! between chords enclose those between curves, and halving an arc quarters the sagitta (docs/theory.md, section 10a).
 //! Every distance is certified: no other pair of points is nearer by more than [`TOLERANCE`].
 
 mod cable_pair;
@@ -72,10 +72,7 @@ pub enum ClearanceKind {
 }
 
 impl ClearanceKind {
-    /// All kinds.
-    pub const ALL: [Self; 3] = [Self::Cables, Self::Platform, Self::Obstacles];
-
-    /// Name in keys and quantities.
+    /// Name in results.
     pub fn name(self) -> &'static str {
         match self {
             Self::Cables => "cables",
@@ -117,7 +114,7 @@ impl Clearance {
     }
 }
 
-/// What cables and platform of a robot may touch: prepared once, for many poses.
+/// Robot with the bodies that its cables and its platform may touch, prepared once for many poses.
 pub struct Surroundings<'a> {
     robot: &'a Robot,
     required: RequiredClearance,

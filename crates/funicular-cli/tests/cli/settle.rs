@@ -334,7 +334,7 @@ fn the_history_holds_the_motion_during_the_command() {
     assert!(rows[0][4].is_empty() && rows[0][0].starts_with('-'), "{:?}", rows[0]);
 }
 
-/// The same lengths with a payload: the robot with its mass, at rest with these lengths, is the oracle.
+/// Oracle of a payload: the robot with its mass, at rest with the commanded lengths.
 #[test]
 fn payloads_have_the_vibration_of_the_robot_that_carries_them() {
     let found = json(&with(&["--robust-payload-kg", "0,1"]));

@@ -95,7 +95,7 @@ pub struct Commanded {
     pub during: Vec<HistoryRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shaping: Option<Shaping>,
-    /// What the same lengths leave with payloads, if they are requested.
+    /// Vibration that the commanded lengths leave with payloads, if they are requested.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub payloads: Vec<WithPayload>,
     /// Names of the cables, in the order of the lengths; absent without samples.

@@ -64,7 +64,7 @@ pub(super) fn at_point(
 
     let (motions, tensions) = spectra.moments.split_at(TRANSLATIONS);
     let peak = |of: &gust::Moments| {
-        // What does not move has no crossings, and no peak.
+        // An output without motion has no crossings, and no peak.
         if of.variance == 0.0 { Some(0.0) } else { Some(PeakFactor::new(of.rate(), GUST_DURATION)?.mean * of.rms()) }
     };
     let mean = |cable: usize| equilibrium.cables[cable].force_on_platform_w.norm();

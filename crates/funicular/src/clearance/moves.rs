@@ -3,7 +3,7 @@
 use super::{Clearance, ClearancePair, Placed, Surroundings};
 use crate::math::{Rotation, Vec3};
 use crate::robot::{Body, Pose, Robot};
-use crate::statics::{CableState, Equilibrium};
+use crate::statics::Equilibrium;
 
 /// Bound of the least distance on the way [m]: nowhere on the way a pair is nearer by more than this, for straight cables
 /// surely, and with sag as far as it changes evenly between two stations.
@@ -11,6 +11,16 @@ pub const WAY_TOLERANCE: f64 = 2e-3;
 
 /// Least part of a move between two stations, a guard.
 const MIN_STEP: f64 = 1.0 / 16384.0;
+
+/// Triple product over the lengths that it is made of at which two lines lie in one plane: rounding.
+const COPLANAR: f64 = 1e-13;
+
+/// Number of parts of a move at whose ends lines are tested for a common plane: a product that is not zero everywhere has
+/// few zeros.
+const COPLANAR_TRIALS: usize = 8;
+
+/// Distance of two zeros that are one, at the common end of two intervals.
+const SAME_ZERO: f64 = 1e-12;
 
 /// Number of halvings that find a crossing: 1e-15 of the move.
 const HALVINGS: usize = 50;
@@ -141,10 +151,15 @@ impl StraightPair<'_> {
         let between = (anchors[1] - anchors[0]).norm();
         let slope = between * (ways[0] * lengths[1] + lengths[0] * ways[1]);
         let bend = between * (bends[0] * lengths[1] + 2.0 * ways[0] * ways[1] + lengths[0] * bends[1]);
+        // The lines stay in one plane, as those of a planar robot: no crossing is one of the others.
+        let scale = between * lengths[0] * lengths[1];
+        if (0..=COPLANAR_TRIALS).all(|k| self.product(k as f64 / COPLANAR_TRIALS as f64).abs() <= COPLANAR * scale) {
+            return Vec::new();
+        }
         let mut zeros = Vec::new();
         self.isolate([0.0, 1.0], [slope, bend], &mut zeros);
         zeros.sort_by(f64::total_cmp);
-        zeros.dedup_by(|a, b| (*a - *b).abs() < MIN_STEP * MIN_STEP);
+        zeros.dedup_by(|a, b| (*a - *b).abs() < SAME_ZERO);
         zeros
     }
 
@@ -157,7 +172,7 @@ impl StraightPair<'_> {
         }
         // The secant has the slope of some point inside, from which the slope changes by less than this.
         let is_monotone = ((last - first) / (high - low)).abs() > 2.0 * bounds[1] * half;
-        if is_monotone || half < MIN_STEP * MIN_STEP {
+        if is_monotone || half < MIN_STEP {
             if first * last <= 0.0 {
                 zeros.push(bisected([low, high], first, |fraction| Some(self.product(fraction))));
             }
@@ -224,12 +239,10 @@ impl Surroundings<'_> {
         straight: &StraightMove,
         mut rest_at: impl FnMut(&Pose) -> Result<Equilibrium, E>,
     ) -> Result<Vec<OnTheWay>, (f64, E)> {
-        let mut station = |fraction: f64| match rest_at(&straight.pose(fraction)) {
-            Ok(rest) => Ok(self.station(fraction, &rest)),
-            Err(error) => Err((fraction, error)),
-        };
-        let mut stations = vec![station(0.0)?, station(1.0)?];
-        let pairs: Vec<ClearancePair> = stations[0].clearances.iter().flatten().map(|of| of.pair).collect();
+        let mut rest = |fraction: f64| rest_at(&straight.pose(fraction)).map_err(|error| (fraction, error));
+        let start = rest(0.0)?;
+        let pairs = self.at(&start).pairs();
+        let mut stations = vec![self.station(0.0, &start), self.station(1.0, &rest(1.0)?)];
         let ways: Vec<f64> = pairs.iter().map(|pair| self.way_of(*pair, straight)).collect();
 
         // Stations between those where some pair may be nearer than known so far.
@@ -241,7 +254,8 @@ impl Surroundings<'_> {
         while at + 1 < stations.len() {
             let [one, other] = [&stations[at], &stations[at + 1]];
             if other.fraction - one.fraction > MIN_STEP && may_be_nearer(&found, one, other, &ways) {
-                let middle = station(0.5 * (one.fraction + other.fraction))?;
+                let fraction = 0.5 * (one.fraction + other.fraction);
+                let middle = self.station(fraction, &rest(fraction)?);
                 keep_least(&mut found, &middle);
                 stations.insert(at + 1, middle);
             } else {
@@ -257,10 +271,14 @@ impl Surroundings<'_> {
                     continue;
                 }
                 let between = [neighbours[0].fraction, neighbours[1].fraction];
-                let crossing =
-                    bisected(between, ends[0], |fraction| station(fraction).ok().map(|station| station.sides[k]));
-                let at_crossing = station(crossing)?;
-                let Some(clearance) = at_crossing.clearances[k] else { continue };
+                let mut pair_at = |fraction: f64| {
+                    let rest = rest(fraction)?;
+                    let at = self.at(&rest);
+                    Ok(at.clearance(pairs[k], f64::INFINITY).map(|found| (at.side(&found), found)))
+                };
+                let side = |fraction: f64| Some(pair_at(fraction).ok()??.0);
+                let crossing = bisected(between, ends[0], side);
+                let Some((_, clearance)) = pair_at(crossing)? else { continue };
                 if clearance.points_w[0].metric_distance(&clearance.points_w[1]) < CROSSED {
                     found.crossings.push(crossing);
                     if clearance.margin() < found.least.margin() {
@@ -278,14 +296,8 @@ impl Surroundings<'_> {
         let pairs = at.pairs();
         let clearances: Vec<Option<Clearance>> = pairs.iter().map(|pair| at.clearance(*pair, f64::INFINITY)).collect();
         let sides = clearances.iter().map(|found| found.map_or(0.0, |found| at.side(&found))).collect();
-        let sagittas = rest.cables.iter().map(|cable| self.sagitta(cable)).collect();
+        let sagittas = at.spans.iter().map(|span| span.arc([0.0, span.length]).sagitta).collect();
         Station { fraction, clearances, sides, sagittas }
-    }
-
-    /// Largest distance of a cable from its chord [m].
-    fn sagitta(&self, cable: &CableState) -> f64 {
-        let span = super::FreeSpan::of(cable, 0.0, self.from_end);
-        span.arc([0.0, span.length]).sagitta
     }
 
     /// Bound of the change of a pair's distance over the fraction of a move, with straight cables [m]: each point of a
@@ -324,11 +336,10 @@ fn keep_least(found: &mut [Option<OnTheWay>], station: &Station) {
 fn may_be_nearer(found: &[Option<OnTheWay>], one: &Station, other: &Station, ways: &[f64]) -> bool {
     let step = other.fraction - one.fraction;
     let sag = |i: usize| (one.sagittas[i] - other.sagittas[i]).abs();
-    let of_pairs = found
-        .iter()
-        .zip(one.clearances.iter().zip(&other.clearances))
-        .filter_map(|(found, (a, b))| Some((found.as_ref()?.least.margin(), (*a)?, (*b)?)));
-    of_pairs.zip(ways).any(|((known, a, b), way)| {
+    let pairs = found.iter().zip(one.clearances.iter().zip(&other.clearances)).zip(ways);
+    let mut of_pairs =
+        pairs.filter_map(|((found, (a, b)), way)| Some((found.as_ref()?.least.margin(), (*a)?, (*b)?, way)));
+    of_pairs.any(|(known, a, b, way)| {
         let sag = match a.pair {
             ClearancePair::Cables(i, j) => sag(i) + sag(j),
             ClearancePair::CableAndPlatform { cable, .. } | ClearancePair::CableAndObstacle { cable, .. } => sag(cable),

@@ -14,7 +14,7 @@ pub(super) struct PlacedBody {
     method: Method,
 }
 
-/// What a distance from a segment is found with.
+/// Method by which the distance from a segment is found.
 enum Method {
     /// Library of shapes.
     Library,
