@@ -6,7 +6,8 @@ use super::{Bound, Case, Comparison, Section};
 use anyhow::{Result, bail};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Vec3, Vec6};
-use funicular::modes::{self, CommandedMotions, Decay, LengthCommand, Profile, Release, Shaper, ShaperKind, damped};
+use funicular::modes::{self, CommandedMotions, Decay, LengthCommand, Release, damped};
+use funicular::path::{Profile, Shaper, ShaperKind};
 use funicular::robot::StretchLoss;
 use std::f64::consts::TAU;
 

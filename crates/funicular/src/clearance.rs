@@ -17,7 +17,7 @@ use solid::PlacedBody;
 use span::{FreeSpan, SpanEnd};
 use std::sync::Arc;
 
-pub use moves::{Crossing, OnTheWay, StraightMove, WAY_TOLERANCE, straight_crossings};
+pub use moves::{Crossing, OnTheWay, WAY_TOLERANCE, straight_crossings};
 
 /// Bound of the error of a distance between two cables [m].
 pub const TOLERANCE: f64 = 1e-10;

@@ -57,6 +57,7 @@ pub mod gradient;
 pub mod gust;
 pub mod math;
 pub mod modes;
+pub mod path;
 mod platform;
 pub mod pose_error;
 pub mod reduced_model;
@@ -64,6 +65,7 @@ pub mod response;
 pub mod robot;
 pub mod statics;
 pub mod suggest;
+pub mod trajectory;
 pub mod warnings;
 
 /// Number with its noun in the singular or plural: "1 cable", "2 cables", "2 frequencies", "2 masses".

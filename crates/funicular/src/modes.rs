@@ -11,10 +11,8 @@ mod decay;
 mod fundamental;
 mod lowest;
 mod mac;
-mod profile;
 mod release;
 mod rigid_cables;
-mod shaper;
 mod stretch;
 pub mod tracking;
 
@@ -23,10 +21,8 @@ pub use decay::{Decay, DecayError, DecayingMotion};
 pub use fundamental::{First, FirstError, first, lowest_by_count};
 pub use lowest::{LowestError, PlatformModeError, Search, Wanted, doubled, lowest, lowest_with_platform, until};
 pub use mac::mac;
-pub use profile::Profile;
 pub use release::Release;
 pub use rigid_cables::{RigidCablesError, with_rigid_cables};
-pub use shaper::{Impulse, Shaper, ShaperKind};
 pub use stretch::caveat_of_stretch;
 
 pub use certificate::{MAX_MODES, TooMany, check_count, damped_partners};

@@ -1,7 +1,8 @@
 //! Straight moves between two poses: what comes too near on the way, and which cables cross each other.
 
 use super::{Clearance, ClearancePair, Placed, Surroundings};
-use crate::math::{Rotation, Vec3};
+use crate::math::Vec3;
+use crate::path::StraightMove;
 use crate::robot::{Body, Pose, Robot};
 use crate::statics::Equilibrium;
 
@@ -27,36 +28,6 @@ const HALVINGS: usize = 50;
 
 /// Distance of the centre lines at which two cables count as crossing [m]: what remains after the halvings.
 const CROSSED: f64 = 1e-6;
-
-/// Move along a straight line with one turn about a fixed axis, both in proportion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StraightMove {
-    from: Pose,
-    /// Translation [m] and rotation vector [rad], world axes.
-    translation_w: Vec3,
-    turn_w: Vec3,
-}
-
-impl StraightMove {
-    /// Move from one pose to another by the shorter turn.
-    pub fn between(from: &Pose, to: &Pose) -> Self {
-        let turn_w = (to.rot_wp * from.rot_wp.inverse()).scaled_axis();
-        Self { from: *from, translation_w: to.position_w - from.position_w, turn_w }
-    }
-
-    /// Pose at a fraction of the move.
-    pub fn pose(&self, fraction: f64) -> Pose {
-        Pose {
-            position_w: self.from.position_w + self.translation_w * fraction,
-            rot_wp: Rotation::from_scaled_axis(self.turn_w * fraction) * self.from.rot_wp,
-        }
-    }
-
-    /// Bound of the way of a point of the platform at a distance from its origin, over the fraction [m].
-    fn way(&self, lever: f64) -> f64 {
-        self.translation_w.norm() + self.turn_w.norm() * lever
-    }
-}
 
 /// Crossing of two straight cables on a move.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,7 +57,8 @@ pub struct OnTheWay {
 ///
 /// # Example
 /// ```
-/// use funicular::clearance::{StraightMove, straight_crossings};
+/// use funicular::clearance::straight_crossings;
+/// use funicular::path::StraightMove;
 /// use funicular::robot::{Pose, Robot};
 ///
 /// let robot = Robot::from_toml(funicular_robots::COGIRO)?;

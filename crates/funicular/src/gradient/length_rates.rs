@@ -2,7 +2,7 @@
 
 use super::pullback::six;
 use super::{GradientError, Gradients};
-use crate::math::Vec6;
+use crate::math::{Vec3, Vec6};
 use crate::robot::{Robot, RobotChange};
 use crate::statics::derivatives::StaticDerivativeError;
 use crate::statics::{Equilibrium, StaticModel, TensionRule};
@@ -34,6 +34,8 @@ pub struct LengthRates {
     pub by_pose: Vec<Vec6>,
     /// Per cable: by the force of the load along the axes of the world [m/N], then by its moment about them [m/(N m)].
     pub by_load: Vec<Vec6>,
+    /// Per cable: by the load per length of every cable in the order of the file, world axes [m/(N/m)].
+    pub by_rope_load: Vec<Vec<Vec3>>,
 }
 
 impl LengthRates {
@@ -48,7 +50,12 @@ impl LengthRates {
         let lengths = Gradients::by_rule(robot, rest, rule)?.lengths();
         let by_pose = |of: &RobotChange| six(&of.position_w, &of.rotation_w);
         let by_load = |of: &RobotChange| six(&of.force_w, &of.moment_w);
-        Ok(Self { by_pose: lengths.iter().map(by_pose).collect(), by_load: lengths.iter().map(by_load).collect() })
+        let by_rope_load = |of: &RobotChange| of.cables.iter().map(|cable| cable.load_per_length_w).collect();
+        Ok(Self {
+            by_pose: lengths.iter().map(by_pose).collect(),
+            by_load: lengths.iter().map(by_load).collect(),
+            by_rope_load: lengths.iter().map(by_rope_load).collect(),
+        })
     }
 
     /// Derivatives of rigid straight cables: each gets shorter by the motion of its attachment along the pull.
@@ -60,7 +67,9 @@ impl LengthRates {
             let pull_w = cable.chord_w().normalize();
             robot.platform.motion.allowed(&six(&-pull_w, &-cable.lever_w.cross(&pull_w)))
         });
-        Ok(Self { by_pose: by_pose.collect(), by_load: vec![Vec6::zeros(); rest.cables.len()] })
+        let count = rest.cables.len();
+        let (by_load, by_rope_load) = (vec![Vec6::zeros(); count], vec![vec![Vec3::zeros(); count]; count]);
+        Ok(Self { by_pose: by_pose.collect(), by_load, by_rope_load })
     }
 
     /// Rate of each unstrained length [m/s] for a twist: velocity of the origin [m/s], then angular velocity [rad/s].

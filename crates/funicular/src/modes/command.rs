@@ -7,10 +7,10 @@
 use super::Modes;
 use super::damped::DampedModes;
 use super::decay::{Decay, DecayError, DecayingMotion, PoleMotion, point_rows, pole_motions};
-use super::profile::{Profile, mean_exponential};
 use crate::cable::catenary_dynamic::DriveSignal;
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, Vec3};
+use crate::path::{Profile, mean_exponential};
 
 /// Command of the unstrained lengths over time from t = 0 on, which ends at rest. One number per cable, in the order of
 /// the file.

@@ -3,10 +3,10 @@
 
 use crate::random::Draw;
 use funicular::clearance::{
-    BODY_TOLERANCE, Clearance, ClearanceKind, ClearancePair, StraightMove, Surroundings, TOLERANCE, WAY_TOLERANCE,
-    straight_crossings,
+    BODY_TOLERANCE, Clearance, ClearanceKind, ClearancePair, Surroundings, TOLERANCE, WAY_TOLERANCE, straight_crossings,
 };
 use funicular::math::Vec3;
+use funicular::path::StraightMove;
 use funicular::robot::{Body, Pose, RequiredClearance, Robot, Solid, State};
 use funicular::statics::{self, CableState, Equilibrium, StaticModel};
 

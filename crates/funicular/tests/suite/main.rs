@@ -18,6 +18,7 @@ mod dynamics;
 mod gust;
 mod library;
 mod modes;
+mod path;
 mod platform;
 mod pose_error;
 mod random;

@@ -7,7 +7,8 @@ use crate::at_rest::AtRest;
 use crate::request::{SettleRequest, check};
 use crate::values::{not_negative, positive};
 use anyhow::{Result, bail};
-use funicular::modes::{LengthCommand, Shaper};
+use funicular::modes::LengthCommand;
+use funicular::path::Shaper;
 use funicular::statics::Equilibrium;
 
 /// Command that ends with the robot at rest.

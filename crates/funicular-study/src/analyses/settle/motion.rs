@@ -7,7 +7,8 @@ use crate::request::SettleRequest;
 use crate::text::significant;
 use anyhow::{Result, bail};
 use funicular::math::Vec3;
-use funicular::modes::{LengthCommand, Profile, Shaper};
+use funicular::modes::LengthCommand;
+use funicular::path::{Profile, Shaper};
 use funicular::robot::{Pose, State};
 use funicular::statics::{self, Equilibrium};
 

@@ -3,7 +3,8 @@
 use super::{HistoryRow, history};
 use crate::request::SettleRequest;
 use anyhow::{Result, anyhow, bail};
-use funicular::modes::{Decay, DecayingMotion, Impulse, Shaper, ShaperKind};
+use funicular::modes::{Decay, DecayingMotion};
+use funicular::path::{Impulse, Shaper, ShaperKind};
 use serde::Serialize;
 use std::f64::consts::TAU;
 

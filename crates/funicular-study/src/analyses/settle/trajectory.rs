@@ -11,7 +11,8 @@ use crate::table_fault::TableFault;
 use crate::text::significant;
 use crate::values::{finite, positive};
 use anyhow::{Result, bail};
-use funicular::modes::{LengthCommand, Shaper};
+use funicular::modes::LengthCommand;
+use funicular::path::Shaper;
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{self, Equilibrium};
 

@@ -41,19 +41,53 @@ impl Profile {
         self.boxes.iter().sum::<f64>() + self.last_impulse()
     }
 
+    /// Fastest course of a change by one, from rest to rest, within limits of its rate [1/s], of the change of the rate
+    /// [1/s²] and of the change of that [1/s³]; the first or the last may be infinite. Seven phases of constant jerk.
+    pub fn limited(rate: f64, acceleration: f64, jerk: f64) -> Self {
+        // Rate that phases of constant jerk alone reach.
+        let highest = rate.min((0.25 * jerk).cbrt());
+        let (rate, acceleration) = if acceleration * acceleration >= highest * jerk {
+            (highest, (highest * jerk).sqrt())
+        } else {
+            // Rate that is reached if its two ramps take the whole time.
+            let ramp = acceleration / jerk;
+            let reached = 0.5 * acceleration * ((ramp * ramp + 4.0 / acceleration).sqrt() - ramp);
+            (rate.min(reached), acceleration)
+        };
+        Self::new(&[1.0 / rate, rate / acceleration, acceleration / jerk])
+    }
+
+    /// The course with all times multiplied by a positive factor.
+    #[must_use]
+    pub(super) fn slowed(&self, factor: f64) -> Self {
+        let later = |impulse: &Impulse| Impulse { time: impulse.time * factor, ..*impulse };
+        let boxes = self.boxes.iter().map(|duration| duration * factor).collect();
+        Self { boxes, impulses: self.impulses.iter().map(later).collect() }
+    }
+
+    /// Time in which the course slows down before it ends [s].
+    pub(super) fn slowing(&self) -> f64 {
+        self.boxes.iter().sum::<f64>() - self.boxes.iter().copied().fold(0.0, f64::max)
+    }
+
     /// Part of the change that is done at a time [s], 0 to 1.
     pub fn done(&self, time: f64) -> f64 {
+        self.derivative(time, 0)
+    }
+
+    /// Derivative of this order of the part that is done at a time [s]; 0 at a jump and beyond the number of boxes.
+    pub fn derivative(&self, time: f64, order: usize) -> f64 {
         let own: f64 = self.boxes.iter().sum();
-        let done = |t: f64| {
+        let of_one = |t: f64| {
             if t >= own {
-                1.0
-            } else if t <= 0.0 {
+                f64::from(u8::from(order == 0))
+            } else if t <= 0.0 || order > self.boxes.len() {
                 0.0
             } else {
-                self.truncated(t, self.boxes.len())
+                self.truncated(t, self.boxes.len() - order)
             }
         };
-        self.impulses.iter().map(|impulse| impulse.amplitude * done(time - impulse.time)).sum()
+        self.impulses.iter().map(|impulse| impulse.amplitude * of_one(time - impulse.time)).sum()
     }
 
     /// Integral of the part that is not done yet, from a time [s] on: the way of a stop from unit speed.
@@ -65,7 +99,8 @@ impl Profile {
 
     /// Integral of order `order` − n of the chain of n boxes convolved.
     fn truncated(&self, time: f64, order: usize) -> f64 {
-        let sum: f64 = self.corners().map(|(sign, at)| sign * power((time - at).max(0.0), order)).sum();
+        let passed = self.corners().filter(|(_, at)| time > *at);
+        let sum: f64 = passed.map(|(sign, at)| sign * power(time - at, order)).sum();
         sum / self.boxes.iter().product::<f64>()
     }
 
@@ -82,13 +117,13 @@ impl Profile {
     }
 
     /// `∫ r(τ) e^{λ(T−τ)} dτ` with the rate r, at the end T of the course.
-    pub(super) fn at_end(&self, lambda: Complex) -> Complex {
+    pub(crate) fn at_end(&self, lambda: Complex) -> Complex {
         let shaped = Shaper { impulses: self.impulses.clone() }.at_end(lambda);
         self.boxes.iter().map(|duration| mean_exponential(lambda * *duration)).product::<Complex>() * shaped
     }
 
     /// `∫ r(τ) e^{λ(t−τ)} dτ` over τ up to a time t [s].
-    pub(super) fn until(&self, lambda: Complex, time: f64) -> Complex {
+    pub(crate) fn until(&self, lambda: Complex, time: f64) -> Complex {
         let end = self.duration();
         if time >= end {
             return self.at_end(lambda) * (lambda * (time - end)).exp();
@@ -112,7 +147,7 @@ fn power<T: Copy + std::ops::Div<f64, Output = T> + std::iter::Product>(x: T, k:
 }
 
 /// `(eˣ − 1)/x`.
-pub(super) fn mean_exponential(x: Complex) -> Complex {
+pub(crate) fn mean_exponential(x: Complex) -> Complex {
     remainder(x, 1.0, 1)
 }
 

@@ -85,7 +85,7 @@ impl Shaper {
     }
 
     /// `Σ A_j e^{λ(t_n − t_j)}`, with the last time t_n.
-    pub(super) fn at_end(&self, lambda: Complex) -> Complex {
+    pub(crate) fn at_end(&self, lambda: Complex) -> Complex {
         let end = self.duration();
         self.impulses.iter().map(|impulse| (lambda * (end - impulse.time)).exp() * impulse.amplitude).sum()
     }

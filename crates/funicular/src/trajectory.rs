@@ -1,0 +1,229 @@
+//! A robot in motion along a path: tensions with the inertia of the platform and of the ropes, unstrained lengths, their
+//! rates and accelerations.
+//!
+//! The cables are quasi-static: at every time each has the shape of a cable at rest. The inertia of the platform is a
+//! load on it (docs/theory.md, equation (41a)), that of a taut rope a load along it, (41d).
+
+mod length_acceleration;
+
+pub use length_acceleration::length_accelerations;
+
+use crate::gradient::{GradientError, LengthRates};
+use crate::math::{Rotation, Vec3, Vec6};
+use crate::path::PathPoint;
+use crate::robot::{Constraint, Pose, Robot, State};
+use crate::statics::{self, Equilibrium, Limit, StaticModel, StaticsError, TensionRange, TensionRule};
+use std::f64::consts::PI;
+
+/// Time over which differences stand for derivatives that do not exist in closed form [s]. Their error is a third of
+/// its square times the third derivative of the lengths; the lengths have an error of 1e-12 m, over this time 1e-8 m/s.
+const DIFFERENCE: f64 = 1e-4;
+
+/// Part of the load of a rope that swings with the platform about its fixed anchor: a uniform load with the same force
+/// at the platform as `μ (1 − s/l) a`.
+const UNIFORM: f64 = 2.0 / 3.0;
+
+/// Relative distance of a tension from its limit within which the limit is reached.
+const AT_LIMIT: f64 = 1e-6;
+
+/// Robot that follows a path, with what it needs at every time of it.
+///
+/// # Example
+/// ```
+/// use funicular::path::{CourseForm, MotionLimits, PlatformPath};
+/// use funicular::robot::{Pose, Robot};
+/// use funicular::statics::{StaticModel, TensionRule};
+/// use funicular::trajectory::AlongPath;
+///
+/// let robot = Robot::from_toml(funicular_robots::COGIRO)?;
+/// let limits = MotionLimits { speed: 2.0, acceleration: 3.0, jerk: 20.0, ..MotionLimits::default() };
+/// let poses = [Pose::new([0.0, 0.0, 1.5], [0.0; 3]), Pose::new([3.0, 0.0, 1.5], [0.0; 3])];
+/// let path = PlatformPath::through(&poses, &limits, CourseForm::JerkLimited, 0.0)?;
+///
+/// let mut along = AlongPath::new(&robot, StaticModel::Catenary, TensionRule::Lowest, false);
+/// let in_motion = along.at(&path.at(0.5 * path.duration()))?;
+/// assert!(in_motion.length_rates.iter().all(|rate| rate.abs() < 2.0)); // m/s
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # References
+/// docs/theory.md, section 10b.
+pub struct AlongPath<'a> {
+    /// Robot without its motion.
+    at_rest: &'a Robot,
+    /// The same with the loads of the motion.
+    loaded: Robot,
+    model: StaticModel,
+    rule: TensionRule,
+    rope_inertia: bool,
+}
+
+/// Robot at one time of a path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InMotion {
+    /// Motion of the platform.
+    pub point: PathPoint,
+    /// Equilibrium with the loads of the motion.
+    pub equilibrium: Equilibrium,
+    /// Rates of the unstrained lengths [m/s], positive while they are paid out.
+    pub length_rates: Vec<f64>,
+    /// Reason why the rates are differences of lengths at neighbouring times, if they are.
+    pub no_exact_rates: Option<GradientError>,
+    /// Limit of its tension that each cable has reached.
+    pub at_limit: Vec<Option<Limit>>,
+}
+
+impl<'a> AlongPath<'a> {
+    /// Robot whose tensions follow a rule if its cables leave a choice. `rope_inertia` adds that of the ropes across
+    /// them, as of taut strings with fixed anchors.
+    pub fn new(robot: &'a Robot, model: StaticModel, rule: TensionRule, rope_inertia: bool) -> Self {
+        Self { at_rest: robot, loaded: robot.clone(), model, rule, rope_inertia }
+    }
+
+    /// Tensions, lengths and rates at a time of a path.
+    ///
+    /// # Errors
+    /// [`StaticsError`]: the cables do not hold the platform with its inertia within their limits, or are fewer than
+    /// the degrees of freedom.
+    pub fn at(&mut self, point: &PathPoint) -> Result<InMotion, StaticsError> {
+        let equilibrium = self.equilibrium(point)?;
+        let (length_rates, no_exact_rates) = match LengthRates::of(&self.loaded, &equilibrium, &self.rule) {
+            Ok(rates) => (self.rates(point, &rates), None),
+            Err(reason) => (self.differences(point)?, Some(reason)),
+        };
+        let at_limit = (0..equilibrium.cables.len()).map(|i| self.limit_of(&equilibrium, i)).collect();
+        Ok(InMotion { point: *point, equilibrium, length_rates, no_exact_rates, at_limit })
+    }
+
+    /// Robot with the loads of the motion at the last time.
+    pub fn loaded(&self) -> &Robot {
+        &self.loaded
+    }
+
+    /// Equilibrium with the loads of the motion.
+    ///
+    /// # Errors
+    /// [`StaticsError`], as for [`Self::at`].
+    pub fn equilibrium(&mut self, point: &PathPoint) -> Result<Equilibrium, StaticsError> {
+        if let Constraint::Under(_) = self.at_rest.constraint() {
+            let (cables, dof) = (self.at_rest.cables.len(), self.at_rest.platform.motion.count());
+            return Err(StaticsError::InverseCableCount { cables, dof });
+        }
+
+        self.load(point);
+        let state = State::Pose(point.pose);
+        Ok(statics::solve_at(&self.loaded, &state, self.model, &self.rule)?.equilibrium)
+    }
+
+    /// Puts the loads of a motion on the robot. The dead load keeps its point: the moment of the inertia is about it.
+    fn load(&mut self, point: &PathPoint) {
+        let [force_w, moment_w] = point.inertia(self.at_rest);
+        let (dead, arm_w) = (&self.at_rest.load, point.pose.rot_wp * self.at_rest.load.point_p);
+        self.loaded.load.force_w = dead.force_w + force_w;
+        self.loaded.load.moment_w = dead.moment_w + moment_w - arm_w.cross(&force_w);
+
+        if self.rope_inertia {
+            for i in 0..self.loaded.cables.len() {
+                let of_rope = rope_inertia(self.at_rest, i, point);
+                self.loaded.cables[i].load_per_length_w = self.at_rest.cables[i].load_per_length_w + of_rope;
+            }
+        }
+    }
+
+    /// Rates of the lengths by their derivatives, (41b).
+    fn rates(&self, point: &PathPoint, rates: &LengthRates) -> Vec<f64> {
+        let ([force_w, _], [force_rate, moment_rate]) = (point.inertia(self.at_rest), point.inertia_rate(self.at_rest));
+        let arm_w = point.pose.rot_wp * self.at_rest.load.point_p;
+        let turning = point.twist()[1].cross(&arm_w).cross(&force_w);
+        let moment_rate = moment_rate - turning - arm_w.cross(&force_rate);
+        let load_rate = Vec6::from_iterator(force_rate.iter().chain(moment_rate.iter()).copied());
+
+        let mut found = rates.of_twist(&point.velocity_w);
+        for (rate, by_load) in found.iter_mut().zip(&rates.by_load) {
+            *rate += by_load.dot(&load_rate);
+        }
+        if self.rope_inertia {
+            let [before, after] = [-DIFFERENCE, DIFFERENCE].map(|time| shifted(point, time));
+            let rope_rate = |i| {
+                let of = |point| rope_inertia(self.at_rest, i, point);
+                (of(&after) - of(&before)) / (2.0 * DIFFERENCE)
+            };
+            let rope_rates: Vec<Vec3> = (0..self.loaded.cables.len()).map(rope_rate).collect();
+            for (rate, by_rope_load) in found.iter_mut().zip(&rates.by_rope_load) {
+                *rate += by_rope_load.iter().zip(&rope_rates).map(|(by, of)| by.dot(of)).sum::<f64>();
+            }
+        }
+        found
+    }
+
+    /// Rates of the lengths as differences over a short time.
+    fn differences(&mut self, point: &PathPoint) -> Result<Vec<f64>, StaticsError> {
+        let [before, after] = [-DIFFERENCE, DIFFERENCE].map(|time| self.equilibrium(&shifted(point, time)));
+        self.load(point);
+        let both = before?.cables.into_iter().zip(after?.cables);
+        Ok(both.map(|(from, to)| (to.unstrained_length - from.unstrained_length) / (2.0 * DIFFERENCE)).collect())
+    }
+
+    /// Limit that the tension of a cable has reached.
+    fn limit_of(&self, equilibrium: &Equilibrium, i: usize) -> Option<Limit> {
+        let cable = &equilibrium.cables[i];
+        let margin = TensionRange::of(&self.loaded, i, &cable.chord_w()).margin(cable);
+        if margin.max >= margin.range.maximum * (1.0 - AT_LIMIT) {
+            Some(Limit::Maximum)
+        } else if margin.min <= margin.range.minimum * (1.0 + AT_LIMIT) {
+            Some(Limit::Minimum)
+        } else {
+            None
+        }
+    }
+}
+
+/// Uniform load along a rope that has the force at the platform of the rope's inertia across it, world axes [N/m]; zero
+/// for a rope that does not move.
+///
+/// # References
+/// docs/theory.md, equation (41d).
+fn rope_inertia(robot: &Robot, i: usize, point: &PathPoint) -> Vec3 {
+    let cable = &robot.cables[i];
+    let ([velocity, omega], lever_w) = (point.twist(), point.pose.rot_wp * cable.attachment_p);
+    let acceleration = |k: usize| point.acceleration_w[k];
+    let (linear, angular) = (Vec3::from_fn(|k, _| acceleration(k)), Vec3::from_fn(|k, _| acceleration(k + 3)));
+
+    let chord_w = cable.chord_w(&point.pose);
+    let (length, pull_w) = (chord_w.norm(), chord_w.normalize());
+    let end_velocity = velocity + omega.cross(&lever_w);
+    let end_acceleration = linear + angular.cross(&lever_w) + omega.cross(&omega.cross(&lever_w));
+    let across = |of: &Vec3| of - pull_w * of.dot(&pull_w);
+    let length_rate = -end_velocity.dot(&pull_w);
+    let of_rope = across(&end_acceleration) + across(&end_velocity) * (length_rate / length);
+    of_rope * (-UNIFORM * cable.material.mass_per_length)
+}
+
+/// Motion a short time later, by its derivatives.
+fn shifted(point: &PathPoint, time: f64) -> PathPoint {
+    let change =
+        point.velocity_w * time + point.acceleration_w * (0.5 * time * time) + point.jerk_w * (time.powi(3) / 6.0);
+    let turn = Rotation::from_scaled_axis(Vec3::new(change[3], change[4], change[5]));
+    PathPoint {
+        pose: Pose {
+            position_w: point.pose.position_w + Vec3::new(change[0], change[1], change[2]),
+            rot_wp: turn * point.pose.rot_wp,
+        },
+        velocity_w: point.velocity_w + point.acceleration_w * time + point.jerk_w * (0.5 * time * time),
+        acceleration_w: point.acceleration_w + point.jerk_w * time,
+        jerk_w: point.jerk_w,
+    }
+}
+
+impl InMotion {
+    /// First frequency of a cable as a taut string with fixed ends [Hz], the lowest of all cables; `None` without a rope
+    /// that has mass. Cables follow the platform as at rest far below it.
+    pub fn lowest_string_frequency(&self, robot: &Robot) -> Option<f64> {
+        let frequencies = self.equilibrium.cables.iter().zip(&robot.cables).filter_map(|(state, cable)| {
+            let mass = cable.material.mass_per_length;
+            let omega = PI / state.chord() * (state.tension_platform / mass).sqrt();
+            (mass > 0.0).then_some(omega / (2.0 * PI))
+        });
+        frequencies.reduce(f64::min)
+    }
+}
