@@ -14,6 +14,7 @@ mod adjoint;
 mod cable_form;
 mod drive_form;
 mod end_form;
+mod length_rates;
 mod parallel_tension;
 mod pullback;
 mod robot_form;
@@ -23,6 +24,7 @@ mod support_form;
 mod supports;
 mod vibration;
 
+pub use length_rates::LengthRates;
 pub use vibration::{DampedGradient, ResponseDerivatives, VibrationGradients};
 
 use crate::cable::CableModel;

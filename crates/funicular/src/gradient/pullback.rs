@@ -490,6 +490,6 @@ impl Follower {
 }
 
 /// Translation and rotation in one vector.
-fn six(translation: &Vec3, rotation: &Vec3) -> Vec6 {
+pub(super) fn six(translation: &Vec3, rotation: &Vec3) -> Vec6 {
     Vec6::new(translation.x, translation.y, translation.z, rotation.x, rotation.y, rotation.z)
 }
