@@ -24,6 +24,7 @@ mod random;
 mod reduced_model;
 mod response;
 mod robot;
+mod speeds;
 mod statics;
 mod stretch_loss;
 mod support;
