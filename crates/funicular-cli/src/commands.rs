@@ -27,6 +27,7 @@ mod request;
 mod result_files;
 mod schema;
 mod settle;
+mod speeds;
 mod statics;
 mod stiffness;
 mod uncertainty;

@@ -24,6 +24,7 @@ pub mod reduce;
 mod result_groups;
 pub mod settle;
 pub mod shared;
+pub mod speeds;
 pub mod statics;
 pub mod stiffness;
 pub mod uncertainty;

@@ -13,7 +13,7 @@ pub use holder::holder;
 pub(crate) use holder::holder_of;
 pub(crate) use loads::payload_center;
 pub use pose::{OrientationOfPointMass, check_pose, refuse_orientation};
-pub(crate) use requirements::with_required;
+pub(crate) use requirements::{with_required, with_required_velocities};
 pub use state::{refuse_no_pose, refuse_no_state, with_state};
 pub use tensions::{rule, with_limits};
 pub use vibration::{ModesBelow, cable_model, linearisation, signals};

@@ -16,6 +16,7 @@ mod pages;
 mod parts;
 mod shape;
 mod source_file;
+mod speeds;
 mod statics;
 mod steps;
 mod uncertainty;
@@ -38,6 +39,7 @@ pub use parts::{
 };
 pub use shape::schema;
 pub use source_file::{MAX_BYTES, SourceFile};
+pub use speeds::{RequiredVelocities, SpeedsRequest};
 pub use statics::{
     CheckRequest, ClearanceRequest, ParametersRequest, PayloadRequest, PoseErrorRequest, StaticsRequest,
     StiffnessRequest,
@@ -153,6 +155,7 @@ commands! {
     Uncertainty(UncertaintyRequest) "uncertainty" Needed robot;
     Payload(PayloadRequest) "payload" Needed robot;
     Loads(LoadsRequest) "loads" Needed robot;
+    Speeds(SpeedsRequest) "speeds" Needed robot;
     Clearance(ClearanceRequest) "clearance" Needed robot;
     PoseError(PoseErrorRequest) "pose-error" Needed robot;
     Cable(CableRequest) "cable" Needed robot;

@@ -18,6 +18,7 @@ use crate::analyses::{
     pose_error::{self, PoseErrors},
     reduce::{self, ReducedForm},
     settle::{self, Settled},
+    speeds::{self, Speeds},
     statics::{self, Statics},
     stiffness::{self, Stiffness},
     uncertainty::{self, Uncertainties},
@@ -127,6 +128,7 @@ answers! {
     Uncertainty(Uncertainties): of => uncertainty::run(of, watch)?;
     Payload(Payload): of => payload::run(robot()?, of)?;
     Loads(Loads): of => loads::run(robot()?, of)?;
+    Speeds(Speeds): of => speeds::run(robot()?, of)?;
     Clearance(Clearances): of => clearance::run(robot()?, of)?;
     PoseError(PoseErrors): of => pose_error::run(&robot()?, of, watch)?;
     Cable(CableResult): of => cable::run(robot()?, of, watch)?;

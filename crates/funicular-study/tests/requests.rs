@@ -43,6 +43,9 @@ fn requests() -> Vec<Value> {
         "required_payload_center_reach_m": [0.05, 0.05, 0.1], "required_acceleration_m_s2": [1.0, 1.0, 0.5],
         "required_angular_acceleration_rad_s2": [0.1, 0.1, 0.2], "required_wind_speed_m_s": 8.0,
     });
+    let velocities = json!({
+        "required_velocity_m_s": [1.0, 1.0, 0.5], "required_angular_velocity_rad_s": [0.1, 0.1, 0.2],
+    });
     let turned = json!({
         "pose": { "position_m": [1.0, 2.0, 1.5], "quaternion_wxyz": [0.6, 0.0, 0.0, 0.8] }, "hold_lengths_of_pose": true,
     });
@@ -168,6 +171,7 @@ fn requests() -> Vec<Value> {
         ),
         of("payload", &[&robot, &state, &tensions, &center]),
         of("loads", &[&robot, &state, &tensions, &required]),
+        of("speeds", &[&robot, &state, &tensions, &velocities]),
         of("clearance", &[&robot, &state, &tensions, &json!({ "move_to": [0.1, 0.0, 0.5, 0.0, 0.0, 5.0] })]),
         of(
             "gradient",

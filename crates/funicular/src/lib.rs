@@ -63,6 +63,7 @@ pub mod pose_error;
 pub mod reduced_model;
 pub mod response;
 pub mod robot;
+pub mod speeds;
 pub mod statics;
 pub mod suggest;
 pub mod trajectory;

@@ -31,7 +31,7 @@ pub use pulley::{Pulley, PulleyContact};
 pub use required::{LoadShape, RequiredLoads, RequiredLoadsError, RequiredPayload};
 pub use support::{DrumPlace, Support};
 pub use turbulence::{MeasuredSpectrum, MeasuredSpectrumError, Turbulence, TurbulenceSpectrum};
-pub use winch::{Control, DrumSide, GuideWheel, Servo, Winch, WinchMode};
+pub use winch::{Control, DrumSide, GuideWheel, LimitOfWinch, MotorLoad, Servo, Winch, WinchLimits, WinchMode};
 pub use wind::{LineLoad, Wind};
 
 use crate::math::{Mat3, Rotation, Vec3, rotation};

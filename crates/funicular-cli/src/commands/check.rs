@@ -102,9 +102,12 @@ fn drive_table(found: &Checked) -> String {
     let has_friction = found.cables.iter().any(|cable| friction(cable).is_some());
     let drive = |cable: &CheckedCable| cable.winch.as_ref().and_then(CheckedWinch::drive_text);
     let moves = found.cables.iter().any(|cable| drive(cable).is_some());
+    let limits = |cable: &CheckedCable| cable.winch.as_ref().and_then(|winch| winch.limits.text());
+    let has_limits = found.cables.iter().any(|cable| limits(cable).is_some());
     let mut header =
         vec!["cable", "pulley", "radius [m]", "entry direction", "winch", "to drum [m]", "stiffness [N/m]"];
-    header.extend(moves.then_some("at the cable").into_iter().chain(has_friction.then_some("friction")));
+    let more = [(moves, "at the cable"), (has_limits, "limits"), (has_friction, "friction")];
+    header.extend(more.into_iter().filter_map(|(is_shown, name)| is_shown.then_some(name)));
     let mut rows = Table::new(&header).text_columns(&[1, 4]);
 
     for cable in &found.cables {
@@ -122,6 +125,9 @@ fn drive_table(found: &Checked) -> String {
         ];
         if moves {
             row.push(drive(cable).unwrap_or_else(none));
+        }
+        if has_limits {
+            row.push(limits(cable).unwrap_or_else(none));
         }
         if has_friction {
             row.push(friction(cable).unwrap_or_else(none));

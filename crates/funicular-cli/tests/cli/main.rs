@@ -29,6 +29,7 @@ mod reduce;
 mod request;
 mod results;
 mod settle;
+mod speeds;
 mod statics;
 mod stiffness;
 mod sweeps;

@@ -363,7 +363,7 @@ fn add_line(out: &mut String, line: &str) {
 
 /// Meaning and unit of a key.
 fn about(key: &Key) -> String {
-    match key.numeric_value() {
+    match key.each_number() {
         Some(numbers) if numbers.unit != "1" => format!("{} [{}]", key.about, numbers.unit),
         _ => key.about.to_owned(),
     }

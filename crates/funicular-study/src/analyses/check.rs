@@ -10,7 +10,7 @@ use crate::text::short;
 use funicular::math::rotation;
 use funicular::robot::{
     Cable, Control, Damping, GuideWheel, PlatformMotion, Pulley, PulleyFriction, Robot, State, Support, TensionLimits,
-    Winch,
+    Winch, WinchLimits,
 };
 use funicular::statics::{self, CableState, StaticModel};
 use funicular::warnings::plausibility;
@@ -228,6 +228,65 @@ pub struct CheckedWinch {
     pub position_gain_n_per_m: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_gain_n_s_per_m: Option<f64>,
+    /// Efficiency of the gear; absent if it is 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gear_efficiency: Option<f64>,
+    #[serde(flatten)]
+    pub limits: CheckedWinchLimits,
+}
+
+/// Limits of a winch and its motor; a limit that is not given is absent.
+#[derive(Serialize)]
+pub struct CheckedWinchLimits {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_speed_m_s: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_acceleration_m_s2: Option<f64>,
+    /// Torque of the motor at its own shaft.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_torque_n_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_power_w: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_brake_power_w: Option<f64>,
+    /// Corners of the torque–speed curve: speeds and torques.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub torque_speed_rad_s: Vec<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub torque_speed_n_m: Vec<f64>,
+}
+
+impl CheckedWinchLimits {
+    fn of(limits: &WinchLimits) -> Self {
+        let WinchLimits { speed, acceleration, torque, power, brake_power, torque_speed } = limits;
+        let given = |limit: &f64| limit.is_finite().then_some(*limit);
+        Self {
+            max_speed_m_s: given(speed),
+            max_acceleration_m_s2: given(acceleration),
+            max_torque_n_m: given(torque),
+            max_power_w: given(power),
+            max_brake_power_w: given(brake_power),
+            torque_speed_rad_s: torque_speed.iter().map(|[speed, _]| *speed).collect(),
+            torque_speed_n_m: torque_speed.iter().map(|[_, torque]| *torque).collect(),
+        }
+    }
+
+    /// Limits in one phrase; `None` without any.
+    pub fn text(&self) -> Option<String> {
+        let braking = self.max_brake_power_w.filter(|brake| Some(*brake) != self.max_power_w);
+        let numbers = [
+            ("", self.max_speed_m_s, "m/s"),
+            ("", self.max_acceleration_m_s2, "m/s²"),
+            ("", self.max_torque_n_m, "N m"),
+            ("", self.max_power_w, "W"),
+            ("braking ", braking, "W"),
+        ];
+        let numbers =
+            numbers.iter().filter_map(|(of, limit, unit)| Some(format!("{of}{} {unit}", short((*limit)?, 4))));
+        let curve = self.torque_speed_rad_s.last().map(|last| format!("torque curve to {} rad/s", short(*last, 4)));
+        let parts: Vec<String> = numbers.chain(curve).collect();
+        (!parts.is_empty()).then(|| parts.join(", "))
+    }
 }
 
 /// Flexible support of anchors.
@@ -304,6 +363,8 @@ impl CheckedWinch {
             control,
             position_gain_n_per_m: servo.map(|servo| servo.position_gain),
             speed_gain_n_s_per_m: servo.map(|servo| servo.speed_gain),
+            gear_efficiency: Some(winch.gear_efficiency).filter(|efficiency| *efficiency != 1.0),
+            limits: CheckedWinchLimits::of(&winch.limits),
         }
     }
 
@@ -319,7 +380,8 @@ impl CheckedWinch {
         };
         let guides: f64 = self.guide_wheels.iter().map(|wheel| wheel.mass_kg).sum();
         let guides = (guides > 0.0).then(|| format!("guide wheels {} kg", short(guides, 4)));
-        let parts: Vec<String> = inertia.into_iter().chain(control).chain(guides).collect();
+        let gear = self.gear_efficiency.map(|efficiency| format!("gear η = {}", short(efficiency, 4)));
+        let parts: Vec<String> = inertia.into_iter().chain(control).chain(guides).chain(gear).collect();
         (!parts.is_empty()).then(|| parts.join(", "))
     }
 }

@@ -1,6 +1,6 @@
 //! Required loads of a request.
 
-use crate::request::Requirements;
+use crate::request::{RequiredVelocities, Requirements};
 use anyhow::{Result, bail};
 use funicular::math::Vec3;
 use funicular::robot::{RequiredPayload, Robot, Wind};
@@ -32,6 +32,20 @@ pub(crate) fn with_required(mut robot: Robot, request: &Requirements) -> Result<
     if own.wind_speed > Wind::MAX_SPEED {
         bail!("⟪required_wind_speed_m_s⟫ is {} m/s, it must be at most {} m/s", own.wind_speed, Wind::MAX_SPEED);
     }
+    robot.required.check(&robot.platform.motion)?;
+    Ok(robot)
+}
+
+/// Robot with the required velocities of a request. Those that the request does not give come from the robot file.
+///
+/// # Errors
+/// Numbers that are no half widths, or an angular velocity of a point mass.
+pub(crate) fn with_required_velocities(mut robot: Robot, request: &RequiredVelocities) -> Result<Robot> {
+    request.check()?;
+    let or = |given: Option<[f64; 3]>, of_file: Vec3| given.map_or(of_file, Vec3::from);
+    let own = &mut robot.required;
+    own.velocity_w = or(request.required_velocity_m_s, own.velocity_w);
+    own.angular_velocity_w = or(request.required_angular_velocity_rad_s, own.angular_velocity_w);
     robot.required.check(&robot.platform.motion)?;
     Ok(robot)
 }

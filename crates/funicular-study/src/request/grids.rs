@@ -3,6 +3,7 @@
 use super::key::declared;
 use super::loads::Requirements;
 use super::parts::{Axis, MAX_HZ, Model, RobotText, State, Tensions};
+use super::speeds::RequiredVelocities;
 use funicular::modes::PLATFORM_SHARE;
 
 declared! {
@@ -20,6 +21,9 @@ declared! {
         /// Required loads, for quantities that compare with them.
         #[serde(flatten)]
         required: Requirements = Requirements::default() => group;
+        /// Required velocities, for quantities that compare with them.
+        #[serde(flatten)]
+        velocities: RequiredVelocities = RequiredVelocities::default() => group;
         /// State and loads.
         #[serde(flatten)]
         state: State = State::default() => group;

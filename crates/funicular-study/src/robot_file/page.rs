@@ -23,7 +23,7 @@ fn of_table(out: &mut String, table: &Table) {
     }
     let _ = writeln!(out, "| Key | Value | Unit | Range | If it is absent | Meaning |\n|---|---|---|---|---|---|");
     for key in table.keys {
-        let (unit, range) = match key.numeric_value() {
+        let (unit, range) = match key.each_number() {
             Some(numbers) => (numbers.unit, numbers.range.to_string()),
             None => ("", String::new()),
         };
@@ -69,6 +69,7 @@ fn value(key: &Key) -> String {
             Shape::Angles => "[roll, pitch, yaw]".to_owned(),
             Shape::Tensor => "number, [xx, yy, zz], or three rows".to_owned(),
         },
+        KeyValue::NumberList(_) => "list of numbers".to_owned(),
     }
 }
 

@@ -66,6 +66,9 @@ fn of_key(key: &Key) -> Value {
             json!({ "type": "object", "minProperties": 1, "additionalProperties": table })
         }
         KeyValue::Numbers(numbers) => of_numbers(numbers),
+        KeyValue::NumberList(numbers) => {
+            json!({ "type": "array", "items": of_number(numbers.range), "minItems": 1 })
+        }
     };
 
     schema["description"] = description(key).into();
@@ -88,7 +91,7 @@ fn table_of(header: &str) -> &'static Table {
 
 /// Meaning, unit and effect of a missing key in one text.
 fn description(key: &Key) -> String {
-    let unit = match key.numeric_value() {
+    let unit = match key.each_number() {
         Some(numbers) if numbers.unit != "1" => format!(" [{}]", numbers.unit),
         _ => String::new(),
     };

@@ -4,16 +4,19 @@ use super::frequency::{self, Lowest};
 use super::gusts::{self, PointInGusts};
 use super::options::Options;
 use super::status::Status;
+use crate::analyses::speeds::{half_widths, winch_speeds};
 use crate::table::Value;
 use funicular::cable::CableModel;
 use funicular::clearance::Surroundings;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::Hold;
+use funicular::math::Vec6;
 use funicular::modes::Kind;
 use funicular::modes::damped::{DECAY_PERCENT, DampedMode};
 use funicular::pose_error::PoseDifference;
 use funicular::robot::parameters::Parameters;
 use funicular::robot::{Constraint, Robot};
+use funicular::speeds::WinchSpeeds;
 use funicular::statics::{
     self, Equilibrium, LimitAtCable, LoadCapacity, PayloadSide, RequestedPayload, Stability, StaticModel, StaticsError,
     TensionRule,
@@ -45,6 +48,8 @@ pub(super) struct PointEvaluation<'a> {
     damped_platform: OnceCell<Result<(DampedMode, bool), Status>>,
     /// Loads that the cables hold at the pose.
     capacity: OnceCell<Result<LoadCapacity<'a>, Status>>,
+    /// Winches while the platform moves.
+    speeds: OnceCell<Result<WinchSpeeds, Status>>,
     /// Response to the gusts of the robot file.
     in_gusts: OnceCell<Result<PointInGusts, Status>>,
     /// First reason why a requested value is missing.
@@ -64,7 +69,7 @@ impl<'a> PointEvaluation<'a> {
     ) -> Self {
         let (lowest, exact, damped_platform) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
         let missing = Status::note_for(robot, rest);
-        let (capacity, in_gusts) = (OnceCell::new(), OnceCell::new());
+        let (capacity, speeds, in_gusts) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
         Self {
             robot,
             rest,
@@ -76,6 +81,7 @@ impl<'a> PointEvaluation<'a> {
             exact,
             damped_platform,
             capacity,
+            speeds,
             in_gusts,
             missing,
         }
@@ -258,6 +264,29 @@ impl PointEvaluation<'_> {
             _ => Status::new("dead-load", &error),
         })?;
         value.filter(|value| value.is_finite()).ok_or_else(|| Status::new("required-load", unlimited))
+    }
+
+    /// Measure of the speeds that the winches allow; `none` says why there is none if it does not exist.
+    pub(super) fn of_speeds(
+        &self,
+        measure: impl FnOnce(&WinchSpeeds) -> Option<f64>,
+        none: &str,
+    ) -> Result<f64, Status> {
+        let find = || {
+            let found = winch_speeds(self.robot, self.rest, self.rule());
+            found.map_err(|error| Status::new("no-derivative", &error))
+        };
+        let speeds = self.speeds.get_or_init(find).as_ref().map_err(Clone::clone)?;
+        let value = measure(speeds).filter(|value| value.is_finite());
+        value.ok_or_else(|| Status::new("no-speed", none))
+    }
+
+    /// Measure of the speeds for the required velocities; it is missing if none is required.
+    pub(super) fn of_required_speeds(&self, measure: impl FnOnce(&WinchSpeeds, &Vec6) -> f64) -> Result<f64, Status> {
+        let half_widths = half_widths(self.robot);
+        let asks = half_widths != Vec6::zeros();
+        let none = if asks { "no winch limits the required velocities" } else { "no velocity is required" };
+        self.of_speeds(|speeds| asks.then(|| measure(speeds, &half_widths)), none)
     }
 
     /// Adds the least distance between cables, platform and obstacles, its margin and the pair.

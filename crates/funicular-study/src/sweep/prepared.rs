@@ -225,7 +225,7 @@ impl PreparedSweep {
 /// Robot of a point with the changes of the request.
 fn with_request(robot: Robot, point: &EachPoint) -> Result<Robot> {
     let robot = at_rest::with_limits(&at_rest::with_state(robot, &point.state)?, &point.tensions)?;
-    at_rest::with_required(robot, &point.required)
+    at_rest::with_required_velocities(at_rest::with_required(robot, &point.required)?, &point.velocities)
 }
 
 /// Quantities and options of every point. Fills in the defaults of the request.

@@ -8,6 +8,7 @@ mod table;
 
 use super::evaluation::PointEvaluation;
 use super::sensitivity::Sensitivity;
+use crate::analyses::stiffness::MOTION;
 use crate::set_values;
 use crate::table::{Column, Value};
 use crate::wording::{Words, worded};
@@ -60,6 +61,8 @@ enum ParameterKind {
     Model(CableModel),
     /// Result and path of a number of the robot file.
     Sensitivity,
+    /// Axis of the world, along or about which the platform moves.
+    Axis,
 }
 
 /// Static models for which a quantity exists.
@@ -79,6 +82,8 @@ enum Parameter {
     Count(usize),
     Model(CableModel),
     Sensitivity(Sensitivity),
+    /// Component of a twist.
+    Axis(usize),
 }
 
 /// Maximum number of natural frequencies per point.
@@ -135,6 +140,7 @@ impl Quantity {
             Parameter::Count(count) => format!("{head}:{count}"),
             Parameter::Model(model) => format!("{head}:{model}"),
             Parameter::Sensitivity(of) => format!("{head}:{}", of.name()),
+            Parameter::Axis(axis) => format!("{head}:{}", MOTION[*axis]),
         }
     }
 
@@ -147,7 +153,7 @@ impl Quantity {
     pub fn count(&self) -> Option<usize> {
         match self.parameter {
             Parameter::Count(count) => Some(count),
-            Parameter::None | Parameter::Model(_) | Parameter::Sensitivity(_) => None,
+            Parameter::None | Parameter::Model(_) | Parameter::Sensitivity(_) | Parameter::Axis(_) => None,
         }
     }
 
@@ -217,7 +223,9 @@ impl Definition {
                 simpler_models().find(|model| model.name() == text).map(Parameter::Model)
             }
             (ParameterKind::Sensitivity, Some(text)) => Sensitivity::parse(text).map(Parameter::Sensitivity),
-            (ParameterKind::Nothing, Some(_)) | (ParameterKind::Count | ParameterKind::Sensitivity, None) => None,
+            (ParameterKind::Axis, Some(text)) => MOTION.iter().position(|axis| *axis == text).map(Parameter::Axis),
+            (ParameterKind::Nothing, Some(_))
+            | (ParameterKind::Count | ParameterKind::Sensitivity | ParameterKind::Axis, None) => None,
         }
     }
 }
@@ -226,21 +234,29 @@ impl Parameter {
     fn count(&self) -> usize {
         match self {
             Self::Count(count) => *count,
-            Self::None | Self::Model(_) | Self::Sensitivity(_) => 0,
+            Self::None | Self::Model(_) | Self::Sensitivity(_) | Self::Axis(_) => 0,
         }
     }
 
     fn model(&self) -> Option<CableModel> {
         match self {
             Self::Model(model) => Some(*model),
-            Self::None | Self::Count(_) | Self::Sensitivity(_) => None,
+            Self::None | Self::Count(_) | Self::Sensitivity(_) | Self::Axis(_) => None,
         }
     }
 
     fn sensitivity(&self) -> Option<&Sensitivity> {
         match self {
             Self::Sensitivity(of) => Some(of),
-            Self::None | Self::Count(_) | Self::Model(_) => None,
+            Self::None | Self::Count(_) | Self::Model(_) | Self::Axis(_) => None,
+        }
+    }
+
+    /// Component of a twist, along x without one.
+    fn axis(&self) -> usize {
+        match self {
+            Self::Axis(axis) => *axis,
+            Self::None | Self::Count(_) | Self::Model(_) | Self::Sensitivity(_) => 0,
         }
     }
 
@@ -280,6 +296,9 @@ fn hint(text: &str) -> String {
             return format!(": give a whole number from 1 to {MAX_FREQUENCIES} after the colon, as in {head}:3");
         }
         Some(ParameterKind::Sensitivity) => return Sensitivity::hint(text),
+        Some(ParameterKind::Axis) => {
+            return format!(": the axis after the colon is one of {}, as in {head}:x", MOTION.join(", "));
+        }
         Some(ParameterKind::Model(_)) if text.contains(':') => {
             let models: Vec<&str> = simpler_models().map(CableModel::name).collect();
             let parameter = text.split_once(':').map_or("", |(_, parameter)| parameter);
@@ -305,7 +324,7 @@ mod tests {
     #[test]
     fn every_quantity_of_the_table_is_read_and_named_back() {
         for name in Quantity::names() {
-            let name = name.replace(":N", ":7").replace(":MODEL", ":shallow-static");
+            let name = name.replace(":N", ":7").replace(":MODEL", ":shallow-static").replace(":AXIS", ":rz");
             let name = name.replace(":RESULT:PATH", ":stiffness-min:cables.1.anchor_m.z");
             let quantity: Quantity = name.parse().unwrap();
             assert_eq!(quantity.name(), name);
@@ -336,6 +355,8 @@ mod tests {
             ("frequencies", "as in frequencies:3"),
             ("tension-max:3", "did you mean `tension-max`"),
             ("model-error:exact", "one of spring, shallow-static, catenary-static, shallow-dynamic"),
+            ("speed-max", "one of x, y, z, rx, ry, rz, as in speed-max:x"),
+            ("speed-max:w", "one of x, y, z, rx, ry, rz, as in speed-max:x"),
             ("sensitivity", "as in sensitivity:first-frequency:platform.mass_kg"),
             ("sensitivity:tension:platform.mass_kg", "did you mean `sensitivity:tensions:platform.mass_kg`"),
             ("sensitivity:tensions:platform mass", "as in sensitivity:first-frequency:platform.mass_kg"),

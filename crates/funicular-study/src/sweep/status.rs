@@ -50,6 +50,7 @@ pub const CODES: &[(&str, &str)] = &[
     ("no-derivative", "the equilibrium or the result has no derivative here"),
     ("dead-load", "a tension with the dead load is beyond its limit, so no required load counts"),
     ("required-load", "nothing is required, or nothing limits the required loads"),
+    ("no-speed", "no velocity is required, or no winch limits the speed"),
     ("no-gusts", "the robot file has no turbulence, or there is no linear response to it"),
 ];
 

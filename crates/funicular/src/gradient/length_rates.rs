@@ -1,7 +1,7 @@
 //! Rates of the unstrained lengths while the platform moves and its load changes.
 
 use super::pullback::six;
-use super::{GradientError, Gradients};
+use super::{GradientError, Gradients, Hold};
 use crate::math::{Vec3, Vec6};
 use crate::robot::{Robot, RobotChange};
 use crate::statics::derivatives::StaticDerivativeError;
@@ -47,15 +47,31 @@ impl LengthRates {
         if rest.model == StaticModel::Ideal {
             return Self::of_ideal(robot, rest);
         }
-        let lengths = Gradients::by_rule(robot, rest, rule)?.lengths();
+        Ok(Self::of_lengths(&Gradients::by_rule(robot, rest, rule)?.lengths()))
+    }
+
+    /// Derivatives at an equilibrium whose tensions no rule has chosen: they change least along the cables, or, without a
+    /// choice, as the loads ask.
+    ///
+    /// # Errors
+    /// [`GradientError`], as for [`Gradients::new`] with the pose held.
+    pub fn with_least_change(robot: &Robot, rest: &Equilibrium) -> Result<Self, GradientError> {
+        if rest.model == StaticModel::Ideal {
+            return Self::of_ideal(robot, rest);
+        }
+        Ok(Self::of_lengths(&Gradients::new(robot, rest, Hold::Pose)?.lengths()))
+    }
+
+    /// Derivatives in the gradients of the lengths.
+    fn of_lengths(lengths: &[RobotChange]) -> Self {
         let by_pose = |of: &RobotChange| six(&of.position_w, &of.rotation_w);
         let by_load = |of: &RobotChange| six(&of.force_w, &of.moment_w);
         let by_rope_load = |of: &RobotChange| of.cables.iter().map(|cable| cable.load_per_length_w).collect();
-        Ok(Self {
+        Self {
             by_pose: lengths.iter().map(by_pose).collect(),
             by_load: lengths.iter().map(by_load).collect(),
             by_rope_load: lengths.iter().map(by_rope_load).collect(),
-        })
+        }
     }
 
     /// Derivatives of rigid straight cables: each gets shorter by the motion of its attachment along the pull.

@@ -5,7 +5,8 @@ use crate::math::Vec3;
 use thiserror::Error;
 
 /// Required loads: everything that acts on the platform in addition to the dead load. The parts add up in every
-/// combination (Minkowski sum); the dead load alone is always required, too.
+/// combination (Minkowski sum); the dead load alone is always required, too. The required velocities stand beside the
+/// loads.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RequiredLoads {
     /// Shape of the set of forces and moments.
@@ -25,6 +26,11 @@ pub struct RequiredLoads {
     /// Speed of wind from any horizontal direction on the platform [m/s]; its force is added to that of the robot's
     /// wind.
     pub wind_speed: f64,
+    /// Half widths of the velocity of the platform origin that the winches have to give, world axes [m/s], not
+    /// negative. It is no load: it changes neither load factor nor margins.
+    pub velocity_w: Vec3,
+    /// Half widths of the angular velocity, world axes [rad/s], not negative; no load either.
+    pub angular_velocity_w: Vec3,
 }
 
 /// Payload of uncertain mass and centre of mass, carried by the platform.
@@ -65,7 +71,8 @@ pub enum RequiredLoadsError {
     },
     /// A component that cannot act on a point mass.
     #[error(
-        "a point mass does not turn: leave out the required moment, angular acceleration and centre of the payload"
+        "a point mass does not turn: leave out the required moment, angular acceleration, angular velocity and centre of \
+         the payload"
     )]
     TurnsPointMass,
     /// A listed load has no meaning for the platform.
@@ -74,7 +81,7 @@ pub enum RequiredLoadsError {
 }
 
 impl RequiredLoads {
-    /// True if nothing is required but the dead load.
+    /// True if no load is required but the dead load.
     pub fn is_empty(&self) -> bool {
         let no_vector = [self.force_w, self.moment_w, self.acceleration_w, self.angular_acceleration_w]
             .iter()
@@ -91,7 +98,7 @@ impl RequiredLoads {
         if min > max {
             return Err(RequiredLoadsError::PayloadReversed { min, max });
         }
-        let turning = [self.moment_w, self.angular_acceleration_w, center_p, center_reach_p];
+        let turning = [self.moment_w, self.angular_acceleration_w, self.angular_velocity_w, center_p, center_reach_p];
         if *motion == PlatformMotion::PointMass && turning.iter().any(|of| *of != Vec3::zeros()) {
             return Err(RequiredLoadsError::TurnsPointMass);
         }

@@ -22,6 +22,7 @@ mod read;
 mod required;
 mod supports;
 mod tensor;
+mod winch_limits;
 mod winches;
 mod wind;
 

@@ -4,6 +4,10 @@
 //! torsional stiffness k as k/R², R being the radius of the drum. A motor behind a gear of the ratio i turns i times as
 //! fast as the drum, so that its inertia counts i² times.
 
+mod limits;
+
+pub use limits::{LimitOfWinch, MotorLoad, WinchLimits};
+
 use std::f64::consts::TAU;
 
 /// Winch.
@@ -11,11 +15,14 @@ use std::f64::consts::TAU;
 pub struct Winch {
     /// Name in the robot file.
     pub name: String,
-    /// Radius of the drum [m]; `None` if no number of the file refers to the drum's axis. It shows slips of units; all
-    /// other numbers refer to the cable already.
+    /// Radius of the drum [m]; `None` if no number of the file refers to the drum's axis. Torque and speed of the motor
+    /// follow from it; stiffness, masses, damping and gains refer to the cable already.
     pub drum_radius: Option<f64>,
     /// Turns of the motor per turn of the drum; `motor_mass` includes it already.
     pub gear_ratio: f64,
+    /// Efficiency of the gear: the part of the power that leaves it, in either direction. It acts on the motor's torque
+    /// and power alone.
+    pub gear_efficiency: f64,
     /// Length of the cable from the drum to the entry point [m], guide wheels included.
     pub drum_side_length: f64,
     /// Vibration of the cable between drum and exit point.
@@ -32,6 +39,8 @@ pub struct Winch {
     pub damping: f64,
     /// Control of the motor.
     pub control: Control,
+    /// Limits of winch and motor, which judge motions and never change an equilibrium.
+    pub limits: WinchLimits,
 }
 
 /// Wheel with inertia that guides the cable between entry point and drum. It changes vibration alone: at rest the
@@ -126,6 +135,7 @@ impl Winch {
             name: name.to_owned(),
             drum_radius: None,
             gear_ratio: 1.0,
+            gear_efficiency: 1.0,
             drum_side_length,
             drum_side: DrumSide::Massless,
             guide_wheels: Vec::new(),
@@ -134,6 +144,49 @@ impl Winch {
             motor_mass: 0.0,
             damping: 0.0,
             control: Control::Ideal,
+            limits: WinchLimits::NONE,
+        }
+    }
+
+    /// What the motor does while the cable moves: tension at the drum [N], speed and acceleration of the cable at the
+    /// drum [m/s, m/s²], positive while it pays out.
+    ///
+    /// Behind the gear, tension, inertia of the drum and damping ask for the force `F = T + M_D u̇ + d u` at the cable,
+    /// u being the speed at which the cable is wound in. A motor that drives (F u > 0) gives F/η, one that brakes
+    /// receives F η. At rest the friction of the gear may help or hinder, so that a whole range of forces holds the
+    /// cable; the result is the one in its middle, F, as without friction. The inertia of the motor is in front of the
+    /// gear.
+    ///
+    /// # Example
+    /// ```
+    /// use funicular::robot::Winch;
+    ///
+    /// let winch = Winch { drum_radius: Some(0.1), gear_ratio: 5.0, gear_efficiency: 0.8, ..Winch::rigid("drum", 0.0) };
+    /// let motor = winch.motor(400.0, -2.0, 0.0); // winds in 2 m/s
+    /// assert!((motor.power - 1000.0).abs() < 1e-9); // W
+    /// assert!((motor.torque.unwrap() - 10.0).abs() < 1e-12); // N m
+    /// assert!((motor.speed.unwrap() - 100.0).abs() < 1e-12); // rad/s
+    /// ```
+    pub fn motor(&self, tension: f64, speed: f64, acceleration: f64) -> MotorLoad {
+        let (inwards, inwards_rate) = (-speed, -acceleration);
+        let behind_gear = tension + self.drum_mass * inwards_rate + self.damping * inwards;
+        let power_behind_gear = behind_gear * inwards;
+
+        let by_gear = if power_behind_gear > 0.0 {
+            1.0 / self.gear_efficiency
+        } else if power_behind_gear < 0.0 {
+            self.gear_efficiency
+        } else {
+            1.0
+        };
+        let force = behind_gear * by_gear + self.motor_mass * inwards_rate;
+
+        // Cable per angle of the motor.
+        let lever = self.drum_radius.map(|radius| radius / self.gear_ratio);
+        MotorLoad {
+            speed: lever.map(|lever| inwards / lever),
+            torque: lever.map(|lever| force * lever),
+            power: force * inwards,
         }
     }
 

@@ -25,6 +25,7 @@ mod random;
 mod reduced_model;
 mod response;
 mod robot;
+mod speeds;
 mod statics;
 mod stretch_loss;
 mod support;

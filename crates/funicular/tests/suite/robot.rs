@@ -2,4 +2,5 @@
 
 mod motion;
 mod spec;
+mod winch;
 mod wind;

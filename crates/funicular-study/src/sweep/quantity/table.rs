@@ -1,12 +1,13 @@
 //! Table of all quantities.
 
 use super::{Definition, Parameter, ParameterKind, Quantity, RequiredModel};
+use crate::analyses::stiffness::MOTION;
 use crate::measure::{Measure, TensionPlace};
 use crate::sweep::evaluation::PointEvaluation;
 use crate::sweep::points::AXES;
 use crate::table::{Column, ColumnKind, Value};
 use funicular::cable::{CableModel, Sag};
-use funicular::math::rotation;
+use funicular::math::{Vec6, rotation};
 use funicular::robot::{Constraint, Robot};
 use funicular::statics::{self, TensionRange};
 
@@ -323,6 +324,69 @@ pub(super) static TABLE: &[Definition] = &[
         columns: |_, _| one("acceleration_max_m_s2", "m/s²", "largest acceleration in every direction from rest"),
         values: |row, _, out| {
             let found = row.of_capacity(|capacity| Ok(capacity.largest_acceleration()), NO_FACETS);
+            row.push(Some(found), out);
+        },
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "speed-factor",
+        about: "largest multiple of the required velocities with which every winch stays within its limits",
+        documentation: "`speed_factor`: largest multiple of the required velocities (`[required]`, or options \
+                        `required_velocity_m_s`, `required_angular_velocity_rad_s`) with which every winch stays within \
+                        its limits of speed, torque and power; all are reached if it is at least 1",
+        needs: RequiredModel::HeldPose,
+        columns: |_, _| one("speed_factor", "1", "largest multiple of the required velocities that the winches allow"),
+        values: |row, _, out| {
+            let found = row.of_required_speeds(|speeds, half_widths| speeds.factor(half_widths).value);
+            row.push(Some(found), out);
+        },
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "speed-max:AXIS",
+        about: "largest speed of the platform along or about an axis, both ways",
+        documentation: "`speed_max_x_m_s` … `speed_max_rz_rad_s`: largest speed of the platform along x, y or z, or about \
+                        one of these axes (rx, ry, rz), that the winches allow both ways",
+        takes: ParameterKind::Axis,
+        needs: RequiredModel::HeldPose,
+        columns: |_, parameter| {
+            let axis = parameter.axis();
+            let (suffix, unit) = if axis < 3 { ("m_s", "m/s") } else { ("rad_s", "rad/s") };
+            let about = "largest speed along or about this axis that the winches allow both ways";
+            vec![column(format!("speed_max_{}_{suffix}", MOTION[axis]), unit, about)]
+        },
+        values: |row, parameter, out| {
+            let unit_w = Vec6::ith(parameter.axis(), 1.0);
+            let found = row.of_speeds(
+                |speeds| Some(speeds.along(&unit_w).value.min(speeds.along(&-unit_w).value)),
+                "no winch limits this motion, or the platform cannot make it",
+            );
+            row.push(Some(found), out);
+        },
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "motor-power",
+        about: "power of all motors that drive, at the worst of the required velocities",
+        documentation: "`motor_power_w`: sum of the mechanical powers of all motors that drive, at the worst corner of the \
+                        required velocities",
+        needs: RequiredModel::HeldPose,
+        columns: |_, _| one("motor_power_w", "W", "power of all motors that drive, at the worst required velocity"),
+        values: |row, _, out| {
+            let found = row.of_required_speeds(|speeds, half_widths| speeds.powers(half_widths).driving);
+            row.push(Some(found), out);
+        },
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "brake-power",
+        about: "power of all motors that brake, at the worst of the required velocities",
+        documentation: "`brake_power_w`: sum of the mechanical powers of all motors that brake, at the worst corner of the \
+                        required velocities",
+        needs: RequiredModel::HeldPose,
+        columns: |_, _| one("brake_power_w", "W", "power of all motors that brake, at the worst required velocity"),
+        values: |row, _, out| {
+            let found = row.of_required_speeds(|speeds, half_widths| speeds.powers(half_widths).braking);
             row.push(Some(found), out);
         },
         ..Definition::PLAIN

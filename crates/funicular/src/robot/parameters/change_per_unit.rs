@@ -30,12 +30,26 @@ const WITHOUT_DERIVATIVE: &[(&str, &[&str])] = &[
             "acceleration_m_s2",
             "angular_acceleration_rad_s2",
             "wind_speed_m_s",
+            "velocity_m_s",
+            "angular_velocity_rad_s",
         ],
     ),
     // Distances are results without derivatives.
     ("platform_bodies", BODY),
     ("obstacles", BODY),
     ("clearance", &["cables_m", "platform_m", "obstacles_m", "from_end_m"]),
+    // Results with derivatives are those without a moving motor and without limits of it.
+    (
+        "winches",
+        &[
+            "gear_efficiency",
+            "max_speed_m_s",
+            "max_acceleration_m_s2",
+            "max_torque_n_m",
+            "max_power_w",
+            "max_brake_power_w",
+        ],
+    ),
     // Results with derivatives are those without friction.
     ("pulleys", &["friction_coefficient", "efficiency", "bearing_friction_coefficient", "bearing_radius_m"]),
 ];
@@ -47,7 +61,7 @@ impl Parameters {
     /// Change of the robot per unit of a parameter, in the unit of the file: the direction for derivatives of results
     /// with respect to the parameter. A value of a rope changes all its cables, an angle of the pose turns the
     /// platform. `None` for numbers without derivatives: limits, the plane of a planar platform and angles that leave
-    /// it, and friction of pulleys.
+    /// it, friction of pulleys, and efficiency and limits of motors.
     ///
     /// # Example
     /// ```
@@ -415,6 +429,14 @@ mod tests {
         bandwidth_hz = 8.0
         control_damping_ratio = 0.7
         delay_s = 0.001
+        gear_efficiency = 0.9
+        max_speed_m_s = 2.0
+        max_acceleration_m_s2 = 10.0
+        max_torque_n_m = 12.0
+        max_power_w = 1500.0
+        max_brake_power_w = 500.0
+        torque_speed_rad_s = [0.0, 300.0]
+        torque_speed_n_m = [12.0, 4.0]
         [guide_wheels.guide]
         winch = "drum"
         distance_m = 0.5
@@ -495,6 +517,8 @@ mod tests {
         acceleration_m_s2 = [0.1, 0.1, 0.1]
         angular_acceleration_rad_s2 = [0.1, 0.1, 0.1]
         wind_speed_m_s = 3.0
+        velocity_m_s = [1.0, 1.0, 1.0]
+        angular_velocity_rad_s = [0.1, 0.1, 0.1]
         [clearance]
         cables_m = 0.01
         platform_m = 0.02

@@ -147,7 +147,7 @@ fn read_pulley(reader: &mut Reader, name: &str, section: &Section) -> Option<Pul
 fn read_friction(reader: &mut Reader, section: &Section, wheel: Option<f64>) -> Option<Option<PulleyFriction>> {
     // Check every number, also one that is refused beside another.
     let keys = ["friction_coefficient", "efficiency", "bearing_friction_coefficient"];
-    let mut number = |key: &str| section.get(key).map(|value| friction_number(reader, section, key, value));
+    let mut number = |key: &str| section.get(key).map(|value| reader.fraction(section, key, value));
     let [sliding, efficiency, bearing] = keys.map(&mut number);
     let radius = section.get("bearing_radius_m").map(|value| bearing_radius(reader, section, value, wheel));
 
@@ -185,23 +185,6 @@ fn read_friction(reader: &mut Reader, section: &Section, wheel: Option<f64>) -> 
     // The number is checked even where no friction refers to it.
     radius.map_or(Some(0.0), |radius| radius)?;
     Some(friction)
-}
-
-/// Coefficient or efficiency, within its range.
-fn friction_number(reader: &mut Reader, section: &Section, key: &str, value: &Value) -> Option<f64> {
-    let number = reader.number_of(section, key, value)?;
-    let (is_within, limit) = match section.number(key).range {
-        Range::UpTo(limit) => (number <= limit, format!("at most {limit}")),
-        range => (number < range.maximum(), format!("below {}", range.maximum())),
-    };
-    if !is_within {
-        let written = reader.written(value.span());
-        reader
-            .issue(value.span(), format!("`{key}` is {written}, it must be {limit}"))
-            .help("it is a fraction, not per cent");
-        return None;
-    }
-    Some(number)
 }
 
 /// Radius of a bearing [m], which lies inside the wheel.

@@ -46,6 +46,9 @@ pub enum KeyValue {
     Tables,
     /// Number or array of numbers.
     Numbers(Numeric),
+    /// List of numbers of any length, as the corners of a curve; unit and range are those of each. No number of a list
+    /// is a parameter.
+    NumberList(Numeric),
 }
 
 /// Effect of a key that the file leaves out.
@@ -175,10 +178,29 @@ impl Key {
         self.without(Absent::Default(default))
     }
 
+    /// Required key with a list of numbers.
+    pub(super) const fn list(
+        name: &'static str,
+        example: &'static str,
+        unit: &'static str,
+        range: Range,
+        about: &'static str,
+    ) -> Self {
+        Self::other(name, example, KeyValue::NumberList(Numeric { unit, range, shape: Shape::Number }), about)
+    }
+
     /// Unit, range and arrangement if the value is a number or an array of numbers.
     pub fn numeric_value(&self) -> Option<&Numeric> {
         match &self.value {
             KeyValue::Numbers(numbers) => Some(numbers),
+            _ => None,
+        }
+    }
+
+    /// Unit and range of every number of the value, also of a list.
+    pub fn each_number(&self) -> Option<&Numeric> {
+        match &self.value {
+            KeyValue::Numbers(numbers) | KeyValue::NumberList(numbers) => Some(numbers),
             _ => None,
         }
     }
@@ -193,6 +215,6 @@ impl Key {
 
     /// Unit, range and arrangement of a key that holds numbers.
     pub(super) fn numbers(&self) -> &Numeric {
-        self.numeric_value().expect("the reader asks for numbers of keys that have some")
+        self.each_number().expect("the reader asks for numbers of keys that have some")
     }
 }

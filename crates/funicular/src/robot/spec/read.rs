@@ -61,6 +61,11 @@ impl<'t> Section<'t> {
         known(self.keys, key).default_numbers().expect("the reader asks for defaults of keys that have one")
     }
 
+    /// Line of a robot file with a key.
+    pub(super) fn example(&self, key: &str) -> &'static str {
+        known(self.keys, key).example
+    }
+
     /// Name of the table in messages.
     pub(super) fn label(&self) -> &str {
         &self.label
@@ -189,6 +194,22 @@ impl<'t> Reader<'t> {
         number
     }
 
+    /// Fraction of a key: a number within its range, up to the maximum or below it.
+    pub(super) fn fraction(&mut self, section: &Section, key: &str, value: &Value) -> Option<f64> {
+        let number = self.number_of(section, key, value)?;
+        let (is_within, limit) = match section.number(key).range {
+            Limits::UpTo(limit) => (number <= limit, format!("at most {limit}")),
+            range => (number < range.maximum(), format!("below {}", range.maximum())),
+        };
+        if !is_within {
+            let written = self.written(value.span());
+            self.issue(value.span(), format!("`{key}` is {written}, it must be {limit}"))
+                .help("it is a fraction, not per cent");
+            return None;
+        }
+        Some(number)
+    }
+
     /// Number within the limits. `label` is the key in backticks, or names the element.
     pub(super) fn number(&mut self, label: &str, range: Limits, value: &Value) -> Option<f64> {
         let number = match value.get_ref() {
@@ -255,6 +276,27 @@ impl<'t> Reader<'t> {
         let mut number = |i: usize| self.number(&format!("number {} of {label}", i + 1), range, values[i]);
         let [x, y, z] = [number(0), number(1), number(2)];
         Some([x?, y?, z?])
+    }
+
+    /// List of numbers of a key that has one, at least one number. Reports every wrong number.
+    pub(super) fn list(&mut self, section: &Section, key: &str, value: &Value) -> Option<Vec<f64>> {
+        let label = format!("`{key}`");
+        let DeValue::Array(array) = value.get_ref() else {
+            let issue = self.wrong_type(&label, "a list of numbers in brackets", value);
+            issue.help(format!("for example `{}`", section.example(key)));
+            return None;
+        };
+        if array.is_empty() {
+            let issue = self.issue(value.span(), format!("{label} is an empty list"));
+            issue.help(format!("give its numbers, for example `{}`, or remove the line", section.example(key)));
+            return None;
+        }
+
+        let range = section.number(key).range;
+        let number =
+            |(i, element): (usize, &Value)| self.number(&format!("number {} of {label}", i + 1), range, element);
+        let numbers: Vec<Option<f64>> = array.iter().enumerate().map(number).collect();
+        numbers.into_iter().collect()
     }
 
     /// Vector of a key of a section.

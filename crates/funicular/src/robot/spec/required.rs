@@ -99,6 +99,24 @@ pub(super) const REQUIRED: &[Key] = &[
         "wind from every horizontal direction on the platform, in addition to [wind]; it acts on its `drag_area_m2`",
     )
     .or([0.0; 3]),
+    Key::numeric(
+        Shape::Vector,
+        "velocity_m_s",
+        "velocity_m_s = [1.0, 1.0, 0.5]",
+        "m/s",
+        Range::NotNegative,
+        "largest required velocity of the platform origin, both ways along each world axis; for `speeds`, it is no load",
+    )
+    .or([0.0; 3]),
+    Key::numeric(
+        Shape::Vector,
+        "angular_velocity_rad_s",
+        "angular_velocity_rad_s = [0.2, 0.2, 0.2]",
+        "rad/s",
+        Range::NotNegative,
+        "largest required angular velocity, both ways about each world axis; for `speeds`, it is no load",
+    )
+    .or([0.0; 3]),
 ];
 
 /// Reads `[required]` and `[[required_loads]]`.
@@ -120,6 +138,7 @@ pub(super) fn read(
     let (force_w, moment_w) = (vector("force_n"), vector("moment_n_m"));
     let (center_p, center_reach_p) = (vector("payload_center_m"), vector("payload_center_reach_m"));
     let (acceleration_w, angular_w) = (vector("acceleration_m_s2"), vector("angular_acceleration_rad_s2"));
+    let (velocity_w, angular_velocity_w) = (vector("velocity_m_s"), vector("angular_velocity_rad_s"));
     let mut number = |key: &str| reader.number_or_default(&section, key);
     let (min_mass, max_mass, speed) = (number("payload_min_kg"), number("payload_max_kg"), number("wind_speed_m_s"));
 
@@ -138,6 +157,8 @@ pub(super) fn read(
         acceleration_w: acceleration_w?,
         angular_acceleration_w: angular_w?,
         wind_speed: speed?,
+        velocity_w: velocity_w?,
+        angular_velocity_w: angular_velocity_w?,
     };
 
     // Numbers that are right by themselves, but not together.

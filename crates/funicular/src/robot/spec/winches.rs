@@ -3,6 +3,7 @@
 use super::key::{Absent, Key, KeyValue, Shape};
 use super::range::Range;
 use super::read::{Reader, Section};
+use super::winch_limits;
 use crate::robot::{Control, DrumSide, Servo, Winch};
 
 /// Keys of `[winches.NAME]`.
@@ -31,7 +32,7 @@ pub(super) const WINCH: &[Key] = &[
         Range::Positive,
         "radius of the drum, from its axis to the centre line of the cable",
     )
-    .without(Absent::Depends("required with a shaft stiffness, an inertia, or a damping or gain per radian")),
+    .without(Absent::Depends("required with a shaft stiffness, an inertia, a torque, or a damping or gain per radian")),
     Key::numeric(
         Shape::Number,
         "stiffness_n_per_m",
@@ -140,7 +141,82 @@ pub(super) const WINCH: &[Key] = &[
         "delay of a position control; it changes the damped vibration alone",
     )
     .or([0.0; 3]),
+    Key::numeric(
+        Shape::Number,
+        "gear_efficiency",
+        "gear_efficiency = 0.9",
+        "1",
+        Range::UpTo(1.0),
+        "efficiency of the gear: a motor that drives gives its power times this to the drum, one that brakes receives \
+         the power of the drum times this",
+    )
+    .or([1.0, 0.0, 0.0]),
+    Key::numeric(
+        Shape::Number,
+        "max_speed_m_s",
+        "max_speed_m_s = 3.0",
+        "m/s",
+        Range::Positive,
+        "largest speed of the cable at the drum, both ways",
+    )
+    .without(NO_LIMIT),
+    Key::numeric(
+        Shape::Number,
+        "max_acceleration_m_s2",
+        "max_acceleration_m_s2 = 10.0",
+        "m/s²",
+        Range::Positive,
+        "largest acceleration of the cable at the drum, both ways",
+    )
+    .without(NO_LIMIT),
+    Key::numeric(
+        Shape::Number,
+        "max_torque_n_m",
+        "max_torque_n_m = 60.0",
+        "N m",
+        Range::Positive,
+        "largest torque of the motor at its own shaft, both ways",
+    )
+    .without(NO_LIMIT),
+    Key::numeric(
+        Shape::Number,
+        "max_power_w",
+        "max_power_w = 3000.0",
+        "W",
+        Range::Positive,
+        "largest mechanical power of the motor while it drives",
+    )
+    .without(NO_LIMIT),
+    Key::numeric(
+        Shape::Number,
+        "max_brake_power_w",
+        "max_brake_power_w = 1000.0",
+        "W",
+        Range::Positive,
+        "largest mechanical power that the motor takes while it brakes",
+    )
+    .without(Absent::Means("the `max_power_w` if it is given, else no limit")),
+    Key::list(
+        "torque_speed_rad_s",
+        "torque_speed_rad_s = [0.0, 200.0, 400.0]",
+        "rad/s",
+        Range::NotNegative,
+        "torque–speed curve of the motor at its own shaft: speeds of its corners, from 0, with the torques in \
+         `torque_speed_n_m`; the curve is straight between corners, and beyond the last one there is no torque",
+    )
+    .without(NO_LIMIT),
+    Key::list(
+        "torque_speed_n_m",
+        "torque_speed_n_m = [60.0, 60.0, 20.0]",
+        "N m",
+        Range::NotNegative,
+        "largest torques at the speeds of `torque_speed_rad_s`, both ways",
+    )
+    .without(NO_LIMIT),
 ];
+
+/// Effect of a limit that the file leaves out.
+const NO_LIMIT: Absent = Absent::Means("no limit");
 
 /// Values of `drum_side`, with their meanings.
 const DRUM_SIDES: &[(&str, &str)] =
@@ -176,6 +252,11 @@ pub(super) fn read(reader: &mut Reader, name: &str, section: &Section) -> Option
     let [drum, motor, ratio, damping] =
         ["drum_inertia_kg_m2", "motor_inertia_kg_m2", "gear_ratio", "damping_n_m_s_per_rad"]
             .map(|key| reader.number_or_default(section, key));
+    let efficiency = match section.get("gear_efficiency") {
+        Some(value) => reader.fraction(section, "gear_efficiency", value),
+        None => Some(section.default("gear_efficiency")[0]),
+    };
+    let limits = winch_limits::read(reader, section);
     let radius = radius(reader, section)?;
     let drum_side = reader.word(section, "drum_side");
 
@@ -189,6 +270,7 @@ pub(super) fn read(reader: &mut Reader, name: &str, section: &Section) -> Option
         name: name.to_owned(),
         drum_radius: radius,
         gear_ratio: ratio?,
+        gear_efficiency: efficiency?,
         drum_side_length: drum_side_length?,
         drum_side: if drum_side? == "rod" { DrumSide::Rod } else { DrumSide::Massless },
         // Tables of their own refer to the winch.
@@ -198,6 +280,7 @@ pub(super) fn read(reader: &mut Reader, name: &str, section: &Section) -> Option
         motor_mass,
         damping: by_radius(damping?),
         control,
+        limits: limits?,
     })
 }
 
@@ -217,6 +300,9 @@ fn radius(reader: &mut Reader, section: &Section) -> Option<Option<f64>> {
         "bandwidth_hz",
         "position_gain_n_m_per_rad",
         "speed_gain_n_m_s_per_rad",
+        "max_torque_n_m",
+        "torque_speed_rad_s",
+        "torque_speed_n_m",
     ];
 
     // Two stiffnesses are an error of their own.
@@ -224,8 +310,8 @@ fn radius(reader: &mut Reader, section: &Section) -> Option<Option<f64>> {
     let Some(key) = about_the_axis.into_iter().find(|key| section.get(key).is_some()) else { return Some(None) };
     if !section.mistyped(&["drum_radius_m"]) {
         reader.issue(section.span.clone(), format!("{} has `{key}`, but no `drum_radius_m`", section.label())).help(
-            "add it, for example `drum_radius_m = 0.0675`; at the cable a stiffness, an inertia or a damping counts \
-                 by its square",
+            "add it, for example `drum_radius_m = 0.0675`; a stiffness, an inertia or a damping counts at the cable \
+                 by its square, a torque by the radius",
         );
     }
 

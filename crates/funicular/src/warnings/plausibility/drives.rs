@@ -154,7 +154,58 @@ fn winch(winch: &Winch, scale: Scale) -> Vec<Implausible> {
         .flatten()
         .chain(at_cable)
         .chain(guide_wheels)
+        .chain(limits(winch, scale))
         .collect()
+}
+
+/// Efficiency of the gear and limits of a winch.
+fn limits(winch: &Winch, scale: Scale) -> impl Iterator<Item = Implausible> + use<> {
+    let named = |quantity: &str| format!("winch \"{}\": {quantity}", winch.name);
+    let limits = &winch.limits;
+    let given = |limit: f64| limit.is_finite().then_some(limit);
+    let over_weight = |number: f64| (scale.weight > 0.0).then(|| number / scale.weight);
+
+    let efficiency =
+        outside(named("efficiency of the gear"), winch.gear_efficiency, "", usual::GEAR_EFFICIENCY, |_| {
+            "the loss given as efficiency, or per cent divided by 100 once more? A gear has 0.4 to 0.99".to_owned()
+        });
+    let speed = given(limits.speed).and_then(|speed| {
+        outside(named("largest speed"), speed, "m/s", usual::CABLE_SPEED, |value| {
+            likely(value, [0.01, 20.0], &[(1e-3, "speed in mm/s given as m/s"), (1e3, "speed in km/s given as m/s")])
+        })
+    });
+    let acceleration = given(limits.acceleration).and_then(|acceleration| {
+        outside(named("largest acceleration"), acceleration, "m/s²", usual::CABLE_ACCELERATION, |value| {
+            likely(value, [0.01, 500.0], &[(1e-3, "acceleration in mm/s² given as m/s²")])
+        })
+    });
+
+    let largest_torque = limits.torque_speed.iter().map(|[_, torque]| *torque).reduce(f64::max);
+    let torque = largest_torque.map_or(limits.torque, |of_curve| of_curve.min(limits.torque));
+    let torque = winch.drum_radius.zip(given(torque)).and_then(|(radius, torque)| {
+        let what = named("force of the largest torque at the cable, over the weight of the platform,");
+        let force = torque * winch.gear_ratio / radius;
+        outside(what, over_weight(force)?, "", usual::MOTOR_OVER_WEIGHT, |value| {
+            let slips = [
+                (1e-3, "torque in N mm given as N m"),
+                (1e-2, "torque in N cm given as N m"),
+                (1e3, "torque in kN m given as N m"),
+            ];
+            likely(value, [0.1, 50.0], &slips)
+        })
+    });
+    let power = given(limits.power).and_then(|power| {
+        let what = named("largest power over the weight of the platform");
+        outside(what, over_weight(power)?, "m/s", usual::POWER_OVER_WEIGHT, |value| {
+            likely(value, [0.02, 50.0], &[(1e3, "power in kW given as W"), (1e-3, "power in mW given as W")])
+        })
+    });
+    let motor_speed = limits.torque_speed.last().and_then(|[speed, _]| {
+        outside(named("last speed of the torque–speed curve"), *speed, "rad/s", usual::MOTOR_SPEED, |value| {
+            likely(value, [10.0, 1e3], &[(TAU / 60.0, "turns per minute given as rad/s")])
+        })
+    });
+    [efficiency, speed, acceleration, torque, power, motor_speed].into_iter().flatten()
 }
 
 /// Length of the cable behind the anchor, by itself and against the longest cable.

@@ -276,6 +276,28 @@ pub const CONTROL_DAMPING: [f64; 2] = [0.0, 10.0];
 /// Delay of a position control [s]. Outside: milliseconds given as seconds.
 pub const DELAY: [f64; 2] = [0.0, 0.2];
 
+/// Efficiency of a gear. Worms of high ratio have 0.4, planets 0.9. Outside: the loss of 0.1 given as efficiency.
+pub const GEAR_EFFICIENCY: [f64; 2] = [0.25, 1.0];
+
+/// Largest speed of a cable [m/s]. The panels of a telescope move at 0.01, camera robots at 13. Outside: mm/s given as
+/// m/s, from 50 mm/s on.
+pub const CABLE_SPEED: [f64; 2] = [1e-4, 50.0];
+
+/// Largest acceleration of a cable [m/s²]. FALCON has 430. Outside: mm/s² given as m/s², from 2 m/s² on.
+pub const CABLE_ACCELERATION: [f64; 2] = [1e-4, 2e3];
+
+/// Force at the cable of the largest torque of a motor, without losses, over the weight of the platform. Motors of 112 N m
+/// would have 5.6 at `CoGiRo`. Outside: N mm given as N m (5600), kN m (0.006).
+pub const MOTOR_OVER_WEIGHT: [f64; 2] = [0.02, 1e3];
+
+/// Speed at which the largest power of a motor lifts the weight of the platform [m/s]. Motors of 5 kW would have 5.6 at
+/// `CoGiRo`, those of the telescope FAST 0.8. Outside: kW given as W (0.006 for `CoGiRo`).
+pub const POWER_OVER_WEIGHT: [f64; 2] = [0.01, 1e3];
+
+/// Highest speed of a motor [rad/s]: servo motors have 300 to 600, small ones 2000. Outside: turns per minute given as
+/// rad/s, from 3000 on.
+pub const MOTOR_SPEED: [f64; 2] = [0.1, 2900.0];
+
 /// Displacement of a flexible support under the weight of the platform, over the size of the anchors. A post of 1e5 N/m
 /// under 30 kg, 5 m from the middle, has 6e-4; masts of 1e4 N/m under 100 kg 0.02. Outside: N/mm given as N/m (0.6 for
 /// that post).

@@ -77,7 +77,9 @@ fn hall_with_drives() -> String {
                   swivel_inertia_kg_m2 = 0.001\nefficiency = 0.97\n[winches.drum]\ndrum_side_length_m = 5.0\n\
                   drum_radius_m = 0.0675\nstiffness_n_per_m = 200000.0\ndrum_inertia_kg_m2 = 0.02\n\
                   motor_inertia_kg_m2 = 0.0012\ngear_ratio = 5.0\ndamping_n_m_s_per_rad = 0.8\n\
-                  control = \"position\"\nbandwidth_hz = 5.0\ncontrol_damping_ratio = 0.7\ndelay_s = 0.002\n\n[state]";
+                  control = \"position\"\nbandwidth_hz = 5.0\ncontrol_damping_ratio = 0.7\ndelay_s = 0.002\n\
+                  gear_efficiency = 0.9\nmax_speed_m_s = 3.0\nmax_acceleration_m_s2 = 10.0\nmax_torque_n_m = 30.0\n\
+                  max_power_w = 2000.0\ntorque_speed_rad_s = [0.0, 400.0]\ntorque_speed_n_m = [40.0, 20.0]\n\n[state]";
     changed(
         &hall(),
         &[

@@ -5,7 +5,7 @@ use crate::random::campaign::robots::{self, Arrangement, Purpose};
 use funicular::dynamics::{Dynamics, DynamicsError, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes::{self, FirstError};
-use funicular::robot::{Control, DrumSide, GuideWheel, Pose, Pulley, Robot, Servo, Winch};
+use funicular::robot::{Control, DrumSide, GuideWheel, Pose, Pulley, Robot, Servo, Winch, WinchLimits};
 use funicular::statics::{self, Equilibrium, Stability, StaticModel};
 use proptest::prelude::*;
 
@@ -16,6 +16,7 @@ const RIGID: Winch = Winch {
     name: String::new(),
     drum_radius: None,
     gear_ratio: 1.0,
+    gear_efficiency: 1.0,
     drum_side_length: 5.0,
     drum_side: DrumSide::Massless,
     guide_wheels: Vec::new(),
@@ -24,6 +25,7 @@ const RIGID: Winch = Winch {
     motor_mass: 0.0,
     damping: 0.0,
     control: Control::Ideal,
+    limits: WinchLimits::NONE,
 };
 
 fn servo(position_gain: f64) -> Control {

@@ -4,6 +4,7 @@ use super::{changed, check, hall, hall_with_drives, said, scaled};
 use funicular::robot::Robot;
 use funicular::statics::{self, StaticModel};
 use funicular::warnings::plausibility;
+use std::f64::consts::PI;
 
 #[test]
 fn slips_at_pulleys_and_winches_are_named() {
@@ -33,9 +34,18 @@ fn slips_at_pulleys_and_winches_are_named() {
         ("bandwidth_hz", 1e3, "bandwidth of its control"),
         ("control_damping_ratio", 1e2, "damping ratio in per cent given as a fraction"),
         ("delay_s", 1e3, "delay in ms given as s"),
+        ("gear_efficiency", 0.1 / 0.9, "the loss given as efficiency"),
+        ("max_speed_m_s", 1e3, "speed in mm/s given as m/s"),
+        ("max_acceleration_m_s2", 1e3, "acceleration in mm/s² given as m/s²"),
+        ("max_torque_n_m", 1e-3, "torque in kN m given as N m"),
+        ("max_power_w", 1e-3, "power in kW given as W"),
+        ("torque_speed_rad_s", 30.0 / PI, "turns per minute given as rad/s"),
     ] {
         check(key, &scaled(&hall, key, factor), &[expected], &mut misses);
     }
+    // The smaller of limit and curve counts.
+    let in_n_mm = scaled(&scaled(&hall, "max_torque_n_m", 1e3), "torque_speed_n_m", 1e3);
+    check("torques", &in_n_mm, &["torque in N mm given as N m"], &mut misses);
     assert!(misses.is_empty(), "{}", misses.join("\n"));
 }
 

@@ -1,0 +1,348 @@
+//! `speeds`: what the winches do while the platform moves, and how fast their limits let it be.
+
+use super::fields;
+use super::found;
+use super::gradient::no_solution;
+use super::shared::{Origin, PoseRow};
+use super::stiffness::MOTION;
+use crate::at_rest::{self, AtRest};
+use crate::columns::{Columns, Field, ResultTable, Tabled, column, parts};
+use crate::request::SpeedsRequest;
+use crate::table::Column;
+use anyhow::{Result, bail};
+use funicular::gradient::{GradientError, LengthRates};
+use funicular::math::Vec6;
+use funicular::robot::{LimitOfWinch, Robot};
+use funicular::speeds::{LargestMotion, SpeedLimit, WinchAtRest, WinchSpeeds};
+use funicular::statics::{Equilibrium, TensionRule};
+use serde::Serialize;
+
+/// Results of `speeds`.
+#[derive(Serialize)]
+pub struct Speeds {
+    #[serde(skip)]
+    pub robot: String,
+    pub static_model: &'static str,
+    #[serde(flatten)]
+    pub origin: Origin,
+    pub pose: PoseRow,
+    /// What the winches have to do for the required velocities; absent if none is required.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub required: Option<RequiredSpeeds>,
+    /// Largest speed of the platform origin in every direction without turning [m/s].
+    pub every_direction: LargestSpeed,
+    /// Largest speeds along the axes of the world and about them.
+    pub directions: Vec<DirectionRow>,
+    pub cables: Vec<CableSpeeds>,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// Required velocities, and the winches meanwhile.
+#[derive(Serialize)]
+pub struct RequiredSpeeds {
+    /// True if every winch stays within its limits.
+    pub reached: bool,
+    pub velocity_m_s: [f64; 3],
+    pub angular_velocity_rad_s: [f64; 3],
+    /// Largest multiple of the required velocities.
+    pub speed_factor: LargestSpeed,
+    /// Largest sums of the powers of all motors that drive and of all that brake.
+    pub driving_power_w: f64,
+    pub braking_power_w: f64,
+}
+
+/// Largest speed or multiple of it, with what limits it. All are absent if nothing does.
+#[derive(Serialize)]
+pub struct LargestSpeed {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub value: Option<f64>,
+    /// Cable whose winch limits it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cable: Option<String>,
+    /// Limit of this winch: `speed`, `torque`, `power` or `brake-power`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit: Option<&'static str>,
+}
+
+/// Largest speeds along or about one axis.
+#[derive(Serialize)]
+pub struct DirectionRow {
+    pub coordinate: &'static str,
+    /// `m/s` or `rad/s`.
+    pub unit: &'static str,
+    /// In the positive direction.
+    pub forward: LargestSpeed,
+    /// In the negative direction.
+    pub backward: LargestSpeed,
+}
+
+/// One cable with its winch.
+#[derive(Serialize)]
+pub struct CableSpeeds {
+    pub name: String,
+    /// Speed of the cable at the drum per speed of the platform along the axes of the world, positive while it pays out.
+    pub rate_per_velocity: [f64; 3],
+    /// Speed of the cable at the drum per angular velocity about these axes.
+    pub rate_per_angular_velocity_m_per_rad: [f64; 3],
+    pub tension_drum_n: f64,
+    /// Torque of the motor at rest; absent without a radius of the drum.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motor_torque_at_rest_n_m: Option<f64>,
+    /// Largest speed of the cable at the drum while it winds in; absent without a limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed_max_in_m_s: Option<f64>,
+    /// The same while it pays out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed_max_out_m_s: Option<f64>,
+    /// Limit that is reached first.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limit: Option<&'static str>,
+    /// Largest speed of the platform in every direction without turning, as far as this winch allows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub platform_speed_max_m_s: Option<f64>,
+    /// What the winch does for the required velocities; absent if none is required.
+    #[serde(flatten)]
+    pub required: Option<WinchInUse>,
+}
+
+/// Largest numbers of one winch for the required velocities.
+#[derive(Serialize)]
+pub struct WinchInUse {
+    pub speed_m_s: f64,
+    pub driving_power_w: f64,
+    pub braking_power_w: f64,
+    /// Used parts of the limits: above 1 beyond the limit. Absent without a limit, and a part of the torque also beyond
+    /// the end of the torque–speed curve, where the part has no value.
+    #[serde(skip_serializing_if = "is_no_number")]
+    pub used_speed: Option<f64>,
+    #[serde(skip_serializing_if = "is_no_number")]
+    pub used_torque: Option<f64>,
+    #[serde(skip_serializing_if = "is_no_number")]
+    pub used_power: Option<f64>,
+    #[serde(skip_serializing_if = "is_no_number")]
+    pub used_brake_power: Option<f64>,
+}
+
+#[expect(clippy::ref_option, reason = "serde asks so")]
+fn is_no_number(part: &Option<f64>) -> bool {
+    !part.is_some_and(f64::is_finite)
+}
+
+/// Computes the speeds that the winches allow at an equilibrium.
+///
+/// # Errors
+/// A robot with fewer cables than degrees of freedom, one without such an equilibrium, or an equilibrium without rates of
+/// its lengths.
+pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
+    let robot = at_rest::with_required_velocities(robot, &request.required)?;
+    if robot.constraint().is_under() {
+        bail!(
+            "{} cables cannot give a platform with {} degrees of freedom every velocity: `speeds` needs at least as many \
+             cables as degrees of freedom",
+            robot.cables.len(),
+            robot.platform.motion.count()
+        );
+    }
+    let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
+    let AtRest { robot, equilibrium: rest, rule, .. } = &at_rest;
+    let speeds = winch_speeds(robot, rest, rule.as_ref()).map_err(no_solution)?;
+
+    let half_widths = half_widths(robot);
+    let asks = half_widths != Vec6::zeros();
+    let cables = robot.cables.iter().zip(speeds.winches());
+    let row = |of: LargestMotion| LargestSpeed::of(robot, of);
+    Ok(Speeds {
+        robot: robot.name.clone(),
+        static_model: rest.model.name(),
+        origin: Origin::of(&at_rest),
+        pose: PoseRow::of(&rest.pose),
+        required: asks.then(|| RequiredSpeeds::of(robot, &speeds, &half_widths)),
+        every_direction: row(speeds.in_every_direction()),
+        directions: directions(robot, &speeds),
+        cables: cables
+            .map(|(cable, winch)| CableSpeeds::of(cable.name.clone(), winch, asks.then_some(&half_widths)))
+            .collect(),
+        warnings: at_rest.warnings(None),
+    })
+}
+
+/// Winches at an equilibrium: the tensions follow the rule that has chosen them, or else change least along the cables.
+pub(crate) fn winch_speeds(
+    robot: &Robot,
+    rest: &Equilibrium,
+    rule: Option<&TensionRule>,
+) -> Result<WinchSpeeds, GradientError> {
+    let rates = match rule {
+        Some(rule) => LengthRates::of(robot, rest, rule),
+        None => LengthRates::with_least_change(robot, rest),
+    };
+    Ok(WinchSpeeds::of_rates(robot, rest, &rates?))
+}
+
+/// Half widths of the box of required velocities.
+pub(crate) fn half_widths(robot: &Robot) -> Vec6 {
+    let (velocity, angular) = (robot.required.velocity_w, robot.required.angular_velocity_w);
+    Vec6::new(velocity.x, velocity.y, velocity.z, angular.x, angular.y, angular.z)
+}
+
+/// Largest speeds in the directions in which the platform can move.
+fn directions(robot: &Robot, speeds: &WinchSpeeds) -> Vec<DirectionRow> {
+    let row = |axis: usize| {
+        let largest = |sign: f64| LargestSpeed::of(robot, speeds.along(&(Vec6::ith(axis, 1.0) * sign)));
+        DirectionRow {
+            coordinate: MOTION[axis],
+            unit: if axis < 3 { "m/s" } else { "rad/s" },
+            forward: largest(1.0),
+            backward: largest(-1.0),
+        }
+    };
+    robot.platform.motion.components().into_iter().map(row).collect()
+}
+
+impl LargestSpeed {
+    fn of(robot: &Robot, LargestMotion { value, cable }: LargestMotion) -> Self {
+        Self {
+            value: value.is_finite().then_some(value),
+            cable: cable.map(|(i, _)| robot.cables[i].name.clone()),
+            limit: cable.map(|(_, limit)| limit.name()),
+        }
+    }
+}
+
+impl RequiredSpeeds {
+    fn of(robot: &Robot, speeds: &WinchSpeeds, half_widths: &Vec6) -> Self {
+        let factor = speeds.factor(half_widths);
+        let powers = speeds.powers(half_widths);
+        Self {
+            reached: factor.value >= 1.0,
+            velocity_m_s: robot.required.velocity_w.into(),
+            angular_velocity_rad_s: robot.required.angular_velocity_w.into(),
+            speed_factor: LargestSpeed::of(robot, factor),
+            driving_power_w: powers.driving,
+            braking_power_w: powers.braking,
+        }
+    }
+}
+
+impl CableSpeeds {
+    fn of(name: String, at_rest: &WinchAtRest, half_widths: Option<&Vec6>) -> Self {
+        let [x, y, z, rx, ry, rz] = at_rest.by_twist.into();
+        let finite = |value: f64| value.is_finite().then_some(value);
+        let SpeedLimit { value: slowest, limit } = at_rest.slowest();
+        Self {
+            name,
+            rate_per_velocity: [x, y, z],
+            rate_per_angular_velocity_m_per_rad: [rx, ry, rz],
+            tension_drum_n: at_rest.tension,
+            motor_torque_at_rest_n_m: at_rest.winch.motor(at_rest.tension, 0.0, 0.0).torque,
+            speed_max_in_m_s: finite(at_rest.inwards.value),
+            speed_max_out_m_s: finite(at_rest.outwards.value),
+            limit: limit.map(LimitOfWinch::name),
+            platform_speed_max_m_s: finite(slowest / at_rest.by_twist.fixed_rows::<3>(0).norm()),
+            required: half_widths.map(|half_widths| WinchInUse::of(at_rest, half_widths)),
+        }
+    }
+
+    /// Columns of the cables. The numbers for required velocities are read if there are any.
+    pub fn columns(asks: bool) -> Columns<Self> {
+        let used = |name: &'static str, of: fn(&WinchInUse) -> Option<f64>| {
+            let part = move |row: &Self| row.required.as_ref().and_then(of);
+            column(name, "1", "used part of this limit, above 1 beyond it", move |row: &Self| {
+                part(row).filter(|part| part.is_finite())
+            })
+        };
+        let shown = |field: Field<Self>, heading: &'static str, of: fn(&WinchInUse) -> Option<f64>| {
+            field
+                .shown(heading, "", move |row, style| match row.required.as_ref().and_then(of) {
+                    Some(part) if part.is_infinite() => "beyond".to_owned(),
+                    part => style.significant(part, 3),
+                })
+                .read_if(asks)
+        };
+        let required = |of: fn(&WinchInUse) -> f64| move |row: &Self| row.required.as_ref().map(of);
+        Columns::new([
+            fields::cable_name(|row: &Self| row.name.clone()),
+            parts(
+                "rate_{}",
+                fields::AXES,
+                "1",
+                "speed of the cable at the drum per speed along {}, paying out",
+                |row: &Self| row.rate_per_velocity,
+            ),
+            parts(
+                "rate_r{}_m_per_rad",
+                fields::AXES,
+                "m/rad",
+                "speed of the cable at the drum per angular velocity about {}, paying out",
+                |row: &Self| row.rate_per_angular_velocity_m_per_rad,
+            ),
+            column("tension_drum_n", "N", "tension at the drum", |row: &Self| row.tension_drum_n)
+                .decimals("T drum", "N", 2),
+            column("motor_torque_at_rest_n_m", "N m", "torque of the motor at rest", |row: &Self| {
+                row.motor_torque_at_rest_n_m
+            })
+            .significant("torque at rest", "N m", 4),
+            column("speed_max_in_m_s", "m/s", "largest speed of the cable while it winds in", |row: &Self| {
+                row.speed_max_in_m_s
+            })
+            .significant("winds in up to", "m/s", 4),
+            column("speed_max_out_m_s", "m/s", "largest speed of the cable while it pays out", |row: &Self| {
+                row.speed_max_out_m_s
+            })
+            .significant("pays out up to", "m/s", 4),
+            column("limit", "", "limit that is reached first", |row: &Self| row.limit).plain("limit"),
+            column(
+                "platform_speed_max_m_s",
+                "m/s",
+                "largest speed of the platform in every direction, as far as this winch allows",
+                |row: &Self| row.platform_speed_max_m_s,
+            )
+            .significant("platform", "m/s", 4),
+            column("speed_m_s", "m/s", "largest speed for the required velocities", required(|of| of.speed_m_s))
+                .significant("speed", "m/s", 4)
+                .read_if(asks),
+            column("driving_power_w", "W", "largest power of the motor that drives", required(|of| of.driving_power_w))
+                .significant("drives", "W", 4)
+                .read_if(asks),
+            column("braking_power_w", "W", "largest power of the motor that brakes", required(|of| of.braking_power_w))
+                .significant("brakes", "W", 4)
+                .read_if(asks),
+            shown(used("used_speed", |of| of.used_speed), "of speed", |of| of.used_speed),
+            shown(used("used_torque", |of| of.used_torque), "of torque", |of| of.used_torque),
+            shown(used("used_power", |of| of.used_power), "of power", |of| of.used_power),
+            shown(used("used_brake_power", |of| of.used_brake_power), "of brake", |of| of.used_brake_power),
+        ])
+    }
+}
+
+impl WinchInUse {
+    fn of(at_rest: &WinchAtRest, half_widths: &Vec6) -> Self {
+        let worst = at_rest.worst_in(half_widths);
+        let limits = &at_rest.winch.limits;
+        let used = |of: LimitOfWinch, is_given: bool| {
+            worst.uses.iter().find(|(other, _)| is_given && *other == of).map(|(_, part)| *part)
+        };
+        Self {
+            speed_m_s: worst.speed,
+            driving_power_w: worst.driving,
+            braking_power_w: worst.braking,
+            used_speed: used(LimitOfWinch::Speed, limits.speed.is_finite()),
+            used_torque: used(LimitOfWinch::Torque, limits.torque_at(0.0).is_finite()),
+            used_power: used(LimitOfWinch::Power, limits.power.is_finite()),
+            used_brake_power: used(LimitOfWinch::BrakePower, limits.brake_power.is_finite()),
+        }
+    }
+}
+
+impl Tabled for Speeds {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", CableSpeeds::columns(true).described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(CableSpeeds::columns(true), &self.cables)
+    }
+}
+
+found!(Speeds, "speeds");
