@@ -10,7 +10,7 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 pub(crate) use files::{
     ChangeArgs, DesignArgs, DrawArgs, DrawModesArgs, FigureArgs, FileArgs, Format, GustArgs, IdentifyArgs, ImportArgs,
     MapArgs, MergeArgs, NewArgs, OutputArgs, PageArgs, PlotArgs, ReduceArgs, RequestArgs, RunArgs, SettleArgs,
-    UncertaintyArgs,
+    TrajectoryArgs, UncertaintyArgs,
 };
 use files::{OptionalRobotArgs, RobotArgs};
 use funicular_study::request::{self, CommandInfo, Declared, Experiment, Key, Request, RequestRobot, ResponsePoints};
@@ -144,6 +144,7 @@ fn with_files(name: &str, command: Command) -> Command {
         "uncertainty" => UncertaintyArgs::augment_args(command),
         "reduce" => ReduceArgs::augment_args(command),
         "settle" => SettleArgs::augment_args(command),
+        "trajectory" => TrajectoryArgs::augment_args(command),
         "gust" => GustArgs::augment_args(command),
         "identify" => IdentifyArgs::augment_args(command),
         "design" => DesignArgs::augment_args(command),

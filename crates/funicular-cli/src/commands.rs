@@ -30,6 +30,7 @@ mod settle;
 mod speeds;
 mod statics;
 mod stiffness;
+mod trajectory;
 mod uncertainty;
 mod validate;
 
@@ -65,6 +66,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         Request::Uncertainty(of) => uncertainty::run(of, &cli.files()?, &mut guard()),
         Request::Gust(_) => gust::run(&request, &cli.files()?, guard()),
         Request::Settle(of) => settle::run(of, &cli.files()?, guard()),
+        Request::Trajectory(of) => trajectory::run(of, &cli.files()?, &mut guard()),
         Request::Reduce(of) => reduce::run(of, &cli.files()?, guard()),
         Request::Identify(of) => identify::run(of, &cli.files()?, &mut guard()),
         Request::Design(of) => design::run(of, &cli.files()?, &mut guard()),
@@ -99,6 +101,7 @@ fn request_of(cli: &Cli) -> Result<Request> {
         "map" => map::request(cli, further),
         "settle" => settle::request(cli, further),
         "gust" => gust::request(cli, further),
+        "trajectory" => trajectory::request(cli, further),
         "merge" => merge::request(cli, further),
         "plot" => page::plot_request(cli, further),
         "new" => new_robot::request(cli, further),

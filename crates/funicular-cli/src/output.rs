@@ -47,6 +47,7 @@ pub(crate) struct Content<'a> {
 
 impl Content<'static> {
     /// HTML page.
+    pub(crate) const LENGTHS: Self = Self { name: "the lengths", in_words: "CSV", fitting: &[Kind::Csv] };
     pub(crate) const PAGE: Self = Self { name: "the page", in_words: "a page", fitting: &[Kind::Html] };
 
     /// Figure for a paper.

@@ -12,6 +12,7 @@ pub mod paper;
 pub mod plot;
 pub mod report;
 pub(crate) mod table;
+pub mod trajectory;
 pub mod uncertainty;
 
 use base64::Engine as _;

@@ -27,6 +27,8 @@ pub mod shared;
 pub mod speeds;
 pub mod statics;
 pub mod stiffness;
+mod timed_rows;
+pub mod trajectory;
 pub mod uncertainty;
 
 pub use reduce::control_model;

@@ -3,6 +3,7 @@
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::gradient::Hold;
+use funicular::path::CourseForm;
 use funicular::robot::{LoadShape, TurbulenceSpectrum, WinchMode};
 use funicular::statics::{StaticModel, TensionRule};
 use funicular::suggest::nearest;
@@ -168,6 +169,22 @@ impl Named for StaticModel {
             Self::Ideal => "Straight, massless, rigid",
             Self::Spring => "Straight, massless, elastic",
             Self::Catenary => "Elastic, sagging under its own weight",
+        }
+    }
+}
+
+impl Named for CourseForm {
+    const WHAT: &'static str = "course";
+    const ALL: &'static [Self] = &CourseForm::ALL;
+
+    fn name(self) -> &'static str {
+        CourseForm::name(self)
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::JerkLimited => "Seven phases of constant jerk: the fastest course within the limits",
+            Self::Quintic => "Polynomial of the fifth degree",
         }
     }
 }

@@ -19,6 +19,7 @@ mod source_file;
 mod speeds;
 mod statics;
 mod steps;
+mod trajectory;
 mod uncertainty;
 mod vibration;
 
@@ -45,6 +46,7 @@ pub use statics::{
     StiffnessRequest,
 };
 pub use steps::{Steps, digits};
+pub use trajectory::{LENGTH_TOLERANCE, MotionOptions, TrajectoryRequest};
 pub use uncertainty::{DEFAULT_SAMPLES, UncertaintyRequest, pose_and_tensions};
 
 pub use vibration::{
@@ -156,6 +158,7 @@ commands! {
     Payload(PayloadRequest) "payload" Needed robot;
     Loads(LoadsRequest) "loads" Needed robot;
     Speeds(SpeedsRequest) "speeds" Needed robot;
+    Trajectory(TrajectoryRequest) "trajectory" Needed robot;
     Clearance(ClearanceRequest) "clearance" Needed robot;
     PoseError(PoseErrorRequest) "pose-error" Needed robot;
     Cable(CableRequest) "cable" Needed robot;

@@ -21,6 +21,7 @@ use crate::analyses::{
     speeds::{self, Speeds},
     statics::{self, Statics},
     stiffness::{self, Stiffness},
+    trajectory::{self, TrajectoryResult},
     uncertainty::{self, Uncertainties},
 };
 use crate::at_rest::AtRest;
@@ -129,6 +130,7 @@ answers! {
     Payload(Payload): of => payload::run(robot()?, of)?;
     Loads(Loads): of => loads::run(robot()?, of)?;
     Speeds(Speeds): of => speeds::run(robot()?, of)?;
+    Trajectory(TrajectoryResult): of => trajectory::run(robot()?, of, watch)?;
     Clearance(Clearances): of => clearance::run(robot()?, of)?;
     PoseError(PoseErrors): of => pose_error::run(&robot()?, of, watch)?;
     Cable(CableResult): of => cable::run(robot()?, of, watch)?;

@@ -114,6 +114,30 @@ pub(crate) struct SettleArgs {
     pub(crate) lengths: Option<PathBuf>,
 }
 
+/// Path of a trajectory, and the files of its result.
+#[derive(Debug, Args)]
+pub(crate) struct TrajectoryArgs {
+    /// Path in a CSV file: columns t_s, x_m, y_m, z_m and, where the platform turns, roll_deg, pitch_deg, yaw_deg; a
+    /// spline of the fifth degree passes the rows
+    #[arg(long, value_name = "FILE.csv", help_heading = "Path", conflicts_with_all = ["pose", "lengths_m"])]
+    pub(crate) path: Option<PathBuf>,
+
+    /// Poses on the way to --move-to in a CSV file: columns x_m, y_m, z_m and optionally roll_deg, pitch_deg, yaw_deg
+    #[arg(long, value_name = "FILE.csv", help_heading = "Path")]
+    pub(crate) via: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) sink: OutputArgs,
+
+    /// Write the lengths for a controller to FILE.csv: t_s, and unstrained_length_NAME_m of every cable [m]; `settle` reads
+    /// it as its --trajectory
+    #[arg(long, value_name = "FILE.csv", help_heading = "Output")]
+    pub(crate) lengths: Option<PathBuf>,
+
+    /// Write a page with the moving robot and its tensions, speeds and powers over time to FILE; -o FILE.html does the same
+    #[arg(long, value_name = "FILE.html", help_heading = "Output")]
+    pub(crate) page: Option<PathBuf>,
+}
+
 /// Measured spectra of gusts, and the response that is printed or drawn.
 #[derive(Debug, Args)]
 pub(crate) struct GustArgs {

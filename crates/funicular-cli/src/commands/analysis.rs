@@ -68,6 +68,7 @@ fn print_results(request: &Request, robot: Option<Robot>, sink: &Sink) -> Result
         Results::Modes(found) => sink.write(found),
         Results::Frf(found) => sink.write(found),
         Results::Settle(found) => sink.write(found),
+        Results::Trajectory(found) => sink.write(found),
         Results::Gust(found) => sink.write(found),
         Results::Compare(found) => sink.write(found),
         Results::Gradient(found) => sink.write(found),

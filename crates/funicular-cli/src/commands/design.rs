@@ -1,6 +1,6 @@
 //! `design`: text and CSV.
 
-use super::result_files::ResultFiles;
+use super::result_files::{OtherFile, ResultFiles};
 use crate::args::{Cli, DesignArgs};
 use crate::output::Printed;
 use crate::pose_csv;
@@ -28,16 +28,20 @@ pub(super) fn run(of: &DesignRequest, args: &DesignArgs, guard: &mut Guard) -> R
     if let Some(poses) = &args.poses {
         guard.reads("the poses", poses);
     }
-    let designed = ("designed", args.designed.as_deref());
+    let designed = OtherFile::robot("designed", args.designed.as_deref());
     let files = ResultFiles::open(&args.sink, designed, args.page.as_deref(), guard)?;
 
     let mut watch = TerminalProgress::new();
     let found = design::run(of, &mut watch)?;
     drop(watch);
-    files.write(&found, &found.robot_file, || {
-        let page = funicular_pages::pages::design::page(&found, super::page::command_line()?)?;
-        Ok(worded(&page, Words::Program))
-    })
+    files.write(
+        &found,
+        || Ok(found.robot_file.clone().into_bytes()),
+        || {
+            let page = funicular_pages::pages::design::page(&found, super::page::command_line()?)?;
+            Ok(worded(&page, Words::Program))
+        },
+    )
 }
 
 impl Printed for Designed {

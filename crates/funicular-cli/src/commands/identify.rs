@@ -1,6 +1,6 @@
 //! `identify`: files of measurements, text and CSV.
 
-use super::result_files::ResultFiles;
+use super::result_files::{OtherFile, ResultFiles};
 use crate::args::{Cli, IdentifyArgs};
 use crate::errors;
 use crate::output::Printed;
@@ -25,15 +25,19 @@ pub(super) fn run(of: &IdentifyRequest, args: &IdentifyArgs, guard: &mut Guard) 
         guard.reads("the measurements", file);
     }
 
-    let fitted = ("fitted", args.fitted.as_deref());
+    let fitted = OtherFile::robot("fitted", args.fitted.as_deref());
     let files = ResultFiles::open(&args.sink, fitted, args.page.as_deref(), guard)?;
     let mut watch = TerminalProgress::new();
     let found = identify::run(of, &mut watch)?;
     drop(watch);
-    files.write(&found, &found.robot_file, || {
-        let page = funicular_pages::pages::identify::page(&found, super::page::command_line()?)?;
-        Ok(worded(&page, Words::Program))
-    })
+    files.write(
+        &found,
+        || Ok(found.robot_file.clone().into_bytes()),
+        || {
+            let page = funicular_pages::pages::identify::page(&found, super::page::command_line()?)?;
+            Ok(worded(&page, Words::Program))
+        },
+    )
 }
 
 /// Request with the measurements of all files.

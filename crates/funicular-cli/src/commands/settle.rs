@@ -42,8 +42,8 @@ pub(super) fn run(of: &SettleRequest, args: &SettleArgs, mut guard: Guard) -> Re
         Some(_) => None,
         None => Some(Sink::open(output, &[Kind::Svg, Kind::Pdf], &mut guard)?),
     };
-    let content = Content { name: "the lengths", in_words: "CSV", fitting: &[Kind::Csv] };
-    let lengths = args.lengths.as_deref().map(|path| Target::open(Some(path), content, &mut guard)).transpose()?;
+    let opened = args.lengths.as_deref().map(|path| Target::open(Some(path), Content::LENGTHS, &mut guard));
+    let lengths = opened.transpose()?;
 
     let found = settle::run(robot, of)?;
     if let (Some(target), Some(path), Some(commanded)) = (lengths, &args.lengths, &found.commanded) {

@@ -19,46 +19,90 @@ const CABLE_COLOURS: [&str; 7] =
 
 /// Figure of the complete robot.
 pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
-    let mut data: Vec<Value> = (0..robot.cables.len()).map(|i| cable(robot, equilibrium, i)).collect();
-    let anchors: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.anchor_w).collect();
-    data.push(named_anchors(robot, &anchors));
-    data.extend(platform(robot, equilibrium, false));
+    let drawn = Drawn::of(robot, equilibrium);
+    let caption = format!(
+        "The robot at its equilibrium, with one scale for all three axes. Lines: cables; squares: anchors with the \
+         cables' names; dark body: the platform, spanned by the attachments.{} Drag to rotate, scroll to zoom, point at a \
+         cable for its length and tension.",
+        drawn.further
+    );
+    in_space(caption, &drawn.traces, &drawn.points)
+}
 
-    let mut points = anchors;
-    for state in &equilibrium.cables {
-        points.extend(curve(state, state.free_length()));
-    }
-    let mut driven = "";
-    for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
-        let Some(lines) = DriveLines::of(cable, state) else { continue };
-        driven = " At pulleys the squares are the exit points. The drums, grey squares, stand where they would be if \
-                  the cable came to its pulley in a straight line.";
-        data.extend(drive(i, &cable.name, &lines));
-        points.extend(lines.points());
-    }
+/// Figure of a robot in motion at the first of several equilibria; and the coordinates of all traces that move, one list
+/// per equilibrium, with the indices of these traces.
+pub(crate) fn moving(robot: &Robot, equilibria: &[&Equilibrium]) -> (PageFigure, Value) {
+    let drawn: Vec<Drawn> = equilibria.iter().map(|equilibrium| Drawn::of(robot, equilibrium)).collect();
+    let first = &drawn[0];
+    let points: Vec<Vec3> = drawn.iter().flat_map(|drawn| drawn.points.iter().copied()).collect();
+    let caption = format!(
+        "The robot on its path, with one scale for all three axes. Lines: cables; squares: anchors with the cables' \
+         names; dark body: the platform, spanned by the attachments.{} Move the time below, or play it; drag to rotate, \
+         scroll to zoom.",
+        first.further
+    );
 
-    let supports = SupportAtRest::all(robot, equilibrium);
-    let supported = if supports.is_empty() { "" } else { " Crosses with a bar to their anchors: flexible supports." };
-    data.extend(supports.iter().flat_map(support));
+    let place = |drawn: &Drawn, k: usize| ["x", "y", "z"].map(|axis| drawn.traces[k][axis].clone());
+    let moves = |k: &usize| drawn.iter().any(|other| place(other, *k) != place(first, *k));
+    let traces: Vec<usize> = (0..first.traces.len()).filter(moves).collect();
+    let frames: Vec<Vec<[Value; 3]>> =
+        drawn.iter().map(|drawn| traces.iter().map(|k| place(drawn, *k)).collect()).collect();
+    (in_space(caption, &first.traces, &points), json!({"traces": traces, "frames": frames}))
+}
 
-    let mut bodies = BodySurface::obstacles(robot);
-    let obstacles = if bodies.is_empty() { "" } else { " Grey bodies: obstacles." };
-    bodies.extend(BodySurface::of_platform(robot, &equilibrium.pose));
-    points.extend(bodies.iter().flat_map(BodySurface::points));
-    data.extend(bodies.iter().filter(|body| !body.triangles.is_empty()).map(surface));
-
-    let scene = scene(&points, true, WIDE);
+/// Figure of traces in a scene around points.
+fn in_space(caption: String, traces: &[Value], points: &[Vec3]) -> PageFigure {
     PageFigure::new(
         "figure-robot",
         400,
-        format!(
-            "The robot at its equilibrium, with one scale for all three axes. Lines: cables; squares: anchors with the \
-             cables' names; dark body: the platform, spanned by the attachments.{driven}{supported}{obstacles} Drag to rotate, \
-             scroll to zoom, point at a cable for its length and tension."
-        ),
-        &data,
-        json!({"scene": scene, "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0}}),
+        caption,
+        traces,
+        json!({
+            "scene": scene(points, true, WIDE), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0},
+        }),
     )
+}
+
+/// Complete robot as it is drawn.
+struct Drawn {
+    traces: Vec<Value>,
+    points: Vec<Vec3>,
+    /// Sentences about what only some robots have.
+    further: String,
+}
+
+impl Drawn {
+    fn of(robot: &Robot, equilibrium: &Equilibrium) -> Self {
+        let mut traces: Vec<Value> = (0..robot.cables.len()).map(|i| cable(robot, equilibrium, i)).collect();
+        let anchors: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.anchor_w).collect();
+        traces.push(named_anchors(robot, &anchors));
+        traces.extend(platform(robot, equilibrium, false));
+
+        let mut points = anchors;
+        for state in &equilibrium.cables {
+            points.extend(curve(state, state.free_length()));
+        }
+        let mut driven = "";
+        for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
+            let Some(lines) = DriveLines::of(cable, state) else { continue };
+            driven = " At pulleys the squares are the exit points. The drums, grey squares, stand where they would be if \
+                      the cable came to its pulley in a straight line.";
+            traces.extend(drive(i, &cable.name, &lines));
+            points.extend(lines.points());
+        }
+
+        let supports = SupportAtRest::all(robot, equilibrium);
+        let supported =
+            if supports.is_empty() { "" } else { " Crosses with a bar to their anchors: flexible supports." };
+        traces.extend(supports.iter().flat_map(support));
+
+        let mut bodies = BodySurface::obstacles(robot);
+        let obstacles = if bodies.is_empty() { "" } else { " Grey bodies: obstacles." };
+        bodies.extend(BodySurface::of_platform(robot, &equilibrium.pose));
+        points.extend(bodies.iter().flat_map(BodySurface::points));
+        traces.extend(bodies.iter().filter(|body| !body.triangles.is_empty()).map(surface));
+        Self { traces, points, further: format!("{driven}{supported}{obstacles}") }
+    }
 }
 
 /// Trace of the free span of cable `i`.

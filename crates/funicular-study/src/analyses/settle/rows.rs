@@ -1,11 +1,9 @@
 //! Rows of numbers over the time of a command, and numbers of the equilibria on the way.
 
+use super::super::timed_rows::MAX_SAMPLES;
 use crate::error::NoSolution;
 use anyhow::{Result, anyhow, bail};
 use funicular::statics::{Equilibrium, StaticsError};
-
-/// Maximum number of samples of the commanded lengths: an hour at 0.1 s, or 36 s at 1 ms.
-pub(super) const MAX_SAMPLES: f64 = 36_000.0;
 
 /// Part of a sample beyond the last one that counts as rounding.
 const ROUNDING: f64 = 1e-9;

@@ -1,15 +1,14 @@
 //! A trajectory: poses or unstrained lengths over time from a table, with straight lines of the lengths between its
 //! rows.
 
+use super::super::timed_rows::{Holds, MAX_SAMPLES, TimedRows};
 use super::LengthsRow;
 use super::motion::{on_the_way, tangent};
-use super::rows::{MAX_SAMPLES, mixed, no_solution_or_input, sample_times, tensions, unstrained};
-use crate::at_rest::{AtRest, check_pose};
-use crate::names::suggestion;
+use super::rows::{mixed, no_solution_or_input, sample_times, tensions, unstrained};
+use crate::at_rest::AtRest;
 use crate::request::{self, NumberColumns, SettleRequest, State};
 use crate::table_fault::TableFault;
 use crate::text::significant;
-use crate::values::{finite, positive};
 use anyhow::{Result, bail};
 use funicular::modes::LengthCommand;
 use funicular::path::Shaper;
@@ -19,35 +18,13 @@ use funicular::statics::{self, Equilibrium};
 /// Key of the request.
 const KEY: &str = "trajectory";
 
-/// Column of the times.
-const TIME: &str = "t_s";
-
-/// Columns of poses; the angles may be left out.
-const POSE: [&str; 6] = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"];
-
 /// Part of the duration below which two times of a shaped trajectory are one.
 const SAME_TIME: f64 = 1e-9;
-
-/// Rows of a trajectory.
-#[derive(Debug, Clone, PartialEq)]
-struct Rows {
-    holds: Holds,
-    /// Times since the first row [s], rising.
-    times: Vec<f64>,
-    /// Pose [m, degrees] or unstrained lengths [m] at each time.
-    values: Vec<Vec<f64>>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Holds {
-    Poses,
-    Lengths,
-}
 
 /// Lengths over time, which begin and end at rest.
 pub(super) struct Trajectory<'a> {
     at_rest: &'a AtRest,
-    rows: Rows,
+    rows: TimedRows,
     /// Unstrained lengths at each time [m].
     lengths: Vec<Vec<f64>>,
     /// Lengths at each time of a robot that is linear about the end, relative to those at the end [m].
@@ -63,7 +40,7 @@ pub(super) struct Trajectory<'a> {
 /// The first fault: a column that is missing or unknown, fewer than two rows, times that do not rise, a pose that the
 /// platform cannot have, or a length that is none.
 pub fn check(columns: &NumberColumns, robot: &Robot) -> Result<(), TableFault> {
-    Rows::read(columns, robot).map(drop)
+    TimedRows::read(KEY, columns, robot).map(drop)
 }
 
 /// State at the end of a trajectory, for a request that gives neither pose nor lengths.
@@ -73,7 +50,7 @@ pub fn check(columns: &NumberColumns, robot: &Robot) -> Result<(), TableFault> {
 pub(super) fn state(robot: &Robot, request: &SettleRequest) -> Result<State> {
     let mut state = request.state.clone();
     let Some(columns) = &request.trajectory else { return Ok(state) };
-    let rows = Rows::read(columns, robot)?;
+    let rows = TimedRows::read(KEY, columns, robot)?;
     if state.pose.is_some() || state.lengths_m.is_some() {
         return Ok(state);
     }
@@ -86,88 +63,7 @@ pub(super) fn state(robot: &Robot, request: &SettleRequest) -> Result<State> {
     Ok(state)
 }
 
-impl Rows {
-    fn read(columns: &NumberColumns, robot: &Robot) -> Result<Self, TableFault> {
-        let fault = |text: String| TableFault { key: KEY, row: None, text };
-        let of_lengths: Vec<String> =
-            robot.cables.iter().map(|cable| format!("unstrained_length_{}_m", cable.name)).collect();
-        let known: Vec<String> =
-            [TIME].iter().chain(&POSE).map(|name| (*name).to_owned()).chain(of_lengths.clone()).collect();
-        if let Some(unknown) = columns.keys().find(|name| !known.contains(name)) {
-            return Err(fault(format!(
-                "there is a column `{unknown}`{}: a trajectory has {TIME}, and either x_m, y_m, z_m, roll_deg, pitch_deg, \
-                 yaw_deg or unstrained_length_NAME_m of every cable; drop other columns",
-                suggestion(unknown, &known)
-            )));
-        }
-        let is_there = |name: &str| columns.contains_key(name);
-        let [poses, lengths] = [POSE.iter().any(|name| is_there(name)), of_lengths.iter().any(|name| is_there(name))];
-        let holds = match (poses, lengths) {
-            (true, true) => {
-                return Err(fault("there are columns of poses and of lengths: keep those of one".to_owned()));
-            }
-            (true, false) => Holds::Poses,
-            _ => Holds::Lengths,
-        };
-        let needed: Vec<&str> = match holds {
-            Holds::Poses => POSE[..3].to_vec(),
-            Holds::Lengths => of_lengths.iter().map(String::as_str).collect(),
-        };
-        if let Some(missing) = [TIME].iter().chain(&needed).find(|name| !is_there(name)) {
-            return Err(fault(format!(
-                "there is no column `{missing}`: give {TIME}, and either x_m, y_m, z_m and, where the platform turns, \
-                 angles, or the length of every cable"
-            )));
-        }
-        Self::of_columns(columns, holds, &if holds == Holds::Poses { POSE.to_vec() } else { needed }, robot)
-    }
-
-    /// Rows of the columns `names`; a column that is not there holds zeros.
-    fn of_columns(columns: &NumberColumns, holds: Holds, names: &[&str], robot: &Robot) -> Result<Self, TableFault> {
-        let count = columns[TIME].len();
-        if let Some((name, values)) = columns.iter().find(|(_, values)| values.len() != count) {
-            let text =
-                format!("`{name}` has {} values and `{TIME}` {count}: give as many in all columns", values.len());
-            return Err(TableFault { key: KEY, row: None, text });
-        }
-        if count < 2 || count as f64 > MAX_SAMPLES {
-            let text = format!("there are {count} rows: give at least two and at most {MAX_SAMPLES}");
-            return Err(TableFault { key: KEY, row: None, text });
-        }
-        let value = |name: &str, row: usize| columns.get(name).map_or(0.0, |values| values[row]);
-        let rows = Self {
-            holds,
-            times: columns[TIME].iter().map(|time| time - columns[TIME][0]).collect(),
-            values: (0..count).map(|row| names.iter().map(|name| value(name, row)).collect()).collect(),
-        };
-        for row in 0..count {
-            rows.check_row(columns, row, names, robot).map_err(|text| TableFault { key: KEY, row: Some(row), text })?;
-        }
-        Ok(rows)
-    }
-
-    fn check_row(&self, columns: &NumberColumns, row: usize, names: &[&str], robot: &Robot) -> Result<(), String> {
-        let time = columns[TIME][row];
-        finite(time).map_err(|reason| format!("`{TIME}`: {reason}"))?;
-        if row > 0 && time <= columns[TIME][row - 1] {
-            let before = columns[TIME][row - 1];
-            return Err(format!("the time {time} s is not after the one before, {before} s: give rising times"));
-        }
-        for (name, value) in names.iter().zip(&self.values[row]) {
-            let checked = if self.holds == Holds::Lengths { positive(*value) } else { finite(*value) };
-            checked.map_err(|reason| format!("`{name}`: {reason}"))?;
-        }
-        match self.holds {
-            Holds::Poses => check_pose(robot, &self.pose(row)).map_err(|error| error.to_string()),
-            Holds::Lengths => Ok(()),
-        }
-    }
-
-    fn pose(&self, row: usize) -> Pose {
-        let value = |k: usize| self.values[row].get(k).copied().unwrap_or_default();
-        Pose::new([0, 1, 2].map(value), [3, 4, 5].map(value))
-    }
-
+impl TimedRows {
     /// Values at a time, by straight lines; constant before and after.
     fn at(&self, time: f64) -> Vec<f64> {
         along(&self.times, time, |row| &self.values[row])
@@ -195,7 +91,7 @@ impl Rows {
             }
             sum
         };
-        Ok(Self { holds: self.holds, values: times.iter().map(|time| sum(*time)).collect(), times })
+        Ok(Self { values: times.iter().map(|time| sum(*time)).collect(), times, ..*self })
     }
 }
 
@@ -215,7 +111,7 @@ impl<'a> Trajectory<'a> {
     /// # Errors
     /// A [`TableFault`], poses or lengths that the cables cannot hold, or another end.
     pub(super) fn of(at_rest: &'a AtRest, columns: &NumberColumns, tolerance: f64) -> Result<Self> {
-        let found = Self::along(at_rest, Rows::read(columns, &at_rest.robot)?)?;
+        let found = Self::along(at_rest, TimedRows::read(KEY, columns, &at_rest.robot)?)?;
         let (end, rest) = (&found.lengths[found.lengths.len() - 1], unstrained(&at_rest.equilibrium));
         let Some(i) = (0..rest.len()).find(|i| (end[*i] - rest[*i]).abs() > tolerance) else { return Ok(found) };
         bail!(
@@ -228,7 +124,7 @@ impl<'a> Trajectory<'a> {
         )
     }
 
-    fn along(at_rest: &'a AtRest, rows: Rows) -> Result<Self> {
+    fn along(at_rest: &'a AtRest, rows: TimedRows) -> Result<Self> {
         let (mut still, mut lengths, mut linear) = (Vec::new(), Vec::new(), Vec::new());
         let mut start = at_rest.equilibrium.clone();
         // From the end on, where the platform is at rest: lengths are followed from pose to pose.

@@ -1,0 +1,148 @@
+//! A robot at the times of a path: lengths, tensions, winches, and the used part of every limit.
+
+use super::Planned;
+use crate::error::{Cancelled, NoSolution};
+use crate::text::significant;
+use crate::watch::Watch;
+use anyhow::{Result, anyhow};
+use funicular::clearance::{Clearance, Surroundings};
+use funicular::robot::{Cable, LimitOfWinch, MotorLoad, Robot, WinchLimits};
+use funicular::statics::{Limit, TensionRange};
+use funicular::trajectory::{AlongPath, InMotion, length_accelerations};
+
+/// Times between two looks at whether the work shall stop.
+const PER_LOOK: usize = 50;
+
+/// Robot at the times of a path.
+pub(super) struct Samples {
+    pub(super) times: Vec<f64>,
+    pub(super) motions: Vec<InMotion>,
+    /// Acceleration of every length at every time [m/s²].
+    pub(super) accelerations: Vec<Vec<f64>>,
+    /// Nearest pair at every time, if distances are judged.
+    pub(super) nearest: Vec<Option<Clearance>>,
+}
+
+/// Winch of a cable at one time; without a winch in the file that of a plain drum at the anchor.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WinchInMotion {
+    /// Speed and acceleration of the cable at the drum, positive while it pays out [m/s, m/s²].
+    pub(super) speed: f64,
+    pub(super) acceleration: f64,
+    /// Load of the motor; `None` without a winch.
+    pub(super) motor: Option<MotorLoad>,
+}
+
+/// Limit, of which a motion uses a part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum UsedLimit {
+    Tension(Limit, usize),
+    Winch(LimitOfWinch, usize),
+    Clearance,
+}
+
+impl UsedLimit {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Tension(Limit::Maximum, _) => "maximum-tension",
+            Self::Tension(Limit::Minimum, _) => "minimum-tension",
+            Self::Winch(limit, _) => limit.name(),
+            Self::Clearance => "clearance",
+        }
+    }
+
+    /// Cable to which it belongs.
+    pub(super) fn cable(self) -> Option<usize> {
+        match self {
+            Self::Tension(_, cable) | Self::Winch(_, cable) => Some(cable),
+            Self::Clearance => None,
+        }
+    }
+}
+
+impl Samples {
+    /// Robot at these times of a path.
+    ///
+    /// # Errors
+    /// A time at which the cables do not hold the platform, or [`Cancelled`].
+    pub(super) fn at(planned: &Planned, times: Vec<f64>, watch: &mut dyn Watch) -> Result<Self> {
+        let mut along = planned.along();
+        let mut motions = Vec::with_capacity(times.len());
+        for (done, time) in times.iter().enumerate() {
+            if done % PER_LOOK == 0 {
+                watch.progress(done, times.len(), "times");
+                if watch.is_cancelled() {
+                    return Err(Cancelled.into());
+                }
+            }
+            motions.push(in_motion(&mut along, planned, *time)?);
+        }
+
+        let lengths: Vec<Vec<f64>> = motions.iter().map(lengths).collect();
+        let rates: Vec<Vec<f64>> = motions.iter().map(|motion| motion.length_rates.clone()).collect();
+        let same_limits = |k: usize| motions[k].at_limit == motions[k + 1].at_limit;
+        let accelerations = length_accelerations(&times, &lengths, &rates, same_limits);
+        let around = planned.judges_clearance.then(|| Surroundings::of(planned.robot));
+        let nearest = |motion: &InMotion| around.as_ref().and_then(|around| around.least(&motion.equilibrium, None));
+        let nearest = motions.iter().map(nearest).collect();
+        Ok(Self { times, motions, accelerations, nearest })
+    }
+
+    /// Winch of a cable at the time with this index.
+    pub(super) fn winch(&self, robot: &Robot, k: usize, i: usize) -> WinchInMotion {
+        let (motion, cable) = (&self.motions[k], &robot.cables[i]);
+        let tension = motion.equilibrium.cables[i].tension_drum();
+        // The rope that passes the drum is longer than unstrained by its strain.
+        let stretched = 1.0 + tension / cable.material.axial_stiffness;
+        let (speed, acceleration) = (motion.length_rates[i] * stretched, self.accelerations[k][i] * stretched);
+        let motor = cable.anchor.winch.as_ref().map(|winch| winch.motor(tension, speed, acceleration));
+        WinchInMotion { speed, acceleration, motor }
+    }
+
+    /// Limit of which the largest part is used at the time with this index, with this part.
+    pub(super) fn most_used(&self, planned: &Planned, k: usize) -> Option<(UsedLimit, f64)> {
+        let robot = planned.robot;
+        let of_cable = |i: usize| {
+            let state = &self.motions[k].equilibrium.cables[i];
+            let margin = TensionRange::of(robot, i, &state.chord_w()).margin(state);
+            let maximum = (UsedLimit::Tension(Limit::Maximum, i), margin.max / margin.range.maximum);
+            // The rule `lowest` aims at the minimum: it is used up wherever there is a choice.
+            let minimum = planned.minimum_counts.then(|| {
+                let part = if margin.min > 0.0 { margin.range.minimum / margin.min } else { f64::INFINITY };
+                (UsedLimit::Tension(Limit::Minimum, i), part)
+            });
+            let winch = self.winch(robot, k, i);
+            let of_winch = limits_of(&robot.cables[i]).zip(winch.motor).map(|(limits, motor)| {
+                limits
+                    .use_of(winch.speed, winch.acceleration, &motor)
+                    .map(|(limit, part)| (UsedLimit::Winch(limit, i), part))
+            });
+            [Some(maximum), minimum].into_iter().flatten().chain(of_winch.into_iter().flatten())
+        };
+        let clearance = self.nearest[k].as_ref().map(|pair| (UsedLimit::Clearance, part_of_clearance(pair)));
+        (0..robot.cables.len()).flat_map(of_cable).chain(clearance).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+/// Required distance over the distance of a pair.
+fn part_of_clearance(pair: &Clearance) -> f64 {
+    if pair.distance > 0.0 { pair.required / pair.distance } else { f64::INFINITY }
+}
+
+/// Robot at a time of a path.
+pub(super) fn in_motion(along: &mut AlongPath, planned: &Planned, time: f64) -> Result<InMotion> {
+    along.at(&planned.path.at(time)).map_err(|error| {
+        let text = format!("{} s after the start of the path: {error}", significant(time, 4));
+        if error.is_no_solution() { NoSolution(text).into() } else { anyhow!(text) }
+    })
+}
+
+/// Unstrained lengths [m].
+pub(super) fn lengths(motion: &InMotion) -> Vec<f64> {
+    motion.equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect()
+}
+
+/// Limits of the winch of a cable.
+fn limits_of(cable: &Cable) -> Option<&WinchLimits> {
+    cable.anchor.winch.as_ref().map(|winch| &winch.limits)
+}
