@@ -23,6 +23,7 @@ mod robots;
 mod shapes;
 mod stretch_loss;
 mod sway;
+mod trajectories;
 #[cfg(test)]
 mod tests;
 mod uncertainty;
@@ -142,6 +143,7 @@ pub fn sections() -> Result<Vec<Section>> {
         uncertainty::section()?,
         load_factors::section(&reference::load_factors()?)?,
         distances::section(&reference::distances()?)?,
+        trajectories::section(&reference::trajectories()?)?,
     ])
 }
 

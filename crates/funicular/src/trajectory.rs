@@ -227,3 +227,70 @@ impl InMotion {
         frequencies.reduce(f64::min)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::{Dynamics, Linearisation};
+
+    /// Point mass without weight, held by four taut cables in the plane y = 0.
+    fn plane_robot() -> Robot {
+        let mut text = "name = \"plane\"\ngravity_m_s2 = [0, 0, 0]\n[platform]\nmass_kg = 5\nmotion = \"point-mass\"\n\
+                        [materials.rope]\naxial_stiffness_n = 4e5\nmass_kg_per_m = 0.05\n"
+            .to_owned();
+        for (k, [x, z]) in [[-4.0, 3.0], [4.0, 3.0], [-4.0, -3.0], [4.0, -3.0]].iter().enumerate() {
+            text += &format!(
+                "[[cables]]\nname = \"{k}\"\nmaterial = \"rope\"\nanchor_m = [{x}, 0.0, {z}]\nunstrained_length_m = 4.99\n"
+            );
+        }
+        Robot::from_toml(&text).unwrap()
+    }
+
+    #[test]
+    fn the_load_of_a_rope_is_that_of_its_elements() {
+        let robot = plane_robot();
+        let six = |x: f64, y: f64, z: f64| Vec6::new(x, y, z, 0.0, 0.0, 0.0);
+        let point = PathPoint {
+            velocity_w: six(0.7, 1.1, -0.4),
+            acceleration_w: six(-1.5, 2.0, 0.8),
+            ..PathPoint::at_rest(&Pose::new([0.3, 0.2, -0.1], [0.0; 3]))
+        };
+        for (i, cable) in robot.cables.iter().enumerate() {
+            // Element at the distance s from the platform along a straight rope.
+            let place = |time: f64, s: f64| {
+                let end = shifted(&point, time).pose.position_w;
+                end + (cable.anchor.point_w - end).normalize() * s
+            };
+            let chord_w = cable.anchor.point_w - point.pose.position_w;
+            let (length, pull_w, step, parts) = (chord_w.norm(), chord_w.normalize(), 1e-3, 200);
+            let mut force = Vec3::zeros();
+            for k in 0..parts {
+                let s = length * (f64::from(k) + 0.5) / f64::from(parts);
+                let acceleration = (place(step, s) - 2.0 * place(0.0, s) + place(-step, s)) / (step * step);
+                let across = acceleration - pull_w * acceleration.dot(&pull_w);
+                force -= across * (cable.material.mass_per_length * (1.0 - s / length) * length / f64::from(parts));
+            }
+            let found = rope_inertia(&robot, i, &point) * (0.5 * length);
+            // Midpoints: 1/(12·200²) of the force; differences: 1e-6.
+            assert!((found - force).norm() < 2e-5 * force.norm(), "{found} {force}");
+        }
+    }
+
+    #[test]
+    fn slow_vibration_across_ropes_has_the_same_inertia() {
+        let robot = plane_robot();
+        let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+        let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 5.0).unwrap();
+        let omega = 2.0 * PI * 0.2;
+        let [still, moving] = [0.0, omega].map(|omega| dynamics.stiffness(omega)[(1, 1)].re);
+        let mass = (still - moving) / (omega * omega);
+
+        let accelerated =
+            PathPoint { acceleration_w: Vec6::new(0.0, 1.0, 0.0, 0.0, 0.0, 0.0), ..PathPoint::at_rest(&rest.pose) };
+        let of_ropes: f64 = (0..4)
+            .map(|i| -rope_inertia(&robot, i, &accelerated).y * 0.5 * robot.cables[i].chord_w(&rest.pose).norm())
+            .sum();
+        // The string's next term is (ωl/c)²/15.
+        assert!((mass - of_ropes).abs() < 1e-3 * of_ropes, "{mass} {of_ropes}");
+    }
+}

@@ -421,9 +421,9 @@ impl TrajectoryResult {
             |part| format!("used to {} %", significant(100.0 * part, 4)),
         );
         format!(
-            "{}; the nearest is `{}`{cable}, {part} at {} s.",
+            "{}; the nearest is the {}{cable}, {part} at {} s.",
             if self.within_limits { "Within all limits" } else { "BEYOND a limit" },
-            of.limit,
+            of.limit.replace('-', " "),
             significant(of.t_s, 4)
         )
     }

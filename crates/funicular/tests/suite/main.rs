@@ -29,4 +29,5 @@ mod speeds;
 mod statics;
 mod stretch_loss;
 mod support;
+mod trajectory;
 mod warnings;
