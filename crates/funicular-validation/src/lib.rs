@@ -29,7 +29,7 @@ mod uncertainty;
 mod verdict;
 
 pub use markdown::markdown;
-pub use verdict::{Validated, run};
+pub use verdict::{Validated, run, tables};
 
 use anyhow::Result;
 use serde::Serialize;
