@@ -189,19 +189,7 @@ fn read_friction(reader: &mut Reader, section: &Section, wheel: Option<f64>) -> 
 
 /// Coefficient or efficiency, within its range.
 fn friction_number(reader: &mut Reader, section: &Section, key: &str, value: &Value) -> Option<f64> {
-    let number = reader.number_of(section, key, value)?;
-    let (is_within, limit) = match section.number(key).range {
-        Range::UpTo(limit) => (number <= limit, format!("at most {limit}")),
-        range => (number < range.maximum(), format!("below {}", range.maximum())),
-    };
-    if !is_within {
-        let written = reader.written(value.span());
-        reader
-            .issue(value.span(), format!("`{key}` is {written}, it must be {limit}"))
-            .help("it is a fraction, not per cent");
-        return None;
-    }
-    Some(number)
+    reader.number_up_to_limit(section, key, value, "it is a fraction, not per cent")
 }
 
 /// Radius of a bearing [m], which lies inside the wheel.
