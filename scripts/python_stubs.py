@@ -1,4 +1,4 @@
-"""Types of the Python package that PyO3 does not declare: the methods of `funicular._methods`, and overloads.
+"""Types of the Python package that PyO3 does not declare: the methods that `_declared` makes, and overloads.
 
 Runs with the installed package, on the `.pyi` of its compiled half. The methods have their parameters from the declared
 keys of the commands. `adaptive` decides between two types of a result: a function with the keyword
@@ -87,7 +87,7 @@ def with_imports(text: str) -> str:
     return head.rstrip() + "\n" + "\n".join(lines) + "\n" + all_names + rest
 
 
-# Methods of the compiled half that only `funicular._methods` calls.
+# Methods of the compiled half that only declared methods call.
 PRIVATE = re.compile(r"^    def _[a-z]\w*[a-z]\(.*:(?: \.\.\.)?\n(?:        .*\n|\n(?=        ))*", re.MULTILINE)
 
 for path in map(Path, sys.argv[1:]):

@@ -31,7 +31,7 @@ pub struct Exported {
 }
 
 /// Maximum number of elements per cable.
-pub const MAX_SEGMENTS: usize = 1000;
+const MAX_SEGMENTS: usize = 1000;
 
 /// Writes the robot at equilibrium as a file of another program.
 ///

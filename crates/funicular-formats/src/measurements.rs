@@ -10,8 +10,9 @@ pub mod uff;
 mod uff_numbers;
 mod unit_label;
 
+pub use convert::NodePoint;
 pub(crate) use convert::RESPONSE;
-pub use convert::{NodePoint, responses_of_uff};
+pub(crate) use convert::responses_of_uff;
 pub use csv::{CsvContent, ResponseName, read_csv};
 
 use anyhow::{Result, bail};

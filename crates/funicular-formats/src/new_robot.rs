@@ -29,7 +29,7 @@ const MASS: f64 = 100.0;
 const MIN_DIAMETER_MM: f64 = 0.3;
 
 /// Maximum number of cables of a layout that the program makes.
-pub const MAX_CABLES: usize = 64;
+pub(crate) const MAX_CABLES: usize = 64;
 
 /// Minimum breaking load of the default rope, as a multiple of the platform's weight: 6 mm for 100 kg. With 5, the
 /// usual factor between breaking load and working load, one cable could just carry the platform; 20 leaves room for a

@@ -1,8 +1,8 @@
 //! Columns of numbers from a CSV text, with the line of every row for messages.
 
-use crate::csv_lines::line_at;
+use crate::csv_lines::CsvText;
 use crate::measurements::check_size;
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Result, anyhow};
 use funicular_study::request::NumberColumns;
 use funicular_study::values::number;
 
@@ -30,23 +30,12 @@ pub struct NumberTable {
 /// ```
 pub fn read(path: &str, bytes: &[u8]) -> Result<NumberTable> {
     check_size(path, bytes.len())?;
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(bytes);
-    let header = reader.headers().map_err(|error| anyhow!("cannot read {path}: {error}"))?;
-    let names: Vec<String> = header.iter().map(|name| name.trim_start_matches('\u{feff}').to_owned()).collect();
-    if let Some((_, twice)) = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
-        bail!("{path} has the column `{twice}` twice: keep one of them");
-    }
+    let text = CsvText::open(path, bytes)?;
+    let names = text.header.clone();
 
     let (mut values, mut lines) = (vec![Vec::new(); names.len()], Vec::new());
-    for record in reader.records() {
-        let record = record.map_err(|error| match error.kind() {
-            csv::ErrorKind::UnequalLengths { pos: Some(position), expected_len, len } => anyhow!(
-                "{path}, line {}: {len} values, but {expected_len} in the header: give all lines the same columns",
-                line_at(bytes, position)
-            ),
-            _ => anyhow!("cannot read {path}: {error}"),
-        })?;
-        let line = record.position().map_or(0, |position| line_at(bytes, position));
+    for record in text.records() {
+        let (line, record) = record?;
         for ((text, name), values) in record.iter().zip(&names).zip(&mut values) {
             values.push(number(text).map_err(|reason| anyhow!("{path}, line {line}, column `{name}`: {reason}"))?);
         }

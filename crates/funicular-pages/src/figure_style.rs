@@ -27,21 +27,21 @@ pub const FONT_SIZE_LIMITS_PT: (f64, f64) = (4.0, 40.0);
 /// Colours of Okabe and Ito, which people with any colour vision can distinguish, as `#rrggbb`.
 pub mod colour {
     /// Black.
-    pub const BLACK: &str = "#000000";
+    pub(crate) const BLACK: &str = "#000000";
     /// Orange.
-    pub const ORANGE: &str = "#e69f00";
+    pub(crate) const ORANGE: &str = "#e69f00";
     /// Sky blue.
-    pub const SKY: &str = "#56b4e9";
+    pub(crate) const SKY: &str = "#56b4e9";
     /// Bluish green.
-    pub const GREEN: &str = "#009e73";
+    pub(crate) const GREEN: &str = "#009e73";
     /// Blue.
-    pub const BLUE: &str = "#0072b2";
+    pub(crate) const BLUE: &str = "#0072b2";
     /// Vermilion.
-    pub const VERMILION: &str = "#d55e00";
+    pub(crate) const VERMILION: &str = "#d55e00";
     /// Reddish purple.
-    pub const PURPLE: &str = "#cc79a7";
+    pub(crate) const PURPLE: &str = "#cc79a7";
     /// Grey, for marks that are not data.
-    pub const GREY: &str = "#8a8a8a";
+    pub(crate) const GREY: &str = "#8a8a8a";
 }
 
 /// Red, green and blue of a colour `#rrggbb` with small letters.
@@ -60,7 +60,7 @@ pub const fn rgb(hex: &str) -> [u8; 3] {
 }
 
 /// Colour of a kind of mode on a page, whose marks are lines and symbols on white.
-pub const fn kind_colour(kind: Kind) -> &'static str {
+pub(crate) const fn kind_colour(kind: Kind) -> &'static str {
     match kind {
         Kind::Platform => colour::VERMILION,
         Kind::Mixed => colour::PURPLE,
@@ -71,7 +71,7 @@ pub const fn kind_colour(kind: Kind) -> &'static str {
 
 /// Tick of a natural frequency below a response, in a figure for a paper.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ModeTick {
+pub(crate) struct ModeTick {
     /// Kind of the mode.
     pub kind: Kind,
     /// Colour `#rrggbb`.
@@ -83,7 +83,7 @@ pub struct ModeTick {
 }
 
 /// Ticks by kind of mode. They differ in width and height, so that they differ in a print in grey, too.
-pub const MODE_TICKS: [ModeTick; 4] = [
+pub(crate) const MODE_TICKS: [ModeTick; 4] = [
     ModeTick { kind: Kind::Cable, colour: colour::GREY, width_pt: 0.5, height: 0.45 },
     ModeTick { kind: Kind::Drive, colour: colour::BLUE, width_pt: 0.65, height: 0.6 },
     ModeTick { kind: Kind::Mixed, colour: colour::GREEN, width_pt: 0.8, height: 0.75 },

@@ -123,7 +123,7 @@ pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(
                 let made = new_robot::run(of, Words::Python)?;
                 (made.text, made.warnings)
             }
-            Request::Schema(of) => (schema::of_request(of), Vec::new()),
+            Request::Schema(of) => (schema::of_request(of, vec![funicular_validation::tables()]), Vec::new()),
             other => anyhow::bail!("`{}` makes no text", other.command()),
         })
     })?

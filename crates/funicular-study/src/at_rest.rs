@@ -14,7 +14,8 @@ pub(crate) use holder::holder_of;
 pub(crate) use loads::payload_center;
 pub use pose::{OrientationOfPointMass, check_pose, refuse_orientation};
 pub(crate) use requirements::{with_required, with_required_velocities};
-pub use state::{refuse_no_pose, refuse_no_state, with_state};
+pub use state::with_state;
+pub(crate) use state::{refuse_no_pose, refuse_no_state};
 pub use tensions::{rule, with_limits};
 pub use vibration::{ModesBelow, cable_model, linearisation, signals};
 

@@ -221,14 +221,14 @@ pub fn parts<R, I: IntoIterator<Item: ToCell>>(
 
 /// Field that stands in tables for reading only: files have its number at another place, because their order never
 /// changes.
-pub fn only_read<R>() -> Field<R> {
+pub(crate) fn only_read<R>() -> Field<R> {
     Field { columns: Vec::new(), values: Box::new(|_, _| ()), reading: None, is_there: true }
 }
 
 impl<R> Field<R> {
     /// The table has this field if the condition holds.
     #[must_use]
-    pub fn only_if(mut self, is_there: bool) -> Self {
+    pub(crate) fn only_if(mut self, is_there: bool) -> Self {
         self.is_there = is_there;
         self
     }
@@ -282,14 +282,14 @@ impl<R> Field<R> {
 
     /// Tables for reading have this field if the condition holds; files have it anyway.
     #[must_use]
-    pub fn read_if(mut self, is_read: bool) -> Self {
+    pub(crate) fn read_if(mut self, is_read: bool) -> Self {
         self.reading = self.reading.filter(|_| is_read);
         self
     }
 
     /// Only the tables of one style have this field.
     #[must_use]
-    pub fn only_in(mut self, style: Style) -> Self {
+    pub(crate) fn only_in(mut self, style: Style) -> Self {
         if let Some(reading) = &mut self.reading {
             reading.style = Some(style);
         }
@@ -411,6 +411,9 @@ impl<'a> ResultTable<'a> {
     }
 }
 
+/// Tables of a command in files: its name, and the tables as [`Tabled::tables`] gives them.
+pub type CommandTables = (&'static str, Vec<(&'static str, Vec<Column>)>);
+
 /// Results that are a table in files.
 pub trait Tabled {
     /// Every table that such results can be: when it is that one, in words that follow "with", and its columns. The parts
@@ -434,8 +437,11 @@ impl<T: Tabled> Tabled for Box<T> {
 }
 
 /// Name of a part of any robot in [`Tabled::tables`].
+pub(crate) const ANY: &str = "NAME";
+
+/// List with the name of a part of any robot.
 pub(crate) fn any() -> Vec<String> {
-    vec!["NAME".to_owned()]
+    vec![ANY.to_owned()]
 }
 
 #[cfg(test)]

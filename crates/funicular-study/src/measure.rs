@@ -29,6 +29,60 @@ pub(crate) enum Measure {
     Response(f64, ResponsePart),
 }
 
+/// Group of results, as requests name it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum MeasureGroup {
+    Pose,
+    Lengths,
+    Tensions,
+    MinStiffness,
+    Frequencies,
+    Damping,
+    Response,
+}
+
+impl MeasureGroup {
+    /// All groups, in the order of results.
+    pub(crate) const ALL: [Self; 7] = [
+        Self::Pose,
+        Self::Lengths,
+        Self::Tensions,
+        Self::MinStiffness,
+        Self::Frequencies,
+        Self::Damping,
+        Self::Response,
+    ];
+
+    /// Name in requests.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Pose => "pose",
+            Self::Lengths => "lengths",
+            Self::Tensions => "tensions",
+            Self::MinStiffness => "stiffness-min",
+            Self::Frequencies => "frequencies",
+            Self::Damping => "damping",
+            Self::Response => "response",
+        }
+    }
+
+    /// True for results of modes, which end at a limit of the frequencies.
+    pub(crate) fn is_of_modes(self) -> bool {
+        matches!(self, Self::Frequencies | Self::Damping)
+    }
+
+    /// Results of the group at an equilibrium: the pose by these components, tensions at these places. None for vibration.
+    pub(crate) fn of_statics(self, robot: &Robot, components: &[usize], places: &[TensionPlace]) -> Vec<Measure> {
+        match self {
+            Self::Pose => components.iter().copied().map(Measure::Pose).collect(),
+            Self::Lengths => Measure::lengths(robot),
+            Self::Tensions => places.iter().flat_map(|place| Measure::tensions(robot, *place)).collect(),
+            Self::MinStiffness => vec![Measure::MinStiffness],
+            Self::Frequencies | Self::Damping | Self::Response => Vec::new(),
+        }
+    }
+}
+
 /// Place of a tension.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum TensionPlace {

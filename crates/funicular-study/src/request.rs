@@ -27,10 +27,7 @@ pub use design::{ChangeValue, DesignRequest};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest};
 pub use gradient::{GradientRequest, frequencies};
 pub use grids::{EachPoint, MapRequest, MergeRequest, PlotRequest, SweepRequest};
-pub use identify::{
-    DEFAULT_DAMPING_NOISE, DEFAULT_FREQUENCY_NOISE, DEFAULT_RESPONSE_NOISE, DEFAULT_STARTS, Experiment, FitValue,
-    IdentifyRequest,
-};
+pub use identify::{Experiment, FitValue, IdentifyRequest};
 pub use key::{Choice, Declared, Key, Kind, ProgramForm, Range};
 pub use loads::{LoadsRequest, Requirements};
 pub use pages::{LiveRequest, PaperRequest, ReportRequest, ValidateRequest};
@@ -46,12 +43,13 @@ pub use statics::{
     StiffnessRequest,
 };
 pub use steps::{Steps, digits};
-pub use trajectory::{LENGTH_TOLERANCE, MotionOptions, TrajectoryRequest};
-pub use uncertainty::{DEFAULT_SAMPLES, UncertaintyRequest, pose_and_tensions};
+pub use trajectory::{MotionOptions, TrajectoryRequest};
+pub use uncertainty::UncertaintyRequest;
 
+pub(crate) use vibration::GUST_DURATION;
 pub use vibration::{
-    CableRequest, CompareRequest, DEFAULT_INPUT, DEFAULT_OUTPUT, FrfRequest, GUST_DURATION, GustRequest, ModesRequest,
-    ReduceRequest, SETTLED_WITHIN, SettleRequest, TurbulenceOptions,
+    CableRequest, CompareRequest, FrfRequest, GustRequest, ModesRequest, ReduceRequest, SettleRequest,
+    TurbulenceOptions,
 };
 
 pub use parts::check;

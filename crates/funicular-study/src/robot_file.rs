@@ -15,7 +15,7 @@ use std::io;
 use std::ops::Range;
 
 /// Name and text of the robot that is built into every front end.
-pub const EMBEDDED: (&str, &str) = ("robots/yuan2014-4mm.toml", funicular_robots::YUAN2014_4MM);
+const EMBEDDED: (&str, &str) = ("robots/yuan2014-4mm.toml", funicular_robots::YUAN2014_4MM);
 
 /// Maximum size of a robot file [bytes]. A cable takes some 200, so a larger file is another one given by mistake.
 pub const MAX_BYTES: usize = 16 << 20;
@@ -115,7 +115,7 @@ impl RobotText {
     ///
     /// # Errors
     /// A change of a value that the file does not have.
-    pub fn changed_text(&self) -> Result<String> {
+    pub(crate) fn changed_text(&self) -> Result<String> {
         if self.set.is_empty() {
             return Ok(self.text.clone());
         }

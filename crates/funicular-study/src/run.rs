@@ -25,11 +25,10 @@ use crate::analyses::{
     uncertainty::{self, Uncertainties},
 };
 use crate::at_rest::AtRest;
-use crate::columns::{ResultTable, Tabled};
+use crate::columns::{CommandTables, ResultTable, Tabled};
 use crate::error::Error;
 use crate::json;
 use crate::request::{Request, RobotText};
-use crate::table::Column;
 use crate::watch::Watch;
 use crate::wording::Words;
 use anyhow::{Result, anyhow};
@@ -53,7 +52,7 @@ macro_rules! answers {
 
         impl Results {
             /// Name of every command, with the columns of its tables in files as [`Tabled::tables`] gives them.
-            pub fn tables() -> Vec<(&'static str, Vec<(&'static str, Vec<Column>)>)> {
+            pub fn tables() -> Vec<CommandTables> {
                 vec![$((<$Found as Found>::COMMAND, <$Found as Tabled>::tables()),)*]
             }
 

@@ -325,7 +325,7 @@ impl Input {
     ///
     /// # Errors
     /// [`SignalError::BesidePlatform`].
-    pub fn on_platform_or_cable(&self) -> Result<(), SignalError> {
+    pub(crate) fn on_platform_or_cable(&self) -> Result<(), SignalError> {
         self.place.on_platform_or_cable(&self.name)
     }
 }
@@ -418,7 +418,7 @@ impl Output {
     ///
     /// # Errors
     /// [`SignalError::BesidePlatform`].
-    pub fn on_platform_or_cable(&self) -> Result<(), SignalError> {
+    pub(crate) fn on_platform_or_cable(&self) -> Result<(), SignalError> {
         self.place.on_platform_or_cable(&self.name)
     }
 }

@@ -4,6 +4,7 @@
 //! chunks. A front end runs the chunks on its own threads and keeps them in its own files, which a
 //! [`Record`](crate::table::Record) describes.
 
+mod described;
 mod digest;
 mod error;
 mod evaluation;
@@ -19,6 +20,7 @@ mod row;
 mod sensitivity;
 mod status;
 
+pub(crate) use described::tables;
 pub use error::{MAX_POINTS, SweepError};
 pub use frequency::{PointModes, lowest_modes, no_platform_mode};
 pub use options::Options;

@@ -8,5 +8,5 @@ mod stored;
 
 pub(crate) use columns::Value;
 pub use columns::{Chunk, Column, ColumnKind, Values};
-pub use record::{Part, Record, RecordDifference, SCHEMA, axes_of, kind_name};
+pub use record::{Part, Record, RecordDifference, SCHEMA, axes_of};
 pub use stored::SweepRows;

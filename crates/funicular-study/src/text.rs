@@ -39,7 +39,7 @@ pub const NONE: &str = "–";
 
 /// Number of digits of a value that shows one or two digits of its standard deviation, from 2 to 10; 6 if the deviation is
 /// unknown or one of the two is zero.
-pub fn digits_for(value: f64, deviation: Option<f64>) -> usize {
+pub(crate) fn digits_for(value: f64, deviation: Option<f64>) -> usize {
     const WITHOUT_DEVIATION: usize = 6;
     match deviation.map(|deviation| (value / deviation).abs().log10().floor()) {
         Some(decades) if decades.is_finite() => (decades as i64 + 2).clamp(2, 10) as usize,

@@ -1,6 +1,6 @@
 //! Distances between cables, straight and sagging.
 
-use super::reference::{DistanceReference, MeasuredPairs, PairsAtPose};
+use super::reference::{DistanceReference, MeasuredPairs, PairsAtPose, library_text};
 use super::{Bound, Case, Comparison, DifferenceKind, Section};
 use anyhow::{Result, bail};
 use funicular::clearance::{ClearancePair, Surroundings};
@@ -16,13 +16,9 @@ const SAGGING: f64 = 3e-9;
 pub(super) fn section(reference: &DistanceReference) -> Result<Section> {
     let mut rows = Vec::new();
     for of in &reference.robots {
-        let text = match of.robot.as_str() {
-            "cogiro" => funicular_robots::COGIRO,
-            "ipanema2" => funicular_robots::IPANEMA2,
-            other => bail!("the comparisons use no robot {other}"),
-        };
         let [minimum, maximum] = of.tension_limits_n.map(Some);
-        let mut robot = Robot::from_toml(text)?.with_tension_limits(TensionLimits { minimum, maximum });
+        let mut robot =
+            Robot::from_toml(library_text(&of.robot)?)?.with_tension_limits(TensionLimits { minimum, maximum });
         robot.clearance = Some(RequiredClearance { from_end: Some(0.0), ..RequiredClearance::default() });
         let case = Case { name: of.id.clone(), source: &reference.source };
         rows.extend(distances(&case, &robot, of)?);

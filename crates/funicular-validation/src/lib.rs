@@ -23,14 +23,14 @@ mod robots;
 mod shapes;
 mod stretch_loss;
 mod sway;
-mod trajectories;
 #[cfg(test)]
 mod tests;
+mod trajectories;
 mod uncertainty;
 mod verdict;
 
 pub use markdown::markdown;
-pub use verdict::{Validated, run};
+pub use verdict::{Validated, run, tables};
 
 use anyhow::Result;
 use serde::Serialize;

@@ -1,8 +1,8 @@
 //! Load factors of required boxes of loads, and wrench closure.
 
-use super::reference::{LoadFactorReference, LoadedPose, LoadedRobot};
+use super::reference::{LoadFactorReference, LoadedPose, LoadedRobot, library_text};
 use super::{Bound, Case, Comparison, DifferenceKind, Section};
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use funicular::math::Vec3;
 use funicular::robot::{Pose, Robot, TensionLimits};
 use funicular::statics::{self, LoadCapacity, StaticModel, WrenchClosure};
@@ -39,13 +39,8 @@ pub(super) fn section(reference: &LoadFactorReference) -> Result<Section> {
 
 /// Case with its robot.
 fn case_of<'a>(source: &'a str, of: &LoadedRobot) -> Result<(Case<'a>, Robot)> {
-    let text = match of.robot.as_str() {
-        "cogiro" => funicular_robots::COGIRO,
-        "ipanema2" => funicular_robots::IPANEMA2,
-        other => bail!("the comparisons use no robot {other}"),
-    };
     let [minimum, maximum] = of.tension_limits_n.map(Some);
-    let mut robot = Robot::from_toml(text)?.with_tension_limits(TensionLimits { minimum, maximum });
+    let mut robot = Robot::from_toml(library_text(&of.robot)?)?.with_tension_limits(TensionLimits { minimum, maximum });
     let [x, y, z, roll, pitch, yaw] = of.required_box_n_nm;
     robot.required.force_w = Vec3::new(x, y, z);
     robot.required.moment_w = Vec3::new(roll, pitch, yaw);

@@ -58,12 +58,13 @@ pub(super) fn robot(text: &str) -> Result<(Robot, Vec<f64>)> {
     }
 }
 
+/// Text of a robot of the library by the name of its file.
+pub(super) fn library_text(name: &str) -> Result<&'static str> {
+    let found = funicular_robots::ALL.iter().find(|(own, _)| *own == name);
+    found.map(|(_, text)| *text).ok_or_else(|| anyhow!("the library has no robot {name}"))
+}
+
 /// Reads a robot of the library by the name of its file.
 pub(super) fn library(name: &str) -> Result<(Robot, Vec<f64>)> {
-    robot(match name {
-        "yuan2014-4mm" => funicular_robots::YUAN2014_4MM,
-        "yuan2014-8mm" => funicular_robots::YUAN2014_8MM,
-        "sap2000-8-cable-point-mass" => funicular_robots::SAP2000_8_CABLE_POINT_MASS,
-        other => return Err(anyhow!("the comparisons use no robot {other}")),
-    })
+    robot(library_text(name)?)
 }

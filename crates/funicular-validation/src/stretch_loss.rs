@@ -1,6 +1,6 @@
 //! Loss of the stretch of ropes: damped modes of robots, and the stiffness of single ropes.
 
-use super::reference::{ChangedRobot, LossyRobot, LossyRope, StretchLossReference};
+use super::reference::{ChangedRobot, LossyRobot, LossyRope, StretchLossReference, library_text};
 use super::{Bound, Case, Comparison, Section};
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::cable::{CableModel, EndStiffness, LocalAxes};
@@ -33,12 +33,7 @@ pub(super) fn section(reference: &StretchLossReference) -> Result<Section> {
 
 /// Robot of the library with the numbers of a case, its damping and its loss, at rest.
 pub(super) fn at_rest(of: &ChangedRobot, xi: f64, loss: StretchLoss) -> Result<(Robot, Equilibrium)> {
-    let text = match of.robot.as_str() {
-        "yuan2014-4mm" => funicular_robots::YUAN2014_4MM,
-        "cogiro" => funicular_robots::COGIRO,
-        other => bail!("the comparisons use no robot {other}"),
-    };
-    let mut robot = Robot::from_toml(text)?;
+    let mut robot = Robot::from_toml(library_text(&of.robot)?)?;
     robot.platform.mass = of.platform_mass_kg.unwrap_or(robot.platform.mass);
     for cable in &mut robot.cables {
         let rope = &mut cable.material;

@@ -68,20 +68,25 @@ fn along_path(case: &Case, robot: &Robot, of: &MovingRobot) -> Result<[Compariso
         found.push((row, along.at(&point)?));
     }
 
-    let compared = |what: &str, theirs: fn(&MovingRow) -> Vec<f64>, ours: &dyn Fn(&InMotion) -> Vec<f64>, (limit, kind)| {
-        let pairs = found.iter().flat_map(|(row, motion)| theirs(row).into_iter().zip(ours(motion)));
-        let pairs: Vec<(f64, f64)> = pairs.collect();
-        let size = match kind {
-            DifferenceKind::Absolute => 1.0,
-            _ => pairs.iter().fold(0.0, |most: f64, (their, _)| most.max(their.abs())),
+    let compared =
+        |what: &str, theirs: fn(&MovingRow) -> Vec<f64>, ours: &dyn Fn(&InMotion) -> Vec<f64>, (limit, kind)| {
+            let pairs = found.iter().flat_map(|(row, motion)| theirs(row).into_iter().zip(ours(motion)));
+            let pairs: Vec<(f64, f64)> = pairs.collect();
+            let size = match kind {
+                DifferenceKind::Absolute => 1.0,
+                _ => pairs.iter().fold(0.0, |most: f64, (their, _)| most.max(their.abs())),
+            };
+            let worst = super::worst(pairs.iter().map(|(their, our)| (our - their).abs() / size));
+            let (their, our) = pairs[0];
+            case.row(what, (&[their], &[our]), (worst, kind), limit, Bound::Digits("digits of the reference"))
         };
-        let worst = super::worst(pairs.iter().map(|(their, our)| (our - their).abs() / size));
-        let (their, our) = pairs[0];
-        case.row(what, (&[their], &[our]), (worst, kind), limit, Bound::Digits("digits of the reference"))
-    };
     let cables = |motion: &InMotion| motion.equilibrium.cables.clone();
     let tensions = |motion: &InMotion| -> Vec<f64> {
-        cables(motion).iter().map(|cable| cable.tension_platform).chain(cables(motion).iter().map(|cable| cable.tension_anchor)).collect()
+        cables(motion)
+            .iter()
+            .map(|cable| cable.tension_platform)
+            .chain(cables(motion).iter().map(|cable| cable.tension_anchor))
+            .collect()
     };
     let powers = |motion: &InMotion| -> Vec<f64> {
         let each = cables(motion).into_iter().zip(&robot.cables).zip(&motion.length_rates);

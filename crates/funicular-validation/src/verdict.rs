@@ -4,7 +4,7 @@ use super::{Comparison, Section, sections};
 use anyhow::Result;
 use funicular_study::NoSolution;
 use funicular_study::analyses::Found;
-use funicular_study::columns::{Columns, ResultTable, Tabled, column};
+use funicular_study::columns::{Columns, CommandTables, ResultTable, Tabled, column};
 use funicular_study::table::Column;
 use funicular_study::text::counted;
 use serde::Serialize;
@@ -81,6 +81,11 @@ impl Tabled for Validated {
             self.sections.iter().flat_map(|section| section.rows.iter().map(move |row| CompareRow { section, row }));
         ResultTable::new(CompareRow::columns(), rows)
     }
+}
+
+/// Tables of `validate` in files.
+pub fn tables() -> CommandTables {
+    (Validated::COMMAND, Validated::tables())
 }
 
 impl Found for Validated {

@@ -174,7 +174,7 @@ impl Sag {
 
     /// First axial frequency √(EA/m)/(2l) of the cable [Hz]. Only the catenary-dynamic model contains axial waves; the
     /// other models are valid well below this frequency.
-    pub fn axial_frequency_hz(&self) -> f64 {
+    pub(crate) fn axial_frequency_hz(&self) -> f64 {
         (self.axial_stiffness / self.mass_per_length).sqrt() / (2.0 * self.chord)
     }
 }

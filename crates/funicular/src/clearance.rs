@@ -4,8 +4,11 @@
 //! between chords enclose those between curves, and halving an arc quarters the sagitta (docs/theory.md, section 10a).
 //! Every distance is certified: no other pair of points is nearer by more than [`TOLERANCE`].
 
+mod arc;
+mod bounded;
 mod cable_pair;
 mod moves;
+mod segments;
 mod solid;
 mod span;
 
@@ -24,10 +27,6 @@ pub const TOLERANCE: f64 = 1e-10;
 
 /// Bound of the error of a distance between a cable and a body [m].
 pub const BODY_TOLERANCE: f64 = 1e-8;
-
-/// Share of the platform's length by which the ends of cables are left out if the file says nothing: an eyelet or a
-/// swivel pulley takes a few centimetres of a platform of a metre.
-const FROM_END: f64 = 0.1;
 
 /// Name of the convex hull of the attachments, the body of a platform without other bodies.
 pub const HULL: &str = "platform";
@@ -143,7 +142,7 @@ impl<'a> Surroundings<'a> {
         Self {
             robot,
             required,
-            from_end: required.from_end.unwrap_or_else(|| FROM_END * robot.platform_length()),
+            from_end: robot.clearance_from_end(),
             platform,
             obstacles: robot.obstacles.iter().map(PlacedBody::in_world).collect(),
         }

@@ -13,7 +13,7 @@ mod modes;
 mod solved;
 
 pub use extremes::{MIN_CROSSINGS, PeakFactor, slack_probability};
-pub use integration::{Moments, SPECTRUM_TOLERANCE, Spectra};
+pub use integration::{Moments, Spectra};
 pub use modes::aerodynamic_damping_ratio;
 
 use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveSignal};

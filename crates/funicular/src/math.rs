@@ -10,7 +10,7 @@ pub mod least_squares;
 pub mod legendre;
 pub mod max_min;
 pub(crate) mod order;
-pub mod roots;
+pub(crate) mod roots;
 pub mod rotation;
 pub(crate) mod simd;
 pub mod symmetric;
@@ -28,7 +28,7 @@ pub type Mat3 = nalgebra::Matrix3<f64>;
 /// 6×6 matrix over small motions; mixed units N/m, N, N·m/rad.
 pub type Mat6 = nalgebra::Matrix6<f64>;
 /// Complex 6-vector.
-pub type CVec6 = nalgebra::Vector6<Complex>;
+pub(crate) type CVec6 = nalgebra::Vector6<Complex>;
 /// Complex 3×3 matrix.
 pub type CMat3 = nalgebra::Matrix3<Complex>;
 /// Complex 6×6 matrix.
@@ -59,7 +59,7 @@ pub(crate) fn any_normal(v: &Vec3) -> Vec3 {
 
 /// Symmetric part `(A + Aᵀ)/2` of a square matrix.
 #[inline]
-pub fn symmetric_part<D: nalgebra::Dim>(matrix: &nalgebra::OMatrix<f64, D, D>) -> nalgebra::OMatrix<f64, D, D>
+pub(crate) fn symmetric_part<D: nalgebra::Dim>(matrix: &nalgebra::OMatrix<f64, D, D>) -> nalgebra::OMatrix<f64, D, D>
 where
     nalgebra::DefaultAllocator: nalgebra::allocator::Allocator<D, D>,
 {

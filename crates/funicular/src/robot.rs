@@ -325,6 +325,13 @@ impl Robot {
         self.clearance.is_some() || !self.obstacles.is_empty() || !self.platform.bodies.is_empty()
     }
 
+    /// Length at the end of a cable that is not compared with what this end is mounted on [m]
+    /// ([`RequiredClearance::from_end`]).
+    pub(crate) fn clearance_from_end(&self) -> f64 {
+        let given = self.clearance.and_then(|clearance| clearance.from_end);
+        given.unwrap_or_else(|| RequiredClearance::FROM_END * self.platform_length())
+    }
+
     /// True if a number of the robot damps vibration: a rope that has mass, the platform, a winch or a support. Without
     /// any, all damping ratios are zero, and responses have no bound at resonances.
     pub fn is_damped(&self) -> bool {

@@ -10,7 +10,7 @@ use crate::cable::shallow_dynamic::ShallowDynamic;
 use crate::cable::{CableModel, LocalAxes, SHALLOW_SAG_LIMIT, Sag, shallow_static};
 use crate::clearance::{Clearance, Surroundings};
 use crate::robot::{Cable, Pose, Robot};
-use crate::statics::{self, CableState, Equilibrium, Limit, Stability, StaticModel, TensionMargin, TensionRange};
+use crate::statics::{self, CableState, Equilibrium, Limit, Stability, StaticModel, TensionRange};
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -168,7 +168,7 @@ fn measured(robot: &Robot, i: usize, state: &CableState, sag: Sag, model: CableM
 /// Tension per unit wrench above which a pose counts as nearly singular: ten times the largest value at the poses of
 /// the library's robots, which have 0.9 to 3.1. Eight cables with an inverse condition of 0.005, whose platform turns
 /// at 0.2 Hz, have about 100.
-pub const SINGULAR_GAIN: f64 = 30.0;
+const SINGULAR_GAIN: f64 = 30.0;
 
 /// Relative change of static displacements above which the turning drag causes a warning; a drag coefficient is hardly
 /// known to one per cent.
@@ -177,7 +177,7 @@ pub const DRAG_TURN_LIMIT: f64 = 0.01;
 /// Fraction of the first axial frequency above which axial inertia causes a warning. The axial stiffness of a taut
 /// cable is `φ cot φ` times the static one. At this frequency φ = π/3, so that the static one is two thirds too stiff;
 /// at a third of it the error is 4 %.
-pub const AXIAL_FRACTION: f64 = 1.0 / 3.0;
+const AXIAL_FRACTION: f64 = 1.0 / 3.0;
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -312,8 +312,10 @@ fn too_deep(cables: &[DeepSag], model: CableModel) -> String {
     )
 }
 
-/// Warning about a cable beyond the breaking load of its rope or beyond a limit of the file; only the most serious one.
-fn of_tension(robot: &Robot, i: usize, margin: &TensionMargin) -> Option<Warning> {
+/// Warning about cable `i` beyond the breaking load of its rope or beyond a limit of the file; only the most serious one.
+pub fn of_tension(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> Option<Warning> {
+    let state = &equilibrium.cables[i];
+    let margin = TensionRange::of(robot, i, &state.chord_w()).margin(state);
     let (cable, limits) = (&robot.cables[i], robot.cables[i].limits());
     let name = cable.name.clone();
     if let Some(breaking_load) = cable.material.breaking_load.filter(|load| margin.max > *load * (1.0 + 1e-6)) {
@@ -377,9 +379,9 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
 
     // Tensions of the cables.
     for (i, state) in equilibrium.cables.iter().enumerate() {
-        warnings.extend(slack(robot, equilibrium, i));
+        warnings.extend(of_slack(robot, equilibrium, i));
         warnings.extend(of_drive(&robot.cables[i], state));
-        warnings.extend(of_tension(robot, i, &TensionRange::of(robot, i, &state.chord_w()).margin(state)));
+        warnings.extend(of_tension(robot, equilibrium, i));
     }
 
     warnings.extend(of_clearance(robot, equilibrium));
@@ -403,22 +405,31 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
     {
         warnings.push(Warning::NearlySingular { gain });
     }
-    if let Stability::Unstable { min_stiffness, directions } = equilibrium.stability {
-        warnings.push(Warning::Unstable { directions, min_stiffness });
-    }
+    warnings.extend(of_stability(equilibrium));
     warnings
+}
+
+/// Warning about an equilibrium that is not stable.
+pub fn of_stability(equilibrium: &Equilibrium) -> Option<Warning> {
+    let Stability::Unstable { min_stiffness, directions } = equilibrium.stability else { return None };
+    Some(Warning::Unstable { directions, min_stiffness })
 }
 
 /// Warning that cables, platform and obstacles are nearer to each other than the file allows. A file that says nothing
 /// about distances is not judged.
-pub fn of_clearance(robot: &Robot, equilibrium: &Equilibrium) -> Option<Warning> {
+fn of_clearance(robot: &Robot, equilibrium: &Equilibrium) -> Option<Warning> {
     if !robot.judges_clearance() {
         return None;
     }
     let around = Surroundings::of(robot);
-    let least = around.least(equilibrium, None).filter(|least| least.margin() < 0.0)?;
-    let Clearance { pair, distance, required, .. } = least;
-    Some(Warning::Interference { pair: around.pair_text(pair), distance, required })
+    let least = around.least(equilibrium, None)?;
+    of_nearest(&around.pair_text(least.pair), &least)
+}
+
+/// Warning about the nearest pair, in words, if it is nearer than required.
+pub fn of_nearest(pair: &str, least: &Clearance) -> Option<Warning> {
+    let Clearance { distance, required, .. } = *least;
+    (least.margin() < 0.0).then(|| Warning::Interference { pair: pair.to_owned(), distance, required })
 }
 
 /// Warnings about a cable model at an equilibrium for frequencies up to `below_hz` [Hz].
@@ -437,14 +448,14 @@ pub fn of_dynamics(robot: &Robot, equilibrium: &Equilibrium, model: CableModel, 
 /// beyond the range of the model, or has axial waves that the model leaves out.
 pub fn of_cable(robot: &Robot, equilibrium: &Equilibrium, i: usize, model: CableModel, below_hz: f64) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    warnings.extend(slack(robot, equilibrium, i));
+    warnings.extend(of_slack(robot, equilibrium, i));
     warnings.extend(deep_sag(robot, equilibrium, &[i], model));
     warnings.extend(axial_waves(robot, equilibrium, &[i], model, below_hz));
     warnings
 }
 
 /// Warning that cable `i` is slack. Ideal cables have no weight that could keep them taut, and no warning.
-fn slack(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> Option<Warning> {
+pub fn of_slack(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> Option<Warning> {
     let warned = equilibrium.model != StaticModel::Ideal && equilibrium.cables[i].is_slack();
     warned.then(|| Warning::Slack { cable: robot.cables[i].name.clone() })
 }

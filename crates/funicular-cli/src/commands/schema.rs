@@ -13,7 +13,7 @@ use std::path::Path;
 pub(super) fn write(of: &SchemaRequest, guard: &mut Guard, path: &Path) -> Result<()> {
     let content = Content { name: "the schema", in_words: "a JSON Schema", fitting: &[Kind::Json] };
     let target = Target::open(Some(path), content, guard)?;
-    target.write(schema::of_request(of).as_bytes())?;
+    target.write(schema::of_request(of, vec![funicular_validation::tables()]).as_bytes())?;
     if target.is_file() {
         errors::note(&format!("wrote {}", path.display()));
     }

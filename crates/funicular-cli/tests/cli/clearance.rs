@@ -123,3 +123,21 @@ fn meshes_and_obstacles_that_make_no_sense_are_refused_with_their_place() {
         assert!(output.status.code() == Some(2) && message.contains(words), "{tables}: {message}");
     }
 }
+
+#[test]
+fn a_mesh_in_millimetres_is_reported_at_its_line_in_the_table_of_its_kind() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("mm.stl"), stl([2000.0; 3], 12)).unwrap();
+    // The other kind has a body of the same name, which is not meant.
+    for (kind, other) in [("platform_bodies", "obstacles"), ("obstacles", "platform_bodies")] {
+        let tables = format!(
+            "[{other}.part]\nsize_m = [0.1, 0.1, 0.1]\nposition_m = [1, 0, 0.4]\n[{kind}.part]\nshape = \"mesh\"\n\
+             file = \"mm.stl\"\n"
+        );
+        let robot = with_tables(folder.path(), &tables);
+        let line = 1 + fs::read_to_string(&robot).unwrap().lines().position(|l| l == format!("[{kind}.part]")).unwrap();
+        let output = run(&["clearance", &robot, "--pose", "1,0.5,1.5"]);
+        let message = stderr(&output);
+        assert!(output.status.code() == Some(2) && message.contains(&format!(":{line}:")), "{line}: {message}");
+    }
+}

@@ -33,6 +33,40 @@ fn a_map_has_a_row_for_every_point_and_a_reason_where_there_is_no_number() {
 }
 
 #[test]
+fn the_schema_of_columns_has_the_columns_of_a_map_with_every_quantity() {
+    let schema: serde_json::Value = serde_json::from_str(&succeed(&["schema", "--of", "columns"])).unwrap();
+    let tables = schema["map"].as_array().unwrap();
+    let names = |table: &serde_json::Value| -> Vec<String> {
+        table["columns"].as_array().unwrap().iter().map(|of| of["name"].as_str().unwrap().to_owned()).collect()
+    };
+    let quantity = |table: &serde_json::Value| {
+        let name = table["with"].as_str().unwrap();
+        name.replace(":N", ":1").replace(":MODEL", "").replace(":RESULT:PATH", ":first-frequency:platform.mass_kg")
+    };
+    let quantities: Vec<String> = tables[1..].iter().map(quantity).collect();
+    let text = succeed(
+        &[
+            &["map", "ROBOT", "--grid", "x=0", "--grid", "y=0", "--grid", "z=0.5", "--format", "csv", "--quantity"][..],
+            &[quantities.join(",").as_str()],
+        ]
+        .concat(),
+    );
+
+    // The cables have the names 1 to 6. Robots with fewer cables have one more column.
+    let (header, _) = rows(&text);
+    let described: Vec<String> =
+        tables.iter().flat_map(names).filter(|name| name != "nearest_pose_distance_m").collect();
+    for name in &described {
+        assert!(header.contains(&name.replace("NAME", "1")), "{name} in {header:?}");
+    }
+    for name in &header {
+        let is_it = |of: &String| (1..=6).any(|cable| of.replace("NAME", &cable.to_string()) == *name);
+        assert!(described.iter().any(is_it), "{name} in {described:?}");
+    }
+    assert_eq!(schema["sweep"].as_array().unwrap().len(), tables.len());
+}
+
+#[test]
 fn a_row_of_a_map_is_what_the_command_for_one_pose_says() {
     let robot = robot("cogiro.toml");
     let pose = ["1,-2,1.5,0,0,5", "--tension-rule", "middle", "--max-tension-n", "1500"];

@@ -20,4 +20,8 @@ fn validate_passes_every_comparison_and_needs_no_robot() {
     let (header, table) = csv(&["validate"]);
     assert_eq!((header[0].as_str(), table.len()), ("section", rows.len()));
     assert!(succeed(&["validate"]).starts_with("# Validation\n"));
+
+    let schema: Value = serde_json::from_str(&succeed(&["schema", "--of", "columns"])).unwrap();
+    let described = schema["validate"][0]["columns"].as_array().unwrap().iter().map(|of| of["name"].as_str().unwrap());
+    assert_eq!(described.collect::<Vec<_>>(), header);
 }

@@ -46,7 +46,7 @@ pub(crate) const RESPONSE: i64 = 4;
 /// # Errors
 /// A unit that is not known or contradicts dataset 164, damaged numbers, or a file without a single function that can
 /// be used; the message names the line of the dataset.
-pub fn responses_of_uff(
+pub(crate) fn responses_of_uff(
     path: &str,
     file: &UffFile,
     nodes: &[NodePoint],

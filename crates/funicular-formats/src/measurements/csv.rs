@@ -5,7 +5,7 @@
 //! are comments.
 
 use super::{MeasuredFrequency, MeasuredResponse, check_size};
-use crate::csv_lines::line_at;
+use crate::csv_lines::CsvText;
 use anyhow::{Result, anyhow, bail};
 use funicular_study::text::clean;
 use funicular_study::values::number;
@@ -56,11 +56,13 @@ pub fn read_csv(
     [input_point_m, output_point_m]: [Option<[f64; 3]>; 2],
 ) -> Result<CsvContent> {
     check_size(path, bytes.len())?;
-    let mut reader =
-        csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).flexible(false).from_reader(bytes);
-    let header = header(path, &mut reader)?;
+    let text = CsvText::open(path, bytes)?;
+    let header = text.header.clone();
+    if header.is_empty() {
+        bail!("{path} is empty: give a header and one line per frequency");
+    }
     let frequency = frequency_column(path, &header)?;
-    let CsvRows { values, labels, lines } = rows(path, bytes, &mut reader, &header, frequency)?;
+    let CsvRows { values, labels, lines } = rows(path, text, &header, frequency)?;
 
     let is_response = |name: &String| ENDINGS[..4].iter().any(|ending| name.ends_with(ending));
     if header.iter().any(is_response) {
@@ -68,21 +70,6 @@ pub fn read_csv(
         return Ok(CsvContent::Responses(table.responses(frequency, names, input_point_m, output_point_m)?));
     }
     Ok(CsvContent::Frequencies(frequencies(path, &header, frequency, &values, labels)?))
-}
-
-/// Names of the columns.
-fn header(path: &str, reader: &mut csv::Reader<&[u8]>) -> Result<Vec<String>> {
-    let header: Vec<String> = match reader.headers() {
-        Ok(header) => header.iter().map(|name| name.trim_start_matches('\u{feff}').to_owned()).collect(),
-        Err(error) => bail!("cannot read {path}: {error}"),
-    };
-    if let Some(twice) = header.iter().enumerate().find(|(i, name)| header[..*i].contains(name)) {
-        bail!("{path} has the column `{}` twice: keep one of them", twice.1);
-    }
-    if header.is_empty() {
-        bail!("{path} is empty: give a header and one line per frequency");
-    }
-    Ok(header)
 }
 
 /// Index of the column of frequencies.
@@ -111,40 +98,26 @@ struct CsvRows {
 }
 
 /// Reads the lines below the header.
-fn rows(
-    path: &str,
-    bytes: &[u8],
-    reader: &mut csv::Reader<&[u8]>,
-    header: &[String],
-    frequency: usize,
-) -> Result<CsvRows> {
+fn rows(path: &str, text: CsvText, header: &[String], frequency: usize) -> Result<CsvRows> {
     let label = header.iter().position(|name| name == LIST[3]);
     let mut rows = CsvRows { values: Vec::new(), labels: Vec::new(), lines: Vec::new() };
-    for record in reader.records() {
-        let record = record.map_err(|error| match error.kind() {
-            csv::ErrorKind::UnequalLengths { pos: Some(position), expected_len, len } => anyhow!(
-                "{path}, line {}: {len} values, but {expected_len} in the header: give all lines the same columns",
-                line_at(bytes, position)
-            ),
-            _ => anyhow!("cannot read {path}: {error}"),
-        })?;
-        let line = || record.position().map_or(0, |position| line_at(bytes, position));
-
+    for record in text.records() {
+        let (line, record) = record?;
         let mut row = Vec::with_capacity(header.len());
         for (place, (text, name)) in record.iter().zip(header).enumerate() {
             let read = if Some(place) == label || text.is_empty() {
                 None
             } else {
-                Some(number(text).map_err(|reason| anyhow!("{path}, line {}, column `{name}`: {reason}", line()))?)
+                Some(number(text).map_err(|reason| anyhow!("{path}, line {}, column `{name}`: {reason}", line))?)
             };
             row.push(read);
         }
         if row[frequency].is_none() {
-            bail!("{path}, line {}: the frequency is missing", line());
+            bail!("{path}, line {}: the frequency is missing", line);
         }
 
         rows.labels.push(label.and_then(|at| record.get(at)).filter(|text| !text.is_empty()).map(clean));
-        rows.lines.push(line());
+        rows.lines.push(line);
         rows.values.push(row);
     }
 

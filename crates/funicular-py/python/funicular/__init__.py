@@ -14,9 +14,10 @@ array([1.0207, 1.1876, 1.2231, 1.2662, 1.3571, 1.8184, 1.8413, 1.8794])
 """
 
 from funicular import _earlier_names as _earlier_names
+from funicular import _equilibrium_methods as _equilibrium_methods
 from funicular import _hints as _hints
 from funicular import _html as _html
-from funicular import _methods as _methods
+from funicular import _robot_methods as _robot_methods
 from funicular import _tables as _tables
 from funicular._design import Designed
 from funicular._errors import (

@@ -3,7 +3,6 @@
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from os import PathLike
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +13,7 @@ from funicular._errors import InputError
 from funicular._funicular import Answered, Robot, measurements_of_file
 from funicular._hints import hinted
 from funicular._pages import Answer
-from funicular._reading import read
-
-File = str | PathLike[str]
+from funicular._reading import File, read
 
 
 @dataclass(frozen=True, repr=False, eq=False)

@@ -2,12 +2,16 @@
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
+from os import PathLike
 from typing import Any
 
 import numpy as np
 
 from funicular._errors import InputError
 from funicular._funicular import argument, interval
+
+# Path of a file.
+File = str | PathLike[str]
 
 
 def read(command: str, key: str, value: Any, *, cables: Sequence[str] = (), name: str | None = None) -> Any:

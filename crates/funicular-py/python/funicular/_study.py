@@ -25,10 +25,8 @@ from funicular._funicular import (
 from funicular._live import live
 from funicular._hints import hinted
 from funicular._pages import Page, page
-from funicular._reading import keywords, read
+from funicular._reading import File, keywords, read
 from funicular._sweeps import Sweep
-
-File = str | PathLike[str]
 
 
 @dataclass(frozen=True, repr=False)

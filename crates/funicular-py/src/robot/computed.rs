@@ -1,4 +1,4 @@
-//! Computations for a robot; `_methods.py` declares the methods that call them.
+//! Computations for a robot; `_robot_methods.py` declares the methods that call them.
 
 use super::PyRobot;
 use crate::answered::PyAnswered;

@@ -160,7 +160,7 @@ fn lengths(robot: &Robot, request: &request::PoseErrorRequest) -> Result<(Vec<f6
 }
 
 /// Maximum number of masses of a range.
-pub const MAX_MASSES: usize = 100_000;
+pub(crate) const MAX_MASSES: usize = 100_000;
 
 /// Masses of the request [kg], ascending. The first and the last are exact.
 fn masses(request: &request::PoseErrorRequest) -> Result<Vec<f64>> {

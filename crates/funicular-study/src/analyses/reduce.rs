@@ -31,7 +31,7 @@ pub const DEFAULT_TOLERANCE: f64 = 0.01;
 /// Maximum relative error due to omitted modes of the second-order form, if a request gives none.
 pub const DEFAULT_SECOND_ORDER_TOLERANCE: f64 = 1e-3;
 /// Maximum number of states that a request may ask for.
-pub const MAX_ORDER: usize = 400;
+const MAX_ORDER: usize = 400;
 
 /// Results of `reduce` in the requested form.
 #[derive(Serialize)]

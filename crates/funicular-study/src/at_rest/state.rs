@@ -40,7 +40,7 @@ pub fn with_state(mut robot: Robot, state: &request::State) -> Result<Robot> {
 ///
 /// # Errors
 /// A message that says which value to give.
-pub fn refuse_no_pose(robot: &Robot) -> Result<()> {
+pub(crate) fn refuse_no_pose(robot: &Robot) -> Result<()> {
     match robot.state {
         State::Pose(_) => Ok(()),
         State::Lengths(_) | State::Unknown => {
@@ -53,6 +53,6 @@ pub fn refuse_no_pose(robot: &Robot) -> Result<()> {
 ///
 /// # Errors
 /// [`StaticsError::NoState`].
-pub fn refuse_no_state(robot: &Robot) -> Result<(), StaticsError> {
+pub(crate) fn refuse_no_state(robot: &Robot) -> Result<(), StaticsError> {
     if robot.state == State::Unknown { Err(StaticsError::NoState) } else { Ok(()) }
 }

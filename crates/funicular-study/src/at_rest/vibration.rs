@@ -82,7 +82,7 @@ impl AtRest {
     ///
     /// # Errors
     /// A cable model that has no stiffness at this equilibrium.
-    pub fn dynamics_for_gradients(
+    pub(crate) fn dynamics_for_gradients(
         &self,
         linearisation: Linearisation,
         up_to_hz: f64,

@@ -9,16 +9,16 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 /// Number of starts of the search if none is given.
-pub const DEFAULT_STARTS: usize = 10;
+const DEFAULT_STARTS: usize = 10;
 
 /// Deviation of responses that have none, relative to their magnitude.
-pub const DEFAULT_RESPONSE_NOISE: f64 = 0.02;
+const DEFAULT_RESPONSE_NOISE: f64 = 0.02;
 
 /// Relative deviation of natural frequencies that have none.
-pub const DEFAULT_FREQUENCY_NOISE: f64 = 0.01;
+const DEFAULT_FREQUENCY_NOISE: f64 = 0.01;
 
 /// Relative deviation of damping ratios.
-pub const DEFAULT_DAMPING_NOISE: f64 = 0.1;
+const DEFAULT_DAMPING_NOISE: f64 = 0.1;
 
 declared! {
     /// Values of the robot file that fit measurements best, with their deviations.

@@ -7,7 +7,7 @@ use funicular::gradient::Hold;
 use serde::{Deserialize, Deserializer};
 
 /// Number of sampled robots if a request gives none: deviations are then accurate to 5 %.
-pub const DEFAULT_SAMPLES: usize = 200;
+const DEFAULT_SAMPLES: usize = 200;
 
 declared! {
     /// Deviations of results from deviations or tolerances of numbers of the robot file.
@@ -72,7 +72,7 @@ declared! {
 }
 
 /// Results whose deviations are computed if a request names none.
-pub fn pose_and_tensions() -> Vec<String> {
+fn pose_and_tensions() -> Vec<String> {
     vec!["pose".to_owned(), "tensions".to_owned()]
 }
 

@@ -174,7 +174,7 @@ declared! {
 }
 
 /// Default of the distance within which a point has settled [m].
-pub const SETTLED_WITHIN: f64 = 1e-3;
+const SETTLED_WITHIN: f64 = 1e-3;
 
 declared! {
     /// Response to turbulent wind: r.m.s. values and expected peaks of motions and tensions, with their spectra.
@@ -215,7 +215,7 @@ declared! {
 }
 
 /// Default of the time in which peaks are expected [s]: ten minutes, over which mean winds are taken.
-pub const GUST_DURATION: f64 = 600.0;
+pub(crate) const GUST_DURATION: f64 = 600.0;
 
 declared! {
     /// Turbulence about the mean wind. A value that is not given comes from the robot file.
@@ -346,10 +346,10 @@ declared! {
 }
 
 /// Input of a response that names none: a vertical force on the platform.
-pub const DEFAULT_INPUT: &str = "fz";
+const DEFAULT_INPUT: &str = "fz";
 
 /// Output of a response that names none: the vertical acceleration of the platform, which sensors measure.
-pub const DEFAULT_OUTPUT: &str = "az";
+const DEFAULT_OUTPUT: &str = "az";
 
 impl FrfRequest {
     /// True if frequencies are added until every peak has its height.

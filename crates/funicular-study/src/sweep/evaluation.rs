@@ -7,7 +7,7 @@ use super::status::Status;
 use crate::analyses::speeds::{half_widths, winch_speeds};
 use crate::table::Value;
 use funicular::cable::CableModel;
-use funicular::clearance::Surroundings;
+use funicular::clearance::{Clearance, Surroundings};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::Hold;
 use funicular::math::Vec6;
@@ -21,6 +21,7 @@ use funicular::statics::{
     self, Equilibrium, LimitAtCable, LoadCapacity, PayloadSide, RequestedPayload, Stability, StaticModel, StaticsError,
     TensionRule,
 };
+use funicular::warnings;
 use std::cell::OnceCell;
 
 /// Frequency up to which cables are resolved for their slow motion [Hz]; the shape of slow motion itself is exact.
@@ -52,6 +53,8 @@ pub(super) struct PointEvaluation<'a> {
     speeds: OnceCell<Result<WinchSpeeds, Status>>,
     /// Response to the gusts of the robot file.
     in_gusts: OnceCell<Result<PointInGusts, Status>>,
+    /// Pair with the least margin between cables, platform and obstacles, with its text.
+    nearest: OnceCell<Option<(Clearance, String)>>,
     /// First reason why a requested value is missing.
     missing: Option<Status>,
 }
@@ -70,6 +73,7 @@ impl<'a> PointEvaluation<'a> {
         let (lowest, exact, damped_platform) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
         let missing = Status::note_for(robot, rest);
         let (capacity, speeds, in_gusts) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
+        let nearest = OnceCell::new();
         Self {
             robot,
             rest,
@@ -83,6 +87,7 @@ impl<'a> PointEvaluation<'a> {
             capacity,
             speeds,
             in_gusts,
+            nearest,
             missing,
         }
     }
@@ -289,12 +294,29 @@ impl PointEvaluation<'_> {
         self.of_speeds(|speeds| asks.then(|| measure(speeds, &half_widths)), none)
     }
 
+    /// Pair with the least margin between cables, platform and obstacles, with its text.
+    fn nearest(&self) -> Option<&(Clearance, String)> {
+        let find = || {
+            let around = Surroundings::of(self.robot);
+            around.least(self.rest, None).map(|least| (least, around.pair_text(least.pair)))
+        };
+        self.nearest.get_or_init(find).as_ref()
+    }
+
+    /// Status of an equilibrium at which cables, platform and obstacles are too near to each other. It has quantities.
+    pub(super) fn interference(&self) -> Option<Status> {
+        if !self.robot.judges_clearance() {
+            return None;
+        }
+        let (least, pair) = self.nearest()?;
+        warnings::of_nearest(pair, least).map(|warning| Status::new("interference", &warning))
+    }
+
     /// Adds the least distance between cables, platform and obstacles, its margin and the pair.
     pub(super) fn clearance(&mut self, out: &mut Vec<Value>) {
-        let around = Surroundings::of(self.robot);
-        if let Some(least) = around.least(self.rest, None) {
+        if let Some((least, pair)) = self.nearest() {
             out.extend([least.distance, least.margin()].map(|value| Value::real(Some(value))));
-            out.push(Value::Text(around.pair_text(least.pair).into()));
+            out.push(Value::Text(pair.clone().into()));
         } else {
             out.extend([Value::Nothing, Value::Nothing, Value::Nothing]);
             self.note_missing(Status::new("no-comparison", "there is no pair of things whose distance counts"));

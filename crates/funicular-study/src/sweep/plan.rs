@@ -162,7 +162,7 @@ impl<'a> Plan<'a> {
 }
 
 /// Columns that follow the coordinates.
-fn row_columns(robot: &Robot, quantities: &[Quantity], with_distance: bool) -> Vec<Column> {
+pub(super) fn row_columns(robot: &Robot, quantities: &[Quantity], with_distance: bool) -> Vec<Column> {
     let own = |name: &str, about: &str, kind| Column {
         name: name.to_owned(),
         unit: "".into(),

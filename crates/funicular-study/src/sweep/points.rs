@@ -139,7 +139,7 @@ impl Poses {
 
     /// Map with the numbers of the robot file, for derivatives.
     #[must_use]
-    pub fn with_parameters(self, parameters: Option<Parameters>) -> Self {
+    pub(crate) fn with_parameters(self, parameters: Option<Parameters>) -> Self {
         Self { parameters: parameters.map(Arc::new), ..self }
     }
 

@@ -132,6 +132,20 @@ impl Quantity {
         rows.concat()
     }
 
+    /// Every quantity with one of its parameters, and its name with the form of the parameter.
+    pub(super) fn examples() -> impl Iterator<Item = (&'static str, Self)> {
+        TABLE.iter().filter_map(|definition| {
+            let parameter = match definition.takes {
+                ParameterKind::Nothing => Some(Parameter::None),
+                ParameterKind::Count => Some(Parameter::Count(1)),
+                ParameterKind::Model(default) => Some(Parameter::Model(default)),
+                ParameterKind::Sensitivity => Sensitivity::parse(Sensitivity::EXAMPLE).map(Parameter::Sensitivity),
+                ParameterKind::Axis => Some(Parameter::Axis(0)),
+            };
+            Some((definition.name, Self { definition, parameter: parameter? }))
+        })
+    }
+
     /// Name with its parameter, also if the parameter is the default.
     pub fn name(&self) -> String {
         let head = self.definition.head();

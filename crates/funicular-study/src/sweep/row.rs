@@ -31,9 +31,8 @@ pub(super) fn cells(
         Ok((robot, Solution { equilibrium, requested_pose, .. })) => {
             // The quantities are evaluated first, because the status depends on values that are missing.
             let hold = held_quantity(point);
-            let (values, missing) = quantity_values(robot, &equilibrium, hold, read, quantities, options);
-
-            let interference = Status::of_interference(robot, &equilibrium);
+            let RowValues { values, interference, missing } =
+                quantity_values(robot, &equilibrium, hold, read, quantities, options);
             head(interference.is_none(), interference.or(missing), out);
             if with_distance {
                 out.push(Value::real(requested_pose.map(|(_, distance)| distance)));
@@ -59,7 +58,16 @@ fn held_quantity(point: &Point) -> Hold {
     if of_lengths || point.holder.is_some() { Hold::Lengths } else { Hold::Pose }
 }
 
-/// Values of all quantities, and the first reason why a value is missing.
+/// Values of all quantities of a point.
+struct RowValues {
+    values: Vec<Value>,
+    /// Status of an equilibrium at which things are too near to each other.
+    interference: Option<Status>,
+    /// First reason why a value is missing.
+    missing: Option<Status>,
+}
+
+/// Values of all quantities.
 fn quantity_values(
     robot: &Robot,
     rest: &Equilibrium,
@@ -67,14 +75,14 @@ fn quantity_values(
     read: &ReadParameters<'_>,
     quantities: &[Quantity],
     options: &Options,
-) -> (Vec<Value>, Option<Status>) {
+) -> RowValues {
     let frequency_count = quantities.iter().map(Quantity::frequencies).max().unwrap_or(0);
     let mut row = PointEvaluation::new(robot, rest, hold, read, options, frequency_count);
     let mut values = Vec::new();
     for quantity in quantities {
         quantity.values(&mut row, &mut values);
     }
-    (values, row.into_missing())
+    RowValues { values, interference: row.interference(), missing: row.into_missing() }
 }
 
 fn head(feasible: bool, status: Option<Status>, out: &mut Vec<Value>) {

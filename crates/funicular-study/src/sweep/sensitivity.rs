@@ -2,7 +2,7 @@
 
 use super::evaluation::PointEvaluation;
 use super::status::Status;
-use crate::measure::{Measure, TensionPlace};
+use crate::measure::{Measure, MeasureGroup, TensionPlace};
 use crate::set_values::{self, ValuePath};
 use crate::table::{Column, Value};
 use funicular::gradient::{GradientError, Gradients};
@@ -11,16 +11,17 @@ use funicular::robot::{Robot, RobotChange};
 use funicular::suggest::nearest;
 use std::fmt::Display;
 
-/// Measures of a robot that are differentiated.
-type MeasuresOf = fn(&Robot) -> Vec<Measure>;
-
-/// Quantities that can be differentiated, by their names.
-const RESULTS: [(&str, MeasuresOf); 4] = [
-    ("first-frequency", |_| vec![Measure::Frequency(0)]),
-    ("stiffness-min", |_| vec![Measure::MinStiffness]),
-    ("tensions", |robot| Measure::tensions(robot, TensionPlace::Platform)),
-    ("lengths", Measure::lengths),
+/// Quantities that can be differentiated, by their names; without a group, the first natural frequency.
+const RESULTS: [(&str, Option<MeasureGroup>); 4] = [
+    ("first-frequency", None),
+    of_group(MeasureGroup::MinStiffness),
+    of_group(MeasureGroup::Tensions),
+    of_group(MeasureGroup::Lengths),
 ];
+
+const fn of_group(group: MeasureGroup) -> (&'static str, Option<MeasureGroup>) {
+    (group.name(), Some(group))
+}
 
 /// Derivative of a quantity by a number of the robot file.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +31,9 @@ pub(super) struct Sensitivity {
 }
 
 impl Sensitivity {
+    /// Example of a parameter.
+    pub(super) const EXAMPLE: &'static str = "first-frequency:platform.mass_kg";
+
     /// Derivative from `RESULT:PATH`.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let (result, path) = text.split_once(':')?;
@@ -49,7 +53,8 @@ impl Sensitivity {
         let names: Vec<&str> = RESULTS.iter().map(|(name, _)| *name).collect();
         format!(
             ": give a result and the path of a number after the colon, as in \
-             sensitivity:first-frequency:platform.mass_kg; results are {}",
+             sensitivity:{}; results are {}",
+            Self::EXAMPLE,
             names.join(", ")
         )
     }
@@ -88,7 +93,11 @@ impl Sensitivity {
 
     /// Measures that are differentiated, one per column.
     fn measures(&self, robot: &Robot) -> Vec<Measure> {
-        RESULTS.iter().find(|(name, _)| *name == self.result).map_or_else(Vec::new, |(_, of)| of(robot))
+        let group = RESULTS.iter().find_map(|(name, group)| (*name == self.result).then_some(*group).flatten());
+        match group {
+            Some(group) => group.of_statics(robot, &[], &[TensionPlace::Platform]),
+            None => vec![Measure::Frequency(0)],
+        }
     }
 
     /// Adds the derivatives at a point, one per column.

@@ -1,8 +1,8 @@
 //! Status of a row: a fixed short code and a text that say why numbers are missing.
 
 use funicular::robot::Robot;
-use funicular::statics::{Equilibrium, Stability, StaticsError};
-use funicular::warnings::{self, Warning};
+use funicular::statics::{Equilibrium, StaticsError};
+use funicular::warnings;
 use std::borrow::Cow;
 
 /// Status of a row.
@@ -73,28 +73,17 @@ impl Status {
 
     /// Status of an infeasible equilibrium: a tension is beyond a limit of the robot.
     pub(super) fn of_infeasible(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
-        warnings::of_statics(robot, equilibrium).iter().find_map(|warning| match warning {
-            Warning::Breaks { .. } | Warning::BeyondLimit { .. } => Some(Self::new("tension-limits", warning)),
-            _ => None,
-        })
-    }
-
-    /// Status of an equilibrium at which cables, platform and obstacles are too near to each other. It has quantities.
-    pub(super) fn of_interference(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
-        warnings::of_clearance(robot, equilibrium).map(|warning| Self::new("interference", &warning))
+        let beyond = (0..equilibrium.cables.len()).find_map(|i| warnings::of_tension(robot, equilibrium, i))?;
+        Some(Self::new("tension-limits", &beyond))
     }
 
     /// Status of a feasible equilibrium with a caveat: unstable, or with a slack cable.
     pub(super) fn note_for(robot: &Robot, equilibrium: &Equilibrium) -> Option<Self> {
-        let unstable = matches!(equilibrium.stability, Stability::Unstable { .. });
-        if !unstable && !equilibrium.cables.iter().any(funicular::statics::CableState::is_slack) {
-            return None;
+        if let Some(unstable) = warnings::of_stability(equilibrium) {
+            return Some(Self::new("unstable", &unstable));
         }
-        warnings::of_statics(robot, equilibrium).iter().find_map(|warning| match warning {
-            Warning::Unstable { .. } => Some(Self::new("unstable", warning)),
-            Warning::Slack { .. } if !unstable => Some(Self::new("slack", warning)),
-            _ => None,
-        })
+        let slack = (0..equilibrium.cables.len()).find_map(|i| warnings::of_slack(robot, equilibrium, i))?;
+        Some(Self::new("slack", &slack))
     }
 
     /// Code and text of a status.

@@ -168,7 +168,7 @@ impl Record {
 }
 
 /// Name of a column kind in the files.
-pub fn kind_name(kind: ColumnKind) -> &'static str {
+pub(crate) fn kind_name(kind: ColumnKind) -> &'static str {
     match kind {
         ColumnKind::Real => "real",
         ColumnKind::Flag => "flag",

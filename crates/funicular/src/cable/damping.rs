@@ -56,7 +56,7 @@ impl Damping {
     }
 
     /// Damping ratio of a vibration of the cable alone, at ω > 0 [rad/s].
-    pub fn ratio_at(self, omega: f64, mass_per_length: f64) -> f64 {
+    pub(crate) fn ratio_at(self, omega: f64, mass_per_length: f64) -> f64 {
         match self {
             Self::Ratio(xi) => xi,
             Self::Viscous(c) => over_mass(c, 2.0 * mass_per_length * omega),
@@ -100,7 +100,7 @@ impl StretchLoss {
     }
 
     /// Loss factor Im h/Re h at ω [rad/s], ω > 0.
-    pub fn factor_at(self, omega: f64) -> f64 {
+    pub(crate) fn factor_at(self, omega: f64) -> f64 {
         self.factor + omega * self.time
     }
 }

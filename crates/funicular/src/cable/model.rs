@@ -132,7 +132,7 @@ impl CableModel {
     }
 
     /// True for a model of shallow sag, which is valid up to [`SHALLOW_SAG_LIMIT`](super::SHALLOW_SAG_LIMIT).
-    pub fn is_shallow(self) -> bool {
+    pub(crate) fn is_shallow(self) -> bool {
         self.entry().shape == CableShape::Shallow
     }
 

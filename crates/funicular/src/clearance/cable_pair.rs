@@ -5,11 +5,11 @@
 //! which Newton's method finds; others are divided.
 
 use super::TOLERANCE;
-use super::span::{Arc, ArcBounds, FreeSpan, PointOnSpan};
+use super::arc::{Arc, ArcBounds};
+use super::bounded::Bounded;
+use super::segments::{self, NearSegments};
+use super::span::{FreeSpan, PointOnSpan};
 use crate::math::Vec3;
-use parry3d_f64::math::Vector;
-use parry3d_f64::query::details::closest_points_segment_segment_with_locations_nD;
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 /// Nearest points of two cables.
@@ -18,47 +18,51 @@ pub(super) struct NearCables {
     pub(super) distance: f64,
     /// The points [m].
     pub(super) points_w: [Vec3; 2],
+    /// Their places on the cables [m].
+    s: [f64; 2],
+    /// True if no points near them are nearer.
+    is_minimum: bool,
 }
 
 /// Maximum number of Newton steps, a guard: two to four are usual.
 const MAX_STEPS: usize = 30;
 
-/// Change of a place, over the length of the cable, at which Newton's method ends: rounding.
-const ARRIVED: f64 = 1e-14;
+/// Step of a place, over the length of the cable, that is the last one of Newton's method: its error squares from step to
+/// step and becomes rounding.
+const LAST_STEP: f64 = 1e-8;
+
+/// The same of a method without curvature, whose error shrinks by a factor only.
+const LAST_STEP_WITHOUT_CURVATURE: f64 = 1e-14;
 
 /// Nearest points of two cables, without ends that are mounted together; `None` if nothing is compared, or if the distance
 /// is surely above `enough`.
 pub(super) fn nearest(one: &FreeSpan, other: &FreeSpan, enough: f64) -> Option<NearCables> {
-    let ends = |span: &FreeSpan| [span.point(0.0), span.point(span.length)];
-    let (own, others) = (ends(one), ends(other));
-    let apart = [(own[0] - others[0]).norm(), (own[1] - others[1]).norm()];
-    let (own_range, other_range) = (one.compared(apart)?, other.compared(apart)?);
-
-    let mut best = NearCables { distance: f64::INFINITY, points_w: own };
-    let mut queue = BinaryHeap::new();
-    let first = PairOfArcs::new(one.arc(own_range), other.arc(other_range));
+    let apart = [0, 1].map(|end| (one.ends_w[end] - other.ends_w[end]).norm());
+    let first = PairOfArcs::bounded(*one.part(apart)?, *other.part(apart)?);
     if first.lower > enough {
         return None;
     }
-    queue.push(first);
 
-    while let Some(pair) = queue.pop() {
-        if pair.lower >= best.distance - TOLERANCE {
+    // Most pairs are settled with the first one, which needs no place in the queue.
+    let mut best = minimum_in(one, other, &first.of);
+    let (mut next, mut queue) = (Some(first), BinaryHeap::new());
+    while let Some(Bounded { lower, of: pair }) = next.take().or_else(|| queue.pop()) {
+        if lower >= best.distance - TOLERANCE {
             break;
         }
-        let found = minimum_in(one, other, &pair);
-        if found.distance < best.distance {
-            best = found;
-        }
-        let is_smallest = pair.arcs.iter().all(|arc| arc.sagitta < 0.25 * TOLERANCE);
-        if is_smallest || is_convex(one, other, &pair) {
-            continue;
-        }
         let [own, others] = &pair.arcs;
-        if own.sagitta >= others.sagitta {
-            one.halves(own).into_iter().for_each(|half| queue.push(PairOfArcs::new(half, *others)));
+        let is_smallest = own.sagitta.max(others.sagitta) < 0.25 * TOLERANCE;
+        let has_one_minimum = is_convex(&pair.arcs);
+        if is_smallest || has_one_minimum {
+            let is_known = has_one_minimum && best.is_minimum && own.holds(best.s[0]) && others.holds(best.s[1]);
+            let found = if is_known { continue } else { minimum_in(one, other, &pair) };
+            if found.distance < best.distance {
+                best = found;
+            }
+        } else if own.sagitta >= others.sagitta {
+            one.halves(own).into_iter().for_each(|half| queue.push(PairOfArcs::bounded(half, *others)));
         } else {
-            other.halves(others).into_iter().for_each(|half| queue.push(PairOfArcs::new(*own, half)));
+            other.halves(others).into_iter().for_each(|half| queue.push(PairOfArcs::bounded(*own, half)));
         }
     }
     Some(best)
@@ -67,20 +71,22 @@ pub(super) fn nearest(one: &FreeSpan, other: &FreeSpan, enough: f64) -> Option<N
 /// Arcs of both cables, with the nearest points of their chords.
 struct PairOfArcs {
     arcs: [Arc; 2],
-    /// No points of the arcs are nearer [m].
-    lower: f64,
     /// Places of the nearest points of the chords, from 0 to 1.
     fractions: [f64; 2],
 }
 
 impl PairOfArcs {
-    fn new(own: Arc, other: Arc) -> Self {
-        let [a, b, c, d] = [own.points_w[0], own.points_w[1], other.points_w[0], other.points_w[1]]
-            .map(|point| Vector::new(point.x, point.y, point.z));
-        let (one, two) = closest_points_segment_segment_with_locations_nD((&a, &b), (&c, &d));
-        let fractions = [one, two].map(|location| location.barycentric_coordinates()[1]);
-        let distance = (a + (b - a) * fractions[0] - c - (d - c) * fractions[1]).length();
-        Self { lower: distance - own.sagitta - other.sagitta, arcs: [own, other], fractions }
+    /// Arcs with a lower bound of the distance of their points [m]: along the line between the nearest points of the
+    /// chords, no points of the chords are nearer than these, and the arcs reach beyond them by a part of their sagittas.
+    fn bounded(own: Arc, other: Arc) -> Bounded<Self> {
+        let NearSegments { distance, fractions, apart_w } = segments::nearest(&own.points_w, &other.points_w);
+        let reach = if distance > 0.0 {
+            let away_w = apart_w / distance;
+            own.reach(&-away_w) + other.reach(&away_w)
+        } else {
+            own.sagitta + other.sagitta
+        };
+        Bounded { lower: distance - reach, of: Self { arcs: [own, other], fractions } }
     }
 }
 
@@ -89,33 +95,47 @@ fn minimum_in(one: &FreeSpan, other: &FreeSpan, pair: &PairOfArcs) -> NearCables
     let ranges = [pair.arcs[0].s, pair.arcs[1].s];
     let at = |k: usize| ranges[k][0] + pair.fractions[k] * (ranges[k][1] - ranges[k][0]);
     let mut places = [at(0), at(1)];
-    let mut best = NearCables { distance: f64::INFINITY, points_w: [Vec3::zeros(); 2] };
+    let mut best = NearCables { distance: f64::INFINITY, points_w: [Vec3::zeros(); 2], s: places, is_minimum: false };
+    let mut consider = |points_w: [Vec3; 2], s: [f64; 2]| {
+        let distance = (points_w[0] - points_w[1]).norm();
+        if distance < best.distance {
+            best = NearCables { distance, points_w, s, is_minimum: false };
+        }
+    };
 
     for _ in 0..MAX_STEPS {
         let own = one.point_with_derivatives(places[0]);
         let others = other.point_with_derivatives(places[1]);
-        let distance = (own.point_w - others.point_w).norm();
-        if distance < best.distance {
-            best = NearCables { distance, points_w: [own.point_w, others.point_w] };
-        }
-        let [ds, dt] = step(&own, &others, places, ranges);
+        consider([own.point_w, others.point_w], places);
+        let NewtonStep { by: [ds, dt], is_newtons } = step(&own, &others, places, ranges);
         if !(ds.is_finite() && dt.is_finite()) {
             break;
         }
         let next =
             [(places[0] + ds).clamp(ranges[0][0], ranges[0][1]), (places[1] + dt).clamp(ranges[1][0], ranges[1][1])];
-        let moved = (next[0] - places[0]).abs() / one.length + (next[1] - places[1]).abs() / other.length;
-        places = next;
-        if moved < ARRIVED {
+        let moves = [next[0] - places[0], next[1] - places[1]];
+        let moved = moves[0].abs() / one.length + moves[1].abs() / other.length;
+        if moved < if is_newtons { LAST_STEP } else { LAST_STEP_WITHOUT_CURVATURE } {
+            // So near, the derivatives give the points to rounding.
+            consider([own.after(moves[0]), others.after(moves[1])], next);
+            best.is_minimum = is_newtons;
             break;
         }
+        places = next;
     }
     best
 }
 
+/// Step of both places.
+struct NewtonStep {
+    by: [f64; 2],
+    /// True if it is Newton's, false if it is one without curvature.
+    is_newtons: bool,
+}
+
 /// Newton step of half the squared distance, along free coordinates only: a place at the end of its range stays there
 /// while the distance falls beyond.
-fn step(own: &PointOnSpan, others: &PointOnSpan, places: [f64; 2], ranges: [[f64; 2]; 2]) -> [f64; 2] {
+fn step(own: &PointOnSpan, others: &PointOnSpan, places: [f64; 2], ranges: [[f64; 2]; 2]) -> NewtonStep {
     let apart = own.point_w - others.point_w;
     let gradient = [apart.dot(&own.slope_w), -apart.dot(&others.slope_w)];
     let squares = [own.slope_w.norm_squared(), others.slope_w.norm_squared()];
@@ -153,41 +173,18 @@ fn step(own: &PointOnSpan, others: &PointOnSpan, places: [f64; 2], ranges: [[f64
             ds = -(gradient[0] + mixed * dt) / ss;
         }
     }
-    [ds, dt]
+    NewtonStep { by: [ds, dt], is_newtons: is_definite }
 }
 
-/// True if half the squared distance is surely convex over a pair of arcs: its second derivatives are bounded by the
-/// slopes and curvatures at the ends and by the largest distance.
-fn is_convex(one: &FreeSpan, other: &FreeSpan, pair: &PairOfArcs) -> bool {
-    let [own, others] = &pair.arcs;
-    let (Some(a), Some(b)) = (one.bounds(own), other.bounds(others)) else { return false };
-    let farthest = own.points_w.iter().flat_map(|p| others.points_w.iter().map(move |q| (p - q).norm()));
-    let farthest = farthest.fold(0.0, f64::max) + own.sagitta + others.sagitta;
+/// True if half the squared distance is surely convex over a pair of arcs: its second derivatives are bounded by those of
+/// the arcs.
+fn is_convex([own, others]: &[Arc; 2]) -> bool {
+    let (Some(a), Some(b)) = (&own.bounds, &others.bounds) else { return false };
+    let farthest = own.points_w.iter().flat_map(|p| others.points_w.iter().map(move |q| (p - q).norm_squared()));
+    let farthest = farthest.fold(0.0, f64::max).sqrt() + own.sagitta + others.sagitta;
 
-    let least = |bounds: &ArcBounds| bounds.slope[0] * bounds.slope[0] - farthest * bounds.curvature;
-    // Angle between the lines of the chords, less what the curves turn from them.
-    let (p, q) = (own.points_w[1] - own.points_w[0], others.points_w[1] - others.points_w[0]);
-    let angle = p.cross(&q).norm().atan2(p.dot(&q).abs()) - a.turn - b.turn;
-    let mixed = a.slope[1] * b.slope[1] * angle.max(0.0).cos();
-    least(&a) > 0.0 && least(&b) > 0.0 && least(&a) * least(&b) > mixed * mixed
-}
-
-impl PartialEq for PairOfArcs {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for PairOfArcs {}
-
-impl PartialOrd for PairOfArcs {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for PairOfArcs {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.lower.total_cmp(&self.lower)
-    }
+    let least = [own.least_second_derivative(a, others, farthest), others.least_second_derivative(b, own, farthest)];
+    let chords_w = [own, others].map(|arc| arc.points_w[1] - arc.points_w[0]);
+    let mixed = a.slope[1] * b.slope[1] * ArcBounds::greatest_cosine(a, b, [&chords_w[0], &chords_w[1]]);
+    least[0] > 0.0 && least[1] > 0.0 && least[0] * least[1] > mixed * mixed
 }

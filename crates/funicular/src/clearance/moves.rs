@@ -325,7 +325,6 @@ impl Placed<'_> {
     /// Side on which the first of two cables passes the second at their nearest points; zero for other pairs.
     fn side(&self, found: &Clearance) -> f64 {
         let ClearancePair::Cables(i, j) = found.pair else { return 0.0 };
-        let along = |k: usize| self.spans[k].end_w() - self.spans[k].start_w();
-        along(i).cross(&along(j)).dot(&(found.points_w[0] - found.points_w[1]))
+        self.spans[i].chord_w().cross(&self.spans[j].chord_w()).dot(&(found.points_w[0] - found.points_w[1]))
     }
 }

@@ -4,7 +4,7 @@ use super::{Densities, GustError, Gusts};
 
 /// Part of each moment by which one interval of the integration may be wrong. Some hundred intervals have errors far
 /// below it, so that r.m.s. values are right to about 1e-4.
-pub const SPECTRUM_TOLERANCE: f64 = 1e-5;
+const SPECTRUM_TOLERANCE: f64 = 1e-5;
 
 /// Intervals per decade from which the integration starts.
 const PER_DECADE: f64 = 6.0;

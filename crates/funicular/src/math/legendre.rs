@@ -8,7 +8,7 @@ use super::DMat;
 ///
 /// # References
 /// F. G. Tricomi, Ann. Mat. Pura Appl. 31, 1950.
-pub fn gauss(n: usize) -> Vec<(f64, f64)> {
+pub(crate) fn gauss(n: usize) -> Vec<(f64, f64)> {
     let size = n as f64;
     let mut rule = vec![(0.0, 0.0); n];
     for i in 0..n.div_ceil(2) {
@@ -61,7 +61,7 @@ pub fn orthonormal(xi: f64, degree: usize) -> Vec<f64> {
 /// Mass integrals ∫ N_a N_b dξ over [−1, 1] of the functions of an element: the two hats and the bubbles
 /// `N_j = ∫ p_{j−1} = (P_j − P_{j−2})/√(2(2j − 1))`, j = 2 … `degree`; (`degree` + 1)×(`degree` + 1). The slopes of the
 /// bubbles are orthonormal, and their products with those of the hats are zero.
-pub fn element_mass(degree: usize) -> DMat {
+pub(crate) fn element_mass(degree: usize) -> DMat {
     let mut m = DMat::zeros(degree + 1, degree + 1);
     let mut set = |a: usize, b: usize, value: f64| {
         m[(a, b)] = value;

@@ -8,7 +8,7 @@
 ///
 /// # References
 /// R. P. Brent, Algorithms for Minimization without Derivatives, Prentice-Hall 1973.
-pub fn brent(low: f64, f_low: f64, high: f64, f_high: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
+pub(crate) fn brent(low: f64, f_low: f64, high: f64, f_high: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
     let (mut a, mut fa, mut b, mut fb) = (low, f_low, high, f_high);
     let (mut c, mut fc) = (a, fa);
     let (mut step, mut before) = (b - a, b - a);

@@ -5,7 +5,7 @@ use super::{Mat6, Vec6, order};
 /// Number of negative eigenvalues of the leading `n`×`n` block of the symmetric `matrix`, which must be scaled.
 ///
 /// See [`negative_eigenvalues_in`].
-pub fn negative_eigenvalues(matrix: &Mat6, n: usize) -> usize {
+pub(crate) fn negative_eigenvalues(matrix: &Mat6, n: usize) -> usize {
     let mut a = [0.0; 36];
     for j in 0..n {
         for i in 0..n {
@@ -23,7 +23,7 @@ pub fn negative_eigenvalues(matrix: &Mat6, n: usize) -> usize {
 ///
 /// # References
 /// J. R. Bunch, B. N. Parlett, SIAM J. Numer. Anal. 8(4), 1971.
-pub fn negative_eigenvalues_in(a: &mut [f64], n: usize) -> usize {
+pub(crate) fn negative_eigenvalues_in(a: &mut [f64], n: usize) -> usize {
     // (1 + √17)/8 bounds the growth of the elements for both pivot sizes.
     const ALPHA: f64 = 0.640_388_203_202_208;
     assert_eq!(a.len(), n * n, "a square matrix");

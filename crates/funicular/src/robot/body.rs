@@ -212,9 +212,15 @@ pub struct RequiredClearance {
     /// Between an obstacle and a cable or the platform.
     pub obstacles: f64,
     /// Length of cable at an end that is not compared with what this end is mounted on: the platform, an obstacle nearer
-    /// than this to the anchor, a cable whose same end is nearer than this; `None` for a tenth of the
-    /// platform's length.
+    /// than this to the anchor, a cable whose same end is nearer than this; `None` for the share
+    /// [`RequiredClearance::FROM_END`] of the platform's length.
     pub from_end: Option<f64>,
+}
+
+impl RequiredClearance {
+    /// Share of the platform's length by which the ends of cables are left out if the file says nothing: an eyelet or a
+    /// swivel pulley takes a few centimetres of a platform of a metre.
+    pub const FROM_END: f64 = 0.1;
 }
 
 /// Vector of the library.

@@ -55,7 +55,7 @@ impl Pulley {
 
     /// Distance of a point from the wheel's centre [m]; the wheel swivels towards the point. `reach_w` is the point
     /// from the entry point.
-    pub fn distance_from_center(&self, reach_w: &Vec3) -> f64 {
+    pub(crate) fn distance_from_center(&self, reach_w: &Vec3) -> f64 {
         let along = reach_w.dot(&self.entry_direction_w);
         let across = (reach_w - self.entry_direction_w * along).norm();
         (across - self.radius).hypot(along)

@@ -26,8 +26,9 @@ mod winch_limits;
 mod winches;
 mod wind;
 
-use super::{Cable, Load, PlatformMotion, Pose, Robot, State, Support};
+use super::{Cable, Load, Platform, PlatformMotion, Pose, Robot, State, Support};
 use crate::math::Vec3;
+use bodies::Bodies;
 use cables::CableEntry;
 pub use issue::{Issue, SpecError};
 use key::{Absent, Key, KeyValue, Shape, Table};
@@ -314,14 +315,14 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let cables = cables?.into_iter().map(|entry| Some((entry.cable?, entry.support))).collect::<Option<Vec<_>>>()?;
     let (state, written_angles_deg) = state_and_angles?;
     let (cables, supports) = on_supports(cables, supports?);
-    refuse_huge_wheels(reader, table, &cables, &state);
-    let mut platform = platform?;
-    let (obstacles, clearance) = bodies::placed(reader, bodies?, &mut platform, &cables, &state)?;
-    Some(Robot {
+    let size = size_of(&cables, &state);
+    refuse_huge_wheels(reader, table, &cables, &state, size);
+    let Bodies { obstacles, parts, clearance } = bodies?;
+    let robot = Robot {
         name: name?,
         source: source?,
         gravity_w: Vec3::from(gravity?),
-        platform,
+        platform: Platform { bodies: parts, ..platform? },
         load: load?,
         required: required?,
         wind: wind?,
@@ -332,7 +333,9 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
         cables,
         state,
         written_angles_deg,
-    })
+    };
+    bodies::check_places(reader, &root, &robot, size);
+    Some(robot)
 }
 
 /// Cables with the supports of their anchors, and the supports by name. A support without anchors is left out.
@@ -349,22 +352,24 @@ fn on_supports(cables: Vec<(Cable, Option<String>)>, named: read::Named<Support>
 /// Radius above which a wheel is refused if the platform may be far from the anchors [m]. No wheel of a rope is so large.
 const LARGEST_WHEEL: f64 = 100.0;
 
-/// Refuses wheels of pulleys that are larger than the robot: the largest distance between two anchors, from an anchor to
-/// the platform, or along a cable.
-fn refuse_huge_wheels(reader: &mut Reader, root: &DeTable, cables: &[Cable], state: &State) {
-    let anchors_w: Vec<Vec3> = cables.iter().map(|cable| cable.anchor.point_w).collect();
-    let platform_w = if let State::Pose(pose) = state { pose.position_w } else { Vec3::zeros() };
+/// Size of a robot [m]: the largest distance between two anchors, from an anchor to the platform, or along a cable.
+fn size_of(cables: &[Cable], state: &State) -> f64 {
+    let platform_w = if let State::Pose(pose) = state { Some(pose.position_w) } else { None };
     let lengths: &[f64] = if let State::Lengths(lengths) = state { lengths } else { &[] };
-    let between = anchors_w.iter().flat_map(|one| anchors_w.iter().map(move |other| (other - one).norm()));
-    let from_platform = anchors_w.iter().map(|anchor_w| (anchor_w - platform_w).norm());
-    let size = between.chain(from_platform).chain(lengths.iter().copied()).fold(0.0, f64::max);
+    let points: Vec<Vec3> = cables.iter().map(|cable| cable.anchor.point_w).chain(platform_w).collect();
+    let between = points.iter().flat_map(|one| points.iter().map(move |other| (other - one).norm()));
+    between.chain(lengths.iter().copied()).fold(0.0, f64::max)
+}
 
+/// Refuses wheels of pulleys that are larger than the robot of a size [m].
+fn refuse_huge_wheels(reader: &mut Reader, root: &DeTable, cables: &[Cable], state: &State, size: f64) {
     // Without a state, the anchors do not tell how long the cables are.
     let least = if matches!(state, State::Unknown) { LARGEST_WHEEL } else { 0.0 };
 
     let mut named: Vec<&str> = Vec::new();
     for pulley in cables.iter().filter_map(|cable| cable.anchor.pulley.as_ref()) {
-        let is_huge = size > 0.0 && pulley.radius > size.max(least);
+        let limit = size.max(least);
+        let is_huge = limit > 0.0 && pulley.radius > limit;
         if !is_huge || named.contains(&pulley.name.as_str()) {
             continue;
         }

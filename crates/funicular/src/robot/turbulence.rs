@@ -130,36 +130,26 @@ impl TurbulenceSpectrum {
     pub const WORDS: [(&'static str, &'static str); 2] =
         [("kaimal", "Kaimal, as in IEC 61400-1"), ("von-karman", "von Kármán")];
 
+    /// Spectra, in the order of their words.
+    const ALL: [Self; 2] = [Self::Kaimal, Self::VonKarman];
+
     /// Spectrum of a word of the robot file.
-    pub fn of_word(word: &str) -> Option<Self> {
-        [Self::Kaimal, Self::VonKarman].into_iter().find(|of| of.word() == word)
+    pub(crate) fn of_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|of| of.word() == word)
     }
 
     /// Word of the robot file.
     pub fn word(self) -> &'static str {
-        match self {
-            Self::Kaimal => "kaimal",
-            Self::VonKarman => "von-karman",
-        }
+        Self::WORDS[self as usize].0
     }
 }
 
 impl Turbulence {
-    /// Intensities of the lateral and the vertical component over that along the wind (IEC 61400-1).
-    pub const INTENSITY_RATIOS: [f64; 3] = [1.0, 0.8, 0.5];
-
     /// Decay of the coherence that is usual for wind across the distance (Davenport).
     pub const COHERENCE_DECAY: [f64; 3] = [0.0, 10.0, 10.0];
 
     /// Highest intensity. Beyond it the wind turns round now and then, and drag is not linear in the gusts.
     pub const MAX_INTENSITY: f64 = 0.5;
-
-    /// Length scales [m] of Kaimal's spectra at a height above the ground: those of IEC 61400-1, (8.1, 2.7, 0.66) times
-    /// 0.7 of the height, at most 42 m.
-    pub fn length_scales_at(height: f64) -> [f64; 3] {
-        let scale = (0.7 * height).min(42.0);
-        [8.1, 2.7, 0.66].map(|factor| factor * scale)
-    }
 
     /// One-sided spectral density of a component (0 along, 1 lateral, 2 up) at a frequency [Hz] in a mean wind of a
     /// speed [m/s], over the variance of the component [1/Hz]. Its integral over all frequencies is 1, to the rounding
@@ -192,14 +182,14 @@ impl Turbulence {
     ///
     /// # References
     /// docs/theory.md, equation (49h).
-    pub fn weighted_distance(&self, distance: [f64; 3]) -> f64 {
+    pub(crate) fn weighted_distance(&self, distance: [f64; 3]) -> f64 {
         let square: f64 = distance.iter().zip(self.coherence_decay).map(|(d, decay)| (d * decay).powi(2)).sum();
         square.sqrt()
     }
 
     /// Phase [rad] by which the gusts at a place this far downstream [m] lag behind, at a frequency [Hz] and a mean
     /// speed [m/s].
-    pub fn lag(&self, downstream: f64, frequency_hz: f64, speed: f64) -> f64 {
+    pub(crate) fn lag(&self, downstream: f64, frequency_hz: f64, speed: f64) -> f64 {
         if self.is_frozen { TAU * frequency_hz * downstream / speed } else { 0.0 }
     }
 }

@@ -130,7 +130,7 @@ impl Robot {
     ///
     /// # References
     /// docs/theory.md, equation (49a).
-    pub fn line_load_by_chord(&self, i: usize, chord_w: &Vec3) -> Option<Mat3> {
+    pub(crate) fn line_load_by_chord(&self, i: usize, chord_w: &Vec3) -> Option<Mat3> {
         let drag_width = self.cables[i].material.drag_width.filter(|width| *width > 0.0)?;
         if self.wind.velocity_w == Vec3::zeros() {
             return None;

@@ -93,6 +93,66 @@ fn two_ropes_in_one_vertical_plane_cross_where_a_sag_passes_a_chord() {
     assert!((found.points_w[0] - found.points_w[1]).norm() < TOLERANCE);
 }
 
+/// Two straight cables at rest between given points, for the distance of their centre lines.
+fn straight(ends: [[Vec3; 2]; 2]) -> (Robot, Equilibrium) {
+    let (robot, mut rest) = at_rest(&without_ends(cogiro()), Pose::new([0.0, 0.0, 1.5], [0.0; 3]), 100.0);
+    for (cable, [attachment_w, anchor_w]) in rest.cables.iter_mut().zip(ends) {
+        (cable.attachment_w, cable.anchor_w, cable.hanging) = (attachment_w, anchor_w, None);
+    }
+    (robot, rest)
+}
+
+/// Distance of a point from a segment.
+fn from_segment(point: &Vec3, [from, to]: &[Vec3; 2]) -> f64 {
+    let along = to - from;
+    let place = ((point - from).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+    (from + along * place - point).norm()
+}
+
+#[test]
+fn nearly_parallel_cables_are_as_near_as_a_search_over_one_of_them_finds() {
+    let mut draw = Draw(23);
+    for k in 0..300 {
+        // Lines of 8 m that cross each other, or pass at 1e-9 m to 0.1 m, under angles from 1e-2 to 1e-12 rad.
+        let angle = 10f64.powf(-2.0 - f64::from(k % 11));
+        let gap = if k % 3 == 0 { 0.0 } else { 10f64.powf(draw.between(-9.0, -1.0)) };
+        let crossing = draw.between(-4.0, 4.0);
+        let own = [Vec3::new(0.0, 0.0, 2.0), Vec3::new(8.0, 0.0, 2.0)];
+        let others = [-1.0, 6.0].map(|x| Vec3::new(x, angle * (x - crossing), 2.0 + gap));
+
+        // The distance from the second cable is convex along the first: sections by thirds.
+        let at = |place: f64| from_segment(&(own[0] + (own[1] - own[0]) * place), &others);
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..200 {
+            let [a, b] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
+            if at(a) <= at(b) { high = b } else { low = a }
+        }
+        let expected = at(0.5 * (low + high)).min(at(0.0)).min(at(1.0));
+
+        let (robot, rest) = straight([own, others]);
+        let found = of_pair(&Surroundings::of(&robot).clearances(&rest, None), ClearancePair::Cables(0, 1));
+        let distance = found.distance + 2.0 * robot.cables[0].radius();
+        assert!((distance - expected).abs() < 0.1 * TOLERANCE, "{angle} {gap}: {distance} {expected}");
+    }
+}
+
+#[test]
+fn parallel_sagging_cables_are_as_far_apart_as_they_are_shifted() {
+    let (robot, mut rest) = at_rest(&without_ends(cogiro()), Pose::new([0.0, 0.0, 1.5], [0.0; 3]), 100.0);
+    let rope = rest.cables[1].hanging.as_ref().unwrap().catenary.rope();
+    let rope = funicular::catenary::Rope { unstrained_length: 8.2, ..rope };
+    let from = Vec3::new(-4.0, 0.0, 3.0);
+    let aside = Vec3::new(0.0, 0.3, 0.0);
+    for (cable, shift) in rest.cables.iter_mut().zip([Vec3::zeros(), aside]) {
+        let (start, end) = (from + shift, from + shift + Vec3::new(8.0, 0.0, 0.5));
+        let hanging = funicular::catenary::space::HangingCable::new(start, end, Vec3::z(), rope).unwrap();
+        (cable.attachment_w, cable.anchor_w, cable.hanging) = (start, end, Some(hanging));
+    }
+    let found = of_pair(&Surroundings::of(&robot).clearances(&rest, None), ClearancePair::Cables(0, 1));
+    let distance = found.distance + 2.0 * robot.cables[0].radius();
+    assert!((distance - aside.norm()).abs() < TOLERANCE, "{distance}");
+}
+
 /// Box of the triangles of its surface.
 fn mesh_of_box(half: [f64; 3]) -> Solid {
     let corner = |bits: usize| Vec3::from_fn(|k, _| if bits & (1 << k) == 0 { -half[k] } else { half[k] });

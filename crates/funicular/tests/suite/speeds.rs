@@ -23,7 +23,11 @@ fn above_weight(lines: &str) -> WinchSpeeds {
     let robot = Robot::from_toml(&text).unwrap();
     let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
     let upwards = Vec6::new(0.0, 0.0, -1.0, 0.0, 0.0, 0.0);
-    WinchSpeeds::of_rates(&robot, &rest, &LengthRates { by_pose: vec![upwards], by_load: vec![Vec6::zeros()], by_rope_load: vec![vec![Vec3::zeros()]] })
+    WinchSpeeds::of_rates(
+        &robot,
+        &rest,
+        &LengthRates { by_pose: vec![upwards], by_load: vec![Vec6::zeros()], by_rope_load: vec![vec![Vec3::zeros()]] },
+    )
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Results with their derivatives, one row each.
 
 use super::{GradientResult, RefusedResult};
-use crate::measure::{Measure, ResponsePart, TensionPlace};
+use crate::measure::{Measure, MeasureGroup, ResponsePart, TensionPlace};
 use crate::request::{self, GradientRequest};
 use anyhow::{Result, bail};
 use funicular::dynamics::Dynamics;
@@ -21,25 +21,14 @@ pub(super) struct GradientRows<'a> {
 
 impl GradientRows<'_> {
     /// Adds the results of the equilibrium that a request names.
-    pub(super) fn statics(&mut self, robot: &Robot, gradients: &Gradients, groups: &[&str]) {
+    pub(super) fn statics(&mut self, robot: &Robot, gradients: &Gradients, groups: &[MeasureGroup]) {
         let rest = gradients.equilibrium();
-        let mut measures = Vec::new();
-        if groups.contains(&"pose") {
-            measures.extend((0..6).map(Measure::Pose));
-        }
-        if groups.contains(&"lengths") {
-            measures.extend(Measure::lengths(robot));
-        }
-        if groups.contains(&"tensions") {
-            measures.extend(Measure::tensions(robot, TensionPlace::Platform));
-            measures.extend(Measure::tensions(robot, TensionPlace::Anchor));
-            if rest.cables.iter().any(|cable| cable.drive.is_some()) {
-                measures.extend(Measure::tensions(robot, TensionPlace::Drum));
-            }
-        }
-        if groups.contains(&"stiffness-min") {
-            measures.push(Measure::MinStiffness);
-        }
+        let has_drums = rest.cables.iter().any(|cable| cable.drive.is_some());
+        let places = [TensionPlace::Platform, TensionPlace::Anchor, TensionPlace::Drum];
+        let places = if has_drums { &places[..] } else { &places[..2] };
+        let requested = MeasureGroup::ALL.into_iter().filter(|group| groups.contains(group));
+        let measures: Vec<Measure> =
+            requested.flat_map(|group| group.of_statics(robot, &[0, 1, 2, 3, 4, 5], places)).collect();
 
         let found = Measure::static_gradients(&measures, gradients);
         for (measure, gradient) in measures.into_iter().zip(found) {
@@ -55,14 +44,14 @@ impl GradientRows<'_> {
         &mut self,
         dynamics: &Dynamics,
         vibration: &VibrationGradients,
-        groups: &[&str],
+        groups: &[MeasureGroup],
         below_hz: f64,
     ) -> usize {
         let found = modes::below(dynamics, below_hz);
-        if groups.contains(&"frequencies") {
+        if groups.contains(&MeasureGroup::Frequencies) {
             self.frequencies(&found.modes, vibration);
         }
-        if groups.contains(&"damping") {
+        if groups.contains(&MeasureGroup::Damping) {
             let damped = modes::damped::damped_modes(dynamics, &found);
             for (k, mode) in damped.modes.iter().enumerate() {
                 let gradient = vibration.damped(mode).map(|gradient| gradient.damping_ratio);

@@ -89,7 +89,7 @@ pub struct StatesRow {
 }
 
 /// Kind of a motion that replaces the modes above the limit.
-pub const RESIDUAL: &str = "residual";
+const RESIDUAL: &str = "residual";
 
 /// Makes the state space for a robot at equilibrium. The state of the request is not used.
 ///

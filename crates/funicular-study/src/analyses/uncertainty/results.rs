@@ -2,34 +2,23 @@
 
 use super::responses::Responses;
 use crate::at_rest::AtRest;
-use crate::measure::{Measure, ResponsePart, TensionPlace};
+use crate::measure::{Measure, MeasureGroup, ResponsePart, TensionPlace};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes;
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{Equilibrium, Stability};
 
 /// Measures of the groups of a request at an equilibrium with `modes` modes, and responses at frequencies [Hz].
-pub(super) fn of_groups(of: &[&str], robot: &Robot, modes: usize, at_hz: &[f64]) -> Vec<Measure> {
+pub(super) fn of_groups(of: &[MeasureGroup], robot: &Robot, modes: usize, at_hz: &[f64]) -> Vec<Measure> {
+    let components: Vec<usize> = robot.platform.motion.components().into_iter().collect();
+    let places = [TensionPlace::Platform, TensionPlace::Anchor];
     let mut all = Vec::new();
-    if of.contains(&"pose") {
-        all.extend(robot.platform.motion.components().into_iter().map(Measure::Pose));
-    }
-    if of.contains(&"lengths") {
-        all.extend(Measure::lengths(robot));
-    }
-    if of.contains(&"tensions") {
-        all.extend(Measure::tensions(robot, TensionPlace::Platform));
-        all.extend(Measure::tensions(robot, TensionPlace::Anchor));
-    }
-    if of.contains(&"stiffness-min") {
-        all.push(Measure::MinStiffness);
-    }
-
-    if of.contains(&"frequencies") {
-        all.extend((0..modes).map(Measure::Frequency));
-    }
-    if of.contains(&"damping") {
-        all.extend((0..modes).map(Measure::Damping));
+    for group in MeasureGroup::ALL.into_iter().filter(|group| of.contains(group)) {
+        match group {
+            MeasureGroup::Frequencies => all.extend((0..modes).map(Measure::Frequency)),
+            MeasureGroup::Damping => all.extend((0..modes).map(Measure::Damping)),
+            _ => all.extend(group.of_statics(robot, &components, &places)),
+        }
     }
     for part in [ResponsePart::Magnitude, ResponsePart::Phase] {
         all.extend(at_hz.iter().map(|hz| Measure::Response(*hz, part)));

@@ -237,7 +237,7 @@ impl<const N: usize, const E: usize> PoleResidue<N, E> {
     }
 
     /// Number of poles below ω² = x.
-    pub fn poles_below(&self, x: f64) -> usize {
+    pub(crate) fn poles_below(&self, x: f64) -> usize {
         self.poles.partition_point(|pole| *pole < x)
     }
 

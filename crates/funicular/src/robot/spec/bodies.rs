@@ -2,9 +2,9 @@
 
 use super::key::{Absent, Key, KeyValue, Shape};
 use super::range::Range;
-use super::read::{Named, Reader, Section, Value, shortened};
+use super::read::{Named, Reader, Section, shortened};
 use crate::math::Vec3;
-use crate::robot::{Body, Cable, ClosedMesh, Platform, PlatformMotion, Pose, RequiredClearance, Solid, State};
+use crate::robot::{Body, Cable, ClosedMesh, PlatformMotion, Pose, RequiredClearance, Robot, Solid, State};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use std::io::Cursor;
@@ -18,6 +18,10 @@ const UNITS: &[(&str, &str)] = &[("m", "metres"), ("mm", "millimetres")];
 
 /// Beginning of a mesh that stands in the robot file itself.
 const IN_THE_FILE: &str = "data:model/stl";
+
+/// Tables of obstacles, and of parts of the platform.
+const OBSTACLES: &str = "obstacles";
+const PARTS: &str = "platform_bodies";
 
 /// Keys of `[obstacles.NAME]` and `[platform_bodies.NAME]`.
 pub(super) const BODY: &[Key] = &[
@@ -96,25 +100,25 @@ pub(super) const CLEARANCE: &[Key] = &[
         "length at the end of a cable that is not compared with what this end is mounted on: the platform, an obstacle \
          that is nearer than this to the anchor, or a cable whose same end is nearer than this",
     )
-    .without(Absent::Means("a tenth of the mean distance of the attachments from the platform origin")),
+    .without(Absent::Means(
+        "a tenth of the mean distance of the attachments from the platform origin; 0.1 m for a point mass",
+    )),
 ];
 
 /// Obstacles, parts of the platform, and the distances that they need.
-pub(super) struct Bodies<'t> {
-    obstacles: Named<Body>,
-    parts: Named<Body>,
-    clearance: Option<RequiredClearance>,
-    /// Table of the obstacles, to report one at its place.
-    obstacles_at: Option<&'t Value<'t>>,
+pub(super) struct Bodies {
+    pub(super) obstacles: Vec<Body>,
+    pub(super) parts: Vec<Body>,
+    pub(super) clearance: Option<RequiredClearance>,
 }
 
 /// Reads obstacles, parts of the platform and required distances.
-pub(super) fn read<'t>(reader: &mut Reader, root: &Section<'t>, motion: Option<PlatformMotion>) -> Option<Bodies<'t>> {
+pub(super) fn read(reader: &mut Reader, root: &Section, motion: Option<PlatformMotion>) -> Option<Bodies> {
     let mut named = |kind: &str, singular: &str| match root.get(kind) {
         Some(value) => reader.named_tables(kind, singular, value, BODY, read_one),
         None => Some(Named::new()),
     };
-    let (obstacles, parts) = (named("obstacles", "obstacle"), named("platform_bodies", "platform body"));
+    let (obstacles, parts) = (named(OBSTACLES, "obstacle"), named(PARTS, "platform body"));
     let clearance = read_clearance(reader, root);
 
     let parts = parts?;
@@ -128,10 +132,11 @@ pub(super) fn read<'t>(reader: &mut Reader, root: &Section<'t>, motion: Option<P
         _ => None,
     };
     if let Some(message) = refused {
-        reader.issue(root.get("platform_bodies").map_or(0..0, toml::Spanned::span), message);
+        reader.issue(root.get(PARTS).map_or(0..0, toml::Spanned::span), message);
         return None;
     }
-    Some(Bodies { obstacles: obstacles?, parts, clearance: clearance?, obstacles_at: root.get("obstacles") })
+    let all = |named: Named<Body>| named.into_values().collect::<Option<Vec<Body>>>();
+    Some(Bodies { obstacles: all(obstacles?)?, parts: all(parts)?, clearance: clearance? })
 }
 
 /// Reads `[clearance]`. The outer `None` is a refused value; the inner one a file without the table.
@@ -230,59 +235,46 @@ fn mesh(reader: &mut Reader, section: &Section) -> Option<ClosedMesh> {
     }
 }
 
-/// Obstacles and parts of the platform of a robot, whose anchors and platform lie outside the obstacles.
-pub(super) fn placed(
-    reader: &mut Reader,
-    bodies: Bodies,
-    platform: &mut Platform,
-    cables: &[Cable],
-    state: &State,
-) -> Option<(Vec<Body>, Option<RequiredClearance>)> {
-    let Bodies { obstacles, parts, clearance, obstacles_at } = bodies;
-    platform.bodies = parts.into_values().collect::<Option<Vec<Body>>>()?;
-    let obstacles = obstacles.into_values().collect::<Option<Vec<Body>>>()?;
-    let span_of = |name: &str| {
-        let table = obstacles_at.and_then(|value| value.get_ref().as_table()?.get(name));
-        table.map_or(0..0, toml::Spanned::span)
-    };
+/// Refuses meshes that are far larger than the robot of a size [m], and obstacles around an anchor or the platform.
+pub(super) fn check_places(reader: &mut Reader, root: &Section, robot: &Robot, size: f64) {
+    for (kind, bodies) in [(PARTS, &robot.platform.bodies), (OBSTACLES, &robot.obstacles)] {
+        for body in bodies {
+            let Solid::Mesh(mesh) = &body.solid else { continue };
+            if size > 0.0 && mesh.size() > LARGEST_MESH * size {
+                let message =
+                    format!("the mesh of \"{}\" is {:.4} m large, and the robot {size:.4} m", body.name, mesh.size());
+                let help = "if the file is in millimetres, add `file_unit = \"mm\"`";
+                reader.issue(span_of(root, kind, &body.name), message).help(help);
+                return;
+            }
+        }
+    }
 
-    let size = size_of(cables, state);
-    let from_end = clearance.and_then(|clearance| clearance.from_end).unwrap_or_else(|| {
-        0.1 * cables.iter().map(|cable| cable.attachment_p.norm()).sum::<f64>() / cables.len().max(1) as f64
-    });
-    for body in platform.bodies.iter().chain(&obstacles) {
-        if let Solid::Mesh(mesh) = &body.solid
-            && mesh.size() > LARGEST_MESH * size
-            && size > 0.0
-        {
-            let message =
-                format!("the mesh of \"{}\" is {:.4} m large, and the robot {size:.4} m", body.name, mesh.size());
-            reader.issue(span_of(&body.name), message).help("if the file is in millimetres, add `file_unit = \"mm\"`");
-            return None;
+    for obstacle in &robot.obstacles {
+        if let Some(what) = inside(obstacle, robot) {
+            let message = format!("the obstacle \"{}\" is around {what}", obstacle.name);
+            reader.issue(span_of(root, OBSTACLES, &obstacle.name), message).help(
+                "a cable that begins inside an obstacle can never be free of it: make the obstacle smaller, or describe \
+                 a room by half spaces, one for each wall",
+            );
         }
     }
-    for obstacle in &obstacles {
-        let around = |what: String| format!("the obstacle \"{}\" is around {what}", obstacle.name);
-        let help = "a cable that begins inside an obstacle can never be free of it: make the obstacle smaller, or describe \
-                    a room by half spaces, one for each wall";
-        if let Some(cable) = cables.iter().find(|cable| obstacle.depth_inside(&cable.anchor.point_w) > from_end) {
-            reader.issue(span_of(&obstacle.name), around(format!("the anchor of cable \"{}\"", cable.name))).help(help);
-            return None;
-        }
-        if let State::Pose(pose) = state
-            && obstacle.depth_inside(&pose.position_w) > 0.0
-        {
-            let what = "the origin of the platform at the pose of [state]".to_owned();
-            reader.issue(span_of(&obstacle.name), around(what)).help(help);
-            return None;
-        }
-    }
-    Some((obstacles, clearance))
 }
 
-/// Largest distance of an anchor from another or from the platform [m].
-fn size_of(cables: &[Cable], state: &State) -> f64 {
-    let platform_w = if let State::Pose(pose) = state { Some(pose.position_w) } else { None };
-    let points: Vec<Vec3> = cables.iter().map(|cable| cable.anchor.point_w).chain(platform_w).collect();
-    points.iter().flat_map(|one| points.iter().map(move |other| (other - one).norm())).fold(0.0, f64::max)
+/// What an obstacle must not contain and does, in words.
+fn inside(obstacle: &Body, robot: &Robot) -> Option<String> {
+    // Anchors may lie in the surface of what carries them.
+    let is_inside = |cable: &&Cable| obstacle.depth_inside(&cable.anchor.point_w) > robot.clearance_from_end();
+    if let Some(cable) = robot.cables.iter().find(is_inside) {
+        return Some(format!("the anchor of cable \"{}\"", cable.name));
+    }
+    let State::Pose(pose) = &robot.state else { return None };
+    let around_platform = obstacle.depth_inside(&pose.position_w) > 0.0;
+    around_platform.then(|| "the origin of the platform at the pose of [state]".to_owned())
+}
+
+/// Place of a body in the file.
+fn span_of(root: &Section, kind: &str, name: &str) -> std::ops::Range<usize> {
+    let table = root.get(kind).and_then(|value| value.get_ref().as_table()?.get(name));
+    table.map_or(0..0, toml::Spanned::span)
 }

@@ -206,7 +206,7 @@ impl Key {
     }
 
     /// Default numbers; a single number is the first of them.
-    pub fn default_numbers(&self) -> Option<[f64; 3]> {
+    pub(crate) fn default_numbers(&self) -> Option<[f64; 3]> {
         match self.absent {
             Absent::Default(numbers) => Some(numbers),
             _ => None,

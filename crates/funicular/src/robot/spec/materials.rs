@@ -358,15 +358,8 @@ fn damping(reader: &mut Reader, section: &Section) -> Option<Damping> {
             None
         }
         (Some(value), None) => {
-            let ratio = reader.number_of(section, "damping_ratio", value)?;
-            if ratio >= RATIO_LIMIT {
-                let written = reader.written(value.span());
-                reader
-                    .issue(value.span(), format!("`damping_ratio` is {written}, it must be below {RATIO_LIMIT}"))
-                    .help("it is a fraction, not per cent: wire ropes have about 0.003");
-                return None;
-            }
-            Some(Damping::Ratio(ratio))
+            let help = "it is a fraction, not per cent: wire ropes have about 0.003";
+            reader.number_up_to_limit(section, "damping_ratio", value, help).map(Damping::Ratio)
         }
         (None, Some(value)) => reader.number_of(section, "viscous_damping_n_s_m2", value).map(Damping::Viscous),
         (None, None) => Some(Damping::Ratio(section.default("damping_ratio")[0])),
@@ -375,16 +368,10 @@ fn damping(reader: &mut Reader, section: &Section) -> Option<Damping> {
 
 /// Number of the loss of the stretch, or its default.
 fn below_limit(reader: &mut Reader, section: &Section, key: &'static str) -> Option<f64> {
-    let (limit, unit, help) = match key {
-        "axial_loss_factor" => (LOSS_FACTOR_LIMIT, "", "it is a fraction, not per cent: 2 % is 0.02"),
-        _ => (DAMPING_TIME_LIMIT, " s", "it is in seconds, not milliseconds: 0.8 ms is 0.8e-3"),
+    let help = match key {
+        "axial_loss_factor" => "it is a fraction, not per cent: 2 % is 0.02",
+        _ => "it is in seconds, not milliseconds: 0.8 ms is 0.8e-3",
     };
     let Some(value) = section.get(key) else { return Some(section.default(key)[0]) };
-    let number = reader.number_of(section, key, value)?;
-    if number >= limit {
-        let written = reader.written(value.span());
-        reader.issue(value.span(), format!("`{key}` is {written}, it must be below {limit}{unit}")).help(help);
-        return None;
-    }
-    Some(number)
+    reader.number_up_to_limit(section, key, value, help)
 }

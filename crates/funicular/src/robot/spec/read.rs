@@ -183,6 +183,29 @@ impl<'t> Reader<'t> {
         self.number_as(known(section.keys, key), value)
     }
 
+    /// Number of a key whose range ends at a limit of its own; `help` says what is usual.
+    pub(super) fn number_up_to_limit(
+        &mut self,
+        section: &Section,
+        key: &str,
+        value: &Value,
+        help: &'static str,
+    ) -> Option<f64> {
+        let number = self.number_of(section, key, value)?;
+        let Numeric { unit, range, .. } = section.number(key);
+        let (is_within, side) = match range {
+            Limits::UpTo(limit) => (number <= *limit, "at most"),
+            _ => (number < range.maximum(), "below"),
+        };
+        if is_within {
+            return Some(number);
+        }
+        let (written, limit) = (self.written(value.span()), range.maximum());
+        let unit = if *unit == "1" { String::new() } else { format!(" {unit}") };
+        self.issue(value.span(), format!("`{key}` is {written}, it must be {side} {limit}{unit}")).help(help);
+        None
+    }
+
     /// Number of a key, within its range.
     pub(super) fn number_as(&mut self, key: &Key, value: &Value) -> Option<f64> {
         let number = self.number(&format!("`{}`", key.name), key.numbers().range, value);
@@ -196,18 +219,7 @@ impl<'t> Reader<'t> {
 
     /// Fraction of a key: a number within its range, up to the maximum or below it.
     pub(super) fn fraction(&mut self, section: &Section, key: &str, value: &Value) -> Option<f64> {
-        let number = self.number_of(section, key, value)?;
-        let (is_within, limit) = match section.number(key).range {
-            Limits::UpTo(limit) => (number <= limit, format!("at most {limit}")),
-            range => (number < range.maximum(), format!("below {}", range.maximum())),
-        };
-        if !is_within {
-            let written = self.written(value.span());
-            self.issue(value.span(), format!("`{key}` is {written}, it must be {limit}"))
-                .help("it is a fraction, not per cent");
-            return None;
-        }
-        Some(number)
+        self.number_up_to_limit(section, key, value, "it is a fraction, not per cent")
     }
 
     /// Number within the limits. `label` is the key in backticks, or names the element.

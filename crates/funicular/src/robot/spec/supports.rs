@@ -60,15 +60,12 @@ pub(super) fn read(reader: &mut Reader, root: &Section) -> Option<Named<Support>
 
 fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Support> {
     let stiffness = reader.required(section, "stiffness_n_per_m").and_then(|value| stiffness(reader, value));
-    let [mass, damping_ratio] = ["mass_kg", "damping_ratio"].map(|key| reader.number_or_default(section, key));
-    if let (Some(ratio), Some(value)) = (damping_ratio, section.get("damping_ratio"))
-        && ratio >= DAMPING_LIMIT
-    {
-        reader
-            .issue(value.span(), format!("`damping_ratio` is {ratio}, it must be below {DAMPING_LIMIT}"))
-            .help("it is a fraction of the critical damping, not per cent: structures have 0.005 to 0.05");
-        return None;
-    }
+    let mass = reader.number_or_default(section, "mass_kg");
+    let help = "it is a fraction of the critical damping, not per cent: structures have 0.005 to 0.05";
+    let damping_ratio = match section.get("damping_ratio") {
+        Some(value) => Some(reader.number_up_to_limit(section, "damping_ratio", value, help)?),
+        None => Some(section.default("damping_ratio")[0]),
+    };
     let drum = match reader.word(section, "drums")? {
         "on-ground" => DrumPlace::OnGround,
         _ => DrumPlace::OnSupport,

@@ -1,0 +1,360 @@
+"""Methods of `Robot` that compute. Their keywords are the declared keys of the commands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Executor
+from typing import Any, SupportsIndex
+
+from numpy.typing import ArrayLike
+
+from funicular import _results
+from funicular._declared import STATE, Given, declared
+from funicular._design import Designed, designed
+from funicular._funicular import Equilibrium, Robot
+from funicular._identify import Identified, identified
+from funicular._reading import File, keywords, with_state
+from funicular._results import Equilibria, Results
+from funicular._sweeps import Sweep
+from funicular._uncertainty import Uncertainty, uncertainty as deviations_of
+
+_AS_REST = "The other parameters are those of `Robot.equilibrium`."
+_AS_BOTH = "The other parameters are those of `Robot.equilibrium` and of `Equilibrium.stiffness`."
+
+
+@declared(Robot, "statics", positional=("pose", "lengths_m", "static_model", "tension_rule"), without=("all", "friction_interval"))
+def equilibrium(of: Any, given: Given) -> Equilibrium:
+    """Computes the static equilibrium for a pose or for unstrained lengths.
+
+    Without `pose` and `lengths_m` the state is that of the robot file.
+
+    Parameters
+    ----------
+    pose
+        A `Pose`, or x, y, z [m], or x, y, z, roll, pitch, yaw [m, degrees], or x, y, z and a quaternion w, x, y, z.
+        The lengths follow. With fewer cables than degrees of freedom: the nearest pose that the cables can hold.
+    hold_lengths_of_pose
+        Hold the unstrained lengths with which the robot, as it was read and before `with_`, rests at the pose. All
+        changes, those of `with_` and those of this call, then act at these lengths and move the platform.
+
+    Raises
+    ------
+    StaticsError
+        There is no such equilibrium; `code` gives the reason as one word.
+    InputError
+        An argument is wrong; the message says which and what to give.
+    """
+    found: Equilibrium = of._equilibrium(given)
+    return found
+
+
+@declared(
+    Robot,
+    "statics",
+    positional=("poses", "lengths_m", "static_model", "tension_rule"),
+    without=("all", "friction_interval", "pose"),
+    others=_AS_REST,
+)
+def equilibria(
+    of: Any, given: Given, poses: ArrayLike | None = None, lengths_m: ArrayLike | None = None, threads: SupportsIndex | None = None
+) -> Equilibria:
+    """Computes the equilibria of many states in parallel, without Python's lock.
+
+    A state without equilibrium is a row with its reason, never an exception. Each row has, bit for bit, the numbers
+    of `equilibrium`.
+
+    Parameters
+    ----------
+    poses
+        (n, 3), (n, 6) or (n, 7): x, y, z [m], then roll, pitch, yaw [degrees] or a quaternion w, x, y, z.
+    lengths_m
+        (n, m): unstrained lengths [m] of m cables.
+    threads
+        Number of threads; one per processor if not given.
+    """
+    found: Equilibria = of._equilibria(poses, lengths_m, threads, given)
+    return found
+
+
+@declared(Robot, "payload", positional=("pose", "lengths_m", "static_model", "tension_rule"), others=_AS_REST)
+def payload(of: Any, given: Given) -> Results:
+    """Computes the minimum and the maximum payload at a pose, with the cables whose tension limits bind.
+
+    The payload is held by any tensions within the limits, not only by those of a tension rule. The pose need not be
+    held without a payload.
+
+    Returns
+    -------
+    The keys of the program's JSON: `minimum` and `maximum` with `payload_kg` and `cables`; without `maximum` if no
+    maximum tension limits the payload.
+
+    Raises
+    ------
+    StaticsError
+        No payload is held at this pose.
+    """
+    return _results.results(of._answer("payload", given))
+
+
+@declared(Robot, "loads", positional=("pose", "static_model"), others=_AS_REST)
+def loads(of: Any, given: Given) -> Results:
+    """Compares the loads that the cables hold at a pose with the required ones: verdict, load factor, what binds, margins.
+
+    All tensions within the limits count, not only those of a tension rule.
+
+    Returns
+    -------
+    The keys of the program's JSON: `closure`, `tension_factor`, `dead_load_held`, `capacity_margin_n`,
+    `acceleration_max_m_s2`, and `required` with `held`, `load_factor`, its bounds, the load that binds, and `cables`;
+    without `required` if nothing is required or the dead load is not held.
+
+    Raises
+    ------
+    StaticsError
+        The robot has no such pose, or no load factor was found.
+    """
+    return _results.results(of._answer("loads", given))
+
+
+@declared(Robot, "clearance", positional=("pose", "static_model"), others=_AS_REST)
+def clearance(of: Any, given: Given) -> Results:
+    """Computes the distances between the sagging cables, the platform and obstacles: what is nearest, where, and what is
+    too near.
+
+    Returns
+    -------
+    The keys of the program's JSON: `free`, and `pairs` with `kind`, `first`, `second`, `distance_m`, `required_m`,
+    `margin_m` and `points_m`, the pair with the least margin first.
+
+    Raises
+    ------
+    StaticsError
+        The robot has no such equilibrium.
+    """
+    return _results.results(of._answer("clearance", given))
+
+
+@declared(Robot, "pose-error", positional=("mass_kg",), others=_AS_REST)
+def pose_error(of: Any, given: Given) -> Results:
+    """Computes the distance of the poses of spring and catenary cables from those of ideal cables, over the platform
+    mass.
+
+    Parameters
+    ----------
+    mass_kg
+        First mass [kg], last mass [kg] and number of masses.
+
+    Returns
+    -------
+    The keys of the program's JSON: `points` with one entry for each mass.
+    """
+    return _results.results(of._answer("pose-error", given))
+
+
+@declared(Robot, "identify", positional=("fit", "experiments"), state=True, others=_AS_BOTH)
+def identify(of: Any, given: Given) -> Identified:
+    """Finds the values of the robot file that fit measurements best, with their deviations.
+
+    The keywords of the state belong to every experiment that does not give them itself.
+
+    Parameters
+    ----------
+    fit
+        Values to identify: a list of paths, or a mapping from paths to None, to bounds (minimum, maximum), or to a
+        mapping with `minimum`, `maximum`, `prior` and `prior_std`. A vector without a component stands for all its
+        numbers, and * for every name, as in `materials.*.mass_kg_per_m`.
+    experiments
+        One mapping per state of the robot, or a single one: `responses` and `frequencies` as
+        `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m`
+        with their deviations, `cables` with the names of those that were mounted, and the keys of the state.
+    profile
+        Paths of fitted values whose interval of 95 % is also found by holding the value and fitting the others
+        again; `details["values"]` has it under `profile`. * stands for any key.
+
+    Raises
+    ------
+    InputError
+        A value, a path or a measurement is wrong.
+    StaticsError
+        The robot has no equilibrium at any start.
+    """
+    state = {key: given.pop(key) for key in list(given) if key in STATE}
+    given["experiments"] = with_state(given["experiments"], keywords("identify", state, of.cable_names))
+    return identified(of.request("identify", **given))
+
+
+@declared(Robot, "design", positional=("change",), without=("lengths_m", "hold_lengths_of_pose"), others=_AS_BOTH)
+def design(of: Any, given: Given) -> Designed:
+    """Chooses values of the robot file with which the robot is best at several poses.
+
+    The poses are held, and the tensions of more cables than degrees of freedom follow `tension_rule`. The values
+    move within their bounds until the goal improves no further.
+
+    Parameters
+    ----------
+    change
+        Values to choose: a mapping from paths to the largest change to both sides, or to bounds (minimum, maximum).
+        A vector without a component stands for all its numbers, and * for every name, as in
+        `cables.*.attachment_m`.
+    poses
+        Poses (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees]; the worst one counts. If not given: `pose`,
+        or the pose of the robot file.
+    avoid_hz
+        Band (first, last) without natural frequencies at every pose [Hz].
+
+    Returns
+    -------
+    Result with `x`, `fun`, `success`, `message`, `nit` as those of `scipy.optimize`, with the values per pose, and
+    with `robot`.
+
+    Raises
+    ------
+    InputError
+        A value, a path or a bound is wrong.
+    StaticsError
+        A pose has no equilibrium, or no values within the bounds meet all demands; the message says what was
+        reached.
+
+    References
+    ----------
+    docs/theory.md, equations (60r) to (60t) and (95a) to (95c).
+    """
+    return designed(of.request("design", **given))
+
+
+@declared(Robot, "uncertainty", positional=("deviations", "tolerances", "of"), others=_AS_BOTH)
+def uncertainty(
+    of: Any,
+    given: Given,
+    samples_file: File | None = None,
+    resume: bool = False,
+    discard: bool = False,
+    threads: SupportsIndex | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Uncertainty:
+    """Computes the deviations of results from deviations or tolerances of numbers of the robot file.
+
+    Results are linear in the deviations where no cable may become slack and no frequencies may cross; elsewhere
+    robots are sampled, on all processors. docs/uncertainty.md explains the result. Theory, section "Uncertainty".
+
+    Parameters
+    ----------
+    deviations
+        Standard deviations of normally distributed numbers: a mapping from paths to values in the unit of the
+        number, or to percentages such as "1%"; or a list of texts such as "platform.mass_kg=1%". In a path * stands
+        for any key. Each entry is a group with a share of its own.
+    tolerances
+        Tolerances of numbers that are anywhere within ± their tolerance, in the same form.
+    poses
+        Several poses, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
+    at_hz
+        Frequencies of the response [Hz], one or several. Results are its magnitudes in decibels of its unit, and its
+        phases in degrees.
+    samples_file, resume, discard
+        File of the sampled robots, .parquet or .csv: FILE.partial holds them until all are there, and `resume`
+        continues with them.
+    threads
+        Number of threads of this process; one per processor if not given.
+    progress
+        Function that is called with the number of finished items and of all items.
+
+    Raises
+    ------
+    InputError
+        A path, a deviation or another argument is wrong; the message says which and what to give.
+    StaticsError
+        The robot has no equilibrium.
+    FileError
+        The file of the samples cannot be written, or belongs to other work.
+    """
+    return deviations_of(of._uncertainty(given, samples_file, resume, discard, threads, progress))
+
+
+def _of_rows(command: str, text: str) -> Callable[..., Sweep]:
+    """Function of `map` or `sweep`, whose rows are computed and written in the same way; `text` is its documentation."""
+
+    def rows(
+        of: Any,
+        given: Given,
+        file: File | None = None,
+        resume: bool = False,
+        discard: bool = False,
+        part: str | None = None,
+        threads: SupportsIndex | None = None,
+        executor: Executor | Callable[[], Executor] | None = None,
+        chunks_per_task: SupportsIndex | None = None,
+        progress: Callable[[int, int], object] | None = None,
+    ) -> Sweep:
+        found: Sweep = of._rows(command, given, part, file, resume, discard, threads, executor, chunks_per_task, progress)
+        return found
+
+    rows.__name__, rows.__doc__ = command, text
+    return rows
+
+
+declared(Robot, "map", positional=("grid", "quantities"), others=_AS_BOTH)(
+    _of_rows(
+        "map",
+        """Computes quantities over poses, one row per pose.
+
+        The rows are those of the program's `map`, bit for bit, with any number of threads or workers. A pose without
+        equilibrium is a row with its reason, never an exception.
+
+        Parameters
+        ----------
+        grid
+            Axes of a grid of poses: x, y, z [m], roll, pitch, yaw [degrees], as in `{"x": (-4, 4, 81), "z": [0.5, 1,
+            2]}`. A tuple is the first value, the last value and their number; anything else is values. x varies
+            fastest, then y.
+        quantities
+            What is computed at every point; docs/sweeps.md has the list; `tension-min` and `tension-max` if not given.
+        poses
+            Poses instead of a grid, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
+        file
+            File of the rows: .parquet, .csv or .vti. It is written when all rows are there; until then FILE.partial
+            holds them, also after a crash. The rows of a Parquet file are read into memory at their first use.
+        resume, discard
+            Continue with the rows of the same sweep in FILE.partial, or delete them.
+        part
+            Part k of n, as in "3/8"; each part has its own Parquet `file`, and `funicular.merge` joins them.
+        threads
+            Number of threads of this process; one per processor if not given.
+        executor
+            Executor whose workers compute (`concurrent.futures`, Dask's `Client.get_executor()`, mpi4py's
+            `MPIPoolExecutor`), or a function that makes an executor and is called again when the executor breaks.
+        chunks_per_task
+            Number of chunks of rows that a worker gets at once; chosen from measured times if not given.
+        progress
+            Function that is called with the number of finished rows and the number of all rows.
+
+        Raises
+        ------
+        InputError
+            An argument is wrong; the message says which and what to give.
+        FileError
+            The file cannot be written, or belongs to another sweep.
+        ExecutorError
+            The executor's workers died; `resume` of the exception continues.
+
+        Warns
+        -----
+        RobotWarning
+            The robot has a value that no usual robot has; once per call, before the rows are computed.
+        """,
+    )
+)
+
+declared(Robot, "sweep", positional=("vary", "quantities"), others="The other parameters are those of `map`.")(
+    _of_rows(
+        "sweep",
+        """Computes quantities over values of the robot file, one row per combination, as the program's `sweep`.
+
+        Parameters
+        ----------
+        vary
+            Values of the robot file that vary, by their paths as in `with_`: `{"platform.mass_kg": (10, 90, 81)}`. A
+            tuple is the first value, the last value and their number; anything else is values. The first path varies
+            fastest. `*` for any key moves all numbers that match together: `{"cables.*.anchor_m.z": (5, 6, 3)}`.
+        """,
+    )
+)
