@@ -35,7 +35,7 @@ const BARELY: f64 = 1e-100;
 /// ```
 ///
 /// # References
-/// docs/theory.md, section 26.
+/// docs/theory.md, equations (40z1) to (40z4).
 #[derive(Debug, Clone)]
 pub struct WinchSpeeds {
     motion: PlatformMotion,
