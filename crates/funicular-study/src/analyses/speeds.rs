@@ -10,11 +10,9 @@ use crate::columns::{Columns, Field, ResultTable, Tabled, column, parts};
 use crate::request::SpeedsRequest;
 use crate::table::Column;
 use anyhow::{Result, bail};
-use funicular::gradient::{GradientError, LengthRates};
 use funicular::math::Vec6;
 use funicular::robot::{LimitOfWinch, Robot};
 use funicular::speeds::{LargestMotion, SpeedLimit, WinchAtRest, WinchSpeeds};
-use funicular::statics::{Equilibrium, TensionRule};
 use serde::Serialize;
 
 /// Results of `speeds`.
@@ -146,9 +144,9 @@ pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
     }
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     let AtRest { robot, equilibrium: rest, rule, .. } = &at_rest;
-    let speeds = winch_speeds(robot, rest, rule.as_ref()).map_err(no_solution)?;
+    let speeds = WinchSpeeds::at(robot, rest, rule.as_ref()).map_err(no_solution)?;
 
-    let half_widths = half_widths(robot);
+    let half_widths = robot.required.twists_w();
     let asks = half_widths != Vec6::zeros();
     let cables = robot.cables.iter().zip(speeds.winches());
     let row = |of: LargestMotion| LargestSpeed::of(robot, of);
@@ -165,25 +163,6 @@ pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
             .collect(),
         warnings: at_rest.warnings(None),
     })
-}
-
-/// Winches at an equilibrium: the tensions follow the rule that has chosen them, or else change least along the cables.
-pub(crate) fn winch_speeds(
-    robot: &Robot,
-    rest: &Equilibrium,
-    rule: Option<&TensionRule>,
-) -> Result<WinchSpeeds, GradientError> {
-    let rates = match rule {
-        Some(rule) => LengthRates::of(robot, rest, rule),
-        None => LengthRates::with_least_change(robot, rest),
-    };
-    Ok(WinchSpeeds::of_rates(robot, rest, &rates?))
-}
-
-/// Half widths of the box of required velocities.
-pub(crate) fn half_widths(robot: &Robot) -> Vec6 {
-    let (velocity, angular) = (robot.required.velocity_w, robot.required.angular_velocity_w);
-    Vec6::new(velocity.x, velocity.y, velocity.z, angular.x, angular.y, angular.z)
 }
 
 /// Largest speeds in the directions in which the platform can move.
@@ -286,11 +265,11 @@ impl CableSpeeds {
             column("speed_max_in_m_s", "m/s", "largest speed of the cable while it winds in", |row: &Self| {
                 row.speed_max_in_m_s
             })
-            .significant("winds in up to", "m/s", 4),
+            .significant("in up to", "m/s", 4),
             column("speed_max_out_m_s", "m/s", "largest speed of the cable while it pays out", |row: &Self| {
                 row.speed_max_out_m_s
             })
-            .significant("pays out up to", "m/s", 4),
+            .significant("out up to", "m/s", 4),
             column("limit", "", "limit that is reached first", |row: &Self| row.limit).plain("limit"),
             column(
                 "platform_speed_max_m_s",

@@ -1,7 +1,6 @@
 //! Table of all quantities.
 
-use super::{Definition, Parameter, ParameterKind, Quantity, RequiredModel};
-use crate::analyses::stiffness::MOTION;
+use super::{Definition, Parameter, ParameterKind, Quantity, RequiredModel, twist_axes};
 use crate::measure::{Measure, TensionPlace};
 use crate::sweep::evaluation::PointEvaluation;
 use crate::sweep::points::AXES;
@@ -353,7 +352,7 @@ pub(super) static TABLE: &[Definition] = &[
             let axis = parameter.axis();
             let (suffix, unit) = if axis < 3 { ("m_s", "m/s") } else { ("rad_s", "rad/s") };
             let about = "largest speed along or about this axis that the winches allow both ways";
-            vec![column(format!("speed_max_{}_{suffix}", MOTION[axis]), unit, about)]
+            vec![column(format!("speed_max_{}_{suffix}", twist_axes()[axis]), unit, about)]
         },
         values: |row, parameter, out| {
             let unit_w = Vec6::ith(parameter.axis(), 1.0);
