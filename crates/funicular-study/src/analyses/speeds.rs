@@ -4,7 +4,6 @@ use super::fields;
 use super::found;
 use super::gradient::no_solution;
 use super::shared::{Origin, PoseRow};
-use super::stiffness::MOTION;
 use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, Field, ResultTable, Tabled, column, parts};
 use crate::request::SpeedsRequest;
@@ -29,7 +28,7 @@ pub struct Speeds {
     pub required: Option<RequiredSpeeds>,
     /// Largest speed of the platform origin in every direction without turning [m/s].
     pub every_direction: LargestSpeed,
-    /// Largest speeds along the axes of the world and about them.
+    /// Largest speeds along the coordinates of the platform: axes of the world, and turns about them.
     pub directions: Vec<DirectionRow>,
     pub cables: Vec<CableSpeeds>,
     #[serde(skip)]
@@ -165,18 +164,19 @@ pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
     })
 }
 
-/// Largest speeds in the directions in which the platform can move.
+/// Largest speeds along the coordinates of the platform.
 fn directions(robot: &Robot, speeds: &WinchSpeeds) -> Vec<DirectionRow> {
-    let row = |axis: usize| {
-        let largest = |sign: f64| LargestSpeed::of(robot, speeds.along(&(Vec6::ith(axis, 1.0) * sign)));
+    let motion = &robot.platform.motion;
+    let row = |(k, coordinate): (usize, &&'static str)| {
+        let unit_w = motion.expanded(&Vec6::ith(k, 1.0));
         DirectionRow {
-            coordinate: MOTION[axis],
-            unit: if axis < 3 { "m/s" } else { "rad/s" },
-            forward: largest(1.0),
-            backward: largest(-1.0),
+            coordinate,
+            unit: if motion.is_rotation(k) { "rad/s" } else { "m/s" },
+            forward: LargestSpeed::of(robot, speeds.along(&unit_w)),
+            backward: LargestSpeed::of(robot, speeds.along(&-unit_w)),
         }
     };
-    robot.platform.motion.components().into_iter().map(row).collect()
+    motion.coordinate_names().iter().enumerate().map(row).collect()
 }
 
 impl LargestSpeed {
