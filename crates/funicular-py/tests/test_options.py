@@ -31,6 +31,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "uncertainty": ("`robot.uncertainty(…)`", [Robot.uncertainty]),
     "payload": ("`robot.payload(…)`", [Robot.payload]),
     "loads": ("`robot.loads(…)`", [Robot.loads]),
+    "speeds": ("`robot.speeds(…)`", [Robot.speeds]),
     "clearance": ("`robot.clearance(…)`", [Robot.clearance]),
     "pose-error": ("`robot.pose_error(…)`", [Robot.pose_error]),
     "identify": ("`robot.identify(fit, experiments, …)`", [Robot.identify]),

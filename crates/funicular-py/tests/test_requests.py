@@ -32,6 +32,7 @@ REQUIRED = (
     "--required-payload-center-reach-m 0.1,0.1,0 --required-acceleration-m-s2 1,1,1 "
     "--required-angular-acceleration-rad-s2 0.2,0.2,0.2"
 )
+VELOCITIES = "--required-velocity-m-s 1,1,0.5 --required-angular-velocity-rad-s 0.2,0.2,0.2 --set winches.drum.max_speed_m_s=3"
 LENGTHS_OVER_TIME = """t_s,unstrained_length_1_m,unstrained_length_2_m,unstrained_length_3_m,unstrained_length_4_m,unstrained_length_5_m,unstrained_length_6_m
 0,6.86,6.568,6.753,6.666,6.801,6.604
 0.5,6.862,6.566,6.755,6.664,6.801,6.604
@@ -76,6 +77,10 @@ MORE = [
     f"funicular loads robots/cogiro.toml --pose 1,1,1.5 {REQUIRED}",
     f"funicular map robots/cogiro.toml --grid x=0:1:2 --grid y=1 --grid z=1.5 --quantity load-factor {REQUIRED}",
     f"funicular sweep robots/cogiro.toml --vary platform.mass_kg=80,90 --quantity load-factor {REQUIRED}",
+    f"funicular speeds robots/cogiro-winches.toml {TENSIONS} {STATE} {VELOCITIES}",
+    "funicular speeds robots/cogiro-winches.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 110",
+    f"funicular map robots/cogiro-winches.toml --grid x=0:1:2 --grid z=1.5 --quantity speed-factor,speed-max:rz {VELOCITIES}",
+    f"funicular sweep robots/cogiro-winches.toml --vary platform.mass_kg=90,95 --quantity motor-power {VELOCITIES}",
     f"funicular clearance robots/cogiro.toml {TENSIONS} {STATE}",
     "funicular clearance robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250",
     "funicular clearance robots/cogiro.toml --pose 0,0,1.5 --move-to 1,0.5,1.5,0,0,10",
@@ -262,7 +267,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
-    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "clearance", "pose-error", "cable"),
+    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "clearance", "pose-error", "cable"),
     *("settle", "gust", "reduce", "identify", "uncertainty"),
 )
 
@@ -303,6 +308,9 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
         return
     if command == "loads":
         assert plain(robot.loads(**keywords)) == theirs
+        return
+    if command == "speeds":
+        assert plain(robot.speeds(**keywords)) == theirs
         return
     if command == "clearance":
         assert plain(robot.clearance(**keywords)) == theirs

@@ -21,12 +21,12 @@ const BARELY: f64 = 1e-100;
 /// use funicular::math::Vec6;
 /// use funicular::robot::Robot;
 /// use funicular::speeds::WinchSpeeds;
-/// use funicular::statics::{self, StaticModel, TensionRule};
+/// use funicular::statics::{self, StaticModel};
 ///
 /// let limited = "gear_ratio = 3\nmax_speed_m_s = 3.0";
 /// let robot = Robot::from_toml(&funicular_robots::COGIRO_WINCHES.replacen("gear_ratio = 3", limited, 1))?;
 /// let rest = statics::solve(&robot, StaticModel::Catenary, None)?.equilibrium;
-/// let speeds = WinchSpeeds::at(&robot, &rest, &TensionRule::Lowest)?;
+/// let speeds = WinchSpeeds::at(&robot, &rest, None)?;
 ///
 /// let required = Vec6::new(1.0, 1.0, 1.0, 0.2, 0.2, 0.2); // m/s and rad/s, both ways
 /// let factor = speeds.factor(&required);
@@ -35,7 +35,7 @@ const BARELY: f64 = 1e-100;
 /// ```
 ///
 /// # References
-/// docs/theory.md, section 26.
+/// docs/theory.md, equations (40z1) to (40z4).
 #[derive(Debug, Clone)]
 pub struct WinchSpeeds {
     motion: PlatformMotion,
@@ -99,12 +99,17 @@ pub struct SumOfPowers {
 }
 
 impl WinchSpeeds {
-    /// Winches at an equilibrium, while the tensions follow their rule.
+    /// Winches at an equilibrium: the tensions follow the rule that has chosen them; without one they change least along
+    /// the cables.
     ///
     /// # Errors
     /// [`GradientError`], as [`LengthRates::of`].
-    pub fn at(robot: &Robot, rest: &Equilibrium, rule: &TensionRule) -> Result<Self, GradientError> {
-        Ok(Self::of_rates(robot, rest, &LengthRates::of(robot, rest, rule)?))
+    pub fn at(robot: &Robot, rest: &Equilibrium, rule: Option<&TensionRule>) -> Result<Self, GradientError> {
+        let rates = match rule {
+            Some(rule) => LengthRates::of(robot, rest, rule),
+            None => LengthRates::with_least_change(robot, rest),
+        };
+        Ok(Self::of_rates(robot, rest, &rates?))
     }
 
     /// Winches at an equilibrium with these rates of the unstrained lengths.

@@ -16,13 +16,13 @@ impl Printed for Speeds {
         );
         format!(
             "{}: speeds at a pose with {} cables{}\n\n  position            ({}) m\n  roll, pitch, yaw    ({})°\n{required}  \
-             every direction     {} without turning\n\n{}\n{}\n{}",
+             without turning     {}\n\n{}\n{}\n{}",
             self.robot,
             self.static_model,
             self.origin.phrase(),
             vector(&self.pose.position_m, 6),
             vector(&self.pose.roll_pitch_yaw_deg, 4),
-            largest(&self.every_direction, " m/s"),
+            largest(&self.every_direction, " m/s in every direction"),
             directions(self),
             rates(self),
             Table::of(&CableSpeeds::columns(self.required.is_some()), &self.cables),

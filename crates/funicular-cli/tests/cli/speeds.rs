@@ -84,11 +84,32 @@ fn the_text_says_what_limits_and_what_to_give() {
 }
 
 #[test]
+fn check_shows_the_limits_of_winches() {
+    let robot = robot("cogiro-winches.toml");
+    let curve = [
+        "--set",
+        "winches.drum.torque_speed_rad_s=[0, 300]",
+        "--set",
+        "winches.drum.torque_speed_n_m=[60, 20]",
+        "--set",
+        "winches.drum.max_brake_power_w=400",
+    ];
+    let line = [&["check", &robot], &LIMITS[..], &curve].concat();
+    let text = succeed(&line);
+    assert!(text.contains("3 m/s, 900 W, braking 400 W, torque curve to 300 rad/s"), "{text}");
+    assert!(text.contains("gear η = 0.9"), "{text}");
+    let winch = &json(&line)["cables"][0]["winch"];
+    assert_eq!(winch["max_speed_m_s"], 3.0);
+    assert_eq!(winch["torque_speed_n_m"], serde_json::json!([60.0, 20.0]));
+    assert!(json(&["check", &robot])["cables"][0]["winch"]["max_speed_m_s"].is_null());
+}
+
+#[test]
 fn a_robot_with_lengths_keeps_its_tensions() {
     let found = json(&[&["speeds", &robot("cogiro-winches.toml")], &LIMITS[..], &BOX].concat());
     let rest = json(&["statics", &robot("cogiro-winches.toml")]);
     for (ours, theirs) in found["cables"].as_array().unwrap().iter().zip(rest["cables"].as_array().unwrap()) {
-        assert!((number(&ours["tension_drum_n"]) - number(&theirs["tension_drum_n"])).abs() < 1e-9);
+        assert!((number(&ours["tension_drum_n"]) - number(&theirs["drive"]["tension_drum_n"])).abs() < 1e-9);
     }
     assert!(found["tension_rule"].is_null());
 }
@@ -123,6 +144,13 @@ fn maps_have_the_measures_and_say_why_one_is_missing() {
     }
     assert_eq!(value("status"), "ok");
 
+    // A planar platform does not leave its plane.
+    let planar = super::robot("kntu-planar.toml");
+    let grid = ["map", &planar, "--grid", "x=0", "--quantity", "speed-max:z"];
+    let (header_of_planar, rows_of_planar) = csv(&grid);
+    let reason = header_of_planar.iter().position(|column| column == "reason").unwrap();
+    assert!(rows_of_planar[0][reason].contains("cannot make this motion"), "{rows_of_planar:?}");
+
     let (header, rows) = csv(&[&map[..], &LIMITS].concat());
     let status = header.iter().position(|column| column == "status").unwrap();
     assert_eq!(rows[0][status], "no-speed");
@@ -130,11 +158,12 @@ fn maps_have_the_measures_and_say_why_one_is_missing() {
 
 #[test]
 fn what_has_no_speeds_is_refused_with_a_remedy() {
-    let cases: [(&str, &[&str], &str); 4] = [
+    let cases: [(&str, &[&str], &str); 5] = [
         ("cogiro-winches.toml", &["--required-velocity-m-s", "-1,0,0"], "required-velocity-m-s"),
         ("cogiro-winches.toml", &["--set", "required.velocity_ms=[1, 1, 1]"], "velocity_m_s"),
         ("cogiro-winches.toml", &["--set", "winches.drum.max_speed_m_s=0"], "must be positive"),
-        ("yuan2014-4mm.toml", &["--set", "required.angular_velocity_rad_s=1"], "an array"),
+        ("grab-2-cables.toml", &[], "at least as many cables as degrees of freedom"),
+        ("yuan2014-4mm.toml", &["--set", "required.angular_velocity_rad_s=1"], "three numbers"),
     ];
     for (name, arguments, words) in cases {
         let output = run(&[&["speeds", &robot(name)], arguments].concat());

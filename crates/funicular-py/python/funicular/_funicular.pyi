@@ -1211,7 +1211,7 @@ class Robot(Analyses):
         StaticsError
             The robot has no such pose, or no load factor was found.
         """
-    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: str | Sequence[str] | None = None, *, poses: ArrayLike | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: str | Sequence[str] | None = None, *, poses: ArrayLike | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over poses, one row per pose.
 
@@ -1257,6 +1257,10 @@ class Robot(Analyses):
             Largest required angular acceleration from rest, both ways about each world axis [rad/s²].
         required_wind_speed_m_s
             Speed of the required wind from every horizontal direction on the platform [m/s].
+        required_velocity_m_s
+            Largest required velocity of the platform origin, both ways along each world axis [m/s].
+        required_angular_velocity_rad_s
+            Largest required angular velocity, both ways about each world axis [rad/s].
         file
             File of the rows: .parquet, .csv or .vti. It is written when all rows are there; until then FILE.partial
             holds them, also after a crash. The rows of a Parquet file are read into memory at their first use.
@@ -1338,7 +1342,31 @@ class Robot(Analyses):
         -------
         The keys of the program's JSON: `points` with one entry for each mass.
         """
-    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: str | Sequence[str] | None = None, *, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def speeds(self, /, pose: Pose | ArrayLike | None = None, static_model: StaticModel = "catenary", *, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> Results:
+        """
+        Computes what the winches do while the platform moves, and how fast their limits let it be.
+
+        Parameters
+        ----------
+        required_velocity_m_s
+            Largest required velocity of the platform origin, both ways along each world axis [m/s].
+        required_angular_velocity_rad_s
+            Largest required angular velocity, both ways about each world axis [rad/s].
+
+        The other parameters are those of `Robot.equilibrium`.
+
+        Returns
+        -------
+        The keys of the program's JSON: `every_direction` and `directions` with the largest speeds and what limits them,
+        `cables` with rates, torques, largest speeds and used parts of the limits, and `required` with `speed_factor` and the
+        powers of all motors; without `required` if no velocity is required.
+
+        Raises
+        ------
+        StaticsError
+            The robot has no such equilibrium, or its lengths have no rates there.
+        """
+    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: str | Sequence[str] | None = None, *, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over values of the robot file, one row per combination, as the program's `sweep`.
 
@@ -1379,6 +1407,10 @@ class Robot(Analyses):
             Largest required angular acceleration from rest, both ways about each world axis [rad/s²].
         required_wind_speed_m_s
             Speed of the required wind from every horizontal direction on the platform [m/s].
+        required_velocity_m_s
+            Largest required velocity of the platform origin, both ways along each world axis [m/s].
+        required_angular_velocity_rad_s
+            Largest required angular velocity, both ways about each world axis [rad/s].
 
         The other parameters are those of `map`.
         """

@@ -116,6 +116,24 @@ def loads(of: Any, given: Given) -> Results:
     return _results.results(of._answer("loads", given))
 
 
+@declared(Robot, "speeds", positional=("pose", "static_model"), others=_AS_REST)
+def speeds(of: Any, given: Given) -> Results:
+    """Computes what the winches do while the platform moves, and how fast their limits let it be.
+
+    Returns
+    -------
+    The keys of the program's JSON: `every_direction` and `directions` with the largest speeds and what limits them,
+    `cables` with rates, torques, largest speeds and used parts of the limits, and `required` with `speed_factor` and the
+    powers of all motors; without `required` if no velocity is required.
+
+    Raises
+    ------
+    StaticsError
+        The robot has no such equilibrium, or its lengths have no rates there.
+    """
+    return _results.results(of._answer("speeds", given))
+
+
 @declared(Robot, "clearance", positional=("pose", "static_model"), others=_AS_REST)
 def clearance(of: Any, given: Given) -> Results:
     """Computes the distances between the sagging cables, the platform and obstacles: what is nearest, where, and what is

@@ -4,17 +4,14 @@ use super::fields;
 use super::found;
 use super::gradient::no_solution;
 use super::shared::{Origin, PoseRow};
-use super::stiffness::MOTION;
 use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, Field, ResultTable, Tabled, column, parts};
 use crate::request::SpeedsRequest;
 use crate::table::Column;
 use anyhow::{Result, bail};
-use funicular::gradient::{GradientError, LengthRates};
 use funicular::math::Vec6;
 use funicular::robot::{LimitOfWinch, Robot};
 use funicular::speeds::{LargestMotion, SpeedLimit, WinchAtRest, WinchSpeeds};
-use funicular::statics::{Equilibrium, TensionRule};
 use serde::Serialize;
 
 /// Results of `speeds`.
@@ -31,7 +28,7 @@ pub struct Speeds {
     pub required: Option<RequiredSpeeds>,
     /// Largest speed of the platform origin in every direction without turning [m/s].
     pub every_direction: LargestSpeed,
-    /// Largest speeds along the axes of the world and about them.
+    /// Largest speeds along the coordinates of the platform: axes of the world, and turns about them.
     pub directions: Vec<DirectionRow>,
     pub cables: Vec<CableSpeeds>,
     #[serde(skip)]
@@ -146,9 +143,9 @@ pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
     }
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     let AtRest { robot, equilibrium: rest, rule, .. } = &at_rest;
-    let speeds = winch_speeds(robot, rest, rule.as_ref()).map_err(no_solution)?;
+    let speeds = WinchSpeeds::at(robot, rest, rule.as_ref()).map_err(no_solution)?;
 
-    let half_widths = half_widths(robot);
+    let half_widths = robot.required.twists_w();
     let asks = half_widths != Vec6::zeros();
     let cables = robot.cables.iter().zip(speeds.winches());
     let row = |of: LargestMotion| LargestSpeed::of(robot, of);
@@ -167,37 +164,19 @@ pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
     })
 }
 
-/// Winches at an equilibrium: the tensions follow the rule that has chosen them, or else change least along the cables.
-pub(crate) fn winch_speeds(
-    robot: &Robot,
-    rest: &Equilibrium,
-    rule: Option<&TensionRule>,
-) -> Result<WinchSpeeds, GradientError> {
-    let rates = match rule {
-        Some(rule) => LengthRates::of(robot, rest, rule),
-        None => LengthRates::with_least_change(robot, rest),
-    };
-    Ok(WinchSpeeds::of_rates(robot, rest, &rates?))
-}
-
-/// Half widths of the box of required velocities.
-pub(crate) fn half_widths(robot: &Robot) -> Vec6 {
-    let (velocity, angular) = (robot.required.velocity_w, robot.required.angular_velocity_w);
-    Vec6::new(velocity.x, velocity.y, velocity.z, angular.x, angular.y, angular.z)
-}
-
-/// Largest speeds in the directions in which the platform can move.
+/// Largest speeds along the coordinates of the platform.
 fn directions(robot: &Robot, speeds: &WinchSpeeds) -> Vec<DirectionRow> {
-    let row = |axis: usize| {
-        let largest = |sign: f64| LargestSpeed::of(robot, speeds.along(&(Vec6::ith(axis, 1.0) * sign)));
+    let motion = &robot.platform.motion;
+    let row = |(k, coordinate): (usize, &&'static str)| {
+        let unit_w = motion.expanded(&Vec6::ith(k, 1.0));
         DirectionRow {
-            coordinate: MOTION[axis],
-            unit: if axis < 3 { "m/s" } else { "rad/s" },
-            forward: largest(1.0),
-            backward: largest(-1.0),
+            coordinate,
+            unit: if motion.is_rotation(k) { "rad/s" } else { "m/s" },
+            forward: LargestSpeed::of(robot, speeds.along(&unit_w)),
+            backward: LargestSpeed::of(robot, speeds.along(&-unit_w)),
         }
     };
-    robot.platform.motion.components().into_iter().map(row).collect()
+    motion.coordinate_names().iter().enumerate().map(row).collect()
 }
 
 impl LargestSpeed {
@@ -286,11 +265,11 @@ impl CableSpeeds {
             column("speed_max_in_m_s", "m/s", "largest speed of the cable while it winds in", |row: &Self| {
                 row.speed_max_in_m_s
             })
-            .significant("winds in up to", "m/s", 4),
+            .significant("in up to", "m/s", 4),
             column("speed_max_out_m_s", "m/s", "largest speed of the cable while it pays out", |row: &Self| {
                 row.speed_max_out_m_s
             })
-            .significant("pays out up to", "m/s", 4),
+            .significant("out up to", "m/s", 4),
             column("limit", "", "limit that is reached first", |row: &Self| row.limit).plain("limit"),
             column(
                 "platform_speed_max_m_s",

@@ -88,4 +88,4 @@ declared! {
 }
 
 /// Default of the error of a length between two stations of a controller [m].
-pub const LENGTH_TOLERANCE: f64 = 1e-4;
+const LENGTH_TOLERANCE: f64 = 1e-4;

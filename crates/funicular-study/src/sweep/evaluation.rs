@@ -4,7 +4,6 @@ use super::frequency::{self, Lowest};
 use super::gusts::{self, PointInGusts};
 use super::options::Options;
 use super::status::Status;
-use crate::analyses::speeds::{half_widths, winch_speeds};
 use crate::table::Value;
 use funicular::cable::CableModel;
 use funicular::clearance::{Clearance, Surroundings};
@@ -278,7 +277,7 @@ impl PointEvaluation<'_> {
         none: &str,
     ) -> Result<f64, Status> {
         let find = || {
-            let found = winch_speeds(self.robot, self.rest, self.rule());
+            let found = WinchSpeeds::at(self.robot, self.rest, self.rule());
             found.map_err(|error| Status::new("no-derivative", &error))
         };
         let speeds = self.speeds.get_or_init(find).as_ref().map_err(Clone::clone)?;
@@ -288,7 +287,7 @@ impl PointEvaluation<'_> {
 
     /// Measure of the speeds for the required velocities; it is missing if none is required.
     pub(super) fn of_required_speeds(&self, measure: impl FnOnce(&WinchSpeeds, &Vec6) -> f64) -> Result<f64, Status> {
-        let half_widths = half_widths(self.robot);
+        let half_widths = self.robot.required.twists_w();
         let asks = half_widths != Vec6::zeros();
         let none = if asks { "no winch limits the required velocities" } else { "no velocity is required" };
         self.of_speeds(|speeds| asks.then(|| measure(speeds, &half_widths)), none)

@@ -8,12 +8,11 @@ mod table;
 
 use super::evaluation::PointEvaluation;
 use super::sensitivity::Sensitivity;
-use crate::analyses::stiffness::MOTION;
 use crate::set_values;
 use crate::table::{Column, Value};
 use crate::wording::{Words, worded};
 use funicular::cable::CableModel;
-use funicular::robot::Robot;
+use funicular::robot::{PlatformMotion, Robot};
 use funicular::statics::StaticModel;
 use funicular::suggest::nearest;
 use std::fmt;
@@ -154,7 +153,7 @@ impl Quantity {
             Parameter::Count(count) => format!("{head}:{count}"),
             Parameter::Model(model) => format!("{head}:{model}"),
             Parameter::Sensitivity(of) => format!("{head}:{}", of.name()),
-            Parameter::Axis(axis) => format!("{head}:{}", MOTION[*axis]),
+            Parameter::Axis(axis) => format!("{head}:{}", twist_axes()[*axis]),
         }
     }
 
@@ -237,7 +236,9 @@ impl Definition {
                 simpler_models().find(|model| model.name() == text).map(Parameter::Model)
             }
             (ParameterKind::Sensitivity, Some(text)) => Sensitivity::parse(text).map(Parameter::Sensitivity),
-            (ParameterKind::Axis, Some(text)) => MOTION.iter().position(|axis| *axis == text).map(Parameter::Axis),
+            (ParameterKind::Axis, Some(text)) => {
+                twist_axes().iter().position(|axis| *axis == text).map(Parameter::Axis)
+            }
             (ParameterKind::Nothing, Some(_))
             | (ParameterKind::Count | ParameterKind::Sensitivity | ParameterKind::Axis, None) => None,
         }
@@ -280,6 +281,11 @@ impl Parameter {
     }
 }
 
+/// Components of a twist: along the axes of the world, then about them.
+fn twist_axes() -> &'static [&'static str] {
+    PlatformMotion::Rigid.coordinate_names()
+}
+
 /// Cable models that are compared with `catenary-dynamic`.
 fn simpler_models() -> impl Iterator<Item = CableModel> {
     CableModel::ALL.into_iter().filter(|model| *model != CableModel::CatenaryDynamic)
@@ -311,7 +317,7 @@ fn hint(text: &str) -> String {
         }
         Some(ParameterKind::Sensitivity) => return Sensitivity::hint(text),
         Some(ParameterKind::Axis) => {
-            return format!(": the axis after the colon is one of {}, as in {head}:x", MOTION.join(", "));
+            return format!(": the axis after the colon is one of {}, as in {head}:x", twist_axes().join(", "));
         }
         Some(ParameterKind::Model(_)) if text.contains(':') => {
             let models: Vec<&str> = simpler_models().map(CableModel::name).collect();

@@ -210,6 +210,11 @@ impl PlatformMotion {
         }
     }
 
+    /// True if the platform can follow all of a motion.
+    pub fn can_follow(&self, motion: &Vec6) -> bool {
+        (self.allowed(motion) - motion).norm() <= IN_PLANE * motion.norm()
+    }
+
     /// Checks that the platform can have a pose.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! Loads that a robot has to bear at every pose where it works.
 
 use super::{Load, LoadError, PlatformMotion};
-use crate::math::Vec3;
+use crate::math::{Vec3, Vec6};
 use thiserror::Error;
 
 /// Required loads: everything that acts on the platform in addition to the dead load. The parts add up in every
@@ -87,6 +87,13 @@ impl RequiredLoads {
             .iter()
             .all(|of| *of == Vec3::zeros());
         no_vector && self.listed.is_empty() && self.payload.max_mass == 0.0 && self.wind_speed == 0.0
+    }
+
+    /// Half widths of the box of twists that the winches have to give: velocity of the platform origin [m/s], then
+    /// angular velocity [rad/s], world axes.
+    pub fn twists_w(&self) -> Vec6 {
+        let (velocity_w, angular_w) = (self.velocity_w, self.angular_velocity_w);
+        Vec6::new(velocity_w.x, velocity_w.y, velocity_w.z, angular_w.x, angular_w.y, angular_w.z)
     }
 
     /// Refuses loads that contradict themselves or have no meaning for a platform with this motion.

@@ -65,8 +65,8 @@ impl GradientColumns {
         }
         if columns.parameters.is_empty() {
             bail!(
-                "⟪by⟫: {} without derivatives: limits, the plane of a planar platform and the friction of pulleys have \
-                 none",
+                "⟪by⟫: {} without derivatives: limits, the plane of a planar platform, friction of pulleys and losses \
+                 of gears have none",
                 columns.without_derivative.join(", ")
             );
         }

@@ -1,7 +1,6 @@
 //! Table of all quantities.
 
-use super::{Definition, Parameter, ParameterKind, Quantity, RequiredModel};
-use crate::analyses::stiffness::MOTION;
+use super::{Definition, Parameter, ParameterKind, Quantity, RequiredModel, twist_axes};
 use crate::measure::{Measure, TensionPlace};
 use crate::sweep::evaluation::PointEvaluation;
 use crate::sweep::points::AXES;
@@ -9,6 +8,7 @@ use crate::table::{Column, ColumnKind, Value};
 use funicular::cable::{CableModel, Sag};
 use funicular::math::{Vec6, rotation};
 use funicular::robot::{Constraint, Robot};
+use funicular::speeds::WinchSpeeds;
 use funicular::statics::{self, TensionRange};
 
 /// Reason why the cables have no margin.
@@ -353,14 +353,14 @@ pub(super) static TABLE: &[Definition] = &[
             let axis = parameter.axis();
             let (suffix, unit) = if axis < 3 { ("m_s", "m/s") } else { ("rad_s", "rad/s") };
             let about = "largest speed along or about this axis that the winches allow both ways";
-            vec![column(format!("speed_max_{}_{suffix}", MOTION[axis]), unit, about)]
+            vec![column(format!("speed_max_{}_{suffix}", twist_axes()[axis]), unit, about)]
         },
         values: |row, parameter, out| {
             let unit_w = Vec6::ith(parameter.axis(), 1.0);
-            let found = row.of_speeds(
-                |speeds| Some(speeds.along(&unit_w).value.min(speeds.along(&-unit_w).value)),
-                "no winch limits this motion, or the platform cannot make it",
-            );
+            let is_possible = row.robot.platform.motion.can_follow(&unit_w);
+            let both = |speeds: &WinchSpeeds| speeds.along(&unit_w).value.min(speeds.along(&-unit_w).value);
+            let none = if is_possible { "no winch limits this motion" } else { "the platform cannot make this motion" };
+            let found = row.of_speeds(|speeds| is_possible.then(|| both(speeds)), none);
             row.push(Some(found), out);
         },
         ..Definition::PLAIN
