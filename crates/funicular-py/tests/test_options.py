@@ -32,6 +32,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "payload": ("`robot.payload(…)`", [Robot.payload]),
     "loads": ("`robot.loads(…)`", [Robot.loads]),
     "speeds": ("`robot.speeds(…)`", [Robot.speeds]),
+    "trajectory": ("`robot.trajectory(path, …)`", [Robot.trajectory]),
     "clearance": ("`robot.clearance(…)`", [Robot.clearance]),
     "pose-error": ("`robot.pose_error(…)`", [Robot.pose_error]),
     "identify": ("`robot.identify(fit, experiments, …)`", [Robot.identify]),

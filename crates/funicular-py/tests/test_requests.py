@@ -32,6 +32,12 @@ REQUIRED = (
     "--required-payload-center-reach-m 0.1,0.1,0 --required-acceleration-m-s2 1,1,1 "
     "--required-angular-acceleration-rad-s2 0.2,0.2,0.2"
 )
+COURSE = (
+    "--course quintic --speed-m-s 1 --acceleration-m-s2 2 --jerk-m-s3 30 --angular-speed-rad-s 0.5 "
+    "--angular-acceleration-rad-s2 1 --angular-jerk-rad-s3 9 --duration-s 2 --rope-inertia --sample-time-s 0.25 "
+    "--station-time-s 0.1 --length-tolerance-m 1e-3"
+)
+CIRCLE = "--speed-m-s 1 --acceleration-m-s2 1 --jerk-m-s3 10 --sample-time-s 0.5"
 VELOCITIES = "--required-velocity-m-s 1,1,0.5 --required-angular-velocity-rad-s 0.2,0.2,0.2 --set winches.drum.max_speed_m_s=3"
 LENGTHS_OVER_TIME = """t_s,unstrained_length_1_m,unstrained_length_2_m,unstrained_length_3_m,unstrained_length_4_m,unstrained_length_5_m,unstrained_length_6_m
 0,6.86,6.568,6.753,6.666,6.801,6.604
@@ -81,6 +87,9 @@ MORE = [
     "funicular speeds robots/cogiro-winches.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 110",
     f"funicular map robots/cogiro-winches.toml --grid x=0:1:2 --grid z=1.5 --quantity speed-factor,speed-max:rz {VELOCITIES}",
     f"funicular sweep robots/cogiro-winches.toml --vary platform.mass_kg=90,95 --quantity motor-power {VELOCITIES}",
+    f"funicular trajectory robots/cogiro.toml {TENSIONS} {STATE} --move-to 1.5,1,1.5,0,0,10 --blend 0.5 {COURSE}",
+    f"funicular trajectory robots/cogiro-winches.toml --pose 1,0,1.5 --circle-center-m 0,0,1.5 --circle-axis 0,0.1,1 --turns 0.5 {CIRCLE}",
+    f"funicular trajectory robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250 --move-to 1.5,1,1.5 --lift-m 0.2 {CIRCLE} --max-tension-n 1500 --fastest",
     f"funicular clearance robots/cogiro.toml {TENSIONS} {STATE}",
     "funicular clearance robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250",
     "funicular clearance robots/cogiro.toml --pose 0,0,1.5 --move-to 1,0.5,1.5,0,0,10",
@@ -267,7 +276,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
-    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "clearance", "pose-error", "cable"),
+    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "trajectory", "clearance", "pose-error", "cable"),
     *("settle", "gust", "reduce", "identify", "uncertainty"),
 )
 
@@ -311,6 +320,9 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
         return
     if command == "speeds":
         assert plain(robot.speeds(**keywords)) == theirs
+        return
+    if command == "trajectory":
+        assert plain(robot.trajectory(**keywords)) == theirs
         return
     if command == "clearance":
         assert plain(robot.clearance(**keywords)) == theirs

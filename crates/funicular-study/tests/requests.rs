@@ -46,6 +46,14 @@ fn requests() -> Vec<Value> {
     let velocities = json!({
         "required_velocity_m_s": [1.0, 1.0, 0.5], "required_angular_velocity_rad_s": [0.1, 0.1, 0.2],
     });
+    let motion = json!({
+        "path": { "t_s": [0.0, 1.0], "x_m": [0.0, 1.0], "y_m": [0.0, 0.5], "z_m": [1.5, 1.5] },
+        "move_to": [1.0, 0.0, 1.5, 0.0, 0.0, 5.0], "via": [[0.5, 0.0, 1.6, 0.0, 0.0, 0.0]], "lift_m": 0.2, "blend": 0.5,
+        "circle_center_m": [0.0, 0.0, 1.0], "circle_axis": [0.0, 0.1, 1.0], "turns": 2.0, "course": "quintic",
+        "speed_m_s": 1.0, "acceleration_m_s2": 2.0, "jerk_m_s3": 20.0, "angular_speed_rad_s": 0.5,
+        "angular_acceleration_rad_s2": 1.0, "angular_jerk_rad_s3": 9.0, "duration_s": 3.0, "fastest": true,
+        "rope_inertia": true, "sample_time_s": 0.1, "station_time_s": 0.05, "length_tolerance_m": 1e-3,
+    });
     let turned = json!({
         "pose": { "position_m": [1.0, 2.0, 1.5], "quaternion_wxyz": [0.6, 0.0, 0.0, 0.8] }, "hold_lengths_of_pose": true,
     });
@@ -172,6 +180,7 @@ fn requests() -> Vec<Value> {
         of("payload", &[&robot, &state, &tensions, &center]),
         of("loads", &[&robot, &state, &tensions, &required]),
         of("speeds", &[&robot, &state, &tensions, &velocities]),
+        of("trajectory", &[&robot, &state, &tensions, &motion]),
         of("clearance", &[&robot, &state, &tensions, &json!({ "move_to": [0.1, 0.0, 0.5, 0.0, 0.0, 5.0] })]),
         of(
             "gradient",

@@ -33,6 +33,7 @@ mod speeds;
 mod statics;
 mod stiffness;
 mod sweeps;
+mod trajectory;
 mod uncertainty;
 mod validate;
 mod wind;

@@ -5,7 +5,7 @@ use super::{robot, run, run_with, stderr, stdout, succeed};
 /// Command lines that print their result.
 fn command_lines() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
-    let lines: [&[&str]; 24] = [
+    let lines: [&[&str]; 25] = [
         &["check", &cogiro],
         &["parameters", &cogiro, "--set", "platform.center_of_mass_m.x=0.1"],
         &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],
@@ -100,6 +100,22 @@ fn command_lines() -> Vec<Vec<String>> {
         &["loads", &cogiro, "--pose", "1,1,1.5", "--required-force-n", "100,100,100"],
         &["speeds", &cogiro, "--pose", "1,1,1.5", "--required-velocity-m-s", "1,1,0.5"],
         &["clearance", &cogiro, "--pose", "1,1,1.5"],
+        &[
+            "trajectory",
+            &cogiro,
+            "--pose",
+            "1,1,1.5",
+            "--move-to",
+            "1.5,1,1.5",
+            "--speed-m-s",
+            "1",
+            "--acceleration-m-s2",
+            "1",
+            "--jerk-m-s3",
+            "10",
+            "--sample-time-s",
+            "0.2",
+        ],
         &["export", "ROBOT", "--to", "vtk", "--segments", "3", "--modes-below-hz", "1"],
         &["new", "--cables", "6", "--motion", "rigid", "--box-m", "0.4,0.3,0.2", "--mass-kg", "20", "--rope", "7x7"],
         &["schema"],

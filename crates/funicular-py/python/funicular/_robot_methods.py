@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from typing import Any, SupportsIndex
 
+from numpy import asarray, ceil, linspace
 from numpy.typing import ArrayLike
 
 from funicular import _results
 from funicular._declared import STATE, Given, declared
 from funicular._design import Designed, designed
-from funicular._funicular import Equilibrium, Robot
+from funicular._funicular import Equilibrium, InputError, Robot
 from funicular._identify import Identified, identified
 from funicular._reading import File, keywords, with_state
 from funicular._results import Equilibria, Results
@@ -132,6 +133,49 @@ def speeds(of: Any, given: Given) -> Results:
         The robot has no such equilibrium, or its lengths have no rates there.
     """
     return _results.results(of._answer("speeds", given))
+
+
+@declared(Robot, "trajectory", positional=("path", "move_to", "pose"), without=("path",), others=_AS_REST)
+def trajectory(of: Any, given: Given, path: File | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None) -> Results:
+    """Computes the motion along a path: lengths with their rates, tensions with the inertia, winches, and what limits them.
+
+    Parameters
+    ----------
+    path
+        Path over time: columns `t_s`, `x_m`, `y_m`, `z_m` and, where the platform turns, `roll_deg`, `pitch_deg`,
+        `yaw_deg`, as a mapping, a data frame or a CSV file; or a function of the time [s] that returns x, y, z [m] or
+        x, y, z, roll, pitch, yaw [m, degrees]. A function needs `duration_s` and `sample_time_s`. A spline of the
+        fifth degree passes the rows.
+
+    Returns
+    -------
+    The keys of the program's JSON: `within_limits`, `most_used`, `extremes`, `stations`, `limit_changes`, and `rows` with
+    a number or a list with a number per cable at every time.
+
+    Raises
+    ------
+    StaticsError
+        The cables do not hold the platform at some time of the path.
+    """
+    if callable(path):
+        path = _sampled(path, given)
+    if path is not None:
+        given["path"] = path
+    return _results.results(of._answer("trajectory", given))
+
+
+def _sampled(path: Callable[[float], ArrayLike], given: Given) -> dict[str, ArrayLike]:
+    """Columns of a path that is a function of the time."""
+    duration, step = given.pop("duration_s", None), given.get("sample_time_s")
+    if not duration or not step or duration < 0 or step < 0:
+        raise InputError("a path that is a function needs its duration_s and the sample_time_s of its rows, both above zero")
+    times = linspace(0.0, duration, max(int(ceil(duration / step)), 1) + 1)
+    rows = [asarray(path(float(time)), dtype=float).ravel() for time in times]
+    count = len(rows[0])
+    if count not in (3, 6) or any(len(row) != count for row in rows):
+        raise InputError("the function of a path has to return x, y, z [m] or x, y, z, roll, pitch, yaw [m, degrees]")
+    names = ("x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg")[:count]
+    return {"t_s": times, **dict(zip(names, asarray(rows).T, strict=True))}
 
 
 @declared(Robot, "clearance", positional=("pose", "static_model"), others=_AS_REST)
