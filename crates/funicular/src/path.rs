@@ -39,7 +39,7 @@ use thiserror::Error;
 /// ```
 ///
 /// # References
-/// docs/theory.md, section 10b.
+/// docs/theory.md, section 10d.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlatformPath {
     shape: Shape,
@@ -216,7 +216,7 @@ impl PathPoint {
     /// Force [N] and moment about the origin [N m] of the inertia of the platform on itself, world axes.
     ///
     /// # References
-    /// docs/theory.md, equation (41a).
+    /// docs/theory.md, equation (40z5).
     pub fn inertia(&self, robot: &Robot) -> [Vec3; 2] {
         let of = Inertia::of(robot, self);
         [of.force_w, of.moment_w]

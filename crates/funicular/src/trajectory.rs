@@ -2,7 +2,7 @@
 //! rates and accelerations.
 //!
 //! The cables are quasi-static: at every time each has the shape of a cable at rest. The inertia of the platform is a
-//! load on it (docs/theory.md, equation (41a)), that of a taut rope a load along it, (41d).
+//! load on it (docs/theory.md, equation (40z5)), that of a taut rope a load along it, (40z8).
 
 mod length_acceleration;
 
@@ -47,7 +47,7 @@ const AT_LIMIT: f64 = 1e-6;
 /// ```
 ///
 /// # References
-/// docs/theory.md, section 10b.
+/// docs/theory.md, section 10d.
 pub struct AlongPath<'a> {
     /// Robot without its motion.
     at_rest: &'a Robot,
@@ -130,7 +130,7 @@ impl<'a> AlongPath<'a> {
         }
     }
 
-    /// Rates of the lengths by their derivatives, (41b).
+    /// Rates of the lengths by their derivatives, (40z6).
     fn rates(&self, point: &PathPoint, rates: &LengthRates) -> Vec<f64> {
         let ([force_w, _], [force_rate, moment_rate]) = (point.inertia(self.at_rest), point.inertia_rate(self.at_rest));
         let arm_w = point.pose.rot_wp * self.at_rest.load.point_p;
@@ -182,7 +182,7 @@ impl<'a> AlongPath<'a> {
 /// for a rope that does not move.
 ///
 /// # References
-/// docs/theory.md, equation (41d).
+/// docs/theory.md, equation (40z8).
 fn rope_inertia(robot: &Robot, i: usize, point: &PathPoint) -> Vec3 {
     let cable = &robot.cables[i];
     let ([velocity, omega], lever_w) = (point.twist(), point.pose.rot_wp * cable.attachment_p);

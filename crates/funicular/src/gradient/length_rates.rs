@@ -26,7 +26,7 @@ use crate::statics::{Equilibrium, StaticModel, TensionRule};
 /// ```
 ///
 /// # References
-/// docs/theory.md, equation (40v).
+/// docs/theory.md, equations (40z1) and (40z6).
 #[derive(Debug, Clone, PartialEq)]
 pub struct LengthRates {
     /// Per cable: by the translation of the platform's origin along the axes of the world [m/m], then by its rotation

@@ -1,5 +1,5 @@
 //! Smooth paths through the rows of a table: splines of the fifth degree with four continuous derivatives
-//! (docs/theory.md, equations (41e) to (41g)).
+//! (docs/theory.md, equations (40z9) and (40z10)).
 
 use super::{PathError, PathPoint};
 use crate::math::{DMat, Quaternion, Rotation, Vec3, Vec6};
@@ -219,7 +219,7 @@ fn point([x, v, a, j]: [Coordinates; 4]) -> PathPoint {
     let [q, q1, q2, q3] = [quaternion(&x), quaternion(&v), quaternion(&a), quaternion(&j)];
     let conjugate = q.conjugate();
 
-    // ω |q|²/2 is the vector part of q̇ q*, (41f).
+    // ω |q|²/2 is the vector part of q̇ q*, (40z10).
     let square = q.norm_squared();
     let first = 2.0 * q.dot(&q1);
     let second = 2.0 * (q.dot(&q2) + q1.dot(&q1));

@@ -1,7 +1,7 @@
 //! Accelerations of the lengths from lengths and rates at neighbouring times.
 
 /// Second derivative over time of values whose first derivatives are known, at every time (docs/theory.md, equation
-/// (41c)). `belongs(k)` is true if the values between the times k and k + 1 are smooth; a difference does not reach over
+/// (40z7)). `belongs(k)` is true if the values between the times k and k + 1 are smooth; a difference does not reach over
 /// an interval that is not, unless there is no other beside it.
 ///
 /// With both neighbours the polynomial of the fifth degree through values and rates is differentiated, with one that of
