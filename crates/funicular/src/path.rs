@@ -20,7 +20,7 @@ use crate::math::{Vec3, Vec6};
 use crate::robot::{Pose, Robot};
 use circle::Circle;
 use moves::Moves;
-use table::Table;
+use table::PathTable;
 use thiserror::Error;
 
 /// Path of the platform over time, from t = 0 on.
@@ -42,16 +42,16 @@ use thiserror::Error;
 /// docs/theory.md, section 10d.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlatformPath {
-    shape: Shape,
+    shape: PathShape,
     /// Factor of all times.
     slowness: f64,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-enum Shape {
+enum PathShape {
     Moves(Moves),
     Circle(Circle),
-    Table(Table),
+    Table(PathTable),
 }
 
 /// Motion of the platform at one time of a path. Vectors have the translation of the origin first, then the rotation;
@@ -134,7 +134,7 @@ impl PlatformPath {
     /// # Errors
     /// [`PathError::NoLimit`], [`PathError::NoMove`].
     pub fn through(poses: &[Pose], limits: &MotionLimits, form: CourseForm, blend: f64) -> Result<Self, PathError> {
-        Ok(Self { shape: Shape::Moves(Moves::through(poses, limits, form, blend)?), slowness: 1.0 })
+        Ok(Self { shape: PathShape::Moves(Moves::through(poses, limits, form, blend)?), slowness: 1.0 })
     }
 
     /// Circle about an axis through a centre, from rest to rest, without a turn of the platform. Positive turns go
@@ -149,7 +149,7 @@ impl PlatformPath {
         limits: &MotionLimits,
         form: CourseForm,
     ) -> Result<Self, PathError> {
-        Ok(Self { shape: Shape::Circle(Circle::new(start, center_w, axis_w, turns, limits, form)?), slowness: 1.0 })
+        Ok(Self { shape: PathShape::Circle(Circle::new(start, center_w, axis_w, turns, limits, form)?), slowness: 1.0 })
     }
 
     /// Smooth path through the rows of a table; its times begin at any value. Position and quaternion are splines of
@@ -161,7 +161,7 @@ impl PlatformPath {
     /// # Panics
     /// With fewer than two rows, or numbers of times and poses that differ.
     pub fn of_table(times: &[f64], poses: &[Pose]) -> Result<Self, PathError> {
-        Ok(Self { shape: Shape::Table(Table::new(times, poses)?), slowness: 1.0 })
+        Ok(Self { shape: PathShape::Table(PathTable::new(times, poses)?), slowness: 1.0 })
     }
 
     /// The same path with all times multiplied by a positive factor.
@@ -173,9 +173,9 @@ impl PlatformPath {
     /// Time of its end [s].
     pub fn duration(&self) -> f64 {
         let own = match &self.shape {
-            Shape::Moves(moves) => moves.duration(),
-            Shape::Circle(circle) => circle.duration(),
-            Shape::Table(table) => table.duration(),
+            PathShape::Moves(moves) => moves.duration(),
+            PathShape::Circle(circle) => circle.duration(),
+            PathShape::Table(table) => table.duration(),
         };
         own * self.slowness
     }
@@ -184,9 +184,9 @@ impl PlatformPath {
     pub fn at(&self, time: f64) -> PathPoint {
         let own = time / self.slowness;
         let mut point = match &self.shape {
-            Shape::Moves(moves) => moves.at(own),
-            Shape::Circle(circle) => circle.at(own),
-            Shape::Table(table) => table.at(own),
+            PathShape::Moves(moves) => moves.at(own),
+            PathShape::Circle(circle) => circle.at(own),
+            PathShape::Table(table) => table.at(own),
         };
         point.velocity_w /= self.slowness;
         point.acceleration_w /= self.slowness.powi(2);
@@ -197,7 +197,7 @@ impl PlatformPath {
     /// Least distance at which the path passes each pose that it goes through, between the first and the last [m]; more
     /// than zero where it rounds a corner. Empty for circles and tables.
     pub fn misses(&self) -> Vec<f64> {
-        if let Shape::Moves(moves) = &self.shape { moves.misses() } else { Vec::new() }
+        if let PathShape::Moves(moves) = &self.shape { moves.misses() } else { Vec::new() }
     }
 }
 
@@ -218,18 +218,18 @@ impl PathPoint {
     /// # References
     /// docs/theory.md, equation (40z5).
     pub fn inertia(&self, robot: &Robot) -> [Vec3; 2] {
-        let of = Inertia::of(robot, self);
+        let of = PlatformInertia::of(robot, self);
         [of.force_w, of.moment_w]
     }
 
     /// Rates of [`Self::inertia`] [N/s, N m/s].
     pub fn inertia_rate(&self, robot: &Robot) -> [Vec3; 2] {
-        Inertia::of(robot, self).rate(self)
+        PlatformInertia::of(robot, self).rate(self)
     }
 }
 
 /// Wrench of the inertia, with the terms of its rate.
-struct Inertia {
+struct PlatformInertia {
     mass: f64,
     /// From the origin to the centre of mass.
     arm_w: Vec3,
@@ -238,7 +238,7 @@ struct Inertia {
     moment_w: Vec3,
 }
 
-impl Inertia {
+impl PlatformInertia {
     fn of(robot: &Robot, point: &PathPoint) -> Self {
         let (rot, platform) = (&point.pose.rot_wp, &robot.platform);
         let ([_, omega], [linear, angular]) = (point.twist(), parts(&point.acceleration_w));

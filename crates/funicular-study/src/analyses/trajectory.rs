@@ -25,7 +25,7 @@ use funicular::path::{CourseForm, PlatformPath};
 use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, Limit, StaticModel, TensionRule};
 use funicular::trajectory::AlongPath;
-use samples::{Samples, UsedLimit};
+use samples::{MotionSamples, UsedLimit};
 use serde::Serialize;
 
 /// Key of the request that has the table of a path.
@@ -212,7 +212,7 @@ pub fn run(robot: Robot, request: &TrajectoryRequest, watch: &mut dyn Watch) -> 
     let factor = planned.path.duration() / asked.path.duration();
     let own = times.map(|times| times.iter().map(|time| time * factor).collect());
     let times = sample_times(planned.path.duration(), request.motion.sample_time_s, own)?;
-    let samples = Samples::at(&planned, times, watch)?;
+    let samples = MotionSamples::at(&planned, times, watch)?;
     found(&planned, &at_rest, samples, request)
 }
 
@@ -235,7 +235,7 @@ fn sample_times(duration: f64, step: Option<f64>, own: Option<Vec<f64>>) -> Resu
 fn found(
     planned: &Planned,
     at_rest: &AtRest,
-    samples: Samples,
+    samples: MotionSamples,
     request: &TrajectoryRequest,
 ) -> Result<TrajectoryResult> {
     let robot = planned.robot;
@@ -270,13 +270,13 @@ fn found(
 }
 
 /// Equilibria at evenly chosen samples, the first and the last among them.
-fn frames(samples: &Samples) -> Vec<(f64, Equilibrium)> {
+fn frames(samples: &MotionSamples) -> Vec<(f64, Equilibrium)> {
     let (last, parts) = (samples.times.len() - 1, MAX_FRAMES - 1);
     let chosen = |k: usize| if last <= parts { k } else { (k * last + parts / 2) / parts };
     (0..=last.min(parts)).map(chosen).map(|k| (samples.times[k], samples.motions[k].equilibrium.clone())).collect()
 }
 
-fn most_used(robot: &Robot, samples: &Samples, used: &[Option<(UsedLimit, f64)>]) -> Option<MostUsed> {
+fn most_used(robot: &Robot, samples: &MotionSamples, used: &[Option<(UsedLimit, f64)>]) -> Option<MostUsed> {
     let each = used.iter().enumerate().filter_map(|(k, used)| used.map(|used| (k, used)));
     let (k, (limit, part)) = each.max_by(|a, b| a.1.1.total_cmp(&b.1.1)).filter(|(_, (_, part))| *part > 0.0)?;
     Some(MostUsed {
@@ -288,7 +288,7 @@ fn most_used(robot: &Robot, samples: &Samples, used: &[Option<(UsedLimit, f64)>]
 }
 
 /// Largest and lowest tension, speed and acceleration of a cable, and what the motors do.
-fn extremes(robot: &Robot, samples: &Samples) -> Vec<Extreme> {
+fn extremes(robot: &Robot, samples: &MotionSamples) -> Vec<Extreme> {
     /// Number of a cable at a time, by their indices; `None` where there is none.
     type Number<'a> = dyn Fn(usize, usize) -> Option<f64> + 'a;
     let state = |k: usize, i: usize| &samples.motions[k].equilibrium.cables[i];
@@ -313,7 +313,7 @@ fn extremes(robot: &Robot, samples: &Samples) -> Vec<Extreme> {
 }
 
 /// Largest sums of the powers of all motors; `None` without winches.
-fn power_sums(robot: &Robot, samples: &Samples) -> Option<PowerSums> {
+fn power_sums(robot: &Robot, samples: &MotionSamples) -> Option<PowerSums> {
     let powers = |k: usize| (0..robot.cables.len()).filter_map(move |i| Some(samples.winch(robot, k, i).motor?.power));
     powers(0).next()?;
     let largest = |sign: f64| {
@@ -326,7 +326,7 @@ fn power_sums(robot: &Robot, samples: &Samples) -> Option<PowerSums> {
 }
 
 /// Pair with the least margin.
-fn nearest(robot: &Robot, samples: &Samples) -> Option<Nearest> {
+fn nearest(robot: &Robot, samples: &MotionSamples) -> Option<Nearest> {
     let each = samples.nearest.iter().zip(&samples.times).filter_map(|(pair, t_s)| Some((pair.as_ref()?, t_s)));
     let (pair, t_s) = each.min_by(|a, b| a.0.margin().total_cmp(&b.0.margin()))?;
     Some(Nearest {
@@ -341,7 +341,7 @@ fn nearest(robot: &Robot, samples: &Samples) -> Option<Nearest> {
 ///
 /// # Errors
 /// A time at which the cables do not hold the platform.
-fn limit_changes(planned: &Planned, samples: &Samples) -> Result<Vec<LimitChange>> {
+fn limit_changes(planned: &Planned, samples: &MotionSamples) -> Result<Vec<LimitChange>> {
     let mut along = planned.along();
     let mut found = Vec::new();
     for (pair, times) in samples.motions.windows(2).zip(samples.times.windows(2)) {
@@ -369,7 +369,7 @@ fn limit_changes(planned: &Planned, samples: &Samples) -> Result<Vec<LimitChange
 }
 
 /// Frequencies that say how far cables at rest may be trusted; `None` without a rope that has mass, or without motion.
-fn quasi_static(planned: &Planned, samples: &Samples) -> Option<QuasiStatic> {
+fn quasi_static(planned: &Planned, samples: &MotionSamples) -> Option<QuasiStatic> {
     let motion_hz = planned.path.frequency_below_which(POWER, planned.robot.platform_length());
     let frequencies = samples.motions.iter().filter_map(|motion| motion.lowest_string_frequency(planned.robot));
     let cable_hz = frequencies.reduce(f64::min)?;
@@ -378,7 +378,7 @@ fn quasi_static(planned: &Planned, samples: &Samples) -> Option<QuasiStatic> {
 
 fn warnings(
     at_rest: &AtRest,
-    samples: &Samples,
+    samples: &MotionSamples,
     request: &TrajectoryRequest,
     quasi_static: Option<&QuasiStatic>,
 ) -> Vec<String> {

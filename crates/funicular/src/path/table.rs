@@ -20,18 +20,18 @@ const END_ROWS: usize = 6;
 
 /// Coordinates of a row: position, quaternion.
 const COUNT: usize = 7;
-type Coordinates = [f64; COUNT];
+type RowNumbers = [f64; COUNT];
 
 /// Spline through the rows of a table.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Table {
+pub(super) struct PathTable {
     /// Times from the first row on [s].
     times: Vec<f64>,
     /// Coordinates with their first and second derivative at each row.
-    rows: Vec<[Coordinates; 3]>,
+    rows: Vec<[RowNumbers; 3]>,
 }
 
-impl Table {
+impl PathTable {
     pub(super) fn new(times: &[f64], poses: &[Pose]) -> Result<Self, PathError> {
         assert!(times.len() >= 2 && times.len() == poses.len(), "{} times, {} poses", times.len(), poses.len());
         check(times, poses)?;
@@ -90,7 +90,7 @@ fn check(times: &[f64], poses: &[Pose]) -> Result<(), PathError> {
 }
 
 /// Coordinates of the rows; each quaternion has the sign that is nearer to the one before.
-fn coordinates(poses: &[Pose]) -> Vec<Coordinates> {
+fn coordinates(poses: &[Pose]) -> Vec<RowNumbers> {
     let mut last = *poses[0].rot_wp.quaternion();
     let row = |pose: &Pose| {
         let quaternion = *pose.rot_wp.quaternion();
@@ -103,12 +103,12 @@ fn coordinates(poses: &[Pose]) -> Vec<Coordinates> {
 
 /// First and second derivatives at the rows: at inner rows the third and fourth derivatives are continuous, at the ends
 /// those of the polynomial through the next rows.
-fn with_derivatives(times: &[f64], values: &[Coordinates]) -> Vec<[Coordinates; 3]> {
+fn with_derivatives(times: &[f64], values: &[RowNumbers]) -> Vec<[RowNumbers; 3]> {
     let count = times.len();
     let ends = [0, count - 1].map(|end| of_polynomial(times, values, end));
 
     // Two equations per inner row; the unknowns are velocity and acceleration of all rows. Blocks on three diagonals.
-    let mut rows: Vec<[Coordinates; 3]> = vec![[[0.0; COUNT]; 3]; count];
+    let mut rows: Vec<[RowNumbers; 3]> = vec![[[0.0; COUNT]; 3]; count];
     for (row, value) in rows.iter_mut().zip(values) {
         row[0] = *value;
     }
@@ -121,14 +121,14 @@ fn with_derivatives(times: &[f64], values: &[Coordinates]) -> Vec<[Coordinates; 
 }
 
 /// 2×2 matrix.
-type Block = [[f64; 2]; 2];
+type TwoByTwo = [[f64; 2]; 2];
 
 /// Solves the continuity of the third and fourth derivatives for the inner rows, from the first to the last and back.
-fn solve_inner(times: &[f64], rows: &mut [[Coordinates; 3]]) {
+fn solve_inner(times: &[f64], rows: &mut [[RowNumbers; 3]]) {
     let count = rows.len();
     // For row i: unknown of i = right − factor · unknown of i + 1.
-    let mut factors: Vec<Block> = vec![[[0.0; 2]; 2]; count];
-    let mut rights: Vec<[Coordinates; 2]> = rows.iter().map(|row| [row[1], row[2]]).collect();
+    let mut factors: Vec<TwoByTwo> = vec![[[0.0; 2]; 2]; count];
+    let mut rights: Vec<[RowNumbers; 2]> = rows.iter().map(|row| [row[1], row[2]]).collect();
     for i in 1..count.saturating_sub(1) {
         let (left, right) = (times[i] - times[i - 1], times[i + 1] - times[i]);
         let [before, own, after] = continuity(left, right);
@@ -163,7 +163,7 @@ fn solve_inner(times: &[f64], rows: &mut [[Coordinates; 3]]) {
 
 /// Coefficients of velocity and acceleration of three rows in the continuity of the third and of the fourth derivative
 /// at the middle one, whose neighbours are at these distances in time; on the other side stand the values.
-fn continuity(left: f64, right: f64) -> [Block; 3] {
+fn continuity(left: f64, right: f64) -> [TwoByTwo; 3] {
     let ([l1, l2, l3], [r1, r2, r3]) = ([1, 2, 3].map(|k| left.powi(k)), [1, 2, 3].map(|k| right.powi(k)));
     [
         [[-24.0 / l2, -3.0 / l1], [-168.0 / l3, -24.0 / l2]],
@@ -172,13 +172,13 @@ fn continuity(left: f64, right: f64) -> [Block; 3] {
     ]
 }
 
-fn inverted([[a, b], [c, d]]: &Block) -> Block {
+fn inverted([[a, b], [c, d]]: &TwoByTwo) -> TwoByTwo {
     let determinant = a * d - b * c;
     [[d / determinant, -b / determinant], [-c / determinant, a / determinant]]
 }
 
 /// First and second derivative at one end of the polynomial through the rows next to it.
-fn of_polynomial(times: &[f64], values: &[Coordinates], end: usize) -> [Coordinates; 2] {
+fn of_polynomial(times: &[f64], values: &[RowNumbers], end: usize) -> [RowNumbers; 2] {
     let count = times.len().min(END_ROWS);
     let first = if end == 0 { 0 } else { times.len() - count };
     let near = first..first + count;
@@ -194,7 +194,7 @@ fn of_polynomial(times: &[f64], values: &[Coordinates], end: usize) -> [Coordina
 
 /// Value and three derivatives, at a time after the first row, of the polynomial that has values and two derivatives of
 /// both rows.
-fn hermite(from: &[Coordinates; 3], to: &[Coordinates; 3], span: f64, time: f64) -> [Coordinates; 4] {
+fn hermite(from: &[RowNumbers; 3], to: &[RowNumbers; 3], span: f64, time: f64) -> [RowNumbers; 4] {
     let s = time / span;
     let mut found = [[0.0; COUNT]; 4];
     for k in 0..COUNT {
@@ -214,8 +214,8 @@ fn hermite(from: &[Coordinates; 3], to: &[Coordinates; 3], span: f64, time: f64)
 }
 
 /// Motion by coordinates and their derivatives; the quaternion need not have unit length.
-fn point([x, v, a, j]: [Coordinates; 4]) -> PathPoint {
-    let quaternion = |of: &Coordinates| Quaternion::new(of[3], of[4], of[5], of[6]);
+fn point([x, v, a, j]: [RowNumbers; 4]) -> PathPoint {
+    let quaternion = |of: &RowNumbers| Quaternion::new(of[3], of[4], of[5], of[6]);
     let [q, q1, q2, q3] = [quaternion(&x), quaternion(&v), quaternion(&a), quaternion(&j)];
     let conjugate = q.conjugate();
 
@@ -229,7 +229,7 @@ fn point([x, v, a, j]: [Coordinates; 4]) -> PathPoint {
     let third = vector(q3 * conjugate) + vector(q2 * q1.conjugate());
     let beta = (third - alpha * (2.0 * first) - omega * second) / square;
 
-    let six = |of: &Coordinates, turn: Vec3| Vec6::new(of[0], of[1], of[2], turn.x, turn.y, turn.z);
+    let six = |of: &RowNumbers, turn: Vec3| Vec6::new(of[0], of[1], of[2], turn.x, turn.y, turn.z);
     PathPoint {
         pose: Pose { position_w: Vec3::new(x[0], x[1], x[2]), rot_wp: Rotation::new_normalize(q) },
         velocity_w: six(&v, omega),

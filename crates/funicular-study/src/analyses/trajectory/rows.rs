@@ -1,6 +1,6 @@
 //! Rows of a trajectory, and their columns.
 
-use super::samples::{Samples, UsedLimit, lengths};
+use super::samples::{MotionSamples, UsedLimit, lengths};
 use crate::analyses::fields::{self, AXES};
 use crate::analyses::shared::PoseRow;
 use crate::columns::{Columns, column, parts};
@@ -54,7 +54,7 @@ pub struct TrajectoryRow {
 }
 
 impl TrajectoryRow {
-    pub(super) fn of(robot: &Robot, samples: &Samples, k: usize, used: Option<&(UsedLimit, f64)>) -> Self {
+    pub(super) fn of(robot: &Robot, samples: &MotionSamples, k: usize, used: Option<&(UsedLimit, f64)>) -> Self {
         let motion = &samples.motions[k];
         let (point, rest) = (&motion.point, &motion.equilibrium);
         let winches: Vec<_> = (0..robot.cables.len()).map(|i| samples.winch(robot, k, i)).collect();

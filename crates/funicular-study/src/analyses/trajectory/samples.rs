@@ -14,7 +14,7 @@ use funicular::trajectory::{AlongPath, InMotion, length_accelerations};
 const PER_LOOK: usize = 50;
 
 /// Robot at the times of a path.
-pub(super) struct Samples {
+pub(super) struct MotionSamples {
     pub(super) times: Vec<f64>,
     pub(super) motions: Vec<InMotion>,
     /// Acceleration of every length at every time [m/s²].
@@ -60,7 +60,7 @@ impl UsedLimit {
     }
 }
 
-impl Samples {
+impl MotionSamples {
     /// Robot at these times of a path.
     ///
     /// # Errors

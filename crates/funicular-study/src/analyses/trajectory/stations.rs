@@ -1,7 +1,7 @@
 //! Lengths of a controller that changes them in straight lines between its stations.
 
 use super::Planned;
-use super::samples::{Samples, lengths};
+use super::samples::{MotionSamples, lengths};
 use anyhow::Result;
 use funicular::statics;
 use serde::Serialize;
@@ -31,7 +31,12 @@ impl Stations {
     ///
     /// # Errors
     /// A time at which the cables do not hold the platform.
-    pub(super) fn of(planned: &Planned, samples: &Samples, interval: f64, tolerance: f64) -> Result<Option<Self>> {
+    pub(super) fn of(
+        planned: &Planned,
+        samples: &MotionSamples,
+        interval: f64,
+        tolerance: f64,
+    ) -> Result<Option<Self>> {
         // A line leaves a curve by the square of the interval times an eighth of the second derivative.
         let bends = samples.accelerations.iter().enumerate();
         let largest = bends
