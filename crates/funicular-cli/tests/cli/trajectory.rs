@@ -47,9 +47,8 @@ fn the_fastest_motion_uses_all_of_a_limit_and_a_faster_one_breaks_it() {
     assert_eq!((&fastest["most_used"]["limit"], &fastest["within_limits"]), (&"maximum-tension".into(), &true.into()));
     assert!((0.998..=1.0).contains(&part), "{part}");
 
-    let faster = (0.99 * duration).to_string();
-    let line =
-        [&["trajectory", &robot("cogiro.toml")], &MOVE[..], &COURSE, &limit, &["--duration-s", &faster]].concat();
+    let (cogiro, faster) = (robot("cogiro.toml"), (0.99 * duration).to_string());
+    let line = [&["trajectory", &cogiro], &MOVE[..], &COURSE, &limit, &["--duration-s", &faster]].concat();
     assert_eq!(run(&line).status.code(), Some(1));
 
     let free = run(&[
@@ -66,7 +65,8 @@ fn the_fastest_motion_uses_all_of_a_limit_and_a_faster_one_breaks_it() {
 #[test]
 fn winches_and_their_limits_are_in_the_result() {
     let set = ["--set", "winches.drum.max_speed_m_s=1.5", "--set", "winches.drum.gear_efficiency=0.8"];
-    let line = [&["trajectory", &robot("cogiro-winches.toml")], &MOVE[..], &COURSE, &set].concat();
+    let winches = robot("cogiro-winches.toml");
+    let line = [&["trajectory", &winches], &MOVE[..], &COURSE, &set].concat();
     let found = json(&line);
     assert_eq!((&found["within_limits"], &found["most_used"]["limit"]), (&false.into(), &"speed".into()));
     let row = &found["rows"].as_array().unwrap()[100];
