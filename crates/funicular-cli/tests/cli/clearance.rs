@@ -1,6 +1,6 @@
 //! `clearance`: distances at a pose and on a move, obstacles from STL files, status and warning.
 
-use super::{csv, json, number, robot, run, stderr, succeed};
+use super::{csv, json, json_of, number, robot, run, stderr, succeed};
 use std::fs;
 use std::path::Path;
 
@@ -139,5 +139,44 @@ fn a_mesh_in_millimetres_is_reported_at_its_line_in_the_table_of_its_kind() {
         let output = run(&["clearance", &robot, "--pose", "1,0.5,1.5"]);
         let message = stderr(&output);
         assert!(output.status.code() == Some(2) && message.contains(&format!(":{line}:")), "{line}: {message}");
+    }
+}
+
+/// Distance of a point from a segment, in plan.
+fn in_plan(point: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
+    let (along, beside) = ([to[0] - from[0], to[1] - from[1]], [point[0] - from[0], point[1] - from[1]]);
+    let part = ((along[0] * beside[0] + along[1] * beside[1]) / (along[0].powi(2) + along[1].powi(2))).clamp(0.0, 1.0);
+    (beside[0] - part * along[0]).hypot(beside[1] - part * along[1])
+}
+
+/// Columns from floor to roof: a cable hangs in a vertical plane, so that its distance is that of two figures in plan.
+#[test]
+fn distances_from_the_columns_of_a_hall_are_those_of_its_plan() {
+    let file = fs::read_to_string(super::project("docs/quick-start/hall.toml")).unwrap();
+    let columns = [("east", [4.0, 2.2]), ("west", [-5.0, -1.8])];
+    let tables: String = columns
+        .iter()
+        .map(|(name, [x, y])| {
+            format!(
+                "[obstacles.{name}]\nshape = \"cylinder\"\nposition_m = [{x}, {y}, 4.0]\ndiameter_m = 0.5\nlength_m = 9.0\n"
+            )
+        })
+        .collect();
+    // Two cables at each corner of the hall, and of the platform.
+    let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+    let cables: Vec<(String, [f64; 2])> = (0..8).map(|i| ((i + 1).to_string(), corners[i / 2])).collect();
+    let rope = 0.5 * (4.0 * 14e-6 / std::f64::consts::PI).sqrt();
+
+    for [x, y] in [[1.0, 0.5], [2.0, -1.5], [-3.0, 1.0]] {
+        let found = json_of(&["clearance", "-", "--pose", &format!("{x},{y},3")], &format!("{file}{tables}"));
+        let pairs = found["pairs"].as_array().unwrap();
+        let each = cables.iter().flat_map(|cable| columns.iter().map(move |of| (cable, of)));
+        for ((cable, [side, end]), (name, column)) in each {
+            let to = [x + 0.5 * side, y + 0.4 * end];
+            let expected = in_plan(*column, [10.0 * side, 6.0 * end], to) - 0.25 - rope;
+            let is_pair = |pair: &&serde_json::Value| pair["first"] == **cable && pair["second"] == *name;
+            let pair = pairs.iter().find(is_pair).unwrap();
+            assert!((number(&pair["distance_m"]) - expected).abs() < 1e-8, "{pair} {expected}");
+        }
     }
 }
