@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 from funicular import _results
 from funicular._declared import STATE, Given, declared
 from funicular._design import Designed, designed
-from funicular._funicular import Equilibrium, InputError, Robot
+from funicular._errors import InputError
+from funicular._funicular import Equilibrium, Robot
 from funicular._identify import Identified, identified
 from funicular._reading import File, keywords, with_state
 from funicular._results import Equilibria, Results

@@ -300,8 +300,8 @@ fn extremes(robot: &Robot, samples: &MotionSamples) -> Vec<Extreme> {
         ("largest acceleration", "m/s²", &|k, i| Some(samples.winch(robot, k, i).acceleration.abs())),
         ("largest motor torque", "N m", &|k, i| motor(k, i)?.torque.map(f64::abs)),
         ("largest motor speed", "rad/s", &|k, i| motor(k, i)?.speed.map(f64::abs)),
-        ("largest driving power", "W", &|k, i| motor(k, i).map(|motor| motor.power)),
-        ("largest braking power", "W", &|k, i| motor(k, i).map(|motor| -motor.power)),
+        ("largest driving power", "W", &|k, i| motor(k, i).map(|motor| motor.power.max(0.0))),
+        ("largest braking power", "W", &|k, i| motor(k, i).map(|motor| (-motor.power).max(0.0))),
     ];
     let (times, cables) = (samples.times.len(), robot.cables.len());
     let found = all.into_iter().filter_map(|(what, unit, number)| {
