@@ -108,12 +108,12 @@ fn rows(path: &str, text: CsvText, header: &[String], frequency: usize) -> Resul
             let read = if Some(place) == label || text.is_empty() {
                 None
             } else {
-                Some(number(text).map_err(|reason| anyhow!("{path}, line {}, column `{name}`: {reason}", line))?)
+                Some(number(text).map_err(|reason| anyhow!("{path}, line {line}, column `{name}`: {reason}"))?)
             };
             row.push(read);
         }
         if row[frequency].is_none() {
-            bail!("{path}, line {}: the frequency is missing", line);
+            bail!("{path}, line {line}: the frequency is missing");
         }
 
         rows.labels.push(label.and_then(|at| record.get(at)).filter(|text| !text.is_empty()).map(clean));

@@ -54,10 +54,11 @@ pub(super) fn nearest(one: &FreeSpan, other: &FreeSpan, enough: f64) -> Option<N
         let is_smallest = own.sagitta.max(others.sagitta) < 0.25 * TOLERANCE;
         let has_one_minimum = is_convex(&pair.arcs);
         if is_smallest || has_one_minimum {
+            // A minimum of a larger pair that lies in this one is the one that it has.
             let is_known = has_one_minimum && best.is_minimum && own.holds(best.s[0]) && others.holds(best.s[1]);
-            let found = if is_known { continue } else { minimum_in(one, other, &pair) };
-            if found.distance < best.distance {
-                best = found;
+            if !is_known {
+                let found = minimum_in(one, other, &pair);
+                best = if found.distance < best.distance { found } else { best };
             }
         } else if own.sagitta >= others.sagitta {
             one.halves(own).into_iter().for_each(|half| queue.push(PairOfArcs::bounded(half, *others)));

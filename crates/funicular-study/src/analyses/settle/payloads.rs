@@ -1,6 +1,7 @@
 //! Vibration that the same lengths leave if the platform carries a payload: the command is made for the robot without
 //! it.
 
+use super::rows::unstrained;
 use super::{Swing, check_rest};
 use crate::at_rest::AtRest;
 use crate::error::{ErrorKind, NoSolution};
@@ -60,7 +61,7 @@ impl Swing<'_> {
     ) -> Result<WithPayload> {
         let AtRest { robot, equilibrium, .. } = self.at_rest;
         let robot = carrying(robot, payload_kg);
-        let at_end: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
+        let at_end = unstrained(equilibrium);
         let equilibrium = statics::forward(&robot, &at_end, equilibrium.model, Some(&equilibrium.pose))?;
         let at_rest = AtRest { robot, equilibrium, requested_pose: None, rule: None, held_pose: None };
         check_rest(&at_rest)?;

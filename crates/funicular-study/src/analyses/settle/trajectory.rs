@@ -111,7 +111,7 @@ impl<'a> Trajectory<'a> {
     /// # Errors
     /// A [`TableFault`], poses or lengths that the cables cannot hold, or another end.
     pub(super) fn of(at_rest: &'a AtRest, columns: &NumberColumns, tolerance: f64) -> Result<Self> {
-        let found = Self::along(at_rest, TimedRows::read(KEY, columns, &at_rest.robot)?)?;
+        let found = Self::of_rows(at_rest, TimedRows::read(KEY, columns, &at_rest.robot)?)?;
         let (end, rest) = (&found.lengths[found.lengths.len() - 1], unstrained(&at_rest.equilibrium));
         let Some(i) = (0..rest.len()).find(|i| (end[*i] - rest[*i]).abs() > tolerance) else { return Ok(found) };
         bail!(
@@ -124,7 +124,11 @@ impl<'a> Trajectory<'a> {
         )
     }
 
-    fn along(at_rest: &'a AtRest, rows: TimedRows) -> Result<Self> {
+    /// Trajectory with the equilibria of its rows.
+    ///
+    /// # Errors
+    /// Poses or lengths that the cables cannot hold.
+    fn of_rows(at_rest: &'a AtRest, rows: TimedRows) -> Result<Self> {
         let (mut still, mut lengths, mut linear) = (Vec::new(), Vec::new(), Vec::new());
         let mut start = at_rest.equilibrium.clone();
         // From the end on, where the platform is at rest: lengths are followed from pose to pose.
@@ -159,7 +163,7 @@ impl<'a> Trajectory<'a> {
     /// # Errors
     /// Too many rows, or poses or lengths that the cables cannot hold.
     pub(super) fn shaped(&self, shaper: &Shaper) -> Result<Self> {
-        Self::along(self.at_rest, self.rows.shaped(shaper)?)
+        Self::of_rows(self.at_rest, self.rows.shaped(shaper)?)
     }
 
     /// Lengths over time of a robot that is linear about the end: the real ones are curved along the path, which it would
