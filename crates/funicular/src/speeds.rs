@@ -105,8 +105,8 @@ impl WinchSpeeds {
     /// Winches at an equilibrium: the tensions follow the rule that has chosen them; without one, and where it has no
     /// derivatives, they change least along the cables.
     ///
-    /// A rule has a kink where a tension reaches or leaves a limit, as at symmetric poses. There the speeds differ between
-    /// the two sides by the changes of stretch and sag, which are small against the motion itself.
+    /// A rule has a kink where a tension reaches or leaves a limit, as at symmetric poses. The speeds on its two sides
+    /// differ by the changes of stretch and sag.
     ///
     /// # Errors
     /// [`GradientError`], as [`LengthRates::of`].
