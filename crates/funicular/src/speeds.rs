@@ -41,6 +41,9 @@ pub struct WinchSpeeds {
     motion: PlatformMotion,
     /// Winches in the order of the cables.
     winches: Vec<WinchAtRest>,
+    /// False if the rule of the tensions has no derivatives at the equilibrium: the tensions then change least along the
+    /// cables in place of following it.
+    pub follows_rule: bool,
 }
 
 /// Winch of a cable at a pose.
@@ -99,17 +102,23 @@ pub struct SumOfPowers {
 }
 
 impl WinchSpeeds {
-    /// Winches at an equilibrium: the tensions follow the rule that has chosen them; without one they change least along
-    /// the cables.
+    /// Winches at an equilibrium: the tensions follow the rule that has chosen them; without one, and where it has no
+    /// derivatives, they change least along the cables.
+    ///
+    /// A rule has a kink where a tension reaches or leaves a limit, as at symmetric poses. The speeds on its two sides
+    /// differ by the changes of stretch and sag.
     ///
     /// # Errors
     /// [`GradientError`], as [`LengthRates::of`].
     pub fn at(robot: &Robot, rest: &Equilibrium, rule: Option<&TensionRule>) -> Result<Self, GradientError> {
-        let rates = match rule {
-            Some(rule) => LengthRates::of(robot, rest, rule),
-            None => LengthRates::with_least_change(robot, rest),
-        };
-        Ok(Self::of_rates(robot, rest, &rates?))
+        let least_change = || LengthRates::with_least_change(robot, rest);
+        let Some(rule) = rule else { return Ok(Self::of_rates(robot, rest, &least_change()?)) };
+        match LengthRates::of(robot, rest, rule) {
+            Err(GradientError::OneSided { .. } | GradientError::Stiffest) => {
+                Ok(Self { follows_rule: false, ..Self::of_rates(robot, rest, &least_change()?) })
+            }
+            rates => Ok(Self::of_rates(robot, rest, &rates?)),
+        }
     }
 
     /// Winches at an equilibrium with these rates of the unstrained lengths.
@@ -124,7 +133,7 @@ impl WinchSpeeds {
             let winch = cable.anchor.winch.clone().unwrap_or_else(|| Winch::rigid(&cable.name, 0.0));
             WinchAtRest::new(winch, motion.allowed(by_pose) * stretch, tension)
         });
-        Self { motion, winches: winches.collect() }
+        Self { motion, winches: winches.collect(), follows_rule: true }
     }
 
     /// Winches in the order of the cables.

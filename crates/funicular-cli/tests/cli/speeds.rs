@@ -115,6 +115,13 @@ fn a_robot_with_lengths_keeps_its_tensions() {
 }
 
 #[test]
+fn a_kink_of_the_rule_is_a_warning() {
+    let output = run(&["speeds", &robot("kntu-planar.toml"), "--pose", "0,0,0"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stderr(&output).contains("the rule `lowest` has no derivatives"), "{}", stderr(&output));
+}
+
+#[test]
 fn maps_have_the_measures_and_say_why_one_is_missing() {
     let robot = robot("cogiro-winches.toml");
     let grid = [

@@ -363,7 +363,7 @@ impl CheckedWinch {
             control,
             position_gain_n_per_m: servo.map(|servo| servo.position_gain),
             speed_gain_n_s_per_m: servo.map(|servo| servo.speed_gain),
-            gear_efficiency: Some(winch.gear_efficiency).filter(|efficiency| *efficiency != 1.0),
+            gear_efficiency: Some(winch.gear_efficiency).filter(|efficiency| *efficiency < 1.0),
             limits: CheckedWinchLimits::of(&winch.limits),
         }
     }

@@ -160,8 +160,18 @@ pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
         cables: cables
             .map(|(cable, winch)| CableSpeeds::of(cable.name.clone(), winch, asks.then_some(&half_widths)))
             .collect(),
-        warnings: at_rest.warnings(None),
+        warnings: at_rest.warnings(None).into_iter().chain(kink(&at_rest, &speeds)).collect(),
     })
+}
+
+/// Warning of rates that are not those of the rule.
+fn kink(at_rest: &AtRest, speeds: &WinchSpeeds) -> Option<String> {
+    let rule = at_rest.rule.as_ref().filter(|_| !speeds.follows_rule)?;
+    Some(format!(
+        "the rule `{}` has no derivatives at this equilibrium: the rates are those of tensions that change least along the \
+         cables; they differ by the change of stretch and sag alone",
+        rule.name()
+    ))
 }
 
 /// Largest speeds along the coordinates of the platform.
