@@ -31,6 +31,7 @@ mod statics;
 mod stiffness;
 mod uncertainty;
 mod validate;
+mod workspace;
 
 use crate::args::{Cli, DrawArgs, DrawModesArgs, FileArgs, OutputArgs, PageArgs, RequestArgs, RunArgs};
 use crate::{robot_file, sweep_run};
@@ -67,6 +68,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         Request::Reduce(of) => reduce::run(of, &cli.files()?, guard()),
         Request::Identify(of) => identify::run(of, &cli.files()?, &mut guard()),
         Request::Design(of) => design::run(of, &cli.files()?, &mut guard()),
+        Request::Workspace(of) => workspace::run(of, &cli.files()?, &mut guard()),
         Request::Map(_) => map::run(&request, &cli.files()?, &mut guard()),
         Request::Sweep(_) => sweep_run::run(&request, &mut guard(), &cli.files::<RunArgs>()?),
         Request::Merge(_) => merge::run(&cli.files()?),

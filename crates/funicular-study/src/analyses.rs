@@ -27,6 +27,7 @@ pub mod shared;
 pub mod statics;
 pub mod stiffness;
 pub mod uncertainty;
+pub mod workspace;
 
 pub use reduce::control_model;
 

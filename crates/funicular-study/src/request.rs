@@ -20,11 +20,12 @@ mod statics;
 mod steps;
 mod uncertainty;
 mod vibration;
+mod workspace;
 
 pub use design::{ChangeValue, DesignRequest};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest};
 pub use gradient::{GradientRequest, frequencies};
-pub use grids::{EachPoint, MapRequest, MergeRequest, PlotRequest, SweepRequest};
+pub use grids::{EachPoint, MapRequest, MergeRequest, PlotRequest, PointOptions, SweepRequest};
 pub use identify::{
     DEFAULT_DAMPING_NOISE, DEFAULT_FREQUENCY_NOISE, DEFAULT_RESPONSE_NOISE, DEFAULT_STARTS, Experiment, FitValue,
     IdentifyRequest,
@@ -49,6 +50,7 @@ pub use vibration::{
     CableRequest, CompareRequest, DEFAULT_INPUT, DEFAULT_OUTPUT, FrfRequest, GUST_DURATION, GustRequest, ModesRequest,
     ReduceRequest, SETTLED_WITHIN, SettleRequest, TurbulenceOptions,
 };
+pub use workspace::{BoundValue, DEFAULT_VERTEX_TOLERANCE, WorkspaceRequest};
 
 pub use parts::check;
 pub(crate) use parts::check_vector;
@@ -161,6 +163,7 @@ commands! {
     Design(DesignRequest) "design" Needed robot;
     Map(MapRequest) "map" Needed robot;
     Sweep(SweepRequest) "sweep" Needed robot;
+    Workspace(WorkspaceRequest) "workspace" Needed robot;
     Merge(MergeRequest) "merge" None;
     Plot(PlotRequest) "plot" None;
     Report(ReportRequest) "report" Embedded robot;

@@ -21,6 +21,7 @@ use crate::analyses::{
     statics::{self, Statics},
     stiffness::{self, Stiffness},
     uncertainty::{self, Uncertainties},
+    workspace::{self, Workspace},
 };
 use crate::at_rest::AtRest;
 use crate::columns::{ResultTable, Tabled};
@@ -132,6 +133,7 @@ answers! {
     Cable(CableResult): of => cable::run(robot()?, of, watch)?;
     Reduce(ReducedForm): of => reduce::run(robot()?, of, watch)?, at at_rest => reduce::about(at_rest, of, watch)?;
     Identify(Box<Identified>): of => Box::new(identify::run(of, watch)?);
+    Workspace(Box<Workspace>): of => Box::new(workspace::run(robot()?, of, watch)?);
     Design(Box<Designed>): of => Box::new(design::run(of, watch)?);
 }
 

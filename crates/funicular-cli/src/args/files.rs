@@ -264,6 +264,23 @@ pub(crate) struct UncertaintyArgs {
     pub(crate) threads: Option<NonZeroUsize>,
 }
 
+/// Computation of a workspace, and its destination.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
+pub(crate) struct WorkspaceArgs {
+    #[command(flatten)]
+    pub(crate) sink: OutputArgs,
+
+    /// Write the closed surface of the set [m] to FILE.stl, FILE.ply or FILE.vtp (ParaView); -o does the same with such a
+    /// file (repeatable)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) surface: Vec<PathBuf>,
+
+    /// Number of threads [default: one per core]; the results do not depend on it
+    #[arg(long, value_name = "N", value_parser = values::threads, allow_hyphen_values = true)]
+    pub(crate) threads: Option<NonZeroUsize>,
+}
+
 /// Poses of a map, and the destination of its rows.
 #[derive(Debug, Args)]
 pub(crate) struct MapArgs {

@@ -1,0 +1,189 @@
+//! `workspace`: run on all cores, text, and files of the surface.
+
+use crate::args::{OutputArgs, WorkspaceArgs};
+use crate::errors::{self, Interrupted};
+use crate::interrupt::{STOPPED, stop_at_next_row};
+use crate::output::{Content, Printed, Sink, Target};
+use crate::progress::Progress;
+use crate::table::{Table, counted, short, significant, vector};
+use anyhow::{Result, bail};
+use funicular_files::endings::Kind;
+use funicular_files::{Guard, WorkspaceRun, threads};
+use funicular_formats::surface::{self, SurfaceFormat};
+use funicular_study::analyses::workspace::{
+    ConditionRow, PartOfWorkspace, RaysOfWorkspace, VolumeRow, Workspace, WorkspaceStudy,
+};
+use funicular_study::request::WorkspaceRequest;
+use std::fmt::Write as _;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+/// Kinds of files that hold a surface, with their formats.
+const SURFACES: [(Kind, SurfaceFormat); 3] =
+    [(Kind::Stl, SurfaceFormat::Stl), (Kind::Ply, SurfaceFormat::Ply), (Kind::Vtp, SurfaceFormat::Vtp)];
+
+/// Largest number of parts or holes that the text lists.
+const SHOWN: usize = 6;
+
+/// Runs `workspace`: prints the result and writes the surface.
+pub(super) fn run(of: &WorkspaceRequest, args: &WorkspaceArgs, guard: &mut Guard) -> Result<()> {
+    let output = args.sink.output_file.as_deref();
+    let is_surface = args.sink.format.is_none() && output.is_some_and(|path| format_of(path).is_some());
+    let printed =
+        OutputArgs { format: args.sink.format, output_file: args.sink.output_file.clone().filter(|_| !is_surface) };
+    let sink = Sink::open(&printed, &SURFACES.map(|of| of.0), guard)?;
+    let mut surfaces = Vec::new();
+    for path in output.filter(|_| is_surface).into_iter().chain(args.surface.iter().map(PathBuf::as_path)) {
+        surfaces.push(open_surface(path, guard)?);
+    }
+
+    let found = compute(of, args.threads)?;
+    sink.write(&found)?;
+    for (target, format, path) in surfaces {
+        target.write(&surface::of_workspace(&found, format)?)?;
+        errors::note(&format!("{} in {}", counted(found.triangles.len(), "triangle"), path.display()));
+    }
+    Ok(())
+}
+
+/// Runs a request and prints its results.
+pub(super) fn print(of: &WorkspaceRequest, output: &OutputArgs, guard: &mut Guard) -> Result<()> {
+    let args = WorkspaceArgs {
+        sink: OutputArgs { format: output.format, output_file: output.output_file.clone() },
+        surface: Vec::new(),
+        threads: None,
+    };
+    run(of, &args, guard)
+}
+
+/// Format of a surface by the ending of its file.
+fn format_of(path: &Path) -> Option<SurfaceFormat> {
+    let kind = Kind::of(path)?;
+    SURFACES.iter().find(|of| of.0 == kind).map(|of| of.1)
+}
+
+/// Opens the file of a surface before the work.
+fn open_surface<'a>(path: &'a Path, guard: &mut Guard) -> Result<(Target, SurfaceFormat, &'a Path)> {
+    let Some(format) = format_of(path) else {
+        bail!("{}: a surface is written to a file that ends in .stl, .ply or .vtp", path.display());
+    };
+    let content = Content { name: "the surface", in_words: "a surface", fitting: &SURFACES.map(|of| of.0) };
+    Ok((Target::open(Some(path), content, guard)?, format, path))
+}
+
+/// Finds the workspace on all cores.
+fn compute(of: &WorkspaceRequest, threads: Option<NonZeroUsize>) -> Result<Workspace> {
+    let study = WorkspaceStudy::new(of.robot.read()?.robot, of)?;
+    stop_at_next_row()?;
+    let mut bar: Option<Progress> = None;
+    let mut progress = |done: usize, total: usize, what: &'static str| {
+        bar.get_or_insert_with(|| Progress::with_rate(total, what)).reach(done, total);
+    };
+    let run = WorkspaceRun { threads: threads::or_all(threads), cancel: &STOPPED };
+    let found = run.run(&study, &mut progress)?;
+    found.ok_or_else(|| Interrupted("stopped before anything was found".to_owned()).into())
+}
+
+impl Printed for Workspace {
+    fn text(&self) -> String {
+        let mut text = format!("{}: workspace with {} cables\n\n", self.robot, self.static_model);
+        let mut line = |name: &str, value: &str| {
+            let _ = writeln!(text, "  {name:<17} {value}");
+        };
+        let conditions: Vec<String> = self.conditions.iter().map(condition_text).collect();
+        line("conditions", &conditions.join(", "));
+        line("orientations", &orientation_text(self));
+        let volume = self.volume();
+        line("volume", &format!("{} m³{}", significant(volume.volume_m3, 6), change_text(self)));
+        line("area", &format!("{} m²", significant(volume.area_m2.unwrap_or(0.0), 6)));
+        if let Some(centroid) = volume.centroid_m {
+            line("centroid", &format!("({}) m", vector(&centroid, 4)));
+        }
+        let [low, high] = self.bounds_m;
+        line("reaches from", &format!("({}) m to ({}) m", vector(&low, 4), vector(&high, 4)));
+        line("parts", &pieces_text(&self.parts));
+        line("holes", &pieces_text(&self.holes));
+        line("box of the grid", &box_text(self));
+        let steps: Vec<String> = self.grid.step_m.iter().map(|step| short(*step, 4)).collect();
+        let first = short(self.grid.first_step_m, 4);
+        line("steps", &format!("{} m; parts and holes between steps of {first} m can be missed", steps.join(", ")));
+        if let Some(inner) = &self.inner_box {
+            let (low, high) = (vector(&inner.lower_m, 3), vector(&inner.upper_m, 3));
+            line("box inside", &format!("({low}) m to ({high}) m, {} m³, by the nodes", significant(inner.volume_m3, 4)));
+        }
+        line("evaluations", &self.evaluations.to_string());
+
+        let _ = write!(text, "\n{}", Table::of(&VolumeRow::columns(), &self.volumes));
+        if !self.sections.is_empty() {
+            let _ = write!(text, "\n{}", sections(self));
+        }
+        if let Some(rays) = &self.rays {
+            text += &rays_text(rays);
+        }
+        text
+    }
+}
+
+fn condition_text(of: &ConditionRow) -> String {
+    match (of.at_least, of.at_most) {
+        (Some(value), _) => format!("{} at least {}", of.of, short(value, 6)),
+        (_, Some(value)) => format!("{} at most {}", of.of, short(value, 6)),
+        _ => "tensions within their limits".to_owned(),
+    }
+}
+
+fn orientation_text(of: &Workspace) -> String {
+    match of.roll_pitch_yaw_deg[..] {
+        [one] => format!("roll, pitch, yaw ({})°", vector(&one, 4)),
+        ref all => format!("{} of {}", of.orientations, all.len()),
+    }
+}
+
+/// Change of the volume from double steps, as the measure of its error.
+fn change_text(of: &Workspace) -> String {
+    of.change_by_halving().filter(|change| change.is_finite()).map_or_else(String::new, |change| {
+        format!("; halving the steps changed it by {} %", significant(100.0 * change, 2))
+    })
+}
+
+fn pieces_text(pieces: &[PartOfWorkspace]) -> String {
+    let piece = |of: &PartOfWorkspace| {
+        let handles = if of.handles == 0 { String::new() } else { format!(" with {}", counted(of.handles, "handle")) };
+        format!("{} m³{handles}", significant(of.volume_m3, 5))
+    };
+    let shown: Vec<String> = pieces.iter().take(SHOWN).map(piece).collect();
+    let more = if pieces.len() > SHOWN { ", …" } else { "" };
+    match pieces.len() {
+        0 => "none".to_owned(),
+        1 if pieces[0].handles == 0 => "1".to_owned(),
+        count => format!("{count}: {}{more}", shown.join(", ")),
+    }
+}
+
+fn box_text(of: &Workspace) -> String {
+    let (low, high) = (vector(&of.grid.lower_m, 3), vector(&of.grid.upper_m, 3));
+    let touches = match of.touches[..] {
+        [] => "not reached".to_owned(),
+        ref faces => format!("reached at {}, where {} m² are cut", faces.join(", "), significant(of.cut_area_m2, 4)),
+    };
+    format!("({low}) m to ({high}) m, {touches}")
+}
+
+fn sections(of: &Workspace) -> Table {
+    let mut table = Table::new(&["section", "at [m]", "area [m²]", "polygons"]);
+    for section in &of.sections {
+        let polygons = section.polygons_m.len().to_string();
+        table.row(vec![section.axis.to_owned(), short(section.at_m, 6), significant(section.area_m2, 6), polygons]);
+    }
+    table
+}
+
+fn rays_text(rays: &RaysOfWorkspace) -> String {
+    format!(
+        "\n{} rays from ({}) m: {} with several intervals, {} up to the box.\n",
+        rays.count,
+        vector(&rays.center_m, 4),
+        rays.with_several_intervals,
+        rays.cut
+    )
+}

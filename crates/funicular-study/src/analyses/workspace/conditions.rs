@@ -1,0 +1,166 @@
+//! Conditions of a workspace: limits of quantities, and how far a pose is from them.
+
+use crate::names::suggestion;
+use crate::request::{BoundValue, WorkspaceRequest};
+use crate::sweep::{Options, Quantity, values_at};
+use crate::table::{ColumnKind, Value};
+use anyhow::{Result, anyhow, bail};
+use funicular::robot::{Pose, Robot};
+use funicular::statics::LoadCapacity;
+use serde::Serialize;
+
+/// Column with the distance beyond the required clearance [m].
+const CLEARANCE: &str = "clearance_margin_m";
+
+/// Side of a limit on which a value is allowed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    AtLeast,
+    AtMost,
+}
+
+/// Limit of a column of the quantities.
+struct Limit {
+    /// Place of the column among those of all quantities.
+    column: usize,
+    side: Side,
+    value: f64,
+}
+
+/// Condition of a workspace, for reading.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ConditionRow {
+    /// Column of the quantity; `tensions` if only their limits count.
+    pub of: String,
+    /// Least value that is allowed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_least: Option<f64>,
+    /// Greatest value that is allowed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_most: Option<f64>,
+}
+
+/// Conditions of a workspace. Without a limit the tensions alone count.
+pub(super) struct Conditions {
+    quantities: Vec<Quantity>,
+    limits: Vec<Limit>,
+    pub(super) rows: Vec<ConditionRow>,
+}
+
+impl Conditions {
+    /// Conditions of a request; without any, all required loads have to be held, or the dead load if there are none. A
+    /// robot whose clearances are judged has to keep them, too.
+    ///
+    /// # Errors
+    /// A name that no quantity and no column has, or one without a single number per pose.
+    pub(super) fn of(request: &WorkspaceRequest, robot: &Robot, options: &Options) -> Result<Self> {
+        let mut conditions = Self { quantities: Vec::new(), limits: Vec::new(), rows: Vec::new() };
+        for (bounds, key, side) in
+            [(&request.at_least, "at_least", Side::AtLeast), (&request.at_most, "at_most", Side::AtMost)]
+        {
+            for bound in bounds {
+                let value = crate::values::finite(bound.value);
+                let value = value.map_err(|reason| anyhow!("⟪{key}⟫ {}: {reason}", bound.quantity))?;
+                let added = conditions.add(robot, options, &BoundValue { value, ..bound.clone() }, side);
+                added.map_err(|error| anyhow!("⟪{key}⟫ {}: {error}", bound.quantity))?;
+            }
+        }
+
+        if conditions.limits.is_empty() && !robot.required.is_empty() {
+            let all_loads = BoundValue { quantity: "load-factor".to_owned(), value: 1.0 };
+            conditions.add(robot, options, &all_loads, Side::AtLeast)?;
+        }
+        if robot.judges_clearance() {
+            let clearance = BoundValue { quantity: CLEARANCE.to_owned(), value: 0.0 };
+            conditions.add(robot, options, &clearance, Side::AtLeast)?;
+        }
+        if conditions.limits.is_empty() {
+            conditions.rows.push(ConditionRow { of: "tensions".to_owned(), at_least: None, at_most: None });
+        }
+        Ok(conditions)
+    }
+
+    fn add(&mut self, robot: &Robot, options: &Options, bound: &BoundValue, side: Side) -> Result<()> {
+        let (quantity, own, name) = column_of(robot, &bound.quantity)?;
+        if quantity.excludes(options.static_model) {
+            bail!("it does not exist with {} cables: choose another ⟪static_model⟫", options.static_model.name());
+        }
+
+        let mut column = own;
+        for known in &self.quantities {
+            if *known == quantity {
+                break;
+            }
+            column += known.columns(robot).len();
+        }
+        if !self.quantities.contains(&quantity) {
+            self.quantities.push(quantity);
+        }
+
+        let (at_least, at_most) = match side {
+            Side::AtLeast => (Some(bound.value), None),
+            Side::AtMost => (None, Some(bound.value)),
+        };
+        self.limits.push(Limit { column, side, value: bound.value });
+        self.rows.push(ConditionRow { of: name, at_least, at_most });
+        Ok(())
+    }
+
+    /// Distance of a pose from the limits: the least of all, each over its value if that is not zero. Negative if one is
+    /// not kept, `None` if a quantity has no value there.
+    pub(super) fn margin(&self, robot: &Robot, pose: &Pose, options: &Options) -> Option<f64> {
+        if self.limits.is_empty() {
+            return tension_margin(robot, pose, options);
+        }
+        let values = values_at(robot, pose, &self.quantities, options)?;
+        let margin = |limit: &Limit| {
+            let Value::Real(value) = &values[limit.column] else { return None };
+            let scale = if limit.value == 0.0 { 1.0 } else { limit.value.abs() };
+            let above = (value - limit.value) / scale;
+            Some(if limit.side == Side::AtLeast { above } else { -above })
+        };
+        let margins: Option<Vec<f64>> = self.limits.iter().map(margin).collect();
+        margins?.into_iter().reduce(f64::min)
+    }
+}
+
+/// Distance of the loads from what tensions within their limits hold [N]. Without maximum tensions, and with cables
+/// that do not span all degrees of freedom, there is only a verdict, whose magnitude says nothing.
+fn tension_margin(robot: &Robot, pose: &Pose, options: &Options) -> Option<f64> {
+    let capacity = LoadCapacity::at(robot, pose, options.static_model, None).ok()?;
+    let verdict = if capacity.dead_load().is_ok() { Some(1.0) } else { None };
+    capacity.margin().filter(|margin| margin.is_finite()).or(verdict)
+}
+
+/// Quantity that a name means, the place of the column among its columns, and the name of the column: that of the
+/// quantity if it has one number, or the name of a column of any quantity without a parameter.
+fn column_of(robot: &Robot, name: &str) -> Result<(Quantity, usize, String)> {
+    let is_number = |kind: ColumnKind| kind == ColumnKind::Real;
+    if let Ok(quantity) = name.parse::<Quantity>() {
+        if quantity.path().is_some() {
+            bail!("derivatives cannot limit a workspace: choose another quantity");
+        }
+        let columns = quantity.columns(robot);
+        let numbers: Vec<usize> = (0..columns.len()).filter(|i| is_number(columns[*i].kind)).collect();
+        return match numbers[..] {
+            [] => bail!("the quantity is a word, not a number: choose another one"),
+            [one] => Ok((quantity, one, columns[one].name.clone())),
+            _ => {
+                let names: Vec<String> = numbers.iter().map(|i| format!("`{}`", columns[*i].name)).collect();
+                bail!("the quantity has several numbers: name one of {}", names.join(", "))
+            }
+        };
+    }
+
+    let mut names = Vec::new();
+    for quantity in Quantity::names().filter_map(|name| name.parse::<Quantity>().ok()) {
+        for (i, column) in quantity.columns(robot).into_iter().enumerate() {
+            if column.name == name && is_number(column.kind) {
+                return Ok((quantity, i, column.name));
+            }
+            names.push(column.name);
+        }
+    }
+    names.extend(Quantity::names().map(str::to_owned));
+    bail!("there is no such quantity and no such column of one{}", suggestion(name, &names))
+}

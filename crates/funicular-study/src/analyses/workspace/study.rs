@@ -1,0 +1,122 @@
+//! Search of a workspace, apart from the threads that evaluate its poses.
+
+use super::conditions::Conditions;
+use super::places;
+use super::rows::{RaysOfWorkspace, WantedSet, Workspace, first_step};
+use crate::error::NoSolution;
+use crate::names::{Named, OrientationRule};
+use crate::request::{WorkspaceRequest, check_positive, check_vector};
+use crate::sweep::{Options, options_of, with_request};
+use anyhow::{Result, bail};
+use funicular::level_set::{BoundaryMesh, Evaluate, LevelSet, PointGrid, RaySearch, RaySet, Sphere};
+use funicular::math::{Rotation, Vec3};
+use funicular::robot::{Pose, Robot};
+use funicular::warnings;
+
+/// Request of a workspace that is ready to run.
+pub struct WorkspaceStudy {
+    robot: Robot,
+    options: Options,
+    conditions: Conditions,
+    grid: PointGrid,
+    orientations: Vec<Rotation>,
+    rule: OrientationRule,
+    /// Tolerance of vertices and of ends of rays [m].
+    tolerance: f64,
+    rays: Option<(Sphere, Option<Vec3>)>,
+    sections: Vec<(usize, f64)>,
+}
+
+impl WorkspaceStudy {
+    /// Checks a request for a robot that has been read from its file.
+    ///
+    /// # Errors
+    /// A request that contradicts itself or the robot.
+    pub fn new(robot: Robot, request: &WorkspaceRequest) -> Result<Self> {
+        places::check(request, &robot)?;
+        check_positive("vertex_tolerance_m", request.vertex_tolerance_m)?;
+        check_vector("center_m", request.center_m)?;
+        if request.center_m.is_some() && request.rays.is_none() {
+            bail!("⟪center_m⟫ is the centre of rays: give ⟪rays⟫, too, or leave it out");
+        }
+
+        let mut point = request.point.clone();
+        let robot = with_request(robot, &point)?;
+        let options = options_of(&robot, &mut point)?;
+        let conditions = Conditions::of(request, &robot, &options)?;
+        let grid = places::grid(request, &robot)?;
+        let orientations = places::orientations(request, &robot)?;
+        let sections = places::sections(&request.section, &grid)?;
+        let rays = request.rays.map(places::sphere).transpose()?;
+        let rays = rays.map(|sphere| (sphere, request.center_m.map(Vec3::from)));
+        let (rule, tolerance) = (request.orientations, request.vertex_tolerance_m);
+        Ok(Self { robot, options, conditions, grid, orientations, rule, tolerance, rays, sections })
+    }
+
+    /// Distance of a position from the limits of the set: not negative inside, negative outside, `None` outside and
+    /// without a number. It is the least or the greatest one of all orientations, as the request wants all or some.
+    pub fn value(&self, position: &Vec3) -> Option<f64> {
+        let at = |rotation: &Rotation| {
+            let pose = Pose { position_w: *position, rot_wp: *rotation };
+            self.conditions.margin(&self.robot, &pose, &self.options)
+        };
+        match self.rule {
+            OrientationRule::All => {
+                let mut least = f64::INFINITY;
+                for rotation in &self.orientations {
+                    least = least.min(at(rotation)?);
+                }
+                Some(least)
+            }
+            OrientationRule::Some => self.orientations.iter().filter_map(at).reduce(f64::max),
+        }
+    }
+
+    /// Finds the set with the values that `evaluate` gives for [`Self::value`] of many positions; `None` if it stopped
+    /// before anything was found.
+    ///
+    /// # Errors
+    /// No position of the grid meets the conditions, or a centre of rays outside the box.
+    pub fn find(&self, evaluate: &mut Evaluate<'_>) -> Result<Option<Workspace>> {
+        let Some(set) = LevelSet::find(self.grid.clone(), self.tolerance, evaluate) else { return Ok(None) };
+        let surface = set.boundary(1);
+        if surface.triangles().is_empty() {
+            let step = first_step(&self.grid);
+            let no_position = format!(
+                "no position of the grid meets the conditions: it was searched with steps of {step} m; give a ⟪grid⟫ \
+                 with smaller steps or another box, or other limits"
+            );
+            return Err(NoSolution(no_position).into());
+        }
+        let rays = self.along_rays(&surface, evaluate)?;
+        let mut warnings: Vec<String> = warnings::of_robot(&self.robot).iter().map(ToString::to_string).collect();
+        let wanted = WantedSet {
+            robot: &self.robot.name,
+            static_model: self.options.static_model.name(),
+            conditions: &self.conditions.rows,
+            orientations: (&self.orientations, self.rule.name()),
+            tolerance: self.tolerance,
+            sections: &self.sections,
+            with_rays: self.rays.is_some(),
+        };
+        let mut found = Workspace::of(&wanted, &set, &surface, rays);
+        warnings.append(&mut found.doubts());
+        found.warnings = warnings;
+        Ok(Some(found))
+    }
+
+    /// Intervals along the rays of the request; absent without rays, or if the work was stopped there.
+    fn along_rays(&self, surface: &BoundaryMesh, evaluate: &mut Evaluate<'_>) -> Result<Option<RaysOfWorkspace>> {
+        let Some((sphere, given)) = &self.rays else { return Ok(None) };
+        let [lower, upper] = [self.grid.lower(), self.grid.upper()];
+        let center = given.or_else(|| surface.centroid()).unwrap_or((lower + upper) * 0.5);
+        if (0..3).any(|k| center[k] <= lower[k] || center[k] >= upper[k]) {
+            let [x, y, z]: [f64; 3] = center.into();
+            bail!("⟪center_m⟫: ({x}, {y}, {z}) m is not inside the box of the grid");
+        }
+        let step = self.grid.step().min();
+        let search = RaySearch { center, bounds: [lower, upper], step, tolerance: self.tolerance };
+        let found = RaySet::find(sphere.clone(), &search, evaluate);
+        Ok(found.map(|set| RaysOfWorkspace::of(&set, &search)))
+    }
+}
