@@ -19,6 +19,16 @@ pub enum SurfaceFormat {
     Vtp,
 }
 
+impl SurfaceFormat {
+    /// Every format with the ending of its files.
+    pub const ALL: [(Self, &'static str); 3] = [(Self::Stl, "stl"), (Self::Ply, "ply"), (Self::Vtp, "vtp")];
+
+    /// Format of files with an ending, upper or lower case.
+    pub fn of_ending(ending: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|(_, own)| ending.eq_ignore_ascii_case(own)).map(|(format, _)| format)
+    }
+}
+
 /// Surface of a workspace in a format.
 ///
 /// # Errors

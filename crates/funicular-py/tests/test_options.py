@@ -32,6 +32,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "payload": ("`robot.payload(…)`", [Robot.payload]),
     "loads": ("`robot.loads(…)`", [Robot.loads]),
     "clearance": ("`robot.clearance(…)`", [Robot.clearance]),
+    "workspace": ("`robot.workspace(…)`", [Robot.workspace]),
     "pose-error": ("`robot.pose_error(…)`", [Robot.pose_error]),
     "identify": ("`robot.identify(fit, experiments, …)`", [Robot.identify]),
     "design": ("`robot.design(change, …)`", [Robot.design]),

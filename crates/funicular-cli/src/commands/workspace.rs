@@ -18,9 +18,8 @@ use std::fmt::Write as _;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-/// Kinds of files that hold a surface, with their formats.
-const SURFACES: [(Kind, SurfaceFormat); 3] =
-    [(Kind::Stl, SurfaceFormat::Stl), (Kind::Ply, SurfaceFormat::Ply), (Kind::Vtp, SurfaceFormat::Vtp)];
+/// Kinds of files that hold a surface.
+const SURFACES: [Kind; 3] = [Kind::Stl, Kind::Ply, Kind::Vtp];
 
 /// Largest number of parts or holes that the text lists.
 const SHOWN: usize = 6;
@@ -31,7 +30,7 @@ pub(super) fn run(of: &WorkspaceRequest, args: &WorkspaceArgs, guard: &mut Guard
     let is_surface = args.sink.format.is_none() && output.is_some_and(|path| format_of(path).is_some());
     let printed =
         OutputArgs { format: args.sink.format, output_file: args.sink.output_file.clone().filter(|_| !is_surface) };
-    let sink = Sink::open(&printed, &SURFACES.map(|of| of.0), guard)?;
+    let sink = Sink::open(&printed, &SURFACES, guard)?;
     let mut surfaces = Vec::new();
     for path in output.filter(|_| is_surface).into_iter().chain(args.surface.iter().map(PathBuf::as_path)) {
         surfaces.push(open_surface(path, guard)?);
@@ -58,8 +57,7 @@ pub(super) fn print(of: &WorkspaceRequest, output: &OutputArgs, guard: &mut Guar
 
 /// Format of a surface by the ending of its file.
 fn format_of(path: &Path) -> Option<SurfaceFormat> {
-    let kind = Kind::of(path)?;
-    SURFACES.iter().find(|of| of.0 == kind).map(|of| of.1)
+    SurfaceFormat::of_ending(&path.extension()?.to_string_lossy())
 }
 
 /// Opens the file of a surface before the work.
@@ -67,7 +65,7 @@ fn open_surface<'a>(path: &'a Path, guard: &mut Guard) -> Result<(Target, Surfac
     let Some(format) = format_of(path) else {
         bail!("{}: a surface is written to a file that ends in .stl, .ply or .vtp", path.display());
     };
-    let content = Content { name: "the surface", in_words: "a surface", fitting: &SURFACES.map(|of| of.0) };
+    let content = Content { name: "the surface", in_words: "a surface", fitting: &SURFACES };
     Ok((Target::open(Some(path), content, guard)?, format, path))
 }
 
