@@ -27,6 +27,7 @@ mod sway;
 mod tests;
 mod uncertainty;
 mod verdict;
+mod workspaces;
 
 pub use markdown::markdown;
 pub use verdict::{Validated, run};
@@ -142,6 +143,7 @@ pub fn sections() -> Result<Vec<Section>> {
         uncertainty::section()?,
         load_factors::section(&reference::load_factors()?)?,
         distances::section(&reference::distances()?)?,
+        workspaces::section(&reference::workspaces()?)?,
     ])
 }
 

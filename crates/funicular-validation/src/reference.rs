@@ -12,6 +12,7 @@ mod measured;
 mod published;
 mod stretch_loss;
 mod sway;
+mod workspaces;
 
 use anyhow::{Result, anyhow};
 use funicular::robot::{Robot, State};
@@ -39,6 +40,7 @@ pub(super) use published::{
 
 pub(super) use stretch_loss::{ChangedRobot, LossyRobot, LossyRope, StretchLossReference, stretch_loss};
 pub(super) use sway::{ShapedSum, SwayReference, SwayingRobot, sway};
+pub(super) use workspaces::{WorkspaceReference, workspaces};
 
 /// Table of a reference file: a source and rows.
 #[derive(Deserialize)]

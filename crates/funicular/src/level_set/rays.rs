@@ -131,11 +131,7 @@ impl RaySet {
             ray.intervals.first().filter(|interval| interval[0] <= 0.0).map(|interval| interval[1])
         };
         let lengths: Vec<f64> = self.rays.iter().map(first).collect::<Option<_>>()?;
-        let directions = self.sphere.directions().iter();
-        let vertices = directions.zip(lengths).map(|(ray, length)| self.center + ray * length).collect();
-        let triangles = self.sphere.triangles().to_vec();
-        let count = triangles.len();
-        Some(BoundaryMesh::new(vertices, triangles, count))
+        Some(self.sphere.hull(self.center, &lengths))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Directions that cover a sphere evenly: a solid of triangles, each of which is cut into four several times.
 
+use super::boundary::BoundaryMesh;
 use crate::math::Vec3;
 use std::collections::HashMap;
 
@@ -92,6 +93,12 @@ impl Sphere {
     /// Triangles between the directions, counterclockwise seen from outside.
     pub fn triangles(&self) -> &[[usize; 3]] {
         &self.triangles
+    }
+
+    /// Surface of triangles between points at these distances from a centre, one along each direction.
+    pub fn hull(&self, center: Vec3, lengths: &[f64]) -> BoundaryMesh {
+        let vertices = self.directions.iter().zip(lengths).map(|(ray, length)| center + ray * *length).collect();
+        BoundaryMesh::new(vertices, self.triangles.clone(), self.triangles.len())
     }
 
     /// Solid angle of the share of each direction [sr]: a third of its triangles. They add up to 4π.
