@@ -13,6 +13,7 @@ pub mod plot;
 pub mod report;
 pub(crate) mod table;
 pub mod uncertainty;
+pub mod workspace;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;

@@ -276,6 +276,10 @@ pub(crate) struct WorkspaceArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) surface: Vec<PathBuf>,
 
+    /// Write a page with the surface in space, the volumes and the sections to FILE; -o FILE.html does the same
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) page: Option<PathBuf>,
+
     /// Number of threads [default: one per core]; the results do not depend on it
     #[arg(long, value_name = "N", value_parser = values::threads, allow_hyphen_values = true)]
     pub(crate) threads: Option<NonZeroUsize>,

@@ -11,9 +11,10 @@ use funicular_files::endings::Kind;
 use funicular_files::{Guard, WorkspaceRun, threads};
 use funicular_formats::surface::{self, SurfaceFormat};
 use funicular_study::analyses::workspace::{
-    ConditionRow, PartOfWorkspace, RaysOfWorkspace, VolumeRow, Workspace, WorkspaceStudy,
+    PartOfWorkspace, RaysOfWorkspace, VolumeRow, Workspace, WorkspaceStudy,
 };
 use funicular_study::request::WorkspaceRequest;
+use funicular_study::wording::{Words, worded};
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -24,17 +25,23 @@ const SURFACES: [Kind; 3] = [Kind::Stl, Kind::Ply, Kind::Vtp];
 /// Largest number of parts or holes that the text lists.
 const SHOWN: usize = 6;
 
-/// Runs `workspace`: prints the result and writes the surface.
+/// Runs `workspace`: prints the result, writes the surface and the page. `-o` may name either of them.
 pub(super) fn run(of: &WorkspaceRequest, args: &WorkspaceArgs, guard: &mut Guard) -> Result<()> {
-    let output = args.sink.output_file.as_deref();
-    let is_surface = args.sink.format.is_none() && output.is_some_and(|path| format_of(path).is_some());
-    let printed =
-        OutputArgs { format: args.sink.format, output_file: args.sink.output_file.clone().filter(|_| !is_surface) };
-    let sink = Sink::open(&printed, &SURFACES, guard)?;
-    let mut surfaces = Vec::new();
-    for path in output.filter(|_| is_surface).into_iter().chain(args.surface.iter().map(PathBuf::as_path)) {
-        surfaces.push(open_surface(path, guard)?);
+    let output = args.sink.output_file.as_deref().filter(|_| args.sink.format.is_none());
+    let to_surface = output.filter(|path| format_of(path).is_some());
+    let to_page = output.filter(|path| Kind::of(path) == Some(Kind::Html));
+    if let (Some(_), Some(_)) = (to_page, &args.page) {
+        bail!("⟪page⟫ and -o name a page each: leave out one of them");
     }
+
+    let is_elsewhere = to_surface.is_some() || to_page.is_some();
+    let printed =
+        OutputArgs { format: args.sink.format, output_file: args.sink.output_file.clone().filter(|_| !is_elsewhere) };
+    let sink = Sink::open(&printed, &[&SURFACES[..], &[Kind::Html]].concat(), guard)?;
+    let surfaces = to_surface.into_iter().chain(args.surface.iter().map(PathBuf::as_path));
+    let surfaces = surfaces.map(|path| open_surface(path, guard)).collect::<Result<Vec<_>>>()?;
+    let page = to_page.or(args.page.as_deref());
+    let page = page.map(|path| anyhow::Ok((Target::open(Some(path), Content::PAGE, guard)?, path))).transpose()?;
 
     let found = compute(of, args.threads)?;
     sink.write(&found)?;
@@ -42,17 +49,18 @@ pub(super) fn run(of: &WorkspaceRequest, args: &WorkspaceArgs, guard: &mut Guard
         target.write(&surface::of_workspace(&found, format)?)?;
         errors::note(&format!("{} in {}", counted(found.triangles.len(), "triangle"), path.display()));
     }
+    if let Some((target, path)) = page {
+        let page = funicular_pages::pages::workspace::page(&found, super::page::command_line()?)?;
+        target.write(worded(&page, Words::Program).as_bytes())?;
+        errors::note(&format!("wrote {}", path.display()));
+    }
     Ok(())
 }
 
-/// Runs a request and prints its results.
+/// Runs a request and prints its results, or writes its surface or page.
 pub(super) fn print(of: &WorkspaceRequest, output: &OutputArgs, guard: &mut Guard) -> Result<()> {
-    let args = WorkspaceArgs {
-        sink: OutputArgs { format: output.format, output_file: output.output_file.clone() },
-        surface: Vec::new(),
-        threads: None,
-    };
-    run(of, &args, guard)
+    let sink = OutputArgs { format: output.format, output_file: output.output_file.clone() };
+    run(of, &WorkspaceArgs { sink, surface: Vec::new(), page: None, threads: None }, guard)
 }
 
 /// Format of a surface by the ending of its file.
@@ -88,7 +96,7 @@ impl Printed for Workspace {
         let mut line = |name: &str, value: &str| {
             let _ = writeln!(text, "  {name:<17} {value}");
         };
-        let conditions: Vec<String> = self.conditions.iter().map(condition_text).collect();
+        let conditions: Vec<String> = self.conditions.iter().map(ToString::to_string).collect();
         line("conditions", &conditions.join(", "));
         line("orientations", &orientation_text(self));
         let volume = self.volume();
@@ -119,14 +127,6 @@ impl Printed for Workspace {
             text += &rays_text(rays);
         }
         text
-    }
-}
-
-fn condition_text(of: &ConditionRow) -> String {
-    match (of.at_least, of.at_most) {
-        (Some(value), _) => format!("{} at least {}", of.of, short(value, 6)),
-        (_, Some(value)) => format!("{} at most {}", of.of, short(value, 6)),
-        _ => "tensions within their limits".to_owned(),
     }
 }
 

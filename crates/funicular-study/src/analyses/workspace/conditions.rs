@@ -4,10 +4,12 @@ use crate::names::suggestion;
 use crate::request::{BoundValue, WorkspaceRequest};
 use crate::sweep::{Options, Quantity, values_at};
 use crate::table::{ColumnKind, Value};
+use crate::text::short;
 use anyhow::{Result, anyhow, bail};
 use funicular::robot::{Pose, Robot};
 use funicular::statics::LoadCapacity;
 use serde::Serialize;
+use std::fmt;
 
 /// Column with the distance beyond the required clearance [m].
 const CLEARANCE: &str = "clearance_margin_m";
@@ -38,6 +40,16 @@ pub struct ConditionRow {
     /// Greatest value that is allowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_most: Option<f64>,
+}
+
+impl fmt::Display for ConditionRow {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.at_least, self.at_most) {
+            (Some(value), _) => write!(f, "{} at least {}", self.of, short(value, 6)),
+            (_, Some(value)) => write!(f, "{} at most {}", self.of, short(value, 6)),
+            _ => f.write_str("tensions within their limits"),
+        }
+    }
 }
 
 /// Conditions of a workspace. Without a limit the tensions alone count.

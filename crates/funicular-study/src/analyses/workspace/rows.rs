@@ -51,6 +51,9 @@ pub struct Workspace {
     pub triangles: Vec<[usize; 3]>,
     /// Number of triangles on the surface of the set; those after them lie on the faces of the box.
     pub triangles_of_surface: usize,
+    /// Anchors of the cables, for figures.
+    #[serde(skip)]
+    pub anchors: Vec<Vec3>,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
@@ -137,6 +140,7 @@ pub struct RaysOfWorkspace {
 /// What was searched for, apart from what was found.
 pub(super) struct WantedSet<'a> {
     pub(super) robot: &'a str,
+    pub(super) anchors: Vec<Vec3>,
     pub(super) static_model: &'static str,
     pub(super) conditions: &'a [ConditionRow],
     pub(super) orientations: (&'a [Rotation], &'static str),
@@ -193,6 +197,7 @@ impl Workspace {
             vertices_m: surface.vertices().iter().map(|vertex| (*vertex).into()).collect(),
             triangles: surface.triangles().to_vec(),
             triangles_of_surface: surface.on_surface(),
+            anchors: wanted.anchors.clone(),
             warnings: Vec::new(),
         }
     }

@@ -92,6 +92,7 @@ impl WorkspaceStudy {
         let mut warnings: Vec<String> = warnings::of_robot(&self.robot).iter().map(ToString::to_string).collect();
         let wanted = WantedSet {
             robot: &self.robot.name,
+            anchors: self.robot.cables.iter().map(|cable| cable.anchor.reference_w()).collect(),
             static_model: self.options.static_model.name(),
             conditions: &self.conditions.rows,
             orientations: (&self.orientations, self.rule.name()),
