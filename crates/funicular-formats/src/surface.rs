@@ -46,7 +46,10 @@ fn stl(found: &Workspace) -> Result<Vec<u8>> {
     let triangles: Vec<stl_io::Triangle> = (found.triangles.iter())
         .map(|corners| {
             let vertices = corners.map(vertex);
-            stl_io::Triangle { normal: stl_io::Normal::new(normal(vertices)), vertices: vertices.map(stl_io::Vertex::new) }
+            stl_io::Triangle {
+                normal: stl_io::Normal::new(normal(vertices)),
+                vertices: vertices.map(stl_io::Vertex::new),
+            }
         })
         .collect();
     let mut bytes = Vec::new();

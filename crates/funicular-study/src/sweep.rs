@@ -20,13 +20,13 @@ mod row;
 mod sensitivity;
 mod status;
 
+pub(crate) use at_pose::values_at;
 pub use error::{MAX_POINTS, SweepError};
 pub use frequency::{PointModes, lowest_modes, no_platform_mode};
 pub use options::Options;
 pub use plan::Plan;
 pub use points::{AXES, Point, Points, Poses};
 pub use prepared::PreparedSweep;
-pub(crate) use at_pose::values_at;
 pub(crate) use prepared::{check_poses, check_poses_alone, options_of, with_request};
 pub use quantity::{MAX_FREQUENCIES, Quantity, UnknownQuantity};
 pub use robot_values::{RobotValues, ValueAxis};

@@ -10,9 +10,7 @@ use anyhow::{Result, bail};
 use funicular_files::endings::Kind;
 use funicular_files::{Guard, WorkspaceRun, threads};
 use funicular_formats::surface::{self, SurfaceFormat};
-use funicular_study::analyses::workspace::{
-    PartOfWorkspace, RaysOfWorkspace, VolumeRow, Workspace, WorkspaceStudy,
-};
+use funicular_study::analyses::workspace::{PartOfWorkspace, RaysOfWorkspace, VolumeRow, Workspace, WorkspaceStudy};
 use funicular_study::request::WorkspaceRequest;
 use funicular_study::wording::{Words, worded};
 use std::fmt::Write as _;
@@ -115,7 +113,10 @@ impl Printed for Workspace {
         line("steps", &format!("{} m; parts and holes between steps of {first} m can be missed", steps.join(", ")));
         if let Some(inner) = &self.inner_box {
             let (low, high) = (vector(&inner.lower_m, 3), vector(&inner.upper_m, 3));
-            line("box inside", &format!("({low}) m to ({high}) m, {} m³, by the nodes", significant(inner.volume_m3, 4)));
+            line(
+                "box inside",
+                &format!("({low}) m to ({high}) m, {} m³, by the nodes", significant(inner.volume_m3, 4)),
+            );
         }
         line("evaluations", &self.evaluations.to_string());
 
@@ -139,7 +140,7 @@ fn orientation_text(of: &Workspace) -> String {
 
 /// Change of the volume from double steps, as the measure of its error.
 fn change_text(of: &Workspace) -> String {
-    of.change_by_halving().filter(|change| change.is_finite()).map_or_else(String::new, |change| {
+    of.change_by_halving().map_or_else(String::new, |change| {
         format!("; halving the steps changed it by {} %", significant(100.0 * change, 2))
     })
 }

@@ -5,7 +5,7 @@ use super::{robot, run, run_with, stderr, stdout, succeed};
 /// Command lines that print their result.
 fn command_lines() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
-    let lines: [&[&str]; 23] = [
+    let lines: [&[&str]; 24] = [
         &["check", &cogiro],
         &["parameters", &cogiro, "--set", "platform.center_of_mass_m.x=0.1"],
         &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],
@@ -99,6 +99,7 @@ fn command_lines() -> Vec<Vec<String>> {
         ],
         &["loads", &cogiro, "--pose", "1,1,1.5", "--required-force-n", "100,100,100"],
         &["clearance", &cogiro, "--pose", "1,1,1.5"],
+        &["workspace", &cogiro, "--step-m", "2", "--max-tension-n", "5000"],
         &["export", "ROBOT", "--to", "vtk", "--segments", "3", "--modes-below-hz", "1"],
         &["new", "--cables", "6", "--motion", "rigid", "--box-m", "0.4,0.3,0.2", "--mass-kg", "20", "--rope", "7x7"],
         &["schema"],

@@ -54,14 +54,18 @@ pub(super) fn grid(request: &WorkspaceRequest, robot: &Robot) -> Result<PointGri
         if to <= from {
             bail!("all anchors have {} = {from} m like the origin: give ⟪grid⟫ {}=A:B:N", AXES[k], AXES[k]);
         }
-        let chosen = || (((to - from) / step / FIRST_STRIDE as f64 - 1e-9).ceil().max(1.0) as usize).saturating_mul(FIRST_STRIDE);
+        let chosen = || {
+            (((to - from) / step / FIRST_STRIDE as f64 - 1e-9).ceil().max(1.0) as usize).saturating_mul(FIRST_STRIDE)
+        };
         counts[k] = sides[k].map_or_else(chosen, |(_, _, count)| count);
     }
 
     let [lower, upper] = [ends.map(|end| end.0), ends.map(|end| end.1)].map(Vec3::from);
     PointGrid::new(lower, upper, counts).ok_or_else(|| {
         let [x, y, z] = counts.map(|count| count + 1);
-        anyhow!("⟪grid⟫: {x} x {y} x {z} nodes are too many: give at most {MAX_NODES}, with larger steps or a smaller box")
+        anyhow!(
+            "⟪grid⟫: {x} x {y} x {z} nodes are too many: give at most {MAX_NODES}, with larger steps or a smaller box"
+        )
     })
 }
 
@@ -107,7 +111,9 @@ pub(super) fn orientations(request: &WorkspaceRequest, robot: &Robot) -> Result<
 /// Refuses a grid along axes that do not exist or along which the platform cannot move, and states without a pose.
 pub(super) fn check(request: &WorkspaceRequest, robot: &Robot) -> Result<()> {
     if request.point.state.lengths_m.is_some() || request.point.state.hold_lengths_of_pose {
-        bail!("`workspace` goes through poses, each with its own lengths: leave out ⟪lengths_m⟫ and ⟪hold_lengths_of_pose⟫");
+        bail!(
+            "`workspace` goes through poses, each with its own lengths: leave out ⟪lengths_m⟫ and ⟪hold_lengths_of_pose⟫"
+        );
     }
     if let Some(axis) = request.grid.iter().find(|axis| !AXES.contains(&axis.name())) {
         bail!("⟪grid⟫: there is no axis `{}`: give x, y, z, roll, pitch or yaw", axis.name());

@@ -212,53 +212,64 @@ impl Workspace {
         self.volumes.get(1).filter(|row| row.rays.is_none())
     }
 
-    /// Change of the volume from double steps to the steps of the grid, over the volume.
+    /// Change of the volume from double steps to the steps of the grid, over the new volume; `None` without double steps.
     pub fn change_by_halving(&self) -> Option<f64> {
-        Some(self.volume().volume_m3 / self.with_double_steps()?.volume_m3 - 1.0)
+        let fine = self.volume().volume_m3;
+        let change = 1.0 - self.with_double_steps()?.volume_m3 / fine;
+        Some(if change.is_finite() { change } else { 1.0 })
     }
 
     /// Sentences about what the grid leaves open.
     pub(super) fn doubts(&self) -> Vec<String> {
-        let mut doubts = Vec::new();
-        if !self.complete {
-            doubts.push("the work was stopped: this is what was found until then".to_owned());
-        }
-        if let Some(coarse) = self.with_double_steps() {
-            let fine = self.volume();
-            let change = self.change_by_halving().unwrap_or(0.0);
-            let counts = |row: &VolumeRow| (row.parts, row.holes, row.handles);
-            if change.abs() > COARSE || !change.is_finite() {
-                doubts.push(format!(
-                    "the grid is coarse for this set: halving its steps to {} m changed the volume by {} %; halve them \
-                     again",
-                    significant(fine.step_m, 4),
-                    significant(100.0 * change, 2)
-                ));
+        let stopped = (!self.complete).then(|| {
+            let message = "the work was stopped: this is what was found until then";
+            message.to_owned()
+        });
+        let of_grid = match self.with_double_steps() {
+            Some(coarse) => vec![self.coarse_volume(), self.other_pieces(coarse)],
+            None => {
+                let message = "nothing is known of the error of the volume: make the number of steps along every axis \
+                               of ⟪grid⟫ a multiple of 4, as with 41 values, and the volume is compared with that of \
+                               larger steps";
+                vec![Some(message.to_owned())]
             }
-            if counts(fine) != counts(coarse) {
-                doubts.push(format!(
-                    "the number of parts, holes or handles depends on the grid: {} with steps of {} m, {} with steps of \
-                     {} m; halve the steps",
-                    pieces(fine),
-                    significant(fine.step_m, 4),
-                    pieces(coarse),
-                    significant(coarse.step_m, 4)
-                ));
-            }
-        } else {
-            doubts.push(
-                "nothing is known of the error of the volume: make the number of steps along every axis of ⟪grid⟫ a \
-                 multiple of 4, as with 41 values, and the volume is compared with that of larger steps"
-                    .to_owned(),
-            );
-        }
-        if !self.touches.is_empty() {
-            doubts.push(format!(
-                "the set reaches the box of the grid at {}: it may go on there; give a larger ⟪grid⟫",
-                self.touches.join(", ")
-            ));
-        }
-        doubts
+        };
+        stopped.into_iter().chain(of_grid.into_iter().flatten()).chain(self.cut_by_box()).collect()
+    }
+
+    /// Sentence about a volume that still changes with the steps.
+    fn coarse_volume(&self) -> Option<String> {
+        let change = self.change_by_halving()?;
+        let message = format!(
+            "the grid is coarse for this set: halving its steps to {} m changed the volume by {} %; halve them again",
+            significant(self.volume().step_m, 4),
+            significant(100.0 * change, 2)
+        );
+        (change.abs() > COARSE).then_some(message)
+    }
+
+    /// Sentence about parts, holes and handles that are others with double steps.
+    fn other_pieces(&self, coarse: &VolumeRow) -> Option<String> {
+        let fine = self.volume();
+        let counts = |row: &VolumeRow| (row.parts, row.holes, row.handles);
+        let message = format!(
+            "the number of parts, holes or handles depends on the grid: {} with steps of {} m, {} with steps of {} m; \
+             halve the steps",
+            pieces(fine),
+            significant(fine.step_m, 4),
+            pieces(coarse),
+            significant(coarse.step_m, 4)
+        );
+        (counts(fine) != counts(coarse)).then_some(message)
+    }
+
+    /// Sentence about a set that reaches the box of the grid.
+    fn cut_by_box(&self) -> Option<String> {
+        let message = format!(
+            "the set reaches the box of the grid at {}: it may go on there; give a larger ⟪grid⟫",
+            self.touches.join(", ")
+        );
+        (!self.touches.is_empty()).then_some(message)
     }
 }
 

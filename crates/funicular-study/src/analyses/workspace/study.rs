@@ -82,11 +82,11 @@ impl WorkspaceStudy {
         let surface = set.boundary(1);
         if surface.triangles().is_empty() {
             let step = first_step(&self.grid);
-            let no_position = format!(
+            let message = format!(
                 "no position of the grid meets the conditions: it was searched with steps of {step} m; give a ⟪grid⟫ \
                  with smaller steps or another box, or other limits"
             );
-            return Err(NoSolution(no_position).into());
+            return Err(NoSolution(message).into());
         }
         let rays = self.along_rays(&surface, evaluate)?;
         let mut warnings: Vec<String> = warnings::of_robot(&self.robot).iter().map(ToString::to_string).collect();
