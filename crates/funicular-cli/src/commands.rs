@@ -97,6 +97,7 @@ fn request_of(cli: &Cli) -> Result<Request> {
         "uncertainty" => uncertainty::request(cli, further),
         "identify" => identify::request(cli, further),
         "design" => design::request(cli, further),
+        "workspace" => workspace::request(cli, further),
         "map" => map::request(cli, further),
         "settle" => settle::request(cli, further),
         "gust" => gust::request(cli, further),

@@ -2,7 +2,7 @@
 
 use crate::threads::in_order;
 use funicular::math::Vec3;
-use funicular_study::analyses::workspace::{Workspace, WorkspaceStudy};
+use funicular_study::analyses::workspace::{SearchedSet, Workspace, WorkspaceStudy};
 use std::convert::Infallible;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -30,11 +30,11 @@ impl WorkspaceRun<'_> {
         progress: &mut dyn FnMut(usize, usize, &'static str),
     ) -> anyhow::Result<Option<Workspace>> {
         let mut done = 0;
-        let mut evaluate = |positions: &[Vec3]| {
+        let mut evaluate = |set: SearchedSet, positions: &[Vec3]| {
             let total = done + positions.len();
             let chunks: Vec<&[Vec3]> = positions.chunks(POSITIONS_AT_ONCE).collect();
             let compute = |chunk: usize, given_up: &dyn Fn() -> bool| {
-                let values = chunks[chunk].iter().map(|position| (!given_up()).then(|| study.value(position)));
+                let values = chunks[chunk].iter().map(|position| (!given_up()).then(|| study.value(set, position)));
                 values.collect::<Option<Vec<_>>>()
             };
             let mut values = Vec::with_capacity(positions.len());

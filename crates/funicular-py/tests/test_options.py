@@ -85,6 +85,7 @@ OTHERS: dict[tuple[str | None, str], tuple[str, Callable[..., Any]]] = {
     ("design", "--output-file"): ("`json.dumps(result.details)`", funicular.Designed.to_dict),
     ("design", "--designed"): ("`result.robot_file`, `result.robot`", funicular.Designed.to_dict),
     ("design", "--page"): ("`result.page(path)`", funicular.Designed.page),
+    ("workspace", "--compare-set"): ("`robot.with_({path: value})` as `compare`", Robot.with_),
     ("uncertainty", "--page"): ("`result.page(path)`", funicular.Uncertainty.page),
     ("frf", "--output-file"): ("`equilibrium.write_frf(path, …)` for a Universal File", Equilibrium.write_frf),
     ("modes", "--output-file"): ("`equilibrium.write_modes(path, …)` for a Universal File", Equilibrium.write_modes),

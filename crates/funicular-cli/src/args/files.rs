@@ -268,6 +268,15 @@ pub(crate) struct UncertaintyArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct WorkspaceArgs {
+    /// Compare the set with that of another robot file on the same grid: volumes of both, of what they share, and of what
+    /// only one has [default with --compare-set: the same file]
+    #[arg(long, value_name = "FILE.toml", help_heading = "Set")]
+    pub(crate) compare: Option<PathBuf>,
+
+    /// Change a value of the other robot, as --set does (repeatable)
+    #[arg(long, value_name = "PATH=VALUE", value_parser = funicular_study::set_values::change, help_heading = "Set")]
+    pub(crate) compare_set: Vec<Change>,
+
     #[command(flatten)]
     pub(crate) sink: OutputArgs,
 

@@ -1,27 +1,44 @@
 //! `workspace`: run on all cores, text, and files of the surface.
 
-use crate::args::{OutputArgs, WorkspaceArgs};
+use crate::args::{ChangeArgs, Cli, OutputArgs, WorkspaceArgs};
 use crate::errors::{self, Interrupted};
 use crate::interrupt::{STOPPED, stop_at_next_row};
 use crate::output::{Content, Printed, Sink, Target};
 use crate::progress::Progress;
+use crate::robot_file;
 use crate::table::{Table, counted, short, significant, vector};
 use anyhow::{Result, bail};
 use funicular_files::endings::Kind;
 use funicular_files::{Guard, WorkspaceRun, threads};
 use funicular_formats::surface::{self, SurfaceFormat};
-use funicular_study::analyses::workspace::{PartOfWorkspace, RaysOfWorkspace, VolumeRow, Workspace, WorkspaceStudy};
-use funicular_study::request::WorkspaceRequest;
+use funicular_study::analyses::workspace::{ComparedSets, PartOfWorkspace, RaysOfWorkspace, VolumeRow, Workspace, WorkspaceStudy};
+use funicular_study::request::{Request, RobotText, WorkspaceRequest};
 use funicular_study::wording::{Words, worded};
+use serde_json::{Map, Value};
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 
 /// Kinds of files that hold a surface.
 const SURFACES: [Kind; 3] = [Kind::Stl, Kind::Ply, Kind::Vtp];
 
 /// Largest number of parts or holes that the text lists.
 const SHOWN: usize = 6;
+
+/// Request of a workspace, with the robot of a comparison.
+pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
+    let WorkspaceArgs { compare, compare_set, .. } = cli.files()?;
+    let mut request = cli.request(further)?;
+    if let Request::Workspace(of) = &mut request {
+        of.compare = match compare {
+            Some(path) => Some(robot_file::read(Some(&path), &ChangeArgs { set: compare_set })?),
+            None if compare_set.is_empty() => None,
+            None => Some(RobotText { set: [&of.robot.set[..], &compare_set].concat(), ..of.robot.clone() }),
+        };
+    }
+    Ok(request)
+}
 
 /// Runs `workspace`: prints the result, writes the surface and the page. `-o` may name either of them.
 pub(super) fn run(of: &WorkspaceRequest, args: &WorkspaceArgs, guard: &mut Guard) -> Result<()> {
@@ -52,13 +69,24 @@ pub(super) fn run(of: &WorkspaceRequest, args: &WorkspaceArgs, guard: &mut Guard
         target.write(worded(&page, Words::Program).as_bytes())?;
         errors::note(&format!("wrote {}", path.display()));
     }
+    if STOPPED.load(Ordering::Relaxed) {
+        return Err(Interrupted("stopped: the result is what was found until then".to_owned()).into());
+    }
     Ok(())
 }
 
 /// Runs a request and prints its results, or writes its surface or page.
 pub(super) fn print(of: &WorkspaceRequest, output: &OutputArgs, guard: &mut Guard) -> Result<()> {
     let sink = OutputArgs { format: output.format, output_file: output.output_file.clone() };
-    run(of, &WorkspaceArgs { sink, surface: Vec::new(), page: None, threads: None }, guard)
+    let nothing = WorkspaceArgs {
+        compare: None,
+        compare_set: Vec::new(),
+        sink,
+        surface: Vec::new(),
+        page: None,
+        threads: None,
+    };
+    run(of, &nothing, guard)
 }
 
 /// Format of a surface by the ending of its file.
@@ -127,6 +155,9 @@ impl Printed for Workspace {
         if let Some(rays) = &self.rays {
             text += &rays_text(rays);
         }
+        if let Some(compared) = &self.compared {
+            text += &compared_text(compared);
+        }
         text
     }
 }
@@ -184,5 +215,16 @@ fn rays_text(rays: &RaysOfWorkspace) -> String {
         vector(&rays.center_m, 4),
         rays.with_several_intervals,
         rays.cut
+    )
+}
+
+fn compared_text(of: &ComparedSets) -> String {
+    format!(
+        "\nCompared with {}, on the same grid: {} m³; common to both {} m³, only here {} m³, only there {} m³.\n",
+        of.other,
+        significant(of.other_volume_m3, 6),
+        significant(of.common_volume_m3, 6),
+        significant(of.only_own_m3, 4),
+        significant(of.only_other_m3, 4)
     )
 }

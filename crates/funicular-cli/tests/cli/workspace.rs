@@ -15,7 +15,7 @@ fn cube(folder: &Path) -> String {
             .to_owned();
     for corner in 0..8 {
         let [x, y, z] = [1, 2, 4].map(|bit| if corner & bit == 0 { -1.0 } else { 1.0 });
-        let _ = writeln!(text, "[[cables]]\nanchor_m = [{x:?}, {y:?}, {z:?}]\nmaterial = \"rope\"");
+        let _ = writeln!(text, "[[cables]]\nname = \"{}\"\nanchor_m = [{x:?}, {y:?}, {z:?}]\nmaterial = \"rope\"", corner + 1);
     }
     let path = folder.join("cube.toml");
     fs::write(&path, text).unwrap();

@@ -144,11 +144,19 @@ def clearance(of: Any, given: Given) -> Results:
     return _results.results(of._answer("clearance", given))
 
 
-@declared(Robot, "workspace", positional=("at_least", "at_most", "grid"), others=_AS_BOTH)
+@declared(
+    Robot,
+    "workspace",
+    positional=("at_least", "at_most", "grid"),
+    without=("lengths_m", "hold_lengths_of_pose", "compare"),
+    others=_AS_BOTH,
+)
 def workspace(
     of: Any,
     given: Given,
+    compare: Robot | None = None,
     surface: File | Sequence[File] = (),
+    page: File | None = None,
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Results:
@@ -166,8 +174,12 @@ def workspace(
         [degrees] to such ranges or to lists of angles.
     section
         Sections: a mapping from x, y or z to a list of coordinates [m].
+    compare
+        Robot whose set is compared with this one on the same grid.
     surface
         Files of the closed surface, .stl, .ply or .vtp.
+    page
+        HTML file of a page with the surface, the volumes and the sections.
     threads
         Number of threads of this process; one per processor if not given.
     progress
@@ -176,7 +188,7 @@ def workspace(
     Returns
     -------
     The keys of the program's JSON: `volumes` with the steps or the number of rays of each, `parts`, `holes`,
-    `touches`, `bounds_m`, `inner_box`, `sections`, `rays`; `vertices_m` (n, 3) and `triangles` (m, 3) of the closed
+    `touches`, `bounds_m`, `inner_box`, `sections`, `rays`, `compared`; `vertices_m` (n, 3) and `triangles` (m, 3) of the closed
     surface, whose first `triangles_of_surface` lie on the set and the others on the box of the grid.
 
     Raises
@@ -190,8 +202,10 @@ def workspace(
     ----------
     docs/theory.md, section 10b.
     """
+    if compare is not None:
+        given = {**given, "compare": {"text": compare.to_toml()}}
     files = [surface] if isinstance(surface, (str, PathLike)) else list(surface)
-    return _results.results(of._workspace(given, files, threads, progress))
+    return _results.results(of._workspace(given, files, page, threads, progress))
 
 
 @declared(Robot, "pose-error", positional=("mass_kg",), others=_AS_REST)

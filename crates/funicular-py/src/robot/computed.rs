@@ -13,10 +13,11 @@ use crate::sweep::{ExecutorArgument, ProgressArgument, PyPlan, RunKeywords, Swee
 use crate::threads::Threads;
 use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun, WorkspaceRun};
 use funicular_formats::surface::{self, SurfaceFormat};
+use funicular_pages::pages;
 use funicular_study::analyses::uncertainty::UncertaintyStudy;
 use funicular_study::analyses::workspace::{Workspace, WorkspaceStudy};
 use funicular_study::request::{Request, UncertaintyRequest};
-use funicular_study::wording::Words;
+use funicular_study::wording::{Words, worded};
 use funicular_study::{Results, run_on};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
@@ -119,6 +120,7 @@ impl PyRobot {
         py: Python<'py>,
         given: &Bound<'py, PyDict>,
         surfaces: Vec<PathBuf>,
+        page: Option<PathBuf>,
         threads: Option<Threads>,
         progress: Option<ProgressArgument>,
     ) -> PyResult<TextKeyed<'py>> {
@@ -132,6 +134,11 @@ impl PyRobot {
         for (format, path) in formats {
             let bytes = surface::of_workspace(&found, format).map_err(|error| errors::study(&error))?;
             answers::write_bytes(path, &bytes)?;
+        }
+        if let Some(path) = page {
+            let page = pages::workspace::page(&found, format!("robot.workspace(…, page={:?})", path.display().to_string()));
+            let page = page.map_err(|error| errors::study(&error))?;
+            answers::write_bytes(path, worded(&page, Words::Python).as_bytes())?;
         }
         answers::plain(py, &found)
     }

@@ -6,8 +6,8 @@ mod rows;
 mod study;
 
 pub use conditions::ConditionRow;
-pub use rows::{GridOfWorkspace, InnerBox, PartOfWorkspace, RaysOfWorkspace, SectionOfWorkspace, VolumeRow, Workspace};
-pub use study::WorkspaceStudy;
+pub use rows::{ComparedSets, GridOfWorkspace, InnerBox, PartOfWorkspace, RaysOfWorkspace, SectionOfWorkspace, VolumeRow, Workspace};
+pub use study::{EvaluateSet, SearchedSet, WorkspaceStudy};
 
 use crate::Watch;
 use crate::error::Cancelled;
@@ -27,14 +27,14 @@ const POSES_AT_ONCE: usize = 64;
 pub fn run(robot: Robot, request: &WorkspaceRequest, watch: &mut dyn Watch) -> Result<Workspace> {
     let study = WorkspaceStudy::new(robot, request)?;
     let mut done = 0;
-    let mut evaluate = |positions: &[Vec3]| {
+    let mut evaluate = |set: SearchedSet, positions: &[Vec3]| {
         let total = done + positions.len();
         let mut values = Vec::with_capacity(positions.len());
         for chunk in positions.chunks(POSES_AT_ONCE) {
             if watch.is_cancelled() {
                 return None;
             }
-            values.extend(chunk.iter().map(|position| study.value(position)));
+            values.extend(chunk.iter().map(|position| study.value(set, position)));
             done += chunk.len();
             watch.progress(done, total, "poses");
         }

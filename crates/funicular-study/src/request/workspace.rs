@@ -42,6 +42,8 @@ declared! {
         center_m: Option<[f64; 3]> = None => (Vector).under("Set").needs("rays").otherwise("the centroid of the set");
         /// Section at right angles to an axis, as in z=1.5 or z=0.5,1,1.5 (repeatable).
         section: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=V,V,…").under("Set");
+        /// Robot file whose set is compared with this one, on the same grid and with the same options.
+        compare: Option<RobotText> = None => (Data(shape::robot));
         /// State and loads; the pose gives the orientation for axes that the grid does not have.
         #[serde(flatten)]
         point: PointOptions = PointOptions::default() => (group without ["lengths_m", "hold_lengths_of_pose"]);

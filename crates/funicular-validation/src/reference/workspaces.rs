@@ -44,17 +44,18 @@ impl BoxShapedRobot {
              minimum_tension_n = {minimum}\nmaximum_tension_n = {maximum}\n"
         );
         let ([x, y, z], [a, b]) = (self.frame_m.map(|side| 0.5 * side), self.plate_m.map(|side| 0.5 * side));
-        for height in [2.0 * z, 0.0] {
-            for (right, back) in [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)] {
-                let _ = write!(
-                    text,
-                    "[[cables]]\nanchor_m = [{}, {}, {height:?}]\nattachment_m = [{}, {}, 0.0]\nmaterial = \"rope\"\n",
-                    right * x,
-                    back * y,
-                    right * a,
-                    back * b
-                );
-            }
+        let corners = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
+        let anchors = [2.0 * z, 0.0].into_iter().flat_map(|height| corners.map(|corner| (corner, height)));
+        for (number, ((right, back), height)) in (1..).zip(anchors) {
+            let _ = write!(
+                text,
+                "[[cables]]\nname = \"{number}\"\nanchor_m = [{:?}, {:?}, {height:?}]\nattachment_m = [{:?}, {:?}, 0.0]\n\
+                 material = \"rope\"\n",
+                right * x,
+                back * y,
+                right * a,
+                back * b
+            );
         }
         text
     }

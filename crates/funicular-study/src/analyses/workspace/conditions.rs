@@ -11,6 +11,9 @@ use funicular::statics::LoadCapacity;
 use serde::Serialize;
 use std::fmt;
 
+/// Column of the load factor.
+const LOAD_FACTOR: &str = "load_factor";
+
 /// Column with the distance beyond the required clearance [m].
 const CLEARANCE: &str = "clearance_margin_m";
 
@@ -27,6 +30,15 @@ struct Limit {
     column: usize,
     side: Side,
     value: f64,
+}
+
+impl Limit {
+    /// Distance of a value from the limit, over the limit if that is not zero. An unlimited value is one limit away.
+    fn margin(&self, value: f64) -> Option<f64> {
+        let scale = if self.value == 0.0 { 1.0 } else { self.value.abs() };
+        let above = if value.is_infinite() { value.signum() } else { (value - self.value) / scale };
+        Some(if self.side == Side::AtLeast { above } else { -above }).filter(|margin| margin.is_finite())
+    }
 }
 
 /// Condition of a workspace, for reading.
@@ -79,7 +91,7 @@ impl Conditions {
         }
 
         if conditions.limits.is_empty() && !robot.required.is_empty() {
-            let all_loads = BoundValue { quantity: "load-factor".to_owned(), value: 1.0 };
+            let all_loads = BoundValue { quantity: LOAD_FACTOR.to_owned(), value: 1.0 };
             conditions.add(robot, options, &all_loads, Side::AtLeast)?;
         }
         if robot.judges_clearance() {
@@ -121,18 +133,23 @@ impl Conditions {
     /// Distance of a pose from the limits: the least of all, each over its value if that is not zero. Negative if one is
     /// not kept, `None` if a quantity has no value there.
     pub(super) fn margin(&self, robot: &Robot, pose: &Pose, options: &Options) -> Option<f64> {
-        if self.limits.is_empty() {
-            return tension_margin(robot, pose, options);
+        match (&self.limits[..], &self.rows[..]) {
+            ([], _) => tension_margin(robot, pose, options),
+            // Load factors need the dead load alone, not what a map knows about its equilibrium.
+            ([limit], [row]) if row.of == LOAD_FACTOR => {
+                let capacity = LoadCapacity::at(robot, pose, options.static_model, None).ok()?;
+                limit.margin(capacity.load_factor_value().ok()?)
+            }
+            (limits, _) => {
+                let values = values_at(robot, pose, &self.quantities, options)?;
+                let margin = |limit: &Limit| match &values[limit.column] {
+                    Value::Real(value) => limit.margin(*value),
+                    _ => None,
+                };
+                let margins: Option<Vec<f64>> = limits.iter().map(margin).collect();
+                margins?.into_iter().reduce(f64::min)
+            }
         }
-        let values = values_at(robot, pose, &self.quantities, options)?;
-        let margin = |limit: &Limit| {
-            let Value::Real(value) = &values[limit.column] else { return None };
-            let scale = if limit.value == 0.0 { 1.0 } else { limit.value.abs() };
-            let above = (value - limit.value) / scale;
-            Some(if limit.side == Side::AtLeast { above } else { -above })
-        };
-        let margins: Option<Vec<f64>> = self.limits.iter().map(margin).collect();
-        margins?.into_iter().reduce(f64::min)
     }
 }
 

@@ -46,6 +46,9 @@ pub struct Workspace {
     pub sections: Vec<SectionOfWorkspace>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rays: Option<RaysOfWorkspace>,
+    /// Comparison with another robot.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compared: Option<ComparedSets>,
     /// Closed surface: vertices, and triangles by the numbers of their vertices from 0, counterclockwise from outside.
     pub vertices_m: Vec<[f64; 3]>,
     pub triangles: Vec<[usize; 3]>,
@@ -137,6 +140,33 @@ pub struct RaysOfWorkspace {
     evaluations: usize,
 }
 
+/// Volumes of two sets on one grid, and of what they share.
+#[derive(Serialize)]
+pub struct ComparedSets {
+    /// Name of the other robot.
+    pub other: String,
+    pub other_volume_m3: f64,
+    pub common_volume_m3: f64,
+    /// Volume that only this robot reaches, and that only the other one reaches.
+    pub only_own_m3: f64,
+    pub only_other_m3: f64,
+    #[serde(skip)]
+    evaluations: usize,
+}
+
+impl ComparedSets {
+    pub(super) fn of(other: &str, [own, of_other, common]: [f64; 3], evaluations: usize) -> Self {
+        Self {
+            other: other.to_owned(),
+            other_volume_m3: of_other,
+            common_volume_m3: common,
+            only_own_m3: own - common,
+            only_other_m3: of_other - common,
+            evaluations,
+        }
+    }
+}
+
 /// What was searched for, apart from what was found.
 pub(super) struct WantedSet<'a> {
     pub(super) robot: &'a str,
@@ -148,8 +178,9 @@ pub(super) struct WantedSet<'a> {
     pub(super) tolerance: f64,
     /// Number of the axis and coordinate of each section.
     pub(super) sections: &'a [(usize, f64)],
-    /// True if the set is wanted along rays, too.
+    /// True if the set is wanted along rays, and if it is compared with another one.
     pub(super) with_rays: bool,
+    pub(super) with_other: bool,
 }
 
 impl Workspace {
@@ -159,6 +190,7 @@ impl Workspace {
         set: &LevelSet,
         surface: &BoundaryMesh,
         mut rays: Option<RaysOfWorkspace>,
+        compared: Option<ComparedSets>,
     ) -> Self {
         let strides = set.strides();
         let coarser = strides[1..].iter().map(|stride| VolumeRow::of_grid(&set.boundary(*stride), step(set, *stride)));
@@ -183,8 +215,12 @@ impl Workspace {
                 first_step_m: first_step(grid),
                 vertex_tolerance_m: wanted.tolerance,
             },
-            complete: set.end() == SearchEnd::Complete && rays.is_some() == wanted.with_rays,
-            evaluations: set.evaluations() + rays.as_ref().map_or(0, |rays| rays.evaluations),
+            complete: set.end() == SearchEnd::Complete
+                && rays.is_some() == wanted.with_rays
+                && compared.is_some() == wanted.with_other,
+            evaluations: set.evaluations()
+                + rays.as_ref().map_or(0, |rays| rays.evaluations)
+                + compared.as_ref().map_or(0, |compared| compared.evaluations),
             volumes,
             parts: surface.parts().into_iter().map(PartOfWorkspace::of).collect(),
             holes: surface.holes().into_iter().map(PartOfWorkspace::of).collect(),
@@ -194,6 +230,7 @@ impl Workspace {
             inner_box: set.inner_box().map(InnerBox::of),
             sections: wanted.sections.iter().map(section).collect(),
             rays,
+            compared,
             vertices_m: surface.vertices().iter().map(|vertex| (*vertex).into()).collect(),
             triangles: surface.triangles().to_vec(),
             triangles_of_surface: surface.on_surface(),

@@ -240,3 +240,30 @@ fn all_accelerations_up_to_the_largest_one_are_held_and_one_of_a_larger_one_is_n
     let half = most / 6.0_f64.sqrt();
     assert!(factor([half, half]) >= 1.0 && factor([most, most]) < 1.0);
 }
+
+#[test]
+fn closed_form_tensions_are_sufficient_and_balance_the_load() {
+    let robot = ipanema();
+    let (mut sufficient, mut feasible) = (0, 0);
+    for pose in poses(200, [3.0, 2.0, 1.5], [0.0, 0.0, 2.0]) {
+        let capacity = LoadCapacity::at(&robot, &pose, StaticModel::Ideal, None).unwrap();
+        let is_held = capacity.dead_load().is_ok();
+        let margin = statics::closed_form_margin(&robot, &pose).unwrap();
+        assert!(margin <= 0.0 || is_held, "{pose:?}: {margin} N");
+        sufficient += usize::from(margin > 0.0);
+        feasible += usize::from(is_held);
+    }
+    assert!(0 < sufficient && sufficient < feasible, "{sufficient} of {feasible}");
+
+    // As many cables as degrees of freedom leave no choice: the closed form is the only distribution.
+    let mut six = ipanema();
+    six.cables.truncate(6);
+    for pose in poses(20, [2.0, 1.0, 1.0], [0.0, 0.0, 2.0]) {
+        let Some(margin) = statics::closed_form_margin(&six, &pose) else { continue };
+        let is_held = LoadCapacity::at(&six, &pose, StaticModel::Ideal, None).unwrap().dead_load().is_ok();
+        assert_eq!(margin >= 0.0, is_held, "{pose:?}: {margin} N");
+    }
+    // Without maximum tensions there is no middle.
+    let open = ipanema().with_tension_limits(TensionLimits { minimum: Some(100.0), maximum: None });
+    assert_eq!(statics::closed_form_margin(&open, &Pose::new([0.0, 0.0, 2.0], [0.0; 3])), None);
+}
