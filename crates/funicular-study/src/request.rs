@@ -50,7 +50,7 @@ pub use vibration::{
     CableRequest, CompareRequest, DEFAULT_INPUT, DEFAULT_OUTPUT, FrfRequest, GUST_DURATION, GustRequest, ModesRequest,
     ReduceRequest, SETTLED_WITHIN, SettleRequest, TurbulenceOptions,
 };
-pub use workspace::{BoundValue, DEFAULT_VERTEX_TOLERANCE, WorkspaceRequest};
+pub use workspace::{BoundValue, WorkspaceRequest};
 
 pub use parts::check;
 pub(crate) use parts::check_vector;

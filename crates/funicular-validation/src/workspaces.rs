@@ -3,7 +3,7 @@
 use super::reference::WorkspaceReference;
 use super::{Bound, Case, Comparison, DifferenceKind, Section};
 use anyhow::{Context, Result};
-use funicular::level_set::{LevelSet, PointGrid, RaySearch, RaySet, Sphere};
+use funicular::level_set::{LevelSet, PointGrid, RaySet, RaysInBox, Sphere};
 use funicular::math::{Rotation, Vec3};
 use funicular::robot::{Pose, Robot, TensionLimits};
 use funicular::statics::{self, LoadCapacity, StaticModel};
@@ -108,7 +108,7 @@ fn cogiro(reference: &WorkspaceReference) -> Result<Vec<Comparison>> {
         Bound::Model("other diagonals of the cells"),
     )];
 
-    let search = RaySearch { center: of.center_m.into(), bounds: [lower, upper], step: 0.25, tolerance: 0.1 * ENDS };
+    let search = RaysInBox { center: of.center_m.into(), bounds: [lower, upper], step: 0.25, tolerance: 0.1 * ENDS };
     let rays = RaySet::find(Sphere::with_directions(6).context("no sphere")?, &search, &mut evaluate);
     let rays = rays.context("stopped")?;
     let ours: Vec<f64> = rays.rays().iter().filter_map(|ray| Some(ray.intervals.first()?[1])).collect();

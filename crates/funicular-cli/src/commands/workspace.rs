@@ -11,7 +11,9 @@ use anyhow::{Result, bail};
 use funicular_files::endings::Kind;
 use funicular_files::{Guard, WorkspaceRun, threads};
 use funicular_formats::surface::{self, SurfaceFormat};
-use funicular_study::analyses::workspace::{ComparedSets, PartOfWorkspace, RaysOfWorkspace, VolumeRow, Workspace, WorkspaceStudy};
+use funicular_study::analyses::workspace::{
+    ComparedSets, PartOfWorkspace, RaysOfWorkspace, VolumeRow, Workspace, WorkspaceStudy,
+};
 use funicular_study::request::{Request, RobotText, WorkspaceRequest};
 use funicular_study::wording::{Words, worded};
 use serde_json::{Map, Value};
@@ -78,14 +80,8 @@ pub(super) fn run(of: &WorkspaceRequest, args: &WorkspaceArgs, guard: &mut Guard
 /// Runs a request and prints its results, or writes its surface or page.
 pub(super) fn print(of: &WorkspaceRequest, output: &OutputArgs, guard: &mut Guard) -> Result<()> {
     let sink = OutputArgs { format: output.format, output_file: output.output_file.clone() };
-    let nothing = WorkspaceArgs {
-        compare: None,
-        compare_set: Vec::new(),
-        sink,
-        surface: Vec::new(),
-        page: None,
-        threads: None,
-    };
+    let nothing =
+        WorkspaceArgs { compare: None, compare_set: Vec::new(), sink, surface: Vec::new(), page: None, threads: None };
     run(of, &nothing, guard)
 }
 

@@ -136,7 +136,8 @@ impl PyRobot {
             answers::write_bytes(path, &bytes)?;
         }
         if let Some(path) = page {
-            let page = pages::workspace::page(&found, format!("robot.workspace(…, page={:?})", path.display().to_string()));
+            let page =
+                pages::workspace::page(&found, format!("robot.workspace(…, page={:?})", path.display().to_string()));
             let page = page.map_err(|error| errors::study(&error))?;
             answers::write_bytes(path, worded(&page, Words::Python).as_bytes())?;
         }

@@ -6,7 +6,9 @@ mod rows;
 mod study;
 
 pub use conditions::ConditionRow;
-pub use rows::{ComparedSets, GridOfWorkspace, InnerBox, PartOfWorkspace, RaysOfWorkspace, SectionOfWorkspace, VolumeRow, Workspace};
+pub use rows::{
+    ComparedSets, GridOfWorkspace, InnerBox, PartOfWorkspace, RaysOfWorkspace, SectionOfWorkspace, VolumeRow, Workspace,
+};
 pub use study::{EvaluateSet, SearchedSet, WorkspaceStudy};
 
 use crate::Watch;

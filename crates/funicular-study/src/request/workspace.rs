@@ -6,9 +6,6 @@ use super::parts::{Axis, RobotText};
 use crate::names::OrientationRule;
 use serde::{Deserialize, Serialize};
 
-/// Default of the tolerance of the vertices [m].
-pub const DEFAULT_VERTEX_TOLERANCE: f64 = 1e-6;
-
 declared! {
     /// Set of all positions at which quantities keep their limits: its surface, volume, parts and holes.
     ///
@@ -34,7 +31,8 @@ declared! {
         orientations: OrientationRule = OrientationRule::default() =>
             (name::<OrientationRule>()).form("WHICH").under("Set");
         /// Tolerance of the vertices along the edges of the grid, and of the ends of rays [m].
-        vertex_tolerance_m: f64 = DEFAULT_VERTEX_TOLERANCE => (Number(Positive)).under("Set");
+        vertex_tolerance_m: Option<f64> = None =>
+            (Number(Positive)).under("Set").otherwise("a hundredth of the smallest step");
         /// Number of rays from ⟪center_m⟫ for a second volume: 6, 18, 66, 258, 1026 … or 12, 42, 162, 642, 2562 …; every
         /// interval of a ray inside the set is kept.
         rays: Option<usize> = None => (Count(6..=200_000)).under("Set");

@@ -10,7 +10,7 @@ const MAX_EVALUATIONS: usize = 60;
 const PATIENCE: usize = 4;
 
 /// Fraction of a segment, and the value of the function there if it has one.
-type Sample = (f64, Option<f64>);
+type EdgeSample = (f64, Option<f64>);
 
 /// Segment from a point inside the set to one outside, with the zero of the function between them.
 #[derive(Debug, Clone)]
@@ -18,10 +18,10 @@ pub(super) struct EdgeRoot {
     from: Vec3,
     to: Vec3,
     /// Nearest sample inside and outside.
-    inner: Sample,
-    outer: Sample,
-    /// Sample that was such an end before, for the curvature.
-    replaced: Option<Sample>,
+    inner: EdgeSample,
+    outer: EdgeSample,
+    /// EdgeSample that was such an end before, for the curvature.
+    replaced: Option<EdgeSample>,
     /// Width of the bracket when it was last halved, and the evaluations since then.
     halved: (f64, usize),
     evaluations: usize,
@@ -113,7 +113,7 @@ impl EdgeRoot {
 
 /// Zero of the polynomial through samples whose argument is the value (Lagrange); `None` without a value or with two
 /// equal ones.
-fn inverse_interpolation(samples: &[Sample]) -> Option<f64> {
+fn inverse_interpolation(samples: &[EdgeSample]) -> Option<f64> {
     let mut zero = 0.0;
     for (i, (at, value)) in samples.iter().enumerate() {
         let mut term = *at;

@@ -8,7 +8,7 @@ use crate::math::Vec3;
 
 /// Search along rays.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RaySearch {
+pub struct RaysInBox {
     /// Point from which the rays go out.
     pub center: Vec3,
     /// Corners of the box in which the rays end.
@@ -48,8 +48,8 @@ pub struct RaySet {
 
 impl RaySet {
     /// Finds the intervals of every ray. `None` if the work was stopped, or if the centre is not in the box.
-    pub fn find(sphere: Sphere, search: &RaySearch, evaluate: &mut Evaluate<'_>) -> Option<Self> {
-        let RaySearch { center, step, tolerance, .. } = *search;
+    pub fn find(sphere: Sphere, search: &RaysInBox, evaluate: &mut Evaluate<'_>) -> Option<Self> {
+        let RaysInBox { center, step, tolerance, .. } = *search;
         let ends: Vec<f64> = sphere.directions().iter().map(|ray| length_in(search, ray)).collect::<Option<_>>()?;
 
         // Points along the rays, from the centre to the end of each.
@@ -136,7 +136,7 @@ impl RaySet {
 }
 
 /// Length of a ray from the centre to where it leaves the box; `None` if the centre is not inside the box.
-fn length_in(search: &RaySearch, ray: &Vec3) -> Option<f64> {
+fn length_in(search: &RaysInBox, ray: &Vec3) -> Option<f64> {
     let [low, high] = search.bounds;
     let to_face = |k: usize| {
         let face = if ray[k] > 0.0 { high[k] } else { low[k] };

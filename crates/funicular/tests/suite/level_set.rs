@@ -1,6 +1,6 @@
 //! Level sets against solids whose volumes, areas and sections have closed forms.
 
-use funicular::level_set::{BoundaryMesh, LevelSet, MAX_NODES, PointGrid, RaySearch, RaySet, SearchEnd, Sphere};
+use funicular::level_set::{BoundaryMesh, LevelSet, MAX_NODES, PointGrid, RaySet, RaysInBox, SearchEnd, Sphere};
 use funicular::math::Vec3;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -69,14 +69,14 @@ fn only_the_neighbourhood_of_the_boundary_is_evaluated() {
 
 #[test]
 fn larger_steps_have_vertices_of_the_finest_ones() {
-    let set = find(cube(1.2, 16), ball);
+    let set = find(cube(1.2, 24), ball);
     assert_eq!(set.strides(), [1, 2, 4]);
     let fine = set.boundary(1);
     for stride in [2, 4] {
         let coarse = set.boundary(stride);
         assert!(is_closed(&coarse) && coarse.vertices().iter().all(|vertex| fine.vertices().contains(vertex)));
         assert!(coarse.volume() < fine.volume());
-        let alone = find(cube(1.2, 16 / stride), ball).boundary(1);
+        let alone = find(cube(1.2, 24 / stride), ball).boundary(1);
         assert!((coarse.volume() - alone.volume()).abs() < 1e-8 * alone.volume());
     }
     assert_eq!(find(cube(1.2, 30), ball).strides(), [1, 2]);
@@ -193,7 +193,7 @@ fn spheres_cover_all_directions() {
 
 fn along_rays(count: usize, step: f64, inside: impl Fn(&Vec3) -> Option<f64>) -> RaySet {
     let search =
-        RaySearch { center: Vec3::zeros(), bounds: [Vec3::repeat(-1.5), Vec3::repeat(1.5)], step, tolerance: 1e-11 };
+        RaysInBox { center: Vec3::zeros(), bounds: [Vec3::repeat(-1.5), Vec3::repeat(1.5)], step, tolerance: 1e-11 };
     let mut evaluate = |points: &[Vec3]| Some(points.iter().map(&inside).collect());
     RaySet::find(Sphere::with_directions(count).unwrap(), &search, &mut evaluate).unwrap()
 }

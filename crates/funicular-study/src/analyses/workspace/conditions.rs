@@ -7,7 +7,7 @@ use crate::table::{ColumnKind, Value};
 use crate::text::short;
 use anyhow::{Result, anyhow, bail};
 use funicular::robot::{Pose, Robot};
-use funicular::statics::LoadCapacity;
+use funicular::statics::{self, LoadCapacity};
 use serde::Serialize;
 use std::fmt;
 
@@ -17,9 +17,9 @@ const LOAD_FACTOR: &str = "load_factor";
 /// Column with the distance beyond the required clearance [m].
 const CLEARANCE: &str = "clearance_margin_m";
 
-/// Side of a limit on which a value is allowed.
+/// LimitSide of a limit on which a value is allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Side {
+enum LimitSide {
     AtLeast,
     AtMost,
 }
@@ -28,7 +28,7 @@ enum Side {
 struct Limit {
     /// Place of the column among those of all quantities.
     column: usize,
-    side: Side,
+    side: LimitSide,
     value: f64,
 }
 
@@ -37,7 +37,7 @@ impl Limit {
     fn margin(&self, value: f64) -> Option<f64> {
         let scale = if self.value == 0.0 { 1.0 } else { self.value.abs() };
         let above = if value.is_infinite() { value.signum() } else { (value - self.value) / scale };
-        Some(if self.side == Side::AtLeast { above } else { -above }).filter(|margin| margin.is_finite())
+        Some(if self.side == LimitSide::AtLeast { above } else { -above }).filter(|margin| margin.is_finite())
     }
 }
 
@@ -80,7 +80,7 @@ impl Conditions {
     pub(super) fn of(request: &WorkspaceRequest, robot: &Robot, options: &Options) -> Result<Self> {
         let mut conditions = Self { quantities: Vec::new(), limits: Vec::new(), rows: Vec::new() };
         for (bounds, key, side) in
-            [(&request.at_least, "at_least", Side::AtLeast), (&request.at_most, "at_most", Side::AtMost)]
+            [(&request.at_least, "at_least", LimitSide::AtLeast), (&request.at_most, "at_most", LimitSide::AtMost)]
         {
             for bound in bounds {
                 let value = crate::values::finite(bound.value);
@@ -92,11 +92,11 @@ impl Conditions {
 
         if conditions.limits.is_empty() && !robot.required.is_empty() {
             let all_loads = BoundValue { quantity: LOAD_FACTOR.to_owned(), value: 1.0 };
-            conditions.add(robot, options, &all_loads, Side::AtLeast)?;
+            conditions.add(robot, options, &all_loads, LimitSide::AtLeast)?;
         }
         if robot.judges_clearance() {
             let clearance = BoundValue { quantity: CLEARANCE.to_owned(), value: 0.0 };
-            conditions.add(robot, options, &clearance, Side::AtLeast)?;
+            conditions.add(robot, options, &clearance, LimitSide::AtLeast)?;
         }
         if conditions.limits.is_empty() {
             conditions.rows.push(ConditionRow { of: "tensions".to_owned(), at_least: None, at_most: None });
@@ -104,7 +104,7 @@ impl Conditions {
         Ok(conditions)
     }
 
-    fn add(&mut self, robot: &Robot, options: &Options, bound: &BoundValue, side: Side) -> Result<()> {
+    fn add(&mut self, robot: &Robot, options: &Options, bound: &BoundValue, side: LimitSide) -> Result<()> {
         let (quantity, own, name) = column_of(robot, &bound.quantity)?;
         if quantity.excludes(options.static_model) {
             bail!("it does not exist with {} cables: choose another ⟪static_model⟫", options.static_model.name());
@@ -122,8 +122,8 @@ impl Conditions {
         }
 
         let (at_least, at_most) = match side {
-            Side::AtLeast => (Some(bound.value), None),
-            Side::AtMost => (None, Some(bound.value)),
+            LimitSide::AtLeast => (Some(bound.value), None),
+            LimitSide::AtMost => (None, Some(bound.value)),
         };
         self.limits.push(Limit { column, side, value: bound.value });
         self.rows.push(ConditionRow { of: name, at_least, at_most });
@@ -136,10 +136,7 @@ impl Conditions {
         match (&self.limits[..], &self.rows[..]) {
             ([], _) => tension_margin(robot, pose, options),
             // Load factors need the dead load alone, not what a map knows about its equilibrium.
-            ([limit], [row]) if row.of == LOAD_FACTOR => {
-                let capacity = LoadCapacity::at(robot, pose, options.static_model, None).ok()?;
-                limit.margin(capacity.load_factor_value().ok()?)
-            }
+            ([limit], [row]) if row.of == LOAD_FACTOR => load_margin(limit, robot, pose, options),
             (limits, _) => {
                 let values = values_at(robot, pose, &self.quantities, options)?;
                 let margin = |limit: &Limit| match &values[limit.column] {
@@ -159,6 +156,20 @@ fn tension_margin(robot: &Robot, pose: &Pose, options: &Options) -> Option<f64> 
     let capacity = LoadCapacity::at(robot, pose, options.static_model, None).ok()?;
     let verdict = if capacity.dead_load().is_ok() { Some(1.0) } else { None };
     capacity.margin().filter(|margin| margin.is_finite()).or(verdict)
+}
+
+/// Distance of the load factor from its limit. Bounds that lie on one side of the limit decide, and the upper one stands
+/// for the value, to which it is nearer; only between them the factor itself is computed.
+fn load_margin(limit: &Limit, robot: &Robot, pose: &Pose, options: &Options) -> Option<f64> {
+    let model = options.static_model;
+    if let Some([lower, upper]) = statics::load_factor_bounds(robot, pose, model).ok()? {
+        let [lower, upper] = [lower, upper].map(|bound| limit.margin(bound));
+        if lower.is_some_and(|margin| margin >= 0.0) == upper.is_some_and(|margin| margin >= 0.0) {
+            return upper;
+        }
+    }
+    let capacity = LoadCapacity::at(robot, pose, model, None).ok()?;
+    limit.margin(capacity.load_factor_value().ok()?)
 }
 
 /// Quantity that a name means, the place of the column among its columns, and the name of the column: that of the

@@ -6,7 +6,7 @@ use crate::analyses::found;
 use crate::columns::{Columns, ResultTable, Tabled, column, parts};
 use crate::table::Column;
 use crate::text::{counted, significant};
-use funicular::level_set::{BOX_FACES, BoundaryMesh, LevelSet, PointGrid, RaySearch, RaySet, SearchEnd, SetPart};
+use funicular::level_set::{BOX_FACES, BoundaryMesh, LevelSet, PointGrid, RaySet, RaysInBox, SearchEnd, SetPart};
 use funicular::math::{Rotation, Vec3, rotation};
 use serde::Serialize;
 
@@ -396,7 +396,7 @@ impl SectionOfWorkspace {
 }
 
 impl RaysOfWorkspace {
-    pub(super) fn of(set: &RaySet, search: &RaySearch) -> Self {
+    pub(super) fn of(set: &RaySet, search: &RaysInBox) -> Self {
         let rays = set.rays();
         let hull = set.hull();
         let (count, step) = (rays.len(), search.step);

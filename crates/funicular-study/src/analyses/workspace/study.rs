@@ -8,7 +8,7 @@ use crate::names::{Named, OrientationRule};
 use crate::request::{WorkspaceRequest, check_positive, check_vector};
 use crate::sweep::{Options, options_of, with_request};
 use anyhow::{Result, bail};
-use funicular::level_set::{BoundaryMesh, Evaluate, LevelSet, PointGrid, RaySearch, RaySet, SearchEnd, Sphere};
+use funicular::level_set::{BoundaryMesh, Evaluate, LevelSet, PointGrid, RaySet, RaysInBox, SearchEnd, Sphere};
 use funicular::math::{Rotation, Vec3};
 use funicular::robot::{Pose, Robot};
 use funicular::warnings;
@@ -54,7 +54,7 @@ impl WorkspaceStudy {
     /// A request that contradicts itself or the robot.
     pub fn new(robot: Robot, request: &WorkspaceRequest) -> Result<Self> {
         places::check(request, &robot)?;
-        check_positive("vertex_tolerance_m", request.vertex_tolerance_m)?;
+        request.vertex_tolerance_m.map_or(Ok(()), |given| check_positive("vertex_tolerance_m", given))?;
         check_vector("center_m", request.center_m)?;
         if request.center_m.is_some() && request.rays.is_none() {
             bail!("⟪center_m⟫ is the centre of rays: give ⟪rays⟫, too, or leave it out");
@@ -72,7 +72,10 @@ impl WorkspaceStudy {
         let sections = places::sections(&request.section, &grid)?;
         let rays = request.rays.map(places::sphere).transpose()?;
         let rays = rays.map(|sphere| (sphere, request.center_m.map(Vec3::from)));
-        let (rule, tolerance) = (request.orientations, request.vertex_tolerance_m);
+        // A vertex that is interpolated to this is mostly a hundred times nearer, and the chords between vertices miss a
+        // curved surface by more.
+        let tolerance = request.vertex_tolerance_m.unwrap_or(0.01 * grid.step().min());
+        let rule = request.orientations;
         Ok(Self { own, other, grid, orientations, rule, tolerance, rays, sections })
     }
 
@@ -147,7 +150,7 @@ impl WorkspaceStudy {
             bail!("⟪center_m⟫: ({x}, {y}, {z}) m is not inside the box of the grid");
         }
         let step = self.grid.step().min();
-        let search = RaySearch { center, bounds: [lower, upper], step, tolerance: self.tolerance };
+        let search = RaysInBox { center, bounds: [lower, upper], step, tolerance: self.tolerance };
         let found = RaySet::find(sphere.clone(), &search, evaluate);
         Ok(found.map(|set| RaysOfWorkspace::of(&set, &search)))
     }

@@ -318,7 +318,9 @@ pub(super) static TABLE: &[Definition] = &[
     Definition {
         name: "closed-form-margin",
         about: "distance of the closed-form tensions of straight cables from their limits: a sufficient test only",
-        documentation: "`closed_form_margin_n`: distance of the tensions nearest to the middles of their limits from these                         limits, with straight cables; positive is sufficient for a feasible pose, but not necessary                         (theory, equation (40z)); for comparison with programs that use it",
+        documentation: "`closed_form_margin_n`: distance of the tensions nearest to the middles of their limits from \
+                        these limits, with straight cables; positive is sufficient for a feasible pose, but not \
+                        necessary (theory, equation (40z)); for comparison with programs that use it",
         needs: RequiredModel::HeldPose,
         columns: |_, _| {
             one("closed_form_margin_n", "N", "distance of the closed-form tensions from their limits: sufficient only")

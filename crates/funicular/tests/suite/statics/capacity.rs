@@ -263,7 +263,34 @@ fn closed_form_tensions_are_sufficient_and_balance_the_load() {
         let is_held = LoadCapacity::at(&six, &pose, StaticModel::Ideal, None).unwrap().dead_load().is_ok();
         assert_eq!(margin >= 0.0, is_held, "{pose:?}: {margin} N");
     }
-    // Without maximum tensions there is no middle.
-    let open = ipanema().with_tension_limits(TensionLimits { minimum: Some(100.0), maximum: None });
-    assert_eq!(statics::closed_form_margin(&open, &Pose::new([0.0, 0.0, 2.0], [0.0; 3])), None);
+}
+
+#[test]
+fn bounds_of_the_load_factor_from_facets_alone_enclose_it() {
+    let limited =
+        |minimum: f64| cogiro().with_tension_limits(TensionLimits { minimum: Some(minimum), maximum: Some(5000.0) });
+    let mut heavy = limited(60.0);
+    heavy.cables.iter_mut().for_each(|cable| cable.material.mass_per_length = 0.6);
+    let mut loaded = with_box(limited(100.0), 150.0, 30.0);
+    loaded.required.payload = RequiredPayload { min_mass: 50.0, max_mass: 80.0, ..RequiredPayload::default() };
+    for (robot, widest) in
+        [(with_box(limited(100.0), 150.0, 30.0), 2e-3), (with_box(heavy, 100.0, 20.0), 0.5), (loaded, 2e-3)]
+    {
+        let mut compared = 0;
+        for pose in poses(60, [5.0, 3.5, 2.0], [0.0, 0.0, 2.0]) {
+            let bounds = statics::load_factor_bounds(&robot, &pose, StaticModel::Catenary).unwrap();
+            let [lower, upper] = bounds.expect("the cables span all degrees of freedom");
+            let capacity = LoadCapacity::at(&robot, &pose, StaticModel::Catenary, None).unwrap();
+            let Ok(value) = capacity.load_factor_value() else {
+                assert!(lower <= 0.0, "{pose:?}: the dead load is not held, but {lower} times the loads");
+                continue;
+            };
+            compared += 1;
+            assert!(lower <= value + 1e-9 && value <= upper + 1e-9, "{pose:?}: {lower} {value} {upper}");
+            assert!(upper - lower < widest, "{pose:?}: {lower} {upper}");
+        }
+        assert!(compared > 10);
+    }
+    let nothing = statics::load_factor_bounds(&cogiro(), &poses(1, [1.0; 3], [0.0; 3])[0], StaticModel::Ideal);
+    assert!(nothing.unwrap().is_none());
 }
